@@ -1,0 +1,33 @@
+#pragma once
+
+/// The case file: what suffuse-mesher hands to suffuse-solver. One HDF5 file; see
+/// docs/file-formats.md.
+
+#include <string>
+
+#include "case/material_points.hpp"
+#include "case/mesh.hpp"
+#include "case/scene.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+struct Case {
+  SceneDocument document;
+  Mesh<Dim> mesh;
+  MaterialPoints<Dim> solid_points;
+};
+
+/// Writes to a temporary name beside `path` and renames. Throws FileError.
+template <int Dim>
+void write_case(const std::string& path, const Case<Dim>& c);
+
+/// Throws FileError when the file is missing, is not a case file, is of another schema version or
+/// another dimension, or is inconsistent (sizes, indices out of range, values not finite).
+template <int Dim>
+Case<Dim> read_case(const std::string& path);
+
+/// 2 or 3. Throws FileError.
+int read_case_dimension(const std::string& path);
+
+}  // namespace suffuse

@@ -1,0 +1,71 @@
+#pragma once
+
+/// A thin owner of HDF5 handles: what the case and the results files need and no more. Every failure
+/// is a FileError that names the file and the object.
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace suffuse {
+
+/// One open HDF5 file. Movable, closes itself.
+class Hdf5File {
+ public:
+  enum class Mode { read, create };
+  Hdf5File(const std::string& path, Mode mode);
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+  Hdf5File(Hdf5File&& other) noexcept;
+  Hdf5File& operator=(Hdf5File&& other) noexcept;
+  ~Hdf5File();
+
+  /// Flushes and closes; throws when the file could not be written whole (the destructor cannot).
+  void close();
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] bool exists(const std::string& object) const;
+  [[nodiscard]] std::vector<std::string> children(const std::string& group) const;
+
+  /// Creates a group and its parents.
+  void create_group(const std::string& group);
+
+  /// Writes an array of `shape` (row major; the product of `shape` is the size of `values`).
+  void write(const std::string& dataset, std::span<const double> values,
+             const std::vector<std::size_t>& shape);
+  void write(const std::string& dataset, std::span<const std::int64_t> values,
+             const std::vector<std::size_t>& shape);
+  void write(const std::string& dataset, std::span<const std::int32_t> values,
+             const std::vector<std::size_t>& shape);
+  void write(const std::string& dataset, std::span<const std::uint8_t> values,
+             const std::vector<std::size_t>& shape);
+  /// Text, and lists of texts (variable-length UTF-8).
+  void write_text(const std::string& dataset, const std::string& value);
+  void write_texts(const std::string& dataset, const std::vector<std::string>& values);
+
+  /// Attributes of a group or dataset.
+  void attribute(const std::string& object, const std::string& name, const std::string& value);
+  void attribute(const std::string& object, const std::string& name, double value);
+  void attribute(const std::string& object, const std::string& name,
+                 std::span<const std::int64_t> values);
+
+  [[nodiscard]] std::vector<std::size_t> shape(const std::string& dataset) const;
+  [[nodiscard]] std::vector<double> read_doubles(const std::string& dataset) const;
+  [[nodiscard]] std::vector<std::int64_t> read_integers(const std::string& dataset) const;
+  [[nodiscard]] std::string read_text(const std::string& dataset) const;
+  [[nodiscard]] std::vector<std::string> read_texts(const std::string& dataset) const;
+  [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
+  [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
+  [[nodiscard]] double double_attribute(const std::string& object, const std::string& name) const;
+  [[nodiscard]] std::int64_t integer_attribute(const std::string& object,
+                                               const std::string& name) const;
+
+ private:
+  std::string path_;
+  hid_t file_ = -1;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,44 @@
+#pragma once
+
+/// Simplicial mesh with named regions and boundaries: triangles for Dim = 2, tetrahedra for 3.
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace suffuse {
+
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+
+/// A named set of outer faces, each given by its nodes.
+template <int Dim>
+struct BoundarySet {
+  std::string name;
+  std::vector<std::array<int, Dim>> faces;
+};
+
+template <int Dim>
+struct Mesh {
+  std::vector<Vector<Dim>> nodes;                  ///< m
+  std::vector<std::array<int, Dim + 1>> elements;  ///< positively oriented
+  std::vector<int> element_region;                 ///< index into `region_names`, per element
+  std::vector<std::string> region_names;
+  std::vector<BoundarySet<Dim>> boundaries;
+
+  [[nodiscard]] int element_count() const { return static_cast<int>(elements.size()); }
+  [[nodiscard]] int node_count() const { return static_cast<int>(nodes.size()); }
+};
+
+/// Signed area (2D, m2, which is m3 per metre of thickness) or volume (3D, m3) of an element.
+template <int Dim>
+double element_volume(const Mesh<Dim>& mesh, int element);
+
+template <int Dim>
+Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element);
+
+/// Smallest interior angle of all elements, degrees.
+double smallest_angle(const Mesh<2>& mesh);
+
+}  // namespace suffuse

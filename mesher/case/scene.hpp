@@ -1,0 +1,152 @@
+#pragma once
+
+/// The scene as the solver sees it: typed, checked, defaults filled in. Keys, bounds and units are
+/// declared in `scene_schema.cpp`; `docs/scene-reference.md` is generated from there.
+/// SI units throughout.
+
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace suffuse {
+
+/// A value not yet set: using it shows.
+inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+
+enum class Formulation { single_point };
+enum class MeshStructure { regular, free };
+enum class ErosionLaw { none, constant, logarithmic, first_order };
+enum class FlowScheme { explicit_nodal };
+enum class DragIntegration { explicit_drag, implicit_drag };
+enum class InitialFlow { rest, steady };
+
+struct GeometrySettings {
+  std::string file;   ///< user's .geo, .msh or .step; empty when `shape` is used. Relative to the scene.
+  std::string shape;  ///< "column", or empty when `file` is used
+  double width = unset;   ///< m
+  double height = unset;  ///< m
+};
+
+struct MeshSettings {
+  double size = unset;  ///< element size, m
+  MeshStructure structure = MeshStructure::regular;
+};
+
+struct PointSettings {
+  int solid_per_element = 3;  ///< 1, 3, 6 or 12
+  double jitter = 0.0;  ///< points moved off the Gauss positions, as a fraction of the element size
+  int seed = 1;         ///< of the jitter
+};
+
+struct LiquidProperties {
+  double density = unset;       ///< rho_w, kg/m3
+  double bulk_modulus = unset;  ///< K, Pa
+  double viscosity = unset;     ///< mu, Pa s
+};
+
+struct ErosionSettings {
+  ErosionLaw law = ErosionLaw::none;
+  double rate = 0.0;   ///< alpha (Eq. 6), beta (Eq. 7) or kappa (first-order), 1/s
+  double start = 0.0;  ///< t_0, s
+  bool momentum_transfer = false;  ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
+};
+
+struct Soil {
+  std::string region;                          ///< name of the region it fills
+  double porosity = unset;                     ///< n_0 at `porosity_origin`
+  std::array<double, 3> porosity_gradient{};   ///< 1/m: n_0(x) = porosity + gradient . (x - origin)
+  std::array<double, 3> porosity_origin{};     ///< m
+  double skeleton_fraction = unset;            ///< n_C
+  double grain_density = unset;                ///< rho_s, kg/m3
+  double conductivity = unset;                 ///< k, m/s
+  ErosionSettings erosion;
+
+  /// n_L,max = 1 - n_C
+  [[nodiscard]] double porosity_max() const { return 1.0 - skeleton_fraction; }
+  /// n_0 at a position of 2 or 3 coordinates.
+  template <class Position>
+  [[nodiscard]] double initial_porosity(const Position& x) const {
+    double n = porosity;
+    for (int d = 0; d < static_cast<int>(x.size()); ++d) {
+      n += porosity_gradient[d] * (x[d] - porosity_origin[d]);
+    }
+    return n;
+  }
+};
+
+/// What holds on one named boundary: at most one of the three flow conditions.
+struct BoundaryCondition {
+  std::string on;
+  std::optional<double> pressure;       ///< Pa
+  std::optional<double> velocity;       ///< intrinsic liquid velocity, positive into the model, m/s
+  std::optional<double> darcy_flux;     ///< volume flux, positive into the model, m/s
+  std::optional<double> concentration;  ///< c of the liquid that enters
+};
+
+struct TimeSettings {
+  double end = unset;  ///< s
+  FlowScheme scheme = FlowScheme::explicit_nodal;
+  std::optional<double> step;  ///< s; without it 0.9 of the stability limit
+  double mass_scaling = 1.0;   ///< S
+  DragIntegration drag = DragIntegration::explicit_drag;
+};
+
+struct FlowSettings {
+  /// false drops (v_L - v_S) . grad n_L from Eq. 2 as standard single-point codes do: loses water
+  /// wherever porosity varies. For comparison only.
+  bool porosity_gradient_term = true;
+};
+
+struct OutputSettings {
+  double every = unset;           ///< s between rows of the tables and, by default, snapshots
+  double snapshot_every = unset;  ///< s between snapshots
+  bool exact = false;             ///< end a step on every output time instead of interpolating
+};
+
+struct Scene {
+  std::string name;
+  Formulation formulation = Formulation::single_point;
+  GeometrySettings geometry;
+  MeshSettings mesh;
+  PointSettings points;
+  LiquidProperties liquid;
+  std::vector<Soil> soils;
+  std::vector<BoundaryCondition> boundaries;
+  std::array<double, 3> gravity{};  ///< m/s2
+  InitialFlow initial_flow = InitialFlow::rest;
+  FlowSettings flow;
+  TimeSettings time;
+  OutputSettings output;
+
+  [[nodiscard]] const Soil* find_soil(const std::string& region) const;
+};
+
+/// A scene with the text it came from, so that the next stage can check and report against it again.
+struct SceneDocument {
+  std::string path;                    ///< as the user gave it
+  std::string text;                    ///< the TOML file, byte for byte
+  std::vector<std::string> overrides;  ///< `--set` arguments, in order
+  Scene scene;
+  /// `FILE:LINE` (or `--set KEY=VALUE`) of every key that was given, by dotted key; entries of
+  /// [[boundary]] are `boundary[0].on` and so on, tables are there under their own name.
+  std::map<std::string, std::string> where;
+
+  /// Where `key` was given, or else where the nearest enclosing table was, or the file's name.
+  [[nodiscard]] std::string locate(const std::string& key) const;
+};
+
+/// Reads and checks a scene. Throws FileError when the file cannot be read, InputError with every
+/// problem found otherwise.
+SceneDocument read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same from text already at hand; `path` is used in messages only.
+SceneDocument parse_scene(const std::string& text, const std::string& path,
+                          const std::vector<std::string>& overrides = {});
+
+/// docs/scene-reference.md, generated from the schema.
+std::string scene_reference_markdown();
+
+}  // namespace suffuse

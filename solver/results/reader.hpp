@@ -1,0 +1,72 @@
+#pragma once
+
+/// Reads a results folder. Two-dimensional for now: the dimension is asked of run.json.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "case/mesh.hpp"
+#include "case/scene.hpp"
+#include "results/tables.hpp"
+#include "results/writer.hpp"
+
+namespace suffuse {
+
+/// A numeric table: columns by name, all of one length.
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+
+  [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+  [[nodiscard]] bool has(const std::string& name) const;
+  /// Throws FileError when there is no such column.
+  [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
+};
+
+/// Reads a CSV file of numbers with one line of names. Throws FileError with file and line.
+Table read_table(const std::string& path);
+
+/// Writes numbers so that they read back exactly.
+void write_table(const std::string& path, const Table& table);
+
+/// A finished or running results folder.
+class ResultsReader {
+ public:
+  /// Throws FileError when `folder` is not a results folder.
+  explicit ResultsReader(const std::string& folder);
+
+  [[nodiscard]] const std::string& folder() const { return folder_; }
+  [[nodiscard]] const SceneDocument& scene() const { return scene_; }
+  [[nodiscard]] const std::vector<std::string>& regions() const { return regions_; }
+  [[nodiscard]] std::string status() const { return status_; }
+  [[nodiscard]] int dimension() const { return dimension_; }
+
+  [[nodiscard]] Table history() const;
+  [[nodiscard]] Table ledger() const;
+  [[nodiscard]] Table region_ledgers() const;
+
+  /// Times of the snapshots, ascending.
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  /// Path of snapshot `index` of "mesh" or "solid".
+  [[nodiscard]] std::string snapshot_path(const std::string& kind, std::size_t index) const;
+  /// The mesh with its regions and boundaries.
+  [[nodiscard]] Mesh<2> mesh() const;
+  /// One field of a snapshot; `where` is "cell", "node", "solid" or "element_vertex".
+  [[nodiscard]] Field field(std::size_t index, const std::string& where,
+                            const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> field_names(std::size_t index,
+                                                     const std::string& where) const;
+
+ private:
+  std::string folder_;
+  SceneDocument scene_;
+  std::vector<std::string> regions_;
+  std::string status_;
+  int dimension_ = 2;
+  std::vector<double> times_;
+  std::vector<std::string> mesh_files_;
+  std::vector<std::string> solid_files_;
+};
+
+}  // namespace suffuse

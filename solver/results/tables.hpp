@@ -1,0 +1,93 @@
+#pragma once
+
+/// The three tables of a run. Each row type lists its columns once; writer, reader and the post
+/// stage all go by that list.
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace suffuse {
+
+/// A column of a table: its name in the CSV file and the member it holds.
+template <class Row>
+using Column = std::pair<std::string_view, double Row::*>;
+
+/// One row of history.csv: the state of the flow at time t. Fluxes are liquid volumes per second
+/// (m3/s per metre of thickness in 2D).
+struct HistoryRow {
+  double t = 0.0;
+  double dt = 0.0;                   ///< step of the flow in force, s
+  double porosity_mean = 0.0;        ///< volume mean over eroding regions, or over all soil
+  double flux_in = 0.0;              ///< liquid entering through all boundaries
+  double flux_out = 0.0;             ///< liquid leaving through all boundaries
+  double liquid_points = 0.0;
+  double empty_elements = 0.0;
+  double empty_elements_total = 0.0;
+  double concentration_out = 0.0;    ///< flux-weighted mean c of the leaving liquid; 0 when none leaves
+  double concentration_min = 0.0;
+  double concentration_max = 0.0;
+  double pressure_min = 0.0;         ///< Pa
+  double pressure_max = 0.0;         ///< Pa
+  double speed_max = 0.0;            ///< largest intrinsic liquid speed, m/s
+};
+
+inline constexpr std::array<Column<HistoryRow>, 14> history_columns{{
+    {"t", &HistoryRow::t},
+    {"dt", &HistoryRow::dt},
+    {"porosity_mean", &HistoryRow::porosity_mean},
+    {"flux_in", &HistoryRow::flux_in},
+    {"flux_out", &HistoryRow::flux_out},
+    {"liquid_points", &HistoryRow::liquid_points},
+    {"empty_elements", &HistoryRow::empty_elements},
+    {"empty_elements_total", &HistoryRow::empty_elements_total},
+    {"concentration_out", &HistoryRow::concentration_out},
+    {"concentration_min", &HistoryRow::concentration_min},
+    {"concentration_max", &HistoryRow::concentration_max},
+    {"pressure_min", &HistoryRow::pressure_min},
+    {"pressure_max", &HistoryRow::pressure_max},
+    {"speed_max", &HistoryRow::speed_max},
+}};
+
+/// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross a
+/// boundary. Residual = (stored + out - in - initial) / initial, per constituent.
+struct LedgerRow {
+  double t = 0.0;
+  double solid = 0.0;      ///< all solid in place: skeleton and erodible
+  double erodible = 0.0;   ///< solid in place that can still erode
+  double water = 0.0;
+  double fines = 0.0;      ///< fluidised grains in the model
+  double eroded = 0.0;     ///< grains eroded since the start
+  double water_in = 0.0;
+  double fines_in = 0.0;
+  double water_out = 0.0;
+  double fines_out = 0.0;
+  double residual_water = 0.0;   ///< relative to the initial water
+  double residual_grains = 0.0;  ///< relative to the initial grains (solid and fluidised)
+};
+
+inline constexpr std::array<Column<LedgerRow>, 12> ledger_columns{{
+    {"t", &LedgerRow::t},
+    {"solid", &LedgerRow::solid},
+    {"erodible", &LedgerRow::erodible},
+    {"water", &LedgerRow::water},
+    {"fines", &LedgerRow::fines},
+    {"eroded", &LedgerRow::eroded},
+    {"water_in", &LedgerRow::water_in},
+    {"fines_in", &LedgerRow::fines_in},
+    {"water_out", &LedgerRow::water_out},
+    {"fines_out", &LedgerRow::fines_out},
+    {"residual_water", &LedgerRow::residual_water},
+    {"residual_grains", &LedgerRow::residual_grains},
+}};
+
+/// regions.csv: the ledger of one region, its boundary with other regions included in `*_in` and
+/// `*_out`. Columns: those of the ledger with `region` (index into `regions` of run.json) and
+/// `porosity_mean` behind `t`.
+struct RegionRow {
+  int region = 0;
+  double porosity_mean = 0.0;
+  LedgerRow ledger;
+};
+
+}  // namespace suffuse
