@@ -30,7 +30,8 @@ struct Snapshot {
   std::vector<Field> cell;   ///< per element: means
   std::vector<Field> node;   ///< per mesh node
   std::vector<Field> solid;  ///< per solid point
-  /// Dim + 1 values per element: the element's own linear field at its vertices. `sample` reads these.
+  /// Dim + 1 values per element: the element's own linear field at its vertices. `sample` reads
+  /// these.
   std::vector<Field> element_vertex;
   /// What a resumed run needs, by name; shapes are the solver's business.
   std::vector<Field> restart;
@@ -58,8 +59,8 @@ struct RunInfo {
   std::vector<std::string> warnings;  ///< as printed
 };
 
-/// Owns the folder from construction on. Rows are flushed as they come; a snapshot is written under a
-/// temporary name, renamed, and only then named in the .series files. Throws FileError.
+/// Owns the folder from construction on. Rows are flushed as they come; a snapshot is written under
+/// a temporary name, renamed, and only then named in the .series files. Throws FileError.
 template <int Dim>
 class ResultsWriter {
  public:

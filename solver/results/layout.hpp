@@ -1,0 +1,30 @@
+#pragma once
+
+/// Names within a results folder, shared by its writer and its reader.
+
+#include <string>
+
+namespace suffuse::layout {
+
+/// What marks run.json as ours: value of its key "format".
+inline constexpr const char* format = "suffuse-results";
+inline constexpr int format_version = 1;
+
+inline constexpr const char* run_info = "run.json";
+inline constexpr const char* case_copy = "case.h5";
+inline constexpr const char* history = "history.csv";
+inline constexpr const char* ledger = "ledger.csv";
+inline constexpr const char* regions = "regions.csv";
+inline constexpr const char* snapshots = "snapshots";
+
+/// "mesh.hdf.series" and so on; `kind` is "mesh" or "solid".
+inline std::string series(const std::string& kind) {
+  return kind + ".hdf.series";
+}
+
+/// Groups of a snapshot file beside /VTKHDF.
+inline constexpr const char* own_group = "/Suffuse";
+inline constexpr const char* element_vertex_group = "/Suffuse/element_vertex";
+inline constexpr const char* restart_group = "/Suffuse/restart";
+
+}  // namespace suffuse::layout

@@ -1,0 +1,207 @@
+#include "results/reader.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "case/case_file.hpp"
+#include "case/errors.hpp"
+#include "case/hdf5_io.hpp"
+#include "results/layout.hpp"
+#include "results/number_text.hpp"
+#include "results/vtkhdf.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string in_folder(const std::string& folder, const std::string& name) {
+  return (fs::path(folder) / name).string();
+}
+
+Json read_json(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path + ": cannot be read");
+  Json json = Json::parse(in, nullptr, false);
+  if (json.is_discarded()) throw FileError(path + ": is not JSON");
+  return json;
+}
+
+Json read_run_info(const std::string& folder) {
+  if (!fs::is_directory(folder)) throw FileError(folder + ": no such results folder");
+  const std::string path = in_folder(folder, layout::run_info);
+  if (!fs::exists(path)) {
+    throw FileError(folder + ": is not a results folder: it has no " + layout::run_info);
+  }
+  Json json = read_json(path);
+  if (!json.is_object() || json.value("format", Json()) != layout::format) {
+    throw FileError(path + ": was not written by suffuse-solver");
+  }
+  if (json.value("format_version", Json()) != layout::format_version) {
+    throw FileError(path + ": got format_version " + json.value("format_version", Json()).dump() +
+                    "; expected " + std::to_string(layout::format_version));
+  }
+  return json;
+}
+
+struct Series {
+  std::vector<std::string> files;
+  std::vector<double> times;
+};
+
+/// Empty when there is no snapshot yet.
+Series read_series(const std::string& folder, const std::string& kind) {
+  const std::string path = in_folder(folder, layout::series(kind));
+  Series series;
+  if (!fs::exists(path)) return series;
+  const Json json = read_json(path);
+  try {
+    for (const auto& entry : json.at("files")) {
+      series.files.push_back(in_folder(folder, entry.at("name").get<std::string>()));
+      series.times.push_back(entry.at("time").get<double>());
+    }
+  } catch (const Json::exception& error) {
+    throw FileError(path + ": is not a file series: " + error.what());
+  }
+  return series;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  for (std::size_t comma = line.find(','); comma != std::string::npos;
+       comma = line.find(',', begin)) {
+    cells.push_back(line.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  cells.push_back(line.substr(begin));
+  return cells;
+}
+
+/// The group of a snapshot file that holds the fields of `where`.
+std::string field_group(const std::string& where) {
+  if (where == "cell") return "/VTKHDF/CellData";
+  if (where == "node" || where == "solid") return "/VTKHDF/PointData";
+  if (where == "element_vertex") return layout::element_vertex_group;
+  throw std::logic_error("no fields on " + where);
+}
+
+}  // namespace
+
+bool Table::has(const std::string& name) const {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const std::vector<double>& Table::column(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw FileError("the table has no column " + name);
+  return columns[found - names.begin()];
+}
+
+Table read_table(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path + ": cannot be read");
+  std::string line;
+  if (!std::getline(in, line)) throw FileError(path + ":1: got nothing; expected a line of names");
+  Table table;
+  table.names = split(line);
+  table.columns.resize(table.names.size());
+  for (int number = 2; std::getline(in, line); ++number) {
+    // A row being written at this moment has no end of line yet: it is not there.
+    if (in.eof()) break;
+    const auto cells = split(line);
+    const std::string where = path + ":" + std::to_string(number) + ": ";
+    if (cells.size() != table.names.size()) {
+      throw FileError(where + "got " + std::to_string(cells.size()) + " columns; expected " +
+                      std::to_string(table.names.size()));
+    }
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const auto value = parse_number(cells[k]);
+      if (!value) {
+        throw FileError(where + table.names[k] + ": got '" + cells[k] + "'; expected a number");
+      }
+      table.columns[k].push_back(*value);
+    }
+  }
+  return table;
+}
+
+void write_table(const std::string& path, const Table& table) {
+  std::ostringstream text;
+  for (std::size_t k = 0; k < table.names.size(); ++k) text << (k ? "," : "") << table.names[k];
+  text << "\n";
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      text << (k ? "," : "") << number_text(table.columns[k][row]);
+    }
+    text << "\n";
+  }
+  std::ofstream out(path, std::ios::binary);
+  out << text.str() << std::flush;
+  if (!out) throw FileError(path + ": cannot be written");
+}
+
+ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
+  const Json info = read_run_info(folder);
+  const std::string path = in_folder(folder, layout::run_info);
+  try {
+    status_ = info.at("status").get<std::string>();
+    dimension_ = info.at("dimension").get<int>();
+    regions_ = info.at("regions").get<std::vector<std::string>>();
+    const auto& scene = info.at("scene");
+    scene_ = parse_scene(scene.at("text").get<std::string>(), scene.at("path").get<std::string>(),
+                         scene.at("overrides").get<std::vector<std::string>>());
+  } catch (const Json::exception& error) {
+    throw FileError(path + ": is incomplete: " + error.what());
+  }
+  const Series mesh = read_series(folder, "mesh");
+  const Series solid = read_series(folder, "solid");
+  // A run may be writing: the two series can then differ by the newest snapshot.
+  const std::size_t count = std::min(mesh.files.size(), solid.files.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (mesh.times[i] != solid.times[i]) {
+      throw FileError(folder + ": snapshot " + std::to_string(i) +
+                      " has different times in mesh.hdf.series and solid.hdf.series");
+    }
+  }
+  times_.assign(mesh.times.begin(), mesh.times.begin() + count);
+  mesh_files_.assign(mesh.files.begin(), mesh.files.begin() + count);
+  solid_files_.assign(solid.files.begin(), solid.files.begin() + count);
+}
+
+Table ResultsReader::history() const {
+  return read_table(in_folder(folder_, layout::history));
+}
+Table ResultsReader::ledger() const {
+  return read_table(in_folder(folder_, layout::ledger));
+}
+Table ResultsReader::region_ledgers() const {
+  return read_table(in_folder(folder_, layout::regions));
+}
+
+std::string ResultsReader::snapshot_path(const std::string& kind, std::size_t index) const {
+  const auto& files = kind == "solid" ? solid_files_ : mesh_files_;
+  return files.at(index);
+}
+
+Mesh<2> ResultsReader::mesh() const {
+  return read_case<2>(in_folder(folder_, layout::case_copy)).mesh;
+}
+
+Field ResultsReader::field(std::size_t index, const std::string& where,
+                           const std::string& name) const {
+  const Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
+  return read_field(file, field_group(where), name);
+}
+
+std::vector<std::string> ResultsReader::field_names(std::size_t index,
+                                                    const std::string& where) const {
+  const Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
+  return file.children(field_group(where));
+}
+
+}  // namespace suffuse

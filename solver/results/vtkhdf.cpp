@@ -1,0 +1,150 @@
+#include "results/vtkhdf.hpp"
+
+#include <array>
+#include <stdexcept>
+
+namespace suffuse {
+namespace {
+
+constexpr int vtk_vertex = 1;
+constexpr int vtk_triangle = 5;
+constexpr int vtk_tetrahedron = 10;
+
+template <int Dim>
+void append_position(std::vector<double>& points, const Vector<Dim>& x) {
+  for (int d = 0; d < 3; ++d) points.push_back(d < Dim ? x[d] : 0.0);
+}
+
+/// `width` numbers per entity: the field's own, then zeros.
+std::vector<double> padded(const Field& field, int width) {
+  std::vector<double> values;
+  const std::size_t entities = field.values.size() / field.components;
+  values.reserve(entities * width);
+  for (std::size_t i = 0; i < entities; ++i) {
+    for (int k = 0; k < width; ++k) {
+      values.push_back(k < field.components ? field.values[i * field.components + k] : 0.0);
+    }
+  }
+  return values;
+}
+
+void write_values(Hdf5File& file, const std::string& group, const Field& field,
+                  std::vector<std::size_t> shape, int width) {
+  std::size_t entities = 1;
+  for (const std::size_t extent : shape) entities *= extent;
+  if (field.components < 1 || field.values.size() != entities * field.components) {
+    throw std::logic_error("field " + field.name + " has " + std::to_string(field.values.size()) +
+                           " values for " + std::to_string(entities) + " entities of " +
+                           std::to_string(field.components) + " components");
+  }
+  if (width > 1) shape.push_back(width);
+  const std::string dataset = group + "/" + field.name;
+  if (width == field.components) {
+    file.write(dataset, std::span<const double>(field.values), shape);
+  } else {
+    const auto values = padded(field, width);
+    file.write(dataset, std::span<const double>(values), shape);
+  }
+  const std::int64_t components = field.components;
+  file.attribute(dataset, "unit", field.unit);
+  file.attribute(dataset, "components", std::span(&components, 1));
+}
+
+void write_data(Hdf5File& file, const std::string& group, const std::vector<Field>& fields,
+                std::size_t entities) {
+  file.create_group(group);
+  for (const auto& field : fields) {
+    write_values(file, group, field, {entities}, field.components == 2 ? 3 : field.components);
+  }
+}
+
+void write_count(Hdf5File& file, const std::string& name, std::size_t count) {
+  const auto value = static_cast<std::int64_t>(count);
+  file.write("/VTKHDF/" + name, std::span(&value, 1), {1});
+}
+
+}  // namespace
+
+template <int Dim>
+VtkGrid vtk_grid(const Mesh<Dim>& mesh) {
+  VtkGrid grid;
+  grid.nodes_per_cell = Dim + 1;
+  grid.cell_type = Dim == 2 ? vtk_triangle : vtk_tetrahedron;
+  for (const auto& x : mesh.nodes) append_position<Dim>(grid.points, x);
+  for (const auto& element : mesh.elements) {
+    grid.connectivity.insert(grid.connectivity.end(), element.begin(), element.end());
+  }
+  return grid;
+}
+
+template <int Dim>
+VtkGrid vtk_grid(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points) {
+  VtkGrid grid;
+  grid.cell_type = vtk_vertex;
+  for (int p = 0; p < points.size(); ++p) {
+    append_position<Dim>(grid.points, points.position(mesh, p));
+    grid.connectivity.push_back(p);
+  }
+  return grid;
+}
+
+void write_vtkhdf(Hdf5File& file, const VtkGrid& grid, const std::vector<Field>& cell_fields,
+                  const std::vector<Field>& point_fields) {
+  constexpr std::array<std::int64_t, 2> version{1, 0};
+  file.create_group("/VTKHDF");
+  file.attribute("/VTKHDF", "Version", std::span<const std::int64_t>(version));
+  file.ascii_attribute("/VTKHDF", "Type", "UnstructuredGrid");
+
+  const std::size_t points = grid.points.size() / 3;
+  const std::size_t cells = grid.connectivity.size() / grid.nodes_per_cell;
+  write_count(file, "NumberOfPoints", points);
+  write_count(file, "NumberOfCells", cells);
+  write_count(file, "NumberOfConnectivityIds", grid.connectivity.size());
+
+  std::vector<std::int64_t> offsets(cells + 1);
+  for (std::size_t c = 0; c <= cells; ++c) {
+    offsets[c] = static_cast<std::int64_t>(c) * grid.nodes_per_cell;
+  }
+  const std::vector<std::uint8_t> types(cells, grid.cell_type);
+  file.write("/VTKHDF/Points", std::span<const double>(grid.points), {points, 3});
+  file.attribute("/VTKHDF/Points", "unit", std::string("m"));
+  file.write("/VTKHDF/Connectivity", std::span<const std::int64_t>(grid.connectivity),
+             {grid.connectivity.size()});
+  file.write("/VTKHDF/Offsets", std::span<const std::int64_t>(offsets), {cells + 1});
+  file.write("/VTKHDF/Types", std::span<const std::uint8_t>(types), {cells});
+
+  write_data(file, "/VTKHDF/CellData", cell_fields, cells);
+  write_data(file, "/VTKHDF/PointData", point_fields, points);
+}
+
+void write_field(Hdf5File& file, const std::string& group, const Field& field,
+                 std::vector<std::size_t> shape) {
+  write_values(file, group, field, std::move(shape), field.components);
+}
+
+Field read_field(const Hdf5File& file, const std::string& group, const std::string& name) {
+  const std::string dataset = group + "/" + name;
+  Field field;
+  field.name = name;
+  field.unit = file.text_attribute(dataset, "unit");
+  field.components = static_cast<int>(file.integer_attribute(dataset, "components"));
+  field.values = file.read_doubles(dataset);
+  if (group == "/VTKHDF/CellData" || group == "/VTKHDF/PointData") {
+    if (field.components == 2) {
+      const std::size_t entities = field.values.size() / 3;
+      for (std::size_t i = 0; i < entities; ++i) {
+        field.values[2 * i] = field.values[3 * i];
+        field.values[2 * i + 1] = field.values[3 * i + 1];
+      }
+      field.values.resize(2 * entities);
+    }
+  }
+  return field;
+}
+
+template VtkGrid vtk_grid<2>(const Mesh<2>&);
+template VtkGrid vtk_grid<3>(const Mesh<3>&);
+template VtkGrid vtk_grid<2>(const Mesh<2>&, const MaterialPoints<2>&);
+template VtkGrid vtk_grid<3>(const Mesh<3>&, const MaterialPoints<3>&);
+
+}  // namespace suffuse
