@@ -48,9 +48,6 @@ class Hdf5File {
 
   /// Attributes of a group or dataset.
   void attribute(const std::string& object, const std::string& name, const std::string& value);
-  /// Fixed-length ASCII, which VTK's reader wants of the attribute `Type`.
-  void ascii_attribute(const std::string& object, const std::string& name,
-                       const std::string& value);
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name,
                  std::span<const std::int64_t> values);

@@ -93,7 +93,7 @@ void write_vtkhdf(Hdf5File& file, const VtkGrid& grid, const std::vector<Field>&
   constexpr std::array<std::int64_t, 2> version{1, 0};
   file.create_group("/VTKHDF");
   file.attribute("/VTKHDF", "Version", std::span<const std::int64_t>(version));
-  file.ascii_attribute("/VTKHDF", "Type", "UnstructuredGrid");
+  file.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
 
   const std::size_t points = grid.points.size() / 3;
   const std::size_t cells = grid.connectivity.size() / grid.nodes_per_cell;
