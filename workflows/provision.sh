@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Installs the Debian packages of packages.txt that are missing. With none missing it changes nothing
+# and needs no rights.
+#
+#   provision.sh           install what is missing
+#   provision.sh --check   only name what is missing; exit 1 when something is
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+packages_file=$here/packages.txt
+
+fail() {
+  printf 'provision.sh: %s\n' "$@" >&2
+  exit 1
+}
+
+[ $# -eq 0 ] || [ "$*" = --check ] || fail "got '$*'; expected --check or nothing"
+
+mapfile -t packages < <(sed -e 's/#.*//' -e 's/[[:space:]]*$//' -e '/^$/d' "$packages_file")
+
+command -v dpkg-query >/dev/null ||
+  fail "this is not a Debian system (no dpkg-query). Install the equivalents of:" "${packages[*]}"
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${Status}' "$package" 2>/dev/null || true)
+  [ "$status" = 'install ok installed' ] || missing+=("$package")
+done
+
+if [ ${#missing[@]} -eq 0 ]; then
+  exit 0
+fi
+if [ "${1:-}" = --check ]; then
+  fail "missing: ${missing[*]}"
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null ||
+    fail "packages are missing, and there is neither root nor sudo to install them. Ask for:" \
+      "apt-get install --no-install-recommends ${missing[*]}"
+  # Without a terminal nobody can type a password: fail at once rather than wait.
+  if [ -t 0 ]; then as_root=(sudo); else as_root=(sudo -n); fi
+fi
+
+echo "Installing: ${missing[*]}"
+# The lists may be old or absent; packages named in them are then not found.
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update --quiet --quiet
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends "${missing[@]}" ||
+  fail "apt-get could not install: ${missing[*]}"
