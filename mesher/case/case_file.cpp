@@ -1,0 +1,317 @@
+#include "case/case_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <set>
+
+#include "case/consistency.hpp"
+#include "case/errors.hpp"
+#include "case/faces.hpp"
+#include "case/hdf5_io.hpp"
+#include "case/pending_file.hpp"
+
+namespace suffuse {
+
+namespace {
+
+constexpr const char* format_name = "suffuse-case";
+constexpr std::int64_t schema_version = 1;
+/// Barycentric coordinates are sums and products of a few doubles.
+constexpr double barycentric_tolerance = 1e-12;
+
+void integer_attribute(Hdf5File& file, const std::string& object, const std::string& name,
+                       std::int64_t value) {
+  file.attribute(object, name, std::span<const std::int64_t>(&value, 1));
+}
+
+std::string boundary_group(std::size_t index) {
+  return "/boundaries/" + std::to_string(index);
+}
+
+template <class Rows>
+std::vector<std::int32_t> flat_integers(const Rows& rows) {
+  std::vector<std::int32_t> flat;
+  for (const auto& row : rows) flat.insert(flat.end(), row.begin(), row.end());
+  return flat;
+}
+
+template <class Rows>
+std::vector<double> flat_doubles(const Rows& rows) {
+  std::vector<double> flat;
+  for (const auto& row : rows) flat.insert(flat.end(), row.begin(), row.end());
+  return flat;
+}
+
+template <int Dim>
+void write_mesh(Hdf5File& file, const Mesh<Dim>& mesh) {
+  file.write("/mesh/nodes", flat_doubles(mesh.nodes), {mesh.nodes.size(), std::size_t{Dim}});
+  file.attribute("/mesh/nodes", "unit", std::string("m"));
+  file.write("/mesh/elements", flat_integers(mesh.elements),
+             {mesh.elements.size(), std::size_t{Dim + 1}});
+  file.write("/mesh/element_region", std::span<const std::int32_t>(mesh.element_region),
+             {mesh.element_region.size()});
+  file.write_texts("/mesh/region_names", mesh.region_names);
+  file.create_group("/boundaries");
+  for (std::size_t i = 0; i < mesh.boundaries.size(); ++i) {
+    const std::string group = boundary_group(i);
+    file.write_text(group + "/name", mesh.boundaries[i].name);
+    file.write(group + "/faces", flat_integers(mesh.boundaries[i].faces),
+               {mesh.boundaries[i].faces.size(), std::size_t{Dim}});
+  }
+}
+
+template <int Dim>
+void write_points(Hdf5File& file, const MaterialPoints<Dim>& points) {
+  const std::size_t count = points.element.size();
+  file.write("/solid_points/element", std::span<const std::int32_t>(points.element), {count});
+  file.write("/solid_points/barycentric", flat_doubles(points.barycentric),
+             {count, std::size_t{Dim + 1}});
+  file.attribute("/solid_points/barycentric", "unit", std::string("1"));
+  file.write("/solid_points/volume", points.volume, {count});
+  file.attribute("/solid_points/volume", "unit", std::string(Dim == 2 ? "m3/m" : "m3"));
+}
+
+void write_scene(Hdf5File& file, const SceneDocument& document) {
+  file.write_text("/scene/text", document.text);
+  file.write_text("/scene/path", document.path);
+  file.write_texts("/scene/overrides", document.overrides);
+}
+
+/// Reads one case file; knows its name, so that every complaint carries it.
+template <int Dim>
+class CaseReader {
+ public:
+  explicit CaseReader(const Hdf5File& file) : file_(file) {}
+
+  [[nodiscard]] Mesh<Dim> mesh() const {
+    Mesh<Dim> mesh;
+    read_nodes(mesh);
+    read_regions(mesh);
+    mesh.elements = read_rows<Dim + 1>("/mesh/elements", mesh.node_count());
+    if (mesh.element_region.size() != mesh.elements.size()) {
+      fail("/mesh/element_region", "expected one value per element");
+    }
+    check_elements(mesh);
+    read_boundaries(mesh);
+    return mesh;
+  }
+
+  [[nodiscard]] MaterialPoints<Dim> points(const Mesh<Dim>& mesh) const {
+    MaterialPoints<Dim> points;
+    points.element = read_indices("/solid_points/element", mesh.element_count());
+    points.barycentric = unflatten<Dim + 1>("/solid_points/barycentric",
+                                            file_.read_doubles("/solid_points/barycentric"));
+    points.volume = file_.read_doubles("/solid_points/volume");
+    const std::size_t count = points.element.size();
+    if (points.barycentric.size() != count || points.volume.size() != count) {
+      fail("/solid_points", "element, barycentric and volume differ in length");
+    }
+    if (!std::ranges::is_sorted(points.element)) {
+      fail("/solid_points/element", "expected points sorted by element");
+    }
+    for (std::size_t p = 0; p < count; ++p) check_point(points, p);
+    return points;
+  }
+
+  /// The scene text is checked again: another version of the schema may have written it.
+  [[nodiscard]] SceneDocument scene(const Mesh<Dim>& mesh) const {
+    const std::string text = file_.read_text("/scene/text");
+    const std::string path = file_.read_text("/scene/path");
+    try {
+      SceneDocument document = parse_scene(text, path, file_.read_texts("/scene/overrides"));
+      std::vector<InputProblem> problems = scene_problems(document, mesh);
+      if (!problems.empty()) throw InputError(std::move(problems));
+      return document;
+    } catch (const InputError& error) {
+      fail("/scene", std::string("the scene within is not valid:\n") + error.what() + "\n");
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& object, const std::string& what) const {
+    throw FileError(file_.path() + ": " + object + ": " + what +
+                    "; write the case file anew with suffuse-mesher");
+  }
+
+  template <std::size_t Columns, class Value>
+  [[nodiscard]] std::vector<std::array<Value, Columns>> unflatten(
+      const std::string& dataset, const std::vector<Value>& flat) const {
+    const std::vector<std::size_t> shape = file_.shape(dataset);
+    if (shape.size() != 2 || shape[1] != Columns) {
+      fail(dataset, "expected a table of " + std::to_string(Columns) + " columns");
+    }
+    std::vector<std::array<Value, Columns>> rows(shape[0]);
+    for (std::size_t i = 0; i < flat.size(); ++i) rows[i / Columns][i % Columns] = flat[i];
+    return rows;
+  }
+
+  /// Integers of [0, limit).
+  [[nodiscard]] std::vector<int> read_indices(const std::string& dataset, int limit) const {
+    const std::vector<std::int64_t> wide = file_.read_integers(dataset);
+    std::vector<int> indices(wide.size());
+    for (std::size_t i = 0; i < wide.size(); ++i) {
+      if (wide[i] < 0 || wide[i] >= limit) {
+        fail(dataset, "value " + std::to_string(i) + " is " + std::to_string(wide[i]) +
+                          "; expected 0 to " + std::to_string(limit - 1));
+      }
+      indices[i] = static_cast<int>(wide[i]);
+    }
+    return indices;
+  }
+
+  template <std::size_t Columns>
+  [[nodiscard]] std::vector<std::array<int, Columns>> read_rows(const std::string& dataset,
+                                                                int limit) const {
+    return unflatten<Columns>(dataset, read_indices(dataset, limit));
+  }
+
+  void read_nodes(Mesh<Dim>& mesh) const {
+    const auto rows = unflatten<Dim>("/mesh/nodes", file_.read_doubles("/mesh/nodes"));
+    if (rows.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+      fail("/mesh/nodes", "too many nodes");
+    }
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      if (!std::ranges::all_of(rows[n], [](double x) { return std::isfinite(x); })) {
+        fail("/mesh/nodes", "node " + std::to_string(n) + " is not finite");
+      }
+      mesh.nodes.push_back(Eigen::Map<const Vector<Dim>>(rows[n].data()));
+    }
+  }
+
+  void read_regions(Mesh<Dim>& mesh) const {
+    mesh.region_names = file_.read_texts("/mesh/region_names");
+    check_names("/mesh/region_names", mesh.region_names);
+    mesh.element_region =
+        read_indices("/mesh/element_region", static_cast<int>(mesh.region_names.size()));
+  }
+
+  void check_names(const std::string& object, const std::vector<std::string>& names) const {
+    const std::set<std::string> unique(names.begin(), names.end());
+    if (unique.size() != names.size() || unique.contains("")) {
+      fail(object, "expected names that differ and are not empty");
+    }
+  }
+
+  void check_elements(const Mesh<Dim>& mesh) const {
+    if (mesh.elements.empty()) fail("/mesh/elements", "expected at least one element");
+    std::vector<bool> node_used(mesh.nodes.size(), false);
+    std::vector<bool> region_used(mesh.region_names.size(), false);
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      for (int node : mesh.elements[e]) node_used[node] = true;
+      region_used[mesh.element_region[e]] = true;
+      if (!(element_volume(mesh, e) > 0.0)) {
+        fail("/mesh/elements", "element " + std::to_string(e) + " has no positive volume");
+      }
+    }
+    if (!std::ranges::all_of(node_used, std::identity())) {
+      fail("/mesh/nodes", "a node belongs to no element");
+    }
+    if (!std::ranges::all_of(region_used, std::identity())) {
+      fail("/mesh/region_names", "a region has no element");
+    }
+  }
+
+  void read_boundaries(Mesh<Dim>& mesh) const {
+    const FaceTable<Dim> faces(mesh);
+    const std::size_t count = file_.children("/boundaries").size();
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string group = boundary_group(i);
+      BoundarySet<Dim> set{file_.read_text(group + "/name"),
+                           read_rows<Dim>(group + "/faces", mesh.node_count())};
+      for (const auto& face : set.faces) {
+        if (faces.owners(face) != 1) {
+          fail(group + "/faces", "a face of \"" + set.name + "\" is not an outer face of the mesh");
+        }
+      }
+      names.push_back(set.name);
+      mesh.boundaries.push_back(std::move(set));
+    }
+    check_names("/boundaries", names);
+  }
+
+  void check_point(const MaterialPoints<Dim>& points, std::size_t p) const {
+    double sum = 0.0;
+    bool inside = true;
+    for (double share : points.barycentric[p]) {
+      sum += share;
+      inside = inside && share >= -barycentric_tolerance;
+    }
+    if (!inside || !(std::abs(sum - 1.0) <= barycentric_tolerance)) {
+      fail("/solid_points/barycentric",
+           "the coordinates of point " + std::to_string(p) + " do not lie in its element");
+    }
+    if (!(std::isfinite(points.volume[p]) && points.volume[p] > 0.0)) {
+      fail("/solid_points/volume",
+           "the volume of point " + std::to_string(p) + " is not positive and finite");
+    }
+  }
+
+  const Hdf5File& file_;
+};
+
+/// Refuses other files; returns the dimension.
+int check_header(const Hdf5File& file) {
+  if (!file.exists("/suffuse") || !file.has_attribute("/suffuse", "format") ||
+      file.text_attribute("/suffuse", "format") != format_name) {
+    throw FileError(file.path() + ": is not a case file; expected what suffuse-mesher writes");
+  }
+  const std::int64_t version = file.integer_attribute("/suffuse", "schema_version");
+  if (version != schema_version) {
+    throw FileError(file.path() + ": is a case file of schema version " + std::to_string(version) +
+                    "; this program reads version " + std::to_string(schema_version) +
+                    ": write it anew with the suffuse-mesher of this version");
+  }
+  const std::int64_t dimension = file.integer_attribute("/suffuse", "dimension");
+  if (dimension != 2 && dimension != 3) {
+    throw FileError(file.path() + ": its dimension is " + std::to_string(dimension) +
+                    "; expected 2 or 3: write the case file anew with suffuse-mesher");
+  }
+  return static_cast<int>(dimension);
+}
+
+}  // namespace
+
+template <int Dim>
+void write_case(const std::string& path, const Case<Dim>& c) {
+  PendingFile pending(path);
+  Hdf5File file(pending.temporary_path(), Hdf5File::Mode::create);
+  file.create_group("/suffuse");
+  file.attribute("/suffuse", "format", std::string(format_name));
+  file.attribute("/suffuse", "generator", std::string("suffuse-mesher ") + SUFFUSE_VERSION);
+  integer_attribute(file, "/suffuse", "schema_version", schema_version);
+  integer_attribute(file, "/suffuse", "dimension", Dim);
+  write_mesh(file, c.mesh);
+  write_points(file, c.solid_points);
+  write_scene(file, c.document);
+  file.close();
+  pending.commit();
+}
+
+template <int Dim>
+Case<Dim> read_case(const std::string& path) {
+  const Hdf5File file(path, Hdf5File::Mode::read);
+  const int dimension = check_header(file);
+  if (dimension != Dim) {
+    throw FileError(path + ": is a case of dimension " + std::to_string(dimension) + "; expected " +
+                    std::to_string(Dim));
+  }
+  const CaseReader<Dim> reader(file);
+  Mesh<Dim> mesh = reader.mesh();
+  MaterialPoints<Dim> points = reader.points(mesh);
+  SceneDocument document = reader.scene(mesh);
+  return {std::move(document), std::move(mesh), std::move(points)};
+}
+
+int read_case_dimension(const std::string& path) {
+  return check_header(Hdf5File(path, Hdf5File::Mode::read));
+}
+
+template void write_case<2>(const std::string&, const Case<2>&);
+template void write_case<3>(const std::string&, const Case<3>&);
+template Case<2> read_case<2>(const std::string&);
+template Case<3> read_case<3>(const std::string&);
+
+}  // namespace suffuse

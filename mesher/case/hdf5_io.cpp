@@ -1,0 +1,531 @@
+#include "case/hdf5_io.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+
+namespace {
+
+/// Closes one HDF5 identifier.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  [[nodiscard]] hid_t id() const { return id_; }
+  [[nodiscard]] bool valid() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+/// Every failure becomes a FileError; HDF5 must not print its own stack beside it.
+void silence_hdf5() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// The innermost sentence of HDF5's error stack, or empty; clears the stack.
+std::string hdf5_reason() {
+  std::string reason;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned depth, const H5E_error2_t* error, void* out) -> herr_t {
+        if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
+        return 0;
+      },
+      &reason);
+  H5Eclear2(H5E_DEFAULT);
+  return reason.empty() ? "" : " (HDF5: " + reason + ")";
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& object,
+                       const std::string& what) {
+  throw FileError(path + ": " + (object.empty() ? "" : object + ": ") + what);
+}
+
+[[noreturn]] void fail_writing(const std::string& path, const std::string& object) {
+  fail(path, object, "could not be written" + hdf5_reason() + "; is the disk full?");
+}
+
+[[noreturn]] void fail_reading(const std::string& path, const std::string& object) {
+  fail(path, object, "could not be read" + hdf5_reason() + "; the file is damaged, write it anew");
+}
+
+std::string joined(const std::vector<std::size_t>& shape) {
+  std::string text;
+  for (std::size_t extent : shape) text += (text.empty() ? "" : ", ") + std::to_string(extent);
+  return "[" + text + "]";
+}
+
+std::size_t product(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+Handle scalar_space() {
+  return {H5Screate(H5S_SCALAR), H5Sclose};
+}
+
+Handle array_space(const std::vector<std::size_t>& shape) {
+  const std::vector<hsize_t> extents(shape.begin(), shape.end());
+  return {H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose};
+}
+
+Handle variable_text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), H5T_VARIABLE);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  return type;
+}
+
+/// Fixed length: VTK's reader wants its attributes so, and ASCII where the text allows.
+Handle fixed_text_type(const std::string& value) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), std::max<std::size_t>(value.size(), 1));
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  const bool ascii = std::ranges::all_of(value, [](char c) { return (c & 0x80) == 0; });
+  H5Tset_cset(type.id(), ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8);
+  return type;
+}
+
+void write_dataset(hid_t file, const std::string& path, const std::string& dataset, hid_t file_type,
+                   hid_t memory_type, const Handle& space, const void* values) {
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links.id(), 1);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);  // equal contents give equal bytes
+  const Handle set(H5Dcreate2(file, dataset.c_str(), file_type, space.id(), links.id(),
+                              creation.id(), H5P_DEFAULT),
+                   H5Dclose);
+  if (!set.valid()) fail_writing(path, dataset);
+  if (H5Sget_simple_extent_npoints(space.id()) == 0) return;
+  if (H5Dwrite(set.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
+    fail_writing(path, dataset);
+  }
+}
+
+template <class Value>
+void write_array(hid_t file, const std::string& path, const std::string& dataset, hid_t file_type,
+                 hid_t memory_type, std::span<const Value> values,
+                 const std::vector<std::size_t>& shape) {
+  if (shape.empty() || product(shape) != values.size()) {
+    fail(path, dataset,
+         std::to_string(values.size()) + " values do not fill the shape " + joined(shape));
+  }
+  write_dataset(file, path, dataset, file_type, memory_type, array_space(shape), values.data());
+}
+
+void refuse_nul(const std::string& path, const std::string& object, const std::string& value) {
+  if (value.find('\0') != std::string::npos) {
+    fail(path, object, "a text with a NUL character cannot be stored; remove the character");
+  }
+}
+
+void write_attribute(hid_t file, const std::string& path, const std::string& object,
+                     const std::string& name, hid_t file_type, hid_t memory_type,
+                     const Handle& space, const void* values) {
+  const Handle attribute(H5Acreate_by_name(file, object.c_str(), name.c_str(), file_type,
+                                           space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+  if (!attribute.valid() || H5Awrite(attribute.id(), memory_type, values) < 0) {
+    fail_writing(path, object + "@" + name);
+  }
+}
+
+Handle open_dataset(const Hdf5File& file, hid_t id, const std::string& dataset) {
+  if (!file.exists(dataset)) {
+    fail(file.path(), dataset, "is missing; was this file written by another program or version?");
+  }
+  Handle set(H5Dopen2(id, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) fail(file.path(), dataset, "is not a dataset" + hdf5_reason());
+  return set;
+}
+
+std::vector<std::size_t> shape_of(const std::string& path, const std::string& object,
+                                  const Handle& space) {
+  const int rank = H5Sget_simple_extent_ndims(space.id());
+  if (!space.valid() || rank < 0) fail_reading(path, object);
+  std::vector<hsize_t> extents(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space.id(), extents.data(), nullptr);
+  return {extents.begin(), extents.end()};
+}
+
+/// The number of values, after a check that the file can hold them: a damaged extent must not
+/// become an allocation of terabytes.
+std::size_t checked_count(const std::string& path, const std::string& dataset, const Handle& set,
+                          const Handle& type) {
+  const Handle space(H5Dget_space(set.id()), H5Sclose);
+  const std::vector<std::size_t> shape = shape_of(path, dataset, space);
+  const Handle creation(H5Dget_create_plist(set.id()), H5Pclose);
+  constexpr long double highest_compression = 1100.0L;  // deflate cannot do better
+  const long double gain = H5Pget_nfilters(creation.id()) > 0 ? highest_compression : 1.0L;
+  long double bytes = static_cast<long double>(H5Tget_size(type.id()));
+  for (std::size_t extent : shape) bytes *= static_cast<long double>(extent);
+  const auto stored = static_cast<long double>(H5Dget_storage_size(set.id()));
+  std::error_code ignored;
+  const auto file_size = static_cast<long double>(std::filesystem::file_size(path, ignored));
+  if (bytes > gain * stored || stored > file_size) {
+    fail(path, dataset,
+         "its shape " + joined(shape) + " is larger than what the file holds; it is damaged");
+  }
+  return product(shape);
+}
+
+void expect_class(const std::string& path, const std::string& object, const Handle& type,
+                  H5T_class_t wanted, const std::string& wanted_name) {
+  const H5T_class_t found = H5Tget_class(type.id());
+  if (found == wanted) return;
+  const std::string found_name = found == H5T_INTEGER  ? "integers"
+                                 : found == H5T_FLOAT  ? "floating-point numbers"
+                                 : found == H5T_STRING ? "text"
+                                                       : "values of another type";
+  fail(path, object, "holds " + found_name + "; expected " + wanted_name);
+}
+
+/// Types that HDF5 would convert by cutting off values are refused.
+void expect_convertible(const std::string& path, const std::string& object, const Handle& type) {
+  const std::size_t size = H5Tget_size(type.id());
+  const bool is_unsigned =
+      H5Tget_class(type.id()) == H5T_INTEGER && H5Tget_sign(type.id()) == H5T_SGN_NONE;
+  if (size > 8 || (is_unsigned && size == 8)) {
+    fail(path, object, "its number type is too wide; expected at most 64 bits, signed");
+  }
+}
+
+template <class Value>
+std::vector<Value> read_array(const Hdf5File& file, hid_t id, const std::string& dataset,
+                              H5T_class_t wanted, const std::string& wanted_name,
+                              hid_t memory_type) {
+  const Handle set = open_dataset(file, id, dataset);
+  const Handle type(H5Dget_type(set.id()), H5Tclose);
+  expect_class(file.path(), dataset, type, wanted, wanted_name);
+  expect_convertible(file.path(), dataset, type);
+  std::vector<Value> values(checked_count(file.path(), dataset, set, type));
+  if (values.empty()) return values;
+  if (H5Dread(set.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    fail_reading(file.path(), dataset);
+  }
+  return values;
+}
+
+std::vector<std::string> fixed_texts(const std::string& buffer, std::size_t count) {
+  std::vector<std::string> texts(count);
+  const std::size_t length = count == 0 ? 0 : buffer.size() / count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const char* start = buffer.data() + i * length;
+    texts[i].assign(start, strnlen(start, length));
+  }
+  return texts;
+}
+
+/// HDF5 converts between the two sets of characters only when told the file's own.
+Handle memory_text_type(const Handle& type) {
+  Handle memory = variable_text_type();
+  H5Tset_cset(memory.id(), H5Tget_cset(type.id()));
+  return memory;
+}
+
+std::vector<std::string> read_text_list(const Hdf5File& file, hid_t id,
+                                        const std::string& dataset) {
+  const Handle set = open_dataset(file, id, dataset);
+  const Handle type(H5Dget_type(set.id()), H5Tclose);
+  expect_class(file.path(), dataset, type, H5T_STRING, "text");
+  const std::size_t count = checked_count(file.path(), dataset, set, type);
+  if (count == 0) return {};
+  if (H5Tis_variable_str(type.id()) <= 0) {
+    std::string buffer(count * H5Tget_size(type.id()), '\0');
+    if (H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer.data()) < 0) {
+      fail_reading(file.path(), dataset);
+    }
+    return fixed_texts(buffer, count);
+  }
+  const Handle memory = memory_text_type(type);
+  std::vector<char*> pointers(count, nullptr);
+  if (H5Dread(set.id(), memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0) {
+    fail_reading(file.path(), dataset);
+  }
+  std::vector<std::string> texts(count);
+  for (std::size_t i = 0; i < count; ++i) texts[i] = pointers[i] == nullptr ? "" : pointers[i];
+  const Handle space(H5Dget_space(set.id()), H5Sclose);
+  H5Dvlen_reclaim(memory.id(), space.id(), H5P_DEFAULT, pointers.data());
+  return texts;
+}
+
+Handle open_attribute(const Hdf5File& file, hid_t id, const std::string& object,
+                      const std::string& name) {
+  if (!file.has_attribute(object, name)) {
+    fail(file.path(), object + "@" + name,
+         "is missing; was this file written by another program or version?");
+  }
+  Handle attribute(H5Aopen_by_name(id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                   H5Aclose);
+  if (!attribute.valid()) fail_reading(file.path(), object + "@" + name);
+  return attribute;
+}
+
+template <class Value>
+Value number_attribute(const Hdf5File& file, hid_t id, const std::string& object,
+                       const std::string& name, H5T_class_t wanted, const std::string& wanted_name,
+                       hid_t memory_type) {
+  const std::string place = object + "@" + name;
+  const Handle attribute = open_attribute(file, id, object, name);
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+  expect_class(file.path(), place, type, wanted, wanted_name);
+  expect_convertible(file.path(), place, type);
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space.id()) != 1) {
+    fail(file.path(), place, "expected one value");
+  }
+  Value value{};
+  if (H5Aread(attribute.id(), memory_type, &value) < 0) fail_reading(file.path(), place);
+  return value;
+}
+
+hid_t open_existing(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) fail(path, "", "there is no such file");
+  if (!std::filesystem::is_regular_file(status)) fail(path, "", "is not a file");
+  if (std::FILE* probe = std::fopen(path.c_str(), "rb"); probe != nullptr) {
+    static_cast<void>(std::fclose(probe));
+  } else {
+    fail(path, "", std::string("cannot be opened: ") + std::strerror(errno));
+  }
+  if (H5Fis_hdf5(path.c_str()) <= 0) {
+    H5Eclear2(H5E_DEFAULT);
+    fail(path, "", "is not an HDF5 file; expected one that Suffuse wrote");
+  }
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0) {
+    fail(path, "",
+         "cannot be opened" + hdf5_reason() +
+             "; it is cut short, damaged or open for writing elsewhere: write it anew");
+  }
+  return id;
+}
+
+hid_t create_new(const std::string& path) {
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (id < 0) {
+    const std::string reason =
+        errno == 0 ? hdf5_reason() : std::string(": ") + std::strerror(errno);
+    H5Eclear2(H5E_DEFAULT);
+    fail(path, "",
+         "cannot be created" + reason + "; check that its folder exists and can be written to");
+  }
+  return id;
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
+  silence_hdf5();
+  errno = 0;
+  file_ = mode == Mode::read ? open_existing(path) : create_new(path);
+}
+
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
+
+Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
+  if (this != &other) {
+    if (file_ >= 0) H5Fclose(file_);
+    path_ = std::move(other.path_);
+    file_ = std::exchange(other.file_, -1);
+  }
+  return *this;
+}
+
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::close() {
+  if (file_ < 0) return;
+  const bool flushed = H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0;
+  const std::string reason = flushed ? "" : hdf5_reason();
+  const bool closed = H5Fclose(std::exchange(file_, -1)) >= 0;
+  if (!flushed || !closed) {
+    fail(path_, "",
+         "could not be written whole" + (flushed ? hdf5_reason() : reason) + "; is the disk full?");
+  }
+}
+
+bool Hdf5File::exists(const std::string& object) const {
+  if (object == "/") return true;
+  // H5Lexists wants every parent to exist.
+  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
+    if (H5Lexists(file_, object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) {
+      H5Eclear2(H5E_DEFAULT);
+      return false;
+    }
+    if (end == std::string::npos) break;
+  }
+  const bool resolves = H5Oexists_by_name(file_, object.c_str(), H5P_DEFAULT) > 0;
+  H5Eclear2(H5E_DEFAULT);
+  return resolves;
+}
+
+std::vector<std::string> Hdf5File::children(const std::string& group) const {
+  const Handle handle(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  if (!handle.valid()) {
+    H5Eclear2(H5E_DEFAULT);
+    fail(path_, group, "is missing or not a group");
+  }
+  std::vector<std::string> names;
+  const herr_t status = H5Literate(
+      handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr,
+      [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+        return 0;
+      },
+      &names);
+  if (status < 0) fail_reading(path_, group);
+  return names;
+}
+
+void Hdf5File::create_group(const std::string& group) {
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links.id(), 1);
+  const Handle handle(H5Gcreate2(file_, group.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT),
+                      H5Gclose);
+  if (!handle.valid()) fail_writing(path_, group);
+}
+
+void Hdf5File::write(const std::string& dataset, std::span<const double> values,
+                     const std::vector<std::size_t>& shape) {
+  write_array(file_, path_, dataset, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, shape);
+}
+
+void Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> values,
+                     const std::vector<std::size_t>& shape) {
+  write_array(file_, path_, dataset, H5T_STD_I64LE, H5T_NATIVE_INT64, values, shape);
+}
+
+void Hdf5File::write(const std::string& dataset, std::span<const std::int32_t> values,
+                     const std::vector<std::size_t>& shape) {
+  write_array(file_, path_, dataset, H5T_STD_I32LE, H5T_NATIVE_INT32, values, shape);
+}
+
+void Hdf5File::write(const std::string& dataset, std::span<const std::uint8_t> values,
+                     const std::vector<std::size_t>& shape) {
+  write_array(file_, path_, dataset, H5T_STD_U8LE, H5T_NATIVE_UINT8, values, shape);
+}
+
+void Hdf5File::write_text(const std::string& dataset, const std::string& value) {
+  refuse_nul(path_, dataset, value);
+  const Handle type = variable_text_type();
+  const char* pointer = value.c_str();
+  write_dataset(file_, path_, dataset, type.id(), type.id(), scalar_space(), &pointer);
+}
+
+void Hdf5File::write_texts(const std::string& dataset, const std::vector<std::string>& values) {
+  const Handle type = variable_text_type();
+  std::vector<const char*> pointers;
+  for (const std::string& value : values) {
+    refuse_nul(path_, dataset, value);
+    pointers.push_back(value.c_str());
+  }
+  write_dataset(file_, path_, dataset, type.id(), type.id(), array_space({values.size()}),
+                pointers.data());
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name,
+                         const std::string& value) {
+  refuse_nul(path_, object + "@" + name, value);
+  const Handle type = fixed_text_type(value);
+  write_attribute(file_, path_, object, name, type.id(), type.id(), scalar_space(), value.c_str());
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, double value) {
+  write_attribute(file_, path_, object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, scalar_space(),
+                  &value);
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name,
+                         std::span<const std::int64_t> values) {
+  write_attribute(file_, path_, object, name, H5T_STD_I64LE, H5T_NATIVE_INT64,
+                  array_space({values.size()}), values.data());
+}
+
+std::vector<std::size_t> Hdf5File::shape(const std::string& dataset) const {
+  const Handle set = open_dataset(*this, file_, dataset);
+  return shape_of(path_, dataset, {H5Dget_space(set.id()), H5Sclose});
+}
+
+std::vector<double> Hdf5File::read_doubles(const std::string& dataset) const {
+  return read_array<double>(*this, file_, dataset, H5T_FLOAT, "floating-point numbers",
+                            H5T_NATIVE_DOUBLE);
+}
+
+std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) const {
+  return read_array<std::int64_t>(*this, file_, dataset, H5T_INTEGER, "integers", H5T_NATIVE_INT64);
+}
+
+std::string Hdf5File::read_text(const std::string& dataset) const {
+  std::vector<std::string> texts = read_text_list(*this, file_, dataset);
+  if (texts.size() != 1) {
+    fail(path_, dataset, "holds " + std::to_string(texts.size()) + " texts; expected one");
+  }
+  return std::move(texts.front());
+}
+
+std::vector<std::string> Hdf5File::read_texts(const std::string& dataset) const {
+  return read_text_list(*this, file_, dataset);
+}
+
+bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
+  if (!exists(object)) fail(path_, object, "is missing");
+  const bool found = H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+  H5Eclear2(H5E_DEFAULT);
+  return found;
+}
+
+std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
+  const std::string place = object + "@" + name;
+  const Handle attribute = open_attribute(*this, file_, object, name);
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+  expect_class(path_, place, type, H5T_STRING, "text");
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space.id()) != 1) fail(path_, place, "expected one text");
+  if (H5Tis_variable_str(type.id()) <= 0) {
+    std::string buffer(H5Tget_size(type.id()), '\0');
+    if (H5Aread(attribute.id(), type.id(), buffer.data()) < 0) fail_reading(path_, place);
+    return fixed_texts(buffer, 1).front();
+  }
+  const Handle memory = memory_text_type(type);
+  char* pointer = nullptr;
+  if (H5Aread(attribute.id(), memory.id(), static_cast<void*>(&pointer)) < 0) {
+    fail_reading(path_, place);
+  }
+  std::string value = pointer == nullptr ? "" : pointer;
+  H5Dvlen_reclaim(memory.id(), space.id(), H5P_DEFAULT, static_cast<void*>(&pointer));
+  return value;
+}
+
+double Hdf5File::double_attribute(const std::string& object, const std::string& name) const {
+  return number_attribute<double>(*this, file_, object, name, H5T_FLOAT, "a floating-point number",
+                                  H5T_NATIVE_DOUBLE);
+}
+
+std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::string& name) const {
+  return number_attribute<std::int64_t>(*this, file_, object, name, H5T_INTEGER, "an integer",
+                                        H5T_NATIVE_INT64);
+}
+
+}  // namespace suffuse

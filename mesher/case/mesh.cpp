@@ -1,0 +1,47 @@
+#include "case/mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace suffuse {
+
+template <int Dim>
+double element_volume(const Mesh<Dim>& mesh, int element) {
+  const auto& corners = mesh.elements[element];
+  Eigen::Matrix<double, Dim, Dim> edges;
+  for (int d = 0; d < Dim; ++d) {
+    edges.col(d) = mesh.nodes[corners[d + 1]] - mesh.nodes[corners[0]];
+  }
+  constexpr double factorial = Dim == 2 ? 2.0 : 6.0;
+  return edges.determinant() / factorial;
+}
+
+template <int Dim>
+Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element) {
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (int node : mesh.elements[element]) sum += mesh.nodes[node];
+  return sum / (Dim + 1);
+}
+
+double smallest_angle(const Mesh<2>& mesh) {
+  double smallest = std::numbers::pi;
+  for (const auto& corners : mesh.elements) {
+    for (int a = 0; a < 3; ++a) {
+      const Vector<2> u = mesh.nodes[corners[(a + 1) % 3]] - mesh.nodes[corners[a]];
+      const Vector<2> v = mesh.nodes[corners[(a + 2) % 3]] - mesh.nodes[corners[a]];
+      const double cross = u.x() * v.y() - u.y() * v.x();
+      smallest = std::min(smallest, std::atan2(std::abs(cross), u.dot(v)));
+    }
+  }
+  return smallest * 180.0 / std::numbers::pi;
+}
+
+template double element_volume<2>(const Mesh<2>&, int);
+template double element_volume<3>(const Mesh<3>&, int);
+template Vector<2> element_centroid<2>(const Mesh<2>&, int);
+template Vector<3> element_centroid<3>(const Mesh<3>&, int);
+
+}  // namespace suffuse
