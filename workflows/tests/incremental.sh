@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# Does make redo what it must and nothing else? Works on a copy of the paper's scenes with short runs, in
+# a folder of its own; arguments go to make (BIN=FOLDER, -j2).
+set -euo pipefail
+
+workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+make_arguments=("$@")
+failures=0
+
+run_make() {
+  make -C "$workflows" "${make_arguments[@]}" OUT="$work/out" PAPER="$work/paper" "$@" \
+    > "$work/make.log" 2>&1 || { cat "$work/make.log"; echo "FAILED: make $*"; exit 1; }
+}
+
+# Paths, times (to the nanosecond) and sizes of every file made so far.
+inventory() { find "$work/out" -type f -printf '%P %T@ %s\n' | sort; }
+
+# redone BEFORE: the files whose line is not in BEFORE, one per line, by path below out/.
+redone() { comm -13 "$1" <(inventory) | cut -d' ' -f1; }
+
+# expect WHAT EXPECTED FOUND
+expect() {
+  if [ "$2" == "$3" ]; then
+    echo "ok: $1"
+  else
+    echo "FAILED: $1"
+    diff <(echo "$2") <(echo "$3") | sed 's/^</  expected/; s/^>/  found/; /^[0-9-]/d' || true
+    failures=$((failures + 1))
+  fi
+}
+
+# Everything made from one scene except the insides of its results folder.
+made_from() {
+  local stem=$1
+  printf '%s\n' "$stem".case.h5 "$stem".{history,ledger}.csv "$stem".{porosity,masses}.{png,svg} \
+    "$stem".results/run.json
+}
+
+mkdir "$work/paper"
+for scene in "$workflows"/paper/sp-*.toml; do
+  sed 's/^end .*/end = 4.0/' "$scene" > "$work/paper/$(basename "$scene")"
+done
+
+run_make paper
+combined=$(printf 'paper/%s\n' fig4-porosity.{png,svg} fig7-masses.{png,svg})
+expected=$({ echo "$combined"; for scene in "$work"/paper/*.toml; do
+  made_from "paper/$(basename "$scene" .toml)"; done; } | sort)
+expect 'paper makes every figure, table and result' "$expected" \
+  "$(inventory | cut -d' ' -f1 | grep -v '\.results/[^r]\|\.results/regions' | sort)"
+
+inventory > "$work/before"
+run_make paper
+expect 'a second call makes nothing' '' "$(redone "$work/before")"
+
+touch "$work/paper/sp-logarithmic.toml"
+inventory > "$work/before"
+run_make paper
+expect 'touching one scene makes its own files and the figures it is in, and no others' \
+  "$({ made_from paper/sp-logarithmic; echo "$combined"; } | sort)" \
+  "$(redone "$work/before" | grep -v 'sp-logarithmic\.results/[^r]\|\.results/regions' | sort)"
+
+inventory > "$work/before"
+sed -i 's/"status": *"done"/"status": "running"/' "$work/out/paper/sp-constant-table.results/run.json"
+run_make paper
+expect 'a run that did not finish is run again' paper/sp-constant-table.results/run.json \
+  "$(redone "$work/before" | grep run.json)"
+
+rm "$work/out/paper/sp-constant-figure.masses.svg"
+inventory > "$work/before"
+run_make paper
+expect 'a figure removed is drawn again, alone' paper/sp-constant-figure.masses.svg \
+  "$(redone "$work/before")"
+
+mkdir "$work/elsewhere"
+cp "$work/paper/sp-logarithmic.toml" "$work/elsewhere/mine.toml"
+inventory > "$work/before"
+(cd "$work/elsewhere" && run_make study SCENE=mine.toml)
+expect 'study works on a scene elsewhere' \
+  "$({ made_from study/mine; echo study/mine.scene; } | sort)" \
+  "$(redone "$work/before" | grep -v '\.results/[^r]\|\.results/regions' | sort)"
+
+inventory > "$work/before"
+run_make study SCENE="$work/elsewhere/mine.toml"
+expect 'a second study of the same scene makes nothing' '' "$(redone "$work/before")"
+
+mkdir "$work/another"
+cp "$work/elsewhere/mine.toml" "$work/another/mine.toml"
+touch --date=yesterday "$work/another/mine.toml"
+run_make study SCENE="$work/another/mine.toml"
+expect 'another scene of the same name is not taken for the first' \
+  study/mine.results/run.json "$(redone "$work/before" | grep run.json)"
+
+sed -i 's/^porosity .*/porosity = 1.3/' "$work/another/mine.toml"
+inventory > "$work/before"
+status=0
+make -C "$workflows" "${make_arguments[@]}" OUT="$work/out" study SCENE="$work/another/mine.toml" \
+  > "$work/make.log" 2>&1 || status=$?
+expect 'a wrong scene stops make' 2 "$status"
+expect 'and leaves what stood there' '' "$(redone "$work/before")"
+
+[ "$failures" -eq 0 ] || { echo "$failures of the incremental checks failed"; exit 1; }
