@@ -1,0 +1,79 @@
+#include "balance.hpp"
+
+namespace suffuse {
+namespace {
+
+void book_one(double outward, CompensatedSum& in, CompensatedSum& out) {
+  if (outward > 0.0) out.add(outward);
+  if (outward < 0.0) in.add(-outward);
+}
+
+double relative(double residual, double initial) {
+  return initial > 0.0 ? residual / initial : residual;
+}
+
+}  // namespace
+
+template <int Dim>
+BoundaryAccounts<Dim>::BoundaryAccounts(const Grid<Dim>& grid)
+    : faces_(grid.mesh.region_names.size() + 1), sums_(faces_.size()) {
+  for (int f = 0; f < grid.face_count(); ++f) {
+    const int left = grid.mesh.element_region[grid.face_left[f]];
+    if (grid.is_outer(f)) {
+      faces_[0].push_back({f, 1.0});
+      faces_[left + 1].push_back({f, 1.0});
+      continue;
+    }
+    const int right = grid.mesh.element_region[grid.face_right[f]];
+    if (left == right) continue;
+    faces_[left + 1].push_back({f, 1.0});
+    faces_[right + 1].push_back({f, -1.0});
+  }
+}
+
+template <int Dim>
+void BoundaryAccounts<Dim>::book(const std::vector<double>& water,
+                                 const std::vector<double>& fines) {
+  for (std::size_t account = 0; account < faces_.size(); ++account) {
+    Sums& sums = sums_[account];
+    for (const auto& [face, sign] : faces_[account]) {
+      book_one(sign * water[face], sums.water_in, sums.water_out);
+      book_one(sign * fines[face], sums.fines_in, sums.fines_out);
+    }
+  }
+}
+
+template <int Dim>
+std::vector<Crossed> BoundaryAccounts<Dim>::totals() const {
+  std::vector<Crossed> result;
+  for (const Sums& s : sums_) {
+    result.push_back(
+        {s.water_in.value(), s.fines_in.value(), s.water_out.value(), s.fines_out.value()});
+  }
+  return result;
+}
+
+LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
+                     const Stored& initial) {
+  LedgerRow row;
+  row.t = time;
+  row.solid = stored.solid;
+  row.erodible = stored.erodible;
+  row.water = stored.water;
+  row.fines = stored.fines;
+  row.eroded = stored.eroded;
+  row.water_in = crossed.water_in;
+  row.fines_in = crossed.fines_in;
+  row.water_out = crossed.water_out;
+  row.fines_out = crossed.fines_out;
+  row.residual_water =
+      relative(stored.water - initial.water + crossed.water_out - crossed.water_in, initial.water);
+  row.residual_grains = relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
+                                     crossed.fines_out - crossed.fines_in,
+                                 initial.solid + initial.fines);
+  return row;
+}
+
+template class BoundaryAccounts<2>;
+
+}  // namespace suffuse

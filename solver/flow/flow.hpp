@@ -1,0 +1,34 @@
+#pragma once
+
+/// What every flow scheme takes and gives: coefficients in, volumes through faces out.
+
+#include <vector>
+
+#include "grid/element_field.hpp"
+
+namespace suffuse {
+
+/// What the rest of the model tells the flow. All per element unless noted.
+template <int Dim>
+struct FlowCoefficients {
+  std::vector<double> porosity;            ///< n_L
+  std::vector<double> water_volume;        ///< pore volume less fluidised grains, m3
+  std::vector<double> mixture_density;     ///< rho_L, kg/m3
+  std::vector<double> drag;                ///< on the liquid, divided by n_L, kg/(m3 s)
+  std::vector<double> face_concentration;  ///< per face: c of the liquid that crosses it
+};
+
+/// What went through the faces of the grid over an interval of time, along each face's normal.
+struct FaceVolumes {
+  std::vector<double> liquid;  ///< volume of liquid, m3
+  /// The same weighted with rho_w / rho_w0 - 1 of the water that crossed: what tells water's mass
+  /// from its reference volume.
+  std::vector<double> density_excess;
+
+  void reset(int faces) {
+    liquid.assign(faces, 0.0);
+    density_excess.assign(faces, 0.0);
+  }
+};
+
+}  // namespace suffuse

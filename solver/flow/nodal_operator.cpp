@@ -1,0 +1,130 @@
+#include "flow/nodal_operator.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace suffuse {
+
+template <int Dim>
+NodalOperator<Dim>::NodalOperator(const Grid<Dim>& grid, std::vector<FaceCondition> conditions,
+                                  Vector<Dim> gravity, bool porosity_gradient_term)
+    : grid_(grid),
+      conditions_(std::move(conditions)),
+      gravity_(gravity),
+      porosity_gradient_term_(porosity_gradient_term),
+      fixed_flux_(grid.face_count(), 0.0),
+      boundary_force_(grid.mesh.node_count(), Vector<Dim>::Zero()) {
+  node_faces_.reserve(grid_.node_face.size());
+  for (const int f : grid_.node_face) {
+    Vector<Dim> share = Vector<Dim>::Zero();
+    if (!conditions_[f].fixes_flux()) share = grid_.face_normal[f] / Dim;
+    node_faces_.push_back({grid_.face_left[f], grid_.face_right[f], share});
+  }
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (conditions_[f].kind != FaceKind::pressure) continue;
+    for (const int i : grid_.face_nodes[f]) {
+      boundary_force_[i] -= conditions_[f].value * grid_.face_normal[f] / Dim;
+    }
+  }
+  make_constraint_normals();
+}
+
+template <int Dim>
+void NodalOperator<Dim>::make_constraint_normals() {
+  // Faces that meet at less than this angle are pieces of one smooth wall: the node slides along
+  // their mean plane. At a sharper corner each plane holds it.
+  const double one_wall = std::cos(20.0 * std::numbers::pi / 180.0);
+  for (int i = 0; i < grid_.mesh.node_count(); ++i) {
+    struct Plane {
+      Vector<Dim> area_normal;
+      double area = 0.0;
+      double velocity = 0.0;
+      double flux = 0.0;
+    };
+    std::vector<Plane> planes;
+    for (int k = grid_.node_face_begin[i]; k < grid_.node_face_begin[i + 1]; ++k) {
+      const int f = grid_.node_face[k];
+      if (!conditions_[f].fixes_flux()) continue;
+      const Vector<Dim>& normal = grid_.face_normal[f];
+      auto plane = std::find_if(planes.begin(), planes.end(), [&](const Plane& candidate) {
+        return candidate.area_normal.normalized().dot(normal.normalized()) > one_wall;
+      });
+      if (plane == planes.end()) plane = planes.insert(plane, Plane{Vector<Dim>::Zero()});
+      const double area = normal.norm();
+      plane->area_normal += normal;
+      plane->area += area;
+      if (conditions_[f].kind == FaceKind::velocity) plane->velocity -= area * conditions_[f].value;
+      if (conditions_[f].kind == FaceKind::flux) plane->flux -= area * conditions_[f].value;
+    }
+    for (const Plane& plane : planes) {
+      held_.push_back({i, plane.area_normal.normalized(), plane.velocity / plane.area,
+                       plane.flux / plane.area});
+    }
+  }
+}
+
+template <int Dim>
+void NodalOperator<Dim>::update_constraints() {
+  constraints_.clear();
+  for (auto first = held_.begin(); first != held_.end();) {
+    const int node = first->node;
+    const auto last =
+        std::find_if(first, held_.end(), [&](const HeldNormal& h) { return h.node != node; });
+    const auto rows = static_cast<int>(last - first);
+    Eigen::Matrix<double, Eigen::Dynamic, Dim> normals(rows, Dim);
+    Eigen::VectorXd values(rows);
+    for (int r = 0; r < rows; ++r, ++first) {
+      normals.row(r) = first->normal.transpose();
+      values[r] = first->velocity + first->flux / node_porosity_[node];
+    }
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition{
+        Eigen::MatrixXd(normals)};
+    const Eigen::MatrixXd inverse = decomposition.pseudoInverse();
+    NodeConstraint<Dim> c;
+    c.node = node;
+    c.prescribed = inverse * values;
+    c.free = Eigen::Matrix<double, Dim, Dim>::Identity() - inverse * normals;
+    // Exactly zero where nothing is free: walls must not leak by round-off.
+    if (decomposition.rank() == Dim) c.free.setZero();
+    constraints_.push_back(c);
+  }
+}
+
+template <int Dim>
+void NodalOperator<Dim>::update(const FlowCoefficients<Dim>& coefficients) {
+  const int nodes = grid_.mesh.node_count();
+  node_porosity_.assign(nodes, 0.0);
+  node_mass_.assign(nodes, 0.0);
+  node_drag_.assign(nodes, 0.0);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const double share = grid_.volume[e] / (Dim + 1);
+    for (const int i : grid_.mesh.elements[e]) {
+      node_porosity_[i] += share * coefficients.porosity[e];
+      node_mass_[i] += share * coefficients.mixture_density[e];
+      node_drag_[i] += share * coefficients.drag[e];
+    }
+  }
+  external_force_ = boundary_force_;
+  for (int i = 0; i < nodes; ++i) {
+    node_porosity_[i] /= grid_.node_volume[i];
+    external_force_[i] += node_mass_[i] * gravity_;
+  }
+  carried_porosity_ =
+      porosity_gradient_term_ ? node_porosity_ : std::vector<double>(node_porosity_.size(), 1.0);
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (!conditions_[f].fixes_flux()) continue;
+    double porosity = 0.0;
+    for (const int i : grid_.face_nodes[f]) porosity += node_porosity_[i] / Dim;
+    double inward = conditions_[f].value;
+    if (conditions_[f].kind == FaceKind::velocity) inward *= porosity;
+    if (!porosity_gradient_term_) inward /= porosity;
+    fixed_flux_[f] = -grid_.face_normal[f].norm() * inward;
+  }
+  update_constraints();
+}
+
+template class NodalOperator<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,111 @@
+#pragma once
+
+/// The discrete gradient and divergence of the nodal scheme, with its constraints at the boundary.
+/// Nodal velocities are linear, pressure is constant per element ("mixed integration"). A face
+/// carries F = N . mean(q_i), q_i = n_i v_i, one number for both sides, so what leaves one element
+/// enters the next; the force on a node is the transpose of that, so the pair exchanges energy
+/// exactly.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "flow/face_conditions.hpp"
+#include "flow/flow.hpp"
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+using VectorField = std::vector<Vector<Dim>>;
+
+/// Velocity components that walls and prescribed fluxes fix at a node: v <- free v + prescribed.
+template <int Dim>
+struct NodeConstraint {
+  int node;
+  Eigen::Matrix<double, Dim, Dim> free;  ///< projection onto what is not prescribed
+  Vector<Dim> prescribed;                ///< m/s, intrinsic
+};
+
+template <int Dim>
+class NodalOperator {
+ public:
+  /// `porosity_gradient_term` = false carries n_e v_i instead of n_i v_i, as codes do that drop the
+  /// third term of Eq. 2: face volumes are then those of the intrinsic velocity, and the element
+  /// multiplies them with its own porosity.
+  NodalOperator(const Grid<Dim>& grid, std::vector<FaceCondition> conditions, Vector<Dim> gravity,
+                bool porosity_gradient_term = true);
+
+  /// Takes new coefficients: node porosities, masses, drag, and prescribed values.
+  void update(const FlowCoefficients<Dim>& coefficients);
+
+  [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
+  [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
+  [[nodiscard]] const std::vector<double>& node_porosity() const { return node_porosity_; }
+  /// What a node's velocity is multiplied with to give the flux through faces.
+  [[nodiscard]] const std::vector<double>& carried_porosity() const { return carried_porosity_; }
+  /// Mass that accelerates per node, kg, without mass scaling.
+  [[nodiscard]] const std::vector<double>& node_mass() const { return node_mass_; }
+  /// Drag per node, kg/s.
+  [[nodiscard]] const std::vector<double>& node_drag() const { return node_drag_; }
+  [[nodiscard]] const std::vector<NodeConstraint<Dim>>& constraints() const { return constraints_; }
+
+  /// Force of pressure and gravity on a node, N.
+  [[nodiscard]] Vector<Dim> force(int node, const std::vector<double>& pressure) const {
+    Vector<Dim> sum = external_force_[node];
+    for (int k = grid_.node_face_begin[node]; k < grid_.node_face_begin[node + 1]; ++k) {
+      const NodeFace& face = node_faces_[k];
+      sum += face.normal * (pressure[face.left] - (face.right < 0 ? 0.0 : pressure[face.right]));
+    }
+    return sum;
+  }
+
+  /// Liquid volume through a face per second, along its normal, m3/s.
+  [[nodiscard]] double face_flux(int face, const VectorField<Dim>& velocity) const {
+    if (conditions_[face].fixes_flux()) return fixed_flux_[face];
+    Vector<Dim> q = Vector<Dim>::Zero();
+    for (const int i : grid_.face_nodes[face]) q += carried_porosity_[i] * velocity[i];
+    return grid_.face_normal[face].dot(q) / Dim;
+  }
+
+  void constrain(VectorField<Dim>& velocity) const {
+    for (const auto& c : constraints_) {
+      velocity[c.node] = c.free * velocity[c.node] + c.prescribed;
+    }
+  }
+
+ private:
+  /// A face as its nodes' force sees it.
+  struct NodeFace {
+    int left;
+    int right;           ///< -1: outside, where the external force has the pressure
+    Vector<Dim> normal;  ///< share of one node; zero where the flux is fixed
+  };
+
+  void make_constraint_normals();
+  void update_constraints();
+
+  const Grid<Dim>& grid_;
+  std::vector<FaceCondition> conditions_;
+  Vector<Dim> gravity_;
+  bool porosity_gradient_term_;
+  std::vector<NodeFace> node_faces_;  ///< rows as grid.node_face
+  std::vector<double> node_porosity_;
+  std::vector<double> carried_porosity_;
+  std::vector<double> node_mass_;
+  std::vector<double> node_drag_;
+  std::vector<double> fixed_flux_;
+  VectorField<Dim> boundary_force_;
+  VectorField<Dim> external_force_;
+  std::vector<NodeConstraint<Dim>> constraints_;
+
+  /// One direction in which a node is held, averaged over faces that nearly share a plane.
+  struct HeldNormal {
+    int node;
+    Vector<Dim> normal;
+    double velocity;  ///< outward intrinsic velocity prescribed, m/s
+    double flux;      ///< outward Darcy flux prescribed, m/s
+  };
+  std::vector<HeldNormal> held_;  ///< ascending in node
+};
+
+}  // namespace suffuse

@@ -1,0 +1,33 @@
+#pragma once
+
+/// Stability limit of the explicit nodal scheme with a rigid skeleton (physics.md's formula, summed
+/// over the element's nodes instead of bounded by its largest porosity).
+
+#include <array>
+
+#include "case/scene.hpp"
+#include "flow/flow.hpp"
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+/// Largest stable step of one oscillator omega (1/s) damped by a = drag / mass (1/s), s.
+double stable_step(double omega, double damping, DragIntegration drag);
+
+/// The limit of the whole grid and the element that sets it.
+struct StabilityLimit {
+  double step = unset;  ///< s
+  int element = -1;
+};
+
+/// With M, C and A the matrices of mass, drag and compression, the scheme is stable while
+/// 4 M - 2 dt C - dt^2 A (explicit drag) or 4 M + 2 dt C - dt^2 A (implicit drag) is positive
+/// definite. Each is a sum over elements, so the smallest limit of one element is safe for the
+/// grid. For one element A has the single eigenvalue omega_e^2 = (Dim + 1) (K / rho_L) sum n_i
+/// |grad N_i|^2 / n_w,e.
+template <int Dim>
+StabilityLimit stability_limit(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                               const std::vector<double>& carried_porosity, double bulk_modulus,
+                               double mass_scaling, DragIntegration drag);
+
+}  // namespace suffuse

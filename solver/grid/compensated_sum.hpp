@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cmath>
+
+namespace suffuse {
+
+/// Neumaier's sum: the error does not grow with the number of terms. Long balances close to 1e-12
+/// because of it.
+class CompensatedSum {
+ public:
+  void add(double term) {
+    const double sum = sum_ + term;
+    const bool sum_is_larger = std::abs(sum_) >= std::abs(term);
+    correction_ += sum_is_larger ? (sum_ - sum) + term : (term - sum) + sum_;
+    sum_ = sum;
+  }
+  [[nodiscard]] double value() const { return sum_ + correction_; }
+
+ private:
+  double sum_ = 0.0;
+  double correction_ = 0.0;
+};
+
+/// Compensated sum of a range.
+double compensated_sum(const auto& values) {
+  CompensatedSum sum;
+  for (const double v : values) sum.add(v);
+  return sum.value();
+}
+
+}  // namespace suffuse

@@ -1,0 +1,58 @@
+#pragma once
+
+/// A discontinuous linear field: Dim + 1 values per element, at the points of the quadrature rule
+/// of degree two. At these points the linear basis is orthogonal, so every mass matrix is diagonal;
+/// for triangles they are the three interior Gauss points, where three material points per element
+/// lie.
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "case/mesh.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+using ElementValues = std::array<double, Dim + 1>;
+
+template <int Dim>
+using ElementField = std::vector<ElementValues<Dim>>;
+
+template <int Dim>
+struct FieldNodes {
+  /// Barycentric coordinates of field node j: `near` at vertex j, `far` at the others.
+  static constexpr double near_vertex = Dim == 2 ? 2.0 / 3.0 : 0.58541019662496845446;
+  static constexpr double far_vertex = Dim == 2 ? 1.0 / 6.0 : 0.13819660112501051518;
+  static constexpr double spread = near_vertex - far_vertex;
+
+  /// Value of basis function j where the barycentric coordinate j is `coordinate`.
+  static constexpr double basis(double coordinate) { return (coordinate - far_vertex) / spread; }
+
+  /// The field's value at a place of the element.
+  static double value(const ElementValues<Dim>& at_nodes,
+                      const std::array<double, Dim + 1>& barycentric) {
+    double sum = 0.0;
+    for (int j = 0; j <= Dim; ++j) sum += at_nodes[j] * basis(barycentric[j]);
+    return sum;
+  }
+
+  /// Values at the element's vertices.
+  static ElementValues<Dim> at_vertices(const ElementValues<Dim>& at_nodes) {
+    double sum = 0.0;
+    for (const double v : at_nodes) sum += v;
+    ElementValues<Dim> result;
+    for (int k = 0; k <= Dim; ++k) result[k] = (at_nodes[k] - far_vertex * sum) / spread;
+    return result;
+  }
+};
+
+/// Sum over an element's nodes.
+template <int Dim>
+double element_sum(const ElementValues<Dim>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v;
+  return sum;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,90 @@
+#include "grid/grid.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace suffuse {
+namespace {
+
+/// Rows of a node -> entity table in compressed form, from the nodes of each entity.
+template <class Entities>
+void invert(const Entities& nodes_of, int node_count, std::vector<int>& begin,
+            std::vector<int>& list) {
+  begin.assign(node_count + 1, 0);
+  for (const auto& nodes : nodes_of) {
+    for (const int i : nodes) ++begin[i + 1];
+  }
+  for (int i = 0; i < node_count; ++i) begin[i + 1] += begin[i];
+  list.resize(begin.back());
+  std::vector<int> next(begin.begin(), begin.end() - 1);
+  for (int entity = 0; entity < static_cast<int>(nodes_of.size()); ++entity) {
+    for (const int i : nodes_of[entity]) list[next[i]++] = entity;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Grid<Dim>::Grid(const Mesh<Dim>& mesh_in) : mesh(mesh_in) {
+  const int elements = mesh.element_count();
+  volume.resize(elements);
+  shape_gradient.resize(elements);
+  element_face.resize(elements);
+  element_face_sign.resize(elements);
+  node_volume.assign(mesh.node_count(), 0.0);
+  std::map<std::array<int, Dim>, int> known;
+  for (int e = 0; e < elements; ++e) {
+    const auto& vertices = mesh.elements[e];
+    Eigen::Matrix<double, Dim, Dim> edges;
+    for (int d = 0; d < Dim; ++d) {
+      edges.col(d) = mesh.nodes[vertices[d + 1]] - mesh.nodes[vertices[0]];
+    }
+    volume[e] = element_volume(mesh, e);
+    const Eigen::Matrix<double, Dim, Dim> inverse = edges.inverse();
+    shape_gradient[e][0].setZero();
+    for (int d = 0; d < Dim; ++d) {
+      shape_gradient[e][d + 1] = inverse.row(d).transpose();
+      shape_gradient[e][0] -= shape_gradient[e][d + 1];
+    }
+    for (const int i : vertices) node_volume[i] += volume[e] / (Dim + 1);
+
+    for (int k = 0; k <= Dim; ++k) {
+      std::array<int, Dim> nodes;
+      std::remove_copy(vertices.begin(), vertices.end(), nodes.begin(), vertices[k]);
+      std::sort(nodes.begin(), nodes.end());
+      const auto [it, is_new] = known.try_emplace(nodes, face_count());
+      element_face[e][k] = it->second;
+      element_face_sign[e][k] = is_new ? 1.0 : -1.0;
+      if (is_new) {
+        face_nodes.push_back(nodes);
+        face_left.push_back(e);
+        face_right.push_back(-1);
+        face_normal.push_back(-Dim * volume[e] * shape_gradient[e][k]);
+      } else {
+        face_right[it->second] = e;
+      }
+    }
+  }
+  invert(face_nodes, mesh.node_count(), node_face_begin, node_face);
+  invert(mesh.elements, mesh.node_count(), node_element_begin, node_element);
+}
+
+template <int Dim>
+int Grid<Dim>::find_face(std::array<int, Dim> nodes) const {
+  std::sort(nodes.begin(), nodes.end());
+  for (int k = node_face_begin[nodes[0]]; k < node_face_begin[nodes[0] + 1]; ++k) {
+    if (face_nodes[node_face[k]] == nodes) return node_face[k];
+  }
+  return -1;
+}
+
+template <int Dim>
+Vector<Dim> Grid<Dim>::face_centre(int face) const {
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (const int i : face_nodes[face]) sum += mesh.nodes[i];
+  return sum / Dim;
+}
+
+template struct Grid<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,45 @@
+#pragma once
+
+/// Faces, geometry and adjacency of a simplicial mesh, made once from it. Local face k of an
+/// element lies opposite its vertex k.
+
+#include <array>
+#include <vector>
+
+#include "case/mesh.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+struct Grid {
+  explicit Grid(const Mesh<Dim>& mesh);
+
+  /// Face of the grid with exactly these nodes, in any order; -1 when there is none.
+  [[nodiscard]] int find_face(std::array<int, Dim> nodes) const;
+  [[nodiscard]] Vector<Dim> face_centre(int face) const;
+  [[nodiscard]] bool is_outer(int face) const { return face_right[face] < 0; }
+  [[nodiscard]] int face_count() const { return static_cast<int>(face_left.size()); }
+
+  const Mesh<Dim>& mesh;
+
+  std::vector<double> volume;  ///< per element, m3 (per metre of thickness in 2D)
+  std::vector<std::array<Vector<Dim>, Dim + 1>> shape_gradient;  ///< 1/m
+  std::vector<double> node_volume;  ///< share of the elements' volume per node
+
+  std::vector<std::array<int, Dim>> face_nodes;
+  std::vector<int> face_left;   ///< element the normal points out of
+  std::vector<int> face_right;  ///< element the normal points into, -1 at the outer boundary
+  std::vector<Vector<Dim>> face_normal;  ///< times the face's area
+
+  std::vector<std::array<int, Dim + 1>> element_face;
+  std::vector<std::array<double, Dim + 1>> element_face_sign;  ///< +1 where the normal points out
+
+  /// Faces of node i: node_face[node_face_begin[i] .. node_face_begin[i + 1]).
+  std::vector<int> node_face_begin;
+  std::vector<int> node_face;
+  /// Elements of node i, likewise.
+  std::vector<int> node_element_begin;
+  std::vector<int> node_element;
+};
+
+}  // namespace suffuse

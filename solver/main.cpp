@@ -1,0 +1,74 @@
+/// suffuse-solver: runs a case file.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "case/errors.hpp"
+#include "run.hpp"
+
+namespace {
+
+struct Arguments {
+  std::string case_path;
+  std::string folder;
+  suffuse::SolverOptions solver;
+  bool explain = false;
+  bool quiet = false;
+};
+
+std::string default_folder(const std::string& case_path) {
+  const auto slash = case_path.find_last_of('/');
+  std::string name = slash == std::string::npos ? case_path : case_path.substr(slash + 1);
+  for (const std::string suffix : {".h5", ".case"}) {
+    if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
+  }
+  return name + ".results";
+}
+
+int run(const Arguments& arguments) {
+  using namespace suffuse;
+  const int dimension = read_case_dimension(arguments.case_path);
+  if (dimension != 2) {
+    throw InputError(arguments.case_path + ": got a case of dimension " +
+                     std::to_string(dimension) + "; expected 2");
+  }
+  const Case<2> c = read_case<2>(arguments.case_path);
+  const Plan plan = make_plan(c, arguments.solver);
+  if (arguments.explain) {
+    for (const std::string& sentence : plan.sentences) std::cout << sentence << '\n';
+    for (const std::string& warning : plan.warnings) std::cout << "warning: " << warning << '\n';
+    return static_cast<int>(ExitCode::done);
+  }
+  const std::string folder =
+      arguments.folder.empty() ? default_folder(arguments.case_path) : arguments.folder;
+  const int code = run_case(c, plan, arguments.solver, folder, arguments.quiet);
+  if (!arguments.quiet && code == 0) std::fprintf(stderr, "results in %s\n", folder.c_str());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app{"suffuse-solver: suffusion by the material point method"};
+  app.set_version_flag("--version", SUFFUSE_VERSION);
+  app.add_option("case", arguments.case_path, "Case file that suffuse-mesher wrote")
+      ->required()
+      ->type_name("NAME.case.h5");
+  app.add_option("-o,--output", arguments.folder, "Results folder (default: NAME.results)")
+      ->type_name("FOLDER");
+  app.add_option("--threads", arguments.solver.threads, "Threads; results do not depend on them")
+      ->check(CLI::Range(1, 1024));
+  app.add_flag("--explain", arguments.explain,
+               "Print what would run and what is skipped, and stop");
+  app.add_flag("--no-skip", arguments.solver.no_skip, "Run every pass, needed or not");
+  app.add_flag("--quiet", arguments.quiet, "No progress, warnings only");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : static_cast<int>(suffuse::ExitCode::wrong_input);
+  }
+  return suffuse::run_program("suffuse-solver", [&] { return run(arguments); });
+}

@@ -1,0 +1,235 @@
+#include "run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "progress.hpp"
+#include "single_point.hpp"
+
+namespace suffuse {
+namespace {
+
+volatile std::sig_atomic_t interrupt_requested = 0;
+void request_interrupt(int) {
+  interrupt_requested = 1;
+}
+
+/// Times k * every up to the end, and the end itself. Multiples, not sums: no drift.
+class OutputTimes {
+ public:
+  OutputTimes(double every, double end) : every_(every), end_(end) {}
+
+  [[nodiscard]] double next() const { return std::min(static_cast<double>(index_) * every_, end_); }
+  [[nodiscard]] bool finished() const { return finished_; }
+  void advance() {
+    finished_ = next() >= end_;
+    ++index_;
+  }
+
+ private:
+  double every_;
+  double end_;
+  long index_ = 0;
+  bool finished_ = false;
+};
+
+template <int Dim>
+class SinglePointRun {
+ public:
+  SinglePointRun(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
+                 const std::string& folder, bool quiet)
+      : case_(c),
+        plan_(plan),
+        options_(options),
+        start_(std::chrono::steady_clock::now()),
+        writer_(folder, c),
+        model_(c, plan, options),
+        progress_(c.document.scene.time.end, quiet),
+        rows_(c.document.scene.output.every, c.document.scene.time.end),
+        snapshots_(c.document.scene.output.snapshot_every, c.document.scene.time.end),
+        step_(plan.step) {}
+
+  ExitCode run() {
+    for (const std::string& warning : plan_.warnings) warn(warning);
+    try {
+      loop();
+    } catch (const NumericalError& error) {
+      progress_.finish();
+      write_info("failed", error.what());
+      throw;
+    }
+    progress_.finish();
+    if (interrupt_requested != 0) {
+      write_info("interrupted", "");
+      std::ostringstream line;
+      line << "interrupted at t = " << model_.state().time << " s; what is written is complete";
+      progress_.say(line.str());
+      return ExitCode::interrupted;
+    }
+    write_info("done", "");
+    return ExitCode::done;
+  }
+
+ private:
+  void loop() {
+    write_info("running", "");
+    output(model_.state(), model_.moment());
+    while (!rows_.finished() && interrupt_requested == 0) {
+      check_step();
+      const auto [steps, dt] = next_steps();
+      const auto interval = model_.advance(steps, dt, times_within(steps, dt));
+      steps_done_ += steps;
+      for (const FlowMoment<Dim>& moment : interval.moments) {
+        output(model_.state_at(interval, moment.time), moment);
+      }
+      for (const std::string& warning : model_.take_warnings()) warn(warning);
+      progress_.report(model_.state().time, dt);
+    }
+  }
+
+  /// How many steps to the next meeting of flow and transport, and how long each is.
+  [[nodiscard]] std::pair<long, double> next_steps() const {
+    const double now = model_.state().time;
+    const double target = case_.document.scene.output.exact ? next_output() : end();
+    const double remaining = target - now;
+    const auto to_target = static_cast<long>(std::ceil(remaining / step_ * (1.0 - 1e-12)));
+    const double dt = case_.document.scene.output.exact
+                          ? remaining / static_cast<double>(std::max(1L, to_target))
+                          : step_;
+    return {std::clamp(model_.steps_before_transport(dt), 1L, std::max(1L, to_target)), dt};
+  }
+
+  [[nodiscard]] double end() const { return case_.document.scene.time.end; }
+  [[nodiscard]] double next_output() const { return std::min(rows_.next(), snapshots_.next()); }
+
+  /// Output times that the next `steps` steps reach.
+  [[nodiscard]] std::vector<double> times_within(long steps, double dt) const {
+    // Round-off must not push an output time that a step ends on into the next interval.
+    const double reached =
+        model_.state().time + static_cast<double>(steps) * dt * (1.0 + 1e-12) + 1e-12 * dt;
+    std::vector<double> times;
+    OutputTimes rows = rows_;
+    OutputTimes snapshots = snapshots_;
+    while (!rows.finished() || !snapshots.finished()) {
+      const double next = rows.finished()        ? snapshots.next()
+                          : snapshots.finished() ? rows.next()
+                                                 : std::min(rows.next(), snapshots.next());
+      if (next > reached) break;
+      times.push_back(next);
+      if (!rows.finished() && rows.next() == next) rows.advance();
+      if (!snapshots.finished() && snapshots.next() == next) snapshots.advance();
+    }
+    return times;
+  }
+
+  /// The limit moves with porosity and concentration: shrink the step, or stop when it was given.
+  void check_step() {
+    const StabilityLimit limit = model_.current_limit();
+    if (step_ <= limit.step) return;
+    std::ostringstream message;
+    message << "the stability limit fell to " << limit.step << " s at t = " << model_.state().time
+            << " s (element " << limit.element << " at ("
+            << element_centroid(case_.mesh, limit.element).transpose() << "))";
+    if (plan_.step_given) {
+      message << ", below time.step = " << step_ << " s; take a shorter step or leave it out";
+      throw NumericalError(message.str());
+    }
+    step_ = 0.9 * limit.step;
+    message << "; the step is now " << step_ << " s";
+    warn(message.str());
+  }
+
+  void output(const SinglePointState<Dim>& state, const FlowMoment<Dim>& moment) {
+    if (!rows_.finished() && rows_.next() <= moment.time) {
+      const HistoryRow row = model_.history_row(state, moment);
+      check_finite(row);
+      warn_of_speed(row.speed_max);
+      writer_.append_history(row);
+      writer_.append_ledger(model_.ledger(state));
+      const std::vector<RegionRow> regions = model_.region_rows(state);
+      writer_.append_regions(regions);
+      rows_.advance();
+    }
+    if (!snapshots_.finished() && snapshots_.next() <= moment.time) {
+      writer_.write_snapshot(model_.snapshot(state, moment, steps_done_));
+      snapshots_.advance();
+    }
+  }
+
+  static void check_finite(const HistoryRow& row) {
+    for (const auto& [name, member] : history_columns) {
+      if (std::isfinite(row.*member)) continue;
+      std::ostringstream message;
+      message << name << " is no longer a number at t = " << row.t << " s";
+      throw NumericalError(message.str());
+    }
+  }
+
+  /// Scaled masses must stay light against the waves they carry: S <= (0.1 c / v)^2.
+  void warn_of_speed(double speed) {
+    const double scaling = case_.document.scene.time.mass_scaling;
+    const LiquidProperties& liquid = case_.document.scene.liquid;
+    const double wave = std::sqrt(liquid.bulk_modulus / liquid.density);
+    if (speed_warned_ || scaling <= 1.0 || speed * std::sqrt(scaling) <= 0.1 * wave) return;
+    speed_warned_ = true;
+    std::ostringstream message;
+    message << "mass_scaling = " << scaling << " slows the pressure wave to "
+            << wave / std::sqrt(scaling) << " m/s, less than ten times the flow's " << speed
+            << " m/s: pressures are not to be trusted";
+    warn(message.str());
+  }
+
+  void warn(const std::string& text) {
+    warnings_.push_back(text);
+    progress_.say("suffuse-solver: warning: " + text);
+  }
+
+  void write_info(const std::string& status, const std::string& message) {
+    RunInfo info;
+    info.status = status;
+    info.message = message;
+    info.steps = steps_done_;
+    info.solid_points = case_.solid_points.size();
+    info.elements = case_.mesh.element_count();
+    info.threads = options_.threads;
+    info.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    info.passes = model_.passes();
+    info.plan = plan_.sentences;
+    info.warnings = warnings_;
+    writer_.write_run_info(info);
+  }
+
+  const Case<Dim>& case_;
+  const Plan& plan_;
+  const SolverOptions& options_;
+  std::chrono::steady_clock::time_point start_;
+  ResultsWriter<Dim> writer_;
+  SinglePoint<Dim> model_;
+  Progress progress_;
+  OutputTimes rows_;
+  OutputTimes snapshots_;
+  double step_;
+  long steps_done_ = 0;
+  bool speed_warned_ = false;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+template <int Dim>
+int run_case(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
+             const std::string& folder, bool quiet) {
+  interrupt_requested = 0;
+  std::signal(SIGINT, request_interrupt);
+  std::signal(SIGTERM, request_interrupt);
+  return static_cast<int>(SinglePointRun<Dim>(c, plan, options, folder, quiet).run());
+}
+
+template int run_case(const Case<2>&, const Plan&, const SolverOptions&, const std::string&, bool);
+
+}  // namespace suffuse

@@ -1,0 +1,19 @@
+#pragma once
+
+/// The step loop: follows the plan, writes the results.
+
+#include <string>
+
+#include "case/case_file.hpp"
+#include "plan.hpp"
+
+namespace suffuse {
+
+/// Runs a case to its end into `folder`. Returns ExitCode::done, or ExitCode::interrupted after
+/// SIGINT or SIGTERM (results so far are complete and say so). Throws NumericalError, after noting
+/// it in run.json, and FileError.
+template <int Dim>
+int run_case(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
+             const std::string& folder, bool quiet);
+
+}  // namespace suffuse

@@ -1,0 +1,80 @@
+#include "solid/rigid_skeleton.hpp"
+
+#include <algorithm>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+RigidSkeleton<Dim>::RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid)
+    : mesh_(c.mesh), points_(c.solid_points), grid_(grid) {
+  for (const std::string& region : mesh_.region_names) {
+    const Soil* soil = c.document.scene.find_soil(region);
+    if (soil == nullptr) {
+      throw InputError({{c.document.locate("soil"), "soil." + region, "nothing",
+                         "a soil for region '" + region + "' of the mesh", ""}});
+    }
+    soil_of_region_.push_back(soil);
+    erosion_of_region_.push_back(
+        {soil->erosion.law, soil->erosion.rate, soil->erosion.start, soil->porosity_max()});
+  }
+  initial_porosity_.reserve(points_.size());
+  for (int p = 0; p < points_.size(); ++p) {
+    initial_porosity_.push_back(soil_of_point(p).initial_porosity(points_.position(mesh_, p)));
+  }
+  porosity_ = initial_porosity_;
+}
+
+template <int Dim>
+std::vector<double> RigidSkeleton<Dim>::porosity_after(const std::vector<double>& porosity,
+                                                       double from, double to) const {
+  std::vector<double> result(porosity.size());
+  for (int p = 0; p < points_.size(); ++p) {
+    result[p] =
+        suffuse::porosity_after(erosion_of_element(points_.element[p]), porosity[p], from, to);
+  }
+  return result;
+}
+
+template <int Dim>
+ElementField<Dim> RigidSkeleton<Dim>::eroded_volume(const std::vector<double>& before,
+                                                    const std::vector<double>& after) const {
+  ElementField<Dim> eroded(mesh_.element_count(), ElementValues<Dim>{});
+  for (int p = 0; p < points_.size(); ++p) {
+    const double volume = points_.volume[p] * (after[p] - before[p]);
+    for (int j = 0; j <= Dim; ++j) {
+      eroded[points_.element[p]][j] += volume * FieldNodes<Dim>::basis(points_.barycentric[p][j]);
+    }
+  }
+  return eroded;
+}
+
+template <int Dim>
+ElementField<Dim> RigidSkeleton<Dim>::initial_pore_volume() const {
+  // The initial porosity is a linear function, so its values at the field nodes are exact; points
+  // moved off the Gauss positions would not reproduce it.
+  ElementField<Dim> result(mesh_.element_count());
+  for (int e = 0; e < mesh_.element_count(); ++e) {
+    for (int j = 0; j <= Dim; ++j) {
+      Vector<Dim> x = Vector<Dim>::Zero();
+      for (int k = 0; k <= Dim; ++k) {
+        const double weight = k == j ? FieldNodes<Dim>::near_vertex : FieldNodes<Dim>::far_vertex;
+        x += weight * mesh_.nodes[mesh_.elements[e][k]];
+      }
+      result[e][j] = grid_.volume[e] / (Dim + 1) * soil_of_element(e).initial_porosity(x);
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+bool RigidSkeleton<Dim>::erodes() const {
+  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(), [](const auto& model) {
+    return model.law != ErosionLaw::none && model.rate > 0.0;
+  });
+}
+
+template class RigidSkeleton<2>;
+
+}  // namespace suffuse

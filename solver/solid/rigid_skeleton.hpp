@@ -1,0 +1,62 @@
+#pragma once
+
+/// The solid phase: porosity at fixed material points, eroding. Whatever else needs the solid sees
+/// it through this class, so that a moving skeleton can take its place.
+
+#include <vector>
+
+#include "case/case_file.hpp"
+#include "grid/element_field.hpp"
+#include "grid/grid.hpp"
+#include "physics/erosion_law.hpp"
+
+namespace suffuse {
+
+/// Pore volume and what erosion added to it, element by element, as the liquid sees it.
+template <int Dim>
+class RigidSkeleton {
+ public:
+  /// Throws InputError when a soil does not fit its region (also checked by the mesher).
+  RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid);
+
+  /// n_L per solid point.
+  [[nodiscard]] const std::vector<double>& porosity() const { return porosity_; }
+  [[nodiscard]] const std::vector<double>& initial_porosity() const { return initial_porosity_; }
+
+  /// n_L of every point at time `to`, from `porosity` (per point) at `from`.
+  [[nodiscard]] std::vector<double> porosity_after(const std::vector<double>& porosity, double from,
+                                                   double to) const;
+
+  /// Volume eroded between two states, per element and field node, m3: each point's volume times
+  /// its gain, shared by the basis functions at the point. Adds up to what the points lost exactly.
+  [[nodiscard]] ElementField<Dim> eroded_volume(const std::vector<double>& before,
+                                                const std::vector<double>& after) const;
+
+  void set_porosity(std::vector<double> porosity) { porosity_ = std::move(porosity); }
+
+  /// Pore volume per element and field node at the start, m3.
+  [[nodiscard]] ElementField<Dim> initial_pore_volume() const;
+
+  [[nodiscard]] bool erodes() const;
+  [[nodiscard]] const Soil& soil_of_element(int element) const {
+    return *soil_of_region_[mesh_.element_region[element]];
+  }
+  [[nodiscard]] const Soil& soil_of_point(int point) const {
+    return soil_of_element(points_.element[point]);
+  }
+  [[nodiscard]] const ErosionModel& erosion_of_element(int element) const {
+    return erosion_of_region_[mesh_.element_region[element]];
+  }
+  [[nodiscard]] const MaterialPoints<Dim>& points() const { return points_; }
+
+ private:
+  const Mesh<Dim>& mesh_;
+  const MaterialPoints<Dim>& points_;
+  const Grid<Dim>& grid_;
+  std::vector<const Soil*> soil_of_region_;
+  std::vector<ErosionModel> erosion_of_region_;
+  std::vector<double> initial_porosity_;
+  std::vector<double> porosity_;
+};
+
+}  // namespace suffuse
