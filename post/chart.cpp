@@ -1,0 +1,209 @@
+#include "chart.hpp"
+
+#include <vtkAxis.h>
+#include <vtkChartXY.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkGL2PSExporter.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkPen.h>
+#include <vtkPlotPoints.h>
+#include <vtkRenderer.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkTextProperty.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "case/errors.hpp"
+#include "case/pending_file.hpp"
+#include "chart_legend.hpp"
+#include "offscreen_window.hpp"
+#include "vtk_messages.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr int height = 800;
+constexpr int least_width = 1200;
+constexpr float plot_width = 820.0F;
+constexpr float margin = 24.0F;
+
+vtkSmartPointer<vtkTable> table_of(const Curve& curve) {
+  vtkNew<vtkDoubleArray> x;
+  vtkNew<vtkDoubleArray> y;
+  x->SetName("x");
+  y->SetName("y");
+  for (const double value : curve.x) x->InsertNextValue(value);
+  for (const double value : curve.y) y->InsertNextValue(value);
+  auto table = vtkSmartPointer<vtkTable>::New();
+  table->AddColumn(x);
+  table->AddColumn(y);
+  return table;
+}
+
+void add_markers(vtkChartXY& chart, const Curve& curve, std::array<double, 3> color, float size) {
+  auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(vtkChart::POINTS));
+  plot->SetInputData(table_of(curve), 0, 1);
+  plot->SetMarkerStyle(vtk_marker(curve.marker));
+  plot->SetMarkerSize(size);
+  plot->SetColor(color[0], color[1], color[2]);
+  plot->SetWidth(2.0F);
+}
+
+void add_curve(vtkChartXY& chart, const Curve& curve) {
+  if (curve.markers) {
+    add_markers(chart, curve, curve.color, 13.0F);
+    if (curve.hollow) add_markers(chart, curve, {1.0, 1.0, 1.0}, 7.0F);
+    return;
+  }
+  auto* plot = chart.AddPlot(vtkChart::LINE);
+  plot->SetInputData(table_of(curve), 0, 1);
+  plot->SetColor(curve.color[0], curve.color[1], curve.color[2]);
+  plot->SetWidth(2.0F);
+  plot->GetPen()->SetLineType(vtk_line_type(curve.dash));
+}
+
+void set_axis(vtkAxis& axis, const std::string& label, const std::vector<double>& ticks) {
+  axis.SetTitle(label);
+  axis.GetTitleProperties()->SetFontSize(21);
+  axis.GetTitleProperties()->SetBold(false);
+  axis.GetLabelProperties()->SetFontSize(18);
+  axis.GetGridPen()->SetColorF(0.88, 0.88, 0.88);
+  axis.SetBehavior(vtkAxis::FIXED);
+  axis.SetRange(ticks.front(), ticks.back());
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (const double tick : ticks) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", tick);
+    positions->InsertNextValue(tick);
+    labels->InsertNextValue(text);
+  }
+  axis.SetCustomTickPositions(positions, labels);
+}
+
+std::vector<double> ticks_of(const std::vector<Curve>& curves,
+                             const std::vector<double> Curve::*values) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const auto& curve : curves) {
+    for (const double value : curve.*values) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  return round_ticks(low, high);
+}
+
+vtkSmartPointer<vtkChartXY> vtk_chart(const Chart& chart) {
+  auto drawn = vtkSmartPointer<vtkChartXY>::New();
+  drawn->SetTitle(chart.title);
+  drawn->GetTitleProperties()->SetFontSize(24);
+  drawn->SetShowLegend(false);
+  drawn->SetAutoSize(false);
+  drawn->SetSize(vtkRectf(margin, margin, plot_width, height - 2.0F * margin));
+  for (const auto& curve : chart.curves) add_curve(*drawn, curve);
+  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), chart.x_label, ticks_of(chart.curves, &Curve::x));
+  set_axis(*drawn->GetAxis(vtkAxis::LEFT), chart.y_label, ticks_of(chart.curves, &Curve::y));
+  return drawn;
+}
+
+void write_png(vtkRenderWindow& window, const std::string& path) {
+  vtkNew<vtkWindowToImageFilter> image;
+  image->SetInput(&window);
+  image->SetInputBufferTypeToRGB();
+  image->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetInputConnection(image->GetOutputPort());
+  writer->Write();
+}
+
+/// SVG or PDF: curves as curves, text as text.
+void write_vector(vtkRenderWindow& window, const Chart& chart, const std::string& path) {
+  const std::filesystem::path file(path);
+  vtkNew<vtkGL2PSExporter> exporter;
+  exporter->SetRenderWindow(&window);
+  // The exporter puts the suffix behind the prefix itself.
+  exporter->SetFilePrefix((file.parent_path() / file.stem()).string().c_str());
+  if (file.extension() == ".svg") {
+    exporter->SetFileFormatToSVG();
+  } else {
+    exporter->SetFileFormatToPDF();
+  }
+  exporter->SetTitle(chart.title.c_str());
+  exporter->CompressOff();
+  exporter->DrawBackgroundOff();
+  exporter->SetSortToOff();  // what is drawn later lies on top
+  exporter->TextAsPathOff();
+  exporter->Write();
+}
+
+}  // namespace
+
+std::vector<double> round_ticks(double low, double high) {
+  if (!(high > low)) {
+    const double room = std::max(std::abs(low), 1.0) * 0.05;
+    low -= room;
+    high += room;
+  }
+  const double rough = (high - low) / 8.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * decade;
+  for (const double factor : {5.0, 2.0, 1.0}) {
+    if (factor * decade >= rough) step = factor * decade;
+  }
+  // Rounding must not add a tick beyond an end that lies on one.
+  const auto first = static_cast<long>(std::floor(low / step + 1e-9));
+  const auto last = static_cast<long>(std::ceil(high / step - 1e-9));
+  std::vector<double> ticks;
+  for (long k = first; k <= last; ++k) ticks.push_back(static_cast<double>(k) * step);
+  return ticks;
+}
+
+std::string picture_format(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension().string();
+  if (suffix == ".png" || suffix == ".svg" || suffix == ".pdf") return suffix;
+  throw InputError(std::vector{InputProblem{"suffuse-post figure", "-o", "\"" + path + "\"",
+                                            "a name that ends in .png, .svg or .pdf", ""}});
+}
+
+void draw_chart(const Chart& chart, const std::string& path) {
+  const std::string format = picture_format(path);
+  PendingFile file(path);
+  const OffscreenContext context;
+  const float legend_width = ChartLegend::width(chart.curves);
+  const int width =
+      std::max(least_width, static_cast<int>(plot_width + 3.0F * margin + legend_width));
+  const auto window = make_offscreen_window(width, height);
+  const VtkMessages messages;
+
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1.0, 1.0, 1.0);
+  window->AddRenderer(renderer);
+  vtkNew<vtkContextActor> actor;
+  actor->GetScene()->AddItem(vtk_chart(chart));
+  vtkNew<ChartLegend> legend;
+  legend->place(plot_width + 2.0F * margin, height - 3.0F * margin, chart.curves);
+  actor->GetScene()->AddItem(legend);
+  actor->GetScene()->SetRenderer(renderer);
+  renderer->AddActor(actor);
+  window->Render();
+  if (format == ".png") {
+    write_png(*window, file.temporary_path());
+  } else {
+    write_vector(*window, chart, file.temporary_path());
+  }
+  messages.throw_errors(path);
+  file.commit();
+}
+
+}  // namespace suffuse

@@ -1,0 +1,108 @@
+#include "chart_legend.hpp"
+
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkMarkerUtilities.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPen.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+
+namespace suffuse {
+namespace {
+
+constexpr float row_height = 30.0F;
+constexpr float symbol_width = 64.0F;
+constexpr float gap = 12.0F;
+constexpr int font_size = 18;
+/// The widest of the fonts a viewer may put in place of Helvetica.
+constexpr float letter_width = 0.62F * font_size;
+
+void paint_marker(vtkContext2D* painter, const Curve& curve, float x, float y) {
+  const auto color = [&](double shade, int k) { return shade < 0.0 ? curve.color[k] : shade; };
+  const auto draw = [&](double shade, float size) {
+    painter->GetPen()->SetColorF(color(shade, 0), color(shade, 1), color(shade, 2));
+    painter->GetBrush()->SetColorF(color(shade, 0), color(shade, 1), color(shade, 2));
+    painter->GetPen()->SetWidth(size);
+    float point[2] = {x, y};
+    painter->DrawMarkers(vtk_marker(curve.marker), false, point, 1);
+  };
+  draw(-1.0, 13.0F);
+  if (curve.hollow) draw(1.0, 7.0F);
+}
+
+}  // namespace
+
+vtkStandardNewMacro(ChartLegend);
+
+int vtk_line_type(Dash dash) {
+  switch (dash) {
+    case Dash::dashed:
+      return vtkPen::DASH_LINE;
+    case Dash::dotted:
+      return vtkPen::DOT_LINE;
+    case Dash::dash_dot:
+      return vtkPen::DASH_DOT_LINE;
+    case Dash::dash_dot_dot:
+      return vtkPen::DASH_DOT_DOT_LINE;
+    case Dash::solid:
+      break;
+  }
+  return vtkPen::SOLID_LINE;
+}
+
+int vtk_marker(Marker marker) {
+  switch (marker) {
+    case Marker::square:
+      return vtkMarkerUtilities::SQUARE;
+    case Marker::diamond:
+      return vtkMarkerUtilities::DIAMOND;
+    case Marker::cross:
+      return vtkMarkerUtilities::CROSS;
+    case Marker::plus:
+      return vtkMarkerUtilities::PLUS;
+    case Marker::circle:
+      break;
+  }
+  return vtkMarkerUtilities::CIRCLE;
+}
+
+void ChartLegend::place(float left, float top, const std::vector<Curve>& curves) {
+  left_ = left;
+  top_ = top;
+  std::copy_if(curves.begin(), curves.end(), std::back_inserter(rows_),
+               [](const Curve& curve) { return !curve.label.empty(); });
+}
+
+float ChartLegend::width(const std::vector<Curve>& curves) {
+  std::size_t letters = 0;
+  for (const auto& curve : curves) letters = std::max(letters, curve.label.size());
+  return symbol_width + gap + letter_width * static_cast<float>(letters);
+}
+
+bool ChartLegend::Paint(vtkContext2D* painter) {
+  float y = top_ - row_height / 2.0F;
+  for (const auto& curve : rows_) {
+    if (curve.markers) {
+      paint_marker(painter, curve, left_ + symbol_width / 2.0F, y);
+    } else {
+      painter->GetPen()->SetLineType(vtk_line_type(curve.dash));
+      painter->GetPen()->SetWidth(2.0F);
+      painter->GetPen()->SetColorF(curve.color[0], curve.color[1], curve.color[2]);
+      painter->DrawLine(left_, y, left_ + symbol_width, y);
+    }
+    vtkNew<vtkTextProperty> text;
+    text->SetFontSize(font_size);
+    text->SetColor(0.0, 0.0, 0.0);
+    text->SetVerticalJustificationToCentered();
+    painter->ApplyTextProp(text);
+    painter->DrawString(left_ + symbol_width + gap, y, curve.label.c_str());
+    y -= row_height;
+  }
+  painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  return true;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,33 @@
+#pragma once
+
+/// The legend beside a chart. VTK's own shows a line as 25 pixels, too short to tell dashes apart.
+
+#include <vtkContextItem.h>
+#include <vtkSmartPointer.h>
+
+#include "chart.hpp"
+
+namespace suffuse {
+
+/// VTK's numbers for pens and markers.
+int vtk_line_type(Dash dash);
+int vtk_marker(Marker marker);
+
+class ChartLegend : public vtkContextItem {
+ public:
+  static ChartLegend* New();
+
+  /// Top left corner in pixels from the bottom left of the picture, and the rows to show.
+  void place(float left, float top, const std::vector<Curve>& curves);
+  /// Pixels that these rows are wide.
+  static float width(const std::vector<Curve>& curves);
+
+  bool Paint(vtkContext2D* painter) override;
+
+ private:
+  float left_ = 0.0F;
+  float top_ = 0.0F;
+  std::vector<Curve> rows_;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,58 @@
+#include "export.hpp"
+
+#include <vtkHDFReader.h>
+#include <vtkNew.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "case/errors.hpp"
+#include "results/number_text.hpp"
+#include "vtk_messages.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+
+void convert(const std::string& from, const std::string& to) {
+  const VtkMessages messages;
+  vtkNew<vtkHDFReader> reader;
+  reader->SetFileName(from.c_str());
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputConnection(reader->GetOutputPort());
+  writer->SetFileName(to.c_str());
+  const bool written = writer->Write() == 1;
+  messages.throw_errors(to);
+  if (!written) throw FileError(to + ": cannot be written");
+}
+
+void export_kind(const ResultsReader& results, const std::string& kind, const fs::path& folder) {
+  std::string entries;
+  for (std::size_t i = 0; i < results.times().size(); ++i) {
+    const fs::path source = results.snapshot_path(kind, i);
+    const std::string name = source.stem().string() + ".vtu";
+    convert(source.string(), (folder / name).string());
+    entries += "    <DataSet timestep=\"" + number_text(results.times()[i]) +
+               "\" part=\"0\" file=\"" + name + "\"/>\n";
+  }
+  const std::string path = (folder / (kind + ".pvd")).string();
+  std::ofstream out(path);
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n"
+      << entries << "  </Collection>\n</VTKFile>\n"
+      << std::flush;
+  if (!out) throw FileError(path + ": cannot be written");
+}
+
+}  // namespace
+
+void export_vtu(const ResultsReader& results, const std::string& folder) {
+  if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError(folder + ": cannot be made: " + error.message());
+  for (const auto* kind : {"mesh", "solid"}) export_kind(results, kind, folder);
+}
+
+}  // namespace suffuse

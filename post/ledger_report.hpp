@@ -1,0 +1,39 @@
+#pragma once
+
+/// The balance of a run, for people and for scripts.
+
+#include <string>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// What came of one constituent, kg (per metre of thickness in 2D).
+struct Balance {
+  std::string place;        ///< "model" or a region's name
+  std::string constituent;  ///< "water" or "grains"
+  double initial = 0.0;
+  double in = 0.0;
+  double out = 0.0;
+  double stored = 0.0;
+  double eroded = 0.0;          ///< grains only
+  double worst_residual = 0.0;  ///< largest |residual| of any row, relative to `initial`
+  double worst_time = 0.0;      ///< when, s
+};
+
+/// Water and grains of the whole model, then of every region when there are several. A residual is
+/// the larger of the solver's own and one formed anew from the masses in the table.
+/// Throws FileError when a table has no rows.
+std::vector<Balance> balances(const ResultsReader& results);
+
+/// An aligned table.
+std::string balance_text(const ResultsReader& results, const std::vector<Balance>& balances);
+
+/// Throws NumericalError, naming place, constituent and time, when a residual exceeds `tolerance`
+/// or is not a number.
+void check_balances(const std::vector<Balance>& balances, double tolerance);
+
+/// First, last, smallest and largest value of every column of the history.
+std::string history_text(const ResultsReader& results);
+
+}  // namespace suffuse

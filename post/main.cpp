@@ -1,0 +1,128 @@
+/// suffuse-post: tables and figures from results folders.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+
+#include "case/errors.hpp"
+#include "chart.hpp"
+#include "export.hpp"
+#include "figures.hpp"
+#include "ledger_report.hpp"
+#include "results/reader.hpp"
+#include "sample.hpp"
+
+namespace suffuse {
+namespace {
+
+struct Options {
+  std::string results;
+  std::vector<std::string> all_results;
+  std::string csv;
+  std::string output;
+  std::string figure;
+  std::string line;
+  std::string fields;
+  double tolerance = 1e-12;
+  double time = 0.0;
+  int count = 0;
+};
+
+void ledger(const Options& options) {
+  const ResultsReader results(options.results);
+  const auto found = balances(results);
+  std::cout << balance_text(results, found);
+  if (!options.csv.empty()) write_table(options.csv, results.ledger());
+  check_balances(found, options.tolerance);
+}
+
+void history(const Options& options) {
+  const ResultsReader results(options.results);
+  std::cout << history_text(results);
+  if (!options.csv.empty()) write_table(options.csv, results.history());
+}
+
+void sample_line(const Options& options) {
+  const SampleLine line = parse_line(options.line);
+  const auto fields = parse_field_names(options.fields);
+  const ResultsReader results(options.results);
+  write_table(options.csv, sample(results, options.time, line, options.count, fields));
+}
+
+void figure(const Options& options) {
+  picture_format(options.output);
+  const std::vector<ResultsReader> runs(options.all_results.begin(), options.all_results.end());
+  draw_chart(make_figure(options.figure, runs), options.output);
+}
+
+void export_results(const Options& options) {
+  export_vtu(ResultsReader(options.results), options.output);
+}
+
+using Action = std::function<void(const Options&)>;
+
+CLI::App* add_command(CLI::App& app, Action& chosen, const std::string& name,
+                      const std::string& sentence, Action action) {
+  auto* command = app.add_subcommand(name, sentence);
+  command->callback([&chosen, action = std::move(action)] { chosen = action; });
+  return command;
+}
+
+void declare(CLI::App& app, Options& o, Action& chosen) {
+  app.require_subcommand(1);
+  const auto one_folder = [&o](CLI::App* command) {
+    command->add_option("RESULTS", o.results, "results folder")->required();
+  };
+
+  auto* command = add_command(app, chosen, "ledger", "Balance of water and grains", ledger);
+  one_folder(command);
+  command->add_option("--csv", o.csv, "write the whole ledger here");
+  command->add_option("--tolerance", o.tolerance, "largest residual allowed")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+
+  command = add_command(app, chosen, "history", "Range of every quantity over the run", history);
+  one_folder(command);
+  command->add_option("--csv", o.csv, "write the whole history here");
+
+  command = add_command(app, chosen, "sample", "Fields along a line at one time", sample_line);
+  one_folder(command);
+  command->add_option("--time", o.time, "time, s")->required();
+  command->add_option("--line", o.line, "x0,y0:x1,y1, m")->required();
+  command->add_option("--count", o.count, "points, ends included")->required();
+  command->add_option("--fields", o.fields, "names, with commas between")->required();
+  command->add_option("--csv", o.csv, "table to write")->required();
+
+  command = add_command(app, chosen, "figure", "A figure of the paper: porosity or masses", figure);
+  command->add_option("NAME", o.figure, "porosity or masses")->required();
+  command->add_option("RESULTS", o.all_results, "results folders")->required();
+  command->add_option("-o", o.output, "picture to write: .png, .svg or .pdf")->required();
+
+  command =
+      add_command(app, chosen, "export", ".pvd and .vtu files for other tools", export_results);
+  one_folder(command);
+  command->add_option("-o", o.output, "folder to write into")->required();
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Tables and figures from the results of suffuse-solver.", "suffuse-post");
+  app.set_version_flag("--version", SUFFUSE_VERSION);
+  Options options;
+  Action chosen;
+  declare(app, options, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    throw InputError(std::string(error.what()) + " (suffuse-post --help lists what there is)");
+  }
+  chosen(options);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+}  // namespace suffuse
+
+int main(int argc, char** argv) {
+  return suffuse::run_program("suffuse-post", [&] { return suffuse::run(argc, argv); });
+}

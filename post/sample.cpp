@@ -1,0 +1,209 @@
+#include "sample.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "case/closest_name.hpp"
+#include "case/errors.hpp"
+#include "results/number_text.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Rounding that still counts as on an edge, in barycentric coordinates.
+constexpr double edge_tolerance = 1e-9;
+
+/// Where a field is looked for, best first.
+constexpr std::array<const char*, 3> places{"element_vertex", "node", "cell"};
+
+InputError wrong(const std::string& option, const std::string& found, const std::string& expected,
+                 const std::string& suggestion = {}) {
+  return InputError(
+      std::vector{InputProblem{"suffuse-post sample", option, found, expected, suggestion}});
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+std::string position_text(const Vector<2>& x) {
+  return "(" + number_text(x[0]) + ", " + number_text(x[1]) + ")";
+}
+
+/// An element that holds the point, and where in it the point is.
+struct Place {
+  int element;
+  std::array<double, 3> barycentric;
+};
+
+std::array<double, 3> barycentric(const Mesh<2>& mesh, int element, const Vector<2>& x) {
+  const auto& corners = mesh.elements[element];
+  const Vector<2> a = mesh.nodes[corners[0]];
+  Eigen::Matrix2d edges;
+  edges << mesh.nodes[corners[1]] - a, mesh.nodes[corners[2]] - a;
+  const Vector<2> local = edges.inverse() * (x - a);
+  return {1.0 - local[0] - local[1], local[0], local[1]};
+}
+
+/// All elements that hold x; only those in the soil where there are any.
+std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, const Vector<2>& x) {
+  std::vector<Place> everywhere;
+  std::vector<Place> in_soil;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const auto b = barycentric(mesh, e, x);
+    if (*std::min_element(b.begin(), b.end()) < -edge_tolerance) continue;
+    everywhere.push_back({e, b});
+    const auto& region = mesh.region_names[mesh.element_region[e]];
+    if (results.scene().scene.find_soil(region) != nullptr) in_soil.push_back({e, b});
+  }
+  if (everywhere.empty()) {
+    throw wrong("--line", "the point " + position_text(x), "points inside the model");
+  }
+  return in_soil.empty() ? everywhere : in_soil;
+}
+
+/// The snapshots on either side of a time and the weight of the later one.
+struct Moment {
+  std::size_t before;
+  std::size_t after;
+  double weight;
+};
+
+Moment find_moment(const ResultsReader& results, double time) {
+  const auto& times = results.times();
+  if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  const double slack = 1e-12 * std::max(std::abs(times.front()), std::abs(times.back()));
+  if (!(time >= times.front() - slack && time <= times.back() + slack)) {
+    throw wrong("--time", number_text(time),
+                "a time from " + number_text(times.front()) + " to " + number_text(times.back()) +
+                    " s, the first and last snapshot");
+  }
+  const auto later = std::lower_bound(times.begin(), times.end(), time);
+  if (later == times.begin()) return {0, 0, 0.0};
+  if (later == times.end()) return {times.size() - 1, times.size() - 1, 0.0};
+  const auto after = static_cast<std::size_t>(later - times.begin());
+  return {after - 1, after, (time - times[after - 1]) / (times[after] - times[after - 1])};
+}
+
+/// A field at one moment with the kind of place it lives on.
+struct SampledField {
+  Field values;
+  std::string where;
+};
+
+SampledField read_at(const ResultsReader& results, const Moment& moment, const std::string& name) {
+  std::vector<std::string> known;
+  for (const std::string where : places) {
+    const auto names = results.field_names(moment.before, where);
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      known.insert(known.end(), names.begin(), names.end());
+      continue;
+    }
+    Field field = results.field(moment.before, where, name);
+    if (moment.weight > 0.0) {
+      const Field later = results.field(moment.after, where, name);
+      for (std::size_t i = 0; i < field.values.size(); ++i) {
+        field.values[i] += moment.weight * (later.values[i] - field.values[i]);
+      }
+    }
+    return {field, where};
+  }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  throw wrong("--fields", "\"" + name + "\"", quoted_list(known), closest_name(name, known));
+}
+
+double value_in(const Mesh<2>& mesh, const SampledField& field, const Place& place, int component) {
+  const auto at = [&](std::size_t entity) {
+    return field.values.values[entity * field.values.components + component];
+  };
+  if (field.where == "cell") return at(place.element);
+  double value = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    const int vertex =
+        field.where == "node" ? mesh.elements[place.element][a] : 3 * place.element + a;
+    value += place.barycentric[a] * at(vertex);
+  }
+  return value;
+}
+
+double mean_value(const Mesh<2>& mesh, const SampledField& field, const std::vector<Place>& around,
+                  int component) {
+  double total = 0.0;
+  for (const auto& place : around) total += value_in(mesh, field, place, component);
+  return total / static_cast<double>(around.size());
+}
+
+std::string column_name(const Field& field, int component) {
+  constexpr std::array<const char*, 3> axes{"_x", "_y", "_z"};
+  return field.components == 1 ? field.name : field.name + axes.at(component);
+}
+
+}  // namespace
+
+SampleLine parse_line(const std::string& text) {
+  std::vector<double> numbers;
+  const auto ends = split(text, ':');
+  for (const auto& end : ends) {
+    const auto coordinates = split(end, ',');
+    for (const auto& coordinate : coordinates) {
+      const auto value = parse_number(coordinate);
+      if (value && std::isfinite(*value)) numbers.push_back(*value);
+    }
+    if (coordinates.size() != 2) numbers.clear();
+  }
+  if (ends.size() != 2 || numbers.size() != 4) {
+    throw wrong("--line", "\"" + text + "\"", "x0,y0:x1,y1 in metres");
+  }
+  return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+std::vector<std::string> parse_field_names(const std::string& text) {
+  auto names = split(text, ',');
+  if (std::find(names.begin(), names.end(), "") != names.end()) {
+    throw wrong("--fields", "\"" + text + "\"", "names of fields with commas between");
+  }
+  return names;
+}
+
+Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
+             const std::vector<std::string>& fields) {
+  if (count < 2) throw wrong("--count", std::to_string(count), "at least 2, the ends of the line");
+  const Moment moment = find_moment(results, time);
+  std::vector<SampledField> sampled;
+  Table table{{"x", "y"}, std::vector<std::vector<double>>(2)};
+  for (const auto& name : fields) {
+    sampled.push_back(read_at(results, moment, name));
+    for (int k = 0; k < sampled.back().values.components; ++k) {
+      table.names.push_back(column_name(sampled.back().values, k));
+      table.columns.emplace_back();
+    }
+  }
+  const Mesh<2> mesh = results.mesh();
+  for (int i = 0; i < count; ++i) {
+    const double along = static_cast<double>(i) / (count - 1);
+    const Vector<2> x = (1.0 - along) * line.from + along * line.to;
+    const auto around = locate(results, mesh, x);
+    table.columns[0].push_back(x[0]);
+    table.columns[1].push_back(x[1]);
+    std::size_t column = 2;
+    for (const auto& field : sampled) {
+      for (int k = 0; k < field.values.components; ++k) {
+        table.columns[column++].push_back(mean_value(mesh, field, around, k));
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace suffuse
