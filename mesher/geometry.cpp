@@ -1,0 +1,225 @@
+#include "geometry.hpp"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string_view>
+
+#include "case/consistency.hpp"
+#include "case/errors.hpp"
+#include "column.hpp"
+#include "geometry_scan.hpp"
+#include "gmsh_session.hpp"
+#include "mesh_extraction.hpp"
+
+namespace suffuse {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Beyond this a misplaced decimal point is likelier than intent.
+constexpr double most_triangles = 2e7;
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+[[noreturn]] void refuse(const SceneDocument& document, const std::string& key,
+                         const std::string& found, const std::string& expected) {
+  throw InputError(
+      std::vector<InputProblem>{{document.locate(key), key, found, expected, std::string()}});
+}
+
+void refuse_too_many(const SceneDocument& document, double area) {
+  const double size = document.scene.mesh.size;
+  const double smallest = std::sqrt(2.0 * area / most_triangles);
+  if (!(size < smallest)) return;
+  refuse(document, "mesh.size", number(size),
+         "at least " + number(smallest) + ", which makes 20 million triangles here");
+}
+
+bool divides(double size, double length) {
+  const double rows = length / size;
+  return std::abs(rows - std::round(rows)) <= 1e-9 * rows;
+}
+
+void note_rounding(const Scene& scene, std::vector<std::string>& notes) {
+  if (scene.mesh.structure != MeshStructure::regular) return;
+  const double size = scene.mesh.size;
+  const std::array<std::pair<std::string, double>, 2> sides{
+      {{"width", scene.geometry.width}, {"height", scene.geometry.height}}};
+  for (const auto& [side, length] : sides) {
+    if (divides(size, length)) continue;
+    const int rows = element_rows(length, size);
+    notes.push_back("mesh.size " + number(size) + " does not divide the " + side + " " +
+                    number(length) + ": it has " + std::to_string(rows) + " elements of " +
+                    number(length / rows));
+  }
+}
+
+void build_column(const SceneDocument& document, std::vector<std::string>& notes) {
+  const Scene& scene = document.scene;
+  refuse_too_many(document, scene.geometry.width * scene.geometry.height);
+  const std::string complaint = gmsh_complaint([&] { mesh_column(column_of(scene), scene.mesh); });
+  if (!complaint.empty()) throw FileError("Gmsh could not mesh the column: " + complaint);
+  note_rounding(scene, notes);
+}
+
+/// `'FILE', line N: MESSAGE` is how Gmsh places an error in a script.
+InputProblem gmsh_problem(const SceneDocument& document, const std::string& path,
+                          const std::string& complaint) {
+  constexpr std::string_view before_line = "', line ";
+  const std::size_t name_end = complaint.find(before_line);
+  const std::size_t message = complaint.find(": ", std::min(name_end, complaint.size()));
+  if (complaint.starts_with('\'') && message != std::string::npos) {
+    const std::size_t line = name_end + before_line.size();
+    return {complaint.substr(1, name_end - 1) + ":" + complaint.substr(line, message - line), "",
+            complaint.substr(message + 2), "valid Gmsh text", ""};
+  }
+  return {document.locate("geometry.file"), "geometry.file",
+          '"' + path + "\", of which Gmsh says: " + complaint, "a geometry that Gmsh can mesh", ""};
+}
+
+void run_gmsh(const SceneDocument& document, const std::string& path,
+              const std::function<void()>& body) {
+  const std::string complaint = gmsh_complaint(body);
+  if (!complaint.empty()) {
+    throw InputError(std::vector<InputProblem>{gmsh_problem(document, path, complaint)});
+  }
+}
+
+/// The labels of a STEP file's shapes become physical groups. Gmsh gives them as paths of an
+/// assembly; the last part is the shape's own name.
+void name_groups_by_label(int dimension) {
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  std::map<std::string, std::vector<int>> groups;
+  for (const auto& [ignored, tag] : entities) {
+    std::string label;
+    gmsh::model::getEntityName(dimension, tag, label);
+    label = label.substr(label.rfind('/') + 1);
+    const bool automatic = label.starts_with("Open CASCADE STEP translator");
+    if (!label.empty() && !automatic) groups[label].push_back(tag);
+  }
+  for (const auto& [name, tags] : groups) {
+    const int group = gmsh::model::addPhysicalGroup(dimension, tags);
+    gmsh::model::setPhysicalName(dimension, group, name);
+  }
+}
+
+void open_step(const std::string& path) {
+  gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+  gmsh::open(path);
+  gmsh::model::occ::removeAllDuplicates();  // neighbours come with a curve each
+  gmsh::model::occ::synchronize();
+  name_groups_by_label(2);
+  name_groups_by_label(1);
+}
+
+bool has_surface_mesh() {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags;
+  std::vector<std::vector<std::size_t>> nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, 2);
+  return !types.empty();
+}
+
+void generate_mesh(const SceneDocument& document, const std::string& path) {
+  std::array<double, 6> box{};
+  gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
+  refuse_too_many(document, (box[3] - box[0]) * (box[4] - box[1]));
+  double largest = 0.0;
+  gmsh::option::getNumber("Mesh.MeshSizeMax", largest);
+  if (document.scene.mesh.size < largest) {
+    gmsh::option::setNumber("Mesh.MeshSizeMax", document.scene.mesh.size);
+  }
+  run_gmsh(document, path, [] { gmsh::model::mesh::generate(2); });
+}
+
+void build_from_file(const SceneDocument& document, std::vector<std::string>& notes) {
+  const std::string path = geometry_path(document);
+  const std::string extension = extension_of(path);
+  const bool is_step = extension == ".step" || extension == ".stp";
+  if (!is_step && extension != ".geo" && extension != ".msh") {
+    refuse(document, "geometry.file", '"' + document.scene.geometry.file + '"',
+           "a file ending in .geo, .msh, .step or .stp");
+  }
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) {
+    throw FileError(document.locate("geometry.file") + ": geometry.file: there is no file " + path);
+  }
+  std::vector<InputProblem> dangers = scan_geometry_file(path);
+  if (!dangers.empty()) throw InputError(std::move(dangers));
+
+  run_gmsh(document, path, [&] { is_step ? open_step(path) : gmsh::open(path); });
+  if (extension == ".msh") {
+    notes.emplace_back("the .msh file is used as it is, mesh.size does not apply");
+  } else if (has_surface_mesh()) {
+    notes.emplace_back("the .geo file meshes itself, mesh.size does not apply");
+  } else {
+    generate_mesh(document, path);
+  }
+}
+
+/// Where a problem of the mesh comes from.
+void place_problems(const SceneDocument& document, std::vector<InputProblem>& problems) {
+  const bool from_file = !document.scene.geometry.file.empty();
+  const std::string key = from_file ? "geometry.file" : "geometry.shape";
+  for (InputProblem& problem : problems) {
+    problem.where = document.locate(key);
+    problem.key = key;
+    if (from_file) {
+      problem.found = '"' + document.scene.geometry.file + "\" with " + problem.found;
+    }
+  }
+}
+
+}  // namespace
+
+std::string geometry_path(const SceneDocument& document) {
+  return (fs::path(document.path).parent_path() / document.scene.geometry.file).string();
+}
+
+Geometry build_geometry(const SceneDocument& document) {
+  Geometry result;
+  ExtractedMesh extracted;
+  {
+    const GmshSession session;
+    if (document.scene.geometry.file.empty()) {
+      build_column(document, result.notes);
+    } else {
+      build_from_file(document, result.notes);
+    }
+    extracted = extract_mesh();
+  }
+  place_problems(document, extracted.problems);
+  if (extracted.has_regions()) {
+    std::ranges::move(scene_problems(document, extracted.mesh),
+                      std::back_inserter(extracted.problems));
+  }
+  if (!extracted.problems.empty()) throw InputError(std::move(extracted.problems));
+  if (extracted.turned > 0) {
+    result.notes.push_back(std::to_string(extracted.turned) +
+                           " clockwise triangles were turned round");
+  }
+  result.mesh = std::move(extracted.mesh);
+  return result;
+}
+
+}  // namespace suffuse

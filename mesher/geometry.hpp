@@ -1,0 +1,30 @@
+#pragma once
+
+/// The mesh that a scene asks for: the built-in column or the user's own file.
+
+#include <string>
+#include <vector>
+
+#include "case/mesh.hpp"
+#include "case/scene.hpp"
+
+namespace suffuse {
+
+struct Geometry {
+  Mesh<2> mesh;
+  std::vector<std::string> notes;  ///< what the user should know, one sentence each
+};
+
+/// Builds the mesh with Gmsh and holds the scene against it. Throws InputError with every problem
+/// found, FileError when the geometry file cannot be read.
+///
+/// A .geo or .step file is meshed here: sizes and fields in the file hold, `mesh.size` is the size
+/// where the file says nothing and an upper bound elsewhere. A .geo that meshes itself and a .msh
+/// are used as they are. Lengths in a .step file are converted from its own unit to metres; those
+/// in .geo and .msh files are metres.
+Geometry build_geometry(const SceneDocument& document);
+
+/// The file that `geometry.file` names, relative to the scene's folder.
+std::string geometry_path(const SceneDocument& document);
+
+}  // namespace suffuse

@@ -1,0 +1,16 @@
+#pragma once
+
+/// The mesh for the eyes of Gmsh.
+
+#include <string>
+
+#include "case/mesh.hpp"
+
+namespace suffuse {
+
+/// Writes a Gmsh 4.1 file with the regions and boundaries as physical groups, and `path`.opt beside
+/// it, which Gmsh loads with it: a .msh carries no colours, so the colour of each region is there.
+/// Throws FileError.
+void write_gmsh(const std::string& path, const Mesh<2>& mesh);
+
+}  // namespace suffuse

@@ -1,0 +1,22 @@
+#pragma once
+
+/// Gmsh, switched on for as long as this lives: silent, deterministic, one thread, blind to the
+/// user's own Gmsh settings. Gmsh is one global object, so there is at most one session at a time.
+
+#include <functional>
+#include <string>
+
+namespace suffuse {
+
+class GmshSession {
+ public:
+  GmshSession();
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+  ~GmshSession();
+};
+
+/// Runs `body` and returns what Gmsh complained about, or empty when it did not.
+std::string gmsh_complaint(const std::function<void()>& body);
+
+}  // namespace suffuse

@@ -1,0 +1,130 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "case/case_file.hpp"
+#include "case/closest_name.hpp"
+#include "case/errors.hpp"
+#include "geometry.hpp"
+#include "gmsh_export.hpp"
+#include "seeding.hpp"
+#include "summary.hpp"
+
+namespace {
+
+using namespace suffuse;
+namespace fs = std::filesystem;
+
+constexpr const char* program = "suffuse-mesher";
+
+struct Arguments {
+  std::string scene;
+  std::string output;
+  std::string msh;
+  std::vector<std::string> overrides;
+  bool version = false;
+  bool scene_reference = false;
+};
+
+void refuse_unknown(const std::vector<std::string>& unknown) {
+  if (unknown.empty()) return;
+  const std::vector<std::string> known{"--output",          "--set", "--msh", "--version",
+                                       "--scene-reference", "--help"};
+  const std::string& first = unknown.front();
+  const bool is_option = first.starts_with("-");
+  const std::string name = first.substr(0, first.find('='));
+  const std::string closest = is_option ? closest_name(name, known) : "";
+  throw InputError(std::vector<InputProblem>{
+      {"", program, '"' + first + '"',
+       is_option ? "an option of " + std::string(program) + " (see --help)" : "one scene file only",
+       closest}});
+}
+
+/// `name` plus `.case.h5` in the current folder, unless `-o` says otherwise.
+std::string output_path(const Arguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  return fs::path(arguments.scene).stem().string() + ".case.h5";
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored) || fs::weakly_canonical(a) == fs::weakly_canonical(b);
+}
+
+/// No input may be overwritten by an output.
+void check_outputs(const Arguments& arguments, const SceneDocument& document) {
+  std::vector<std::string> inputs{arguments.scene};
+  if (!document.scene.geometry.file.empty()) inputs.push_back(geometry_path(document));
+  for (const std::string& input : inputs) {
+    if (same_file(output_path(arguments), input)) {
+      throw InputError("-o " + output_path(arguments) + " would overwrite an input; name another");
+    }
+    if (!arguments.msh.empty() && same_file(arguments.msh, input)) {
+      throw InputError("--msh " + arguments.msh + " would overwrite an input; name another");
+    }
+  }
+  if (arguments.msh.empty()) return;
+  if (fs::path(arguments.msh).extension() != ".msh") {
+    throw InputError("--msh: got " + arguments.msh + "; expected a name that ends in .msh");
+  }
+  if (same_file(arguments.msh, output_path(arguments))) {
+    throw InputError("-o and --msh name the same file " + arguments.msh);
+  }
+}
+
+void make_case(const Arguments& arguments) {
+  if (arguments.scene.empty()) {
+    throw InputError("a scene file is missing; expected suffuse-mesher SCENE.toml (see --help)");
+  }
+  const SceneDocument document = read_scene(arguments.scene, arguments.overrides);
+  check_outputs(arguments, document);
+  Geometry geometry = build_geometry(document);
+  MaterialPoints<2> points = seed_solid_points(geometry.mesh, document.scene.points);
+  const Case<2> result{document, std::move(geometry.mesh), std::move(points)};
+  if (!arguments.msh.empty()) write_gmsh(arguments.msh, result.mesh);
+  write_case(output_path(arguments), result);
+
+  std::cout << output_path(arguments) << '\n'
+            << mesh_summary(result.mesh, result.solid_points, geometry.notes);
+  const std::string warning = angle_warning(result.mesh);
+  if (!warning.empty()) std::cerr << program << ": warning: " << warning << '\n';
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Makes a case file, mesh and material points, from a scene.", program};
+  Arguments arguments;
+  app.add_option("SCENE", arguments.scene, "scene file (TOML)");
+  app.add_option("-o,--output", arguments.output, "case file to write [SCENE's name .case.h5]");
+  app.add_option("--set", arguments.overrides, "change a key of the scene: KEY=VALUE, repeatable")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  app.add_option("--msh", arguments.msh, "also write the mesh for the Gmsh program");
+  app.add_flag("--version", arguments.version, "print the version");
+  app.add_flag("--scene-reference", arguments.scene_reference,
+               "print the reference of all scene keys (Markdown)");
+  app.allow_extras();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + " (see --help)");
+  }
+  refuse_unknown(app.remaining());
+  if (arguments.version) {
+    std::cout << program << ' ' << SUFFUSE_VERSION << '\n';
+  } else if (arguments.scene_reference) {
+    std::cout << scene_reference_markdown();
+  } else {
+    make_case(arguments);
+  }
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program(program, [&] { return run(argc, argv); });
+}

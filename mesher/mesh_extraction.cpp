@@ -1,0 +1,420 @@
+#include "mesh_extraction.hpp"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+
+#include "case/closest_name.hpp"
+#include "case/faces.hpp"
+
+namespace suffuse {
+
+namespace {
+
+using Tag = std::size_t;
+
+constexpr int line_type = 1;
+constexpr int triangle_type = 2;
+/// Relative to the square of the longest edge; an angle of about 1e-10 degrees.
+constexpr double smallest_area = 1e-12;
+/// Relative to the diagonal of the mesh.
+constexpr double out_of_plane = 1e-9;
+constexpr double same_place = 1e-9;
+/// Of one kind, before "and N more".
+constexpr std::size_t most_examples = 5;
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << (value == 0.0 ? 0.0 : value);  // no "-0"
+  return text.str();
+}
+
+std::string place(const Vector<2>& x) {
+  return "(" + number(x[0]) + ", " + number(x[1]) + ")";
+}
+
+/// Problems of one kind: the first few one by one, the rest counted.
+class Kind {
+ public:
+  Kind(std::vector<InputProblem>& problems, std::string expected)
+      : problems_(problems), expected_(std::move(expected)) {}
+  Kind(const Kind&) = delete;
+  Kind& operator=(const Kind&) = delete;
+  ~Kind() {
+    if (count_ <= most_examples) return;
+    problems_[last_].found += ", and " + std::to_string(count_ - most_examples) + " more like it";
+  }
+  void add(const std::string& found) {
+    if (++count_ > most_examples) return;
+    last_ = problems_.size();
+    problems_.push_back({"", "", found, expected_, ""});
+  }
+
+ private:
+  std::vector<InputProblem>& problems_;
+  std::string expected_;
+  std::size_t count_ = 0;
+  std::size_t last_ = 0;  // index of the last one listed
+};
+
+struct Elements {
+  std::vector<Tag> tags;
+  std::vector<std::vector<Tag>> nodes;
+};
+
+class Extraction {
+ public:
+  ExtractedMesh run() {
+    read_nodes();
+    read_surfaces();
+    if (triangle_tags_.empty()) return std::move(result_);
+    number_nodes();
+    check_plane();
+    check_duplicate_nodes();
+    orient_and_check_areas();
+    check_overlaps();
+    read_boundaries();
+    return std::move(result_);
+  }
+
+ private:
+  Mesh<2>& mesh() { return result_.mesh; }
+
+  void report(const std::string& found, const std::string& expected) {
+    result_.problems.push_back({"", "", found, expected, ""});
+  }
+
+  void read_nodes() {
+    std::vector<Tag> tags;
+    std::vector<double> coordinates;
+    std::vector<double> parameters;
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      coordinates_[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
+    }
+  }
+
+  [[nodiscard]] std::string place_of(const std::vector<Tag>& nodes) const {
+    Vector<2> centre = Vector<2>::Zero();
+    for (Tag node : nodes) {
+      const auto& x = coordinates_.at(node);
+      centre += Vector<2>(x[0], x[1]) / static_cast<double>(nodes.size());
+    }
+    return place(centre);
+  }
+
+  /// The elements of an entity that have the wanted type; the others are problems.
+  Elements read_entity(int dimension, int entity, int wanted, Kind& wrong_types) {
+    Elements result;
+    std::vector<int> types;
+    std::vector<std::vector<Tag>> tags;
+    std::vector<std::vector<Tag>> nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+    for (std::size_t t = 0; t < types.size(); ++t) {
+      if (tags[t].empty()) continue;
+      const std::size_t per_element = nodes[t].size() / tags[t].size();
+      for (std::size_t i = 0; i < tags[t].size(); ++i) {
+        const auto first = nodes[t].begin() + static_cast<std::ptrdiff_t>(i * per_element);
+        std::vector<Tag> corners(first, first + static_cast<std::ptrdiff_t>(per_element));
+        if (types[t] != wanted) {
+          wrong_types.add("element " + std::to_string(tags[t][i]) + " (" + type_name(types[t]) +
+                          ") at " + place_of(corners));
+          continue;
+        }
+        result.tags.push_back(tags[t][i]);
+        result.nodes.push_back(std::move(corners));
+      }
+    }
+    return result;
+  }
+
+  static std::string type_name(int type) {
+    std::string name;
+    int dimension = 0;
+    int order = 0;
+    int node_count = 0;
+    int primary_count = 0;
+    std::vector<double> coordinates;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, node_count, coordinates,
+                                            primary_count);
+    return name;
+  }
+
+  static std::vector<int> entities(int dimension) {
+    gmsh::vectorpair pairs;
+    gmsh::model::getEntities(pairs, dimension);
+    std::vector<int> tags;
+    for (const auto& [ignored, tag] : pairs) tags.push_back(tag);
+    return tags;
+  }
+
+  struct Group {
+    std::string name;
+    std::vector<int> entities;
+  };
+
+  /// Named physical groups; those without a name, and names given twice, are problems.
+  std::vector<Group> groups(int dimension, const std::string& what) {
+    gmsh::vectorpair pairs;
+    gmsh::model::getPhysicalGroups(pairs, dimension);
+    std::vector<Group> groups;
+    std::set<std::string> names;
+    for (const auto& [ignored, tag] : pairs) {
+      Group group;
+      gmsh::model::getPhysicalName(dimension, tag, group.name);
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, group.entities);
+      if (group.name.empty()) {
+        report("physical " + what + " " + std::to_string(tag) + " without a name",
+               "a name, as in Physical " + std::string(dimension == 2 ? "Surface" : "Curve") +
+                   "(\"name\") = {...};");
+      } else if (!names.insert(group.name).second) {
+        report("two physical " + what + "s named \"" + group.name + "\"", "different names");
+      } else {
+        groups.push_back(std::move(group));
+      }
+    }
+    return groups;
+  }
+
+  void read_surfaces() {
+    refuse_volumes();
+    const std::vector<Group> regions = groups(2, "surface");
+    if (regions.empty()) {
+      report("no named physical surface",
+             "each region as a physical surface, as in Physical Surface(\"specimen\") = {1};" +
+                 inventory());
+      return;
+    }
+    std::map<int, std::vector<int>> regions_of;  // entity -> indices of regions
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      mesh().region_names.push_back(regions[r].name);
+      for (int entity : regions[r].entities) regions_of[entity].push_back(static_cast<int>(r));
+    }
+    Kind wrong_types(result_.problems,
+                     "triangles of three nodes (in Gmsh: Mesh.ElementOrder = 1, no Recombine)");
+    for (int entity : entities(2)) add_surface(entity, regions_of[entity], wrong_types);
+    report_empty_regions();
+  }
+
+  void refuse_volumes() {
+    const std::vector<int> volumes = entities(3);
+    if (volumes.empty()) return;
+    Kind kind(result_.problems, "a plane model: only triangles are supported so far");
+    bool has_elements = false;
+    for (int volume : volumes) {
+      const std::size_t before = result_.problems.size();
+      read_entity(3, volume, -1, kind);
+      has_elements = has_elements || result_.problems.size() > before;
+    }
+    if (!has_elements) kind.add("volume " + std::to_string(volumes.front()));
+  }
+
+  void add_surface(int entity, const std::vector<int>& regions, Kind& wrong_types) {
+    Elements triangles = read_entity(2, entity, triangle_type, wrong_types);
+    if (triangles.tags.empty()) return;
+    const std::string which = "surface " + std::to_string(entity) + " (" +
+                              std::to_string(triangles.tags.size()) + " triangles, one of them " +
+                              std::to_string(triangles.tags.front()) + " at " +
+                              place_of(triangles.nodes.front()) + ")";
+    if (regions.empty()) report(which + " in no physical surface", "every triangle in one region");
+    if (regions.size() > 1) {
+      report(which + " in the physical surfaces \"" + mesh().region_names[regions[0]] +
+                 "\" and \"" + mesh().region_names[regions[1]] + "\"",
+             "every triangle in one region");
+    }
+    const int region = regions.empty() ? 0 : regions.front();
+    for (std::size_t i = 0; i < triangles.tags.size(); ++i) {
+      triangle_tags_.push_back(triangles.tags[i]);
+      triangle_nodes_.push_back(
+          {triangles.nodes[i][0], triangles.nodes[i][1], triangles.nodes[i][2]});
+      mesh().element_region.push_back(region);
+    }
+  }
+
+  void report_empty_regions() {
+    for (std::size_t r = 0; r < mesh().region_names.size(); ++r) {
+      if (std::ranges::find(mesh().element_region, static_cast<int>(r)) ==
+          mesh().element_region.end()) {
+        report("physical surface \"" + mesh().region_names[r] + "\" without triangles",
+               "a region that is not empty");
+      }
+    }
+  }
+
+  /// What a user can name, when nothing is named.
+  static std::string inventory() {
+    std::string text;
+    for (int dimension : {2, 1}) {
+      for (int entity : entities(dimension)) {
+        std::array<double, 6> box{};
+        gmsh::model::getBoundingBox(dimension, entity, box[0], box[1], box[2], box[3], box[4],
+                                    box[5]);
+        const auto rounded = [](double value) { return number(std::round(value * 1e6) / 1e6); };
+        text += "\n    " + std::string(dimension == 2 ? "surface " : "curve ") +
+                std::to_string(entity) + ": x " + rounded(box[0]) + " to " + rounded(box[3]) +
+                ", y " + rounded(box[1]) + " to " + rounded(box[4]);
+      }
+    }
+    return text.empty() ? "" : " the model has" + text;
+  }
+
+  /// Ascending tags become indices.
+  void number_nodes() {
+    std::set<Tag> used;
+    for (const auto& nodes : triangle_nodes_) used.insert(nodes.begin(), nodes.end());
+    for (Tag tag : used) {
+      index_[tag] = mesh().node_count();
+      node_tags_.push_back(tag);
+      const auto& x = coordinates_.at(tag);
+      mesh().nodes.emplace_back(x[0], x[1]);
+    }
+    for (const auto& nodes : triangle_nodes_) {
+      mesh().elements.push_back({index_.at(nodes[0]), index_.at(nodes[1]), index_.at(nodes[2])});
+    }
+    Vector<2> low = mesh().nodes.front();
+    Vector<2> high = low;
+    for (const Vector<2>& x : mesh().nodes) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    diagonal_ = (high - low).norm();
+  }
+
+  void check_plane() {
+    Kind kind(result_.problems, "a mesh in the plane z = 0");
+    for (Tag tag : node_tags_) {
+      const auto& x = coordinates_.at(tag);
+      if (std::abs(x[2]) <= out_of_plane * diagonal_) continue;
+      kind.add("node " + std::to_string(tag) + " at (" + number(x[0]) + ", " + number(x[1]) + ", " +
+               number(x[2]) + ")");
+    }
+  }
+
+  void check_duplicate_nodes() {
+    Kind kind(result_.problems,
+              "one node per place, so that neighbours are connected (in Gmsh: Coherence; or "
+              "BooleanFragments, or Coherence Mesh)");
+    const double tolerance = same_place * diagonal_;
+    if (!(tolerance > 0.0)) return;
+    // Cells of the size of the tolerance: a node's duplicates are in its own or the next ones.
+    std::map<std::pair<std::int64_t, std::int64_t>, int> cells;
+    const Vector<2> origin = mesh().nodes.front();
+    for (int n = 0; n < mesh().node_count(); ++n) {
+      const Vector<2> offset = (mesh().nodes[n] - origin) / tolerance;
+      const std::int64_t i = std::llround(offset[0]);
+      const std::int64_t j = std::llround(offset[1]);
+      for (std::int64_t di = -1; di <= 1; ++di) {
+        for (std::int64_t dj = -1; dj <= 1; ++dj) {
+          const auto other = cells.find({i + di, j + dj});
+          if (other == cells.end()) continue;
+          if ((mesh().nodes[other->second] - mesh().nodes[n]).norm() > tolerance) continue;
+          kind.add("nodes " + std::to_string(node_tags_[other->second]) + " and " +
+                   std::to_string(node_tags_[n]) + ", both at " + place(mesh().nodes[n]));
+        }
+      }
+      cells.emplace(std::pair(i, j), n);
+    }
+  }
+
+  void orient_and_check_areas() {
+    Kind kind(result_.problems, "triangles with an area");
+    for (int e = 0; e < mesh().element_count(); ++e) {
+      auto& corners = mesh().elements[e];
+      double longest = 0.0;
+      for (int a = 0; a < 3; ++a) {
+        longest = std::max(
+            longest, (mesh().nodes[corners[(a + 1) % 3]] - mesh().nodes[corners[a]]).squaredNorm());
+      }
+      const double area = element_volume(mesh(), e);
+      if (!(std::abs(area) > smallest_area * longest)) {
+        kind.add("element " + std::to_string(triangle_tags_[e]) + ", flat, with its nodes at " +
+                 place(mesh().nodes[corners[0]]) + ", " + place(mesh().nodes[corners[1]]) + ", " +
+                 place(mesh().nodes[corners[2]]));
+      } else if (area < 0.0) {
+        std::swap(corners[1], corners[2]);
+        ++result_.turned;
+      }
+    }
+  }
+
+  /// All triangles being counter-clockwise, two neighbours run along their edge in opposite
+  /// directions. Those that run in the same one lie on the same side of it.
+  void check_overlaps() {
+    Kind kind(result_.problems,
+              "triangles that do not overlap: the mesh is folded or has one twice");
+    std::map<std::array<int, 2>, int> owner;  // by directed edge
+    for (int e = 0; e < mesh().element_count(); ++e) {
+      const auto& corners = mesh().elements[e];
+      for (int a = 0; a < 3; ++a) {
+        const std::array<int, 2> edge{corners[a], corners[(a + 1) % 3]};
+        const auto [entry, is_new] = owner.emplace(edge, e);
+        if (is_new) continue;
+        kind.add("elements " + std::to_string(triangle_tags_[entry->second]) + " and " +
+                 std::to_string(triangle_tags_[e]) + ", on the same side of the edge from " +
+                 place(mesh().nodes[edge[0]]) + " to " + place(mesh().nodes[edge[1]]));
+        break;
+      }
+    }
+  }
+
+  void read_boundaries() {
+    const FaceTable<2> faces(mesh());
+    Kind wrong_types(result_.problems, "edges of two nodes (in Gmsh: Mesh.ElementOrder = 1)");
+    for (const Group& group : groups(1, "curve")) {
+      Elements edges;
+      for (int entity : group.entities) {
+        Elements more = read_entity(1, entity, line_type, wrong_types);
+        edges.tags.insert(edges.tags.end(), more.tags.begin(), more.tags.end());
+        edges.nodes.insert(edges.nodes.end(), more.nodes.begin(), more.nodes.end());
+      }
+      if (edges.tags.empty()) {
+        report("physical curve \"" + group.name + "\" without edges",
+               "a boundary that is not empty");
+      }
+      mesh().boundaries.push_back({group.name, outer_edges(group.name, edges, faces)});
+    }
+  }
+
+  std::vector<std::array<int, 2>> outer_edges(const std::string& name, const Elements& edges,
+                                              const FaceTable<2>& faces) {
+    Kind kind(result_.problems, "a boundary of outer edges only");
+    std::set<std::array<int, 2>> unique;
+    for (const auto& nodes : edges.nodes) {
+      const auto first = index_.find(nodes[0]);
+      const auto second = index_.find(nodes[1]);
+      const bool known = first != index_.end() && second != index_.end();
+      const std::array<int, 2> edge =
+          known ? face_key<2>({first->second, second->second}) : std::array<int, 2>{-1, -1};
+      const int owners = known ? faces.owners(edge) : 0;
+      if (owners == 1) {
+        unique.insert(edge);
+      } else {
+        kind.add("physical curve \"" + name + "\" with an edge at " + place_of(nodes) +
+                 (owners == 0 ? " that no triangle has" : " that lies inside the mesh"));
+      }
+    }
+    return {unique.begin(), unique.end()};
+  }
+
+  ExtractedMesh result_;
+  std::unordered_map<Tag, std::array<double, 3>> coordinates_;
+  std::unordered_map<Tag, int> index_;
+  std::vector<Tag> node_tags_;  // by index
+  std::vector<Tag> triangle_tags_;
+  std::vector<std::array<Tag, 3>> triangle_nodes_;
+  double diagonal_ = 0.0;
+};
+
+}  // namespace
+
+ExtractedMesh extract_mesh() {
+  return Extraction().run();
+}
+
+}  // namespace suffuse

@@ -1,0 +1,71 @@
+#include "summary.hpp"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace suffuse {
+
+namespace {
+
+/// Below this, steps get small and interpolation poor.
+constexpr double poor_angle = 5.0;
+
+struct Line {
+  std::string label;
+  std::string value;
+};
+
+std::string number(double value, const std::string& unit) {
+  std::ostringstream text;
+  text << value << ' ' << unit;
+  return text.str();
+}
+
+double region_area(const Mesh<2>& mesh, std::size_t region) {
+  double area = 0.0;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (mesh.element_region[e] == static_cast<int>(region)) area += element_volume(mesh, e);
+  }
+  return area;
+}
+
+double boundary_length(const Mesh<2>& mesh, const BoundarySet<2>& set) {
+  double length = 0.0;
+  for (const auto& face : set.faces) length += (mesh.nodes[face[1]] - mesh.nodes[face[0]]).norm();
+  return length;
+}
+
+}  // namespace
+
+std::string mesh_summary(const Mesh<2>& mesh, const MaterialPoints<2>& points,
+                         const std::vector<std::string>& notes) {
+  std::vector<Line> lines{{"elements", std::to_string(mesh.element_count())},
+                          {"nodes", std::to_string(mesh.node_count())},
+                          {"solid points", std::to_string(points.size())},
+                          {"smallest angle", number(smallest_angle(mesh), "degrees")}};
+  for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
+    lines.push_back({"region " + mesh.region_names[r], number(region_area(mesh, r), "m2")});
+  }
+  for (const BoundarySet<2>& set : mesh.boundaries) {
+    lines.push_back({"boundary " + set.name, number(boundary_length(mesh, set), "m")});
+  }
+  std::size_t width = 0;
+  for (const Line& line : lines) width = std::max(width, line.label.size());
+  std::ostringstream text;
+  for (const Line& line : lines) {
+    text << "  " << std::left << std::setw(static_cast<int>(width) + 2) << line.label << line.value
+         << '\n';
+  }
+  for (const std::string& note : notes) text << "  note: " << note << '\n';
+  return text.str();
+}
+
+std::string angle_warning(const Mesh<2>& mesh) {
+  const double angle = smallest_angle(mesh);
+  if (angle >= poor_angle) return "";
+  return "the smallest angle is " + number(angle, "degrees") +
+         "; below 5 degrees steps are short and results poor: change the geometry or mesh.size";
+}
+
+}  // namespace suffuse
