@@ -12,8 +12,12 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Optimal string alignment distance.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
+}  // namespace
+
+// Optimal string alignment distance.
+std::size_t edit_distance(const std::string& left, const std::string& right) {
+  const std::string a = lower(left);
+  const std::string b = lower(right);
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
   for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
@@ -29,13 +33,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return d[a.size()][b.size()];
 }
 
-}  // namespace
-
 std::string closest_name(const std::string& name, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(lower(name), lower(candidate));
+    const std::size_t distance = edit_distance(name, candidate);
     if (distance < best_distance) {
       best = candidate;
       best_distance = distance;

@@ -7,6 +7,10 @@
 
 namespace suffuse {
 
+/// Letters to insert, remove, replace or swap with a neighbour to turn one name into the other,
+/// whatever their case.
+std::size_t edit_distance(const std::string& a, const std::string& b);
+
 /// The candidate that takes the fewest single-letter edits (swapping two neighbours counts as one)
 /// to reach, or empty when none takes at most a third of the letters. Ties go to the first.
 std::string closest_name(const std::string& name, const std::vector<std::string>& candidates);

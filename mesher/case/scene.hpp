@@ -24,14 +24,14 @@ enum class DragIntegration { explicit_drag, implicit_drag };
 enum class InitialFlow { rest, steady };
 
 struct GeometrySettings {
-  std::string file;   ///< user's .geo, .msh or .step; empty when `shape` is used. Relative to the scene.
-  std::string shape;  ///< "column", or empty when `file` is used
+  std::string file;       ///< .geo, .msh or .step, relative to the scene; empty with `shape`
+  std::string shape;      ///< "column"; empty with `file`
   double width = unset;   ///< m
   double height = unset;  ///< m
 };
 
 struct MeshSettings {
-  double size = unset;  ///< element size, m
+  double size = unset;  ///< element size, m; may stay unset with a `file`
   MeshStructure structure = MeshStructure::regular;
 };
 
@@ -49,19 +49,19 @@ struct LiquidProperties {
 
 struct ErosionSettings {
   ErosionLaw law = ErosionLaw::none;
-  double rate = 0.0;   ///< alpha (Eq. 6), beta (Eq. 7) or kappa (first-order), 1/s
-  double start = 0.0;  ///< t_0, s
+  double rate = 0.0;               ///< alpha (Eq. 6), beta (Eq. 7) or kappa (first-order), 1/s
+  double start = 0.0;              ///< t_0, s
   bool momentum_transfer = false;  ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
 };
 
 struct Soil {
-  std::string region;                          ///< name of the region it fills
-  double porosity = unset;                     ///< n_0 at `porosity_origin`
-  std::array<double, 3> porosity_gradient{};   ///< 1/m: n_0(x) = porosity + gradient . (x - origin)
-  std::array<double, 3> porosity_origin{};     ///< m
-  double skeleton_fraction = unset;            ///< n_C
-  double grain_density = unset;                ///< rho_s, kg/m3
-  double conductivity = unset;                 ///< k, m/s
+  std::string region;                         ///< name of the region it fills
+  double porosity = unset;                    ///< n_0 at `porosity_origin`
+  std::array<double, 3> porosity_gradient{};  ///< 1/m: n_0(x) = porosity + gradient . (x - origin)
+  std::array<double, 3> porosity_origin{};    ///< m
+  double skeleton_fraction = unset;           ///< n_C
+  double grain_density = unset;               ///< rho_s, kg/m3
+  double conductivity = unset;                ///< k, m/s
   ErosionSettings erosion;
 
   /// n_L,max = 1 - n_C
@@ -124,7 +124,8 @@ struct Scene {
   [[nodiscard]] const Soil* find_soil(const std::string& region) const;
 };
 
-/// A scene with the text it came from, so that the next stage can check and report against it again.
+/// A scene with the text it came from, so that the next stage can check and report against it
+/// again.
 struct SceneDocument {
   std::string path;                    ///< as the user gave it
   std::string text;                    ///< the TOML file, byte for byte

@@ -1,0 +1,430 @@
+#include "case/scene.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "case/closest_name.hpp"
+#include "case/errors.hpp"
+#include "case/scene_checks.hpp"
+#include "case/scene_schema.hpp"
+#include "case/scene_tree.hpp"
+#include "case/suggestion.hpp"
+
+namespace suffuse {
+namespace {
+
+using Form = SceneNode::Form;
+using Places = std::map<std::string, Place>;
+
+constexpr const char* like = "like";
+
+/// The pattern of what is called `name` in a table, or nothing when there is no such key or table.
+std::optional<std::string> pattern_below(const std::string& table, const std::string& name) {
+  for (const std::string& child : scene_children(table)) {
+    if (child == "*" || (child == name && child != "[]")) return joined(table, child);
+  }
+  return std::nullopt;
+}
+
+bool is_list(const std::string& pattern) {
+  return scene_children(pattern) == std::vector<std::string>{"[]"};
+}
+
+std::string indexed(const std::string& key, std::size_t index) {
+  return key + '[' + std::to_string(index) + ']';
+}
+
+/// The nearest enclosing key of `key` that `places` knows, `key` included; nullptr when none is.
+const Place* find_place(const Places& places, std::string key) {
+  while (!key.empty()) {
+    if (const auto found = places.find(key); found != places.end()) return &found->second;
+    const std::size_t end = key.find_last_of(".[");
+    key.resize(end == std::string::npos ? 0 : end);
+  }
+  return nullptr;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const std::string& text, std::string path, const std::vector<std::string>& overrides)
+      : path_(std::move(path)), root_(read_toml(text, path_)) {
+    for (std::size_t i = 0; i < overrides.size(); ++i) apply_override(overrides[i], i + 1);
+  }
+
+  Scene read() {
+    check_table(root_, "", "");
+    inherit();
+    collect_places(root_, "");
+    bind();
+    complete();
+    check_scene(scene_,
+                {.given = [this](const std::string& key) { return places_.contains(key); },
+                 .report = [this](const std::string& key, const std::string& found,
+                                  const std::string& expected) { report(key, found, expected); }});
+    throw_problems();
+    return scene_;
+  }
+
+  [[nodiscard]] std::map<std::string, std::string> where() const {
+    std::map<std::string, std::string> where;
+    for (const auto& [key, place] : places_) where.emplace(key, place.text);
+    return where;
+  }
+
+ private:
+  struct Problem {
+    Place place;
+    InputProblem problem;
+  };
+
+  /// The table that keys of a pattern are found in: the scene itself, one soil or one boundary.
+  struct Instance {
+    const SceneNode* table;
+    std::string key;  ///< of the table
+    std::size_t index;
+  };
+
+  void report(const Place& place, const std::string& key, const std::string& found,
+              const std::string& expected, const std::string& suggestion = {}) {
+    problems_.push_back({place,
+                         {.where = place.text,
+                          .key = key,
+                          .found = found,
+                          .expected = expected,
+                          .suggestion = suggestion}});
+  }
+
+  /// Reports a problem where its key was given.
+  void report(const std::string& key, const std::string& found, const std::string& expected) {
+    const Place* place = find_place(places_, key);
+    report(place ? *place : root_.place, key, found, expected);
+  }
+
+  void throw_problems() {
+    if (problems_.empty()) return;
+    std::ranges::stable_sort(problems_, std::less{}, &Problem::place);
+    std::vector<InputProblem> sorted;
+    for (Problem& p : problems_) sorted.push_back(std::move(p.problem));
+    throw InputError(std::move(sorted));
+  }
+
+  // Overrides.
+
+  void apply_override(const std::string& argument, std::size_t source) {
+    try {
+      insert(read_override(argument, source));
+    } catch (const InputError& error) {
+      const InputProblem& problem = error.problems().front();
+      problems_.push_back({{.source = source, .line = 0, .text = problem.where}, problem});
+    }
+  }
+
+  void insert(const Override& change) {
+    SceneNode* node = &root_;
+    std::string key;
+    std::string pattern;
+    for (const KeyStep& step : change.key) {
+      const std::optional<std::string> next = step.index && is_list(pattern)
+                                                  ? std::optional(pattern + "[]")
+                                                  : pattern_below(pattern, step.name);
+      if (!next || step.index.has_value() != is_list(pattern)) {
+        return report_unknown(key, pattern, step.shown(), step.name, change.node);
+      }
+      // A value where a table belongs is reported as what it is.
+      if (node->form != (is_list(pattern) ? Form::list : Form::table)) return;
+      node = step.index ? entry_at(*node, key, *step.index, change.node)
+                        : child_at(*node, step.name, *next, change.node);
+      if (!node) return;
+      key = joined(key, step.shown());
+      pattern = *next;
+    }
+    std::string name = std::move(node->name);
+    *node = change.node;
+    node->name = std::move(name);
+  }
+
+  /// The child of this name, made when there is none.
+  static SceneNode* child_at(SceneNode& table, const std::string& name, const std::string& pattern,
+                             const SceneNode& change) {
+    if (SceneNode* child = table.find(name)) return child;
+    SceneNode made;
+    made.name = name;
+    made.form = is_list(pattern) ? Form::list : Form::table;
+    made.place = change.place;
+    return &table.children.emplace_back(std::move(made));
+  }
+
+  /// The entry of this index, made when it is the next; nullptr, and a report, beyond that.
+  SceneNode* entry_at(SceneNode& list, const std::string& key, std::size_t index,
+                      const SceneNode& change) {
+    const std::size_t count = list.children.size();
+    if (index < count) return &list.children[index];
+    if (index > count) {
+      report(change.place, indexed(key, index), "an index past the end",
+             "0 to " + std::to_string(count) + ", the last of which adds an entry");
+      return nullptr;
+    }
+    SceneNode made;
+    made.place = change.place;
+    return &list.children.emplace_back(std::move(made));
+  }
+
+  // Checks of each key by itself.
+
+  void check_table(SceneNode& table, const std::string& key, const std::string& pattern) {
+    for (SceneNode& child : table.children) {
+      const std::string name = shown_name(child.name);
+      if (const auto below = pattern_below(pattern, child.name)) {
+        check_node(child, joined(key, name), *below);
+      } else {
+        report_unknown(key, pattern, name, child.name, child);
+      }
+    }
+  }
+
+  void check_node(SceneNode& node, const std::string& key, const std::string& pattern) {
+    if (const SceneKey* declared = find_scene_key(pattern))
+      return check_value(node, key, *declared);
+    if (is_list(pattern)) {
+      // An empty array could be an empty list of anything.
+      const bool empty = node.form == Form::value && node.value == Value(std::vector<double>{});
+      if (node.form != Form::list && !empty) {
+        return report(node.place, key, node.shown, "a list of tables, each under [[" + key + "]]");
+      }
+      for (std::size_t i = 0; i < node.children.size(); ++i) {
+        check_table(node.children[i], indexed(key, i), pattern + "[]");
+      }
+      return;
+    }
+    if (node.form != Form::table) {
+      return report(node.place, key, node.shown, "a table with " + members(pattern));
+    }
+    check_table(node, key, pattern);
+  }
+
+  void check_value(SceneNode& node, const std::string& key, const SceneKey& declared) {
+    if (node.value) node.accepted = declared.accept(*node.value);
+    if (node.accepted) return;
+    std::string expected = declared.expected();
+    const bool unbounded = node.shown.find("inf") < 2 || node.shown.find("nan") < 2;
+    if (unbounded && expected.starts_with("a number")) expected.replace(0, 1, "a finite");
+    // With a single word, what is expected says it all.
+    const auto* text = node.value ? std::get_if<std::string>(&*node.value) : nullptr;
+    std::string suggestion;
+    if (text && declared.words.size() > 1) suggestion = closest_name(*text, declared.words);
+    if (!suggestion.empty()) suggestion = shown_value(suggestion);
+    report(node.place, key, node.shown, expected, suggestion);
+  }
+
+  void report_unknown(const std::string& table, const std::string& pattern,
+                      const std::string& shown, const std::string& name, const SceneNode& node) {
+    const std::string found = node.form == Form::value ? "an unknown key" : "an unknown table";
+    report(node.place, joined(table, shown), found, members(pattern),
+           nearest_key(name, table, pattern, example_soil()));
+  }
+
+  /// What a table may hold, in words.
+  [[nodiscard]] static std::string members(const std::string& pattern) {
+    if (is_list(pattern)) return "an entry such as " + indexed(pattern, 0);
+    if (scene_children(pattern) == std::vector<std::string>{"*"}) return "names of regions";
+    if (const auto all = scene_children(pattern); !all.empty()) return listed(all);
+    return "a value, not a table";
+  }
+
+  /// The only soil there is, or a word that stands for any.
+  [[nodiscard]] std::string example_soil() const {
+    const SceneNode* soils = root_.find("soil");
+    return soils && soils->children.size() == 1 ? shown_name(soils->children[0].name) : "NAME";
+  }
+
+  // `like`.
+
+  void inherit() {
+    SceneNode* soils = root_.find("soil");
+    if (!soils) return;
+    std::set<std::string> visiting;
+    for (SceneNode& soil : soils->children) inherit(soil, *soils, visiting);
+  }
+
+  /// Fills in what `soil` takes from another; false when there is no telling.
+  // NOLINTNEXTLINE(misc-no-recursion): ends at a soil without `like`, or one that is being visited
+  bool inherit(SceneNode& soil, SceneNode& soils, std::set<std::string>& visiting) {
+    if (without_inheritance_.contains(soil.name)) return false;
+    const SceneNode* reference = soil.find(like);
+    if (!reference) return soil.form == Form::table;
+    const bool found = reference->accepted && inherit_from(*reference, soil, soils, visiting);
+    if (!found) without_inheritance_.insert(soil.name);
+    return found;
+  }
+
+  // NOLINTNEXTLINE(misc-no-recursion)
+  bool inherit_from(const SceneNode& reference, SceneNode& soil, SceneNode& soils,
+                    std::set<std::string>& visiting) {
+    const auto& name = std::get<std::string>(*reference.accepted);
+    const std::string key = "soil." + shown_name(soil.name) + ".like";
+    SceneNode* other = soils.find(name);
+    if (!other) {
+      std::vector<std::string> others;
+      for (const SceneNode& each : soils.children) {
+        if (each.name != soil.name) others.push_back(each.name);
+      }
+      const std::string suggestion = closest_name(name, others);
+      report(reference.place, key, reference.shown,
+             others.empty() ? "no such key: there is no other soil"
+                            : "the name of another soil: " + listed(others),
+             suggestion.empty() ? "" : shown_value(suggestion));
+      return false;
+    }
+    visiting.insert(soil.name);
+    const bool cycle = visiting.contains(name);
+    if (cycle) {
+      report(reference.place, key, reference.shown,
+             "a soil that does not lead back to " + shown_name(soil.name));
+    }
+    const bool complete = !cycle && inherit(*other, soils, visiting);
+    visiting.erase(soil.name);
+    if (complete) add_missing(*other, soil);
+    return complete;
+  }
+
+  // NOLINTNEXTLINE(misc-no-recursion): as deep as the scene's tables
+  static void add_missing(const SceneNode& from, SceneNode& to) {
+    for (const SceneNode& child : from.children) {
+      if (child.name == like) continue;
+      SceneNode* own = to.find(child.name);
+      if (!own) {
+        to.children.push_back(child);
+      } else if (own->form == Form::table && child.form == Form::table) {
+        add_missing(child, *own);
+      }
+    }
+  }
+
+  // From the tree to the scene.
+
+  // NOLINTNEXTLINE(misc-no-recursion): as deep as the scene's tables
+  void collect_places(const SceneNode& node, const std::string& key) {
+    if (!key.empty()) places_.emplace(key, node.place);
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      const SceneNode& child = node.children[i];
+      collect_places(
+          child, node.form == Form::list ? indexed(key, i) : joined(key, shown_name(child.name)));
+    }
+  }
+
+  /// The tables of a group: soils or boundaries.
+  [[nodiscard]] std::vector<Instance> members_of(const std::string& group) const {
+    std::vector<Instance> instances;
+    const SceneNode* node = root_.find(group);
+    if (!node || node->form == Form::value) return instances;
+    for (std::size_t i = 0; i < node->children.size(); ++i) {
+      const SceneNode& child = node->children[i];
+      if (child.form != Form::table) continue;
+      const std::string key =
+          node->form == Form::list ? indexed(group, i) : joined(group, shown_name(child.name));
+      instances.push_back({&child, key, instances.size()});
+    }
+    return instances;
+  }
+
+  void bind() {
+    const std::vector<Instance> soils = members_of("soil");
+    const std::vector<Instance> boundaries = members_of("boundary");
+    for (const Instance& soil : soils) scene_.soils.emplace_back().region = soil.table->name;
+    scene_.boundaries.resize(boundaries.size());
+    const std::vector<Instance> whole = {{&root_, "", 0}};
+    for (const SceneKey& declared : scene_keys()) {
+      const bool of_soil = declared.pattern.starts_with("soil.*.");
+      const bool of_boundary = declared.pattern.starts_with("boundary[].");
+      const std::size_t prefix = of_soil       ? std::string("soil.*.").size()
+                                 : of_boundary ? std::string("boundary[].").size()
+                                               : 0;
+      for (const Instance& instance : of_soil ? soils : of_boundary ? boundaries : whole) {
+        bind(declared, instance, declared.pattern.substr(prefix));
+      }
+    }
+    if (!root_.find("soil")) {
+      report("soil", "nothing", "at least one table [soil.NAME], NAME being its region's");
+    }
+  }
+
+  /// \param path  of the key within the instance's table
+  void bind(const SceneKey& declared, const Instance& instance, const std::string& path) {
+    const SceneNode* node = instance.table;
+    for (std::size_t begin = 0; node && begin <= path.size();) {
+      if (node->form != Form::table) return;  // reported already
+      const std::size_t end = std::min(path.find('.', begin), path.size());
+      node = node->find(path.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    if (node && node->accepted) declared.store(scene_, instance.index, *node->accepted);
+    if (node) return;
+    if (declared.default_value) declared.store(scene_, instance.index, *declared.default_value);
+    const bool unknown = without_inheritance_.contains(instance.table->name);
+    if (declared.required && !unknown) {
+      report(joined(instance.key, path), "nothing", declared.expected());
+    }
+  }
+
+  /// Defaults that depend on other keys.
+  void complete() {
+    if (!places_.contains("name")) scene_.name = std::filesystem::path(path_).stem().string();
+    if (!places_.contains("output.snapshot_every")) {
+      scene_.output.snapshot_every = scene_.output.every;
+    }
+    if (!places_.contains("mesh.structure") && places_.contains("geometry.file")) {
+      scene_.mesh.structure = MeshStructure::free;
+    }
+  }
+
+  std::string path_;
+  std::vector<Problem> problems_;
+  SceneNode root_;
+  std::set<std::string> without_inheritance_;  ///< soils whose `like` leads nowhere
+  Places places_;
+  Scene scene_;
+};
+
+}  // namespace
+
+const Soil* Scene::find_soil(const std::string& region) const {
+  const auto found = std::ranges::find(soils, region, &Soil::region);
+  return found == soils.end() ? nullptr : &*found;
+}
+
+std::string SceneDocument::locate(const std::string& key) const {
+  std::string nearest = key;
+  while (!nearest.empty()) {
+    if (const auto found = where.find(nearest); found != where.end()) return found->second;
+    const std::size_t end = nearest.find_last_of(".[");
+    nearest.resize(end == std::string::npos ? 0 : end);
+  }
+  return path;
+}
+
+SceneDocument parse_scene(const std::string& text, const std::string& path,
+                          const std::vector<std::string>& overrides) {
+  SceneReader reader(text, path, overrides);
+  SceneDocument document{
+      .path = path, .text = text, .overrides = overrides, .scene = {}, .where = {}};
+  document.scene = reader.read();
+  document.where = reader.where();
+  return document;
+}
+
+SceneDocument read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw FileError("cannot read the scene " + path);
+  }
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad()) throw FileError("cannot read the scene " + path);
+  return parse_scene(text, path, overrides);
+}
+
+}  // namespace suffuse

@@ -1,0 +1,181 @@
+#include "case/scene_checks.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "case/scene_schema.hpp"
+
+namespace suffuse {
+namespace {
+
+using Vector3 = std::array<double, 3>;
+
+class Checks {
+ public:
+  Checks(const Scene& scene, const SceneInquiry& inquiry) : scene_(scene), inquiry_(inquiry) {}
+
+  void run() const {
+    check_geometry();
+    if (given("geometry.shape")) check_column();
+    for (const Soil& soil : scene_.soils) check_soil(soil);
+    check_boundaries();
+    check_times();
+  }
+
+ private:
+  [[nodiscard]] bool given(const std::string& key) const { return inquiry_.given(key); }
+  void report(const std::string& key, const std::string& found, const std::string& expected) const {
+    inquiry_.report(key, found, expected);
+  }
+  /// Reports `key` as missing, with what its declaration says.
+  void require(const std::string& key, const std::string& pattern, const std::string& why) const {
+    if (!given(key)) report(key, "nothing", find_scene_key(pattern)->expected() + ", " + why);
+  }
+
+  void check_geometry() const {
+    const bool file = given("geometry.file");
+    const bool shape = given("geometry.shape");
+    if (file && shape) report("geometry.shape", "a shape and a file", "one of the two");
+    if (!file && !shape) report("geometry", "neither file nor shape", "one of the two");
+    if (file && !shape) check_file();
+  }
+
+  void check_file() const {
+    const std::string& file = scene_.geometry.file;
+    for (const std::string key : {"geometry.width", "geometry.height"}) {
+      if (given(key)) {
+        report(key, "a size for geometry.file", "it with shape = \"column\" only");
+      }
+    }
+    if (given("mesh.structure") && scene_.mesh.structure == MeshStructure::regular) {
+      report("mesh.structure", "\"regular\" for geometry.file",
+             "\"free\": only the built-in shapes have a regular mesh");
+    }
+    if (file.empty()) return;
+    const std::string extension = std::filesystem::path(file).extension();
+    if (extension != ".geo" && extension != ".msh" && extension != ".step") {
+      report("geometry.file", shown_value(file), "a file that ends in .geo, .msh or .step");
+    }
+    if (extension == ".msh" && given("mesh.size")) {
+      report("mesh.size", "a size for " + file, "none: the file is a mesh already");
+    }
+  }
+
+  void check_column() const {
+    const std::string why = "for shape = \"column\"";
+    for (const std::string key : {"geometry.width", "geometry.height", "mesh.size"}) {
+      require(key, key, why);
+    }
+    const double smallest = std::min(scene_.geometry.width, scene_.geometry.height);
+    if (scene_.mesh.size > smallest) {
+      report("mesh.size", shown_value(scene_.mesh.size),
+             "h <= " + shown_number(smallest) + " m, the smaller of width and height");
+    }
+    check_two_dimensional("gravity", scene_.gravity);
+    for (const Soil& soil : scene_.soils) {
+      const std::string table = table_of(soil);
+      check_two_dimensional(table + ".porosity_gradient", soil.porosity_gradient);
+      check_two_dimensional(table + ".porosity_origin", soil.porosity_origin);
+    }
+  }
+
+  void check_two_dimensional(const std::string& key, const Vector3& value) const {
+    if (value[2] != 0.0) {
+      report(key, shown_value(std::vector(value.begin(), value.end())),
+             "two numbers: a column is two-dimensional");
+    }
+  }
+
+  [[nodiscard]] static std::string table_of(const Soil& soil) {
+    return joined("soil", shown_name(soil.region));
+  }
+
+  void check_soil(const Soil& soil) const {
+    const std::string table = table_of(soil);
+    if (soil.porosity + soil.skeleton_fraction > 1.0) {
+      report(table + ".skeleton_fraction",
+             "n_0 + n_C = " + shown_number(soil.porosity) + " + " +
+                 shown_number(soil.skeleton_fraction) + " > 1",
+             "n_0 + n_C <= 1");
+    }
+    check_erosion(soil, table + ".erosion");
+  }
+
+  void check_erosion(const Soil& soil, const std::string& table) const {
+    for (const std::string& name : scene_children("soil.*.erosion")) {
+      if (given(joined(table, name))) {
+        require(table + ".law", "soil.*.erosion.law", "as " + name + " is given");
+        break;
+      }
+    }
+    if (soil.erosion.law != ErosionLaw::none) {
+      require(table + ".rate", "soil.*.erosion.rate", "as law is not \"none\"");
+    }
+  }
+
+  void check_boundaries() const {
+    std::map<std::string, std::string> first_entry;  // by the boundary's name
+    for (std::size_t i = 0; i < scene_.boundaries.size(); ++i) {
+      const std::string entry = "boundary[" + std::to_string(i) + "]";
+      const BoundaryCondition& boundary = scene_.boundaries[i];
+      check_boundary(boundary, entry);
+      if (boundary.on.empty()) continue;
+      const auto [earlier, is_new] = first_entry.emplace(boundary.on, entry);
+      if (!is_new) {
+        report(entry + ".on", shown_value(boundary.on) + ", as in " + earlier->second,
+               "one entry per boundary");
+      }
+    }
+  }
+
+  void check_boundary(const BoundaryCondition& boundary, const std::string& entry) const {
+    std::vector<std::string> conditions;
+    for (const std::string name : {"pressure", "velocity", "darcy_flux"}) {
+      if (given(joined(entry, name))) conditions.push_back(name);
+    }
+    if (conditions.size() > 1) {
+      report(entry, listed(conditions, "and"), "one of pressure, velocity and darcy_flux");
+    }
+    if (conditions.empty() && !given(entry + ".concentration")) {
+      report(entry, "no condition",
+             "at least one of pressure, velocity, darcy_flux and concentration");
+    }
+    check_outflow(boundary.velocity, "velocity v_L", boundary, entry);
+    check_outflow(boundary.darcy_flux, "darcy_flux q", boundary, entry);
+  }
+
+  /// A concentration is that of liquid that enters: contradictory where liquid is drawn out.
+  void check_outflow(const std::optional<double>& flow, const std::string& name,
+                     const BoundaryCondition& boundary, const std::string& entry) const {
+    if (!boundary.concentration || !flow || *flow >= 0.0) return;
+    report(entry + ".concentration",
+           "c = " + shown_number(*boundary.concentration) + " where the liquid leaves, " + name +
+               " = " + shown_number(*flow),
+           "no concentration, or an inflow");
+  }
+
+  void check_times() const {
+    const TimeSettings& time = scene_.time;
+    const OutputSettings& output = scene_.output;
+    if (time.step && *time.step > time.end) {
+      report("time.step", shown_value(*time.step), "dt <= T = " + shown_number(time.end) + " s");
+    }
+    if (output.snapshot_every < output.every) {
+      report("output.snapshot_every", shown_value(output.snapshot_every),
+             "at least output.every, " + shown_number(output.every) + " s");
+    }
+  }
+
+  const Scene& scene_;
+  const SceneInquiry& inquiry_;
+};
+
+}  // namespace
+
+void check_scene(const Scene& scene, const SceneInquiry& inquiry) {
+  Checks(scene, inquiry).run();
+}
+
+}  // namespace suffuse

@@ -1,0 +1,158 @@
+#include <sstream>
+
+#include "case/scene.hpp"
+#include "case/scene_schema.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr const char* introduction = R"(# Scene reference
+
+<!-- Generated from mesher/case/scene_schema.cpp. To change it, change that and run
+     suffuse-mesher --scene-reference > docs/scene-reference.md -->
+
+A scene is a [TOML](https://toml.io) file that `suffuse-mesher` turns into a case. Units are SI. Where
+a number is expected, `6000`, `6e3` and `6000.0` are the same; `nan` and `inf` are refused.
+
+Every key of the file is checked before anything is computed. Unknown keys, wrong types, values out of
+bounds, missing keys and keys that contradict each other are all reported at once, as
+`FILE:LINE: KEY: got VALUE; expected WHAT; did you mean NAME?`, with exit code 2.
+
+## Changing keys from the command line
+
+`--set KEY=VALUE` gives a key of the scene another value, or adds it, as often as needed. It goes
+through the same checks. Write keys in full, entries of `[[boundary]]` by position from 0:
+
+    suffuse-mesher scene.toml --set soil.specimen.erosion.rate=5e-3 --set time.drag=implicit
+    suffuse-mesher scene.toml --set boundary[0].pressure=3e3
+    suffuse-mesher scene.toml --set 'boundary[0]={on = "top", darcy_flux = 0.012}'
+
+The value is TOML; a text that is not TOML, such as `implicit`, needs no quotes. Setting a whole table
+replaces it, as in the third line: the pressure given in the file is gone.
+
+## Keys
+
+`-` stands for a quantity without a unit, or for a key without a symbol. Symbols are those of the theory.
+)";
+
+constexpr const char* example = R"(
+## An example
+
+A column of 1 m by 1 m under a head of 6 kPa, two layers of which the lower one does not erode, is this
+(the regions `sand` and `base` and the boundaries `top` and `bottom` being physical groups in
+`layers.geo`):
+
+```toml
+name        = "two-layers"
+formulation = "single-point"
+
+[geometry]
+file = "layers.geo"
+
+[mesh]
+size = 0.05
+
+[liquid]
+density      = 1000.0
+bulk_modulus = 2.0e7
+viscosity    = 1.0e-3
+
+[soil.sand]
+porosity          = 0.3
+skeleton_fraction = 0.6
+grain_density     = 2700.0
+conductivity      = 2.0e-2
+
+[soil.sand.erosion]
+law   = "constant"
+rate  = 1.0e-3
+start = 2.0
+
+[soil.base]
+like         = "sand"      # every key that is not given here
+erosion.law  = "none"
+
+[[boundary]]
+on            = "top"
+pressure      = 6.0e3
+concentration = 0.0
+
+[[boundary]]
+on       = "bottom"
+pressure = 0.0
+
+[time]
+end          = 120.0
+scheme       = "explicit"
+mass_scaling = 1.0e4
+
+[output]
+every = 1.0
+```
+)";
+
+/// A cell of a Markdown table; `-` when there is nothing to say.
+std::string cell(const std::string& text) {
+  if (text.empty()) return "-";
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
+
+std::string code(const std::string& text) {
+  return text.empty() ? text : '`' + text + '`';
+}
+
+std::string type_of(const SceneKey& key) {
+  std::vector<std::string> all;
+  switch (key.kind) {
+    case ValueKind::text:
+      return "text";
+    case ValueKind::word:
+      for (const std::string& word : key.words) all.push_back(code(shown_value(word)));
+      return listed(all);
+    case ValueKind::number:
+      return "number";
+    case ValueKind::integer:
+      for (const std::int64_t integer : key.integers) all.push_back(std::to_string(integer));
+      return all.empty() ? "integer" : listed(all);
+    case ValueKind::boolean:
+      return "`true` or `false`";
+    case ValueKind::vector:
+      return "array of 2 or 3 numbers";
+  }
+  return {};
+}
+
+std::string default_of(const SceneKey& key) {
+  if (key.required) return "**required**";
+  return key.default_value ? code(shown_value(*key.default_value)) : key.default_note;
+}
+
+void write_section(std::ostream& out, const SceneSection& section) {
+  const bool is_table = section.heading.starts_with('[');
+  out << "\n### " << (is_table ? code(section.heading) : section.heading) << "\n\n"
+      << section.sentence << "\n\n"
+      << "| key | symbol | type | unit | bounds | default | meaning |\n"
+      << "|---|---|---|---|---|---|---|\n";
+  for (const SceneKey& key : scene_keys()) {
+    if (key.pattern != joined(section.pattern, key.leaf())) continue;
+    for (const std::string& text : {code(key.leaf()), cell(key.symbol), type_of(key),
+                                    cell(key.unit), cell(key.bounds()), cell(default_of(key))}) {
+      out << "| " << text << ' ';
+    }
+    out << "| " << cell(key.sentence) << " |\n";
+  }
+}
+
+}  // namespace
+
+std::string scene_reference_markdown() {
+  std::ostringstream out;
+  out << introduction;
+  for (const SceneSection& section : scene_sections()) write_section(out, section);
+  out << example;
+  return out.str();
+}
+
+}  // namespace suffuse

@@ -1,0 +1,552 @@
+#include "case/scene_schema.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace suffuse {
+namespace {
+
+// Where a key is kept.
+
+template <class Member>
+auto at(Member Scene::*member) {
+  return [=](Scene& scene, std::size_t) -> Member& { return scene.*member; };
+}
+
+template <class Group, class Member>
+auto at(Group Scene::*group, Member Group::*member) {
+  return [=](Scene& scene, std::size_t) -> Member& { return scene.*group.*member; };
+}
+
+template <class Member>
+auto in_soil(Member Soil::*member) {
+  return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].*member; };
+}
+
+template <class Member>
+auto in_erosion(Member ErosionSettings::*member) {
+  return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].erosion.*member; };
+}
+
+template <class Member>
+auto on_boundary(Member BoundaryCondition::*member) {
+  return [=](Scene& scene, std::size_t i) -> Member& { return scene.boundaries[i].*member; };
+}
+
+// How a value is kept: one overload per type of member, and the kind of value it calls for.
+
+void keep(double& member, const Value& value) {
+  member = std::get<double>(value);
+}
+void keep(std::optional<double>& member, const Value& value) {
+  member = std::get<double>(value);
+}
+void keep(int& member, const Value& value) {
+  member = static_cast<int>(std::get<std::int64_t>(value));
+}
+void keep(bool& member, const Value& value) {
+  member = std::get<bool>(value);
+}
+void keep(std::string& member, const Value& value) {
+  member = std::get<std::string>(value);
+}
+void keep(std::array<double, 3>& member, const Value& value) {
+  member = {};
+  std::ranges::copy(std::get<std::vector<double>>(value), member.begin());
+}
+
+ValueKind kind_of(const double&) {
+  return ValueKind::number;
+}
+ValueKind kind_of(const std::optional<double>&) {
+  return ValueKind::number;
+}
+ValueKind kind_of(const int&) {
+  return ValueKind::integer;
+}
+ValueKind kind_of(const bool&) {
+  return ValueKind::boolean;
+}
+ValueKind kind_of(const std::string&) {
+  return ValueKind::text;
+}
+ValueKind kind_of(const std::array<double, 3>&) {
+  return ValueKind::vector;
+}
+
+template <class Access>
+using MemberOf = std::remove_reference_t<std::invoke_result_t<Access, Scene&, std::size_t>>;
+
+/// A key under construction; each call returns the key so that a declaration is one expression.
+struct Declaration : SceneKey {
+  Declaration&& named(const char* name) && { return set(symbol, name); }
+  Declaration&& in(const char* si_unit) && { return set(unit, si_unit); }
+  Declaration&& above(double x) && { return set(lower, Bound{x, true}); }
+  Declaration&& at_least(double x) && { return set(lower, Bound{x, false}); }
+  Declaration&& below(double x) && { return set(upper, Bound{x, true}); }
+  Declaration&& at_most(double x) && { return set(upper, Bound{x, false}); }
+  Declaration&& one_of(std::vector<std::int64_t> all) && { return set(integers, std::move(all)); }
+  Declaration&& mandatory() && { return set(required, true); }
+  Declaration&& otherwise(Value value) && { return set(default_value, std::move(value)); }
+  Declaration&& otherwise_as(const char* note) && { return set(default_note, note); }
+
+ private:
+  template <class Field, class New>
+  Declaration&& set(Field& field, New&& value) {
+    field = std::forward<New>(value);
+    return std::move(*this);
+  }
+};
+
+template <class Access>
+Declaration key(const char* pattern, Access access, const char* sentence) {
+  Declaration d;
+  d.pattern = pattern;
+  d.kind = kind_of(MemberOf<Access>{});
+  d.sentence = sentence;
+  d.store = [access](Scene& scene, std::size_t i, const Value& value) {
+    keep(access(scene, i), value);
+  };
+  return d;
+}
+
+/// A key whose value is one of a few words, each standing for a value of the member.
+template <class Access>
+Declaration choice(const char* pattern, Access access,
+                   const std::vector<std::pair<std::string, MemberOf<Access>>>& meanings,
+                   const char* sentence) {
+  Declaration d;
+  d.pattern = pattern;
+  d.kind = ValueKind::word;
+  d.sentence = sentence;
+  for (const auto& meaning : meanings) d.words.push_back(meaning.first);
+  d.store = [access, meanings](Scene& scene, std::size_t i, const Value& value) {
+    const auto& word = std::get<std::string>(value);
+    access(scene, i) =
+        std::ranges::find(meanings, word, [](const auto& m) { return m.first; })->second;
+  };
+  return d;
+}
+
+/// A key the reader itself acts on; the scene keeps nothing of it.
+Declaration instruction(const char* pattern, const char* sentence) {
+  Declaration d;
+  d.pattern = pattern;
+  d.kind = ValueKind::text;
+  d.sentence = sentence;
+  d.store = [](Scene&, std::size_t, const Value&) {};
+  return d;
+}
+
+std::vector<SceneKey> declare_keys() {
+  using Geometry = GeometrySettings;
+  using Points = PointSettings;
+  using Liquid = LiquidProperties;
+  using Boundary = BoundaryCondition;
+  return {
+      key("name", at(&Scene::name), "What the run is called in figures and reports.")
+          .otherwise_as("the file's name"),
+      choice(
+          "formulation", at(&Scene::formulation), {{"single-point", Formulation::single_point}},
+          "How the two phases are carried: in one set of material points that follows the solid.")
+          .mandatory(),
+      key("gravity", at(&Scene::gravity),
+          "Acceleration of gravity. Without it p is the pressure in excess of the hydrostatic one.")
+          .named("g")
+          .in("m/s2")
+          .otherwise(std::vector{0.0, 0.0}),
+
+      key("geometry.file", at(&Scene::geometry, &Geometry::file),
+          "Your own .geo, .msh or .step file, relative to the scene; its physical groups name "
+          "regions and boundaries.")
+          .otherwise_as("required without `shape`"),
+      key("geometry.width", at(&Scene::geometry, &Geometry::width), "Width of the column.")
+          .in("m")
+          .above(0.0)
+          .otherwise_as("required with `shape`"),
+      key("geometry.height", at(&Scene::geometry, &Geometry::height), "Height of the column.")
+          .in("m")
+          .above(0.0)
+          .otherwise_as("required with `shape`"),
+      choice("geometry.shape", at(&Scene::geometry, &Geometry::shape), {{"column", "column"}},
+             "A built-in geometry. A column has the region `specimen` and the boundaries `top`, "
+             "`bottom`, `left` and `right`; its lower left corner is the origin.")
+          .otherwise_as("required without `file`"),
+
+      key("mesh.size", at(&Scene::mesh, &MeshSettings::size),
+          "Size of the elements; with a .geo or .step file the largest size.")
+          .named("h")
+          .in("m")
+          .above(0.0)
+          .otherwise_as("required with `shape`"),
+      choice("mesh.structure", at(&Scene::mesh, &MeshSettings::structure),
+             {{"regular", MeshStructure::regular}, {"free", MeshStructure::free}},
+             "Two right triangles per square, or Gmsh's unstructured triangles.")
+          .otherwise_as("`\"regular\"`; with `file`, `\"free\"`"),
+
+      key("points.solid_per_element", at(&Scene::points, &Points::solid_per_element),
+          "Solid material points in each triangle, at its Gauss points.")
+          .one_of({1, 3, 6, 12})
+          .otherwise(3),
+      key("points.jitter", at(&Scene::points, &Points::jitter),
+          "How far points are moved off the Gauss positions, as a fraction of the element size.")
+          .at_least(0.0)
+          .at_most(0.5)
+          .otherwise(0.0),
+      key("points.seed", at(&Scene::points, &Points::seed),
+          "Seed of the jitter: the same seed gives the same points.")
+          .at_least(0)
+          .otherwise(1),
+
+      key("liquid.density", at(&Scene::liquid, &Liquid::density), "Density of the water.")
+          .named("rho_w")
+          .in("kg/m3")
+          .above(0.0)
+          .mandatory(),
+      key("liquid.bulk_modulus", at(&Scene::liquid, &Liquid::bulk_modulus),
+          "Bulk modulus of the water; the explicit scheme needs a finite one.")
+          .named("K")
+          .in("Pa")
+          .above(0.0)
+          .mandatory(),
+      key("liquid.viscosity", at(&Scene::liquid, &Liquid::viscosity),
+          "Dynamic viscosity of the water.")
+          .named("mu")
+          .in("Pa s")
+          .above(0.0)
+          .mandatory(),
+
+      instruction("soil.*.like",
+                  "Another soil that every key not given here is taken from, erosion included.")
+          .otherwise_as("none"),
+      key("soil.*.porosity", in_soil(&Soil::porosity),
+          "Initial porosity; with a gradient, its value at `porosity_origin`.")
+          .named("n_0")
+          .above(0.0)
+          .below(1.0)
+          .mandatory(),
+      key("soil.*.porosity_gradient", in_soil(&Soil::porosity_gradient),
+          "Gradient of the initial porosity: n_0(x) = porosity + gradient . (x - origin).")
+          .named("grad n_0")
+          .in("1/m")
+          .otherwise(std::vector{0.0, 0.0}),
+      key("soil.*.porosity_origin", in_soil(&Soil::porosity_origin),
+          "Where the initial porosity is `porosity`, for the gradient.")
+          .in("m")
+          .otherwise(std::vector{0.0, 0.0}),
+      key("soil.*.skeleton_fraction", in_soil(&Soil::skeleton_fraction),
+          "Volume fraction of the coarse grains, which never erode; n_0 + n_C <= 1.")
+          .named("n_C")
+          .above(0.0)
+          .below(1.0)
+          .mandatory(),
+      key("soil.*.grain_density", in_soil(&Soil::grain_density), "Density of the grains.")
+          .named("rho_s")
+          .in("kg/m3")
+          .above(0.0)
+          .mandatory(),
+      key("soil.*.conductivity", in_soil(&Soil::conductivity),
+          "Hydraulic conductivity at the initial porosity, for g = 9.81 m/s2.")
+          .named("k")
+          .in("m/s")
+          .above(0.0)
+          .mandatory(),
+
+      choice("soil.*.erosion.law", in_erosion(&ErosionSettings::law),
+             {{"none", ErosionLaw::none},
+              {"constant", ErosionLaw::constant},
+              {"logarithmic", ErosionLaw::logarithmic},
+              {"first-order", ErosionLaw::first_order}},
+             "phi_e = alpha; phi_e = -beta ln(n_L / n_L,max); phi_e = kappa (n_L,max - n_L).")
+          .named("phi_e")
+          .otherwise_as("`\"none\"`; required with any other erosion key"),
+      key("soil.*.erosion.rate", in_erosion(&ErosionSettings::rate),
+          "Rate of the law: alpha, beta or kappa.")
+          .named("alpha, beta, kappa")
+          .in("1/s")
+          .at_least(0.0)
+          .otherwise_as("required unless `law = \"none\"`"),
+      key("soil.*.erosion.start", in_erosion(&ErosionSettings::start), "When erosion starts.")
+          .named("t_0")
+          .in("s")
+          .at_least(0.0)
+          .otherwise(0.0),
+      key("soil.*.erosion.momentum_transfer", in_erosion(&ErosionSettings::momentum_transfer),
+          "Keep rho_s phi_e (v_L - v_S), the momentum eroded grains take up, in the liquid's "
+          "momentum.")
+          .otherwise(false),
+
+      key("boundary[].on", on_boundary(&Boundary::on), "Name of the boundary.").mandatory(),
+      key("boundary[].pressure", on_boundary(&Boundary::pressure), "Pore pressure there.")
+          .named("p")
+          .in("Pa")
+          .otherwise_as("none"),
+      key("boundary[].velocity", on_boundary(&Boundary::velocity),
+          "Intrinsic liquid velocity normal to the boundary, positive into the model.")
+          .named("v_L")
+          .in("m/s")
+          .otherwise_as("none"),
+      key("boundary[].darcy_flux", on_boundary(&Boundary::darcy_flux),
+          "Volume flux of liquid normal to the boundary, positive into the model.")
+          .named("q")
+          .in("m/s")
+          .otherwise_as("none"),
+      key("boundary[].concentration", on_boundary(&Boundary::concentration),
+          "Fluidised grains per volume of the liquid that enters.")
+          .named("c")
+          .at_least(0.0)
+          .below(1.0)
+          .otherwise_as("clean liquid"),
+
+      choice("initial.flow", at(&Scene::initial_flow),
+             {{"rest", InitialFlow::rest}, {"steady", InitialFlow::steady}},
+             "Flow at the start: at rest, or steady under the boundary conditions.")
+          .otherwise("rest"),
+
+      key("flow.porosity_gradient_term", at(&Scene::flow, &FlowSettings::porosity_gradient_term),
+          "Keep (v_L - v_S) . grad n_L in the balance of water. Without it water is lost wherever "
+          "porosity varies: for comparison only.")
+          .otherwise(true),
+
+      key("time.end", at(&Scene::time, &TimeSettings::end), "When the run ends.")
+          .named("T")
+          .in("s")
+          .above(0.0)
+          .mandatory(),
+      choice("time.scheme", at(&Scene::time, &TimeSettings::scheme),
+             {{"explicit", FlowScheme::explicit_nodal}},
+             "How the flow is stepped: explicit, with velocities at nodes.")
+          .mandatory(),
+      key("time.step", at(&Scene::time, &TimeSettings::step), "Time step.")
+          .named("dt")
+          .in("s")
+          .above(0.0)
+          .otherwise_as("0.9 of the stability limit"),
+      key("time.mass_scaling", at(&Scene::time, &TimeSettings::mass_scaling),
+          "Factor on the liquid's inertia that allows larger steps and slows the flow's start-up.")
+          .named("S")
+          .at_least(1.0)
+          .otherwise(1.0),
+      choice("time.drag", at(&Scene::time, &TimeSettings::drag),
+             {{"explicit", DragIntegration::explicit_drag},
+              {"implicit", DragIntegration::implicit_drag}},
+             "How Darcy's drag is stepped within the explicit scheme.")
+          .otherwise("explicit"),
+
+      key("output.every", at(&Scene::output, &OutputSettings::every),
+          "Time between rows of the tables.")
+          .in("s")
+          .above(0.0)
+          .mandatory(),
+      key("output.snapshot_every", at(&Scene::output, &OutputSettings::snapshot_every),
+          "Time between snapshots of the whole state; not below `every`.")
+          .in("s")
+          .above(0.0)
+          .otherwise_as("`output.every`"),
+      key("output.exact", at(&Scene::output, &OutputSettings::exact),
+          "End a step on every output time, instead of interpolating to it.")
+          .otherwise(false),
+  };
+}
+
+bool within(const SceneKey& key, double x) {
+  if (key.lower && (key.lower->open ? x <= key.lower->value : x < key.lower->value)) return false;
+  if (key.upper && (key.upper->open ? x >= key.upper->value : x > key.upper->value)) return false;
+  return std::isfinite(x);
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      result += "\\n";
+    } else if (c == '"' || c == '\\') {
+      result += {'\\', c};
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+const std::vector<SceneKey>& scene_keys() {
+  static const std::vector<SceneKey> keys = declare_keys();
+  return keys;
+}
+
+const std::vector<SceneSection>& scene_sections() {
+  static const std::vector<SceneSection> sections = {
+      {"", "Top level", "Keys before the first table."},
+      {"geometry", "[geometry]", "Either a built-in `shape` or your own `file`."},
+      {"mesh", "[mesh]", "Linear triangles."},
+      {"points", "[points]", "Material points."},
+      {"liquid", "[liquid]", "Weakly compressible water."},
+      {"soil.*", "[soil.NAME]", "One table per region, NAME being the region's."},
+      {"soil.*.erosion", "[soil.NAME.erosion]",
+       "How fines of this soil turn into fluidised grains. n_L,max = 1 - n_C."},
+      {"boundary[]", "[[boundary]]",
+       "One entry per named boundary, with at most one of `pressure`, `velocity` and `darcy_flux`. "
+       "Boundaries without an entry are impervious."},
+      {"initial", "[initial]", "State at the start."},
+      {"flow", "[flow]", "Variants of the flow."},
+      {"time", "[time]", "Time stepping."},
+      {"output", "[output]", "What is written, and when."},
+  };
+  return sections;
+}
+
+const SceneKey* find_scene_key(const std::string& pattern) {
+  const auto found = std::ranges::find(scene_keys(), pattern, &SceneKey::pattern);
+  return found == scene_keys().end() ? nullptr : &*found;
+}
+
+std::vector<std::string> scene_children(const std::string& pattern) {
+  std::vector<std::string> children;
+  for (const SceneKey& key : scene_keys()) {
+    if (!key.pattern.starts_with(pattern)) continue;
+    std::string rest = key.pattern.substr(pattern.size());
+    if (!pattern.empty()) {
+      if (rest.starts_with('.')) {
+        rest.erase(0, 1);
+      } else if (!rest.starts_with("[]")) {
+        continue;
+      }
+    }
+    const std::string child =
+        rest.starts_with("[]") ? "[]" : rest.substr(0, rest.find_first_of(".["));
+    if (!std::ranges::count(children, child)) children.push_back(child);
+  }
+  return children;
+}
+
+std::string joined(const std::string& parent, const std::string& child) {
+  return parent.empty() || child.starts_with('[') ? parent + child : parent + '.' + child;
+}
+
+std::string SceneKey::leaf() const {
+  return pattern.substr(pattern.rfind('.') + 1);
+}
+
+std::string SceneKey::bounds() const {
+  // A list of symbols would not read as one quantity between bounds.
+  const bool one_symbol = !symbol.empty() && symbol.find(',') == std::string::npos;
+  const std::string quantity = one_symbol ? symbol : leaf();
+  const auto relation = [](const Bound& bound, const char* strict, const char* weak) {
+    return std::string(bound.open ? strict : weak);
+  };
+  if (lower && upper) {
+    return shown_number(lower->value) + relation(*lower, " < ", " <= ") + quantity +
+           relation(*upper, " < ", " <= ") + shown_number(upper->value);
+  }
+  if (lower) return quantity + relation(*lower, " > ", " >= ") + shown_number(lower->value);
+  if (upper) return quantity + relation(*upper, " < ", " <= ") + shown_number(upper->value);
+  return {};
+}
+
+std::string SceneKey::expected() const {
+  const std::string limits = bounds().empty() ? "" : " with " + bounds();
+  const std::string measure = unit.empty() ? "" : ", in " + unit;
+  std::vector<std::string> all;
+  switch (kind) {
+    case ValueKind::text:
+      return "a text that is not empty";
+    case ValueKind::word:
+      for (const std::string& word : words) all.push_back(quoted(word));
+      return listed(all);
+    case ValueKind::number:
+      return "a number" + limits + measure;
+    case ValueKind::integer:
+      for (const std::int64_t integer : integers) all.push_back(std::to_string(integer));
+      return all.empty() ? "an integer" + limits : listed(all);
+    case ValueKind::boolean:
+      return "true or false";
+    case ValueKind::vector:
+      return "an array of 2 or 3 numbers" + measure;
+  }
+  return {};
+}
+
+std::optional<Value> SceneKey::accept(const Value& value) const {
+  const auto* text = std::get_if<std::string>(&value);
+  const auto* integer = std::get_if<std::int64_t>(&value);
+  const auto* numbers = std::get_if<std::vector<double>>(&value);
+  bool accepted = false;
+  switch (kind) {
+    case ValueKind::text:
+      accepted = text && !text->empty();
+      break;
+    case ValueKind::word:
+      accepted = text && std::ranges::count(words, *text);
+      break;
+    case ValueKind::number: {
+      const auto* real = std::get_if<double>(&value);
+      if (!real && !integer) return std::nullopt;
+      const double x = real ? *real : static_cast<double>(*integer);
+      return within(*this, x) ? std::optional<Value>(x) : std::nullopt;
+    }
+    case ValueKind::integer:
+      accepted = integer && std::in_range<int>(*integer) &&
+                 within(*this, static_cast<double>(*integer)) &&
+                 (integers.empty() || std::ranges::count(integers, *integer));
+      break;
+    case ValueKind::boolean:
+      accepted = std::holds_alternative<bool>(value);
+      break;
+    case ValueKind::vector:
+      accepted = numbers && (numbers->size() == 2 || numbers->size() == 3) &&
+                 std::ranges::all_of(*numbers, [](double x) { return std::isfinite(x); });
+      break;
+  }
+  return accepted ? std::optional<Value>(value) : std::nullopt;
+}
+
+std::string shown_name(const std::string& name) {
+  const auto is_bare = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+  return !name.empty() && std::ranges::all_of(name, is_bare) ? name : quoted(name);
+}
+
+std::string shown_number(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  std::string text(buffer.data(), end);
+  // 2e+07 is 2e7 to everybody but printf.
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  const bool negative = text[exponent + 1] == '-';
+  const std::size_t digits = text.find_first_not_of("+-0", exponent + 1);
+  return text.substr(0, exponent + 1) + (negative ? "-" : "") + text.substr(digits);
+}
+
+std::string shown_value(const Value& value) {
+  if (const auto* boolean = std::get_if<bool>(&value)) return *boolean ? "true" : "false";
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
+  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const auto* real = std::get_if<double>(&value)) {
+    const std::string text = shown_number(*real);
+    const bool looks_integer = text.find_first_not_of("-0123456789") == std::string::npos;
+    return looks_integer ? text + ".0" : text;
+  }
+  std::string text;
+  for (const double x : std::get<std::vector<double>>(value)) {
+    text += (text.empty() ? "" : ", ") + shown_value(x);
+  }
+  return '[' + text + ']';
+}
+
+std::string listed(const std::vector<std::string>& items, const std::string& last_joint) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? ' ' + last_joint + ' ' : ", ";
+    text += items[i];
+  }
+  return text;
+}
+
+}  // namespace suffuse
