@@ -1,0 +1,240 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <cstdlib>
+
+#include "post/synthetic_results.hpp"
+#include "results/reader.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::file_text;
+using testing::ScratchFolder;
+using testing::unit_square_case;
+using testing::write_synthetic_results;
+
+struct Outcome {
+  int code;
+  std::string out;
+  std::string error;
+};
+
+Outcome post(const ScratchFolder& scratch, const std::string& arguments) {
+  const std::string out = scratch / "stdout.txt";
+  const std::string error = scratch / "stderr.txt";
+  const std::string command = std::string("env -u DISPLAY ") + SUFFUSE_BIN + "/suffuse-post " +
+                              arguments + " > " + out + " 2> " + error;
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(out), file_text(error)};
+}
+
+/// A folder with a good run in `run`.
+class PostCommand : public ::testing::Test {
+ protected:
+  PostCommand() { write_synthetic_results(run); }
+  [[nodiscard]] Outcome post(const std::string& arguments) const {
+    return suffuse::post(scratch, arguments);
+  }
+  void expect_refusal(const std::string& arguments, int code, const std::string& message) const {
+    const Outcome outcome = post(arguments);
+    EXPECT_EQ(outcome.code, code) << arguments;
+    EXPECT_EQ(outcome.error, message + "\n") << arguments;
+  }
+
+  const ScratchFolder scratch;
+  const std::string run = scratch / "run.results";
+  const std::string sample_start = "sample " + run + " --csv " + scratch / "s.csv" + " ";
+};
+
+TEST_F(PostCommand, LedgerPrintsTheBalance) {
+  const Outcome outcome = post("ledger " + run + " --csv " + scratch / "ledger.csv");
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(outcome.error, "");
+  EXPECT_NE(outcome.out.find("worst residual"), std::string::npos);
+  EXPECT_NE(outcome.out.find("grains"), std::string::npos);
+  EXPECT_EQ(file_text(scratch / "ledger.csv"), file_text(run + "/ledger.csv"));
+}
+
+TEST_F(PostCommand, LedgerRefusesAResidual) {
+  const Case<2> c = unit_square_case();
+  ResultsWriter<2> writer(scratch / "leak.results", c);
+  LedgerRow row;
+  row.solid = 1890.0;
+  row.water = 300.0;
+  writer.append_ledger(row);
+  row.t = 5.0;
+  row.residual_grains = -3e-9;
+  writer.append_ledger(row);
+  const std::string leak = scratch / "leak.results";
+  expect_refusal("ledger " + leak, 3,
+                 "suffuse-post: error: the grains of model does not balance: residual 3e-09 at t = "
+                 "5 s is larger than 1e-12");
+  EXPECT_EQ(post("ledger " + leak + " --tolerance 1e-8").code, 0);
+}
+
+TEST_F(PostCommand, LedgerFindsALossThatTheRunDidNotReport) {
+  const Case<2> c = unit_square_case();
+  ResultsWriter<2> writer(scratch / "leak.results", c);
+  LedgerRow row;
+  row.solid = 1890.0;
+  row.water = 300.0;
+  writer.append_ledger(row);
+  row.t = 7.0;
+  row.water = 299.7;
+  writer.append_ledger(row);
+  expect_refusal(
+      "ledger " + scratch / "leak.results", 3,
+      "suffuse-post: error: the water of model does not balance: residual 0.001 at t = 7 "
+      "s is larger than 1e-12");
+}
+
+TEST_F(PostCommand, LedgerRefusesNaN) {
+  const Case<2> c = unit_square_case();
+  ResultsWriter<2> writer(scratch / "nan.results", c);
+  LedgerRow row;
+  row.solid = 1890.0;
+  row.water = 300.0;
+  row.residual_water = std::nan("");
+  writer.append_ledger(row);
+  EXPECT_EQ(post("ledger " + scratch / "nan.results").code, 3);
+}
+
+TEST_F(PostCommand, HistoryPrintsAndCopies) {
+  const Outcome outcome = post("history " + run + " --csv " + scratch / "h.csv");
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("porosity_mean"), std::string::npos);
+  EXPECT_EQ(file_text(scratch / "h.csv"), file_text(run + "/history.csv"));
+}
+
+TEST_F(PostCommand, SampleWritesATable) {
+  const Outcome outcome =
+      post(sample_start + "--time 10 --line 0.5,0:0.5,1 --count 3 --fields porosity,darcy_flux");
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  const Table table = read_table(scratch / "s.csv");
+  EXPECT_EQ(table.names,
+            (std::vector<std::string>{"x", "y", "porosity", "darcy_flux_x", "darcy_flux_y"}));
+  EXPECT_EQ(table.rows(), 3U);
+}
+
+TEST_F(PostCommand, FigureWritesEveryFormat) {
+  for (const std::string suffix : {"png", "svg", "pdf"}) {
+    const std::string path = scratch / ("figure." + suffix);
+    const Outcome outcome = post("figure masses " + run + " -o " + path);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_EQ(outcome.error, "");
+    EXPECT_GT(fs::file_size(path), 5000U);
+  }
+}
+
+TEST_F(PostCommand, ExportWritesVtu) {
+  const Outcome outcome = post("export " + run + " -o " + scratch / "vtu");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  const std::string collection = file_text(scratch / "vtu/solid.pvd");
+  EXPECT_NE(collection.find("timestep=\"40\" part=\"0\" file=\"solid_000002.vtu\""),
+            std::string::npos);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  const std::string path = scratch / "vtu/solid_000002.vtu";
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  auto* porosity = reader->GetOutput()->GetPointData()->GetArray("porosity");
+  ASSERT_NE(porosity, nullptr);
+  EXPECT_DOUBLE_EQ(porosity->GetComponent(3, 0), 40.3);
+}
+
+TEST_F(PostCommand, UnknownField) {
+  expect_refusal(sample_start + "--time 10 --line 0.5,0:0.5,1 --count 3 --fields porosty", 2,
+                 "suffuse-post sample: --fields: got \"porosty\"; expected \"darcy_flux\", "
+                 "\"fines_fraction\", \"liquid_velocity\", \"porosity\" or \"pressure\"; did you "
+                 "mean porosity?");
+  EXPECT_FALSE(fs::exists(scratch / "s.csv"));
+}
+
+TEST_F(PostCommand, TimeOutside) {
+  for (const std::string time : {"40.1", "-1", "nan"}) {
+    expect_refusal(
+        sample_start + "--time " + time + " --line 0.5,0:0.5,1 --count 3 " + "--fields porosity", 2,
+        "suffuse-post sample: --time: got " + time +
+            "; expected a time from 0 to 40 s, the first and last snapshot");
+  }
+}
+
+TEST_F(PostCommand, PointOutside) {
+  expect_refusal(sample_start + "--time 1 --line 0.5,0:0.5,2 --count 3 --fields porosity", 2,
+                 "suffuse-post sample: --line: got the point (0.5, 2); expected points inside the "
+                 "model");
+}
+
+TEST_F(PostCommand, BadLine) {
+  for (const std::string line : {"0.5,0", "0.5,0:1", "0.5,0:1,x", "0,0:1,1:2,2", "1,2,3:4", ":"}) {
+    expect_refusal(
+        sample_start + "--time 1 --line " + line + " --count 3 --fields porosity", 2,
+        "suffuse-post sample: --line: got \"" + line + "\"; expected x0,y0:x1,y1 in metres");
+  }
+}
+
+TEST_F(PostCommand, BadCount) {
+  expect_refusal(sample_start + "--time 1 --line 0,0:1,1 --count 1 --fields porosity", 2,
+                 "suffuse-post sample: --count: got 1; expected at least 2, the ends of the line");
+}
+
+TEST_F(PostCommand, EmptyFieldName) {
+  expect_refusal(sample_start + "--time 1 --line 0,0:1,1 --count 2 --fields porosity,", 2,
+                 "suffuse-post sample: --fields: got \"porosity,\"; expected names of fields with "
+                 "commas between");
+}
+
+TEST_F(PostCommand, UnknownFigure) {
+  expect_refusal("figure porosty " + run + " -o " + scratch / "f.png", 2,
+                 "suffuse-post figure: NAME: got \"porosty\"; expected \"masses\" or \"porosity\"; "
+                 "did you mean porosity?");
+  EXPECT_FALSE(fs::exists(scratch / "f.png"));
+}
+
+TEST_F(PostCommand, UnknownPictureFormat) {
+  expect_refusal("figure porosity " + run + " -o f.bmp", 2,
+                 "suffuse-post figure: -o: got \"f.bmp\"; expected a name that ends in .png, .svg "
+                 "or .pdf");
+}
+
+TEST_F(PostCommand, PictureInNoFolder) {
+  const std::string folder = scratch / "nowhere";
+  expect_refusal(
+      "figure porosity " + run + " -o " + folder + "/f.png", 4,
+      "suffuse-post: error: " + folder + "/f.png: cannot be created: there is no folder " + folder);
+}
+
+TEST_F(PostCommand, NotAResultsFolder) {
+  const std::string nothing = scratch / "nothing";
+  expect_refusal("ledger " + nothing, 4,
+                 "suffuse-post: error: " + nothing + ": no such results folder");
+  fs::create_directories(nothing);
+  expect_refusal(
+      "ledger " + nothing, 4,
+      "suffuse-post: error: " + nothing + ": is not a results folder: it has no run.json");
+  std::ofstream(nothing + "/run.json") << "{\"format\": \"other\"}";
+  expect_refusal(
+      "history " + nothing, 4,
+      "suffuse-post: error: " + nothing + "/run.json: was not written by suffuse-solver");
+}
+
+TEST_F(PostCommand, MisspeltCommandsAndOptions) {
+  expect_refusal("", 2,
+                 "suffuse-post: error: A subcommand is required (suffuse-post --help lists what "
+                 "there is)");
+  EXPECT_EQ(post("legder " + run).code, 2);
+  EXPECT_EQ(post("ledger " + run + " --tolerence 1").code, 2);
+  EXPECT_EQ(post("ledger " + run + " --tolerance -1").code, 2);
+  EXPECT_EQ(post("ledger " + run + " --tolerance nan").code, 2);
+  EXPECT_EQ(post("ledger").code, 2);
+  EXPECT_EQ(post("--help").code, 0);
+}
+
+}  // namespace
+}  // namespace suffuse

@@ -1,0 +1,95 @@
+#include "exact_solution.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+namespace {
+
+const std::string reference = std::string(SUFFUSE_TEST_DATA) + "/reference/";
+
+Soil paper_soil(ErosionLaw law, double rate) {
+  Soil soil;
+  soil.skeleton_fraction = 0.6;
+  soil.grain_density = 2700.0;
+  soil.erosion.law = law;
+  soil.erosion.rate = rate;
+  soil.erosion.start = 2.0;
+  return soil;
+}
+
+TEST(ExactSolution, AgreesWithTheReferencePorosity) {
+  const Table table = read_table(reference + "porosity.csv");
+  const std::map<std::string, Soil> soils{
+      {"n_const_alpha1e-3", paper_soil(ErosionLaw::constant, 1e-3)},
+      {"n_const_alpha5e-3", paper_soil(ErosionLaw::constant, 5e-3)},
+      {"n_log_beta1e-2", paper_soil(ErosionLaw::logarithmic, 1e-2)}};
+  ASSERT_GT(table.rows(), 10U);
+  for (const auto& [column, soil] : soils) {
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      const double t = table.column("t")[row];
+      EXPECT_NEAR(exact_porosity(soil, 0.3, t), table.column(column)[row], 1e-10)
+          << column << " at t = " << t;
+    }
+  }
+}
+
+TEST(ExactSolution, AgreesWithTheReferenceMasses) {
+  std::ifstream in(reference + "masses.csv");
+  std::string line;
+  std::getline(in, line);
+  int rows = 0;
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    std::string law;
+    std::string cell;
+    std::getline(cells, law, ',');
+    std::vector<double> numbers;
+    while (std::getline(cells, cell, ',')) numbers.push_back(std::stod(cell));
+    const Soil soil =
+        paper_soil(law == "log" ? ErosionLaw::logarithmic : ErosionLaw::constant, numbers[0]);
+    const double porosity = exact_porosity(soil, 0.3, numbers[2]);
+    EXPECT_NEAR(porosity, numbers[3], 1e-10) << line;
+    EXPECT_NEAR((1.0 - porosity) * 2700.0, numbers[4], 1e-10 * 2700.0) << line;
+    EXPECT_NEAR((porosity - 0.3) * 2700.0, numbers[5], 1e-10 * 2700.0) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 132);
+}
+
+TEST(ExactSolution, LogarithmicLawSolvesItsEquation) {
+  const Soil soil = paper_soil(ErosionLaw::logarithmic, 1e-2);
+  for (const double t : {2.1, 5.0, 50.0, 400.0}) {
+    const double h = 1e-3 * (t - 2.0);
+    const double slope =
+        (exact_porosity(soil, 0.3, t + h) - exact_porosity(soil, 0.3, t - h)) / (2.0 * h);
+    const double rate = -1e-2 * std::log(exact_porosity(soil, 0.3, t) / 0.4);
+    EXPECT_NEAR(slope, rate, 1e-5 * rate) << t;
+  }
+}
+
+TEST(ExactSolution, LogarithmicLawNearsItsCapWithoutEnd) {
+  const Soil soil = paper_soil(ErosionLaw::logarithmic, 1e-2);
+  EXPECT_LE(exact_porosity(soil, 0.3, 1e6), 0.4);
+  EXPECT_NEAR(exact_porosity(soil, 0.3, 1e6), 0.4, 1e-12);
+  EXPECT_EQ(exact_porosity(soil, 0.4, 50.0), 0.4);
+}
+
+TEST(ExactSolution, FirstOrderLawDecaysExponentially) {
+  const Soil soil = paper_soil(ErosionLaw::first_order, 0.05);
+  EXPECT_EQ(exact_porosity(soil, 0.3, 1.0), 0.3);
+  EXPECT_NEAR(exact_porosity(soil, 0.3, 2.0 + std::log(2.0) / 0.05), 0.35, 1e-15);
+}
+
+TEST(ExactSolution, WithoutALawNothingErodes) {
+  EXPECT_EQ(exact_porosity(paper_soil(ErosionLaw::none, 1.0), 0.3, 100.0), 0.3);
+}
+
+}  // namespace
+}  // namespace suffuse

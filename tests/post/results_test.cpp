@@ -1,0 +1,278 @@
+#include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkHDFReader.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "case/errors.hpp"
+#include "post/synthetic_results.hpp"
+#include "results/reader.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::file_text;
+using testing::linear_snapshot;
+using testing::ScratchFolder;
+using testing::unit_square_case;
+using testing::write_synthetic_results;
+
+void expect_field(const Field& got, const Field& wanted) {
+  EXPECT_EQ(got.name, wanted.name);
+  EXPECT_EQ(got.unit, wanted.unit);
+  EXPECT_EQ(got.components, wanted.components);
+  EXPECT_EQ(got.values, wanted.values);
+}
+
+TEST(Results, SnapshotsReadBackExactly) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  const ResultsReader reader(scratch / "run.results");
+  const Case<2> c = unit_square_case();
+  ASSERT_EQ(reader.times(), (std::vector<double>{0.0, 10.0, 40.0}));
+  const Snapshot wanted = linear_snapshot(c, 40.0, 2);
+  for (const auto& field : wanted.cell) expect_field(reader.field(2, "cell", field.name), field);
+  for (const auto& field : wanted.node) expect_field(reader.field(2, "node", field.name), field);
+  for (const auto& field : wanted.solid) expect_field(reader.field(2, "solid", field.name), field);
+  for (const auto& field : wanted.element_vertex) {
+    expect_field(reader.field(2, "element_vertex", field.name), field);
+  }
+  auto names = reader.field_names(2, "cell");
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"darcy_flux", "porosity", "pressure"}));
+}
+
+TEST(Results, MeshAndSceneReadBack) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  const ResultsReader reader(scratch / "run.results");
+  const Case<2> c = unit_square_case();
+  EXPECT_EQ(reader.mesh().elements, c.mesh.elements);
+  EXPECT_EQ(reader.mesh().nodes, c.mesh.nodes);
+  EXPECT_EQ(reader.mesh().boundaries.at(1).name, "top");
+  EXPECT_EQ(reader.scene().text, c.document.text);
+  EXPECT_EQ(reader.scene().scene.name, "synthetic");
+  EXPECT_EQ(reader.regions(), std::vector<std::string>{"specimen"});
+  EXPECT_EQ(reader.status(), "done");
+  EXPECT_EQ(reader.dimension(), 2);
+}
+
+TEST(Results, TablesReadBackExactly) {
+  const ScratchFolder scratch;
+  const Case<2> c = unit_square_case();
+  ResultsWriter<2> writer(scratch / "run.results", c);
+  HistoryRow history;
+  history.t = 0.1;
+  history.dt = 1.0 / 3.0;
+  history.porosity_mean = std::nextafter(0.3, 1.0);
+  history.speed_max = 5e-324;
+  history.pressure_max = -1.7976931348623157e308;
+  writer.append_history(history);
+  LedgerRow ledger;
+  ledger.t = 0.1;
+  ledger.residual_grains = 1e-17;
+  writer.append_ledger(ledger);
+  const RegionRow region{3, 2.0 / 3.0, ledger};
+  writer.append_regions(std::span(&region, 1));
+
+  // No closing, no destruction: what was appended is on the disk.
+  const ResultsReader reader(scratch / "run.results");
+  const Table read = reader.history();
+  ASSERT_EQ(read.rows(), 1U);
+  for (const auto& [name, member] : history_columns) {
+    EXPECT_EQ(read.column(std::string(name)).front(), history.*member) << name;
+  }
+  EXPECT_EQ(reader.ledger().column("residual_grains").front(), 1e-17);
+  const Table regions = reader.region_ledgers();
+  EXPECT_EQ(regions.names[0] + "," + regions.names[1] + "," + regions.names[2],
+            "t,region,porosity_mean");
+  EXPECT_EQ(regions.column("region").front(), 3.0);
+  EXPECT_EQ(regions.column("porosity_mean").front(), 2.0 / 3.0);
+  EXPECT_EQ(regions.column("residual_grains").front(), 1e-17);
+}
+
+TEST(Results, HistoryBeginsWithTheDocumentedColumns) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  EXPECT_TRUE(file_text(scratch / "run.results/history.csv")
+                  .starts_with("t,dt,porosity_mean,flux_in,flux_out,liquid_points,empty_elements,"
+                               "empty_elements_total"));
+  EXPECT_TRUE(file_text(scratch / "run.results/ledger.csv")
+                  .starts_with("t,solid,erodible,water,fines,eroded,water_in,fines_in,water_out,"
+                               "fines_out,residual_water,residual_grains\n"));
+}
+
+TEST(Results, RunInfoHasItsKeys) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  const auto json = nlohmann::json::parse(file_text(scratch / "run.results/run.json"));
+  for (const auto* key : {"status", "steps", "solid_points", "liquid_points", "elements", "threads",
+                          "wall_seconds", "passes", "plan", "warnings", "regions", "dimension"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["status"], "done");
+  EXPECT_EQ(json["passes"][0]["name"], "flow");
+  EXPECT_EQ(json["passes"][0]["calls"], 3);
+  EXPECT_EQ(json["passes"][0]["seconds"], 0.25);
+  EXPECT_EQ(json["scene"]["path"], "synthetic.toml");
+  for (const auto* key : {"suffuse", "git", "hdf5", "eigen", "compiler"}) {
+    EXPECT_FALSE(json["versions"][key].get<std::string>().empty()) << key;
+  }
+}
+
+TEST(Results, SeriesNamesTheSnapshotsWithTheirTimes) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  for (const std::string kind : {"mesh", "solid"}) {
+    const auto json =
+        nlohmann::json::parse(file_text(scratch / ("run.results/" + kind + ".hdf.series")));
+    EXPECT_EQ(json["file-series-version"], "1.0");
+    ASSERT_EQ(json["files"].size(), 3U);
+    EXPECT_EQ(json["files"][1]["name"], "snapshots/" + kind + "_000001.hdf");
+    EXPECT_EQ(json["files"][1]["time"], 10.0);
+  }
+}
+
+vtkUnstructuredGrid* read_vtk(vtkHDFReader& reader, const std::string& path) {
+  EXPECT_EQ(reader.CanReadFile(path.c_str()), 1) << path;
+  reader.SetFileName(path.c_str());
+  reader.Update();
+  return vtkUnstructuredGrid::SafeDownCast(reader.GetOutputDataObject(0));
+}
+
+void expect_array(vtkDataArray* array, const Field& field) {
+  ASSERT_NE(array, nullptr) << field.name;
+  const int width = field.components == 2 ? 3 : field.components;
+  ASSERT_EQ(array->GetNumberOfComponents(), width) << field.name;
+  const auto entities = static_cast<vtkIdType>(field.values.size()) / field.components;
+  ASSERT_EQ(array->GetNumberOfTuples(), entities) << field.name;
+  for (vtkIdType i = 0; i < entities; ++i) {
+    for (int k = 0; k < width; ++k) {
+      const double wanted = k < field.components ? field.values[i * field.components + k] : 0.0;
+      EXPECT_EQ(array->GetComponent(i, k), wanted) << field.name << " of " << i;
+    }
+  }
+}
+
+TEST(Results, VtkReadsTheMesh) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  vtkNew<vtkHDFReader> reader;
+  auto* grid = read_vtk(*reader, scratch / "run.results/snapshots/mesh_000001.hdf");
+  ASSERT_NE(grid, nullptr);
+  const Case<2> c = unit_square_case();
+  ASSERT_EQ(grid->GetNumberOfCells(), c.mesh.element_count());
+  ASSERT_EQ(grid->GetNumberOfPoints(), c.mesh.node_count());
+  for (int i = 0; i < c.mesh.node_count(); ++i) {
+    EXPECT_EQ(grid->GetPoint(i)[0], c.mesh.nodes[i][0]);
+    EXPECT_EQ(grid->GetPoint(i)[1], c.mesh.nodes[i][1]);
+    EXPECT_EQ(grid->GetPoint(i)[2], 0.0);
+  }
+  for (int e = 0; e < c.mesh.element_count(); ++e) {
+    EXPECT_EQ(grid->GetCellType(e), VTK_TRIANGLE);
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_EQ(grid->GetCell(e)->GetPointId(a), c.mesh.elements[e][a]);
+    }
+  }
+  const Snapshot wanted = linear_snapshot(c, 10.0, 1);
+  for (const auto& field : wanted.cell) {
+    expect_array(grid->GetCellData()->GetArray(field.name.c_str()), field);
+  }
+  for (const auto& field : wanted.node) {
+    expect_array(grid->GetPointData()->GetArray(field.name.c_str()), field);
+  }
+}
+
+TEST(Results, VtkReadsTheSolidPoints) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  vtkNew<vtkHDFReader> reader;
+  auto* grid = read_vtk(*reader, scratch / "run.results/snapshots/solid_000002.hdf");
+  ASSERT_NE(grid, nullptr);
+  const Case<2> c = unit_square_case();
+  ASSERT_EQ(grid->GetNumberOfCells(), 8);
+  for (int p = 0; p < 8; ++p) {
+    EXPECT_EQ(grid->GetCellType(p), VTK_VERTEX);
+    EXPECT_NEAR(grid->GetPoint(p)[0], element_centroid(c.mesh, p)[0], 1e-15);
+    EXPECT_NEAR(grid->GetPoint(p)[1], element_centroid(c.mesh, p)[1], 1e-15);
+  }
+  expect_array(grid->GetPointData()->GetArray("porosity"), linear_snapshot(c, 40.0, 2).solid[0]);
+}
+
+TEST(Results, ParaViewShowsTheTimes) {
+  if (std::system("command -v pvbatch > /dev/null 2>&1") != 0) GTEST_SKIP() << "no pvbatch";
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  const std::string script = scratch / "times.py";
+  const std::string answer = scratch / "answer.txt";
+  std::ofstream(script) << "from paraview.simple import *\n"
+                        << "reader = OpenDataFile('" << scratch / "run.results/mesh.hdf.series"
+                        << "')\nreader.UpdatePipelineInformation()\n"
+                        << "open('" << answer << "', 'w').write(' '.join(str(float(t)) for t in "
+                        << "reader.TimestepValues))\n";
+  ASSERT_EQ(std::system(("pvbatch " + script + " > /dev/null").c_str()), 0);
+  EXPECT_EQ(file_text(answer), "0.0 10.0 40.0");
+}
+
+TEST(Results, AnEarlierRunIsReplaced) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch / "run.results";
+  write_synthetic_results(folder);
+  std::ofstream(folder + "/notes.txt") << "mine";
+  const Case<2> c = unit_square_case();
+  const ResultsWriter<2> writer(folder, c);
+  EXPECT_FALSE(fs::exists(folder + "/snapshots/mesh_000000.hdf"));
+  EXPECT_FALSE(fs::exists(folder + "/mesh.hdf.series"));
+  EXPECT_EQ(file_text(folder + "/notes.txt"), "mine");
+  const ResultsReader reader(folder);
+  EXPECT_EQ(reader.status(), "running");
+  EXPECT_TRUE(reader.times().empty());
+  EXPECT_EQ(reader.history().rows(), 0U);
+}
+
+TEST(Results, AStrangersFolderIsNotTouched) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch / "photos";
+  fs::create_directories(folder);
+  std::ofstream(folder + "/history.csv") << "of my family\n";
+  const Case<2> c = unit_square_case();
+  try {
+    const ResultsWriter<2> writer(folder, c);
+    FAIL() << "accepted";
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              folder +
+                  ": is not empty and holds no results of suffuse-solver; not touched: choose "
+                  "another folder or empty it");
+  }
+  EXPECT_EQ(file_text(folder + "/history.csv"), "of my family\n");
+  EXPECT_FALSE(fs::exists(folder + "/run.json"));
+}
+
+TEST(Results, ARowBeingWrittenIsNotThereYet) {
+  const ScratchFolder scratch;
+  const std::string path = scratch / "table.csv";
+  std::ofstream(path) << "a,b\n1,2\n3,4";
+  EXPECT_EQ(read_table(path).rows(), 1U);
+}
+
+TEST(Results, ABadNumberIsNamedWithItsLine) {
+  const ScratchFolder scratch;
+  const std::string path = scratch / "table.csv";
+  std::ofstream(path) << "a,b\n1,2\n3,x4\n";
+  try {
+    read_table(path);
+    FAIL() << "accepted";
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()), path + ":3: b: got 'x4'; expected a number");
+  }
+}
+
+}  // namespace
+}  // namespace suffuse

@@ -1,0 +1,75 @@
+#include "sample.hpp"
+
+#include <gtest/gtest.h>
+
+#include "case/errors.hpp"
+#include "post/synthetic_results.hpp"
+
+namespace suffuse {
+namespace {
+
+using testing::linear_porosity;
+using testing::ScratchFolder;
+using testing::write_synthetic_results;
+
+class Sample : public ::testing::Test {
+ protected:
+  Sample() { write_synthetic_results(scratch_ / "run.results"); }
+  [[nodiscard]] Table at(double t, const std::string& line, int count,
+                         const std::string& fields) const {
+    return sample(ResultsReader(scratch_ / "run.results"), t, parse_line(line), count,
+                  parse_field_names(fields));
+  }
+
+ private:
+  ScratchFolder scratch_;
+};
+
+TEST_F(Sample, LinearFieldIsExactInSpaceAndBetweenSnapshots) {
+  for (const double t : {0.0, 10.0, 17.5, 40.0}) {
+    const Table table = at(t, "0.03,0.1:0.95,0.9", 37, "porosity");
+    ASSERT_EQ(table.rows(), 37U);
+    ASSERT_EQ(table.names, (std::vector<std::string>{"x", "y", "porosity"}));
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      EXPECT_NEAR(table.column("porosity")[i],
+                  linear_porosity(table.column("x")[i], table.column("y")[i], t), 1e-14);
+    }
+  }
+}
+
+TEST_F(Sample, EndsAreIncluded) {
+  const Table table = at(0.0, "0.25,0:0.25,1", 5, "porosity");
+  EXPECT_EQ(table.column("y"), (std::vector<double>{0.0, 0.25, 0.5, 0.75, 1.0}));
+  EXPECT_EQ(table.column("x"), (std::vector<double>(5, 0.25)));
+}
+
+// Elements 0 and 1 share the diagonal of the lower left square, 0 and 3 the edge x = 0.5.
+TEST_F(Sample, AnEdgeTakesTheMeanOfItsElements) {
+  EXPECT_EQ(at(0.0, "0.4,0.1:0.1,0.4", 2, "fines_fraction").column("fines_fraction"),
+            (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(at(0.0, "0.25,0.25:0.5,0.2", 2, "fines_fraction").column("fines_fraction"),
+            (std::vector<double>{0.5, 1.5}));
+  // The node in the middle belongs to six elements, the corner to two.
+  EXPECT_NEAR(at(0.0, "0.5,0.5:1,1", 2, "fines_fraction").column("fines_fraction")[0],
+              (0 + 1 + 3 + 4 + 6 + 7) / 6.0, 1e-14);
+  EXPECT_EQ(at(0.0, "0.5,0.5:1,1", 2, "fines_fraction").column("fines_fraction")[1], 6.5);
+}
+
+TEST_F(Sample, AnOuterEdgeTakesTheInnerValue) {
+  EXPECT_EQ(at(0.0, "0.25,0:1,0.75", 2, "fines_fraction").column("fines_fraction"),
+            (std::vector<double>{0.0, 6.0}));
+}
+
+TEST_F(Sample, CellMeansAndNodalVectors) {
+  const Table table = at(0.0, "0.4,0.1:0.1,0.3", 2, "pressure,liquid_velocity,darcy_flux");
+  EXPECT_EQ(table.names,
+            (std::vector<std::string>{"x", "y", "pressure", "liquid_velocity_x",
+                                      "liquid_velocity_y", "darcy_flux_x", "darcy_flux_y"}));
+  EXPECT_EQ(table.column("pressure"), (std::vector<double>{0.0, 1000.0}));
+  EXPECT_NEAR(table.column("liquid_velocity_x")[1], 0.3, 1e-15);
+  EXPECT_NEAR(table.column("liquid_velocity_y")[1], -0.1, 1e-15);
+  EXPECT_EQ(table.column("darcy_flux_x")[1], 0.25);
+}
+
+}  // namespace
+}  // namespace suffuse
