@@ -17,6 +17,7 @@
 #include "geometry_scan.hpp"
 #include "gmsh_session.hpp"
 #include "mesh_extraction.hpp"
+#include "point_sizes.hpp"
 
 namespace suffuse {
 
@@ -149,7 +150,10 @@ void generate_mesh(const SceneDocument& document, const std::string& path) {
   if (document.scene.mesh.size < largest) {
     gmsh::option::setNumber("Mesh.MeshSizeMax", document.scene.mesh.size);
   }
-  run_gmsh(document, path, [] { gmsh::model::mesh::generate(2); });
+  run_gmsh(document, path, [&] {
+    if (std::isfinite(document.scene.mesh.size)) set_default_point_size(document.scene.mesh.size);
+    gmsh::model::mesh::generate(2);
+  });
 }
 
 void build_from_file(const SceneDocument& document, std::vector<std::string>& notes) {
@@ -168,9 +172,8 @@ void build_from_file(const SceneDocument& document, std::vector<std::string>& no
   if (!dangers.empty()) throw InputError(std::move(dangers));
 
   run_gmsh(document, path, [&] { is_step ? open_step(path) : gmsh::open(path); });
-  if (extension == ".msh") {
-    notes.emplace_back("the .msh file is used as it is, mesh.size does not apply");
-  } else if (has_surface_mesh()) {
+  if (extension == ".msh") return;
+  if (has_surface_mesh()) {
     notes.emplace_back("the .geo file meshes itself, mesh.size does not apply");
   } else {
     generate_mesh(document, path);
@@ -209,7 +212,7 @@ Geometry build_geometry(const SceneDocument& document) {
     extracted = extract_mesh();
   }
   place_problems(document, extracted.problems);
-  if (extracted.has_regions()) {
+  if (extracted.comparable) {
     std::ranges::move(scene_problems(document, extracted.mesh),
                       std::back_inserter(extracted.problems));
   }

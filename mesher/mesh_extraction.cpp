@@ -19,6 +19,7 @@ namespace {
 
 using Tag = std::size_t;
 
+constexpr int no_type = 0;
 constexpr int line_type = 1;
 constexpr int triangle_type = 2;
 /// Relative to the square of the longest edge; an angle of about 1e-10 degrees.
@@ -72,8 +73,10 @@ class Extraction {
  public:
   ExtractedMesh run() {
     read_nodes();
-    read_surfaces();
+    refuse_volumes();
+    if (result_.problems.empty()) read_surfaces();
     if (triangle_tags_.empty()) return std::move(result_);
+    result_.comparable = true;
     number_nodes();
     check_plane();
     check_duplicate_nodes();
@@ -146,6 +149,14 @@ class Extraction {
     return name;
   }
 
+  static bool has_elements(int dimension, int entity) {
+    std::vector<int> types;
+    std::vector<std::vector<Tag>> tags;
+    std::vector<std::vector<Tag>> nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+    return !types.empty();
+  }
+
   static std::vector<int> entities(int dimension) {
     gmsh::vectorpair pairs;
     gmsh::model::getEntities(pairs, dimension);
@@ -183,7 +194,6 @@ class Extraction {
   }
 
   void read_surfaces() {
-    refuse_volumes();
     const std::vector<Group> regions = groups(2, "surface");
     if (regions.empty()) {
       report("no named physical surface",
@@ -198,25 +208,30 @@ class Extraction {
     }
     Kind wrong_types(result_.problems,
                      "triangles of three nodes (in Gmsh: Mesh.ElementOrder = 1, no Recombine)");
+    region_has_elements_.assign(regions.size(), false);
     for (int entity : entities(2)) add_surface(entity, regions_of[entity], wrong_types);
-    report_empty_regions();
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      if (region_has_elements_[r]) continue;
+      report("physical surface \"" + regions[r].name + "\" without triangles",
+             "a region that is not empty");
+    }
   }
 
   void refuse_volumes() {
     const std::vector<int> volumes = entities(3);
     if (volumes.empty()) return;
     Kind kind(result_.problems, "a plane model: only triangles are supported so far");
-    bool has_elements = false;
     for (int volume : volumes) {
-      const std::size_t before = result_.problems.size();
-      read_entity(3, volume, -1, kind);
-      has_elements = has_elements || result_.problems.size() > before;
+      read_entity(3, volume, no_type, kind);
+      if (!has_elements(3, volume)) kind.add("volume " + std::to_string(volume));
     }
-    if (!has_elements) kind.add("volume " + std::to_string(volumes.front()));
   }
 
   void add_surface(int entity, const std::vector<int>& regions, Kind& wrong_types) {
     Elements triangles = read_entity(2, entity, triangle_type, wrong_types);
+    for (int region : regions) {
+      region_has_elements_[region] = region_has_elements_[region] || has_elements(2, entity);
+    }
     if (triangles.tags.empty()) return;
     const std::string which = "surface " + std::to_string(entity) + " (" +
                               std::to_string(triangles.tags.size()) + " triangles, one of them " +
@@ -234,16 +249,6 @@ class Extraction {
       triangle_nodes_.push_back(
           {triangles.nodes[i][0], triangles.nodes[i][1], triangles.nodes[i][2]});
       mesh().element_region.push_back(region);
-    }
-  }
-
-  void report_empty_regions() {
-    for (std::size_t r = 0; r < mesh().region_names.size(); ++r) {
-      if (std::ranges::find(mesh().element_region, static_cast<int>(r)) ==
-          mesh().element_region.end()) {
-        report("physical surface \"" + mesh().region_names[r] + "\" without triangles",
-               "a region that is not empty");
-      }
     }
   }
 
@@ -336,6 +341,7 @@ class Extraction {
         kind.add("element " + std::to_string(triangle_tags_[e]) + ", flat, with its nodes at " +
                  place(mesh().nodes[corners[0]]) + ", " + place(mesh().nodes[corners[1]]) + ", " +
                  place(mesh().nodes[corners[2]]));
+        flat_.insert(e);
       } else if (area < 0.0) {
         std::swap(corners[1], corners[2]);
         ++result_.turned;
@@ -350,6 +356,7 @@ class Extraction {
               "triangles that do not overlap: the mesh is folded or has one twice");
     std::map<std::array<int, 2>, int> owner;  // by directed edge
     for (int e = 0; e < mesh().element_count(); ++e) {
+      if (flat_.contains(e)) continue;
       const auto& corners = mesh().elements[e];
       for (int a = 0; a < 3; ++a) {
         const std::array<int, 2> edge{corners[a], corners[(a + 1) % 3]};
@@ -408,6 +415,8 @@ class Extraction {
   std::vector<Tag> node_tags_;  // by index
   std::vector<Tag> triangle_tags_;
   std::vector<std::array<Tag, 3>> triangle_nodes_;
+  std::vector<bool> region_has_elements_;
+  std::set<int> flat_;  // elements
   double diagonal_ = 0.0;
 };
 

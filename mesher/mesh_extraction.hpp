@@ -18,8 +18,8 @@ struct ExtractedMesh {
   std::vector<InputProblem> problems;
   /// Clockwise triangles that were turned round.
   int turned = 0;
-  /// Without a physical surface there is nothing that a scene could be held against.
-  [[nodiscard]] bool has_regions() const { return !mesh.region_names.empty(); }
+  /// False when so much is missing that holding a scene against it would only add noise.
+  bool comparable = false;
 };
 
 ExtractedMesh extract_mesh();

@@ -1,0 +1,76 @@
+#include "point_sizes.hpp"
+
+#include <gmsh.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What Gmsh stores for a point without a size.
+constexpr double no_size = 1e22;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "suffuse-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) {
+      throw FileError(pattern + ": cannot be created; is there room for temporary files?");
+    }
+    path_ = pattern;
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Reads `cl__1 = 1e+22;` and `Point(7) = {0, 0, 0, cl__1};`.
+gmsh::vectorpair points_without_size(std::istream& unrolled) {
+  constexpr std::string_view point_start = "Point(";
+  std::map<std::string, double> sizes;
+  gmsh::vectorpair points;
+  for (std::string line; std::getline(unrolled, line);) {
+    const std::size_t assignment = line.find(" = ");
+    if (assignment == std::string::npos) continue;
+    if (line.starts_with("cl__")) {
+      sizes[line.substr(0, assignment)] = std::stod(line.substr(assignment + 3));
+    } else if (line.starts_with(point_start)) {
+      const std::size_t name = line.rfind(' ') + 1;
+      const auto size = sizes.find(line.substr(name, line.find('}') - name));
+      if (size == sizes.end() || size->second < no_size) continue;
+      points.emplace_back(0, std::stoi(line.substr(point_start.size())));
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+void set_default_point_size(double size) {
+  // The API of Gmsh 4.8 sets sizes but does not tell them; its unrolled geometry does.
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "model.geo_unrolled").string();
+  gmsh::write(path);
+  std::ifstream stream(path);
+  const gmsh::vectorpair points = points_without_size(stream);
+  if (!points.empty()) gmsh::model::mesh::setSize(points, size);
+}
+
+}  // namespace suffuse
