@@ -1,12 +1,16 @@
 #include "chart.hpp"
 
 #include <vtkAxis.h>
+#include <vtkBrush.h>
 #include <vtkChartXY.h>
+#include <vtkContext2D.h>
 #include <vtkContextActor.h>
+#include <vtkContextItem.h>
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
 #include <vtkGL2PSExporter.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPNGWriter.h>
 #include <vtkPen.h>
 #include <vtkPlotPoints.h>
@@ -35,6 +39,21 @@ constexpr int height = 800;
 constexpr int least_width = 1200;
 constexpr float plot_width = 820.0F;
 constexpr float margin = 24.0F;
+
+/// White below everything: pictures that viewers put on dark pages stay readable.
+class Paper : public vtkContextItem {
+ public:
+  static Paper* New();
+  float width = 0.0F;
+  bool Paint(vtkContext2D* painter) override {
+    painter->GetPen()->SetLineType(vtkPen::NO_PEN);
+    painter->GetBrush()->SetColorF(1.0, 1.0, 1.0);
+    painter->DrawRect(0.0F, 0.0F, width, height);
+    painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
+    return true;
+  }
+};
+vtkStandardNewMacro(Paper);
 
 vtkSmartPointer<vtkTable> table_of(const Curve& curve) {
   vtkNew<vtkDoubleArray> x;
@@ -140,8 +159,8 @@ void write_vector(vtkRenderWindow& window, const Chart& chart, const std::string
     exporter->SetFileFormatToPDF();
   }
   exporter->SetTitle(chart.title.c_str());
-  exporter->CompressOff();
-  exporter->DrawBackgroundOff();
+  if (file.extension() == ".svg") exporter->CompressOff();
+  exporter->SilentOn();      // it says that an SVG cannot hold its (white) background
   exporter->SetSortToOff();  // what is drawn later lies on top
   exporter->TextAsPathOff();
   exporter->Write();
@@ -190,6 +209,9 @@ void draw_chart(const Chart& chart, const std::string& path) {
   renderer->SetBackground(1.0, 1.0, 1.0);
   window->AddRenderer(renderer);
   vtkNew<vtkContextActor> actor;
+  vtkNew<Paper> paper;
+  paper->width = static_cast<float>(width);
+  actor->GetScene()->AddItem(paper);
   actor->GetScene()->AddItem(vtk_chart(chart));
   vtkNew<ChartLegend> legend;
   legend->place(plot_width + 2.0F * margin, height - 3.0F * margin, chart.curves);

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace suffuse {
 namespace {
 
-/// -li(exp(-exp(w))) = E1(exp(w)), which is nearly -w where the fraction is near one.
+/// -li(exp(-exp(w))) = E1(exp(w)), by its series where the fraction is one to rounding.
 double minus_li(double w) {
-  return -std::expint(-std::exp(w));
+  return w < -40.0 ? -std::numbers::egamma - w : -std::expint(-std::exp(w));
 }
 
 /// The x in (0, 1) where li(x) = li(start) - decrease. In w = ln(-ln x) the function is convex and

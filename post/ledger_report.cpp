@@ -118,10 +118,10 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
 void check_balances(const std::vector<Balance>& balances, double tolerance) {
   for (const auto& b : balances) {
     if (b.worst_residual <= tolerance) continue;
-    throw NumericalError("the " + b.constituent + " of " + b.place +
-                         " does not balance: residual " + short_number(b.worst_residual, "%.3g") +
-                         " at t = " + short_number(b.worst_time, "%.6g") + " s is larger than " +
-                         number_text(tolerance));
+    throw NumericalError(b.place + ": " + b.constituent + ": residual " +
+                         short_number(b.worst_residual, "%.3g") +
+                         " at t = " + short_number(b.worst_time, "%.6g") +
+                         " s is larger than the tolerance " + number_text(tolerance));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "export.hpp"
 #include "figures.hpp"
 #include "ledger_report.hpp"
+#include "results/number_text.hpp"
 #include "results/reader.hpp"
 #include "sample.hpp"
 
@@ -29,6 +30,11 @@ struct Options {
 };
 
 void ledger(const Options& options) {
+  if (!(options.tolerance >= 0.0)) {
+    throw InputError(std::vector{InputProblem{"suffuse-post ledger", "--tolerance",
+                                              number_text(options.tolerance),
+                                              "a number that is not negative", ""}});
+  }
   const ResultsReader results(options.results);
   const auto found = balances(results);
   std::cout << balance_text(results, found);
@@ -77,8 +83,9 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
   auto* command = add_command(app, chosen, "ledger", "Balance of water and grains", ledger);
   one_folder(command);
   command->add_option("--csv", o.csv, "write the whole ledger here");
-  command->add_option("--tolerance", o.tolerance, "largest residual allowed")
-      ->check(CLI::NonNegativeNumber)
+  command
+      ->add_option("--tolerance", o.tolerance, "largest residual allowed")
+
       ->capture_default_str();
 
   command = add_command(app, chosen, "history", "Range of every quantity over the run", history);

@@ -1,5 +1,6 @@
 #include "vtk_messages.hpp"
 
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 
 #include <algorithm>
@@ -23,7 +24,9 @@ vtkStandardNewMacro(MessageList);
 
 }  // namespace
 
-VtkMessages::VtkMessages() : before_(vtkOutputWindow::GetInstance()) {
+VtkMessages::VtkMessages()
+    : before_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   const auto window = vtkSmartPointer<MessageList>::New();
   window->list = &messages_;
   vtkOutputWindow::SetInstance(window);
@@ -31,6 +34,7 @@ VtkMessages::VtkMessages() : before_(vtkOutputWindow::GetInstance()) {
 
 VtkMessages::~VtkMessages() {
   vtkOutputWindow::SetInstance(before_);
+  vtkLogger::SetStderrVerbosity(vtkLogger::ConvertToVerbosity(verbosity_));
 }
 
 void VtkMessages::forget(const std::string& ending) {

@@ -26,6 +26,7 @@ class VtkMessages {
  private:
   std::vector<std::string> messages_;
   vtkSmartPointer<vtkOutputWindow> before_;
+  int verbosity_;
 };
 
 }  // namespace suffuse

@@ -70,7 +70,9 @@ Series read_series(const std::string& folder, const std::string& kind) {
   return series;
 }
 
-std::vector<std::string> split(const std::string& line) {
+/// The cells of a line, which may end as lines do elsewhere.
+std::vector<std::string> split(std::string line) {
+  if (line.ends_with('\r')) line.pop_back();
   std::vector<std::string> cells;
   std::size_t begin = 0;
   for (std::size_t comma = line.find(','); comma != std::string::npos;
