@@ -1,6 +1,7 @@
 #include "case/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -62,10 +63,8 @@ class SceneReader {
     collect_places(root_, "");
     bind();
     complete();
-    check_scene(scene_,
-                {.given = [this](const std::string& key) { return places_.contains(key); },
-                 .report = [this](const std::string& key, const std::string& found,
-                                  const std::string& expected) { report(key, found, expected); }});
+    check_scene(scene_, {.given = [this](const std::string& key) { return places_.contains(key); },
+                         .report = [this](const Contradiction& found) { report(found); }});
     throw_problems();
     return scene_;
   }
@@ -99,10 +98,23 @@ class SceneReader {
                           .suggestion = suggestion}});
   }
 
-  /// Reports a problem where its key was given.
-  void report(const std::string& key, const std::string& found, const std::string& expected) {
+  /// Reports a key where its table is.
+  void report_missing(const std::string& key, const std::string& expected) {
+    report(place_of(key), key, "nothing", expected);
+  }
+
+  /// Reports a contradiction at its key, or at the last `--set` that has to do with it.
+  void report(const Contradiction& contradiction) {
+    Place place = place_of(contradiction.key);
+    for (const std::string& key : contradiction.others) {
+      if (const Place other = place_of(key); other.source > place.source) place = other;
+    }
+    report(place, contradiction.key, contradiction.found, contradiction.expected);
+  }
+
+  [[nodiscard]] Place place_of(const std::string& key) const {
     const Place* place = find_place(places_, key);
-    report(place ? *place : root_.place, key, found, expected);
+    return place ? *place : root_.place;
   }
 
   void throw_problems() {
@@ -191,9 +203,7 @@ class SceneReader {
     if (const SceneKey* declared = find_scene_key(pattern))
       return check_value(node, key, *declared);
     if (is_list(pattern)) {
-      // An empty array could be an empty list of anything.
-      const bool empty = node.form == Form::value && node.value == Value(std::vector<double>{});
-      if (node.form != Form::list && !empty) {
+      if (node.form != Form::list) {
         return report(node.place, key, node.shown, "a list of tables, each under [[" + key + "]]");
       }
       for (std::size_t i = 0; i < node.children.size(); ++i) {
@@ -211,8 +221,10 @@ class SceneReader {
     if (node.value) node.accepted = declared.accept(*node.value);
     if (node.accepted) return;
     std::string expected = declared.expected();
-    const bool unbounded = node.shown.find("inf") < 2 || node.shown.find("nan") < 2;
-    if (unbounded && expected.starts_with("a number")) expected.replace(0, 1, "a finite");
+    const auto* real = node.value ? std::get_if<double>(&*node.value) : nullptr;
+    if (real && !std::isfinite(*real) && expected.starts_with("a number")) {
+      expected.replace(0, 1, "a finite");
+    }
     // With a single word, what is expected says it all.
     const auto* text = node.value ? std::get_if<std::string>(&*node.value) : nullptr;
     std::string suggestion;
@@ -349,7 +361,7 @@ class SceneReader {
       }
     }
     if (!root_.find("soil")) {
-      report("soil", "nothing", "at least one table [soil.NAME], NAME being its region's");
+      report_missing("soil", "at least one table [soil.NAME], NAME being its region's");
     }
   }
 
@@ -367,7 +379,7 @@ class SceneReader {
     if (declared.default_value) declared.store(scene_, instance.index, *declared.default_value);
     const bool unknown = without_inheritance_.contains(instance.table->name);
     if (declared.required && !unknown) {
-      report(joined(instance.key, path), "nothing", declared.expected());
+      report_missing(joined(instance.key, path), declared.expected());
     }
   }
 

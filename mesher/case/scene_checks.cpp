@@ -1,9 +1,7 @@
 #include "case/scene_checks.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
-#include <set>
 
 #include "case/scene_schema.hpp"
 
@@ -26,52 +24,50 @@ class Checks {
 
  private:
   [[nodiscard]] bool given(const std::string& key) const { return inquiry_.given(key); }
-  void report(const std::string& key, const std::string& found, const std::string& expected) const {
-    inquiry_.report(key, found, expected);
+  void report(const std::string& key, const std::string& found, const std::string& expected,
+              const std::vector<std::string>& others = {}) const {
+    inquiry_.report({.key = key, .found = found, .expected = expected, .others = others});
   }
-  /// Reports `key` as missing, with what its declaration says.
-  void require(const std::string& key, const std::string& pattern, const std::string& why) const {
-    if (!given(key)) report(key, "nothing", find_scene_key(pattern)->expected() + ", " + why);
+  /// Reports `key` as missing, with what its declaration says and the other key that asks for it.
+  void require(const std::string& key, const std::string& pattern, const std::string& why,
+               const std::string& other) const {
+    if (given(key)) return;
+    report(key, "nothing", find_scene_key(pattern)->expected() + ", " + why, {other});
   }
 
   void check_geometry() const {
     const bool file = given("geometry.file");
     const bool shape = given("geometry.shape");
-    if (file && shape) report("geometry.shape", "a shape and a file", "one of the two");
+    if (file && shape)
+      report("geometry.shape", "a shape and a file", "one of the two", {"geometry.file"});
     if (!file && !shape) report("geometry", "neither file nor shape", "one of the two");
     if (file && !shape) check_file();
   }
 
   void check_file() const {
-    const std::string& file = scene_.geometry.file;
-    for (const std::string key : {"geometry.width", "geometry.height"}) {
+    for (const std::string name : {"width", "height"}) {
+      const std::string key = joined("geometry", name);
       if (given(key)) {
-        report(key, "a size for geometry.file", "it with shape = \"column\" only");
+        report(key, "a " + name + " beside geometry.file", name + " with shape = \"column\" only",
+               {"geometry.file"});
       }
     }
     if (given("mesh.structure") && scene_.mesh.structure == MeshStructure::regular) {
       report("mesh.structure", "\"regular\" for geometry.file",
-             "\"free\": only the built-in shapes have a regular mesh");
-    }
-    if (file.empty()) return;
-    const std::string extension = std::filesystem::path(file).extension();
-    if (extension != ".geo" && extension != ".msh" && extension != ".step") {
-      report("geometry.file", shown_value(file), "a file that ends in .geo, .msh or .step");
-    }
-    if (extension == ".msh" && given("mesh.size")) {
-      report("mesh.size", "a size for " + file, "none: the file is a mesh already");
+             "\"free\": only the built-in shapes have a regular mesh", {"geometry.file"});
     }
   }
 
   void check_column() const {
     const std::string why = "for shape = \"column\"";
     for (const std::string key : {"geometry.width", "geometry.height", "mesh.size"}) {
-      require(key, key, why);
+      require(key, key, why, "geometry.shape");
     }
     const double smallest = std::min(scene_.geometry.width, scene_.geometry.height);
     if (scene_.mesh.size > smallest) {
       report("mesh.size", shown_value(scene_.mesh.size),
-             "h <= " + shown_number(smallest) + " m, the smaller of width and height");
+             "h <= " + shown_number(smallest) + " m, the smaller of width and height",
+             {"geometry.width", "geometry.height"});
     }
     check_two_dimensional("gravity", scene_.gravity);
     for (const Soil& soil : scene_.soils) {
@@ -84,7 +80,7 @@ class Checks {
   void check_two_dimensional(const std::string& key, const Vector3& value) const {
     if (value[2] != 0.0) {
       report(key, shown_value(std::vector(value.begin(), value.end())),
-             "two numbers: a column is two-dimensional");
+             "two numbers: a column is two-dimensional", {"geometry.shape"});
     }
   }
 
@@ -98,7 +94,7 @@ class Checks {
       report(table + ".skeleton_fraction",
              "n_0 + n_C = " + shown_number(soil.porosity) + " + " +
                  shown_number(soil.skeleton_fraction) + " > 1",
-             "n_0 + n_C <= 1");
+             "n_0 + n_C <= 1", {table + ".porosity"});
     }
     check_erosion(soil, table + ".erosion");
   }
@@ -106,12 +102,13 @@ class Checks {
   void check_erosion(const Soil& soil, const std::string& table) const {
     for (const std::string& name : scene_children("soil.*.erosion")) {
       if (given(joined(table, name))) {
-        require(table + ".law", "soil.*.erosion.law", "as " + name + " is given");
+        require(table + ".law", "soil.*.erosion.law", "as " + name + " is given",
+                joined(table, name));
         break;
       }
     }
     if (soil.erosion.law != ErosionLaw::none) {
-      require(table + ".rate", "soil.*.erosion.rate", "as law is not \"none\"");
+      require(table + ".rate", "soil.*.erosion.rate", "as law is not \"none\"", table + ".law");
     }
   }
 
@@ -125,25 +122,28 @@ class Checks {
       const auto [earlier, is_new] = first_entry.emplace(boundary.on, entry);
       if (!is_new) {
         report(entry + ".on", shown_value(boundary.on) + ", as in " + earlier->second,
-               "one entry per boundary");
+               "one entry per boundary", {earlier->second + ".on"});
       }
     }
   }
 
   void check_boundary(const BoundaryCondition& boundary, const std::string& entry) const {
     std::vector<std::string> conditions;
+    std::vector<std::string> keys;
     for (const std::string name : {"pressure", "velocity", "darcy_flux"}) {
-      if (given(joined(entry, name))) conditions.push_back(name);
+      if (!given(joined(entry, name))) continue;
+      conditions.push_back(name);
+      keys.push_back(joined(entry, name));
     }
     if (conditions.size() > 1) {
-      report(entry, listed(conditions, "and"), "one of pressure, velocity and darcy_flux");
+      report(entry, listed(conditions, "and"), "one of pressure, velocity and darcy_flux", keys);
     }
     if (conditions.empty() && !given(entry + ".concentration")) {
       report(entry, "no condition",
              "at least one of pressure, velocity, darcy_flux and concentration");
     }
-    check_outflow(boundary.velocity, "velocity v_L", boundary, entry);
-    check_outflow(boundary.darcy_flux, "darcy_flux q", boundary, entry);
+    check_outflow(boundary.velocity, "velocity", boundary, entry);
+    check_outflow(boundary.darcy_flux, "darcy_flux", boundary, entry);
   }
 
   /// A concentration is that of liquid that enters: contradictory where liquid is drawn out.
@@ -153,18 +153,19 @@ class Checks {
     report(entry + ".concentration",
            "c = " + shown_number(*boundary.concentration) + " where the liquid leaves, " + name +
                " = " + shown_number(*flow),
-           "no concentration, or an inflow");
+           "no concentration, or an inflow", {joined(entry, name)});
   }
 
   void check_times() const {
     const TimeSettings& time = scene_.time;
     const OutputSettings& output = scene_.output;
     if (time.step && *time.step > time.end) {
-      report("time.step", shown_value(*time.step), "dt <= T = " + shown_number(time.end) + " s");
+      report("time.step", shown_value(*time.step), "dt <= T = " + shown_number(time.end) + " s",
+             {"time.end"});
     }
     if (output.snapshot_every < output.every) {
       report("output.snapshot_every", shown_value(output.snapshot_every),
-             "at least output.every, " + shown_number(output.every) + " s");
+             "at least output.every, " + shown_number(output.every) + " s", {"output.every"});
     }
   }
 

@@ -4,17 +4,25 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "case/scene.hpp"
 
 namespace suffuse {
 
+/// Keys that do not go together, or one that another asks for.
+struct Contradiction {
+  std::string key;  ///< the one to change
+  std::string found;
+  std::string expected;
+  std::vector<std::string> others;  ///< further keys that it is about
+};
+
 /// What the checks may ask about a scene, and how they say what is wrong.
 struct SceneInquiry {
   /// Whether a key or table was given, right or wrong.
   std::function<bool(const std::string& key)> given;
-  std::function<void(const std::string& key, const std::string& found, const std::string& expected)>
-      report;
+  std::function<void(const Contradiction&)> report;
 };
 
 /// Values that were wrong by themselves are still unset in `scene` and raise nothing here.

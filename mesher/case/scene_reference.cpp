@@ -32,15 +32,15 @@ replaces it, as in the third line: the pressure given in the file is gone.
 
 ## Keys
 
-`-` stands for a quantity without a unit, or for a key without a symbol. Symbols are those of the theory.
+`-` stands for a quantity without a unit, or for a key without a symbol. Symbols are those of
+[the theory](theory.md).
 )";
 
 constexpr const char* example = R"(
 ## An example
 
-A column of 1 m by 1 m under a head of 6 kPa, two layers of which the lower one does not erode, is this
-(the regions `sand` and `base` and the boundaries `top` and `bottom` being physical groups in
-`layers.geo`):
+Two layers under a pressure of 6 kPa, the lower of which does not erode. The regions `sand` and `base`
+and the boundaries `top` and `bottom` are physical groups of `layers.geo`.
 
 ```toml
 name        = "two-layers"

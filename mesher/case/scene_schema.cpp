@@ -165,6 +165,10 @@ std::vector<SceneKey> declare_keys() {
           "Your own .geo, .msh or .step file, relative to the scene; its physical groups name "
           "regions and boundaries.")
           .otherwise_as("required without `shape`"),
+      choice("geometry.shape", at(&Scene::geometry, &Geometry::shape), {{"column", "column"}},
+             "A built-in geometry. A column has the region `specimen` and the boundaries `top`, "
+             "`bottom`, `left` and `right`; its lower left corner is the origin.")
+          .otherwise_as("required without `file`"),
       key("geometry.width", at(&Scene::geometry, &Geometry::width), "Width of the column.")
           .in("m")
           .above(0.0)
@@ -173,13 +177,11 @@ std::vector<SceneKey> declare_keys() {
           .in("m")
           .above(0.0)
           .otherwise_as("required with `shape`"),
-      choice("geometry.shape", at(&Scene::geometry, &Geometry::shape), {{"column", "column"}},
-             "A built-in geometry. A column has the region `specimen` and the boundaries `top`, "
-             "`bottom`, `left` and `right`; its lower left corner is the origin.")
-          .otherwise_as("required without `file`"),
 
       key("mesh.size", at(&Scene::mesh, &MeshSettings::size),
-          "Size of the elements; with a .geo or .step file the largest size.")
+          "Size of the elements; with a .geo or .step file the largest size, and the one where the "
+          "file "
+          "gives none.")
           .named("h")
           .in("m")
           .above(0.0)

@@ -83,9 +83,10 @@ SceneNode read_node(const toml::node& node, std::string name, const Place& place
     result.form = Form::table;
     result.shown = "a table";
     result.children = read_children(*table, locate);
-  } else if (const auto* array = node.as_array(); array && array->is_homogeneous<toml::table>()) {
+  } else if (const auto* array = node.as_array();
+             array && (array->empty() || array->is_homogeneous<toml::table>())) {
     result.form = Form::list;
-    result.shown = "a list of tables";
+    result.shown = array->empty() ? "[]" : "a list of tables";
     for (const toml::node& item : *array) {
       result.children.push_back(read_node(item, "", locate(item.source()), locate));
     }

@@ -60,7 +60,7 @@ std::string nearest_key(const std::string& name, const std::string& table,
     // A key of the same name in another table is likelier than one letter wrong in this one.
     if (distance <= (here ? nearness_limit(name) : name.size() / 4)) {
       score = 2 * distance + (here ? 0 : 1);
-    } else if (key && key->symbol == name) {
+    } else if (key && !name.empty() && key->symbol == name) {
       score = here ? 1 : 2;
     }
     if (score >= best) continue;

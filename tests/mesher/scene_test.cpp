@@ -1,0 +1,333 @@
+#include "case/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "case/scene_schema.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path scenes = fs::path(SUFFUSE_TEST_DATA) / "scenes";
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The problems of a scene, one per line; empty when it is right.
+std::string problems_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_scene(text, "scene.toml", overrides);
+  } catch (const InputError& error) {
+    return error.what() + std::string("\n");
+  }
+  return {};
+}
+
+/// Lines `#set KEY=VALUE` of a scene, as `--set` arguments.
+std::vector<std::string> overrides_in(const std::string& text) {
+  const std::string mark = "#set ";
+  std::vector<std::string> overrides;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(mark)) overrides.push_back(line.substr(mark.size()));
+  }
+  return overrides;
+}
+
+std::vector<std::string> wrong_scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(scenes / "wrong")) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+class WrongScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(WrongScene, is_refused_with_these_messages) {
+  const std::string text = read_text(scenes / "wrong" / (GetParam() + ".toml"));
+  const std::string expected = read_text(scenes / "wrong" / (GetParam() + ".expected"));
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(problems_of(text, overrides_in(text)), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, WrongScene, testing::ValuesIn(wrong_scenes()),
+                         [](const auto& scene) {
+                           std::string name = scene.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+/// The least a scene can say.
+const std::string least = R"(formulation = "single-point"
+geometry = { shape = "column", width = 1, height = 2 }
+mesh.size = 0.25
+liquid = { density = 1000, bulk_modulus = 2e7, viscosity = 1e-3 }
+time = { end = 120, scheme = "explicit" }
+output.every = 1
+[soil.specimen]
+porosity = 0.3
+skeleton_fraction = 0.6
+grain_density = 2700
+conductivity = 2e-2
+)";
+
+Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_scene(text, "folder/column.toml", overrides).scene;
+}
+
+TEST(Scene, reads_every_value_of_the_papers_scene) {
+  const SceneDocument document = read_scene((scenes / "paper.toml").string());
+  const Scene& scene = document.scene;
+  EXPECT_EQ(document.text, read_text(scenes / "paper.toml"));
+  EXPECT_EQ(scene.name, "constant-head-sp");
+  EXPECT_EQ(scene.formulation, Formulation::single_point);
+  EXPECT_EQ(scene.geometry.shape, "column");
+  EXPECT_EQ(scene.geometry.file, "");
+  EXPECT_EQ(scene.geometry.width, 1.0);
+  EXPECT_EQ(scene.geometry.height, 1.5);
+  EXPECT_EQ(scene.mesh.size, 0.25);
+  EXPECT_EQ(scene.mesh.structure, MeshStructure::free);
+  EXPECT_EQ(scene.points.solid_per_element, 6);
+  EXPECT_EQ(scene.points.jitter, 0.125);
+  EXPECT_EQ(scene.points.seed, 7);
+  EXPECT_EQ(scene.liquid.density, 1000.0);
+  EXPECT_EQ(scene.liquid.bulk_modulus, 2e7);
+  EXPECT_EQ(scene.liquid.viscosity, 1e-3);
+  EXPECT_EQ(scene.gravity, (std::array{0.0, -9.81, 0.0}));
+  EXPECT_EQ(scene.initial_flow, InitialFlow::steady);
+  EXPECT_FALSE(scene.flow.porosity_gradient_term);
+  EXPECT_EQ(scene.time.end, 120.0);
+  EXPECT_EQ(scene.time.scheme, FlowScheme::explicit_nodal);
+  EXPECT_EQ(scene.time.step, 0.0851);
+  EXPECT_EQ(scene.time.mass_scaling, 1e4);
+  EXPECT_EQ(scene.time.drag, DragIntegration::implicit_drag);
+  EXPECT_EQ(scene.output.every, 1.0);
+  EXPECT_EQ(scene.output.snapshot_every, 5.0);
+  EXPECT_TRUE(scene.output.exact);
+
+  ASSERT_EQ(scene.soils.size(), 1U);
+  const Soil& soil = scene.soils[0];
+  EXPECT_EQ(soil.region, "specimen");
+  EXPECT_EQ(soil.porosity, 0.3);
+  EXPECT_EQ(soil.porosity_gradient, (std::array{0.0, 0.05, 0.0}));
+  EXPECT_EQ(soil.porosity_origin, (std::array{0.5, 1.0, 0.0}));
+  EXPECT_EQ(soil.skeleton_fraction, 0.6);
+  EXPECT_EQ(soil.grain_density, 2700.0);
+  EXPECT_EQ(soil.conductivity, 2e-2);
+  EXPECT_EQ(soil.erosion.law, ErosionLaw::logarithmic);
+  EXPECT_EQ(soil.erosion.rate, 1e-3);
+  EXPECT_EQ(soil.erosion.start, 2.0);
+  EXPECT_TRUE(soil.erosion.momentum_transfer);
+
+  ASSERT_EQ(scene.boundaries.size(), 3U);
+  EXPECT_EQ(scene.boundaries[0].on, "top");
+  EXPECT_EQ(scene.boundaries[0].pressure, 6e3);
+  EXPECT_EQ(scene.boundaries[0].concentration, 0.0);
+  EXPECT_EQ(scene.boundaries[0].velocity, std::nullopt);
+  EXPECT_EQ(scene.boundaries[1].velocity, -0.04);
+  EXPECT_EQ(scene.boundaries[1].pressure, std::nullopt);
+  EXPECT_EQ(scene.boundaries[2].darcy_flux, 0.012);
+}
+
+TEST(Scene, fills_in_defaults) {
+  const Scene scene = scene_of(least);
+  EXPECT_EQ(scene.name, "column");  // of the file folder/column.toml
+  EXPECT_EQ(scene.mesh.structure, MeshStructure::regular);
+  EXPECT_EQ(scene.points.solid_per_element, 3);
+  EXPECT_EQ(scene.points.jitter, 0.0);
+  EXPECT_EQ(scene.initial_flow, InitialFlow::rest);
+  EXPECT_TRUE(scene.flow.porosity_gradient_term);
+  EXPECT_EQ(scene.time.step, std::nullopt);
+  EXPECT_EQ(scene.time.mass_scaling, 1.0);
+  EXPECT_EQ(scene.time.drag, DragIntegration::explicit_drag);
+  EXPECT_EQ(scene.output.snapshot_every, scene.output.every);
+  EXPECT_FALSE(scene.output.exact);
+  EXPECT_EQ(scene.gravity, (std::array{0.0, 0.0, 0.0}));
+  EXPECT_EQ(scene.soils[0].erosion.law, ErosionLaw::none);
+  EXPECT_TRUE(scene.boundaries.empty());
+}
+
+TEST(Scene, does_not_need_a_size_for_a_file) {
+  std::string text = least;
+  text.replace(text.find("geometry"), text.find("liquid") - text.find("geometry"),
+               "geometry.file = \"levee.geo\"\n");
+  const Scene scene = scene_of(text);
+  EXPECT_EQ(scene.geometry.file, "levee.geo");
+  EXPECT_TRUE(std::isnan(scene.mesh.size));
+  EXPECT_EQ(scene.mesh.structure, MeshStructure::free);
+}
+
+TEST(Scene, inherits_keys_that_are_not_given) {
+  const Scene scene = scene_of(least + R"([soil.specimen.erosion]
+law = "constant"
+rate = 1e-3
+start = 2
+[soil.fine]
+like = "buffer"
+conductivity = 1e-4
+[soil.buffer]
+like = "specimen"
+porosity = 0.35
+erosion.law = "none"
+)");
+  ASSERT_EQ(scene.soils.size(), 3U);
+  const Soil* buffer = scene.find_soil("buffer");
+  ASSERT_NE(buffer, nullptr);
+  EXPECT_EQ(buffer->porosity, 0.35);
+  EXPECT_EQ(buffer->skeleton_fraction, 0.6);
+  EXPECT_EQ(buffer->conductivity, 2e-2);
+  EXPECT_EQ(buffer->erosion.law, ErosionLaw::none);
+  EXPECT_EQ(buffer->erosion.start, 2.0);
+  const Soil* fine = scene.find_soil("fine");
+  ASSERT_NE(fine, nullptr);
+  EXPECT_EQ(fine->porosity, 0.35);
+  EXPECT_EQ(fine->conductivity, 1e-4);
+  EXPECT_EQ(fine->erosion.law, ErosionLaw::none);
+  EXPECT_EQ(scene.find_soil("specimen")->erosion.law, ErosionLaw::constant);
+  EXPECT_EQ(scene.find_soil("sand"), nullptr);
+}
+
+TEST(Scene, keeps_soils_in_the_order_of_the_file) {
+  const Scene scene = scene_of(least + "[soil.b]\nlike = \"specimen\"\n[soil.a]\nlike = \"b\"\n");
+  ASSERT_EQ(scene.soils.size(), 3U);
+  EXPECT_EQ(scene.soils[0].region, "specimen");
+  EXPECT_EQ(scene.soils[1].region, "b");
+  EXPECT_EQ(scene.soils[2].region, "a");
+}
+
+TEST(Scene, accepts_fractions_that_add_up_to_one) {
+  for (int percent = 1; percent < 100; ++percent) {
+    const std::string porosity = "soil.specimen.porosity=" + std::to_string(percent) + "e-2";
+    const std::string skeleton =
+        "soil.specimen.skeleton_fraction=" + std::to_string(100 - percent) + "e-2";
+    EXPECT_EQ(problems_of(least, {porosity, skeleton}), "") << percent;
+  }
+}
+
+TEST(Override, changes_and_adds_keys) {
+  const Scene scene = scene_of(
+      least, {"soil.specimen.erosion.rate=5e-3", "soil.specimen.erosion.law=first-order",
+              "time.end=10", "time.end = 20", "boundary[0].on=top", "boundary[0].pressure=3000",
+              "boundary[1]={on=\"bottom\", darcy_flux=-1e-3}", "gravity=[0, -9.81]", "name='a b'",
+              "time.drag=implicit", "soil.\"two words\".like=specimen"});
+  EXPECT_EQ(scene.soils[0].erosion.law, ErosionLaw::first_order);
+  EXPECT_EQ(scene.soils[0].erosion.rate, 5e-3);
+  EXPECT_EQ(scene.time.end, 20.0);
+  ASSERT_EQ(scene.boundaries.size(), 2U);
+  EXPECT_EQ(scene.boundaries[0].pressure, 3e3);
+  EXPECT_EQ(scene.boundaries[1].darcy_flux, -1e-3);
+  EXPECT_EQ(scene.gravity[1], -9.81);
+  EXPECT_EQ(scene.name, "a b");
+  EXPECT_EQ(scene.time.drag, DragIntegration::implicit_drag);
+  ASSERT_NE(scene.find_soil("two words"), nullptr);
+  EXPECT_EQ(scene.find_soil("two words")->erosion.rate, 5e-3);
+}
+
+TEST(Override, of_a_table_replaces_it) {
+  const std::string text = least + "[[boundary]]\non = \"top\"\npressure = 1\n";
+  const Scene scene = scene_of(text, {"boundary[0]={on=\"top\", darcy_flux=0.012}"});
+  EXPECT_EQ(scene.boundaries[0].pressure, std::nullopt);
+  EXPECT_EQ(scene.boundaries[0].darcy_flux, 0.012);
+}
+
+TEST(Override, mends_a_wrong_value_of_the_file) {
+  EXPECT_NE(problems_of(least + "porosity_origin = 1\n"), "");
+  EXPECT_EQ(problems_of(least + "porosity_origin = 1\n", {"soil.specimen.porosity_origin=[0, 1]"}),
+            "");
+}
+
+TEST(Override, fills_an_empty_list) {
+  const Scene scene =
+      scene_of("boundary = []\n" + least, {"boundary[0].on=top", "boundary[0].velocity=0"});
+  ASSERT_EQ(scene.boundaries.size(), 1U);
+  EXPECT_EQ(scene.boundaries[0].velocity, 0.0);
+}
+
+TEST(SceneDocument, locates_keys) {
+  const std::string text = least + "[[boundary]]\non = \"top\"\npressure = 1\n";
+  const SceneDocument document =
+      parse_scene(text, "scene.toml", {"time.step=0.1", "soil.clay.like=specimen"});
+  EXPECT_EQ(document.locate("mesh.size"), "scene.toml:3");
+  EXPECT_EQ(document.locate("soil.specimen.porosity"), "scene.toml:8");
+  EXPECT_EQ(document.locate("soil.specimen.erosion.law"), "scene.toml:7");  // the table's header
+  EXPECT_EQ(document.locate("boundary[0].on"), "scene.toml:13");
+  EXPECT_EQ(document.locate("boundary[0].velocity"), "scene.toml:12");
+  EXPECT_EQ(document.locate("boundary[0]"), "scene.toml:12");
+  EXPECT_EQ(document.locate("time.step"), "--set time.step=0.1");
+  EXPECT_EQ(document.locate("soil.clay"), "--set soil.clay.like=specimen");
+  EXPECT_EQ(document.locate("soil.clay.porosity"), "scene.toml:8");  // inherited
+  EXPECT_EQ(document.locate("gravity"), "scene.toml");
+  EXPECT_EQ(document.where.count("time.mass_scaling"), 0U);
+}
+
+TEST(SceneDocument, reads_the_same_from_its_own_text) {
+  const SceneDocument first = parse_scene(least, "scene.toml", {"time.step=0.1"});
+  const SceneDocument second = parse_scene(first.text, first.path, first.overrides);
+  EXPECT_EQ(second.scene.time.step, 0.1);
+  EXPECT_EQ(second.where, first.where);
+}
+
+TEST(SceneFile, that_cannot_be_read_is_a_file_error) {
+  EXPECT_THROW(read_scene("no/such/scene.toml"), FileError);
+  EXPECT_THROW(read_scene(scenes.string()), FileError);
+}
+
+TEST(SceneFile, that_is_not_text_is_refused) {
+  EXPECT_NE(problems_of(std::string("\x89HDF\r\n\x1a\n\0\0", 10)).find("not TOML"),
+            std::string::npos);
+}
+
+TEST(SceneSchema, declares_each_key_once_and_within_its_own_bounds) {
+  std::set<std::string> patterns;
+  for (const SceneKey& key : scene_keys()) {
+    EXPECT_TRUE(patterns.insert(key.pattern).second) << key.pattern;
+    EXPECT_FALSE(key.sentence.empty()) << key.pattern;
+    EXPECT_EQ(key.required + key.default_value.has_value() + !key.default_note.empty(), 1)
+        << key.pattern << " wants a default or to be required";
+    if (key.default_value) {
+      EXPECT_TRUE(key.accept(*key.default_value)) << key.pattern;
+    }
+  }
+}
+
+TEST(SceneReference, is_up_to_date) {
+  EXPECT_EQ(read_text(fs::path(SUFFUSE_SOURCE_DIR) / "docs/scene-reference.md"),
+            scene_reference_markdown())
+      << "docs/scene-reference.md is stale; run in the root of the repository:\n"
+         "  suffuse-mesher --scene-reference > docs/scene-reference.md";
+}
+
+TEST(SceneReference, has_every_key) {
+  const std::string reference = scene_reference_markdown();
+  std::size_t rows = 0;
+  for (std::size_t row = reference.find("\n| `"); row != std::string::npos;
+       row = reference.find("\n| `", row + 1)) {
+    ++rows;
+  }
+  EXPECT_EQ(rows, scene_keys().size());
+}
+
+TEST(SceneReference, has_an_example_that_works) {
+  const std::string reference = scene_reference_markdown();
+  const std::string fence = "```toml\n";
+  const std::size_t begin = reference.find(fence) + fence.size();
+  EXPECT_EQ(problems_of(reference.substr(begin, reference.find("```\n", begin) - begin)), "");
+}
+
+}  // namespace
+}  // namespace suffuse
