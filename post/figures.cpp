@@ -182,8 +182,11 @@ bool is_drawn(const std::vector<Curve>& curves, const Curve& curve) {
   });
 }
 
-void require_rows(const ResultsReader& run, const Table& table, const std::string& name) {
-  if (table.rows() == 0) throw FileError(run.folder() + ": " + name + " has no rows yet");
+void require_curve(const ResultsReader& run, const Table& table, const std::string& name) {
+  const auto& t = table.column("t");
+  if (t.empty() || !(t.back() > t.front())) {
+    throw FileError(run.folder() + ": " + name + " has no two times yet to draw a curve through");
+  }
 }
 
 Chart porosity_figure(const std::vector<ResultsReader>& runs) {
@@ -193,7 +196,7 @@ Chart porosity_figure(const std::vector<ResultsReader>& runs) {
   const auto labels = run_labels(runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Table history = runs[r].history();
-    require_rows(runs[r], history, "history.csv");
+    require_curve(runs[r], history, "history.csv");
     const Specimen soil = specimen(runs[r]);
     Curve line;
     line.label = law_label(soil);
@@ -246,7 +249,7 @@ constexpr std::array<Quantity, 4> quantities{{
 /// The region ledgers added up over the specimen, by time.
 std::map<double, Masses> computed_masses(const ResultsReader& run, const Specimen& soil) {
   const Table table = run.region_ledgers();
-  require_rows(run, table, "regions.csv");
+  require_curve(run, table, "regions.csv");
   std::map<double, Masses> masses;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto at = [&](const char* name) { return table.column(name)[row]; };

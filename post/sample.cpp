@@ -99,6 +99,9 @@ Moment find_moment(const ResultsReader& results, double time) {
 struct SampledField {
   Field values;
   std::string where;
+
+  /// 1 for a scalar, the dimension for a vector.
+  [[nodiscard]] int width() const { return where == "element_vertex" ? 1 : values.components; }
 };
 
 SampledField read_at(const ResultsReader& results, const Moment& moment, const std::string& name) {
@@ -125,7 +128,7 @@ SampledField read_at(const ResultsReader& results, const Moment& moment, const s
 
 double value_in(const Mesh<2>& mesh, const SampledField& field, const Place& place, int component) {
   const auto at = [&](std::size_t entity) {
-    return field.values.values[entity * field.values.components + component];
+    return field.values.values[entity * field.width() + component];
   };
   if (field.where == "cell") return at(place.element);
   double value = 0.0;
@@ -144,9 +147,9 @@ double mean_value(const Mesh<2>& mesh, const SampledField& field, const std::vec
   return total / static_cast<double>(around.size());
 }
 
-std::string column_name(const Field& field, int component) {
+std::string column_name(const SampledField& field, int component) {
   constexpr std::array<const char*, 3> axes{"_x", "_y", "_z"};
-  return field.components == 1 ? field.name : field.name + axes.at(component);
+  return field.width() == 1 ? field.values.name : field.values.name + axes.at(component);
 }
 
 }  // namespace
@@ -184,8 +187,8 @@ Table sample(const ResultsReader& results, double time, const SampleLine& line, 
   Table table{{"x", "y"}, std::vector<std::vector<double>>(2)};
   for (const auto& name : fields) {
     sampled.push_back(read_at(results, moment, name));
-    for (int k = 0; k < sampled.back().values.components; ++k) {
-      table.names.push_back(column_name(sampled.back().values, k));
+    for (int k = 0; k < sampled.back().width(); ++k) {
+      table.names.push_back(column_name(sampled.back(), k));
       table.columns.emplace_back();
     }
   }
@@ -198,7 +201,7 @@ Table sample(const ResultsReader& results, double time, const SampleLine& line, 
     table.columns[1].push_back(x[1]);
     std::size_t column = 2;
     for (const auto& field : sampled) {
-      for (int k = 0; k < field.values.components; ++k) {
+      for (int k = 0; k < field.width(); ++k) {
         table.columns[column++].push_back(mean_value(mesh, field, around, k));
       }
     }

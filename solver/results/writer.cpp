@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <stdexcept>
 
 #include "case/errors.hpp"
 #include "case/hdf5_io.hpp"
@@ -153,12 +154,16 @@ void write_provenance(Hdf5File& file, const Case<Dim>& c, const Snapshot& snapsh
   }
 }
 
-/// Fields of the solver's own, one row of `vertices` per element.
+/// Fields of the solver's own; those of element_vertex have one row of `vertices` per element.
 void write_own_fields(Hdf5File& file, const Snapshot& snapshot, std::size_t elements,
-                      std::size_t vertices) {
+                      int vertices) {
   file.create_group(layout::element_vertex_group);
   for (const auto& field : snapshot.element_vertex) {
-    write_field(file, layout::element_vertex_group, field, {elements, vertices});
+    if (field.components != vertices) {
+      throw std::logic_error("field " + field.name + " has " + std::to_string(field.components) +
+                             " components per element; expected one for every vertex");
+    }
+    write_field(file, layout::element_vertex_group, field, {elements});
   }
   file.create_group(layout::restart_group);
   for (const auto& field : snapshot.restart) {

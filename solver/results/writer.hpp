@@ -30,8 +30,8 @@ struct Snapshot {
   std::vector<Field> cell;   ///< per element: means
   std::vector<Field> node;   ///< per mesh node
   std::vector<Field> solid;  ///< per solid point
-  /// Dim + 1 values per element: the element's own linear field at its vertices. `sample` reads
-  /// these.
+  /// The element's own linear scalar at its vertices: Dim + 1 components per element, in the order
+  /// of its nodes. `sample` reads these.
   std::vector<Field> element_vertex;
   /// What a resumed run needs, by name; shapes are the solver's business.
   std::vector<Field> restart;

@@ -97,8 +97,8 @@ inline Snapshot linear_snapshot(const Case<2>& c, double t, long step) {
   Snapshot s;
   s.time = t;
   s.step = step;
-  Field porosity{"porosity", "-", 1, {}};
-  Field fines{"fines_fraction", "-", 1, {}};
+  Field porosity{"porosity", "-", 3, {}};
+  Field fines{"fines_fraction", "-", 3, {}};
   Field cell_porosity{"porosity", "-", 1, {}};
   Field pressure{"pressure", "Pa", 1, {}};
   Field flux{"darcy_flux", "m/s", 2, {}};
