@@ -1,4 +1,4 @@
-"""Shows a results folder in ParaView 5.11 or newer: fields side by side, each with its colour bar, over all times.
+"""Shows a results folder in ParaView 5.11 or newer: fields beside one another, each with its colour bar, over all times.
 
     SUFFUSE_RESULTS=NAME.results paraview --script=show_results.py
     pvpython show_results.py NAME.results [--fields porosity,concentration] [--time T] [--save PICTURE.png]
@@ -12,10 +12,11 @@ import argparse
 import os
 import sys
 
+import paraview
 from paraview import simple as pv
 
-UNITS = {"pressure": "Pa", "erosion_rate": "1/s", "liquid_velocity": "m/s", "velocity": "m/s", "darcy_flux": "m/s"}
-VIEW_SIZE = (620, 640)
+UNITS = {"pressure": "Pa", "liquid_velocity": "m/s", "darcy_flux": "m/s"}
+BAR_ROOM = 1.35  # how much taller a view is than the model, for the colour bar below and the time above
 
 
 def arguments():
@@ -74,39 +75,65 @@ def show_field(source, field, view):
     bar = pv.GetScalarBar(pv.GetColorTransferFunction(field), view)
     unit = UNITS.get(field)
     bar.Title = field.replace("_", " ") + (f" ({unit})" if unit else "")
-    bar.ComponentTitle = "magnitude" if field in ("liquid_velocity", "velocity", "darcy_flux") else ""
-    for part in (bar, view):
-        if part is bar:
-            bar.TitleColor = bar.LabelColor = [0.0, 0.0, 0.0]
-    return display
+    bar.ComponentTitle = ""
+    bar.TitleColor = bar.LabelColor = [0.0, 0.0, 0.0]
+    bar.Orientation = "Horizontal"
+    bar.WindowLocation = "Lower Center"
+    bar.ScalarBarLength = 0.6
+    bar.AutomaticLabelFormat = 0
+    bar.LabelFormat = bar.RangeLabelFormat = "%.3g"
+
+
+def add_time(source, view):
+    stamp = pv.AnnotateTimeFilter(Input=source)
+    stamp.Format = "t = {time:g} s"
+    text = pv.Show(stamp, view)
+    text.Color = [0.0, 0.0, 0.0]
+    text.WindowLocation = "Upper Center"
+
+
+def new_view(layout, cell):
+    view = pv.CreateView("RenderView")
+    view.InteractionMode = "2D"
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1.0, 1.0, 1.0]
+    pv.AssignViewToLayout(view=view, layout=layout, hint=cell)
+    return view
+
+
+def fit(view, bounds, size):
+    """The whole model, with room for the colour bar and the time."""
+    width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
+    centre = [(bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2, (bounds[4] + bounds[5]) / 2]
+    view.CameraFocalPoint = centre
+    view.CameraPosition = [centre[0], centre[1], centre[2] + 10 * (width + height)]
+    view.CameraParallelProjection = 1
+    view.CameraParallelScale = max(BAR_ROOM * height, 1.1 * width * size[1] / size[0]) / 2
 
 
 def lay_out(source, fields):
-    """One view per field, side by side, with a common camera and the time in each."""
-    views = []
+    """One view per field: side by side, or one above the other where the model is wide."""
+    bounds = source.GetDataInformation().GetBounds()
+    wide = bounds[1] - bounds[0] > 1.5 * (bounds[3] - bounds[2])
+    size = (1000, 480) if wide else (600, 680)
     layout = pv.CreateLayout("Suffuse")
+    split = layout.SplitVertical if wide else layout.SplitHorizontal
+    views = []
     cell = 0
     for number, field in enumerate(fields):
-        if number:
-            cell = layout.SplitHorizontal(cell, 1.0 / (len(fields) - number + 1)) + 1
-        view = pv.CreateView("RenderView")
-        view.ViewSize = VIEW_SIZE
-        view.InteractionMode = "2D"
-        view.OrientationAxesVisibility = 0
-        view.UseColorPaletteForBackground = 0
-        view.Background = [1.0, 1.0, 1.0]
-        pv.AssignViewToLayout(view=view, layout=layout, hint=cell)
-        show_field(source, field, view)
-        stamp = pv.AnnotateTimeFilter(Input=source)
-        stamp.Format = "t = {time:g} s"
-        text = pv.Show(stamp, view)
-        text.Color = [0.0, 0.0, 0.0]
-        text.WindowLocation = "Upper Center"
-        pv.ResetCamera(view)
-        views.append(view)
-    for view in views[1:]:
-        pv.AddCameraLink(views[0], view, f"camera{id(view)}")
-    layout.SetSize(VIEW_SIZE[0] * len(fields), VIEW_SIZE[1])
+        # Splitting cell i puts what was in it into 2 i + 1 and opens 2 i + 2.
+        views.append(new_view(layout, cell))
+        show_field(source, field, views[-1])
+        add_time(source, views[-1])
+        if number + 1 < len(fields):
+            cell = split(cell, 1.0 / (len(fields) - number)) + 1
+    layout.SetSize(*((size[0], size[1] * len(fields)) if wide else (size[0] * len(fields), size[1])))
+    pv.RenderAllViews()  # the first rendering moves the camera
+    for view in views:
+        fit(view, bounds, size)
+    for number, view in enumerate(views[1:]):
+        pv.AddCameraLink(views[0], view, f"camera {number + 1}")
     return layout
 
 
@@ -131,7 +158,7 @@ def main():
     pv.RenderAllViews()
     if given.save:
         pv.SaveScreenshot(given.save, layout)
-    elif "pvpython" in os.path.basename(sys.executable or "") or "pvbatch" in sys.argv[0]:
+    elif not paraview.fromGUI:
         pv.Interact()
 
 
