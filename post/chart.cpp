@@ -37,20 +37,46 @@ namespace {
 
 constexpr int height = 800;
 constexpr int least_width = 1200;
-constexpr float plot_width = 820.0F;
-constexpr float margin = 24.0F;
+/// Where the axes stand: left, bottom, width, height.
+constexpr float left = 120.0F;
+constexpr float bottom = 90.0F;
+constexpr float plot_width = 720.0F;
+constexpr float plot_height = 630.0F;
+constexpr float margin = 30.0F;
 
-/// White below everything: pictures that viewers put on dark pages stay readable.
+/// White below everything, so that pictures stay readable on dark pages, and the titles: VTK's own
+/// run into the labels of the ticks where a viewer has wider letters.
 class Paper : public vtkContextItem {
  public:
   static Paper* New();
   float width = 0.0F;
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+
   bool Paint(vtkContext2D* painter) override {
     painter->GetPen()->SetLineType(vtkPen::NO_PEN);
     painter->GetBrush()->SetColorF(1.0, 1.0, 1.0);
     painter->DrawRect(0.0F, 0.0F, width, height);
     painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
+    const float center = left + plot_width / 2.0F;
+    write(painter, title, 24, 0.0, center, bottom + plot_height + 40.0F);
+    write(painter, x_label, 21, 0.0, center, bottom - 60.0F);
+    write(painter, y_label, 21, 90.0, left - 92.0F, bottom + plot_height / 2.0F);
     return true;
+  }
+
+ private:
+  static void write(vtkContext2D* painter, const std::string& text, int size, double angle, float x,
+                    float y) {
+    vtkNew<vtkTextProperty> style;
+    style->SetFontSize(size);
+    style->SetOrientation(angle);
+    style->SetColor(0.0, 0.0, 0.0);
+    style->SetJustificationToCentered();
+    style->SetVerticalJustificationToCentered();
+    painter->ApplyTextProp(style);
+    painter->DrawString(x, y, text.c_str());
   }
 };
 vtkStandardNewMacro(Paper);
@@ -68,19 +94,18 @@ vtkSmartPointer<vtkTable> table_of(const Curve& curve) {
   return table;
 }
 
-void add_markers(vtkChartXY& chart, const Curve& curve, std::array<double, 3> color, float size) {
+void add_markers(vtkChartXY& chart, const Curve& curve, const MarkerLayer& layer) {
+  const auto color = layer.white ? std::array<double, 3>{1.0, 1.0, 1.0} : curve.color;
   auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(vtkChart::POINTS));
   plot->SetInputData(table_of(curve), 0, 1);
-  plot->SetMarkerStyle(vtk_marker(curve.marker));
-  plot->SetMarkerSize(size);
+  plot->SetMarkerStyle(layer.shape);
+  plot->SetMarkerSize(layer.size);
   plot->SetColor(color[0], color[1], color[2]);
-  plot->SetWidth(2.0F);
 }
 
 void add_curve(vtkChartXY& chart, const Curve& curve) {
   if (curve.markers) {
-    add_markers(chart, curve, curve.color, 13.0F);
-    if (curve.hollow) add_markers(chart, curve, {1.0, 1.0, 1.0}, 7.0F);
+    for (const auto& layer : marker_layers(curve)) add_markers(chart, curve, layer);
     return;
   }
   auto* plot = chart.AddPlot(vtkChart::LINE);
@@ -90,14 +115,14 @@ void add_curve(vtkChartXY& chart, const Curve& curve) {
   plot->GetPen()->SetLineType(vtk_line_type(curve.dash));
 }
 
-void set_axis(vtkAxis& axis, const std::string& label, const std::vector<double>& ticks) {
-  axis.SetTitle(label);
-  axis.GetTitleProperties()->SetFontSize(21);
-  axis.GetTitleProperties()->SetBold(false);
+/// The axis reaches a little beyond its ticks, so that no marker is cut in half.
+void set_axis(vtkAxis& axis, const std::vector<double>& ticks) {
+  const double room = 0.025 * (ticks.back() - ticks.front());
+  axis.SetTitle("");
   axis.GetLabelProperties()->SetFontSize(18);
   axis.GetGridPen()->SetColorF(0.88, 0.88, 0.88);
   axis.SetBehavior(vtkAxis::FIXED);
-  axis.SetRange(ticks.front(), ticks.back());
+  axis.SetRange(ticks.front() - room, ticks.back() + room);
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
   for (const double tick : ticks) {
@@ -124,14 +149,13 @@ std::vector<double> ticks_of(const std::vector<Curve>& curves,
 
 vtkSmartPointer<vtkChartXY> vtk_chart(const Chart& chart) {
   auto drawn = vtkSmartPointer<vtkChartXY>::New();
-  drawn->SetTitle(chart.title);
-  drawn->GetTitleProperties()->SetFontSize(24);
   drawn->SetShowLegend(false);
   drawn->SetAutoSize(false);
-  drawn->SetSize(vtkRectf(margin, margin, plot_width, height - 2.0F * margin));
+  drawn->SetLayoutStrategy(vtkChart::AXES_TO_RECT);
+  drawn->SetSize(vtkRectf(left, bottom, plot_width, plot_height));
   for (const auto& curve : chart.curves) add_curve(*drawn, curve);
-  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), chart.x_label, ticks_of(chart.curves, &Curve::x));
-  set_axis(*drawn->GetAxis(vtkAxis::LEFT), chart.y_label, ticks_of(chart.curves, &Curve::y));
+  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), ticks_of(chart.curves, &Curve::x));
+  set_axis(*drawn->GetAxis(vtkAxis::LEFT), ticks_of(chart.curves, &Curve::y));
   return drawn;
 }
 
@@ -199,9 +223,9 @@ void draw_chart(const Chart& chart, const std::string& path) {
   const std::string format = picture_format(path);
   PendingFile file(path);
   const OffscreenContext context;
+  constexpr float legend_left = left + plot_width + margin;
   const float legend_width = ChartLegend::width(chart.curves);
-  const int width =
-      std::max(least_width, static_cast<int>(plot_width + 3.0F * margin + legend_width));
+  const int width = std::max(least_width, static_cast<int>(legend_left + legend_width + margin));
   const auto window = make_offscreen_window(width, height);
   const VtkMessages messages;
 
@@ -211,10 +235,13 @@ void draw_chart(const Chart& chart, const std::string& path) {
   vtkNew<vtkContextActor> actor;
   vtkNew<Paper> paper;
   paper->width = static_cast<float>(width);
+  paper->title = chart.title;
+  paper->x_label = chart.x_label;
+  paper->y_label = chart.y_label;
   actor->GetScene()->AddItem(paper);
   actor->GetScene()->AddItem(vtk_chart(chart));
   vtkNew<ChartLegend> legend;
-  legend->place(plot_width + 2.0F * margin, height - 3.0F * margin, chart.curves);
+  legend->place(legend_left, bottom + plot_height, chart.curves);
   actor->GetScene()->AddItem(legend);
   actor->GetScene()->SetRenderer(renderer);
   renderer->AddActor(actor);

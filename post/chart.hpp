@@ -8,8 +8,8 @@
 
 namespace suffuse {
 
-enum class Dash { solid, dashed, dotted, dash_dot, dash_dot_dot };
-enum class Marker { circle, square, diamond, cross, plus };
+enum class Dash { solid, dashed, dash_dot, dash_dot_dot, dotted };
+enum class Marker { circle, square, diamond, target };
 
 /// One curve: a black line for an exact solution, or coloured markers for a run.
 struct Curve {
@@ -19,7 +19,7 @@ struct Curve {
   bool markers = false;
   Dash dash = Dash::solid;
   Marker marker = Marker::circle;
-  bool hollow = false;  ///< circles, squares and diamonds only
+  bool hollow = false;  ///< white inside; a target has a smaller dot
   std::array<double, 3> color{0.0, 0.0, 0.0};
 };
 

@@ -18,19 +18,17 @@ constexpr float symbol_width = 64.0F;
 constexpr float gap = 12.0F;
 constexpr int font_size = 18;
 /// The widest of the fonts a viewer may put in place of Helvetica.
-constexpr float letter_width = 0.62F * font_size;
+constexpr float letter_width = 0.56F * font_size;
 
 void paint_marker(vtkContext2D* painter, const Curve& curve, float x, float y) {
-  const auto color = [&](double shade, int k) { return shade < 0.0 ? curve.color[k] : shade; };
-  const auto draw = [&](double shade, float size) {
-    painter->GetPen()->SetColorF(color(shade, 0), color(shade, 1), color(shade, 2));
-    painter->GetBrush()->SetColorF(color(shade, 0), color(shade, 1), color(shade, 2));
-    painter->GetPen()->SetWidth(size);
+  for (const auto& layer : marker_layers(curve)) {
+    const auto color = layer.white ? std::array<double, 3>{1.0, 1.0, 1.0} : curve.color;
+    painter->GetPen()->SetColorF(color[0], color[1], color[2]);
+    painter->GetBrush()->SetColorF(color[0], color[1], color[2]);
+    painter->GetPen()->SetWidth(layer.size);
     float point[2] = {x, y};
-    painter->DrawMarkers(vtk_marker(curve.marker), false, point, 1);
-  };
-  draw(-1.0, 13.0F);
-  if (curve.hollow) draw(1.0, 7.0F);
+    painter->DrawMarkers(layer.shape, false, point, 1);
+  }
 }
 
 }  // namespace
@@ -53,20 +51,19 @@ int vtk_line_type(Dash dash) {
   return vtkPen::SOLID_LINE;
 }
 
-int vtk_marker(Marker marker) {
-  switch (marker) {
-    case Marker::square:
-      return vtkMarkerUtilities::SQUARE;
-    case Marker::diamond:
-      return vtkMarkerUtilities::DIAMOND;
-    case Marker::cross:
-      return vtkMarkerUtilities::CROSS;
-    case Marker::plus:
-      return vtkMarkerUtilities::PLUS;
-    case Marker::circle:
-      break;
+std::vector<MarkerLayer> marker_layers(const Curve& curve) {
+  constexpr float size = 13.0F;
+  constexpr int circle = vtkMarkerUtilities::CIRCLE;
+  if (curve.marker == Marker::target) {
+    return {
+        {circle, size, false}, {circle, 9.0F, true}, {circle, curve.hollow ? 3.0F : 5.0F, false}};
   }
-  return vtkMarkerUtilities::CIRCLE;
+  int shape = circle;
+  if (curve.marker == Marker::square) shape = vtkMarkerUtilities::SQUARE;
+  if (curve.marker == Marker::diamond) shape = vtkMarkerUtilities::DIAMOND;
+  std::vector<MarkerLayer> layers{{shape, size, false}};
+  if (curve.hollow) layers.push_back({shape, 7.0F, true});
+  return layers;
 }
 
 void ChartLegend::place(float left, float top, const std::vector<Curve>& curves) {

@@ -9,9 +9,16 @@
 
 namespace suffuse {
 
-/// VTK's numbers for pens and markers.
+/// VTK's number for a pen.
 int vtk_line_type(Dash dash);
-int vtk_marker(Marker marker);
+
+/// One of the shapes that make a marker, the lowest first.
+struct MarkerLayer {
+  int shape;   ///< VTK's number
+  float size;  ///< pixels
+  bool white;  ///< or else in the colour of the curve
+};
+std::vector<MarkerLayer> marker_layers(const Curve& curve);
 
 class ChartLegend : public vtkContextItem {
  public:

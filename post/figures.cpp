@@ -17,15 +17,16 @@ namespace {
 constexpr int marker_count = 24;
 constexpr int curve_intervals = 480;
 
-/// Okabe and Ito's colours, told apart by colour-blind readers, from dark to light.
-constexpr std::array<std::array<double, 3>, 6> run_colors{{{0.0, 0.447, 0.698},
+/// After Okabe and Ito, for colour-blind readers; runs that are both filled or both hollow differ
+/// in brightness too.
+constexpr std::array<std::array<double, 3>, 6> run_colors{{{0.0, 0.27, 0.53},
                                                            {0.835, 0.369, 0.0},
-                                                           {0.0, 0.62, 0.451},
-                                                           {0.8, 0.475, 0.655},
                                                            {0.337, 0.706, 0.914},
-                                                           {0.902, 0.624, 0.0}}};
-constexpr std::array<Marker, 5> markers{Marker::circle, Marker::square, Marker::diamond,
-                                        Marker::cross, Marker::plus};
+                                                           {0.0, 0.45, 0.32},
+                                                           {0.902, 0.624, 0.0},
+                                                           {0.8, 0.475, 0.655}}};
+constexpr std::array<Marker, 4> markers{Marker::circle, Marker::square, Marker::diamond,
+                                        Marker::target};
 
 /// Soil of one initial porosity.
 struct Portion {
@@ -243,7 +244,7 @@ constexpr std::array<Quantity, 4> quantities{{
     {"solid", Marker::circle, [](const Masses& m) { return m.solid; }},
     {"eroded", Marker::square, [](const Masses& m) { return m.eroded; }},
     {"liquid", Marker::diamond, [](const Masses& m) { return m.liquid; }},
-    {"total", Marker::cross, [](const Masses& m) { return m.total(); }},
+    {"total", Marker::target, [](const Masses& m) { return m.total(); }},
 }};
 
 /// The region ledgers added up over the specimen, by time.
@@ -311,7 +312,7 @@ Chart masses_figure(const std::vector<ResultsReader>& runs) {
     }
   }
   Chart chart;
-  chart.title = "Mass balance of the soil, closed accounting (in the soil + left - entered)";
+  chart.title = "Mass balance in closed accounting (in the soil + left - entered)";
   chart.y_label = "mass (kg per metre of thickness)";
   return assemble(chart, exact, numeric);
 }
