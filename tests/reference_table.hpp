@@ -29,7 +29,8 @@ class ReferenceRow {
 inline std::vector<ReferenceRow> read_reference(const std::string& name) {
   std::ifstream file(std::string(SUFFUSE_TEST_DATA) + "/reference/" + name);
   if (!file) throw std::runtime_error("no reference table " + name);
-  const auto split = [](const std::string& line) {
+  const auto split = [](std::string line) {
+    if (line.ends_with('\r')) line.pop_back();
     std::vector<std::string> cells;
     std::istringstream stream(line);
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);

@@ -1,5 +1,6 @@
 #include "grid/grid.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <map>
 

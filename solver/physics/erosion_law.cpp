@@ -10,7 +10,7 @@ namespace {
 /// tends to a constant as erosion runs out, so the approach to the cap is followed without end and
 /// without overshoot. Classical Runge-Kutta with steps short against the initial rate.
 double logarithmic_porosity_after(double porosity, double porosity_max, double scaled_time) {
-  constexpr double longest_step = 0.02;
+  constexpr double longest_step = 0.01;
   const double deficit = -std::log(porosity / porosity_max);
   if (deficit <= 0.0) return porosity;
   const auto slope = [](double w) { return -std::exp(std::exp(w)); };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 #include "flow/explicit_nodal.hpp"
@@ -120,10 +121,18 @@ class FlowColumn {
   double dt_ = 0.0;
 };
 
+/// b'' + a b' + omega^2 b = 0, b(0) = 1, b'(0) = 0.
+double exact_mode(double a, double omega, double t) {
+  const double w = std::sqrt(omega * omega - 0.25 * a * a);
+  return std::exp(-0.5 * a * t) * (std::cos(w * t) + 0.5 * a / w * std::sin(w * t));
+}
+
 struct Setting {
   const char* name;
   double scaling;
-  double latest;  ///< s: later values of the table cost steps and show nothing new
+  /// s: until then the mode has turned by less than ten radians. Lumped masses make it lag by
+  /// (pi h)^2 / 24 of every radian, so that at size 1/16 one percent is used up soon after.
+  double latest;
 };
 
 class FlowStartup : public ::testing::TestWithParam<Setting> {};
@@ -154,28 +163,43 @@ TEST_P(FlowStartup, ModeStaysWithinOnePercentOfItsInitialAmplitude) {
     EXPECT_NEAR(column.mode_amplitude(), row.number("value"), 0.01) << "t = " << time;
     ++compared;
   }
-  EXPECT_GE(compared, 4);
+  EXPECT_GE(compared, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scaling, FlowStartup,
                          ::testing::Values(Setting{"physical", 1.0, 0.05},
-                                           Setting{"scaled", 1e4, 10.0}),
+                                           Setting{"scaled", 1e4, 2.0}),
                          [](const auto& param_info) { return param_info.param.name; });
 
-/// b'' + a b' + omega^2 b = 0, b(0) = 1, b'(0) = 0.
-double exact_mode(double a, double omega, double t) {
-  const double w = std::sqrt(omega * omega - 0.25 * a * a);
-  return std::exp(-0.5 * a * t) * (std::cos(w * t) + 0.5 * a / w * std::sin(w * t));
+TEST(FlowStartup, LateScaledModeLagsAsLumpedMassesDo) {
+  // omega_h = (2 c / h) sin(pi h / 2) for lumped masses and one pressure per cell.
+  const double a = porosity * 9.81 / 0.02 / 1e4;
+  const double wave = std::sqrt(2e7 / density / 1e4);
+  for (const auto& row : read_reference("flow-startup.csv")) {
+    if (row.text("case") != "scaled" || row.text("quantity") != "single_mode_b") continue;
+    const double time = row.number("t");
+    double error[2];
+    for (const int cells : {16, 32}) {
+      FlowColumn column(cells, 0.0, 0.02, 2e7, 1e4);
+      column.set_mode(1.0);
+      column.run(time, 0.1 * column.limit());
+      const double omega = 2.0 * wave * cells * std::sin(0.5 * std::numbers::pi / cells);
+      EXPECT_NEAR(column.mode_amplitude(), exact_mode(a, omega, time), 0.02) << "t = " << time;
+      error[cells / 32] = std::abs(column.mode_amplitude() - row.number("value"));
+    }
+    std::cout << "scaled mode, t = " << time << " s: error " << error[0] << " at 1/16, " << error[1]
+              << " at 1/32\n";
+  }
 }
 
 TEST(FlowStartupOrder, InSpaceTwoForTheModeOneForPressure) {
   const double a = porosity * 9.81 / 0.02;
   const double omega = std::numbers::pi * std::sqrt(2e7 / density);
-  const double time = 0.004;
+  const double time = 0.0055;  // neither an extremum nor a zero of the mode
   const double exact = exact_mode(a, omega, time);
   std::vector<double> mode_error;
   std::vector<double> field_error;
-  for (const int cells : {8, 16, 32}) {
+  for (const int cells : {16, 32, 64}) {
     FlowColumn column(cells, 0.0, 0.02, 2e7, 1.0);
     column.set_mode(1.0);
     column.run(time, 2e-7);  // time error far below that of space
@@ -192,16 +216,16 @@ TEST(FlowStartupOrder, InSpaceTwoForTheModeOneForPressure) {
 
 /// Order in time against a run with very small steps on the same mesh, so that space drops out.
 double time_order(double conductivity, DragIntegration drag) {
-  const double time = 0.004;
-  const auto amplitude = [&](double fraction) {
+  const double time = 0.007;
+  const auto amplitude = [&](double longest) {
     FlowColumn column(8, 0.0, conductivity, 2e7, 1.0, drag);
     column.set_mode(1.0);
-    column.run(time, fraction * column.limit());
+    column.run(time, longest);
     return column.mode_amplitude();
   };
-  const double reference = amplitude(1.0 / 512.0);
-  const double coarse = std::abs(amplitude(0.2) - reference);
-  const double fine = std::abs(amplitude(0.1) - reference);
+  const double reference = amplitude(1e-7);
+  const double coarse = std::abs(amplitude(4e-5) - reference);
+  const double fine = std::abs(amplitude(2e-5) - reference);
   return std::log2(coarse / fine);
 }
 
@@ -211,8 +235,8 @@ TEST(FlowStartupOrder, InTimeTwoWithoutDrag) {
 
 TEST(FlowStartupOrder, InTimeOneWithDragAtOneEndOfTheStep) {
   // As published: drag at the old velocity. Implicit drag takes the new one; either is first order.
-  EXPECT_NEAR(time_order(5e-4, DragIntegration::explicit_drag), 1.0, 0.15);
-  EXPECT_NEAR(time_order(5e-4, DragIntegration::implicit_drag), 1.0, 0.15);
+  EXPECT_NEAR(time_order(5e-3, DragIntegration::explicit_drag), 1.0, 0.15);
+  EXPECT_NEAR(time_order(5e-3, DragIntegration::implicit_drag), 1.0, 0.15);
 }
 
 TEST(FlowStartup, DiffusesWhereDragDominates) {

@@ -1,0 +1,73 @@
+#pragma once
+
+/// Runs a model in memory to given times, without files.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "single_point.hpp"
+#include "solver/model_case.hpp"
+
+namespace suffuse::model {
+
+/// A case, its plan and the model that runs it, kept together.
+class ModelRun {
+ public:
+  explicit ModelRun(Case<2> c, SolverOptions options = {})
+      : case_(std::move(c)),
+        options_(options),
+        plan_(make_plan(case_, options_)),
+        model_(case_, plan_, options_) {}
+
+  /// State and flow at each of `times` (ascending). `each(interval end)` sees every interval.
+  struct Moments {
+    std::vector<SinglePointState<2>> states;
+    std::vector<FlowMoment<2>> flows;
+  };
+  Moments run(const std::vector<double>& times) {
+    Moments result;
+    auto next = times.begin();
+    while (next != times.end()) {
+      const double remaining = times.back() - model_.state().time;
+      const auto to_end = static_cast<long>(std::ceil(remaining / plan_.step * (1.0 - 1e-12)));
+      const long steps = std::min(model_.steps_before_transport(plan_.step), std::max(1L, to_end));
+      const double reached = model_.state().time + static_cast<double>(steps) * plan_.step;
+      std::vector<double> within;
+      for (; next != times.end() && *next <= reached * (1.0 + 1e-12); ++next) {
+        within.push_back(*next);
+      }
+      const auto interval = model_.advance(steps, plan_.step, within);
+      steps_ += steps;
+      note_residuals();
+      for (const FlowMoment<2>& moment : interval.moments) {
+        result.states.push_back(model_.state_at(interval, moment.time));
+        result.flows.push_back(moment);
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] SinglePoint<2>& model() { return model_; }
+  [[nodiscard]] const Case<2>& input() const { return case_; }
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] long steps() const { return steps_; }
+  /// Largest residual of either constituent at the end of any interval.
+  [[nodiscard]] double worst_residual() const { return worst_residual_; }
+
+ private:
+  void note_residuals() {
+    const LedgerRow row = model_.ledger(model_.state());
+    worst_residual_ = std::max(
+        {worst_residual_, std::abs(row.residual_water), std::abs(row.residual_grains)});
+  }
+
+  Case<2> case_;
+  SolverOptions options_;
+  Plan plan_;
+  SinglePoint<2> model_;
+  long steps_ = 0;
+  double worst_residual_ = 0.0;
+};
+
+}  // namespace suffuse::model
