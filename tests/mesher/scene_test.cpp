@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "case/scene_schema.hpp"
 
@@ -290,6 +291,23 @@ TEST(SceneFile, that_cannot_be_read_is_a_file_error) {
 TEST(SceneFile, that_is_not_text_is_refused) {
   EXPECT_NE(problems_of(std::string("\x89HDF\r\n\x1a\n\0\0", 10)).find("not TOML"),
             std::string::npos);
+}
+
+TEST(ClosestName, counts_letters_to_change) {
+  EXPECT_EQ(edit_distance("porosity", "porosity"), 0U);
+  EXPECT_EQ(edit_distance("Porosity", "porosity"), 0U);
+  EXPECT_EQ(edit_distance("porsity", "porosity"), 1U);
+  EXPECT_EQ(edit_distance("porossity", "porosity"), 1U);
+  EXPECT_EQ(edit_distance("poroisty", "porosity"), 1U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+  EXPECT_EQ(edit_distance("", "abc"), 3U);
+}
+
+TEST(ClosestName, is_at_most_a_third_of_the_letters_away) {
+  EXPECT_EQ(closest_name("abcxyf", {"abcdef"}), "abcdef");
+  EXPECT_EQ(closest_name("abxyzf", {"abcdef"}), "");
+  EXPECT_EQ(closest_name("en", {"start", "end"}), "end");
+  EXPECT_EQ(closest_name("abcdxf", {"abxdxf", "abcdef"}), "abxdxf");  // the first of two as near
 }
 
 TEST(SceneSchema, declares_each_key_once_and_within_its_own_bounds) {
