@@ -16,7 +16,7 @@ double relative(double residual, double initial) {
 
 template <int Dim>
 BoundaryAccounts<Dim>::BoundaryAccounts(const Grid<Dim>& grid)
-    : faces_(grid.mesh.region_names.size() + 1), sums_(faces_.size()) {
+    : faces_(grid.mesh.region_names.size() + 1) {
   for (int f = 0; f < grid.face_count(); ++f) {
     const int left = grid.mesh.element_region[grid.face_left[f]];
     if (grid.is_outer(f)) {
@@ -32,25 +32,15 @@ BoundaryAccounts<Dim>::BoundaryAccounts(const Grid<Dim>& grid)
 }
 
 template <int Dim>
-void BoundaryAccounts<Dim>::book(const std::vector<double>& water,
-                                 const std::vector<double>& fines) {
+void BoundaryAccounts<Dim>::book(const std::vector<double>& water, const std::vector<double>& fines,
+                                 std::vector<CrossedSums>& sums) const {
   for (std::size_t account = 0; account < faces_.size(); ++account) {
-    Sums& sums = sums_[account];
+    CrossedSums& sum = sums[account];
     for (const auto& [face, sign] : faces_[account]) {
-      book_one(sign * water[face], sums.water_in, sums.water_out);
-      book_one(sign * fines[face], sums.fines_in, sums.fines_out);
+      book_one(sign * water[face], sum.water_in, sum.water_out);
+      book_one(sign * fines[face], sum.fines_in, sum.fines_out);
     }
   }
-}
-
-template <int Dim>
-std::vector<Crossed> BoundaryAccounts<Dim>::totals() const {
-  std::vector<Crossed> result;
-  for (const Sums& s : sums_) {
-    result.push_back(
-        {s.water_in.value(), s.fines_in.value(), s.water_out.value(), s.fines_out.value()});
-  }
-  return result;
 }
 
 LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,

@@ -29,28 +29,33 @@ struct Stored {
   double eroded = 0.0;
 };
 
-/// Sums crossings over the outer boundary (account 0) and over the boundary of region r
-/// (account r + 1).
+/// Running sums behind one `Crossed`.
+struct CrossedSums {
+  CompensatedSum water_in, fines_in, water_out, fines_out;
+
+  [[nodiscard]] Crossed totals() const {
+    return {water_in.value(), fines_in.value(), water_out.value(), fines_out.value()};
+  }
+};
+
+/// Which faces bound the model (account 0) and region r (account r + 1).
 template <int Dim>
 class BoundaryAccounts {
  public:
   explicit BoundaryAccounts(const Grid<Dim>& grid);
 
-  /// Books what crossed each face along its normal, kg.
-  void book(const std::vector<double>& water, const std::vector<double>& fines);
+  [[nodiscard]] std::size_t count() const { return faces_.size(); }
 
-  [[nodiscard]] std::vector<Crossed> totals() const;
+  /// Books what crossed each face along its normal, kg, to `sums`, one per account.
+  void book(const std::vector<double>& water, const std::vector<double>& fines,
+            std::vector<CrossedSums>& sums) const;
 
  private:
   struct OutwardFace {
     int face;
     double sign;  ///< +1 where the face's normal points out of the account
   };
-  struct Sums {
-    CompensatedSum water_in, fines_in, water_out, fines_out;
-  };
   std::vector<std::vector<OutwardFace>> faces_;  ///< per account
-  std::vector<Sums> sums_;
 };
 
 /// A row of the ledger from what is stored, what crossed and what was stored at the start.

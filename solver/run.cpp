@@ -81,11 +81,9 @@ class SinglePointRun {
     while (!rows_.finished() && interrupt_requested == 0) {
       check_step();
       const auto [steps, dt] = next_steps();
-      const auto interval = model_.advance(steps, dt, times_within(steps, dt));
+      const auto observations = model_.advance(steps, dt, times_within(steps, dt));
       steps_done_ += steps;
-      for (const FlowMoment<Dim>& moment : interval.moments) {
-        output(model_.state_at(interval, moment.time), moment);
-      }
+      for (const auto& [state, flow] : observations) output(state, flow);
       for (const std::string& warning : model_.take_warnings()) warn(warning);
       progress_.report(model_.state().time, dt);
     }

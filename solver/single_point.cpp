@@ -33,14 +33,10 @@ class PassTimer {
   std::chrono::steady_clock::time_point start_;
 };
 
-double between(double a, double b, double share) {
-  return a + share * (b - a);
-}
-
 std::vector<double> between(const std::vector<double>& a, const std::vector<double>& b,
                             double share) {
   std::vector<double> result(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) result[i] = between(a[i], b[i], share);
+  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] + share * (b[i] - a[i]);
   return result;
 }
 
@@ -107,7 +103,7 @@ void SinglePoint<Dim>::initialise() {
     state_.water_mass[e] = scene.liquid.density * coefficients_.water_volume[e] *
                            density_ratio(flow_.pressure()[e], scene.liquid.bulk_modulus);
   }
-  state_.crossed = accounts_.totals();
+  state_.crossed.resize(accounts_.count());
   initial_ = stored(state_);
 }
 
@@ -162,111 +158,98 @@ long SinglePoint<Dim>::steps_before_transport(double dt) const {
 }
 
 template <int Dim>
-auto SinglePoint<Dim>::advance(long steps, double dt, const std::vector<double>& observation_times)
-    -> Interval {
-  Interval interval;
-  interval.begin = state_;
+auto SinglePoint<Dim>::advance(long steps, double dt, const std::vector<double>& times)
+    -> std::vector<Observation> {
+  const double begin = state_.time;
+  std::vector<Observation> seen;
   flow_.reset_volumes();
-  auto next = observation_times.begin();
-  const auto observe = [&](double time, double step_begin, const std::vector<double>& before) {
-    FlowMoment<Dim> moment;
-    moment.time = time;
-    moment.dt = dt;
-    moment.pressure = between(before, flow_.pressure(), (time - step_begin) / dt);
-    moment.velocity = flow_.velocity_at(time - (step_begin + 0.5 * dt));
-    interval.moments.push_back(std::move(moment));
+  auto next = times.begin();
+  struct {
+    std::vector<double> pressure;
+    FaceVolumes volumes;
+  } before;
+  // Within a step flux is constant, so volumes are linear; erosion and transport follow with those.
+  const auto observe = [&](double time, double step_begin) {
+    const double share = (time - step_begin) / dt;
+    const FaceVolumes volumes{
+        between(before.volumes.liquid, flow_.volumes().liquid, share),
+        between(before.volumes.density_excess, flow_.volumes().density_excess, share)};
+    PassTimings outputs_are_not_the_run;
+    Observation observation;
+    observation.state = advanced(state_, volumes, time - begin, outputs_are_not_the_run);
+    observation.state.time = time;
+    observation.flow = {time, dt, between(before.pressure, flow_.pressure(), share),
+                        flow_.velocity_at(time - (step_begin + 0.5 * dt))};
+    seen.push_back(std::move(observation));
   };
-  {
-    const PassTimer timer(flow_pass_);
-    std::vector<double> before;
-    for (long s = 0; s < steps; ++s) {
-      const double step_begin = interval.begin.time + static_cast<double>(s) * dt;
-      const double step_end =
-          s + 1 == steps ? std::numeric_limits<double>::infinity() : step_begin + dt;
-      const bool observed = next != observation_times.end() && *next <= step_end;
-      if (observed) before = flow_.pressure();
+  for (long s = 0; s < steps; ++s) {
+    const double step_begin = begin + static_cast<double>(s) * dt;
+    const double step_end =
+        s + 1 == steps ? std::numeric_limits<double>::infinity() : step_begin + dt;
+    if (next != times.end() && *next <= step_end) before = {flow_.pressure(), flow_.volumes()};
+    {
+      const PassTimer timer(timings_.flow);
       flow_.step(dt);
-      for (; next != observation_times.end() && *next <= step_end; ++next) {
-        observe(*next, step_begin, before);
-      }
     }
-    flow_pass_.calls += steps;
+    for (; next != times.end() && *next <= step_end; ++next) observe(*next, step_begin);
   }
+  timings_.flow.calls += steps;
+
   const double duration = static_cast<double>(steps) * dt;
-  catch_up(duration);
+  state_ = advanced(state_, flow_.volumes(), duration, timings_);
+  warn_of_unstated_inflow();
+  last_volume_rate_ = flow_.volumes().liquid;
+  for (double& rate : last_volume_rate_) rate /= duration;
+  synchronise_flow();
   last_steps_ = steps;
   last_dt_ = dt;
-  interval.end = state_;
-  return interval;
+  return seen;
 }
 
 template <int Dim>
-void SinglePoint<Dim>::catch_up(double duration) {
-  const std::vector<double>& volume = flow_.volumes().liquid;
+SinglePointState<Dim> SinglePoint<Dim>::advanced(const SinglePointState<Dim>& begin,
+                                                 const FaceVolumes& volumes, double duration,
+                                                 PassTimings& timings) const {
+  SinglePointState<Dim> state = begin;
   std::vector<double> grains_crossed(grid_.face_count(), 0.0);
   const double allowed =
-      plan_.transport ? transport_safety * transport_.steps_allowed(state_.liquid, volume) : 1.0;
-  const long substeps = allowed >= 1.0 ? 1 : static_cast<long>(std::ceil(1.0 / allowed));
-  std::vector<double> part = volume;
-  if (substeps > 1) {
-    for (double& v : part) v /= static_cast<double>(substeps);
+      plan_.transport ? transport_safety * transport_.steps_allowed(state.liquid, volumes.liquid)
+                      : 1.0;
+  const double substeps = allowed >= 1.0 ? 1.0 : std::ceil(1.0 / allowed);
+  std::vector<double> part = volumes.liquid;
+  if (substeps > 1.0) {
+    for (double& v : part) v /= substeps;
   }
-  const double begin = state_.time;
-  for (long s = 0; s < substeps; ++s) {
-    const double from = begin + duration * static_cast<double>(s) / static_cast<double>(substeps);
-    const double to = begin + duration * static_cast<double>(s + 1) / static_cast<double>(substeps);
+  for (double s = 0.0; s < substeps; ++s) {
+    const double from = begin.time + duration * s / substeps;
+    const double to = begin.time + duration * (s + 1.0) / substeps;
     ElementField<Dim> eroded(grid_.mesh.element_count(), ElementValues<Dim>{});
     if (plan_.erosion) {
-      const PassTimer timer(erosion_pass_);
-      std::vector<double> porosity = skeleton_.porosity_after(state_.porosity, from, to);
-      eroded = skeleton_.eroded_volume(state_.porosity, porosity);
-      state_.porosity = std::move(porosity);
-      ++erosion_pass_.calls;
+      const PassTimer timer(timings.erosion);
+      std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to);
+      eroded = skeleton_.eroded_volume(state.porosity, porosity);
+      state.porosity = std::move(porosity);
+      ++timings.erosion.calls;
     }
     if (plan_.transport) {
-      const PassTimer timer(transport_pass_);
-      const std::vector<double> crossed = transport_.advance(state_.liquid, part, eroded);
+      const PassTimer timer(timings.transport);
+      const std::vector<double> crossed = transport_.advance(state.liquid, part, eroded);
       for (std::size_t f = 0; f < crossed.size(); ++f) grains_crossed[f] += crossed[f];
-      ++transport_pass_.calls;
+      ++timings.transport.calls;
     }
   }
-  state_.time = begin + duration;
-
-  const PassTimer timer(water_pass_);
-  ++water_pass_.calls;
-  move_water(grains_crossed);
-  warn_of_unstated_inflow();
-  for (std::size_t f = 0; f < volume.size(); ++f) last_volume_rate_[f] = volume[f] / duration;
-  update_flow();
-  // The masses are what is conserved; the pressure follows from them.
-  const LiquidProperties& liquid = case_.document.scene.liquid;
-  if (case_.document.scene.flow.porosity_gradient_term) {
-    std::vector<double> pressure(state_.water_mass.size());
-    for (std::size_t e = 0; e < pressure.size(); ++e) {
-      const double ratio = state_.water_mass[e] / (liquid.density * coefficients_.water_volume[e]);
-      if (!(ratio > 0.0)) {
-        std::ostringstream message;
-        message << "element " << e << " at ("
-                << element_centroid(grid_.mesh, static_cast<int>(e)).transpose()
-                << ") has no water left at t = " << state_.time << " s";
-        throw NumericalError(message.str());
-      }
-      pressure[e] = pressure_from_density_ratio(ratio, liquid.bulk_modulus);
-    }
-    flow_.set_pressure(std::move(pressure));
-  } else {
-    for (std::size_t e = 0; e < state_.water_mass.size(); ++e) {
-      state_.water_mass[e] = liquid.density * coefficients_.water_volume[e] *
-                             density_ratio(flow_.pressure()[e], liquid.bulk_modulus);
-    }
-  }
+  state.time = begin.time + duration;
+  const PassTimer timer(timings.water);
+  ++timings.water.calls;
+  move_water(state, volumes, grains_crossed);
+  return state;
 }
 
 template <int Dim>
-void SinglePoint<Dim>::move_water(const std::vector<double>& grains_crossed) {
+void SinglePoint<Dim>::move_water(SinglePointState<Dim>& state, const FaceVolumes& volumes,
+                                  const std::vector<double>& grains_crossed) const {
   const double density = case_.document.scene.liquid.density;
   const bool conservative = case_.document.scene.flow.porosity_gradient_term;
-  const FaceVolumes& volumes = flow_.volumes();
   std::vector<double> water(grid_.face_count());
   std::vector<double> fines(grid_.face_count());
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -275,13 +258,38 @@ void SinglePoint<Dim>::move_water(const std::vector<double>& grains_crossed) {
     fines[f] = grain_density_ * grains_crossed[f];
     if (!conservative) water[f] *= coefficients_.porosity[grid_.face_left[f]];
   }
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+  for (int e = 0; e < grid_.mesh.element_count() && conservative; ++e) {
     for (int k = 0; k <= Dim; ++k) {
-      state_.water_mass[e] -= grid_.element_face_sign[e][k] * water[grid_.element_face[e][k]];
+      state.water_mass[e] -= grid_.element_face_sign[e][k] * water[grid_.element_face[e][k]];
     }
   }
-  accounts_.book(water, fines);
-  state_.crossed = accounts_.totals();
+  accounts_.book(water, fines, state.crossed);
+}
+
+template <int Dim>
+void SinglePoint<Dim>::synchronise_flow() {
+  const PassTimer timer(timings_.water);
+  update_flow();
+  const LiquidProperties& liquid = case_.document.scene.liquid;
+  std::vector<double> pressure = flow_.pressure();
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const double reference_mass = liquid.density * coefficients_.water_volume[e];
+    if (!case_.document.scene.flow.porosity_gradient_term) {
+      // Without the third term of Eq. 2 strain alone is integrated, and the mass made to follow it.
+      state_.water_mass[e] = reference_mass * density_ratio(pressure[e], liquid.bulk_modulus);
+      continue;
+    }
+    // The masses are what is conserved; the pressure follows from them.
+    const double ratio = state_.water_mass[e] / reference_mass;
+    if (!(ratio > 0.0)) {
+      std::ostringstream message;
+      message << "element " << e << " at (" << element_centroid(grid_.mesh, e).transpose()
+              << ") has no water left at t = " << state_.time << " s";
+      throw NumericalError(message.str());
+    }
+    pressure[e] = pressure_from_density_ratio(ratio, liquid.bulk_modulus);
+  }
+  flow_.set_pressure(std::move(pressure));
 }
 
 template <int Dim>
@@ -310,35 +318,6 @@ FlowMoment<Dim> SinglePoint<Dim>::moment() const {
   result.dt = last_dt_ > 0.0 ? last_dt_ : plan_.step;
   result.pressure = flow_.pressure();
   result.velocity = flow_.velocity();
-  return result;
-}
-
-template <int Dim>
-SinglePointState<Dim> SinglePoint<Dim>::state_at(const Interval& interval, double time) const {
-  const SinglePointState<Dim>& a = interval.begin;
-  const SinglePointState<Dim>& b = interval.end;
-  if (time >= b.time) return b;
-  const double share = (time - a.time) / (b.time - a.time);
-  SinglePointState<Dim> result = a;
-  result.time = time;
-  result.water_mass = between(a.water_mass, b.water_mass, share);
-  for (std::size_t k = 0; k < a.crossed.size(); ++k) {
-    result.crossed[k].water_in = between(a.crossed[k].water_in, b.crossed[k].water_in, share);
-    result.crossed[k].fines_in = between(a.crossed[k].fines_in, b.crossed[k].fines_in, share);
-    result.crossed[k].water_out = between(a.crossed[k].water_out, b.crossed[k].water_out, share);
-    result.crossed[k].fines_out = between(a.crossed[k].fines_out, b.crossed[k].fines_out, share);
-  }
-  result.porosity = skeleton_.porosity_after(a.porosity, a.time, time);
-  const ElementField<Dim> eroded = skeleton_.eroded_volume(a.porosity, result.porosity);
-  const ElementField<Dim> eroded_by_end = skeleton_.eroded_volume(a.porosity, b.porosity);
-  for (std::size_t e = 0; e < eroded.size(); ++e) {
-    for (int j = 0; j <= Dim; ++j) {
-      const double moved =
-          b.liquid.fines_volume[e][j] - a.liquid.fines_volume[e][j] - eroded_by_end[e][j];
-      result.liquid.pore_volume[e][j] += eroded[e][j];
-      result.liquid.fines_volume[e][j] += eroded[e][j] + share * moved;
-    }
-  }
   return result;
 }
 
@@ -435,7 +414,7 @@ std::vector<Stored> SinglePoint<Dim>::stored(const SinglePointState<Dim>& state)
 
 template <int Dim>
 LedgerRow SinglePoint<Dim>::ledger(const SinglePointState<Dim>& state) const {
-  return ledger_row(state.time, stored(state)[0], state.crossed[0], initial_[0]);
+  return ledger_row(state.time, stored(state)[0], state.crossed[0].totals(), initial_[0]);
 }
 
 template <int Dim>
@@ -451,7 +430,7 @@ std::vector<RegionRow> SinglePoint<Dim>::region_rows(const SinglePointState<Dim>
     RegionRow row;
     row.region = static_cast<int>(r);
     row.porosity_mean = 1.0 - now[r + 1].solid / (grain_density_ * volume[r]);
-    row.ledger = ledger_row(state.time, now[r + 1], state.crossed[r + 1], initial_[r + 1]);
+    row.ledger = ledger_row(state.time, now[r + 1], state.crossed[r + 1].totals(), initial_[r + 1]);
     rows.push_back(row);
   }
   return rows;
@@ -564,7 +543,7 @@ Snapshot SinglePoint<Dim>::snapshot(const SinglePointState<Dim>& state,
 
 template <int Dim>
 std::vector<PassTiming> SinglePoint<Dim>::passes() const {
-  return {flow_pass_, erosion_pass_, transport_pass_, water_pass_};
+  return {timings_.flow, timings_.erosion, timings_.transport, timings_.water};
 }
 
 template <int Dim>

@@ -20,10 +20,10 @@ namespace suffuse {
 template <int Dim>
 struct SinglePointState {
   double time = 0.0;
-  std::vector<double> porosity;    ///< per solid point
-  FinesState<Dim> liquid;          ///< pores and grains in them, per element and field node, m3
-  std::vector<double> water_mass;  ///< per element, kg
-  std::vector<Crossed> crossed;    ///< per account: model, then regions
+  std::vector<double> porosity;      ///< per solid point
+  FinesState<Dim> liquid;            ///< pores and grains in them, per element and field node, m3
+  std::vector<double> water_mass;    ///< per element, kg
+  std::vector<CrossedSums> crossed;  ///< per account: model, then regions
 };
 
 /// The flow at one moment.
@@ -40,14 +40,14 @@ class SinglePoint {
  public:
   SinglePoint(const Case<Dim>& c, const Plan& plan, const SolverOptions& options);
 
-  struct Interval {
-    SinglePointState<Dim> begin;
-    SinglePointState<Dim> end;
-    std::vector<FlowMoment<Dim>> moments;  ///< one per observation time
+  /// The model at a time between steps.
+  struct Observation {
+    SinglePointState<Dim> state;
+    FlowMoment<Dim> flow;
   };
-  /// Runs the flow `steps` times `dt`, noting it at `observation_times` (ascending, within the
-  /// interval), then lets erosion and transport catch up.
-  Interval advance(long steps, double dt, const std::vector<double>& observation_times);
+  /// Runs the flow `steps` times `dt`, then lets erosion and transport catch up. Returns what was
+  /// to be seen at `times` (ascending, within these steps); looking changes nothing.
+  std::vector<Observation> advance(long steps, double dt, const std::vector<double>& times);
 
   /// Flow steps of `dt` that transport lets pass before it must run.
   [[nodiscard]] long steps_before_transport(double dt) const;
@@ -57,10 +57,6 @@ class SinglePoint {
 
   [[nodiscard]] const SinglePointState<Dim>& state() const { return state_; }
   [[nodiscard]] FlowMoment<Dim> moment() const;
-
-  /// Conserved state between the ends of an interval: erosion by its law, the rest on straight
-  /// lines, so that balances close as they do at the ends.
-  [[nodiscard]] SinglePointState<Dim> state_at(const Interval& interval, double time) const;
 
   [[nodiscard]] HistoryRow history_row(const SinglePointState<Dim>& state,
                                        const FlowMoment<Dim>& moment) const;
@@ -76,8 +72,20 @@ class SinglePoint {
  private:
   void initialise();
   void update_flow();
-  void catch_up(double duration);
-  void move_water(const std::vector<double>& grains_crossed);
+  struct PassTimings {
+    PassTiming flow{"flow", 0, 0.0};
+    PassTiming erosion{"erosion", 0, 0.0};
+    PassTiming transport{"transport", 0, 0.0};
+    PassTiming water{"water masses and coefficients", 0, 0.0};
+  };
+  /// What erosion and transport make of `begin` while `volumes` cross the faces.
+  [[nodiscard]] SinglePointState<Dim> advanced(const SinglePointState<Dim>& begin,
+                                               const FaceVolumes& volumes, double duration,
+                                               PassTimings& timings) const;
+  void move_water(SinglePointState<Dim>& state, const FaceVolumes& volumes,
+                  const std::vector<double>& grains_crossed) const;
+  /// Pressure and water masses agree after this.
+  void synchronise_flow();
   [[nodiscard]] std::vector<Stored> stored(const SinglePointState<Dim>& state) const;
   [[nodiscard]] std::vector<double> face_fluxes(const VectorField<Dim>& velocity) const;
   void warn_of_unstated_inflow();
@@ -100,10 +108,7 @@ class SinglePoint {
   long last_steps_ = 1;
   std::vector<bool> inflow_warned_;
   std::vector<std::string> warnings_;
-  PassTiming flow_pass_{"flow", 0, 0.0};
-  PassTiming erosion_pass_{"erosion", 0, 0.0};
-  PassTiming transport_pass_{"transport", 0, 0.0};
-  PassTiming water_pass_{"water masses and coefficients", 0, 0.0};
+  PassTimings timings_;
 };
 
 }  // namespace suffuse

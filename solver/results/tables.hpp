@@ -17,19 +17,20 @@ using Column = std::pair<std::string_view, double Row::*>;
 /// (m3/s per metre of thickness in 2D).
 struct HistoryRow {
   double t = 0.0;
-  double dt = 0.0;                   ///< step of the flow in force, s
-  double porosity_mean = 0.0;        ///< volume mean over eroding regions, or over all soil
-  double flux_in = 0.0;              ///< liquid entering through all boundaries
-  double flux_out = 0.0;             ///< liquid leaving through all boundaries
+  double dt = 0.0;             ///< step of the flow in force, s
+  double porosity_mean = 0.0;  ///< volume mean over eroding regions, or over all soil
+  double flux_in = 0.0;        ///< liquid entering through all boundaries
+  double flux_out = 0.0;       ///< liquid leaving through all boundaries
   double liquid_points = 0.0;
   double empty_elements = 0.0;
   double empty_elements_total = 0.0;
-  double concentration_out = 0.0;    ///< flux-weighted mean c of the leaving liquid; 0 when none leaves
+  double concentration_out =
+      0.0;  ///< flux-weighted mean c of the leaving liquid; 0 when none leaves
   double concentration_min = 0.0;
   double concentration_max = 0.0;
-  double pressure_min = 0.0;         ///< Pa
-  double pressure_max = 0.0;         ///< Pa
-  double speed_max = 0.0;            ///< largest intrinsic liquid speed, m/s
+  double pressure_min = 0.0;  ///< Pa
+  double pressure_max = 0.0;  ///< Pa
+  double speed_max = 0.0;     ///< largest intrinsic liquid speed, m/s
 };
 
 inline constexpr std::array<Column<HistoryRow>, 14> history_columns{{
@@ -49,15 +50,15 @@ inline constexpr std::array<Column<HistoryRow>, 14> history_columns{{
     {"speed_max", &HistoryRow::speed_max},
 }};
 
-/// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross a
-/// boundary. Residual = (stored + out - in - initial) / initial, per constituent.
+/// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross
+/// a boundary. Residual = (stored + out - in - initial) / initial, per constituent.
 struct LedgerRow {
   double t = 0.0;
-  double solid = 0.0;      ///< all solid in place: skeleton and erodible
-  double erodible = 0.0;   ///< solid in place that can still erode
+  double solid = 0.0;     ///< all solid in place: skeleton and erodible
+  double erodible = 0.0;  ///< solid in place that can still erode
   double water = 0.0;
-  double fines = 0.0;      ///< fluidised grains in the model
-  double eroded = 0.0;     ///< grains eroded since the start
+  double fines = 0.0;   ///< fluidised grains in the model
+  double eroded = 0.0;  ///< grains eroded since the start
   double water_in = 0.0;
   double fines_in = 0.0;
   double water_out = 0.0;

@@ -27,9 +27,8 @@ TEST(SealedBox, ErosionSourcesNoPressureAndLosesNoMass) {
     Scene scene = model::paper_scene();
     scene.soils[0].erosion = {law, law == ErosionLaw::constant ? 5e-3 : 1e-2, 2.0, false};
     scene.time.end = 30.0;
-    model::ModelRun run(model::make_case(model::column_mesh(6, 6, 1.0, 1.0,
-                                                            model::jittered(0.04, 7)),
-                                         scene));
+    model::ModelRun run(
+        model::make_case(model::column_mesh(6, 6, 1.0, 1.0, model::jittered(0.04, 7)), scene));
     const auto moments = run.run({1.0, 5.0, 10.0, 22.0, 30.0});
     for (std::size_t k = 0; k < moments.flows.size(); ++k) {
       EXPECT_LE(largest(moments.flows[k].pressure), 1e-8 * scene.liquid.bulk_modulus);
@@ -79,8 +78,8 @@ TEST(HydrostaticRest, StaysAtRestOnAnUnstructuredMeshWithTwoPorosities) {
   EXPECT_LE(largest_speed(begin.velocity), 1e-10);
   const auto moments = run.run({0.25, 0.5, 1.0});
   for (const auto& flow : moments.flows) EXPECT_LE(largest_speed(flow.velocity), 1e-10);
-  std::cout << "largest speed after " << run.steps() << " steps: "
-            << largest_speed(moments.flows.back().velocity) << " m/s\n";
+  std::cout << "largest speed after " << run.steps()
+            << " steps: " << largest_speed(moments.flows.back().velocity) << " m/s\n";
 }
 
 TEST(SteadyFlow, StaysSteady) {

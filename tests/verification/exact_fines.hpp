@@ -1,8 +1,8 @@
 #pragma once
 
-/// Fluidised grains in a column that clean water enters at uniform Darcy flux q, by characteristics:
-/// D ln(1 - c)/Dt = -phi_e / n_L along a path of the liquid. Integrated with small steps from the law
-/// and the initial porosity; nothing of the solver is in it.
+/// Fluidised grains in a column that clean water enters at uniform Darcy flux q, by
+/// characteristics: D ln(1 - c)/Dt = -phi_e / n_L along a path of the liquid. Integrated with small
+/// steps from the law and the initial porosity; nothing of the solver is in it.
 
 #include <algorithm>
 #include <cmath>
@@ -63,8 +63,8 @@ class UniformFines {
   std::vector<double> path_;  ///< travelled by liquid since the start of erosion, m
 };
 
-/// Any porosity n(x, t) and rate phi(x, t) in closed form: the path is followed back from (x, t) to the
-/// inlet or to the start of erosion.
+/// Any porosity n(x, t) and rate phi(x, t) in closed form: the path is followed back from (x, t) to
+/// the inlet or to the start of erosion.
 inline double concentration_along_path(const std::function<double(double, double)>& porosity,
                                        const std::function<double(double, double)>& rate,
                                        double start, double flux, double x, double t) {

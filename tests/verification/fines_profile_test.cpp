@@ -74,8 +74,8 @@ double value_at_depth(const Mesh<2>& mesh, const SinglePointState<2>& state, dou
     }
     const double y = 1.0 - x;
     if (y < low - 1e-12 || y > high + 1e-12) continue;
-    // Barycentric coordinates by areas, at the point of this depth on the centroid's vertical that lies
-    // in the element's height; the fields do not vary across.
+    // Barycentric coordinates by areas, at the point of this depth on the centroid's vertical that
+    // lies in the element's height; the fields do not vary across.
     Eigen::Matrix3d a;
     for (int k = 0; k < 3; ++k) {
       a(0, k) = 1.0;
@@ -146,12 +146,12 @@ TEST_P(FinesProfile, ErrorAndOrder) {
       const HistoryRow row = run.model().history_row(state, moments.flows[k]);
       EXPECT_GE(row.concentration_min, 0.0);
       EXPECT_LT(row.concentration_max, 1.0);
-      smooth_errors[cells].push_back(
-          relative_error(run.input().mesh, state, profile, front, 0.15));
+      smooth_errors[cells].push_back(relative_error(run.input().mesh, state, profile, front, 0.15));
       if (cells != 16) continue;
       const double error = relative_error(run.input().mesh, state, profile, 0.0, -1.0);
       EXPECT_LE(error, 0.01) << "t = " << t;
-      std::cout << law.name << " t = " << t << " s: relative L1 error of c at 1/16 " << error << '\n';
+      std::cout << law.name << " t = " << t << " s: relative L1 error of c at 1/16 " << error
+                << '\n';
 
       const auto table = table_profile(law, t);
       ASSERT_GE(table.size(), 11u) << "t = " << t;
@@ -192,10 +192,9 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& param_info) { return param_info.param.name; });
 
 TEST(FinesOutflow, CumulativeMassWithinOnePercent) {
-  for (const auto& [name, law, rate] :
-       {std::tuple{"const", ErosionLaw::constant, 1e-3},
-        std::tuple{"const", ErosionLaw::constant, 5e-3},
-        std::tuple{"log", ErosionLaw::logarithmic, 1e-2}}) {
+  for (const auto& [name, law, rate] : {std::tuple{"const", ErosionLaw::constant, 1e-3},
+                                        std::tuple{"const", ErosionLaw::constant, 5e-3},
+                                        std::tuple{"log", ErosionLaw::logarithmic, 1e-2}}) {
     std::vector<double> times;
     std::vector<double> expected;
     for (const auto& row : read_reference("masses.csv")) {
@@ -246,11 +245,11 @@ TEST(FinesProfileNonUniform, PorosityThatVariesWithDepth) {
     }
     ASSERT_GT(table_scale, 0.0);
     EXPECT_LE(table_error, 0.01 * table_scale) << "t = " << t;
-    const double error =
-        relative_error(run.input().mesh, moments.states[k],
-                       [&](double x) { return exact(x, t); }, 0.0, -1.0);
+    const double error = relative_error(
+        run.input().mesh, moments.states[k], [&](double x) { return exact(x, t); }, 0.0, -1.0);
     EXPECT_LE(error, 0.01) << "t = " << t;
-    std::cout << "non-uniform porosity, t = " << t << " s: relative L1 error of c " << error << '\n';
+    std::cout << "non-uniform porosity, t = " << t << " s: relative L1 error of c " << error
+              << '\n';
   }
 }
 
@@ -270,8 +269,8 @@ double water_made(bool third_term) {
 
 TEST(PorosityGradientTerm, WithoutItWaterIsCreatedOrLost) {
   EXPECT_LE(std::abs(water_made(true)), 1e-12);
-  // v is uniform then, so q = n v leaves larger than it came by the ratio of porosities, those of the
-  // outermost elements, whose centroids lie a third of a cell inside.
+  // v is uniform then, so q = n v leaves larger than it came by the ratio of porosities, those of
+  // the outermost elements, whose centroids lie a third of a cell inside.
   const double made = water_made(false);
   const double inside = 0.1 / 8.0 / 3.0;
   EXPECT_NEAR(made, (0.35 - inside) / (0.25 + inside) - 1.0, 1e-3);

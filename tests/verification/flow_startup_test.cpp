@@ -60,8 +60,8 @@ class FlowColumn {
   [[nodiscard]] double mode_amplitude() const {
     double sum = 0.0;
     for (std::size_t e = 0; e < grid_.volume.size(); ++e) {
-      sum += 2.0 * grid_.volume[e] * flow_.pressure()[e] *
-             std::sin(std::numbers::pi * centroid(e)[1]);
+      sum +=
+          2.0 * grid_.volume[e] * flow_.pressure()[e] * std::sin(std::numbers::pi * centroid(e)[1]);
     }
     return sum;
   }
@@ -103,8 +103,7 @@ class FlowColumn {
  private:
   static Case<2> make(int cells, double top_pressure) {
     Scene scene = model::paper_scene();
-    scene.boundaries = {model::pressure_on("top", top_pressure),
-                        model::pressure_on("bottom", 0.0)};
+    scene.boundaries = {model::pressure_on("top", top_pressure), model::pressure_on("bottom", 0.0)};
     const int across = std::max(1, cells / 4);
     return model::make_case(model::column_mesh(across, cells, 1.0, 1.0), scene);
   }

@@ -20,7 +20,7 @@ class ModelRun {
         plan_(make_plan(case_, options_)),
         model_(case_, plan_, options_) {}
 
-  /// State and flow at each of `times` (ascending). `each(interval end)` sees every interval.
+  /// State and flow at each of `times` (ascending).
   struct Moments {
     std::vector<SinglePointState<2>> states;
     std::vector<FlowMoment<2>> flows;
@@ -37,13 +37,12 @@ class ModelRun {
       for (; next != times.end() && *next <= reached * (1.0 + 1e-12); ++next) {
         within.push_back(*next);
       }
-      const auto interval = model_.advance(steps, plan_.step, within);
+      for (auto& [state, flow] : model_.advance(steps, plan_.step, within)) {
+        result.states.push_back(std::move(state));
+        result.flows.push_back(std::move(flow));
+      }
       steps_ += steps;
       note_residuals();
-      for (const FlowMoment<2>& moment : interval.moments) {
-        result.states.push_back(model_.state_at(interval, moment.time));
-        result.flows.push_back(moment);
-      }
     }
     return result;
   }
@@ -58,8 +57,8 @@ class ModelRun {
  private:
   void note_residuals() {
     const LedgerRow row = model_.ledger(model_.state());
-    worst_residual_ = std::max(
-        {worst_residual_, std::abs(row.residual_water), std::abs(row.residual_grains)});
+    worst_residual_ =
+        std::max({worst_residual_, std::abs(row.residual_water), std::abs(row.residual_grains)});
   }
 
   Case<2> case_;
