@@ -33,6 +33,35 @@ void name_group(int dimension, const std::vector<int>& entities, const std::stri
   gmsh::model::setPhysicalName(dimension, group, name);
 }
 
+/// Position `row` of `rows` between two ends.
+double grid_position(double from, double to, double at, int rows) {
+  const auto row = static_cast<double>(std::lround((at - from) / (to - from) * rows));
+  return from + (to - from) * row / rows;
+}
+
+double exact_height(const ColumnShape& column, double y, double size) {
+  for (const ColumnLayer& layer : column.layers) {
+    const int rows = element_rows(layer.top - layer.bottom, size);
+    const bool last = &layer == &column.layers.back();
+    if (last || y < layer.top) return grid_position(layer.bottom, layer.top, y, rows);
+  }
+  return y;
+}
+
+/// Gmsh places the points of a transfinite curve to about 1e-12 only; balances are held to less.
+void place_nodes_exactly(const ColumnShape& column, double size) {
+  std::vector<std::size_t> tags;
+  std::vector<double> coordinates;
+  std::vector<double> parameters;
+  gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+  const int columns = element_rows(column.width, size);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const double x = grid_position(0.0, column.width, coordinates[3 * i], columns);
+    const double y = exact_height(column, coordinates[3 * i + 1], size);
+    gmsh::model::mesh::setNode(tags[i], {x, y, 0.0}, {});
+  }
+}
+
 }  // namespace
 
 ColumnShape column_of(const Scene& scene) {
@@ -78,6 +107,7 @@ void mesh_column(const ColumnShape& column, const MeshSettings& settings) {
   name_group(1, left, "left");
   name_group(1, right, "right");
   gmsh::model::mesh::generate(2);
+  if (regular) place_nodes_exactly(column, settings.size);
 }
 
 }  // namespace suffuse

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Beyond this a misplaced decimal point is likelier than intent.
-constexpr double most_triangles = 2e7;
+constexpr double most_triangles = 5e6;
 
 std::string number(double value) {
   std::ostringstream text;
@@ -41,6 +41,11 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+bool is_step_file(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".step" || extension == ".stp";
+}
+
 [[noreturn]] void refuse(const SceneDocument& document, const std::string& key,
                          const std::string& found, const std::string& expected) {
   throw InputError(
@@ -52,7 +57,7 @@ void refuse_too_many(const SceneDocument& document, double area) {
   const double smallest = std::sqrt(2.0 * area / most_triangles);
   if (!(size < smallest)) return;
   refuse(document, "mesh.size", number(size),
-         "at least " + number(smallest) + ", which makes 20 million triangles here");
+         "at least " + number(smallest) + ", which makes 5 million triangles here");
 }
 
 bool divides(double size, double length) {
@@ -127,8 +132,12 @@ void name_groups_by_label(int dimension) {
 void open_step(const std::string& path) {
   gmsh::option::setString("Geometry.OCCTargetUnit", "M");
   gmsh::open(path);
-  gmsh::model::occ::removeAllDuplicates();  // neighbours come with a curve each
-  gmsh::model::occ::synchronize();
+  gmsh::vectorpair surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  if (surfaces.size() > 1) {
+    gmsh::model::occ::removeAllDuplicates();  // neighbours come with a curve each
+    gmsh::model::occ::synchronize();
+  }
   name_groups_by_label(2);
   name_groups_by_label(1);
 }
@@ -159,7 +168,7 @@ void generate_mesh(const SceneDocument& document, const std::string& path) {
 void build_from_file(const SceneDocument& document, std::vector<std::string>& notes) {
   const std::string path = geometry_path(document);
   const std::string extension = extension_of(path);
-  const bool is_step = extension == ".step" || extension == ".stp";
+  const bool is_step = is_step_file(path);
   if (!is_step && extension != ".geo" && extension != ".msh") {
     refuse(document, "geometry.file", '"' + document.scene.geometry.file + '"',
            "a file ending in .geo, .msh, .step or .stp");
@@ -193,6 +202,18 @@ void place_problems(const SceneDocument& document, std::vector<InputProblem>& pr
   }
 }
 
+/// Gmsh reads names of faces from a STEP file, where the CAD program wrote any, but none of edges.
+void advise_on_step(const SceneDocument& document, std::vector<InputProblem>& problems) {
+  const std::string& file = document.scene.geometry.file;
+  problems.push_back(
+      {document.locate("geometry.file"), "geometry.file", "",
+       "for names that the STEP file lacks, a .geo file that gives them: "
+       "SetFactory(\"OpenCASCADE\"); "
+       "Geometry.OCCTargetUnit = \"M\"; Merge \"" +
+           file + "\"; Physical Surface(\"specimen\") = {1}; Physical Curve(\"top\") = {3};",
+       ""});
+}
+
 }  // namespace
 
 std::string geometry_path(const SceneDocument& document) {
@@ -215,6 +236,10 @@ Geometry build_geometry(const SceneDocument& document) {
   if (extracted.comparable) {
     std::ranges::move(scene_problems(document, extracted.mesh),
                       std::back_inserter(extracted.problems));
+  }
+  const bool lacks_names = !extracted.problems.empty() && extracted.mesh.boundaries.empty();
+  if (lacks_names && is_step_file(document.scene.geometry.file)) {
+    advise_on_step(document, extracted.problems);
   }
   if (!extracted.problems.empty()) throw InputError(std::move(extracted.problems));
   if (extracted.turned > 0) {

@@ -50,7 +50,8 @@ std::string output_path(const Arguments& arguments) {
 
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
-  return fs::equivalent(a, b, ignored) || fs::weakly_canonical(a) == fs::weakly_canonical(b);
+  return fs::equivalent(a, b, ignored) ||
+         fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
 /// No input may be overwritten by an output.

@@ -86,21 +86,30 @@ Handle array_space(const std::vector<std::size_t>& shape) {
   return {H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose};
 }
 
-Handle variable_text_type() {
+/// Fixed length for all of them, at least one byte. ASCII where the text allows: VTK's reader wants
+/// its attributes so.
+Handle text_type(std::span<const std::string> values) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.id(), H5T_VARIABLE);
-  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  std::size_t longest = 1;
+  bool ascii = true;
+  for (const std::string& value : values) {
+    longest = std::max(longest, value.size());
+    ascii = ascii && std::ranges::all_of(value, [](char c) { return (c & 0x80) == 0; });
+  }
+  H5Tset_size(type.id(), longest);
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_cset(type.id(), ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8);
   return type;
 }
 
-/// Fixed length: VTK's reader wants its attributes so, and ASCII where the text allows.
-Handle fixed_text_type(const std::string& value) {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.id(), std::max<std::size_t>(value.size(), 1));
-  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
-  const bool ascii = std::ranges::all_of(value, [](char c) { return (c & 0x80) == 0; });
-  H5Tset_cset(type.id(), ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8);
-  return type;
+/// The texts one after the other, each padded to the size of `type`.
+std::string padded(std::span<const std::string> values, const Handle& type) {
+  std::string buffer;
+  for (std::string value : values) {
+    value.resize(H5Tget_size(type.id()), '\0');
+    buffer += value;
+  }
+  return buffer;
 }
 
 void write_dataset(hid_t file, const std::string& path, const std::string& dataset, hid_t file_type,
@@ -130,8 +139,10 @@ void write_array(hid_t file, const std::string& path, const std::string& dataset
   write_dataset(file, path, dataset, file_type, memory_type, array_space(shape), values.data());
 }
 
-void refuse_nul(const std::string& path, const std::string& object, const std::string& value) {
-  if (value.find('\0') != std::string::npos) {
+void refuse_nul(const std::string& path, const std::string& object,
+                std::span<const std::string> values) {
+  for (const std::string& value : values) {
+    if (value.find('\0') == std::string::npos) continue;
     fail(path, object, "a text with a NUL character cannot be stored; remove the character");
   }
 }
@@ -233,37 +244,26 @@ std::vector<std::string> fixed_texts(const std::string& buffer, std::size_t coun
   return texts;
 }
 
-/// HDF5 converts between the two sets of characters only when told the file's own.
-Handle memory_text_type(const Handle& type) {
-  Handle memory = variable_text_type();
-  H5Tset_cset(memory.id(), H5Tget_cset(type.id()));
-  return memory;
+void expect_text(const std::string& path, const std::string& object, const Handle& type) {
+  expect_class(path, object, type, H5T_STRING, "text");
+  if (H5Tis_variable_str(type.id()) != 0) {
+    fail(path, object,
+         "holds text of variable length; expected the fixed length that Suffuse writes");
+  }
 }
 
 std::vector<std::string> read_text_list(const Hdf5File& file, hid_t id,
                                         const std::string& dataset) {
   const Handle set = open_dataset(file, id, dataset);
   const Handle type(H5Dget_type(set.id()), H5Tclose);
-  expect_class(file.path(), dataset, type, H5T_STRING, "text");
+  expect_text(file.path(), dataset, type);
   const std::size_t count = checked_count(file.path(), dataset, set, type);
   if (count == 0) return {};
-  if (H5Tis_variable_str(type.id()) <= 0) {
-    std::string buffer(count * H5Tget_size(type.id()), '\0');
-    if (H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer.data()) < 0) {
-      fail_reading(file.path(), dataset);
-    }
-    return fixed_texts(buffer, count);
-  }
-  const Handle memory = memory_text_type(type);
-  std::vector<char*> pointers(count, nullptr);
-  if (H5Dread(set.id(), memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0) {
+  std::string buffer(count * H5Tget_size(type.id()), '\0');
+  if (H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer.data()) < 0) {
     fail_reading(file.path(), dataset);
   }
-  std::vector<std::string> texts(count);
-  for (std::size_t i = 0; i < count; ++i) texts[i] = pointers[i] == nullptr ? "" : pointers[i];
-  const Handle space(H5Dget_space(set.id()), H5Sclose);
-  H5Dvlen_reclaim(memory.id(), space.id(), H5P_DEFAULT, pointers.data());
-  return texts;
+  return fixed_texts(buffer, count);
 }
 
 Handle open_attribute(const Hdf5File& file, hid_t id, const std::string& object,
@@ -428,28 +428,27 @@ void Hdf5File::write(const std::string& dataset, std::span<const std::uint8_t> v
 }
 
 void Hdf5File::write_text(const std::string& dataset, const std::string& value) {
-  refuse_nul(path_, dataset, value);
-  const Handle type = variable_text_type();
-  const char* pointer = value.c_str();
-  write_dataset(file_, path_, dataset, type.id(), type.id(), scalar_space(), &pointer);
+  const std::span<const std::string> values(&value, 1);
+  refuse_nul(path_, dataset, values);
+  const Handle type = text_type(values);
+  write_dataset(file_, path_, dataset, type.id(), type.id(), scalar_space(),
+                padded(values, type).data());
 }
 
 void Hdf5File::write_texts(const std::string& dataset, const std::vector<std::string>& values) {
-  const Handle type = variable_text_type();
-  std::vector<const char*> pointers;
-  for (const std::string& value : values) {
-    refuse_nul(path_, dataset, value);
-    pointers.push_back(value.c_str());
-  }
+  refuse_nul(path_, dataset, values);
+  const Handle type = text_type(values);
   write_dataset(file_, path_, dataset, type.id(), type.id(), array_space({values.size()}),
-                pointers.data());
+                padded(values, type).data());
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name,
                          const std::string& value) {
-  refuse_nul(path_, object + "@" + name, value);
-  const Handle type = fixed_text_type(value);
-  write_attribute(file_, path_, object, name, type.id(), type.id(), scalar_space(), value.c_str());
+  const std::span<const std::string> values(&value, 1);
+  refuse_nul(path_, object + "@" + name, values);
+  const Handle type = text_type(values);
+  write_attribute(file_, path_, object, name, type.id(), type.id(), scalar_space(),
+                  padded(values, type).data());
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name, double value) {
@@ -500,22 +499,12 @@ std::string Hdf5File::text_attribute(const std::string& object, const std::strin
   const std::string place = object + "@" + name;
   const Handle attribute = open_attribute(*this, file_, object, name);
   const Handle type(H5Aget_type(attribute.id()), H5Tclose);
-  expect_class(path_, place, type, H5T_STRING, "text");
+  expect_text(path_, place, type);
   const Handle space(H5Aget_space(attribute.id()), H5Sclose);
   if (H5Sget_simple_extent_npoints(space.id()) != 1) fail(path_, place, "expected one text");
-  if (H5Tis_variable_str(type.id()) <= 0) {
-    std::string buffer(H5Tget_size(type.id()), '\0');
-    if (H5Aread(attribute.id(), type.id(), buffer.data()) < 0) fail_reading(path_, place);
-    return fixed_texts(buffer, 1).front();
-  }
-  const Handle memory = memory_text_type(type);
-  char* pointer = nullptr;
-  if (H5Aread(attribute.id(), memory.id(), static_cast<void*>(&pointer)) < 0) {
-    fail_reading(path_, place);
-  }
-  std::string value = pointer == nullptr ? "" : pointer;
-  H5Dvlen_reclaim(memory.id(), space.id(), H5P_DEFAULT, static_cast<void*>(&pointer));
-  return value;
+  std::string buffer(H5Tget_size(type.id()), '\0');
+  if (H5Aread(attribute.id(), type.id(), buffer.data()) < 0) fail_reading(path_, place);
+  return fixed_texts(buffer, 1).front();
 }
 
 double Hdf5File::double_attribute(const std::string& object, const std::string& name) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A thin owner of HDF5 handles: what the case and the results files need and no more. Every failure
-/// is a FileError that names the file and the object.
+/// A thin owner of HDF5 handles: what the case and the results files need and no more. Every
+/// failure is a FileError that names the file and the object.
 
 #include <hdf5.h>
 
@@ -42,7 +42,8 @@ class Hdf5File {
              const std::vector<std::size_t>& shape);
   void write(const std::string& dataset, std::span<const std::uint8_t> values,
              const std::vector<std::size_t>& shape);
-  /// Text, and lists of texts (variable-length UTF-8).
+  /// Text, and lists of texts: fixed-length UTF-8, padded with NUL. Of variable-length text, a
+  /// damaged file makes HDF5 itself crash; it is neither written nor read.
   void write_text(const std::string& dataset, const std::string& value);
   void write_texts(const std::string& dataset, const std::vector<std::string>& values);
 
@@ -58,7 +59,8 @@ class Hdf5File {
   [[nodiscard]] std::string read_text(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::string> read_texts(const std::string& dataset) const;
   [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
-  [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
+  [[nodiscard]] std::string text_attribute(const std::string& object,
+                                           const std::string& name) const;
   [[nodiscard]] double double_attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] std::int64_t integer_attribute(const std::string& object,
                                                const std::string& name) const;

@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+
+#include "case/case_file.hpp"
+#include "temporary_folder.hpp"
+
+namespace suffuse {
+namespace {
+
+using test::TemporaryFolder;
+
+struct Outcome {
+  int code;
+  std::string text;  // stdout and stderr
+};
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    folder_.write("column.toml", test::scene_text(test::unit_column,
+                                                  "[[boundary]]\non = \"top\"\npressure = 1.0\n"));
+  }
+
+  /// Runs suffuse-mesher in the folder.
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.path().string() +
+                                "' && '" SUFFUSE_BIN "/suffuse-mesher' " + arguments + " 2>&1";
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    std::string text;
+    std::array<char, 4096> buffer{};
+    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+      text.append(buffer.data(), n);
+    }
+    const int status = ::pclose(pipe);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CommandLine, MakesACaseNamedAfterTheScene) {
+  const Outcome outcome = run("column.toml");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(outcome.text.substr(0, outcome.text.find('\n')), "column.case.h5");
+  EXPECT_NE(outcome.text.find("  elements         32\n"), std::string::npos) << outcome.text;
+  EXPECT_EQ(folder_.count(), 2);
+  const Case<2> made = read_case<2>(folder_.file("column.case.h5"));
+  EXPECT_EQ(made.mesh.element_count(), 32);
+  EXPECT_EQ(made.solid_points.size(), 96);
+  EXPECT_EQ(made.document.path, "column.toml");
+}
+
+TEST_F(CommandLine, OverridesAndOutputs) {
+  const Outcome outcome =
+      run("--set points.solid_per_element=12 --set mesh.size=0.5 column.toml -o other.case.h5 "
+          "--msh mesh.msh");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(folder_.count(), 4);  // scene, case, mesh and its colours
+  const Case<2> made = read_case<2>(folder_.file("other.case.h5"));
+  EXPECT_EQ(made.solid_points.size(), 12 * 8);
+  EXPECT_EQ(made.document.overrides,
+            (std::vector<std::string>{"points.solid_per_element=12", "mesh.size=0.5"}));
+}
+
+TEST_F(CommandLine, EqualScenesGiveEqualFiles) {
+  ASSERT_EQ(run("column.toml -o a.h5").code, 0);
+  ASSERT_EQ(run("column.toml -o b.h5").code, 0);
+  EXPECT_EQ(test::read_file(folder_.file("a.h5")), test::read_file(folder_.file("b.h5")));
+}
+
+TEST_F(CommandLine, PrintsVersionReferenceAndHelp) {
+  EXPECT_EQ(run("--version").text.substr(0, 15), "suffuse-mesher ");
+  EXPECT_EQ(run("--version").code, 0);
+  EXPECT_EQ(run("--scene-reference").text, scene_reference_markdown());
+  EXPECT_EQ(run("--help").code, 0);
+  EXPECT_EQ(folder_.count(), 1);
+}
+
+struct Wrong {
+  std::string arguments;
+  int code;
+  std::string text;
+};
+
+void PrintTo(const Wrong& wrong, std::ostream* stream) {
+  *stream << wrong.arguments;
+}
+
+class WrongCommandLine : public CommandLine, public testing::WithParamInterface<Wrong> {};
+
+TEST_P(WrongCommandLine, IsRefusedAndWritesNothing) {
+  const std::string scene = test::read_file(folder_.file("column.toml"));
+  const Outcome outcome = run(GetParam().arguments);
+  EXPECT_EQ(outcome.code, GetParam().code) << outcome.text;
+  EXPECT_NE(outcome.text.find(GetParam().text), std::string::npos) << outcome.text;
+  EXPECT_EQ(folder_.count(), 1);
+  EXPECT_EQ(test::read_file(folder_.file("column.toml")), scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongCommandLine,
+    testing::Values(
+        Wrong{"", 2, "a scene file is missing; expected suffuse-mesher SCENE.toml"},
+        Wrong{"column.toml --ms a.msh", 2,
+              "got \"--ms\"; expected an option of suffuse-mesher (see --help); did you mean "
+              "--msh?"},
+        Wrong{"column.toml second.toml", 2, "got \"second.toml\"; expected one scene file only"},
+        Wrong{"column.toml -o", 2, "(see --help)"},
+        Wrong{"column.toml -o column.toml", 2, "-o column.toml would overwrite an input"},
+        Wrong{"column.toml --msh a.vtk", 2, "--msh: got a.vtk; expected a name that ends in .msh"},
+        Wrong{"column.toml -o a.msh --msh ./a.msh", 2, "-o and --msh name the same file ./a.msh"},
+        Wrong{"column.toml --set mesh.sise=1", 2, "--set mesh.sise=1"},
+        Wrong{"column.toml --set 'boundary[0].on=\"tip\"'", 2, "did you mean \"top\"?"},
+        Wrong{"nowhere.toml", 4, "nowhere.toml"},
+        Wrong{"column.toml -o nowhere/a.case.h5", 4, "there is no folder nowhere"},
+        Wrong{"column.toml --msh nowhere/a.msh", 4, "there is no folder nowhere"}));
+
+TEST_F(CommandLine, AGeometryThatGmshCannotReadIsPlaced) {
+  // A program of its own: Gmsh's parser does not recover from an error within one.
+  folder_.write("bad.toml", test::scene_text("[geometry]\nfile = \"" SUFFUSE_TEST_DATA
+                                             "/geometry/syntax_error.geo\"\n[mesh]\nsize = 0.5\n"));
+  const Outcome outcome = run("bad.toml");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.text, SUFFUSE_TEST_DATA
+            "/geometry/syntax_error.geo:12: got syntax error (=); expected valid Gmsh text\n");
+  EXPECT_EQ(folder_.count(), 2);
+}
+
+TEST_F(CommandLine, AnUnwritableOutputIsAFileFailureAndLeavesNothing) {
+  const Outcome outcome = run("column.toml -o /proc/a.case.h5");
+  EXPECT_EQ(outcome.code, 4) << outcome.text;
+  EXPECT_NE(outcome.text.find("/proc/"), std::string::npos);
+  EXPECT_EQ(folder_.count(), 1);
+}
+
+}  // namespace
+}  // namespace suffuse

@@ -1,0 +1,483 @@
+#include "geometry.hpp"
+
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "case/errors.hpp"
+#include "gmsh_export.hpp"
+#include "gmsh_session.hpp"
+#include "summary.hpp"
+#include "temporary_folder.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+using test::scene_text;
+using test::TemporaryFolder;
+
+std::string column(double width, double height, double size, const std::string& structure) {
+  return "[geometry]\nshape = \"column\"\nwidth = " + std::to_string(width) +
+         "\nheight = " + std::to_string(height) + "\n[mesh]\nsize = " + std::to_string(size) +
+         "\nstructure = \"" + structure + "\"\n";
+}
+
+Geometry build(const std::string& geometry, const std::string& more = "") {
+  return build_geometry(parse_scene(scene_text(geometry, more), "test.toml"));
+}
+
+std::vector<double> areas_by_region(const Mesh<2>& mesh) {
+  std::vector<double> areas(mesh.region_names.size(), 0.0);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    EXPECT_GT(element_volume(mesh, e), 0.0);
+    areas[mesh.element_region[e]] += element_volume(mesh, e);
+  }
+  return areas;
+}
+
+const BoundarySet<2>& boundary(const Mesh<2>& mesh, const std::string& name) {
+  return *std::ranges::find(mesh.boundaries, name, &BoundarySet<2>::name);
+}
+
+double longest_edge(const Mesh<2>& mesh, int e) {
+  double longest = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    longest = std::max(
+        longest,
+        (mesh.nodes[mesh.elements[e][a]] - mesh.nodes[mesh.elements[e][(a + 1) % 3]]).norm());
+  }
+  return longest;
+}
+
+TEST(Column, RegularHasTwoRightTrianglesPerSquare) {
+  const Geometry geometry = build(column(1.0, 0.5, 0.25, "regular"));
+  const Mesh<2>& mesh = geometry.mesh;
+  EXPECT_EQ(mesh.element_count(), 2 * 4 * 2);
+  EXPECT_EQ(mesh.node_count(), 5 * 3);
+  EXPECT_EQ(mesh.region_names, std::vector<std::string>{"specimen"});
+  EXPECT_TRUE(geometry.notes.empty());
+  EXPECT_NEAR(smallest_angle(mesh), 45.0, 1e-12);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    EXPECT_EQ(element_volume(mesh, e), 0.5 * 0.25 * 0.25);  // exact in binary
+  }
+}
+
+TEST(Column, RegularIsItsOwnImageWhenTurnedUpsideDown) {
+  const Mesh<2> mesh = build(column(1.0, 1.0, 0.25, "regular")).mesh;
+  const auto key = [](const Vector<2>& x) {
+    return std::pair(std::lround(x[0] * 3e6), std::lround(x[1] * 3e6));
+  };
+  std::set<std::pair<long, long>> centroids;
+  for (int e = 0; e < mesh.element_count(); ++e) centroids.insert(key(element_centroid(mesh, e)));
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    EXPECT_TRUE(centroids.contains(key(Vector<2>(1.0, 1.0) - element_centroid(mesh, e))));
+  }
+}
+
+TEST(Column, BoundariesLieWhereTheirNamesSay) {
+  for (const std::string structure : {"regular", "free"}) {
+    const Mesh<2> mesh = build(column(2.0, 1.0, 0.25, structure)).mesh;
+    const std::map<std::string, std::pair<int, double>> places{
+        {"left", {0, 0.0}}, {"right", {0, 2.0}}, {"bottom", {1, 0.0}}, {"top", {1, 1.0}}};
+    ASSERT_EQ(mesh.boundaries.size(), 4U);
+    for (const auto& [name, place] : places) {
+      double length = 0.0;
+      for (const auto& face : boundary(mesh, name).faces) {
+        for (int node : face) EXPECT_NEAR(mesh.nodes[node][place.first], place.second, 1e-12);
+        length += (mesh.nodes[face[1]] - mesh.nodes[face[0]]).norm();
+      }
+      EXPECT_NEAR(length, place.first == 0 ? 1.0 : 2.0, 1e-12) << name;
+    }
+  }
+}
+
+TEST(Column, FreeHasTheAreaTheSizeAndNoPattern) {
+  const Mesh<2> mesh = build(column(1.0, 1.0, 0.1, "free")).mesh;
+  EXPECT_NEAR(areas_by_region(mesh)[0], 1.0, 1e-12);
+  double mean = 0.0;
+  for (int e = 0; e < mesh.element_count(); ++e) mean += longest_edge(mesh, e);
+  mean /= mesh.element_count();
+  EXPECT_GT(mean, 0.08);
+  EXPECT_LT(mean, 0.14);
+  EXPECT_LT(std::abs(smallest_angle(mesh) - 40.0), 15.0);
+}
+
+TEST(Column, IsTheSameEveryTime) {
+  const std::string scene = column(1.0, 1.0, 0.07, "free");
+  const Mesh<2> first = build(scene).mesh;
+  const Mesh<2> second = build(scene).mesh;
+  EXPECT_EQ(first.nodes, second.nodes);
+  EXPECT_EQ(first.elements, second.elements);
+}
+
+TEST(Column, SaysWhenTheSizeDoesNotDivideASide) {
+  const Geometry geometry = build(column(1.0, 1.0, 0.3, "regular"));
+  EXPECT_EQ(geometry.mesh.element_count(), 2 * 3 * 3);
+  ASSERT_EQ(geometry.notes.size(), 2U);
+  EXPECT_EQ(geometry.notes[1],
+            "mesh.size 0.3 does not divide the height 1: it has 3 elements of 0.333333");
+}
+
+std::string refusal(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing refused";
+}
+
+TEST(Column, RefusesMoreTrianglesThanAnyoneMeans) {
+  EXPECT_EQ(refusal([] { build(column(1.0, 1.0, 1e-4, "regular")); }),
+            "test.toml:8: mesh.size: got 0.0001; expected at least 0.000632456, which makes 5 "
+            "million triangles here");
+}
+
+TEST(Scene, EveryMisfitIsReportedAtOnceWithItsLine) {
+  const std::string more =
+      "[soil.clya]\nporosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700.0\n"
+      "conductivity = 2.0e-2\n"
+      "[[boundary]]\non = \"botom\"\npressure = 1.0\n[[boundary]]\non = \"top\"\npressure = 1.0\n";
+  EXPECT_EQ(
+      refusal([&] { build(test::unit_column, more); }),
+      "test.toml:24: soil.clya: got \"clya\"; expected a region of the mesh: \"specimen\"\n"
+      "test.toml:30: boundary[0].on: got \"botom\"; expected a boundary of the mesh: \"top\", "
+      "\"bottom\", \"left\" or \"right\"; did you mean \"bottom\"?");
+}
+
+TEST(Scene, APorosityThatLeavesItsBoundsIsPlaced) {
+  const auto with_gradient = [](const std::string& gradient) {
+    return refusal([&] { build(test::unit_column, "porosity_gradient = " + gradient + "\n"); });
+  };
+  EXPECT_EQ(with_gradient("[0.0, 0.11]"),
+            "test.toml:24: soil.specimen.porosity_gradient: got n_0 = 0.41 at (0, 1); expected 0 < "
+            "n_0 <= 1 - n_C = 0.4 everywhere in the region");
+  EXPECT_NE(with_gradient("[-0.3, 0.0]").find("got n_0 = 0 at (1, 0)"), std::string::npos);
+  EXPECT_EQ(with_gradient("[0.0, 0.1]"), "nothing refused");
+}
+
+/// A folder with the geometry files of the test data, so that anything they wrote would show.
+class UserFile : public testing::Test {
+ protected:
+  UserFile() {
+    for (const auto& entry : fs::directory_iterator(SUFFUSE_TEST_DATA "/geometry")) {
+      fs::copy(entry.path(), folder_.path());
+    }
+    files_ = folder_.count();
+  }
+
+  Geometry build_file(const std::string& name, const std::string& size = "0.5",
+                      const std::string& more = "") {
+    std::string geometry = "[geometry]\nfile = \"" + name + "\"\n";
+    if (!name.ends_with(".msh")) geometry += "[mesh]\nsize = " + size + "\n";
+    return build_geometry(parse_scene(scene_text(geometry, more), folder_.file("scene.toml")));
+  }
+
+  /// With the folder's name taken out.
+  std::string refusal_of(const std::string& name) {
+    std::string message = refusal([&] { build_file(name); });
+    const std::string prefix = folder_.path().string() + "/";
+    for (std::size_t at = message.find(prefix); at != std::string::npos;
+         at = message.find(prefix)) {
+      message.erase(at, prefix.size());
+    }
+    return message;
+  }
+
+  TemporaryFolder folder_;
+  int files_;
+};
+
+struct Refused {
+  std::string file;
+  std::string message;  // its beginning
+};
+
+void PrintTo(const Refused& refused, std::ostream* stream) {
+  *stream << refused.file;
+}
+
+class RefusedFile : public UserFile, public testing::WithParamInterface<Refused> {};
+
+TEST_P(RefusedFile, SaysWhyAndDoesNothing) {
+  const std::string message = refusal_of(GetParam().file);
+  EXPECT_EQ(message.substr(0, GetParam().message.size()), GetParam().message) << message;
+  EXPECT_EQ(folder_.count(), files_);
+}
+
+const std::string runs_commands =
+    "; expected a geometry that runs no commands, writes no files and does not end the program";
+const std::string in_scene = "scene.toml:4: geometry.file: got ";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RefusedFile,
+    testing::Values(
+        Refused{"system_call.geo", "system_call.geo:13: got SystemCall" + runs_commands},
+        Refused{"external_field.geo", "external_field.geo:12: got ExternalProcess" + runs_commands},
+        Refused{"ends_the_program.geo", "ends_the_program.geo:12: got Exit" + runs_commands},
+        Refused{"includes_a_command.geo",
+                "command.pos:2: got NonBlockingSystemCall" + runs_commands},
+        Refused{"with_options.msh", "with_options.msh.opt:2: got SystemCall" + runs_commands},
+        Refused{"writes_a_file.geo",
+                "writes_a_file.geo:12: got output to a file; expected a geometry that writes no "
+                "files"},
+        Refused{"computed_include.geo",
+                "computed_include.geo:12: got Include with a computed name; expected one file name "
+                "between quotes"},
+        Refused{"missing_include.geo",
+                "missing_include.geo:12: got Merge \"nowhere.step\"; expected a file that exists"},
+        Refused{"not_a_mesh.msh",
+                "not_a_mesh.msh:1: got a file that does not begin with $MeshFormat; expected a "
+                "true .msh file"},
+        Refused{"no_physical_surface.geo",
+                in_scene +
+                    "\"no_physical_surface.geo\" with no named physical surface; expected "
+                    "each region as a physical surface, as in Physical Surface(\"specimen\") "
+                    "= {1}; the model has\n    surface 1: x 0 to 1, y 0 to 1\n    curve 1: "
+                    "x 0 to 1, y 0 to 0\n"},
+        Refused{"unnamed_region.msh",
+                in_scene +
+                    "\"unnamed_region.msh\" with physical surface 7 without a name; expected "
+                    "a name, as in Physical Surface(\"name\") = {...};"},
+        Refused{"second_order.geo",
+                in_scene + "\"second_order.geo\" with element 1 (Triangle 6) at ("},
+        Refused{"quadrilateral.msh",
+                in_scene + "\"quadrilateral.msh\" with element 1 (Quadrilateral 4) at (0.5, 0.5); "
+                           "expected triangles of three nodes (in Gmsh: Mesh.ElementOrder = 1, no "
+                           "Recombine)"},
+        Refused{"tetrahedron.msh",
+                in_scene + "\"tetrahedron.msh\" with element 2 (Tetrahedron 4) at (0.5, 0.25); "
+                           "expected a plane model: only triangles are supported so far"},
+        Refused{"volume.geo", in_scene + "\"volume.geo\" with volume 1; expected a plane model: "
+                                         "only triangles are supported so far"},
+        Refused{"flat.msh", in_scene + "\"flat.msh\" with element 3, flat, with its nodes at (0, "
+                                       "0), (0.5, 0.5), (1, 1); expected triangles with an area"},
+        Refused{"folded.msh",
+                in_scene +
+                    "\"folded.msh\" with elements 1 and 2, on the same side of the edge from "
+                    "(1, 1) to (0, 0); expected triangles that do not overlap: the mesh is "
+                    "folded or has one twice"},
+        Refused{"out_of_plane.msh", in_scene + "\"out_of_plane.msh\" with node 4 at (0, 1, 0.25); "
+                                               "expected a mesh in the plane z = 0"},
+        Refused{"duplicate_nodes.msh",
+                in_scene + "\"duplicate_nodes.msh\" with nodes 1 and 5, both at (0, 0); expected "
+                           "one node per place, so that neighbours are connected"},
+        Refused{"unconnected.geo",
+                in_scene + "\"unconnected.geo\" with nodes 2 and 5, both at (1, 0); expected one "
+                           "node per place"},
+        Refused{"partly_unassigned.msh",
+                in_scene +
+                    "\"partly_unassigned.msh\" with surface 2 (1 triangles, one of them 2 at "
+                    "(0.333333, 0.666667)) in no physical surface; expected every triangle "
+                    "in one region"},
+        Refused{"two_surfaces.geo", in_scene + "\"two_surfaces.geo\" with surface 1 ("},
+        Refused{"empty_groups.msh",
+                in_scene +
+                    "\"empty_groups.msh\" with physical surface \"clay\" without triangles; "
+                    "expected a region that is not empty\n" +
+                    in_scene +
+                    "\"empty_groups.msh\" with physical curve \"top\" without edges; expected a "
+                    "boundary that is not empty\n"},
+        Refused{"interior_curve.geo",
+                in_scene + "\"interior_curve.geo\" with physical curve \"top\" with an edge at "
+                           "(0.5, 0.5) that lies inside the mesh; expected a boundary of outer "
+                           "edges only"},
+        Refused{"foreign_edge.msh",
+                in_scene + "\"foreign_edge.msh\" with physical curve \"top\" with an edge at (0, "
+                           "1.5) that no triangle has; expected a boundary of outer edges only"},
+        Refused{"two_regions.geo",
+                "scene.toml:17: soil.specimen: got \"specimen\"; expected a region of the mesh: "
+                "\"sand\" or \"gravel\"\nscene.toml:17: soil.sand: got nothing; expected a table "
+                "[soil.sand] for the mesh's region of that name; the soils are \"specimen\"\n"}),
+    [](const auto& tested) {
+      std::string name = tested.param.file;
+      std::ranges::replace(name, '.', '_');
+      return name;
+    });
+
+TEST_F(UserFile, AMissingFileIsAFileError) {
+  try {
+    build_file("nowhere.geo");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.what(), folder_.file("scene.toml") + ":4: geometry.file: there is no file " +
+                                folder_.file("nowhere.geo"));
+  }
+}
+
+TEST_F(UserFile, MeshSizeIsTheDefaultAndTheUpperBound) {
+  EXPECT_EQ(build_file("square.geo", "1.0").mesh.boundaries[0].faces.size(), 1U);
+  EXPECT_EQ(build_file("square.geo", "0.5").mesh.boundaries[0].faces.size(), 2U);
+  EXPECT_EQ(build_file("square.geo", "0.05").mesh.boundaries[0].faces.size(), 20U);
+}
+
+TEST_F(UserFile, SizeFieldsOfTheFileHold) {
+  const std::string soils =
+      "[soil.sand]\nporosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700.0\n"
+      "conductivity = 2.0e-2\n[soil.gravel]\nporosity = 0.3\nskeleton_fraction = 0.6\n"
+      "grain_density = 2700.0\nconductivity = 2.0e-2\n";
+  std::string text =
+      scene_text("[geometry]\nfile = \"two_regions.geo\"\n[mesh]\nsize = 0.5\n", soils);
+  text.replace(text.find("[soil.specimen]"),
+               text.find("[soil.sand]") - text.find("[soil.specimen]"), "");
+  const Mesh<2> mesh = build_geometry(parse_scene(text, folder_.file("scene.toml"))).mesh;
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"sand", "gravel"}));
+  const std::vector<double> areas = areas_by_region(mesh);
+  EXPECT_NEAR(areas[0], 1.0, 1e-12);
+  EXPECT_NEAR(areas[1], 1.0, 1e-12);
+  EXPECT_EQ(boundary(mesh, "outlet").faces.size(), 10U);
+  EXPECT_EQ(boundary(mesh, "inlet").faces.size(), 2U);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (mesh.element_region[e] == 0) continue;
+    EXPECT_LT(longest_edge(mesh, e), 0.2);
+  }
+}
+
+TEST_F(UserFile, AMeshIsUsedAsItIs) {
+  const Geometry geometry = build_file("square.msh");
+  EXPECT_EQ(geometry.mesh.elements, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_TRUE(geometry.notes.empty());
+}
+
+TEST_F(UserFile, ClockwiseTrianglesAreTurnedRound) {
+  const Geometry geometry = build_file("clockwise.msh");
+  EXPECT_NEAR(areas_by_region(geometry.mesh)[0], 1.0, 1e-15);
+  EXPECT_EQ(geometry.notes, std::vector<std::string>{"1 clockwise triangles were turned round"});
+}
+
+TEST_F(UserFile, AFileThatMeshesItselfIsLeftAlone) {
+  const Geometry geometry = build_file("meshes_itself.geo", "0.05");
+  EXPECT_GT(longest_edge(geometry.mesh, 0), 0.08);
+  EXPECT_EQ(geometry.notes,
+            std::vector<std::string>{"the .geo file meshes itself, mesh.size does not apply"});
+}
+
+/// Two squares of 1000 mm side by side, as a CAD program would name them.
+void write_step(const std::string& path, const std::vector<std::string>& names) {
+  {
+    const GmshSession session;
+    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");  // OCC keeps the unit of the last run
+    gmsh::model::occ::addRectangle(0, 0, 0, 1000, 1000);
+    gmsh::model::occ::addRectangle(1000, 0, 0, 1000, 1000);
+    gmsh::model::occ::synchronize();
+    gmsh::write(path);
+  }
+  std::string text = test::read_file(path);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    // 'Open CASCADE STEP translator 7.6 1.1' and so on
+    const std::string end = "." + std::to_string(i + 1) + "'";
+    for (std::size_t at = text.find(end); at != std::string::npos; at = text.find(end, at + 1)) {
+      const std::size_t start = text.rfind('\'', at);
+      if (text.compare(start + 1, 12, "Open CASCADE") != 0) continue;
+      text.replace(start + 1, at + end.size() - start - 2, names[i]);
+      at = start;
+    }
+  }
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+TEST_F(UserFile, StepShapesAreRegionsByTheirNamesInMetresAndConnected) {
+  write_step(folder_.file("two.step"), {"specimen", "gravel"});
+  const Geometry geometry =
+      build_file("two.step", "0.25",
+                 "[soil.gravel]\nporosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700.0\n"
+                 "conductivity = 2.0e-2\n");
+  EXPECT_EQ(
+      std::set<std::string>(geometry.mesh.region_names.begin(), geometry.mesh.region_names.end()),
+      (std::set<std::string>{"specimen", "gravel"}));
+  for (double area : areas_by_region(geometry.mesh)) EXPECT_NEAR(area, 1.0, 1e-9);
+}
+
+TEST_F(UserFile, StepWithoutNamesSaysWhatIsNeeded) {
+  write_step(folder_.file("two.step"), {});
+  const std::string message = refusal_of("two.step");
+  EXPECT_NE(message.find("surface 2: x 1 to 2, y 0 to 1"), std::string::npos) << message;
+  EXPECT_NE(message.find("Merge \"two.step\"; Physical Surface(\"specimen\") = {1};"),
+            std::string::npos)
+      << message;
+}
+
+TEST_F(UserFile, AGeoFileCanNameTheSurfacesOfAStepFile) {
+  write_step(folder_.file("two.step"), {});
+  folder_.write("names.geo",
+                "SetFactory(\"OpenCASCADE\");\nGeometry.OCCTargetUnit = \"M\";\n"
+                "Merge \"two.step\";\nCoherence;\nPhysical Surface(\"specimen\") = {1, 2};\n"
+                "Physical Curve(\"bottom\") = Curve In BoundingBox {-1, -0.1, -1, 3, 0.1, 1};\n");
+  const Mesh<2> mesh = build_file("names.geo", "0.25").mesh;
+  EXPECT_NEAR(areas_by_region(mesh)[0], 2.0, 1e-9);
+  EXPECT_EQ(boundary(mesh, "bottom").faces.size(), 8U);
+}
+
+TEST(GmshExport, ReopensWithItsGroupsAndColours) {
+  const TemporaryFolder folder;
+  Mesh<2> mesh = build(test::unit_column).mesh;
+  mesh.region_names.push_back("gravel");
+  for (int e = 20; e < 32; ++e) mesh.element_region[e] = 1;
+  const std::string path = folder.file("a.msh");
+  write_gmsh(path, mesh);
+  EXPECT_EQ(folder.count(), 2);  // with a.msh.opt
+  EXPECT_EQ(test::read_file(path).substr(0, 15), "$MeshFormat\n4.1");
+
+  const GmshSession session;
+  gmsh::open(path);
+  std::map<std::string, std::size_t> counts;
+  std::set<std::array<int, 3>> colours;
+  for (int dimension : {1, 2}) {
+    gmsh::vectorpair groups;
+    gmsh::model::getPhysicalGroups(groups, dimension);
+    for (const auto& [ignored, tag] : groups) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension, tag, name);
+      std::vector<int> entities;
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
+      ASSERT_EQ(entities.size(), 1U);
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> tags;
+      std::vector<std::vector<std::size_t>> nodes;
+      gmsh::model::mesh::getElements(types, tags, nodes, dimension, entities[0]);
+      counts[name] = tags.at(0).size();
+      if (dimension == 1) continue;
+      std::array<int, 3> colour{};
+      int opacity = 0;
+      gmsh::model::getColor(2, entities[0], colour[0], colour[1], colour[2], opacity);
+      colours.insert(colour);
+    }
+  }
+  EXPECT_EQ(
+      counts,
+      (std::map<std::string, std::size_t>{
+          {"specimen", 20}, {"gravel", 12}, {"top", 4}, {"bottom", 4}, {"left", 4}, {"right", 4}}));
+  EXPECT_EQ(colours, (std::set<std::array<int, 3>>{{230, 159, 0}, {86, 180, 233}}));
+}
+
+TEST(Summary, IsAlignedAndComplete) {
+  const Mesh<2> mesh = build(test::unit_column).mesh;
+  EXPECT_EQ(mesh_summary(mesh, {}, {"a note"}),
+            "  elements         32\n"
+            "  nodes            25\n"
+            "  solid points     0\n"
+            "  smallest angle   45 degrees\n"
+            "  region specimen  1 m2\n"
+            "  boundary top     1 m\n"
+            "  boundary bottom  1 m\n"
+            "  boundary left    1 m\n"
+            "  boundary right   1 m\n"
+            "  note: a note\n");
+}
+
+TEST(Summary, WarnsOfSharpAngles) {
+  Mesh<2> mesh;
+  mesh.nodes = {{0, 0}, {1, 0}, {1, 0.08}};
+  mesh.elements = {{0, 1, 2}};
+  EXPECT_NE(angle_warning(mesh).find("the smallest angle is 4.57"), std::string::npos);
+  mesh.nodes[2][1] = 0.1;
+  EXPECT_EQ(angle_warning(mesh), "");
+}
+
+}  // namespace
+}  // namespace suffuse
