@@ -197,6 +197,13 @@ void EulerianTransport<Dim>::limit(FinesState<Dim>& state) const {
     if (!grid_.is_outer(f) || conditions_[f].kind == FaceKind::wall) continue;
     for (const int i : grid_.face_nodes[f]) bounds[i].include(conditions_[f].concentration);
   }
+  // Where the field is flat, round-off alone would decide whether an element is an extremum and must be
+  // flattened: a little room keeps the limiter continuous.
+  constexpr double slack = 1e-12;
+  for (Bounds& b : bounds) {
+    b.low = std::max(std::min(b.low, 0.0), b.low - slack);
+    b.high += slack;
+  }
 
   for (int e = 0; e < elements; ++e) {
     ElementValues<Dim> c;
