@@ -213,7 +213,7 @@ std::vector<double> round_ticks(double low, double high) {
 }
 
 std::string picture_format(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension().string();
+  std::string suffix = std::filesystem::path(path).extension().string();
   if (suffix == ".png" || suffix == ".svg" || suffix == ".pdf") return suffix;
   throw InputError(std::vector{InputProblem{"suffuse-post figure", "-o", "\"" + path + "\"",
                                             "a name that ends in .png, .svg or .pdf", ""}});
