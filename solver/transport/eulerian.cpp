@@ -43,13 +43,12 @@ struct Bounds {
 template <int Dim>
 EulerianTransport<Dim>::EulerianTransport(const Grid<Dim>& grid,
                                           const std::vector<FaceCondition>& conditions)
-    : grid_(grid), conditions_(conditions), on_boundary_(grid.mesh.node_count(), 0) {
+    : grid_(grid), conditions_(conditions) {
   for (int f = 0; f < grid.face_count(); ++f) {
     const auto& nodes = grid.face_nodes[f];
     left_local_.push_back(local_nodes<Dim>(nodes, grid.mesh.elements[grid.face_left[f]]));
     if (grid.is_outer(f)) {
       right_local_.push_back({});
-      for (const int i : nodes) on_boundary_[i] = 1;
     } else {
       right_local_.push_back(local_nodes<Dim>(nodes, grid.mesh.elements[grid.face_right[f]]));
     }
@@ -167,7 +166,8 @@ void EulerianTransport<Dim>::add_transport(const FinesState<Dim>& state,
 }
 
 template <int Dim>
-void EulerianTransport<Dim>::limit(FinesState<Dim>& state) const {
+void EulerianTransport<Dim>::limit(FinesState<Dim>& state,
+                                   const std::vector<double>& face_volume) const {
   const int elements = grid_.mesh.element_count();
   std::vector<double> mean(elements);
   for (int e = 0; e < elements; ++e) {
@@ -186,19 +186,22 @@ void EulerianTransport<Dim>::limit(FinesState<Dim>& state) const {
   for (int e = 0; e < elements; ++e) {
     for (const int i : grid_.mesh.elements[e]) bounds[i].include(mean[e]);
   }
-  for (int i = 0; i < grid_.mesh.node_count(); ++i) {
-    if (!on_boundary_[i]) continue;
-    // No element beyond the boundary bounds this vertex: let the field go on as it comes.
-    const double range = bounds[i].high - bounds[i].low;
-    bounds[i].low = std::max(0.0, bounds[i].low - range);
-    bounds[i].high = std::min(1.0, bounds[i].high + range);
-  }
+  std::vector<Bounds> widened = bounds;
   for (int f = 0; f < grid_.face_count(); ++f) {
-    if (!grid_.is_outer(f) || conditions_[f].kind == FaceKind::wall) continue;
-    for (const int i : grid_.face_nodes[f]) bounds[i].include(conditions_[f].concentration);
+    if (!grid_.is_outer(f)) continue;
+    for (const int i : grid_.face_nodes[f]) {
+      if (face_volume[f] < 0.0) widened[i].include(conditions_[f].concentration);
+      if (face_volume[f] > 0.0) {
+        // Nothing downstream bounds the vertices of an outlet: let the field go on as it comes.
+        const double range = bounds[i].high - bounds[i].low;
+        widened[i].include(std::max(0.0, bounds[i].low - range));
+        widened[i].include(std::min(1.0, bounds[i].high + range));
+      }
+    }
   }
-  // Where the field is flat, round-off alone would decide whether an element is an extremum and must be
-  // flattened: a little room keeps the limiter continuous.
+  bounds = std::move(widened);
+  // Where the field is flat, round-off alone would decide whether an element is an extremum and
+  // must be flattened: a little room keeps the limiter continuous.
   constexpr double slack = 1e-12;
   for (Bounds& b : bounds) {
     b.low = std::max(std::min(b.low, 0.0), b.low - slack);
@@ -238,7 +241,7 @@ std::vector<double> EulerianTransport<Dim>::advance(FinesState<Dim>& state,
       stage.fines_volume[e][j] += eroded[e][j];
     }
   }
-  limit(stage);
+  limit(stage, face_volume);
   FinesState<Dim> end = stage;
   add_transport(stage, face_volume, end.fines_volume, crossed);
   for (std::size_t e = 0; e < elements; ++e) {
@@ -247,7 +250,7 @@ std::vector<double> EulerianTransport<Dim>::advance(FinesState<Dim>& state,
           0.5 * (state.fines_volume[e][j] + eroded[e][j] + end.fines_volume[e][j]);
     }
   }
-  limit(end);
+  limit(end, face_volume);
   state = std::move(end);
   for (double& volume : crossed) volume *= 0.5;
   return crossed;

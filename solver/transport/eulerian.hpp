@@ -38,6 +38,11 @@ class EulerianTransport {
   std::vector<double> advance(FinesState<Dim>& state, const std::vector<double>& face_volume,
                               const ElementField<Dim>& eroded) const;
 
+  /// Brings concentrations at the vertices within the means of the elements around them and, at an
+  /// inlet, the concentration that enters; an element's mean does not change. `advance` leaves its
+  /// state limited and expects it so.
+  void limit(FinesState<Dim>& state, const std::vector<double>& face_volume) const;
+
   /// Mean concentration, weighted with pore volume, of the liquid that crosses each face when it
   /// runs along `face_volume`.
   [[nodiscard]] std::vector<double> face_concentration(
@@ -53,14 +58,12 @@ class EulerianTransport {
   /// One Euler stage: grains that move, added to `change`, and through faces, added to `crossed`.
   void add_transport(const FinesState<Dim>& state, const std::vector<double>& face_volume,
                      ElementField<Dim>& change, std::vector<double>& crossed) const;
-  void limit(FinesState<Dim>& state) const;
 
   const Grid<Dim>& grid_;
   const std::vector<FaceCondition>& conditions_;
   /// Position of each face node among the vertices of the left and the right element.
   std::vector<std::array<int, Dim>> left_local_;
   std::vector<std::array<int, Dim>> right_local_;
-  std::vector<char> on_boundary_;  ///< per node
 };
 
 }  // namespace suffuse

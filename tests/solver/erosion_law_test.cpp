@@ -12,7 +12,9 @@ namespace {
 constexpr double n_0 = 0.3;
 constexpr double n_max = 0.4;
 
-ErosionModel model(ErosionLaw law, double rate) { return {law, rate, 2.0, n_max}; }
+ErosionModel model(ErosionLaw law, double rate) {
+  return {law, rate, 2.0, n_max};
+}
 
 /// Porosity after many unequal steps.
 double stepped(const ErosionModel& m, double end, int steps) {

@@ -77,7 +77,8 @@ inline Mesh<2> column_mesh(
   return mesh;
 }
 
-/// Displaces inner nodes of the unit square at random by up to `amount`; the same for the same seed.
+/// Displaces inner nodes of the unit square at random by up to `amount`; the same for the same
+/// seed.
 inline std::function<Vector<2>(const Vector<2>&)> jittered(double amount, unsigned seed) {
   return [amount, random = std::mt19937_64(seed)](const Vector<2>& x) mutable {
     const auto uniform = [&] { return 2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0; };
