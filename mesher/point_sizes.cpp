@@ -1,8 +1,8 @@
 #include "point_sizes.hpp"
 
 #include <gmsh.h>
-#include <stdlib.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>

@@ -30,8 +30,8 @@ FaceTable<Dim>::FaceTable(const Mesh<Dim>& mesh) {
 
 template <int Dim>
 int FaceTable<Dim>::owners(const std::array<int, Dim>& face) const {
-  const auto range = std::ranges::equal_range(keys_, face_key<Dim>(face));
-  return static_cast<int>(std::ranges::distance(range));
+  const auto [first, last] = std::equal_range(keys_.begin(), keys_.end(), face_key<Dim>(face));
+  return static_cast<int>(last - first);
 }
 
 template std::array<int, 2> face_key<2>(std::array<int, 2>);

@@ -35,8 +35,11 @@ class Handle {
   Close close_;
 };
 
-/// Every failure becomes a FileError; HDF5 must not print its own stack beside it.
-void silence_hdf5() {
+/// Every failure becomes a FileError: HDF5 must not print its own stack beside it, nor clean up
+/// when the program ends, because it crashes there over a file that a full disk kept it from
+/// closing.
+void tame_hdf5() {
+  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
@@ -185,7 +188,7 @@ std::size_t checked_count(const std::string& path, const std::string& dataset, c
   const Handle creation(H5Dget_create_plist(set.id()), H5Pclose);
   constexpr long double highest_compression = 1100.0L;  // deflate cannot do better
   const long double gain = H5Pget_nfilters(creation.id()) > 0 ? highest_compression : 1.0L;
-  long double bytes = static_cast<long double>(H5Tget_size(type.id()));
+  auto bytes = static_cast<long double>(H5Tget_size(type.id()));
   for (std::size_t extent : shape) bytes *= static_cast<long double>(extent);
   const auto stored = static_cast<long double>(H5Dget_storage_size(set.id()));
   std::error_code ignored;
@@ -334,7 +337,7 @@ hid_t create_new(const std::string& path) {
 }  // namespace
 
 Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
-  silence_hdf5();
+  tame_hdf5();
   errno = 0;
   file_ = mode == Mode::read ? open_existing(path) : create_new(path);
 }

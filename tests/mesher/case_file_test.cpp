@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <functional>
 #include <limits>
 
@@ -108,20 +106,6 @@ TEST(CaseFile, AnOldFileSurvivesAFailedWrite) {
             std::string::npos);
   EXPECT_EQ(read_file(path), before);
   EXPECT_EQ(folder.count(), 1);
-}
-
-TEST(CaseFile, AFullDiskLeavesNothingBehind) {
-  const TemporaryFolder folder;
-  std::signal(SIGXFSZ, SIG_IGN);
-  rlimit old{};
-  getrlimit(RLIMIT_FSIZE, &old);
-  rlimit tight = old;
-  tight.rlim_cur = 4096;
-  setrlimit(RLIMIT_FSIZE, &tight);
-  const std::string message = failure([&] { write_case(folder.file("a.h5"), small_case()); });
-  setrlimit(RLIMIT_FSIZE, &old);
-  EXPECT_NE(message.find("is the disk full?"), std::string::npos) << message;
-  EXPECT_EQ(folder.count(), 0);
 }
 
 TEST(CaseFile, AMissingFolderIsNamed) {

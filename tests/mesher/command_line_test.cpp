@@ -24,10 +24,10 @@ class CommandLine : public testing::Test {
                                                   "[[boundary]]\non = \"top\"\npressure = 1.0\n"));
   }
 
-  /// Runs suffuse-mesher in the folder.
-  [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.path().string() +
-                                "' && '" SUFFUSE_BIN "/suffuse-mesher' " + arguments + " 2>&1";
+  /// Runs suffuse-mesher in the folder, after the shell commands `before`.
+  [[nodiscard]] Outcome run(const std::string& arguments, const std::string& before = ":") const {
+    const std::string command = "cd '" + folder_.path().string() + "' && " + before +
+                                " && '" SUFFUSE_BIN "/suffuse-mesher' " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(command.c_str(), "r");
     std::string text;
     std::array<char, 4096> buffer{};
@@ -127,6 +127,13 @@ TEST_F(CommandLine, AGeometryThatGmshCannotReadIsPlaced) {
   EXPECT_EQ(outcome.text, SUFFUSE_TEST_DATA
             "/geometry/syntax_error.geo:12: got syntax error (=); expected valid Gmsh text\n");
   EXPECT_EQ(folder_.count(), 2);
+}
+
+TEST_F(CommandLine, AFullDiskIsAFileFailureAndLeavesNothing) {
+  const Outcome outcome = run("column.toml", "trap '' XFSZ && ulimit -f 8");
+  EXPECT_EQ(outcome.code, 4) << outcome.text;
+  EXPECT_NE(outcome.text.find("is the disk full?"), std::string::npos) << outcome.text;
+  EXPECT_EQ(folder_.count(), 1);
 }
 
 TEST_F(CommandLine, AnUnwritableOutputIsAFileFailureAndLeavesNothing) {
