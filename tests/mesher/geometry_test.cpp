@@ -338,6 +338,20 @@ TEST_F(UserFile, SizeFieldsOfTheFileHold) {
   }
 }
 
+TEST_F(UserFile, OneEdgeTakesOneCondition) {
+  const std::string both =
+      "[[boundary]]\non = \"all\"\npressure = 0.0\n[[boundary]]\non = \"top\"\npressure = 1.0\n";
+  const std::string message = refusal([&] { build_file("shared_edge.geo", "1.0", both); });
+  EXPECT_NE(
+      message.find("boundary[1].on: got \"top\"; expected a boundary that shares no face with "
+                   "\"all\"; both have the one at (0.5, 1)"),
+      std::string::npos)
+      << message;
+  EXPECT_EQ(build_file("shared_edge.geo", "1.0", both.substr(0, both.find("[[", 2)))
+                .mesh.boundaries.size(),
+            2U);
+}
+
 TEST_F(UserFile, AMeshIsUsedAsItIs) {
   const Geometry geometry = build_file("square.msh");
   EXPECT_EQ(geometry.mesh.elements, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
