@@ -18,7 +18,9 @@ class Checks {
     check_geometry();
     if (given("geometry.shape")) check_column();
     for (const Soil& soil : scene_.soils) check_soil(soil);
+    check_grains();
     check_boundaries();
+    check_third_term();
     check_times();
   }
 
@@ -112,6 +114,35 @@ class Checks {
     }
   }
 
+  /// The single-point liquid carries one kind of grains: mixed ones could not be told apart again.
+  void check_grains() const {
+    for (const Soil& soil : scene_.soils) {
+      const Soil& first = scene_.soils.front();
+      // Not equal and both set: what is unset has been reported.
+      if (soil.grain_density < first.grain_density || soil.grain_density > first.grain_density) {
+        const std::string other = table_of(first) + ".grain_density";
+        report(table_of(soil) + ".grain_density", shown_value(soil.grain_density),
+               "rho_s = " + shown_number(first.grain_density) + " kg/m3 as in " + table_of(first) +
+                   ": the liquid carries one kind of grains",
+               {other});
+      }
+    }
+  }
+
+  /// Without the third term of Eq. 2 no balance closes, so nothing else may be asked of the run.
+  void check_third_term() const {
+    if (scene_.flow.porosity_gradient_term) return;
+    const bool erodes = std::any_of(scene_.soils.begin(), scene_.soils.end(), [](const Soil& soil) {
+      return soil.erosion.law != ErosionLaw::none && soil.erosion.rate > 0.0;
+    });
+    const bool grains_enter =
+        std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(),
+                    [](const auto& b) { return b.concentration.value_or(0.0) > 0.0; });
+    if (!erodes && !grains_enter) return;
+    report("flow.porosity_gradient_term", "false where soil erodes or grains enter",
+           "true: without this term of Eq. 2 no balance closes");
+  }
+
   void check_boundaries() const {
     std::map<std::string, std::string> first_entry;  // by the boundary's name
     for (std::size_t i = 0; i < scene_.boundaries.size(); ++i) {
@@ -138,9 +169,11 @@ class Checks {
     if (conditions.size() > 1) {
       report(entry, listed(conditions, "and"), "one of pressure, velocity and darcy_flux", keys);
     }
-    if (conditions.empty() && !given(entry + ".concentration")) {
-      report(entry, "no condition",
-             "at least one of pressure, velocity, darcy_flux and concentration");
+    if (conditions.empty()) {
+      const bool concentration = given(entry + ".concentration");
+      report(entry, concentration ? "a concentration and no flow" : "no condition",
+             "one of pressure, velocity and darcy_flux; a boundary without is impervious and needs "
+             "no entry");
     }
     check_outflow(boundary.velocity, "velocity", boundary, entry);
     check_outflow(boundary.darcy_flux, "darcy_flux", boundary, entry);

@@ -111,7 +111,7 @@ TEST(Scene, reads_every_value_of_the_papers_scene) {
   EXPECT_EQ(scene.liquid.viscosity, 1e-3);
   EXPECT_EQ(scene.gravity, (std::array{0.0, -9.81, 0.0}));
   EXPECT_EQ(scene.initial_flow, InitialFlow::steady);
-  EXPECT_FALSE(scene.flow.porosity_gradient_term);
+  EXPECT_TRUE(scene.flow.porosity_gradient_term);
   EXPECT_EQ(scene.time.end, 120.0);
   EXPECT_EQ(scene.time.scheme, FlowScheme::explicit_nodal);
   EXPECT_EQ(scene.time.step, 0.0851);
@@ -250,6 +250,12 @@ TEST(Override, mends_a_wrong_value_of_the_file) {
   EXPECT_NE(problems_of(least + "porosity_origin = 1\n"), "");
   EXPECT_EQ(problems_of(least + "porosity_origin = 1\n", {"soil.specimen.porosity_origin=[0, 1]"}),
             "");
+}
+
+TEST(Override, turns_a_switch_off) {
+  const Scene scene =
+      scene_of(least, {"soil.specimen.erosion.law=none", "flow.porosity_gradient_term=false"});
+  EXPECT_FALSE(scene.flow.porosity_gradient_term);
 }
 
 TEST(Override, fills_an_empty_list) {
