@@ -444,6 +444,31 @@ std::vector<RegionRow> SinglePoint<Dim>::region_rows(const SinglePointState<Dim>
   return rows;
 }
 
+/// Element pressures carry patterns that push no node, large on unstructured meshes; the mean of
+/// the elements around a node is almost free of them. Where a pressure is prescribed, that is it.
+template <int Dim>
+Field SinglePoint<Dim>::node_pressure(const std::vector<double>& pressure) const {
+  Field result{"pressure", "Pa", 1, std::vector<double>(grid_.mesh.node_count(), 0.0)};
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    for (const int i : grid_.mesh.elements[e]) {
+      result.values[i] += grid_.volume[e] / (Dim + 1) / grid_.node_volume[i] * pressure[e];
+    }
+  }
+  std::vector<double> prescribed(result.values.size(), 0.0);
+  std::vector<int> faces(result.values.size(), 0);
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (conditions_[f].kind != FaceKind::pressure) continue;
+    for (const int i : grid_.face_nodes[f]) {
+      prescribed[i] += conditions_[f].value;
+      ++faces[i];
+    }
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i] > 0) result.values[i] = prescribed[i] / faces[i];
+  }
+  return result;
+}
+
 template <int Dim>
 Snapshot SinglePoint<Dim>::snapshot(const SinglePointState<Dim>& state,
                                     const FlowMoment<Dim>& moment, long step) const {
@@ -519,7 +544,7 @@ Snapshot SinglePoint<Dim>::snapshot(const SinglePointState<Dim>& state,
   for (const Vector<Dim>& v : moment.velocity) {
     velocity.values.insert(velocity.values.end(), v.begin(), v.end());
   }
-  result.node = {std::move(velocity)};
+  result.node = {std::move(velocity), node_pressure(moment.pressure)};
 
   Field point_solid{"solid_fraction", "1", 1, {}};
   Field point_erodible{"erodible_fraction", "1", 1, {}};
