@@ -73,7 +73,7 @@ int element_rows(double length, double size) {
 }
 
 void mesh_column(const ColumnShape& column, const MeshSettings& settings) {
-  const bool regular = settings.structure == MeshStructure::regular;
+  const bool regular = settings.structure != MeshStructure::free;
   const int columns = element_rows(column.width, settings.size);
   gmsh::model::add("column");
   gmsh::option::setNumber("Mesh.MeshSizeMax", settings.size);
@@ -96,6 +96,7 @@ void mesh_column(const ColumnShape& column, const MeshSettings& settings) {
       geo::mesh::setTransfiniteCurve(right.back(), rows + 1);
       geo::mesh::setTransfiniteSurface(surface, "Left",
                                        {below.left, below.right, above.right, above.left});
+      if (settings.structure == MeshStructure::crossed) geo::mesh::setRecombine(2, surface);
     }
     regions[layer.region].push_back(surface);
     below = above;

@@ -29,7 +29,8 @@ int element_rows(double length, double size);
 
 /// Builds and meshes the column in the current Gmsh model, with a physical surface per region and
 /// physical curves "bottom", "top", "left" and "right". `regular` structure: two right triangles
-/// per rectangle. Gmsh's own errors come as its exceptions.
+/// per rectangle; `crossed`: rectangles, for `extract_mesh` to cut. Gmsh's own errors come as its
+/// exceptions.
 void mesh_column(const ColumnShape& column, const MeshSettings& settings);
 
 }  // namespace suffuse

@@ -66,7 +66,7 @@ bool divides(double size, double length) {
 }
 
 void note_rounding(const Scene& scene, std::vector<std::string>& notes) {
-  if (scene.mesh.structure != MeshStructure::regular) return;
+  if (scene.mesh.structure == MeshStructure::free) return;
   const double size = scene.mesh.size;
   const std::array<std::pair<std::string, double>, 2> sides{
       {{"width", scene.geometry.width}, {"height", scene.geometry.height}}};
@@ -159,13 +159,20 @@ void generate_mesh(const SceneDocument& document, const std::string& path) {
   if (document.scene.mesh.size < largest) {
     gmsh::option::setNumber("Mesh.MeshSizeMax", document.scene.mesh.size);
   }
+  if (document.scene.mesh.structure == MeshStructure::crossed) {
+    // Triangles twice as large, each then split into three quadrangles by Gmsh: its recombination of
+    // triangles into quadrangles crashes on small models (4.8).
+    gmsh::option::setNumber("Mesh.MeshSizeFactor", 2.0);
+    gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
+  }
   run_gmsh(document, path, [&] {
     if (std::isfinite(document.scene.mesh.size)) set_default_point_size(document.scene.mesh.size);
     gmsh::model::mesh::generate(2);
   });
 }
 
-void build_from_file(const SceneDocument& document, std::vector<std::string>& notes) {
+/// Whether the mesh is the user's own, to be taken as it is.
+bool build_from_file(const SceneDocument& document, std::vector<std::string>& notes) {
   const std::string path = geometry_path(document);
   const std::string extension = extension_of(path);
   const bool is_step = is_step_file(path);
@@ -181,12 +188,13 @@ void build_from_file(const SceneDocument& document, std::vector<std::string>& no
   if (!dangers.empty()) throw InputError(std::move(dangers));
 
   run_gmsh(document, path, [&] { is_step ? open_step(path) : gmsh::open(path); });
-  if (extension == ".msh") return;
+  if (extension == ".msh") return true;
   if (has_surface_mesh()) {
     notes.emplace_back("the .geo file meshes itself, mesh.size does not apply");
-  } else {
-    generate_mesh(document, path);
+    return true;
   }
+  generate_mesh(document, path);
+  return false;
 }
 
 /// Where a problem of the mesh comes from.
@@ -225,12 +233,14 @@ Geometry build_geometry(const SceneDocument& document) {
   ExtractedMesh extracted;
   {
     const GmshSession session;
+    bool users_own = false;
     if (document.scene.geometry.file.empty()) {
       build_column(document, result.notes);
     } else {
-      build_from_file(document, result.notes);
+      users_own = build_from_file(document, result.notes);
     }
-    extracted = extract_mesh();
+    const bool crossed = document.scene.mesh.structure == MeshStructure::crossed && !users_own;
+    extracted = extract_mesh(crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused);
   }
   place_problems(document, extracted.problems);
   if (extracted.comparable) {

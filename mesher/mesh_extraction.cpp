@@ -22,6 +22,7 @@ using Tag = std::size_t;
 constexpr int no_type = 0;
 constexpr int line_type = 1;
 constexpr int triangle_type = 2;
+constexpr int quadrangle_type = 3;
 /// Relative to the square of the longest edge; an angle of about 1e-10 degrees.
 constexpr double smallest_area = 1e-12;
 /// Relative to the diagonal of the mesh.
@@ -71,6 +72,8 @@ struct Elements {
 
 class Extraction {
  public:
+  explicit Extraction(Quadrangles quadrangles) : quadrangles_(quadrangles) {}
+
   ExtractedMesh run() {
     read_nodes();
     refuse_volumes();
@@ -100,6 +103,7 @@ class Extraction {
     gmsh::model::mesh::getNodes(tags, coordinates, parameters);
     for (std::size_t i = 0; i < tags.size(); ++i) {
       coordinates_[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
+      last_tag_ = std::max(last_tag_, tags[i]);
     }
   }
 
@@ -125,6 +129,11 @@ class Extraction {
       for (std::size_t i = 0; i < tags[t].size(); ++i) {
         const auto first = nodes[t].begin() + static_cast<std::ptrdiff_t>(i * per_element);
         std::vector<Tag> corners(first, first + static_cast<std::ptrdiff_t>(per_element));
+        if (types[t] == quadrangle_type && wanted == triangle_type &&
+            quadrangles_ == Quadrangles::cut_along_diagonals) {
+          cut(tags[t][i], corners, result);
+          continue;
+        }
         if (types[t] != wanted) {
           wrong_types.add("element " + std::to_string(tags[t][i]) + " (" + type_name(types[t]) +
                           ") at " + place_of(corners));
@@ -135,6 +144,30 @@ class Extraction {
       }
     }
     return result;
+  }
+
+  /// Adds the four triangles of a quadrangle, with a node where its diagonals cross.
+  void cut(Tag tag, const std::vector<Tag>& corners, Elements& result) {
+    std::array<Vector<2>, 4> x;
+    for (int a = 0; a < 4; ++a) {
+      const auto& position = coordinates_.at(corners[a]);
+      x[a] = {position[0], position[1]};
+    }
+    const Vector<2> first = x[2] - x[0];
+    const Vector<2> second = x[3] - x[1];
+    const Vector<2> between = x[1] - x[0];
+    const double share = (between[0] * second[1] - between[1] * second[0]) /
+                         (first[0] * second[1] - first[1] * second[0]);
+    // Outside (0, 1) the quadrangle is not convex; its mean point then at least shows where it is.
+    const bool convex = share > 0.0 && share < 1.0;
+    const Vector<2> middle =
+        convex ? Vector<2>(x[0] + share * first) : Vector<2>(0.25 * (x[0] + x[1] + x[2] + x[3]));
+    const Tag node = ++last_tag_;
+    coordinates_[node] = {middle[0], middle[1], coordinates_.at(corners[0])[2]};
+    for (int a = 0; a < 4; ++a) {
+      result.tags.push_back(tag);
+      result.nodes.push_back({corners[a], corners[(a + 1) % 4], node});
+    }
   }
 
   static std::string type_name(int type) {
@@ -410,6 +443,8 @@ class Extraction {
   }
 
   ExtractedMesh result_;
+  Quadrangles quadrangles_;
+  Tag last_tag_ = 0;  // of a node
   std::unordered_map<Tag, std::array<double, 3>> coordinates_;
   std::unordered_map<Tag, int> index_;
   std::vector<Tag> node_tags_;  // by index
@@ -422,8 +457,8 @@ class Extraction {
 
 }  // namespace
 
-ExtractedMesh extract_mesh() {
-  return Extraction().run();
+ExtractedMesh extract_mesh(Quadrangles quadrangles) {
+  return Extraction(quadrangles).run();
 }
 
 }  // namespace suffuse

@@ -22,6 +22,14 @@ struct ExtractedMesh {
   bool comparable = false;
 };
 
-ExtractedMesh extract_mesh();
+enum class Quadrangles {
+  refused,
+  /// Into four triangles that meet where the diagonals cross. Linear velocities can then follow any
+  /// flow with one pressure per triangle: the four divergences of a quadrangle cut this way are not
+  /// independent, where on general triangles they leave velocities too few freedoms.
+  cut_along_diagonals,
+};
+
+ExtractedMesh extract_mesh(Quadrangles quadrangles = Quadrangles::refused);
 
 }  // namespace suffuse

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "flow/locking.hpp"
 #include "flow/steady_nodal.hpp"
 #include "physics/liquid.hpp"
 
@@ -14,6 +15,9 @@ namespace {
 
 /// Transport and flow meet at the latest after so many flow steps.
 constexpr long most_steps_per_interval = 1000;
+/// Solving for the steady flow of more elements than this would take longer than the warning is
+/// worth.
+constexpr int most_elements_checked = 100000;
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
 constexpr double most_porosity_growth = 2e-3;
 /// Share of its limit that a transport step takes.
@@ -95,9 +99,13 @@ void SinglePoint<Dim>::initialise() {
                  "flow on this mesh; it will store or release water at first";
       warnings_.push_back(message.str());
     }
+    warn_of_locking(steady.velocity);
     flow_.set_pressure(std::move(steady.pressure));
     flow_.set_velocity(std::move(steady.velocity));
   } else {
+    if (grid_.mesh.element_count() <= most_elements_checked) {
+      warn_of_locking(steady_flow(operator_).velocity);
+    }
     flow_.set_velocity(VectorField<Dim>(grid_.mesh.node_count(), Vector<Dim>::Zero()));
   }
   state_.water_mass.resize(grid_.mesh.element_count());
@@ -107,6 +115,24 @@ void SinglePoint<Dim>::initialise() {
   }
   state_.crossed.resize(accounts_.count());
   initial_ = stored(state_);
+}
+
+template <int Dim>
+void SinglePoint<Dim>::warn_of_locking(const VectorField<Dim>& steady_velocity) {
+  const Scene& scene = case_.document.scene;
+  if (grid_.mesh.element_count() > most_elements_checked) return;
+  if (!scene.flow.porosity_gradient_term) return;
+  const auto deviation =
+      deviation_from_mixed_flow(operator_, coefficients_, gravity_of<Dim>(scene), steady_velocity);
+  if (!deviation || *deviation < locked_deviation) return;
+  std::ostringstream message;
+  message.precision(2);
+  message << "the explicit scheme cannot follow this flow on this mesh (volumetric locking): its "
+             "steady flux differs by "
+          << 100.0 * *deviation
+          << " % from that of mixed finite elements. Fluxes, pressures and fines will be wrong; "
+             "porosity is not touched. mesh.structure = \"crossed\" follows flows that turn";
+  warnings_.push_back(message.str());
 }
 
 template <int Dim>
@@ -413,6 +439,7 @@ std::vector<Stored> SinglePoint<Dim>::stored(const SinglePointState<Dim>& state)
     }
   }
   std::vector<Stored> result;
+  result.reserve(sums.size());
   for (const Sums& s : sums) {
     result.push_back(
         {s.solid.value(), s.erodible.value(), s.water.value(), s.fines.value(), s.eroded.value()});

@@ -89,6 +89,7 @@ class SinglePoint {
   [[nodiscard]] std::vector<Stored> stored(const SinglePointState<Dim>& state) const;
   [[nodiscard]] std::vector<double> face_fluxes(const VectorField<Dim>& velocity) const;
   [[nodiscard]] Field node_pressure(const std::vector<double>& pressure) const;
+  void warn_of_locking(const VectorField<Dim>& steady_velocity);
   void warn_of_unstated_inflow();
 
   const Case<Dim>& case_;

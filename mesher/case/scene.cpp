@@ -390,7 +390,7 @@ class SceneReader {
       scene_.output.snapshot_every = scene_.output.every;
     }
     if (!places_.contains("mesh.structure") && places_.contains("geometry.file")) {
-      scene_.mesh.structure = MeshStructure::free;
+      scene_.mesh.structure = MeshStructure::crossed;
     }
   }
 

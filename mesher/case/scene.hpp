@@ -17,7 +17,7 @@ namespace suffuse {
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
 enum class Formulation { single_point };
-enum class MeshStructure { regular, free };
+enum class MeshStructure { regular, crossed, free };
 enum class ErosionLaw { none, constant, logarithmic, first_order };
 enum class FlowScheme { explicit_nodal };
 enum class DragIntegration { explicit_drag, implicit_drag };

@@ -56,7 +56,8 @@ class Checks {
     }
     if (given("mesh.structure") && scene_.mesh.structure == MeshStructure::regular) {
       report("mesh.structure", "\"regular\" for geometry.file",
-             "\"free\": only the built-in shapes have a regular mesh", {"geometry.file"});
+             "\"crossed\" or \"free\": only the built-in shapes have a regular mesh",
+             {"geometry.file"});
     }
   }
 

@@ -187,9 +187,13 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .otherwise_as("required with `shape`"),
       choice("mesh.structure", at(&Scene::mesh, &MeshSettings::structure),
-             {{"regular", MeshStructure::regular}, {"free", MeshStructure::free}},
-             "Two right triangles per square, or Gmsh's unstructured triangles.")
-          .otherwise_as("`\"regular\"`; with `file`, `\"free\"`"),
+             {{"regular", MeshStructure::regular},
+              {"crossed", MeshStructure::crossed},
+              {"free", MeshStructure::free}},
+             "Two right triangles per square; four triangles per quadrangle, cut along its "
+             "diagonals; or Gmsh's unstructured triangles. The explicit scheme follows flows that "
+             "turn on crossed meshes only.")
+          .otherwise_as("`\"regular\"`; with `file`, `\"crossed\"`"),
 
       key("points.solid_per_element", at(&Scene::points, &Points::solid_per_element),
           "Solid material points in each triangle, at its Gauss points.")

@@ -67,6 +67,41 @@ TEST(Column, RegularHasTwoRightTrianglesPerSquare) {
   }
 }
 
+/// Nodes that four triangles share, with their neighbours opposite each other in pairs.
+int diagonal_crossings(const Mesh<2>& mesh) {
+  std::map<int, std::set<int>> neighbours;
+  std::map<int, int> elements;
+  for (const auto& corners : mesh.elements) {
+    for (int a = 0; a < 3; ++a) {
+      ++elements[corners[a]];
+      neighbours[corners[a]].insert({corners[(a + 1) % 3], corners[(a + 2) % 3]});
+    }
+  }
+  int crossings = 0;
+  for (const auto& [node, around] : neighbours) {
+    if (elements[node] != 4 || around.size() != 4) continue;
+    int opposite = 0;
+    for (const int i : around) {
+      for (const int j : around) {
+        const Vector<2> a = (mesh.nodes[i] - mesh.nodes[node]).normalized();
+        const Vector<2> b = (mesh.nodes[j] - mesh.nodes[node]).normalized();
+        opposite += (a + b).norm() < 1e-9 ? 1 : 0;
+      }
+    }
+    crossings += opposite == 4 ? 1 : 0;
+  }
+  return crossings;
+}
+
+TEST(Column, CrossedHasFourTrianglesPerSquare) {
+  const Mesh<2> mesh = build(column(1.0, 0.5, 0.25, "crossed")).mesh;
+  EXPECT_EQ(mesh.element_count(), 4 * 4 * 2);
+  EXPECT_EQ(mesh.node_count(), 5 * 3 + 4 * 2);
+  EXPECT_EQ(diagonal_crossings(mesh), 4 * 2);
+  EXPECT_NEAR(areas_by_region(mesh)[0], 0.5, 1e-15);
+  EXPECT_EQ(boundary(mesh, "top").faces.size(), 4U);
+}
+
 TEST(Column, RegularIsItsOwnImageWhenTurnedUpsideDown) {
   const Mesh<2> mesh = build(column(1.0, 1.0, 0.25, "regular")).mesh;
   const auto key = [](const Vector<2>& x) {
@@ -172,10 +207,15 @@ class UserFile : public testing::Test {
   }
 
   Geometry build_file(const std::string& name, const std::string& size = "0.5",
-                      const std::string& more = "") {
+                      const std::string& more = "", const std::string& structure = "free") {
     std::string geometry = "[geometry]\nfile = \"" + name + "\"\n";
-    if (!name.ends_with(".msh")) geometry += "[mesh]\nsize = " + size + "\n";
-    return build_geometry(parse_scene(scene_text(geometry, more), folder_.file("scene.toml")));
+    std::vector<std::string> overrides;
+    if (!name.ends_with(".msh")) {
+      geometry += "[mesh]\nsize = " + size + "\n";
+      overrides.push_back("mesh.structure=" + structure);
+    }
+    return build_geometry(
+        parse_scene(scene_text(geometry, more), folder_.file("scene.toml"), overrides));
   }
 
   /// With the folder's name taken out.
@@ -314,6 +354,15 @@ TEST_F(UserFile, MeshSizeIsTheDefaultAndTheUpperBound) {
   EXPECT_EQ(build_file("square.geo", "1.0").mesh.boundaries[0].faces.size(), 1U);
   EXPECT_EQ(build_file("square.geo", "0.5").mesh.boundaries[0].faces.size(), 2U);
   EXPECT_EQ(build_file("square.geo", "0.05").mesh.boundaries[0].faces.size(), 20U);
+}
+
+TEST_F(UserFile, CrossedCutsEveryQuadrangleAlongItsDiagonals) {
+  const Mesh<2> mesh = build_file("square.geo", "0.1", "", "crossed").mesh;
+  EXPECT_EQ(boundary(mesh, "top").faces.size(), 10U);
+  // Every triangle belongs to one crossing.
+  EXPECT_EQ(4 * diagonal_crossings(mesh), mesh.element_count());
+  EXPECT_NEAR(areas_by_region(mesh)[0], 1.0, 1e-12);
+  EXPECT_GT(smallest_angle(mesh), 15.0);
 }
 
 TEST_F(UserFile, SizeFieldsOfTheFileHold) {

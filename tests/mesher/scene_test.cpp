@@ -170,7 +170,7 @@ TEST(Scene, does_not_need_a_size_for_a_file) {
   const Scene scene = scene_of(text);
   EXPECT_EQ(scene.geometry.file, "levee.geo");
   EXPECT_TRUE(std::isnan(scene.mesh.size));
-  EXPECT_EQ(scene.mesh.structure, MeshStructure::free);
+  EXPECT_EQ(scene.mesh.structure, MeshStructure::crossed);
 }
 
 TEST(Scene, inherits_keys_that_are_not_given) {

@@ -1,0 +1,66 @@
+#include "flow/locking.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/mixed_steady_flow.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Flux that the prescribed values and gravity could drive through one element: what rest is small
+/// against.
+template <int Dim>
+double drivable_flux(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& coefficients,
+                     const Vector<Dim>& gravity) {
+  const Grid<Dim>& grid = op.grid();
+  double pressure = 0.0;
+  double prescribed = 0.0;
+  for (const FaceCondition& condition : op.conditions()) {
+    if (condition.kind == FaceKind::pressure) {
+      pressure = std::max(pressure, std::abs(condition.value));
+    } else if (condition.fixes_flux()) {
+      prescribed = std::max(prescribed, std::abs(condition.value));
+    }
+  }
+  double driven = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double mobility = coefficients.porosity[e] / coefficients.drag[e];
+    const double size = std::pow(grid.volume[e], 1.0 / Dim);
+    driven = std::max(
+        driven, mobility * (pressure / size + coefficients.mixture_density[e] * gravity.norm()));
+  }
+  return driven + prescribed;
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<double> deviation_from_mixed_flow(const NodalOperator<Dim>& op,
+                                                const FlowCoefficients<Dim>& coefficients,
+                                                const Vector<Dim>& gravity,
+                                                const VectorField<Dim>& velocity) {
+  const Grid<Dim>& grid = op.grid();
+  const auto mixed = mixed_steady_flux(grid, op.conditions(), coefficients, gravity);
+  double difference = 0.0;
+  double scale = 0.0;
+  double volume = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    Vector<Dim> flux = Vector<Dim>::Zero();
+    for (const int i : grid.mesh.elements[e]) {
+      flux += op.node_porosity()[i] * velocity[i] / (Dim + 1);
+    }
+    difference += grid.volume[e] * (flux - mixed[e]).squaredNorm();
+    scale += grid.volume[e] * mixed[e].squaredNorm();
+    volume += grid.volume[e];
+  }
+  const double rest = 1e-9 * drivable_flux(op, coefficients, gravity);
+  if (scale <= rest * rest * volume) return std::nullopt;
+  return std::sqrt(difference / scale);
+}
+
+template std::optional<double> deviation_from_mixed_flow(const NodalOperator<2>&,
+                                                         const FlowCoefficients<2>&,
+                                                         const Vector<2>&, const VectorField<2>&);
+
+}  // namespace suffuse
