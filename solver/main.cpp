@@ -26,7 +26,7 @@ std::string default_folder(const std::string& case_path) {
   return name + ".results";
 }
 
-int run(const Arguments& arguments) {
+int solve(const Arguments& arguments) {
   using namespace suffuse;
   const int dimension = read_case_dimension(arguments.case_path);
   if (dimension != 2) {
@@ -47,9 +47,7 @@ int run(const Arguments& arguments) {
   return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   Arguments arguments;
   CLI::App app{"suffuse-solver: suffusion by the material point method"};
   app.set_version_flag("--version", SUFFUSE_VERSION);
@@ -70,5 +68,11 @@ int main(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? 0 : static_cast<int>(suffuse::ExitCode::wrong_input);
   }
-  return suffuse::run_program("suffuse-solver", [&] { return run(arguments); });
+  return solve(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return suffuse::run_program("suffuse-solver", [&] { return run(argc, argv); });
 }
