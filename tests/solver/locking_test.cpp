@@ -4,7 +4,6 @@
 
 #include "flow/mixed_steady_flow.hpp"
 #include "flow/steady_nodal.hpp"
-#include "physics/liquid.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {
@@ -37,13 +36,7 @@ Mesh<2> crossed_mesh(int cells, double jitter) {
 struct TurningFlow {
   /// In through the left quarter of the top, out through the right quarter.
   explicit TurningFlow(Mesh<2> mesh) : c(make(std::move(mesh))), grid(c.mesh) {
-    for (int e = 0; e < c.mesh.element_count(); ++e) {
-      coefficients.porosity.push_back(0.3);
-      coefficients.water_volume.push_back(0.3 * grid.volume[e]);
-      coefficients.mixture_density.push_back(1000.0);
-      coefficients.drag.push_back(darcy_drag(0.3, 1000.0, 0.02));
-    }
-    coefficients.face_concentration.assign(grid.face_count(), 0.0);
+    coefficients = model::flow_coefficients(grid, 0.02);
     NodalOperator<2> op(grid, face_conditions(c, grid), Vector<2>::Zero());
     op.update(coefficients);
     const auto steady = steady_flow(op);
@@ -73,8 +66,9 @@ struct TurningFlow {
   double discharge = 0.0;
 };
 
-/// m2/s. Five-point finite differences on 64, 128, 256 and 512 cells across give 5.9994e-3, 6.0472e-3,
-/// 6.0712e-3 and 6.0833e-3: the differences halve, and this is their limit.
+/// m2/s. Five-point finite differences on 64, 128, 256 and 512 cells across
+/// give 5.9994e-3, 6.0472e-3, 6.0712e-3 and 6.0833e-3: the differences halve, and this is their
+/// limit.
 constexpr double discharge_reference = 6.0953e-3;
 
 TEST(Locking, IsSeenOnRegularAndFreeMeshes) {
@@ -102,7 +96,7 @@ TEST(Locking, IsNoMatterForTheColumn) {
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
   const Case<2> c = model::make_case(model::column_mesh(4, 4), scene);
   const Grid<2> grid(c.mesh);
-  FlowCoefficients<2> coefficients = TurningFlow(model::column_mesh(4, 4)).coefficients;
+  const FlowCoefficients<2> coefficients = model::flow_coefficients(grid, 0.02);
   NodalOperator<2> op(grid, face_conditions(c, grid), Vector<2>::Zero());
   op.update(coefficients);
   EXPECT_NEAR(
@@ -116,7 +110,7 @@ TEST(MixedSteadyFlow, IsExactForLinearPressureAndHydrostaticRest) {
   const Case<2> c =
       model::make_case(model::column_mesh(5, 5, 1.0, 1.0, model::jittered(0.05, 4)), scene);
   const Grid<2> grid(c.mesh);
-  FlowCoefficients<2> coefficients = TurningFlow(model::column_mesh(5, 5)).coefficients;
+  const FlowCoefficients<2> coefficients = model::flow_coefficients(grid, 0.02);
   const auto conditions = face_conditions(c, grid);
   for (const auto& q : mixed_steady_flux<2>(grid, conditions, coefficients, Vector<2>::Zero())) {
     EXPECT_NEAR(q[0], 0.0, 1e-14);

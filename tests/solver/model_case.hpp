@@ -6,6 +6,9 @@
 #include <random>
 
 #include "case/case_file.hpp"
+#include "flow/flow.hpp"
+#include "grid/grid.hpp"
+#include "physics/liquid.hpp"
 #include "seeding.hpp"
 
 namespace suffuse::model {
@@ -87,6 +90,24 @@ inline std::function<Vector<2>(const Vector<2>&)> jittered(double amount, unsign
     if (x[1] > 0.0 && x[1] < 1.0) moved[1] += amount * uniform();
     return moved;
   };
+}
+
+/// Clean water of 1000 kg/m3 in soil whose porosity depends on the place.
+inline FlowCoefficients<2> flow_coefficients(
+    const Grid<2>& grid, double conductivity,
+    const std::function<double(const Vector<2>&)>& porosity = [](const Vector<2>&) {
+      return 0.3;
+    }) {
+  FlowCoefficients<2> c;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double n = porosity(element_centroid(grid.mesh, e));
+    c.porosity.push_back(n);
+    c.water_volume.push_back(n * grid.volume[e]);
+    c.mixture_density.push_back(1000.0);
+    c.drag.push_back(darcy_drag(n, 1000.0, conductivity));
+  }
+  c.face_concentration.assign(grid.face_count(), 0.0);
+  return c;
 }
 
 inline Case<2> make_case(Mesh<2> mesh, Scene scene) {

@@ -3,35 +3,26 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <random>
 
 #include "case/errors.hpp"
 #include "flow/steady_nodal.hpp"
-#include "physics/liquid.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {
 namespace {
 
 /// Uneven porosities on a distorted mesh.
-FlowCoefficients<2> uneven_coefficients(const Grid<2>& grid) {
-  FlowCoefficients<2> c;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const double n = 0.2 + 0.5 * ((e * 7) % 11) / 11.0;
-    c.porosity.push_back(n);
-    c.water_volume.push_back(n * grid.volume[e]);
-    c.mixture_density.push_back(1000.0);
-    c.drag.push_back(darcy_drag(n, 1000.0, 0.02));
-  }
-  c.face_concentration.assign(grid.face_count(), 0.0);
-  return c;
+double uneven(const Vector<2>& x) {
+  return 0.45 + 0.25 * std::sin(17.0 * x[0] + 29.0 * x[1]);
 }
 
 struct Square {
   explicit Square(std::vector<BoundaryCondition> boundaries)
       : c(make(std::move(boundaries))),
         grid(c.mesh),
-        coefficients(uneven_coefficients(grid)),
+        coefficients(model::flow_coefficients(grid, 0.02, uneven)),
         op(grid, face_conditions(c, grid), Vector<2>::Zero()) {
     op.update(coefficients);
   }
@@ -147,11 +138,7 @@ TEST(SteadyFlow, IsDarcysLaw) {
   const Case<2> c =
       model::make_case(model::column_mesh(5, 6, 1.0, 1.0, model::jittered(0.05, 2)), scene);
   const Grid<2> grid(c.mesh);
-  FlowCoefficients<2> coefficients = uneven_coefficients(grid);
-  for (int e = 0; e < c.mesh.element_count(); ++e) {
-    coefficients.porosity[e] = 0.3;
-    coefficients.drag[e] = darcy_drag(0.3, 1000.0, 0.02);
-  }
+  const FlowCoefficients<2> coefficients = model::flow_coefficients(grid, 0.02);
   NodalOperator<2> op(grid, face_conditions(c, grid), Vector<2>::Zero());
   op.update(coefficients);
   const auto state = steady_flow(op);

@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-#include "geometry.hpp"
+#include "free_mesh.hpp"
 #include "model_run.hpp"
 
 namespace suffuse {
@@ -44,12 +44,7 @@ TEST(SealedBox, ErosionSourcesNoPressureAndLosesNoMass) {
 
 /// The unit square in Gmsh's unstructured mesh, its upper half another region.
 Mesh<2> two_soils_free_mesh(double size) {
-  SceneDocument document;
-  document.path = "model.toml";
-  document.scene = model::paper_scene();
-  document.scene.geometry = {"", "column", 1.0, 1.0};
-  document.scene.mesh = {size, MeshStructure::free};
-  Mesh<2> mesh = build_geometry(document).mesh;
+  Mesh<2> mesh = model::free_mesh(size);
   mesh.region_names = {"specimen", "loose"};
   for (int e = 0; e < mesh.element_count(); ++e) {
     mesh.element_region[e] = element_centroid(mesh, e)[1] > 0.5 ? 1 : 0;

@@ -8,7 +8,6 @@
 
 #include "flow/explicit_nodal.hpp"
 #include "flow/stability_limit.hpp"
-#include "physics/liquid.hpp"
 #include "reference_table.hpp"
 #include "solver/model_case.hpp"
 
@@ -27,13 +26,7 @@ class FlowColumn {
         grid_(case_.mesh),
         op_(grid_, face_conditions(case_, grid_), Vector<2>::Zero()),
         flow_(op_, ExplicitSettings{modulus, scaling, drag}) {
-    for (int e = 0; e < case_.mesh.element_count(); ++e) {
-      coefficients_.porosity.push_back(porosity);
-      coefficients_.water_volume.push_back(porosity * grid_.volume[e]);
-      coefficients_.mixture_density.push_back(density);
-      coefficients_.drag.push_back(darcy_drag(porosity, density, conductivity));
-    }
-    coefficients_.face_concentration.assign(grid_.face_count(), 0.0);
+    coefficients_ = model::flow_coefficients(grid_, conductivity);
     op_.update(coefficients_);
     flow_.update(coefficients_);
     limit_ =

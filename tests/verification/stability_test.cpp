@@ -6,9 +6,8 @@
 #include <random>
 
 #include "case/errors.hpp"
-#include "geometry.hpp"
+#include "free_mesh.hpp"
 #include "model_run.hpp"
-#include "physics/liquid.hpp"
 
 namespace suffuse {
 namespace {
@@ -23,14 +22,7 @@ class FreeFlow {
         op_(grid_, face_conditions(case_, grid_), Vector<2>::Zero()),
         flow_(op_, ExplicitSettings{modulus, scaling, drag}),
         scaling_(scaling) {
-    for (int e = 0; e < case_.mesh.element_count(); ++e) {
-      const double n = porosity(element_centroid(case_.mesh, e));
-      coefficients_.porosity.push_back(n);
-      coefficients_.water_volume.push_back(n * grid_.volume[e]);
-      coefficients_.mixture_density.push_back(1000.0);
-      coefficients_.drag.push_back(darcy_drag(n, 1000.0, conductivity));
-    }
-    coefficients_.face_concentration.assign(grid_.face_count(), 0.0);
+    coefficients_ = model::flow_coefficients(grid_, conductivity, porosity);
     op_.update(coefficients_);
     flow_.update(coefficients_);
     limit_ =
@@ -78,15 +70,6 @@ class FreeFlow {
   double limit_ = 0.0;
 };
 
-Mesh<2> free_mesh(double size) {
-  SceneDocument document;
-  document.path = "model.toml";
-  document.scene = model::paper_scene();
-  document.scene.geometry = {"", "column", 1.0, 1.0};
-  document.scene.mesh = {size, MeshStructure::free};
-  return build_geometry(document).mesh;
-}
-
 struct MeshCase {
   const char* name;
   std::function<Mesh<2>()> mesh;
@@ -103,7 +86,7 @@ double jump(const Vector<2>& x) {
 const std::vector<MeshCase>& mesh_cases() {
   static const std::vector<MeshCase> cases{
       {"regular", [] { return model::column_mesh(4, 4); }, uniform},
-      {"free", [] { return free_mesh(0.2); }, uniform},
+      {"free", [] { return model::free_mesh(0.2); }, uniform},
       {"distorted", [] { return model::column_mesh(5, 5, 1.0, 1.0, model::jittered(0.08, 3)); },
        uniform},
       {"regular_jump", [] { return model::column_mesh(4, 4); }, jump},
