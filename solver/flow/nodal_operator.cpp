@@ -16,6 +16,9 @@ NodalOperator<Dim>::NodalOperator(const Grid<Dim>& grid, std::vector<FaceConditi
       porosity_gradient_term_(porosity_gradient_term),
       fixed_flux_(grid.face_count(), 0.0),
       boundary_force_(grid.mesh.node_count(), Vector<Dim>::Zero()) {
+  for (const FaceCondition& condition : conditions_) {
+    flux_is_fixed_.push_back(condition.fixes_flux() ? 1 : 0);
+  }
   node_faces_.reserve(grid_.node_face.size());
   for (const int f : grid_.node_face) {
     Vector<Dim> share = Vector<Dim>::Zero();

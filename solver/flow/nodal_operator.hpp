@@ -61,7 +61,7 @@ class NodalOperator {
 
   /// Liquid volume through a face per second, along its normal, m3/s.
   [[nodiscard]] double face_flux(int face, const VectorField<Dim>& velocity) const {
-    if (conditions_[face].fixes_flux()) return fixed_flux_[face];
+    if (flux_is_fixed_[face] != 0) return fixed_flux_[face];
     Vector<Dim> q = Vector<Dim>::Zero();
     for (const int i : grid_.face_nodes[face]) q += carried_porosity_[i] * velocity[i];
     return grid_.face_normal[face].dot(q) / Dim;
@@ -93,6 +93,7 @@ class NodalOperator {
   std::vector<double> carried_porosity_;
   std::vector<double> node_mass_;
   std::vector<double> node_drag_;
+  std::vector<unsigned char> flux_is_fixed_;  ///< one byte per face: the hot loop reads nothing else
   std::vector<double> fixed_flux_;
   VectorField<Dim> boundary_force_;
   VectorField<Dim> external_force_;
