@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "free_mesh.hpp"
@@ -75,6 +76,27 @@ TEST(HydrostaticRest, StaysAtRestOnAnUnstructuredMeshWithTwoPorosities) {
   for (const auto& flow : moments.flows) EXPECT_LE(largest_speed(flow.velocity), 1e-10);
   std::cout << "largest speed after " << run.steps()
             << " steps: " << largest_speed(moments.flows.back().velocity) << " m/s\n";
+}
+
+TEST(EquationOfState, PressureIsThatOfTheMasses) {
+  // From rest, ringing, with erosion: what the flow integrates and what the masses say could drift
+  // apart.
+  Scene scene = model::paper_scene();
+  scene.soils[0].erosion = {ErosionLaw::logarithmic, 1e-2, 0.0, false};
+  scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
+  scene.time.mass_scaling = 1e4;
+  scene.time.end = 30.0;
+  model::ModelRun run(model::make_case(model::column_mesh(4, 4), scene));
+  run.run({30.0});
+  const SinglePointState<2>& state = run.model().state();
+  const std::vector<double> pressure = run.model().moment().pressure;
+  for (std::size_t e = 0; e < pressure.size(); ++e) {
+    const double water =
+        element_sum<2>(state.liquid.pore_volume[e]) - element_sum<2>(state.liquid.fines_volume[e]);
+    const double expected =
+        scene.liquid.bulk_modulus * std::log(state.water_mass[e] / (1000.0 * water));
+    EXPECT_NEAR(pressure[e], expected, 1e-6);
+  }
 }
 
 TEST(SteadyFlow, StaysSteady) {
