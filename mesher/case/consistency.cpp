@@ -38,6 +38,7 @@ class SceneCheck {
       : document_(document), mesh_(mesh) {}
 
   std::vector<InputProblem> run() {
+    check_directions();
     check_soils();
     check_regions();
     check_boundaries();
@@ -53,6 +54,22 @@ class SceneCheck {
   static std::string suggest(const std::string& name, const std::vector<std::string>& names) {
     const std::string closest = closest_name(name, names);
     return closest.empty() ? "" : quoted(closest);
+  }
+
+  /// A third component, gravity's for one, would silently be dropped in two dimensions.
+  void check_two_dimensional(const std::string& key, const std::array<double, 3>& value) {
+    if (Dim == 2 && value[2] != 0.0) {
+      report(key, "a third number, " + number(value[2]),
+             "two numbers: the mesh is two-dimensional");
+    }
+  }
+
+  void check_directions() {
+    check_two_dimensional("gravity", document_.scene.gravity);
+    for (const Soil& soil : document_.scene.soils) {
+      check_two_dimensional("soil." + soil.region + ".porosity_gradient", soil.porosity_gradient);
+      check_two_dimensional("soil." + soil.region + ".porosity_origin", soil.porosity_origin);
+    }
   }
 
   void check_soils() {

@@ -10,6 +10,9 @@ namespace {
 
 using Vector3 = std::array<double, 3>;
 
+/// Of each table. More is likelier a slip than intent, and would fill the disk.
+constexpr double most_rows = 1e6;
+
 class Checks {
  public:
   Checks(const Scene& scene, const SceneInquiry& inquiry) : scene_(scene), inquiry_(inquiry) {}
@@ -195,6 +198,12 @@ class Checks {
     const OutputSettings& output = scene_.output;
     if (time.step && *time.step > time.end) {
       report("time.step", shown_value(*time.step), "dt <= T = " + shown_number(time.end) + " s",
+             {"time.end"});
+    }
+    if (output.every * most_rows < time.end) {
+      report("output.every", shown_value(output.every),
+             "at least " + shown_number(time.end / most_rows) +
+                 " s, which makes a million rows until T = " + shown_number(time.end) + " s",
              {"time.end"});
     }
     if (output.snapshot_every < output.every) {

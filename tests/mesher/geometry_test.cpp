@@ -284,6 +284,10 @@ INSTANTIATE_TEST_SUITE_P(
                 in_scene +
                     "\"unnamed_region.msh\" with physical surface 7 without a name; expected "
                     "a name, as in Physical Surface(\"name\") = {...};"},
+        Refused{"empty.geo", in_scene + "\"empty.geo\" with no named physical surface; expected "},
+        Refused{"open_loop.geo",
+                in_scene + "\"open_loop.geo\", of which Gmsh says: The 1D mesh seems not to be "
+                           "forming a closed loop"},
         Refused{"second_order.geo",
                 in_scene + "\"second_order.geo\" with element 1 (Triangle 6) at ("},
         Refused{"quadrilateral.msh",
@@ -384,6 +388,23 @@ TEST_F(UserFile, SizeFieldsOfTheFileHold) {
   for (int e = 0; e < mesh.element_count(); ++e) {
     if (mesh.element_region[e] == 0) continue;
     EXPECT_LT(longest_edge(mesh, e), 0.2);
+  }
+}
+
+TEST_F(UserFile, AThirdDirectionIsRefusedInThePlane) {
+  const std::string text =
+      "gravity = [0.0, 0.0, -9.81]\n" +
+      scene_text("[geometry]\nfile = \"square.geo\"\n[mesh]\nsize = 0.5\n",
+                 "porosity_gradient = [0.0, 0.0, 0.1]\nporosity_origin = [0.0, 0.0, 1.0]\n");
+  const SceneDocument scene = parse_scene(text, folder_.file("scene.toml"));
+  std::string message = refusal([&] { build_geometry(scene); });
+  for (const auto& [key, value] : {std::pair{"gravity", "-9.81"},
+                                   {"soil.specimen.porosity_gradient", "0.1"},
+                                   {"soil.specimen.porosity_origin", "1"}}) {
+    EXPECT_NE(message.find(std::string(": ") + key + ": got a third number, " + value +
+                           "; expected two numbers: the mesh is two-dimensional"),
+              std::string::npos)
+        << message;
   }
 }
 
