@@ -1,9 +1,12 @@
 /// suffuse-post: tables and figures from results folders.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 
+#include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "chart.hpp"
 #include "export.hpp"
@@ -29,6 +32,23 @@ struct Options {
   int count = 0;
 };
 
+/// Refuses to write into a results folder, whose tables would be written over and which the solver
+/// replaces when it runs again.
+void keep_out(const ResultsReader& results, const std::string& option, const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path place = fs::weakly_canonical(fs::absolute(path));
+  const fs::path from_results = place.lexically_relative(fs::canonical(results.folder()));
+  if (*from_results.begin() == "..") return;
+  throw InputError(std::vector{InputProblem{
+      "suffuse-post", option, '"' + path + '"',
+      "a place outside " + results.folder() + ", which belongs to suffuse-solver", ""}});
+}
+
+void write_csv(const ResultsReader& results, const std::string& path, const Table& table) {
+  keep_out(results, "--csv", path);
+  write_table(path, table);
+}
+
 void ledger(const Options& options) {
   if (!(options.tolerance >= 0.0)) {
     throw InputError(std::vector{InputProblem{"suffuse-post ledger", "--tolerance",
@@ -38,31 +58,34 @@ void ledger(const Options& options) {
   const ResultsReader results(options.results);
   const auto found = balances(results);
   std::cout << balance_text(results, found);
-  if (!options.csv.empty()) write_table(options.csv, results.ledger());
+  if (!options.csv.empty()) write_csv(results, options.csv, results.ledger());
   check_balances(found, options.tolerance);
 }
 
 void history(const Options& options) {
   const ResultsReader results(options.results);
   std::cout << history_text(results);
-  if (!options.csv.empty()) write_table(options.csv, results.history());
+  if (!options.csv.empty()) write_csv(results, options.csv, results.history());
 }
 
 void sample_line(const Options& options) {
   const SampleLine line = parse_line(options.line);
   const auto fields = parse_field_names(options.fields);
   const ResultsReader results(options.results);
-  write_table(options.csv, sample(results, options.time, line, options.count, fields));
+  write_csv(results, options.csv, sample(results, options.time, line, options.count, fields));
 }
 
 void figure(const Options& options) {
   picture_format(options.output);
   const std::vector<ResultsReader> runs(options.all_results.begin(), options.all_results.end());
+  for (const auto& run : runs) keep_out(run, "-o", options.output);
   draw_chart(make_figure(options.figure, runs), options.output);
 }
 
 void export_results(const Options& options) {
-  export_vtu(ResultsReader(options.results), options.output);
+  const ResultsReader results(options.results);
+  keep_out(results, "-o", options.output);
+  export_vtu(results, options.output);
 }
 
 using Action = std::function<void(const Options&)>;
@@ -77,38 +100,53 @@ CLI::App* add_command(CLI::App& app, Action& chosen, const std::string& name,
 void declare(CLI::App& app, Options& o, Action& chosen) {
   app.require_subcommand(1);
   const auto one_folder = [&o](CLI::App* command) {
-    command->add_option("RESULTS", o.results, "results folder")->required();
+    command->add_option("RESULTS", o.results, "results folder")->required()->type_name("FOLDER");
   };
 
   auto* command = add_command(app, chosen, "ledger", "Balance of water and grains", ledger);
   one_folder(command);
-  command->add_option("--csv", o.csv, "write the whole ledger here");
-  command
-      ->add_option("--tolerance", o.tolerance, "largest residual allowed")
-
+  command->add_option("--csv", o.csv, "write the whole ledger here")->type_name("FILE");
+  command->add_option("--tolerance", o.tolerance, "largest residual allowed")
       ->capture_default_str();
 
   command = add_command(app, chosen, "history", "Range of every quantity over the run", history);
   one_folder(command);
-  command->add_option("--csv", o.csv, "write the whole history here");
+  command->add_option("--csv", o.csv, "write the whole history here")->type_name("FILE");
 
   command = add_command(app, chosen, "sample", "Fields along a line at one time", sample_line);
   one_folder(command);
-  command->add_option("--time", o.time, "time, s")->required();
-  command->add_option("--line", o.line, "x0,y0:x1,y1, m")->required();
+  command->add_option("--time", o.time, "time, s; between snapshots by interpolation")->required();
+  command->add_option("--line", o.line, "its two ends, m")->required()->type_name("X0,Y0:X1,Y1");
   command->add_option("--count", o.count, "points, ends included")->required();
-  command->add_option("--fields", o.fields, "names, with commas between")->required();
-  command->add_option("--csv", o.csv, "table to write")->required();
+  command->add_option("--fields", o.fields, "fields, with commas between")
+      ->required()
+      ->type_name("NAME,...");
+  command->add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
 
   command = add_command(app, chosen, "figure", "A figure of the paper: porosity or masses", figure);
   command->add_option("NAME", o.figure, "porosity or masses")->required();
-  command->add_option("RESULTS", o.all_results, "results folders")->required();
-  command->add_option("-o", o.output, "picture to write: .png, .svg or .pdf")->required();
+  command->add_option("RESULTS", o.all_results, "results folders")->required()->type_name("FOLDER");
+  command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
+      ->required()
+      ->type_name("FILE");
 
   command =
       add_command(app, chosen, "export", ".pvd and .vtu files for other tools", export_results);
   one_folder(command);
-  command->add_option("-o", o.output, "folder to write into")->required();
+  command->add_option("-o,--output", o.output, "folder to write into")
+      ->required()
+      ->type_name("FOLDER");
+}
+
+/// CLI11 calls a misspelt subcommand a missing one.
+void refuse_unknown_command(const CLI::App& app, const std::string& first) {
+  std::vector<std::string> known;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(command->get_name());
+  }
+  if (first.starts_with("-") || std::ranges::find(known, first) != known.end()) return;
+  throw InputError(std::vector{InputProblem{"suffuse-post", "", '"' + first + '"',
+                                            quoted_list(known), closest_name(first, known)}});
 }
 
 int run(int argc, char** argv) {
@@ -121,6 +159,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
+    if (argc > 1) refuse_unknown_command(app, argv[1]);
     throw InputError(std::string(error.what()) + " (suffuse-post --help lists what there is)");
   }
   chosen(options);

@@ -15,6 +15,9 @@ namespace {
 /// Rounding that still counts as on an edge, in barycentric coordinates.
 constexpr double edge_tolerance = 1e-9;
 
+/// Beyond this a slip of the keyboard is likelier than intent.
+constexpr int most_points = 1'000'000;
+
 /// Where a field is looked for, best first.
 constexpr std::array<const char*, 3> places{"element_vertex", "node", "cell"};
 
@@ -182,6 +185,9 @@ std::vector<std::string> parse_field_names(const std::string& text) {
 Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
              const std::vector<std::string>& fields) {
   if (count < 2) throw wrong("--count", std::to_string(count), "at least 2, the ends of the line");
+  if (count > most_points) {
+    throw wrong("--count", std::to_string(count), "at most " + std::to_string(most_points));
+  }
   const Moment moment = find_moment(results, time);
   std::vector<SampledField> sampled;
   Table table{{"x", "y"}, std::vector<std::vector<double>>(2)};

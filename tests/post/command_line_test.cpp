@@ -62,6 +62,35 @@ TEST_F(PostCommand, LedgerPrintsTheBalance) {
   EXPECT_EQ(file_text(scratch / "ledger.csv"), file_text(run + "/ledger.csv"));
 }
 
+TEST_F(PostCommand, NothingIsWrittenIntoTheResults) {
+  const std::string table = file_text(run + "/ledger.csv");
+  const std::string linked = scratch / "link";
+  fs::create_directory_symlink(run, linked);
+  const auto refusal = [this](const std::string& option, const std::string& path) {
+    return "suffuse-post: " + option + ": got \"" + path + "\"; expected a place outside " + run +
+           ", which belongs to suffuse-solver";
+  };
+  for (const std::string& inside :
+       {run + "/ledger.csv", run + "/../run.results/a.csv", linked + "/a.csv"}) {
+    expect_refusal("ledger " + run + " --csv " + inside, 2, refusal("--csv", inside));
+    expect_refusal("history " + run + " --csv " + inside, 2, refusal("--csv", inside));
+  }
+  for (const std::string& inside : {run, run + "/", run + "/snapshots", linked + "/new/folder"}) {
+    expect_refusal("export " + run + " -o " + inside, 2, refusal("-o", inside));
+  }
+  expect_refusal("figure porosity " + run + " -o " + run + "/a.png", 2,
+                 refusal("-o", run + "/a.png"));
+  EXPECT_EQ(file_text(run + "/ledger.csv"), table);
+  EXPECT_EQ(post("ledger " + run + " --csv " + run + ".csv").code, 0);  // beside it
+  EXPECT_EQ(post("ledger " + run + " --csv " + scratch / "a.csv").code, 0);
+}
+
+TEST_F(PostCommand, AMisspeltCommandIsNamed) {
+  expect_refusal("ledgr " + run, 2,
+                 "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"sample\", "
+                 "\"figure\" or \"export\"; did you mean ledger?");
+}
+
 TEST_F(PostCommand, LedgerRefusesAResidual) {
   const Case<2> c = unit_square_case();
   ResultsWriter<2> writer(scratch / "leak.results", c);
@@ -181,6 +210,8 @@ TEST_F(PostCommand, BadLine) {
 TEST_F(PostCommand, BadCount) {
   expect_refusal(sample_start + "--time 1 --line 0,0:1,1 --count 1 --fields porosity", 2,
                  "suffuse-post sample: --count: got 1; expected at least 2, the ends of the line");
+  expect_refusal(sample_start + "--time 1 --line 0,0:1,1 --count 2000000000 --fields porosity", 2,
+                 "suffuse-post sample: --count: got 2000000000; expected at most 1000000");
 }
 
 TEST_F(PostCommand, EmptyFieldName) {
