@@ -160,8 +160,8 @@ void generate_mesh(const SceneDocument& document, const std::string& path) {
     gmsh::option::setNumber("Mesh.MeshSizeMax", document.scene.mesh.size);
   }
   if (document.scene.mesh.structure == MeshStructure::crossed) {
-    // Triangles twice as large, each then split into three quadrangles by Gmsh: its recombination of
-    // triangles into quadrangles crashes on small models (4.8).
+    // Triangles twice as large, each then split into three quadrangles by Gmsh: its recombination
+    // of triangles into quadrangles crashes on small models (4.8).
     gmsh::option::setNumber("Mesh.MeshSizeFactor", 2.0);
     gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
   }

@@ -93,7 +93,8 @@ class NodalOperator {
   std::vector<double> carried_porosity_;
   std::vector<double> node_mass_;
   std::vector<double> node_drag_;
-  std::vector<unsigned char> flux_is_fixed_;  ///< one byte per face: the hot loop reads nothing else
+  std::vector<unsigned char>
+      flux_is_fixed_;  ///< one byte per face: the hot loop reads nothing else
   std::vector<double> fixed_flux_;
   VectorField<Dim> boundary_force_;
   VectorField<Dim> external_force_;
