@@ -28,6 +28,15 @@ void convert(const std::string& from, const std::string& to) {
   if (!written) throw FileError(to + ": cannot be written");
 }
 
+/// VTK says of a damaged file neither its name nor what is wrong with it. All are looked at before
+/// anything is written.
+void check_snapshots(const ResultsReader& results) {
+  for (std::size_t i = 0; i < results.times().size(); ++i) {
+    static_cast<void>(results.field_names(i, "cell"));
+    static_cast<void>(results.field_names(i, "solid"));
+  }
+}
+
 void export_kind(const ResultsReader& results, const std::string& kind, const fs::path& folder) {
   std::string entries;
   for (std::size_t i = 0; i < results.times().size(); ++i) {
@@ -49,6 +58,7 @@ void export_kind(const ResultsReader& results, const std::string& kind, const fs
 
 void export_vtu(const ResultsReader& results, const std::string& folder) {
   if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  check_snapshots(results);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw FileError(folder + ": cannot be made: " + error.message());

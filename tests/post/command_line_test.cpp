@@ -207,6 +207,16 @@ TEST_F(PostCommand, BadLine) {
   }
 }
 
+TEST_F(PostCommand, ExportNamesADamagedSnapshotAndWritesNothing) {
+  const std::string damaged = ResultsReader(run).snapshot_path("solid", 1);
+  fs::resize_file(damaged, fs::file_size(damaged) / 2);
+  const Outcome outcome = post("export " + run + " -o " + scratch / "vtk");
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_EQ(outcome.error.find("suffuse-post: error: " + damaged + ": cannot be opened"), 0U)
+      << outcome.error;
+  EXPECT_FALSE(fs::exists(scratch / "vtk"));
+}
+
 TEST_F(PostCommand, BadCount) {
   expect_refusal(sample_start + "--time 1 --line 0,0:1,1 --count 1 --fields porosity", 2,
                  "suffuse-post sample: --count: got 1; expected at least 2, the ends of the line");
