@@ -40,6 +40,7 @@ struct Specimen {
   std::vector<int> regions;
   std::vector<Portion> portions;
   double volume = 0.0;
+  bool is_all = true;  ///< of the soil; else what does not erode is left out
 };
 
 bool erodes(const Soil& soil) {
@@ -72,6 +73,7 @@ Specimen specimen(const ResultsReader& run) {
     const bool counts = soil != nullptr && (erodes(*soil) || !any);
     soils.push_back(counts ? soil : nullptr);
     if (counts) found.regions.push_back(r);
+    if (soil != nullptr && !counts) found.is_all = false;
   }
   std::map<std::pair<std::string, double>, Portion> portions;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -83,6 +85,10 @@ Specimen specimen(const ResultsReader& run) {
     found.volume += portion.volume;
   }
   return found;
+}
+
+std::string soil_named(bool all) {
+  return all ? "the soil" : "the soil that erodes";
 }
 
 /// Sum over the specimen of volume times a function of (soil, initial porosity, porosity now).
@@ -195,10 +201,12 @@ Chart porosity_figure(const std::vector<ResultsReader>& runs) {
   std::vector<Curve> numeric;
   std::vector<std::string> laws;
   const auto labels = run_labels(runs);
+  bool all = true;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Table history = runs[r].history();
     require_curve(runs[r], history, "history.csv");
     const Specimen soil = specimen(runs[r]);
+    all = all && soil.is_all;
     Curve line;
     line.label = law_label(soil);
     line.dash = dash_of(laws, line.label);
@@ -219,7 +227,7 @@ Chart porosity_figure(const std::vector<ResultsReader>& runs) {
     numeric.push_back(thinned(points, r, runs.size()));
   }
   Chart chart;
-  chart.title = "Mean porosity of the soil";
+  chart.title = "Mean porosity of " + soil_named(all);
   chart.y_label = "porosity n_L (-)";
   return assemble(chart, exact, numeric);
 }
@@ -283,8 +291,10 @@ Chart masses_figure(const std::vector<ResultsReader>& runs) {
   std::vector<Curve> numeric;
   std::vector<std::string> laws;
   const auto labels = run_labels(runs);
+  bool all = true;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Specimen soil = specimen(runs[r]);
+    all = all && soil.is_all;
     const auto masses = computed_masses(runs[r], soil);
     const double water_density = runs[r].scene().scene.liquid.density;
     const std::string law = law_label(soil);
@@ -312,7 +322,7 @@ Chart masses_figure(const std::vector<ResultsReader>& runs) {
     }
   }
   Chart chart;
-  chart.title = "Mass balance in closed accounting (in the soil + left - entered)";
+  chart.title = "Mass balance in closed accounting (in " + soil_named(all) + " + left - entered)";
   chart.y_label = "mass (kg per metre of thickness)";
   return assemble(chart, exact, numeric);
 }

@@ -138,6 +138,26 @@ TEST(Figures, RunsOfOneNameAreToldApartByFolder) {
   EXPECT_NE(chart.curves[1].marker, chart.curves[2].marker);
 }
 
+TEST(Figures, TitlesSayWhenSoilIsLeftOut) {
+  const ScratchFolder scratch;
+  Case<2> c = testing::unit_square_case();
+  c.document =
+      parse_scene(c.document.text + "[soil.base]\nlike = \"specimen\"\nerosion.law = \"none\"\n",
+                  "layers.toml");
+  c.mesh.region_names.emplace_back("base");
+  c.mesh.element_region.back() = 1;
+  {
+    ResultsWriter<2> writer(scratch / "layers.results", c);
+    testing::write_rows(writer, 2.0, [](double) { return 0.3; });
+    writer.write_run_info({});
+  }
+  const std::vector<ResultsReader> layers{ResultsReader(scratch / "layers.results")};
+  EXPECT_EQ(make_figure("porosity", layers).title, "Mean porosity of the soil that erodes");
+  EXPECT_EQ(make_figure("masses", layers).title,
+            "Mass balance in closed accounting (in the soil that erodes + left - entered)");
+  EXPECT_EQ(make_figure("porosity", two_runs(scratch)).title, "Mean porosity of the soil");
+}
+
 TEST(Figures, TicksAreRoundAndEnclose) {
   const auto ticks = round_ticks(0.3, 0.3987);
   EXPECT_NEAR(ticks.front(), 0.3, 1e-15);
