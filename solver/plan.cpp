@@ -82,6 +82,31 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
       {{c.document.locate("time.step"), "time.step", found.str(), expected.str(), ""}});
 }
 
+/// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero.
+template <int Dim>
+void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
+                                 const std::vector<FaceCondition>& conditions) {
+  const Scene& scene = c.document.scene;
+  if (scene.initial_flow != InitialFlow::steady) return;
+  double net = 0.0;
+  double gross = 0.0;
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (conditions[f].kind == FaceKind::pressure) return;
+    double flux = grid.face_normal[f].norm() * conditions[f].value;
+    if (conditions[f].kind == FaceKind::velocity) {
+      const int region = c.mesh.element_region[grid.face_left[f]];
+      flux *= scene.find_soil(c.mesh.region_names[region])->initial_porosity(grid.face_centre(f));
+    }
+    net += flux;
+    gross += std::abs(flux);
+  }
+  if (std::abs(net) <= 1e-6 * gross) return;
+  throw InputError(
+      {{c.document.locate("initial.flow"), "initial.flow",
+        "\"steady\" with boundaries that bring in " + number(net) + " m3/s more than they take out",
+        "prescribed fluxes that add up to zero, or a boundary with a pressure", ""}});
+}
+
 void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
   const double scaling = scene.time.mass_scaling;
   if (scaling <= 1.0) return;
@@ -127,7 +152,9 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   plan.transport = plan.erosion || largest_inflow_concentration(scene) > 0.0;
 
   const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton);
-  NodalOperator<Dim> op(grid, face_conditions(c, grid), Vector<Dim>::Zero());
+  const std::vector<FaceCondition> conditions = face_conditions(c, grid);
+  refuse_contradictory_fluxes(c, grid, conditions);
+  NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
   op.update(worst);
   plan.limit = stability_limit(grid, worst, op.node_porosity(), scene.liquid.bulk_modulus,
                                scene.time.mass_scaling, scene.time.drag);

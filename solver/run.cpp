@@ -145,6 +145,7 @@ class SinglePointRun {
     if (!rows_.finished() && rows_.next() <= moment.time) {
       const HistoryRow row = model_.history_row(state, moment);
       check_finite(row);
+      check_compression(row);
       warn_of_speed(row.speed_max);
       writer_.append_history(row);
       writer_.append_ledger(model_.ledger(state));
@@ -165,6 +166,23 @@ class SinglePointRun {
       message << name << " is no longer a number at t = " << row.t << " s";
       throw NumericalError(message.str());
     }
+  }
+
+  /// The equation of state is that of water hardly compressed.
+  void check_compression(const HistoryRow& row) {
+    const double modulus = case_.document.scene.liquid.bulk_modulus;
+    const double pressure = std::max(std::abs(row.pressure_min), std::abs(row.pressure_max));
+    std::ostringstream message;
+    message << "pressures reach " << pressure << " Pa at t = " << row.t << " s, "
+            << pressure / modulus << " times the water's bulk modulus";
+    if (pressure >= modulus) {
+      throw NumericalError(
+          message.str() +
+          ": water cannot be compressed like that; look at the boundary conditions");
+    }
+    if (pressure < 0.1 * modulus || compression_warned_) return;
+    compression_warned_ = true;
+    warn(message.str() + ": the liquid is no longer weakly compressible");
   }
 
   /// Scaled masses must stay light against the waves they carry: S <= (0.1 c / v)^2.
@@ -214,6 +232,7 @@ class SinglePointRun {
   double step_;
   long steps_done_ = 0;
   bool speed_warned_ = false;
+  bool compression_warned_ = false;
   std::vector<std::string> warnings_;
 };
 

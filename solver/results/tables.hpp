@@ -28,7 +28,7 @@ struct HistoryRow {
       0.0;  ///< flux-weighted mean c of the leaving liquid; 0 when none leaves
   double concentration_min = 0.0;
   double concentration_max = 0.0;
-  double pressure_min = 0.0;  ///< Pa
+  double pressure_min = 0.0;  ///< of the node pressures, Pa
   double pressure_max = 0.0;  ///< Pa
   double speed_max = 0.0;     ///< largest intrinsic liquid speed, m/s
 };

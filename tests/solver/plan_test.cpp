@@ -1,0 +1,61 @@
+#include "plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include "case/errors.hpp"
+#include "solver/model_case.hpp"
+
+namespace suffuse {
+namespace {
+
+Scene fluxes(double top, double bottom) {
+  Scene scene = model::paper_scene();
+  scene.boundaries = {model::flux_on("top", top), model::flux_on("bottom", bottom)};
+  scene.boundaries[1].concentration.reset();
+  scene.initial_flow = InitialFlow::steady;
+  return scene;
+}
+
+TEST(Plan, SteadyFlowNeedsFluxesThatAddUp) {
+  EXPECT_NO_THROW(make_plan(model::make_case(model::column_mesh(4, 4), fluxes(0.01, -0.01)), {}));
+  try {
+    make_plan(model::make_case(model::column_mesh(4, 4), fluxes(0.015, 0.0)), {});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "model.toml: initial.flow: got \"steady\" with boundaries that bring in 0.015 m3/s "
+        "more than they take out; expected prescribed fluxes that add up to zero, or a "
+        "boundary with a pressure");
+  }
+}
+
+TEST(Plan, SkipsWhatTheSceneDoesNotNeed) {
+  Scene scene = fluxes(0.01, -0.01);
+  const auto plan_of = [&](const SolverOptions& options) {
+    return make_plan(model::make_case(model::column_mesh(4, 4), scene), options);
+  };
+  EXPECT_FALSE(plan_of({}).transport);
+  EXPECT_TRUE(plan_of({.threads = 1, .no_skip = true}).transport);
+  scene.boundaries[0].concentration = 0.1;
+  EXPECT_TRUE(plan_of({}).transport);
+  EXPECT_FALSE(plan_of({}).erosion);
+  scene.soils[0].erosion = {ErosionLaw::constant, 1e-3, 0.0, false};
+  EXPECT_TRUE(plan_of({}).erosion);
+}
+
+TEST(Plan, WarnsOfMassScalingThatDistortsTheFlow) {
+  Scene scene = fluxes(0.01, -0.01);
+  scene.time.mass_scaling = 1e4;  // 68 s to settle in a run of 120 s
+  EXPECT_EQ(make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).warnings.size(), 1U);
+  scene.time.mass_scaling = 100.0;  // 0.68 s
+  EXPECT_TRUE(make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).warnings.empty());
+}
+
+TEST(Plan, TakesNineTenthsOfTheLimitWithoutAStep) {
+  const Plan plan = make_plan(model::make_case(model::column_mesh(4, 4), fluxes(0.01, -0.01)), {});
+  EXPECT_DOUBLE_EQ(plan.step, 0.9 * plan.limit.step);
+}
+
+}  // namespace
+}  // namespace suffuse
