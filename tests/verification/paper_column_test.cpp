@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -21,9 +22,7 @@ namespace fs = std::filesystem;
 class PaperRun {
  public:
   explicit PaperRun(const std::string& scene, const std::vector<std::string>& overrides = {})
-      : folder_(fs::path(::testing::TempDir()) /
-                (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
-                 "-" + scene + ".results")) {
+      : folder_(fs::path(::testing::TempDir()) / (test_name() + "-" + scene + ".results")) {
     fs::remove_all(folder_);
     Case<2> c;
     c.document = read_scene(std::string(SUFFUSE_SOURCE_DIR) + "/workflows/paper/" + scene + ".toml",
@@ -55,6 +54,13 @@ class PaperRun {
   }
 
  private:
+  /// Without the slash of parametrised tests.
+  static std::string test_name() {
+    std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::replace(name.begin(), name.end(), '/', '-');
+    return name;
+  }
+
   fs::path folder_;
   Table history_;
   Table ledger_;
