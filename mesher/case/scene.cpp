@@ -61,6 +61,8 @@ class SceneReader {
     check_table(root_, "", "");
     inherit();
     collect_places(root_, "");
+    // Before the keys are bound: a misspelt structure must not be judged as the default of a shape.
+    if (places_.contains("geometry.file")) scene_.mesh.structure = MeshStructure::crossed;
     bind();
     complete();
     check_scene(scene_, {.given = [this](const std::string& key) { return places_.contains(key); },
@@ -388,9 +390,6 @@ class SceneReader {
     if (!places_.contains("name")) scene_.name = std::filesystem::path(path_).stem().string();
     if (!places_.contains("output.snapshot_every")) {
       scene_.output.snapshot_every = scene_.output.every;
-    }
-    if (!places_.contains("mesh.structure") && places_.contains("geometry.file")) {
-      scene_.mesh.structure = MeshStructure::crossed;
     }
   }
 
