@@ -16,6 +16,7 @@ struct Case {
   SceneDocument document;
   Mesh<Dim> mesh;
   MaterialPoints<Dim> solid_points;
+  MaterialPoints<Dim> liquid_points{};  ///< double-point only; volumes are those of liquid
 };
 
 /// Writes to a temporary name beside `path` and renames. Throws FileError.

@@ -403,6 +403,12 @@ class SceneReader {
 
 }  // namespace
 
+bool Scene::is_free_water(const std::string& region) const {
+  static const std::set<std::string> names{"inflow", "outflow", "free_above", "free_below"};
+  return formulation == Formulation::double_point && names.contains(region) &&
+         find_soil(region) == nullptr;
+}
+
 const Soil* Scene::find_soil(const std::string& region) const {
   const auto found = std::ranges::find(soils, region, &Soil::region);
   return found == soils.end() ? nullptr : &*found;

@@ -16,18 +16,35 @@ namespace suffuse {
 /// A value not yet set: using it shows.
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
-enum class Formulation { single_point };
+enum class Formulation { single_point, double_point };
 enum class MeshStructure { regular, crossed, free };
 enum class ErosionLaw { none, constant, logarithmic, first_order };
 enum class FlowScheme { explicit_nodal };
 enum class DragIntegration { explicit_drag, implicit_drag };
 enum class InitialFlow { rest, steady };
+enum class Seeding { gauss, random, low_discrepancy };
+enum class SoilDrag { darcy, ergun };
+enum class MassTransfer { nodal, element };
+enum class EmptyElements { wet, dry };
+enum class PressureIntegration { mixed, material_point };
+
+/// Rows of elements added to the column, from its ends outwards: soil that does not erode, free
+/// water, and free water through which liquid enters and leaves.
+struct LayerSettings {
+  int inflow = 0;
+  int free_above = 0;
+  int above = 0;
+  int below = 0;
+  int free_below = 0;
+  int outflow = 0;
+};
 
 struct GeometrySettings {
   std::string file;       ///< .geo, .msh or .step, relative to the scene; empty with `shape`
   std::string shape;      ///< "column"; empty with `file`
   double width = unset;   ///< m
   double height = unset;  ///< m
+  LayerSettings layers;
 };
 
 struct MeshSettings {
@@ -38,7 +55,12 @@ struct MeshSettings {
 struct PointSettings {
   int solid_per_element = 3;  ///< 1, 3, 6 or 12
   double jitter = 0.0;  ///< points moved off the Gauss positions, as a fraction of the element size
-  int seed = 1;         ///< of the jitter
+  int seed = 1;         ///< of the jitter and of random seeding
+  int liquid_per_element = 12;  ///< double-point: in an element of the specimen at the start
+  Seeding seeding = Seeding::low_discrepancy;  ///< of liquid points
+  /// Liquid points stand for equal volumes, so their number per element goes with its liquid;
+  /// false: the same number in every element, as the paper has it.
+  bool equal_volume = true;
 };
 
 struct LiquidProperties {
@@ -52,6 +74,9 @@ struct ErosionSettings {
   double rate = 0.0;               ///< alpha (Eq. 6), beta (Eq. 7) or kappa (first-order), 1/s
   double start = 0.0;              ///< t_0, s
   bool momentum_transfer = false;  ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
+  MassTransfer mass_transfer = MassTransfer::nodal;  ///< double-point: who gets eroded grains
+  EmptyElements empty_elements =
+      EmptyElements::wet;  ///< double-point: erode without liquid points?
 };
 
 struct Soil {
@@ -62,6 +87,7 @@ struct Soil {
   double skeleton_fraction = unset;           ///< n_C
   double grain_density = unset;               ///< rho_s, kg/m3
   double conductivity = unset;                ///< k, m/s
+  SoilDrag drag = SoilDrag::darcy;
   ErosionSettings erosion;
 
   /// n_L,max = 1 - n_C
@@ -98,6 +124,9 @@ struct FlowSettings {
   /// false drops (v_L - v_S) . grad n_L from Eq. 2 as standard single-point codes do: loses water
   /// wherever porosity varies. For comparison only.
   bool porosity_gradient_term = true;
+  /// Double-point: where pressure lives. Mixed: one per element. Material-point: at liquid points,
+  /// which then carry velocity too, as the paper has it.
+  PressureIntegration integration = PressureIntegration::mixed;
 };
 
 struct OutputSettings {
@@ -122,6 +151,9 @@ struct Scene {
   OutputSettings output;
 
   [[nodiscard]] const Soil* find_soil(const std::string& region) const;
+  /// Free water (n_L = 1, no solid): a region without a soil that is called inflow, outflow,
+  /// free_above or free_below, in a double-point scene.
+  [[nodiscard]] bool is_free_water(const std::string& region) const;
 };
 
 /// A scene with the text it came from, so that the next stage can check and report against it

@@ -17,7 +17,7 @@ inline constexpr const char* ledger = "ledger.csv";
 inline constexpr const char* regions = "regions.csv";
 inline constexpr const char* snapshots = "snapshots";
 
-/// "mesh.hdf.series" and so on; `kind` is "mesh" or "solid".
+/// "mesh.hdf.series" and so on; `kind` is "mesh", "solid" or "liquid".
 inline std::string series(const std::string& kind) {
   return kind + ".hdf.series";
 }

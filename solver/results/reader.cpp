@@ -87,7 +87,7 @@ std::vector<std::string> split(std::string line) {
 /// The group of a snapshot file that holds the fields of `where`.
 std::string field_group(const std::string& where) {
   if (where == "cell") return "/VTKHDF/CellData";
-  if (where == "node" || where == "solid") return "/VTKHDF/PointData";
+  if (where == "node" || where == "solid" || where == "liquid") return "/VTKHDF/PointData";
   if (where == "element_vertex") return layout::element_vertex_group;
   throw std::logic_error("no fields on " + where);
 }
@@ -161,18 +161,25 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
     throw FileError(path + ": is incomplete: " + error.what());
   }
   const Series mesh = read_series(folder, "mesh");
-  const Series solid = read_series(folder, "solid");
-  // A run may be writing: the two series can then differ by the newest snapshot.
-  const std::size_t count = std::min(mesh.files.size(), solid.files.size());
+  times_ = mesh.times;
+  mesh_files_ = mesh.files;
+  take_series("solid", solid_files_);
+  if (scene_.scene.formulation == Formulation::double_point) take_series("liquid", liquid_files_);
+}
+
+void ResultsReader::take_series(const std::string& kind, std::vector<std::string>& files) {
+  const Series series = read_series(folder_, kind);
+  // A run may be writing: the series can then differ by the newest snapshot.
+  const std::size_t count = std::min(mesh_files_.size(), series.files.size());
   for (std::size_t i = 0; i < count; ++i) {
-    if (mesh.times[i] != solid.times[i]) {
-      throw FileError(folder + ": snapshot " + std::to_string(i) +
-                      " has different times in mesh.hdf.series and solid.hdf.series");
+    if (times_[i] != series.times[i]) {
+      throw FileError(folder_ + ": snapshot " + std::to_string(i) +
+                      " has different times in mesh.hdf.series and " + layout::series(kind));
     }
   }
-  times_.assign(mesh.times.begin(), mesh.times.begin() + count);
-  mesh_files_.assign(mesh.files.begin(), mesh.files.begin() + count);
-  solid_files_.assign(solid.files.begin(), solid.files.begin() + count);
+  times_.resize(count);
+  mesh_files_.resize(count);
+  files.assign(series.files.begin(), series.files.begin() + count);
 }
 
 Table ResultsReader::history() const {
@@ -186,12 +193,24 @@ Table ResultsReader::region_ledgers() const {
 }
 
 std::string ResultsReader::snapshot_path(const std::string& kind, std::size_t index) const {
-  const auto& files = kind == "solid" ? solid_files_ : mesh_files_;
-  return files.at(index);
+  if (kind == "solid") return solid_files_.at(index);
+  if (kind == "liquid") return liquid_files_.at(index);
+  return mesh_files_.at(index);
 }
 
 Mesh<2> ResultsReader::mesh() const {
   return read_case<2>(in_folder(folder_, layout::case_copy)).mesh;
+}
+
+std::vector<Vector<2>> ResultsReader::point_positions(std::size_t index,
+                                                      const std::string& kind) const {
+  const Hdf5File file(snapshot_path(kind, index), Hdf5File::Mode::read);
+  const std::vector<double> coordinates = file.read_doubles("/VTKHDF/Points");
+  std::vector<Vector<2>> positions;
+  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+    positions.emplace_back(coordinates[i], coordinates[i + 1]);
+  }
+  return positions;
 }
 
 Field ResultsReader::field(std::size_t index, const std::string& where,

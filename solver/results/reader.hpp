@@ -48,17 +48,23 @@ class ResultsReader {
 
   /// Times of the snapshots, ascending.
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
-  /// Path of snapshot `index` of "mesh" or "solid".
+  /// Path of snapshot `index` of "mesh", "solid" or "liquid".
   [[nodiscard]] std::string snapshot_path(const std::string& kind, std::size_t index) const;
   /// The mesh with its regions and boundaries.
   [[nodiscard]] Mesh<2> mesh() const;
-  /// One field of a snapshot; `where` is "cell", "node", "solid" or "element_vertex".
+  /// Positions of the "solid" or "liquid" points of a snapshot.
+  [[nodiscard]] std::vector<Vector<2>> point_positions(std::size_t index,
+                                                       const std::string& kind) const;
+  /// One field of a snapshot; `where` is "cell", "node", "solid", "liquid" or "element_vertex".
   [[nodiscard]] Field field(std::size_t index, const std::string& where,
                             const std::string& name) const;
   [[nodiscard]] std::vector<std::string> field_names(std::size_t index,
                                                      const std::string& where) const;
 
  private:
+  /// Files of one kind; snapshots that it does not have yet are dropped.
+  void take_series(const std::string& kind, std::vector<std::string>& files);
+
   std::string folder_;
   SceneDocument scene_;
   std::vector<std::string> regions_;
@@ -67,6 +73,7 @@ class ResultsReader {
   std::vector<double> times_;
   std::vector<std::string> mesh_files_;
   std::vector<std::string> solid_files_;
+  std::vector<std::string> liquid_files_;  ///< none in single-point runs
 };
 
 }  // namespace suffuse

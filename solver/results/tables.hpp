@@ -28,12 +28,16 @@ struct HistoryRow {
       0.0;  ///< flux-weighted mean c of the leaving liquid; 0 when none leaves
   double concentration_min = 0.0;
   double concentration_max = 0.0;
-  double pressure_min = 0.0;  ///< of the node pressures, Pa
-  double pressure_max = 0.0;  ///< Pa
-  double speed_max = 0.0;     ///< largest intrinsic liquid speed, m/s
+  double pressure_min = 0.0;   ///< of the node pressures, Pa
+  double pressure_max = 0.0;   ///< Pa
+  double speed_max = 0.0;      ///< largest intrinsic liquid speed, m/s
+  double volume_defect = 0.0;  ///< double-point: max |sum V_p / (n_L V_e) - 1| over elements
+  /// Root mean square of the pressures (of elements, or of liquid points where they carry it) about
+  /// the smooth field of the node pressures, Pa.
+  double pressure_scatter = 0.0;
 };
 
-inline constexpr std::array<Column<HistoryRow>, 14> history_columns{{
+inline constexpr std::array<Column<HistoryRow>, 16> history_columns{{
     {"t", &HistoryRow::t},
     {"dt", &HistoryRow::dt},
     {"porosity_mean", &HistoryRow::porosity_mean},
@@ -48,6 +52,8 @@ inline constexpr std::array<Column<HistoryRow>, 14> history_columns{{
     {"pressure_min", &HistoryRow::pressure_min},
     {"pressure_max", &HistoryRow::pressure_max},
     {"speed_max", &HistoryRow::speed_max},
+    {"volume_defect", &HistoryRow::volume_defect},
+    {"pressure_scatter", &HistoryRow::pressure_scatter},
 }};
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross
@@ -65,9 +71,14 @@ struct LedgerRow {
   double fines_out = 0.0;
   double residual_water = 0.0;   ///< relative to the initial water
   double residual_grains = 0.0;  ///< relative to the initial grains (solid and fluidised)
+  /// Double-point: grains eroded where no liquid point is near, waiting at nodes for one.
+  double pending = 0.0;
+  double points = 0.0;  ///< liquid points, and how many entered and left since the start
+  double points_in = 0.0;
+  double points_out = 0.0;
 };
 
-inline constexpr std::array<Column<LedgerRow>, 12> ledger_columns{{
+inline constexpr std::array<Column<LedgerRow>, 16> ledger_columns{{
     {"t", &LedgerRow::t},
     {"solid", &LedgerRow::solid},
     {"erodible", &LedgerRow::erodible},
@@ -80,6 +91,10 @@ inline constexpr std::array<Column<LedgerRow>, 12> ledger_columns{{
     {"fines_out", &LedgerRow::fines_out},
     {"residual_water", &LedgerRow::residual_water},
     {"residual_grains", &LedgerRow::residual_grains},
+    {"pending", &LedgerRow::pending},
+    {"points", &LedgerRow::points},
+    {"points_in", &LedgerRow::points_in},
+    {"points_out", &LedgerRow::points_out},
 }};
 
 /// regions.csv: the ledger of one region, its boundary with other regions included in `*_in` and

@@ -1,6 +1,7 @@
 #include "results/vtkhdf.hpp"
 
 #include <array>
+#include <numeric>
 #include <stdexcept>
 
 namespace suffuse {
@@ -79,12 +80,19 @@ VtkGrid vtk_grid(const Mesh<Dim>& mesh) {
 
 template <int Dim>
 VtkGrid vtk_grid(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points) {
+  std::vector<double> positions;
+  for (int p = 0; p < points.size(); ++p) {
+    append_position<Dim>(positions, points.position(mesh, p));
+  }
+  return vtk_grid(std::move(positions));
+}
+
+VtkGrid vtk_grid(std::vector<double> points) {
   VtkGrid grid;
   grid.cell_type = vtk_vertex;
-  for (int p = 0; p < points.size(); ++p) {
-    append_position<Dim>(grid.points, points.position(mesh, p));
-    grid.connectivity.push_back(p);
-  }
+  grid.connectivity.resize(points.size() / 3);
+  std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
+  grid.points = std::move(points);
   return grid;
 }
 

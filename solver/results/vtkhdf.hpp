@@ -30,6 +30,9 @@ VtkGrid vtk_grid(const Mesh<Dim>& mesh);
 template <int Dim>
 VtkGrid vtk_grid(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points);
 
+/// One vertex cell per position of `points` (x, y, z of each).
+VtkGrid vtk_grid(std::vector<double> points);
+
 /// Writes the group /VTKHDF. Fields that are vectors in the plane (2 components) get a zero third
 /// component, as VTK wants of a vector; their attribute `components` keeps what they had.
 void write_vtkhdf(Hdf5File& file, const VtkGrid& grid, const std::vector<Field>& cell_fields,

@@ -241,6 +241,15 @@ void ResultsWriter<Dim>::write_snapshot(const Snapshot& snapshot) {
     write_vtkhdf(file, vtk_grid(case_.mesh, case_.solid_points), {}, snapshot.solid);
     write_provenance(file, case_, snapshot);
   });
+  if (case_.document.scene.formulation == Formulation::double_point) {
+    const std::string liquid_name = snapshot_name("liquid", liquid_series_.size());
+    write_hdf5_whole(in_folder(folder_, liquid_name), [&](Hdf5File& file) {
+      write_vtkhdf(file, vtk_grid(snapshot.liquid_positions), {}, snapshot.liquid);
+      write_provenance(file, case_, snapshot);
+    });
+    liquid_series_.push_back({liquid_name, snapshot.time});
+    replace_file(in_folder(folder_, layout::series("liquid")), series_json(liquid_series_));
+  }
   mesh_series_.push_back({mesh_name, snapshot.time});
   solid_series_.push_back({solid_name, snapshot.time});
   replace_file(in_folder(folder_, layout::series("mesh")), series_json(mesh_series_));

@@ -3,8 +3,8 @@
 /// Writes the results folder of a run. Layout: docs/file-formats.md.
 ///
 ///     NAME.results/run.json  history.csv  ledger.csv  regions.csv
-///     NAME.results/mesh.hdf.series  solid.hdf.series
-///     NAME.results/snapshots/mesh_000000.hdf  solid_000000.hdf  ...
+///     NAME.results/mesh.hdf.series  solid.hdf.series  liquid.hdf.series
+///     NAME.results/snapshots/mesh_000000.hdf  solid_000000.hdf  liquid_000000.hdf  ...
 
 #include <span>
 #include <string>
@@ -27,9 +27,11 @@ struct Field {
 struct Snapshot {
   double time = 0.0;
   long step = 0;
-  std::vector<Field> cell;   ///< per element: means
-  std::vector<Field> node;   ///< per mesh node
-  std::vector<Field> solid;  ///< per solid point
+  std::vector<Field> cell;               ///< per element: means
+  std::vector<Field> node;               ///< per mesh node
+  std::vector<Field> solid;              ///< per solid point
+  std::vector<double> liquid_positions;  ///< x, y, z of every liquid point; double-point only
+  std::vector<Field> liquid;             ///< per liquid point
   /// The element's own linear scalar at its vertices: Dim + 1 components per element, in the order
   /// of its nodes. `sample` reads these.
   std::vector<Field> element_vertex;
@@ -83,6 +85,7 @@ class ResultsWriter {
   const Case<Dim>& case_;
   std::vector<SeriesEntry> mesh_series_;
   std::vector<SeriesEntry> solid_series_;
+  std::vector<SeriesEntry> liquid_series_;
 };
 
 }  // namespace suffuse

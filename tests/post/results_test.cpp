@@ -105,7 +105,8 @@ TEST(Results, HistoryBeginsWithTheDocumentedColumns) {
                                "empty_elements_total"));
   EXPECT_TRUE(file_text(scratch / "run.results/ledger.csv")
                   .starts_with("t,solid,erodible,water,fines,eroded,water_in,fines_in,water_out,"
-                               "fines_out,residual_water,residual_grains\n"));
+                               "fines_out,residual_water,residual_grains,pending,points,"
+                               "points_in,points_out\n"));
 }
 
 TEST(Results, RunInfoHasItsKeys) {
