@@ -56,10 +56,14 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.fines_in = crossed.fines_in;
   row.water_out = crossed.water_out;
   row.fines_out = crossed.fines_out;
+  row.pending = stored.pending;
+  row.points = stored.points;
+  row.points_in = crossed.points_in;
+  row.points_out = crossed.points_out;
   row.residual_water =
       relative(stored.water - initial.water + crossed.water_out - crossed.water_in, initial.water);
   row.residual_grains = relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
-                                     crossed.fines_out - crossed.fines_in,
+                                     stored.pending + crossed.fines_out - crossed.fines_in,
                                  initial.solid + initial.fines);
   return row;
 }

@@ -18,6 +18,8 @@ struct Crossed {
   double fines_in = 0.0;
   double water_out = 0.0;
   double fines_out = 0.0;
+  double points_in = 0.0;  ///< liquid points, numbers
+  double points_out = 0.0;
 };
 
 /// Masses inside a boundary, kg.
@@ -27,14 +29,30 @@ struct Stored {
   double water = 0.0;
   double fines = 0.0;
   double eroded = 0.0;
+  double pending = 0.0;  ///< eroded, but not yet with any liquid
+  double points = 0.0;   ///< liquid points, number
+};
+
+/// Running sums behind one `Stored`.
+struct StoredSums {
+  CompensatedSum solid, erodible, water, fines, eroded, pending;
+  double points = 0.0;
+
+  [[nodiscard]] Stored totals() const {
+    return {solid.value(),  erodible.value(), water.value(), fines.value(),
+            eroded.value(), pending.value(),  points};
+  }
 };
 
 /// Running sums behind one `Crossed`.
 struct CrossedSums {
   CompensatedSum water_in, fines_in, water_out, fines_out;
+  double points_in = 0.0;
+  double points_out = 0.0;
 
   [[nodiscard]] Crossed totals() const {
-    return {water_in.value(), fines_in.value(), water_out.value(), fines_out.value()};
+    return {water_in.value(),  fines_in.value(), water_out.value(),
+            fines_out.value(), points_in,        points_out};
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include "case/errors.hpp"
 #include "flow/nodal_operator.hpp"
+#include "physics/drag.hpp"
 #include "physics/liquid.hpp"
 #include "solid/rigid_skeleton.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "balance.hpp"
-#include "flow/explicit_nodal.hpp"
+#include "flow/nodal_flow.hpp"
 #include "plan.hpp"
 #include "results/writer.hpp"
 #include "solid/rigid_skeleton.hpp"
@@ -24,15 +24,6 @@ struct SinglePointState {
   FinesState<Dim> liquid;            ///< pores and grains in them, per element and field node, m3
   std::vector<double> water_mass;    ///< per element, kg
   std::vector<CrossedSums> crossed;  ///< per account: model, then regions
-};
-
-/// The flow at one moment.
-template <int Dim>
-struct FlowMoment {
-  double time = 0.0;
-  double dt = 0.0;
-  std::vector<double> pressure;  ///< per element, Pa
-  VectorField<Dim> velocity;     ///< per node, intrinsic, m/s
 };
 
 template <int Dim>
@@ -52,11 +43,12 @@ class SinglePoint {
   /// Flow steps of `dt` that transport lets pass before it must run.
   [[nodiscard]] long steps_before_transport(double dt) const;
 
-  /// Stability limit with the coefficients of this moment.
-  [[nodiscard]] StabilityLimit current_limit() const;
+  [[nodiscard]] StabilityLimit current_limit() const { return flow_.current_limit(); }
 
   [[nodiscard]] const SinglePointState<Dim>& state() const { return state_; }
-  [[nodiscard]] FlowMoment<Dim> moment() const;
+  [[nodiscard]] FlowMoment<Dim> moment() const {
+    return flow_.moment(state_.time, last_dt_ > 0.0 ? last_dt_ : plan_.step);
+  }
 
   [[nodiscard]] HistoryRow history_row(const SinglePointState<Dim>& state,
                                        const FlowMoment<Dim>& moment) const;
@@ -87,28 +79,20 @@ class SinglePoint {
   /// Pressure and water masses agree after this.
   void synchronise_flow();
   [[nodiscard]] std::vector<Stored> stored(const SinglePointState<Dim>& state) const;
-  [[nodiscard]] std::vector<double> face_fluxes(const VectorField<Dim>& velocity) const;
-  [[nodiscard]] Field node_pressure(const std::vector<double>& pressure) const;
-  void warn_of_locking(const VectorField<Dim>& steady_velocity);
-  void warn_of_unstated_inflow();
 
   const Case<Dim>& case_;
   const Plan& plan_;
   Grid<Dim> grid_;
-  std::vector<FaceCondition> conditions_;
   RigidSkeleton<Dim> skeleton_;
-  NodalOperator<Dim> operator_;
-  ExplicitNodal<Dim> flow_;
+  NodalFlow<Dim> flow_;
   EulerianTransport<Dim> transport_;
   BoundaryAccounts<Dim> accounts_;
-  FlowCoefficients<Dim> coefficients_;
   SinglePointState<Dim> state_;
   std::vector<Stored> initial_;
   double grain_density_ = unset;
   double last_dt_ = 0.0;
   std::vector<double> last_volume_rate_;  ///< per face over the last interval, m3/s
   long last_steps_ = 1;
-  std::vector<bool> inflow_warned_;
   std::vector<std::string> warnings_;
   PassTimings timings_;
 };

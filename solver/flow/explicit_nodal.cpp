@@ -46,6 +46,7 @@ void ExplicitNodal<Dim>::step(double dt) {
   velocity_spacing_ = 0.5 * (last_dt_ + dt);
   accelerate(velocity_spacing_);
   cross_faces(dt);
+  for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] += dt * velocity_[i];
   compress(dt);
   last_dt_ = dt;
 }
@@ -53,11 +54,14 @@ void ExplicitNodal<Dim>::step(double dt) {
 template <int Dim>
 void ExplicitNodal<Dim>::accelerate(double dt) {
   const bool implicit_drag = settings_.drag == DragIntegration::implicit_drag;
+  const std::vector<double>& quadratic = operator_.node_quadratic_drag();
   const int nodes = operator_.grid().mesh.node_count();
 #pragma omp parallel for schedule(static) num_threads(settings_.threads) if (nodes > worth_threads)
   for (int i = 0; i < nodes; ++i) {
     const double rate = dt / (settings_.mass_scaling * operator_.node_mass()[i]);
-    const double damping = rate * operator_.node_drag()[i];
+    double drag = operator_.node_drag()[i];
+    if (!quadratic.empty()) drag += quadratic[i] * velocity_[i].norm();
+    const double damping = rate * drag;
     const Vector<Dim> push = rate * operator_.force(i, pressure_);
     if (implicit_drag) {
       velocity_[i] = (velocity_[i] + push) / (1.0 + damping);
@@ -96,6 +100,7 @@ template <int Dim>
 void ExplicitNodal<Dim>::compress(double dt) {
   const Grid<Dim>& grid = operator_.grid();
   const double modulus = settings_.bulk_modulus;
+  const double convected = settings_.pressure_moves_with_liquid ? 0.0 : 1.0 / modulus;
   const int elements = grid.mesh.element_count();
 #pragma omp parallel for schedule(static) \
     num_threads(settings_.threads) if (elements > worth_threads)
@@ -104,7 +109,7 @@ void ExplicitNodal<Dim>::compress(double dt) {
     for (int k = 0; k <= Dim; ++k) {
       const int f = grid.element_face[e][k];
       const double heavier = carried_water_share_[f] * (upwind_pressure_[f] - pressure_[e]);
-      outflow += grid.element_face_sign[e][k] * face_flux_[f] * (1.0 + heavier / modulus);
+      outflow += grid.element_face_sign[e][k] * face_flux_[f] * (1.0 + convected * heavier);
     }
     // ln(1 - x) to second order: the density's own increment, not only the strain's.
     const double lost = dt * outflow * element_weight_[e];

@@ -14,6 +14,10 @@ struct ExplicitSettings {
   DragIntegration drag = DragIntegration::explicit_drag;
   /// false drops the third term of Eq. 2, for comparison: see FlowSettings.
   bool porosity_gradient_term = true;
+  /// Pressure belongs to liquid that moves: it changes with its strain alone, and whoever moves the
+  /// liquid carries it on.
+  bool pressure_moves_with_liquid = false;
+  bool sum_displacements = false;
   int threads = 1;
 };
 
@@ -46,7 +50,12 @@ class ExplicitNodal {
 
   /// Volumes since the last `reset_volumes`.
   [[nodiscard]] const FaceVolumes& volumes() const { return volumes_; }
-  void reset_volumes() { volumes_.reset(operator_.grid().face_count()); }
+  /// Integral of each node's velocity since then, m; empty unless asked for.
+  [[nodiscard]] const VectorField<Dim>& displacements() const { return displacement_; }
+  void reset_volumes() {
+    volumes_.reset(operator_.grid().face_count());
+    if (settings_.sum_displacements) displacement_.assign(velocity_.size(), Vector<Dim>::Zero());
+  }
 
  private:
   void accelerate(double dt);
@@ -61,6 +70,7 @@ class ExplicitNodal {
   double last_dt_ = 0.0;
   double velocity_spacing_ = 0.0;  ///< time between the last two velocities, s
   FaceVolumes volumes_;
+  VectorField<Dim> displacement_;
 
   std::vector<double> element_weight_;  ///< 1 / water volume (times n_e without the third term)
   std::vector<double> carried_water_share_;  ///< 1 - c per face

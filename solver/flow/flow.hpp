@@ -11,10 +11,12 @@ namespace suffuse {
 /// What the rest of the model tells the flow. All per element unless noted.
 template <int Dim>
 struct FlowCoefficients {
-  std::vector<double> porosity;            ///< n_L
-  std::vector<double> water_volume;        ///< pore volume less fluidised grains, m3
-  std::vector<double> mixture_density;     ///< rho_L, kg/m3
-  std::vector<double> drag;                ///< on the liquid, divided by n_L, kg/(m3 s)
+  std::vector<double> porosity;         ///< n_L
+  std::vector<double> water_volume;     ///< pore volume less fluidised grains, m3
+  std::vector<double> mixture_density;  ///< rho_L, kg/m3
+  std::vector<double> drag;             ///< on the liquid, divided by n_L, kg/(m3 s)
+  /// Of fast flow: b in the pressure gradient b |q| q, kg/m4 (Ergun). Empty where no soil has it.
+  std::vector<double> quadratic_drag;
   std::vector<double> face_concentration;  ///< per face: c of the liquid that crosses it
 };
 

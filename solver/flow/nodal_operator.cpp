@@ -101,17 +101,22 @@ void NodalOperator<Dim>::update(const FlowCoefficients<Dim>& coefficients) {
   node_porosity_.assign(nodes, 0.0);
   node_mass_.assign(nodes, 0.0);
   node_drag_.assign(nodes, 0.0);
+  const bool quadratic = !coefficients.quadratic_drag.empty();
+  node_quadratic_drag_.assign(quadratic ? nodes : 0, 0.0);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const double share = grid_.volume[e] / (Dim + 1);
     for (const int i : grid_.mesh.elements[e]) {
       node_porosity_[i] += share * coefficients.porosity[e];
       node_mass_[i] += share * coefficients.mixture_density[e];
-      node_drag_[i] += share * coefficients.drag[e];
+      node_drag_[i] += share * coefficients.drag[e] / coefficients.porosity[e];
+      if (quadratic) node_quadratic_drag_[i] += share * coefficients.quadratic_drag[e];
     }
   }
   external_force_ = boundary_force_;
   for (int i = 0; i < nodes; ++i) {
     node_porosity_[i] /= grid_.node_volume[i];
+    node_drag_[i] *= node_porosity_[i];
+    if (quadratic) node_quadratic_drag_[i] *= node_porosity_[i] * node_porosity_[i];
     external_force_[i] += node_mass_[i] * gravity_;
   }
   carried_porosity_ =

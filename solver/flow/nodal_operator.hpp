@@ -45,8 +45,13 @@ class NodalOperator {
   [[nodiscard]] const std::vector<double>& carried_porosity() const { return carried_porosity_; }
   /// Mass that accelerates per node, kg, without mass scaling.
   [[nodiscard]] const std::vector<double>& node_mass() const { return node_mass_; }
-  /// Drag per node, kg/s.
+  /// Linear drag per node, kg/s. It acts on the flux n_i v_i, which is one on both sides of a jump
+  /// of porosity or conductivity.
   [[nodiscard]] const std::vector<double>& node_drag() const { return node_drag_; }
+  /// What fast flow adds, per speed of the node, kg/m; empty without it.
+  [[nodiscard]] const std::vector<double>& node_quadratic_drag() const {
+    return node_quadratic_drag_;
+  }
   [[nodiscard]] const std::vector<NodeConstraint<Dim>>& constraints() const { return constraints_; }
 
   /// Force of pressure and gravity on a node, N.
@@ -93,6 +98,7 @@ class NodalOperator {
   std::vector<double> carried_porosity_;
   std::vector<double> node_mass_;
   std::vector<double> node_drag_;
+  std::vector<double> node_quadratic_drag_;
   std::vector<unsigned char>
       flux_is_fixed_;  ///< one byte per face: the hot loop reads nothing else
   std::vector<double> fixed_flux_;

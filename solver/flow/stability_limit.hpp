@@ -24,10 +24,12 @@ struct StabilityLimit {
 /// 4 M - 2 dt C - dt^2 A (explicit drag) or 4 M + 2 dt C - dt^2 A (implicit drag) is positive
 /// definite. Each is a sum over elements, so the smallest limit of one element is safe for the
 /// grid. For one element A has the single eigenvalue omega_e^2 = (Dim + 1) (K / rho_L) sum n_i
-/// |grad N_i|^2 / n_w,e.
+/// |grad N_i|^2 / n_w,e. The drag of fast flow counts at the speeds `node_speed`, m/s; none
+/// without.
 template <int Dim>
 StabilityLimit stability_limit(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                                const std::vector<double>& carried_porosity, double bulk_modulus,
-                               double mass_scaling, DragIntegration drag);
+                               double mass_scaling, DragIntegration drag,
+                               const std::vector<double>& node_speed = {});
 
 }  // namespace suffuse

@@ -10,13 +10,13 @@
 namespace suffuse {
 namespace {
 
-/// Velocity in balance with a pressure.
+/// Velocity in balance with a pressure, against a drag per node, kg/s.
 template <int Dim>
-VectorField<Dim> balanced_velocity(const NodalOperator<Dim>& op,
+VectorField<Dim> balanced_velocity(const NodalOperator<Dim>& op, const std::vector<double>& drag,
                                    const std::vector<double>& pressure) {
   VectorField<Dim> velocity(op.grid().mesh.node_count());
   for (std::size_t i = 0; i < velocity.size(); ++i) {
-    velocity[i] = op.force(static_cast<int>(i), pressure) / op.node_drag()[i];
+    velocity[i] = op.force(static_cast<int>(i), pressure) / drag[i];
   }
   op.constrain(velocity);
   return velocity;
@@ -40,7 +40,8 @@ Eigen::VectorXd net_outflow(const NodalOperator<Dim>& op, const VectorField<Dim>
 
 /// d(net outflow)/d(pressure): symmetric, positive semi-definite.
 template <int Dim>
-Eigen::SparseMatrix<double> pressure_matrix(const NodalOperator<Dim>& op) {
+Eigen::SparseMatrix<double> pressure_matrix(const NodalOperator<Dim>& op,
+                                            const std::vector<double>& drag) {
   const Grid<Dim>& grid = op.grid();
   const int nodes = grid.mesh.node_count();
   std::vector<Eigen::Matrix<double, Dim, Dim>> free(nodes,
@@ -60,7 +61,7 @@ Eigen::SparseMatrix<double> pressure_matrix(const NodalOperator<Dim>& op) {
         gradient[a - first] += grid.element_face_sign[e][k] * grid.face_normal[f] / Dim;
       }
     }
-    const double mobility = op.carried_porosity()[i] / op.node_drag()[i];
+    const double mobility = op.carried_porosity()[i] / drag[i];
     for (int a = first; a < last; ++a) {
       for (int b = first; b < last; ++b) {
         entries.emplace_back(grid.node_element[a], grid.node_element[b],
@@ -74,18 +75,21 @@ Eigen::SparseMatrix<double> pressure_matrix(const NodalOperator<Dim>& op) {
   return matrix;
 }
 
-}  // namespace
-
+/// Steady flow against a linear drag per node.
 template <int Dim>
-NodalFlowState<Dim> steady_flow(const NodalOperator<Dim>& op) {
+NodalFlowState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
+                                       const std::vector<double>& drag) {
   constexpr double storage_share = 1e-7;  // of the matrix' own diagonal
   constexpr int most_solves = 60;
   constexpr double goal = 1e-14;
 
-  Eigen::SparseMatrix<double> matrix = pressure_matrix(op);
+  Eigen::SparseMatrix<double> matrix = pressure_matrix(op, drag);
   const Eigen::VectorXd diagonal = matrix.diagonal();
-  const double storage = storage_share * diagonal.maxCoeff();
-  for (int e = 0; e < matrix.rows(); ++e) matrix.coeffRef(e, e) += storage;
+  for (int e = 0; e < matrix.rows(); ++e) {
+    // An element all of whose nodes are held has nothing on its own diagonal.
+    matrix.coeffRef(e, e) +=
+        storage_share * (diagonal[e] > 0.0 ? diagonal[e] : diagonal.maxCoeff());
+  }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
   if (solver.info() != Eigen::Success) {
     throw NumericalError("the steady initial flow could not be solved: the factorisation failed");
@@ -100,7 +104,7 @@ NodalFlowState<Dim> steady_flow(const NodalOperator<Dim>& op) {
   state.pressure.assign(matrix.rows(), 0.0);
   double previous = std::numeric_limits<double>::infinity();
   for (int solve = 0; solve < most_solves; ++solve) {
-    state.velocity = balanced_velocity(op, state.pressure);
+    state.velocity = balanced_velocity(op, drag, state.pressure);
     double largest_flux = 0.0;
     const Eigen::VectorXd outflow = net_outflow(op, state.velocity, largest_flux);
     const double worst = outflow.cwiseAbs().maxCoeff();
@@ -112,6 +116,31 @@ NodalFlowState<Dim> steady_flow(const NodalOperator<Dim>& op) {
     for (Eigen::Index e = 0; e < correction.size(); ++e) state.pressure[e] -= correction[e];
   }
   return state;
+}
+
+}  // namespace
+
+template <int Dim>
+NodalFlowState<Dim> steady_flow(const NodalOperator<Dim>& op) {
+  constexpr int most_iterations = 200;
+  constexpr double goal = 1e-12;
+  const std::vector<double>& quadratic = op.node_quadratic_drag();
+  NodalFlowState<Dim> state = linear_steady_flow(op, op.node_drag());
+  if (quadratic.empty()) return state;
+  // The secant drag of the last iterate and the one before, in equal parts: alone each overshoots.
+  std::vector<double> drag = op.node_drag();
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    double change = 0.0;
+    for (std::size_t i = 0; i < drag.size(); ++i) {
+      const double secant = op.node_drag()[i] + quadratic[i] * state.velocity[i].norm();
+      change = std::max(change, std::abs(secant - drag[i]) / drag[i]);
+      drag[i] = 0.5 * (drag[i] + secant);
+    }
+    if (change <= goal) return state;
+    state = linear_steady_flow(op, drag);
+  }
+  throw NumericalError(
+      "the steady initial flow with Ergun's drag was not found: its drag still changes");
 }
 
 template NodalFlowState<2> steady_flow(const NodalOperator<2>&);

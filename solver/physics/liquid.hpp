@@ -6,9 +6,6 @@
 
 namespace suffuse {
 
-/// Acceleration of gravity that turns conductivity into drag, whatever gravity the scene has, m/s2.
-inline constexpr double conductivity_gravity = 9.81;
-
 /// p = K ln(rho_w / rho_w0), from the ratio rho_w / rho_w0.
 inline double pressure_from_density_ratio(double ratio, double bulk_modulus) {
   return bulk_modulus * std::log(ratio);
@@ -22,11 +19,6 @@ inline double density_ratio(double pressure, double bulk_modulus) {
 /// rho_L = (1 - c) rho_w + c rho_s, kg/m3.
 inline double mixture_density(double concentration, double water_density, double grain_density) {
   return (1.0 - concentration) * water_density + concentration * grain_density;
-}
-
-/// Darcy drag on the liquid per mixture volume, divided by n_L: n_L rho_w g / k, in kg/(m3 s).
-inline double darcy_drag(double porosity, double water_density, double conductivity) {
-  return porosity * water_density * conductivity_gravity / conductivity;
 }
 
 }  // namespace suffuse

@@ -5,12 +5,34 @@
 #include "case/errors.hpp"
 
 namespace suffuse {
+namespace {
+
+/// Free water resists the flow so much less than the most conductive soil: next to nothing, and
+/// steady flow through it is still one linear system.
+constexpr double free_water_ease = 1e4;
+
+Soil free_water(const Scene& scene) {
+  Soil water;
+  water.porosity = 1.0;
+  water.skeleton_fraction = 0.0;
+  water.conductivity = 0.0;
+  for (const Soil& soil : scene.soils) {
+    water.conductivity = std::max(water.conductivity, free_water_ease * soil.conductivity);
+  }
+  return water;
+}
+
+}  // namespace
 
 template <int Dim>
 RigidSkeleton<Dim>::RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid)
-    : mesh_(c.mesh), points_(c.solid_points), grid_(grid) {
+    : mesh_(c.mesh),
+      points_(c.solid_points),
+      grid_(grid),
+      free_water_(std::make_shared<const Soil>(free_water(c.document.scene))) {
   for (const std::string& region : mesh_.region_names) {
     const Soil* soil = c.document.scene.find_soil(region);
+    if (soil == nullptr && c.document.scene.is_free_water(region)) soil = free_water_.get();
     if (soil == nullptr) {
       throw InputError({{c.document.locate("soil"), "soil." + region, "nothing",
                          "a soil for region '" + region + "' of the mesh", ""}});

@@ -3,6 +3,7 @@
 /// The solid phase: porosity at fixed material points, eroding. Whatever else needs the solid sees
 /// it through this class, so that a moving skeleton can take its place.
 
+#include <memory>
 #include <vector>
 
 #include "case/case_file.hpp"
@@ -12,7 +13,8 @@
 
 namespace suffuse {
 
-/// Pore volume and what erosion added to it, element by element, as the liquid sees it.
+/// Pore volume and what erosion added to it, element by element, as the liquid sees it. Free water
+/// (double-point) is there as a soil of porosity 1 without solid points.
 template <int Dim>
 class RigidSkeleton {
  public:
@@ -38,6 +40,9 @@ class RigidSkeleton {
   [[nodiscard]] ElementField<Dim> initial_pore_volume() const;
 
   [[nodiscard]] bool erodes() const;
+  [[nodiscard]] bool is_soil(int element) const {
+    return soil_of_region_[mesh_.element_region[element]] != free_water_.get();
+  }
   [[nodiscard]] const Soil& soil_of_element(int element) const {
     return *soil_of_region_[mesh_.element_region[element]];
   }
@@ -53,6 +58,7 @@ class RigidSkeleton {
   const Mesh<Dim>& mesh_;
   const MaterialPoints<Dim>& points_;
   const Grid<Dim>& grid_;
+  std::shared_ptr<const Soil> free_water_;
   std::vector<const Soil*> soil_of_region_;
   std::vector<ErosionModel> erosion_of_region_;
   std::vector<double> initial_porosity_;

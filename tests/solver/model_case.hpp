@@ -8,6 +8,7 @@
 #include "case/case_file.hpp"
 #include "flow/flow.hpp"
 #include "grid/grid.hpp"
+#include "physics/drag.hpp"
 #include "physics/liquid.hpp"
 #include "seeding.hpp"
 

@@ -1,0 +1,100 @@
+#pragma once
+
+/// The explicit flow of a scene, whichever way its liquid is carried: boundary conditions,
+/// operator, scheme and state at the start, and what the results say of it.
+
+#include <string>
+#include <vector>
+
+#include "flow/explicit_nodal.hpp"
+#include "flow/stability_limit.hpp"
+#include "results/writer.hpp"
+#include "solid/rigid_skeleton.hpp"
+
+namespace suffuse {
+
+/// The flow at one moment.
+template <int Dim>
+struct FlowMoment {
+  double time = 0.0;
+  double dt = 0.0;
+  std::vector<double> pressure;  ///< per element, Pa
+  VectorField<Dim> velocity;     ///< per node, intrinsic, m/s
+};
+
+/// What the pores hold, per element, as the flow needs to know it.
+struct PoreContent {
+  std::vector<double> porosity;       ///< n_L
+  std::vector<double> water_volume;   ///< pore volume less fluidised grains, m3
+  std::vector<double> concentration;  ///< c
+};
+
+template <int Dim>
+class NodalFlow {
+ public:
+  NodalFlow(const Case<Dim>& c, const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
+            int threads);
+  NodalFlow(const NodalFlow&) = delete;
+  NodalFlow& operator=(const NodalFlow&) = delete;
+
+  [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
+  [[nodiscard]] const NodalOperator<Dim>& nodal_operator() const { return operator_; }
+  [[nodiscard]] ExplicitNodal<Dim>& scheme() { return scheme_; }
+  [[nodiscard]] const ExplicitNodal<Dim>& scheme() const { return scheme_; }
+  [[nodiscard]] const FlowCoefficients<Dim>& coefficients() const { return coefficients_; }
+
+  /// Takes what the pores hold at `time`, and the concentration of what crosses each face.
+  void update(double time, const PoreContent& content, std::vector<double> face_concentration);
+
+  /// At rest or steady, as the scene says. Warns where this mesh cannot follow the flow.
+  void start(std::vector<std::string>& warnings);
+
+  /// Stability limit with the coefficients and speeds of this moment.
+  [[nodiscard]] StabilityLimit current_limit() const;
+
+  [[nodiscard]] FlowMoment<Dim> moment(double time, double dt) const {
+    return {time, dt, scheme_.pressure(), scheme_.velocity()};
+  }
+  /// The scheme's last step seen at `time`, `share` of it after its begin, where the pressure was
+  /// `pressure_before`.
+  [[nodiscard]] FlowMoment<Dim> moment_within_step(
+      double time, double dt, double share, const std::vector<double>& pressure_before) const;
+
+  /// Liquid volume through each face per second, m3/s.
+  [[nodiscard]] std::vector<double> face_fluxes(const VectorField<Dim>& velocity) const;
+  /// Darcy flux at the centroid of each element, m/s: the Raviart-Thomas field of the face fluxes.
+  [[nodiscard]] VectorField<Dim> darcy_flux(const std::vector<double>& face_flux) const;
+  /// Mean of the elements around each node, Pa. Element pressures carry patterns that push no node,
+  /// large on unstructured meshes; this is almost free of them. Where a pressure is prescribed,
+  /// that is it.
+  [[nodiscard]] std::vector<double> node_pressure(const std::vector<double>& pressure) const;
+
+  /// Fluxes through the outer boundary, pressures and speeds.
+  void describe(const FlowMoment<Dim>& moment, HistoryRow& row) const;
+
+  /// Names each boundary that liquid entered through, once, where the scene gives it no
+  /// concentration. `entered`: volume along each face's normal, m3.
+  void warn_of_unstated_inflow(double time, const std::vector<double>& entered,
+                               std::vector<std::string>& warnings);
+
+ private:
+  void warn_of_locking(const VectorField<Dim>& steady_velocity,
+                       std::vector<std::string>& warnings) const;
+
+  const Scene& scene_;
+  const Grid<Dim>& grid_;
+  const RigidSkeleton<Dim>& skeleton_;
+  std::vector<FaceCondition> conditions_;
+  NodalOperator<Dim> operator_;
+  ExplicitNodal<Dim> scheme_;
+  FlowCoefficients<Dim> coefficients_;
+  std::vector<double> grain_size_;  ///< per element, of Ergun's drag; empty where no soil has it, m
+  double grain_density_ = unset;
+  std::vector<bool> inflow_warned_;
+};
+
+/// Share of the way from `a` to `b`.
+std::vector<double> between(const std::vector<double>& a, const std::vector<double>& b,
+                            double share);
+
+}  // namespace suffuse

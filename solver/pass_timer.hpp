@@ -1,0 +1,27 @@
+#pragma once
+
+/// What a pass of the solver costs.
+
+#include <chrono>
+
+#include "results/writer.hpp"
+
+namespace suffuse {
+
+/// Adds the time it lives to a pass.
+class PassTimer {
+ public:
+  explicit PassTimer(PassTiming& pass) : pass_(pass), start_(std::chrono::steady_clock::now()) {}
+  PassTimer(const PassTimer&) = delete;
+  PassTimer& operator=(const PassTimer&) = delete;
+  ~PassTimer() {
+    pass_.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  PassTiming& pass_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace suffuse
