@@ -49,7 +49,10 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
   }
   const double clean = 1.0 - largest_inflow_concentration(scene);
   double dilution = 1.0;  // of water by eroded grains, at worst
-  for (int e = 0; e < elements; ++e) dilution = std::min(dilution, first[e] / last[e]);
+  for (int e = 0; e < elements; ++e) {
+    if (!skeleton.is_soil(e)) first[e] = last[e] = 1.0;
+    dilution = std::min(dilution, first[e] / last[e]);
+  }
 
   FlowCoefficients<Dim> worst;
   for (int e = 0; e < elements; ++e) {
@@ -86,6 +89,7 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
 /// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero.
 template <int Dim>
 void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
+                                 const RigidSkeleton<Dim>& skeleton,
                                  const std::vector<FaceCondition>& conditions) {
   const Scene& scene = c.document.scene;
   if (scene.initial_flow != InitialFlow::steady) return;
@@ -95,8 +99,7 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
     if (conditions[f].kind == FaceKind::pressure) return;
     double flux = grid.face_normal[f].norm() * conditions[f].value;
     if (conditions[f].kind == FaceKind::velocity) {
-      const int region = c.mesh.element_region[grid.face_left[f]];
-      flux *= scene.find_soil(c.mesh.region_names[region])->initial_porosity(grid.face_centre(f));
+      flux *= skeleton.soil_of_element(grid.face_left[f]).initial_porosity(grid.face_centre(f));
     }
     net += flux;
     gross += std::abs(flux);
@@ -133,8 +136,16 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
       (plan.step_given ? "step from the scene" : "0.9 of the limit") + ")");
   const std::string because = options.no_skip ? " (--no-skip)" : "";
   say(plan.erosion ? "run: erosion" + because : "skip: erosion, no soil erodes");
-  say(plan.transport ? "run: transport of fluidised grains" + because
-                     : "skip: transport, no soil erodes and no grains flow in");
+  if (scene.formulation == Formulation::double_point) {
+    const bool carried = scene.flow.integration == PressureIntegration::material_point;
+    say(carried ? "run: movement of liquid points with every step of the flow; they carry velocity "
+                  "and pressure (material-point integration)"
+                : "run: movement of liquid points whenever the flow has brought them half an "
+                  "element on; nodes and elements keep velocity and pressure (mixed integration)");
+  } else {
+    say(plan.transport ? "run: transport of fluidised grains" + because
+                       : "skip: transport, no soil erodes and no grains flow in");
+  }
   say("skip: motion of the solid, the skeleton is rigid");
   const bool gravity =
       std::any_of(scene.gravity.begin(), scene.gravity.end(), [](double g) { return g != 0.0; });
@@ -154,7 +165,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
 
   const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton);
   const std::vector<FaceCondition> conditions = face_conditions(c, grid);
-  refuse_contradictory_fluxes(c, grid, conditions);
+  refuse_contradictory_fluxes(c, grid, skeleton, conditions);
   NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
   op.update(worst);
   plan.limit = stability_limit(grid, worst, op.node_porosity(), scene.liquid.bulk_modulus,

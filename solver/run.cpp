@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "double_point.hpp"
 #include "progress.hpp"
 #include "single_point.hpp"
 
@@ -37,10 +38,11 @@ class OutputTimes {
   bool finished_ = false;
 };
 
-template <int Dim>
-class SinglePointRun {
+/// One run of a formulation, SinglePoint or DoublePoint.
+template <template <int> class Model, int Dim>
+class FormulationRun {
  public:
-  SinglePointRun(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
+  FormulationRun(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
                  const std::string& folder, bool quiet)
       : case_(c),
         plan_(plan),
@@ -141,7 +143,7 @@ class SinglePointRun {
     warn(message.str());
   }
 
-  void output(const SinglePointState<Dim>& state, const FlowMoment<Dim>& moment) {
+  void output(const typename Model<Dim>::State& state, const FlowMoment<Dim>& moment) {
     if (!rows_.finished() && rows_.next() <= moment.time) {
       const HistoryRow row = model_.history_row(state, moment);
       check_finite(row);
@@ -210,6 +212,7 @@ class SinglePointRun {
     info.message = message;
     info.steps = steps_done_;
     info.solid_points = case_.solid_points.size();
+    info.liquid_points = model_.liquid_points();
     info.elements = case_.mesh.element_count();
     info.threads = options_.threads;
     info.wall_seconds =
@@ -225,7 +228,7 @@ class SinglePointRun {
   const SolverOptions& options_;
   std::chrono::steady_clock::time_point start_;
   ResultsWriter<Dim> writer_;
-  SinglePoint<Dim> model_;
+  Model<Dim> model_;
   Progress progress_;
   OutputTimes rows_;
   OutputTimes snapshots_;
@@ -244,7 +247,11 @@ int run_case(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
   interrupt_requested = 0;
   std::signal(SIGINT, request_interrupt);
   std::signal(SIGTERM, request_interrupt);
-  return static_cast<int>(SinglePointRun<Dim>(c, plan, options, folder, quiet).run());
+  const bool single_point = c.document.scene.formulation == Formulation::single_point;
+  const ExitCode code =
+      single_point ? FormulationRun<SinglePoint, Dim>(c, plan, options, folder, quiet).run()
+                   : FormulationRun<DoublePoint, Dim>(c, plan, options, folder, quiet).run();
+  return static_cast<int>(code);
 }
 
 template int run_case(const Case<2>&, const Plan&, const SolverOptions&, const std::string&, bool);

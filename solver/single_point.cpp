@@ -89,36 +89,17 @@ auto SinglePoint<Dim>::advance(long steps, double dt, const std::vector<double>&
     -> std::vector<Observation> {
   const double begin = state_.time;
   std::vector<Observation> seen;
-  flow_.scheme().reset_volumes();
-  auto next = times.begin();
-  struct {
-    std::vector<double> pressure;
-    FaceVolumes volumes;
-  } before;
-  // Within a step flux is constant, so volumes are linear; erosion and transport follow with those.
-  const auto observe = [&](double time, double step_begin) {
-    const double share = (time - step_begin) / dt;
-    const FaceVolumes volumes{
-        between(before.volumes.liquid, flow_.scheme().volumes().liquid, share),
-        between(before.volumes.density_excess, flow_.scheme().volumes().density_excess, share)};
-    PassTimings outputs_are_not_the_run;
-    Observation observation;
-    observation.state = advanced(state_, volumes, time - begin, outputs_are_not_the_run);
-    observation.state.time = time;
-    observation.flow = flow_.moment_within_step(time, dt, share, before.pressure);
-    seen.push_back(std::move(observation));
-  };
-  for (long s = 0; s < steps; ++s) {
-    const double step_begin = begin + static_cast<double>(s) * dt;
-    const double step_end =
-        s + 1 == steps ? std::numeric_limits<double>::infinity() : step_begin + dt;
-    if (next != times.end() && *next <= step_end)
-      before = {flow_.scheme().pressure(), flow_.scheme().volumes()};
-    {
-      const PassTimer timer(timings_.flow);
-      flow_.scheme().step(dt);
-    }
-    for (; next != times.end() && *next <= step_end; ++next) observe(*next, step_begin);
+  {
+    const PassTimer timer(timings_.flow);
+    flow_.run(begin, steps, dt, times, [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
+      PassTimings outputs_are_not_the_run;
+      Observation observation;
+      observation.state =
+          advanced(state_, passed.volumes, moment.time - begin, outputs_are_not_the_run);
+      observation.state.time = moment.time;
+      observation.flow = std::move(moment);
+      seen.push_back(std::move(observation));
+    });
   }
   timings_.flow.calls += steps;
 

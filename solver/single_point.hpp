@@ -29,6 +29,8 @@ struct SinglePointState {
 template <int Dim>
 class SinglePoint {
  public:
+  using State = SinglePointState<Dim>;
+
   SinglePoint(const Case<Dim>& c, const Plan& plan, const SolverOptions& options);
 
   /// The model at a time between steps.
@@ -56,6 +58,8 @@ class SinglePoint {
   [[nodiscard]] std::vector<RegionRow> region_rows(const SinglePointState<Dim>& state) const;
   [[nodiscard]] Snapshot snapshot(const SinglePointState<Dim>& state, const FlowMoment<Dim>& moment,
                                   long step) const;
+
+  [[nodiscard]] long liquid_points() const { return 0; }
 
   [[nodiscard]] std::vector<PassTiming> passes() const;
   /// Things to say once, newly found.

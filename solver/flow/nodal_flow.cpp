@@ -39,13 +39,6 @@ ExplicitSettings scheme_settings(const Scene& scene, int threads) {
 
 }  // namespace
 
-std::vector<double> between(const std::vector<double>& a, const std::vector<double>& b,
-                            double share) {
-  std::vector<double> result(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] + share * (b[i] - a[i]);
-  return result;
-}
-
 template <int Dim>
 NodalFlow<Dim>::NodalFlow(const Case<Dim>& c, const Grid<Dim>& grid,
                           const RigidSkeleton<Dim>& skeleton, int threads)
@@ -152,13 +145,6 @@ StabilityLimit NodalFlow<Dim>::current_limit() const {
   return stability_limit(grid_, coefficients_, operator_.node_porosity(),
                          scene_.liquid.bulk_modulus, scene_.time.mass_scaling, scene_.time.drag,
                          speed);
-}
-
-template <int Dim>
-FlowMoment<Dim> NodalFlow<Dim>::moment_within_step(
-    double time, double dt, double share, const std::vector<double>& pressure_before) const {
-  return {time, dt, between(pressure_before, scheme_.pressure(), share),
-          scheme_.velocity_at((share - 0.5) * dt)};
 }
 
 template <int Dim>

@@ -3,6 +3,7 @@
 /// The explicit flow of a scene, whichever way its liquid is carried: boundary conditions,
 /// operator, scheme and state at the start, and what the results say of it.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,14 @@
 
 namespace suffuse {
 
+/// Share of the way from `a` to `b`.
+template <class Value>
+std::vector<Value> between(const std::vector<Value>& a, const std::vector<Value>& b, double share) {
+  std::vector<Value> result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] + share * (b[i] - a[i]);
+  return result;
+}
+
 /// The flow at one moment.
 template <int Dim>
 struct FlowMoment {
@@ -21,6 +30,20 @@ struct FlowMoment {
   std::vector<double> pressure;  ///< per element, Pa
   VectorField<Dim> velocity;     ///< per node, intrinsic, m/s
 };
+
+/// What has passed since the last meeting of flow and transport, up to some moment.
+template <int Dim>
+struct Passed {
+  FaceVolumes volumes;
+  VectorField<Dim> displacements;  ///< see ExplicitNodal
+};
+
+template <int Dim>
+Passed<Dim> between(const Passed<Dim>& a, const Passed<Dim>& b, double share) {
+  return {{between(a.volumes.liquid, b.volumes.liquid, share),
+           between(a.volumes.density_excess, b.volumes.density_excess, share)},
+          between(a.displacements, b.displacements, share)};
+}
 
 /// What the pores hold, per element, as the flow needs to know it.
 struct PoreContent {
@@ -55,10 +78,34 @@ class NodalFlow {
   [[nodiscard]] FlowMoment<Dim> moment(double time, double dt) const {
     return {time, dt, scheme_.pressure(), scheme_.velocity()};
   }
-  /// The scheme's last step seen at `time`, `share` of it after its begin, where the pressure was
-  /// `pressure_before`.
-  [[nodiscard]] FlowMoment<Dim> moment_within_step(
-      double time, double dt, double share, const std::vector<double>& pressure_before) const;
+  /// Runs `steps` steps of `dt` from time `begin`. Calls observe(moment, passed) for each of
+  /// `times` (ascending, within these steps) in turn: flux is constant within a step, so what has
+  /// passed is linear.
+  template <class Observe>
+  void run(double begin, long steps, double dt, const std::vector<double>& times,
+           const Observe& observe) {
+    scheme_.reset_volumes();
+    auto next = times.begin();
+    for (long s = 0; s < steps; ++s) {
+      const double step_begin = begin + static_cast<double>(s) * dt;
+      const double step_end =
+          s + 1 == steps ? std::numeric_limits<double>::infinity() : step_begin + dt;
+      if (next == times.end() || *next > step_end) {
+        scheme_.step(dt);
+        continue;
+      }
+      const std::vector<double> pressure = scheme_.pressure();
+      const Passed<Dim> before = passed();
+      scheme_.step(dt);
+      for (; next != times.end() && *next <= step_end; ++next) {
+        const double share = (*next - step_begin) / dt;
+        observe(FlowMoment<Dim>{*next, dt, between(pressure, scheme_.pressure(), share),
+                                scheme_.velocity_at((share - 0.5) * dt)},
+                between(before, passed(), share));
+      }
+    }
+  }
+  [[nodiscard]] Passed<Dim> passed() const { return {scheme_.volumes(), scheme_.displacements()}; }
 
   /// Liquid volume through each face per second, m3/s.
   [[nodiscard]] std::vector<double> face_fluxes(const VectorField<Dim>& velocity) const;
@@ -92,9 +139,5 @@ class NodalFlow {
   double grain_density_ = unset;
   std::vector<bool> inflow_warned_;
 };
-
-/// Share of the way from `a` to `b`.
-std::vector<double> between(const std::vector<double>& a, const std::vector<double>& b,
-                            double share);
 
 }  // namespace suffuse

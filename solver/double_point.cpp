@@ -1,0 +1,552 @@
+#include "double_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "observation.hpp"
+#include "pass_timer.hpp"
+#include "physics/liquid.hpp"
+#include "transport/concentration_fit.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Transport and flow meet at the latest after so many flow steps.
+constexpr long most_steps_per_interval = 1000;
+/// Relative growth of porosity in which the flow may still use the porosity from before it.
+constexpr double most_porosity_growth = 2e-3;
+/// Share of its limit that a transport step takes.
+constexpr double transport_safety = 0.9;
+
+/// Codes of the field `saturation_state`.
+enum class Saturation { dry_soil, saturated_soil, free_liquid, empty };
+
+}  // namespace
+
+template <int Dim>
+DoublePoint<Dim>::DoublePoint(const Case<Dim>& c, const Plan& plan, const SolverOptions& options)
+    : case_(c),
+      plan_(plan),
+      grid_(c.mesh),
+      skeleton_(c, grid_),
+      flow_(c, grid_, skeleton_, options.threads),
+      accounts_(grid_),
+      densities_{c.document.scene.liquid.density, c.document.scene.soils.front().grain_density},
+      points_carry_flow_(c.document.scene.flow.integration == PressureIntegration::material_point),
+      transport_(grid_, flow_.conditions(), volumes_at_boundary(), densities_,
+                 c.document.scene.liquid.bulk_modulus, options.threads),
+      transfer_(grid_, skeleton_, densities_.grain) {
+  initialise();
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::volumes_at_boundary() const {
+  std::vector<double> volume(grid_.mesh.element_count(), 0.0);
+  std::vector<int> count(grid_.mesh.element_count(), 0);
+  const MaterialPoints<Dim>& points = case_.liquid_points;
+  for (int p = 0; p < points.size(); ++p) {
+    volume[points.element[p]] += points.volume[p];
+    ++count[points.element[p]];
+  }
+  std::vector<double> result(grid_.face_count());
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    const int e = grid_.face_left[f];
+    result[f] = volume[e] / count[e];
+  }
+  return result;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::initialise() {
+  state_.porosity = skeleton_.initial_porosity();
+  state_.pending.assign(grid_.mesh.node_count(), 0.0);
+  state_.crossed.resize(accounts_.count());
+  update_flow();
+  flow_.start(warnings_);
+  place_liquid();
+  update_flow();
+  last_motion_ = {VectorField<Dim>(grid_.mesh.node_count(), Vector<Dim>::Zero()),
+                  std::vector<double>(grid_.face_count(), 0.0), 1.0};
+  initial_ = stored(state_);
+}
+
+template <int Dim>
+void DoublePoint<Dim>::place_liquid() {
+  const MaterialPoints<Dim>& points = case_.liquid_points;
+  LiquidPoints<Dim>& liquid = state_.liquid;
+  liquid.element = points.element;
+  liquid.barycentric = points.barycentric;
+  liquid.fines_mass.assign(points.size(), 0.0);
+  const double modulus = case_.document.scene.liquid.bulk_modulus;
+  const std::vector<double>& pressure = flow_.scheme().pressure();
+  for (int p = 0; p < points.size(); ++p) {
+    const int e = points.element[p];
+    liquid.id.push_back(p);
+    liquid.water_mass.push_back(densities_.water * density_ratio(pressure[e], modulus) *
+                                points.volume[p]);
+    if (!points_carry_flow_) continue;
+    Vector<Dim> velocity = Vector<Dim>::Zero();
+    for (int a = 0; a <= Dim; ++a) {
+      velocity += points.barycentric[p][a] * flow_.scheme().velocity()[grid_.mesh.elements[e][a]];
+    }
+    liquid.pressure.push_back(pressure[e]);
+    liquid.velocity.push_back(velocity);
+  }
+  state_.entering = transport_.nothing_entered(points.size());
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::element_porosity(const std::vector<double>& porosity) const {
+  const ElementField<Dim> initial = skeleton_.initial_pore_volume();
+  std::vector<double> result(grid_.mesh.element_count());
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) result[e] = element_sum<Dim>(initial[e]);
+  const MaterialPoints<Dim>& solid = skeleton_.points();
+  for (int s = 0; s < solid.size(); ++s) {
+    result[solid.element[s]] += solid.volume[s] * (porosity[s] - skeleton_.initial_porosity()[s]);
+  }
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) result[e] /= grid_.volume[e];
+  return result;
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::point_volumes(const LiquidPoints<Dim>& liquid,
+                                                    const std::vector<double>& pressure) const {
+  const double modulus = case_.document.scene.liquid.bulk_modulus;
+  std::vector<double> result(liquid.size());
+  int ratio_of = -1;
+  double ratio = 1.0;
+  for (int p = 0; p < liquid.size(); ++p) {
+    if (points_carry_flow_) {
+      ratio = density_ratio(liquid.pressure[p], modulus);
+    } else if (liquid.element[p] != ratio_of) {
+      ratio_of = liquid.element[p];
+      ratio = density_ratio(pressure[ratio_of], modulus);
+    }
+    result[p] = liquid_volume(liquid.water_mass[p], liquid.fines_mass[p], densities_, ratio);
+  }
+  return result;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::update_flow() {
+  const int elements = grid_.mesh.element_count();
+  PoreContent content;
+  content.porosity = element_porosity(state_.porosity);
+  content.concentration.assign(elements, 0.0);
+  std::vector<double> volume(elements, 0.0);
+  const LiquidPoints<Dim>& liquid = state_.liquid;
+  for (int p = 0; p < liquid.size(); ++p) {
+    const double grains = liquid.fines_mass[p] / densities_.grain;
+    content.concentration[liquid.element[p]] += grains;
+    volume[liquid.element[p]] += liquid.water_mass[p] / densities_.water + grains;
+  }
+  for (int e = 0; e < elements; ++e) {
+    if (volume[e] > 0.0) content.concentration[e] /= volume[e];
+    content.water_volume.push_back(content.porosity[e] * grid_.volume[e] *
+                                   (1.0 - content.concentration[e]));
+  }
+  // The density of what crosses a face plays no part: points carry it.
+  flow_.update(state_.time, content, std::vector<double>(grid_.face_count(), 0.0));
+}
+
+template <int Dim>
+long DoublePoint<Dim>::steps_before_transport(double dt) const {
+  if (points_carry_flow_) return 1;
+  LiquidMotion<Dim> one_step = last_motion_;
+  one_step.duration = dt;
+  const std::vector<double>& porosity = flow_.coefficients().porosity;
+  double allowed = transport_safety * transport_.share_allowed(one_step, porosity);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const ErosionModel& model = skeleton_.erosion_of_element(e);
+    const double rate = erosion_rate(model, porosity[e], std::max(state_.time, model.start));
+    if (rate > 0.0) allowed = std::min(allowed, most_porosity_growth * porosity[e] / (rate * dt));
+  }
+  // The flow may have grown since: go up by doubling.
+  const long most = std::min(most_steps_per_interval, 2 * last_steps_);
+  return std::max(1L, allowed < static_cast<double>(most) ? static_cast<long>(allowed) : most);
+}
+
+template <int Dim>
+LiquidMotion<Dim> DoublePoint<Dim>::motion(const Passed<Dim>& passed, double duration) const {
+  LiquidMotion<Dim> result{passed.displacements, passed.volumes.liquid, duration};
+  const std::vector<double>& porosity = flow_.nodal_operator().carried_porosity();
+  const double rate = duration > 0.0 ? 1.0 / duration : 0.0;
+  for (std::size_t i = 0; i < result.node_flux.size(); ++i) {
+    result.node_flux[i] *= porosity[i] * rate;
+  }
+  return result;
+}
+
+template <int Dim>
+auto DoublePoint<Dim>::advance(long steps, double dt, const std::vector<double>& times)
+    -> std::vector<Observation> {
+  const double begin = state_.time;
+  const double duration = static_cast<double>(steps) * dt;
+  std::vector<Observation> seen;
+  if (points_carry_flow_) gather();
+  const VectorField<Dim> velocity_before = flow_.scheme().velocity();
+  const std::vector<double> pressure_before = flow_.scheme().pressure();
+  {
+    const PassTimer timer(timings_.flow);
+    flow_.run(begin, steps, dt, times, [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
+      PassTimings outputs_are_not_the_run;
+      Observation observation;
+      observation.state = advanced(state_, motion(passed, moment.time - begin), moment.pressure,
+                                   outputs_are_not_the_run);
+      observation.state.time = moment.time;
+      observation.state.empty_total = state_.empty_total;
+      observation.flow = std::move(moment);
+      seen.push_back(std::move(observation));
+    });
+  }
+  timings_.flow.calls += steps;
+  if (points_carry_flow_) scatter(velocity_before, pressure_before);
+
+  last_motion_ = motion(flow_.passed(), duration);
+  state_ = advanced(std::move(state_), last_motion_, flow_.scheme().pressure(), timings_);
+  flow_.warn_of_unstated_inflow(state_.time, last_motion_.entered, warnings_);
+  {
+    const PassTimer timer(timings_.coefficients);
+    update_flow();
+    ++timings_.coefficients.calls;
+  }
+  last_steps_ = steps;
+  last_dt_ = dt;
+  return seen;
+}
+
+template <int Dim>
+auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
+                                const std::vector<double>& pressure, PassTimings& timings) const
+    -> State {
+  const double begin = state.time;
+  const double allowed =
+      transport_safety * transport_.share_allowed(motion, element_porosity(state.porosity));
+  const double substeps = allowed >= 1.0 ? 1.0 : std::ceil(1.0 / allowed);
+  LiquidMotion<Dim> part = motion;
+  part.duration /= substeps;
+  for (double& volume : part.entered) volume /= substeps;
+  // Half a step of erosion, a step of movement, half a step of erosion: second order. Halves that
+  // meet are one.
+  const auto time_at = [&](double step) { return begin + motion.duration * step / substeps; };
+  double eroded_until = begin;
+  for (double s = 0.0; s < substeps; ++s) {
+    {
+      const PassTimer timer(timings.erosion);
+      erode(state, eroded_until, time_at(s + 0.5), pressure);
+      eroded_until = time_at(s + 0.5);
+      ++timings.erosion.calls;
+    }
+    const PassTimer timer(timings.movement);
+    move(state, part, pressure);
+    ++timings.movement.calls;
+  }
+  const PassTimer timer(timings.erosion);
+  state.time = begin + motion.duration;
+  erode(state, eroded_until, state.time, pressure);
+  return state;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::erode(State& state, double from, double to,
+                             const std::vector<double>& pressure) const {
+  if (!plan_.erosion) return;
+  const std::vector<int> begins = element_begins(state.liquid, grid_.mesh.element_count());
+  std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to);
+  const MaterialPoints<Dim>& solid = skeleton_.points();
+  for (int s = 0; s < solid.size(); ++s) {
+    const int e = solid.element[s];
+    const bool dry = begins[e] == begins[e + 1] &&
+                     skeleton_.soil_of_element(e).erosion.empty_elements == EmptyElements::dry;
+    if (dry) porosity[s] = state.porosity[s];
+  }
+  const auto exchanged =
+      transfer_.transfer(state.porosity, porosity, begins, point_volumes(state.liquid, pressure),
+                         state.liquid, state.pending);
+  state.porosity = std::move(porosity);
+  // At a border of regions grains of one may join liquid of the other.
+  for (std::size_t r = 0; r < exchanged.eroded.size(); ++r) {
+    const double left = exchanged.eroded[r] - exchanged.received[r];
+    CrossedSums& account = state.crossed[r + 1];
+    (left > 0.0 ? account.fines_out : account.fines_in).add(std::abs(left));
+  }
+}
+
+template <int Dim>
+void DoublePoint<Dim>::move(State& state, const LiquidMotion<Dim>& motion,
+                            const std::vector<double>& pressure) const {
+  const auto crossings = transport_.move(
+      state.liquid, state.entering, motion, element_porosity(state.porosity), pressure,
+      points_carry_flow_ ? flow_.scheme().velocity() : VectorField<Dim>{});
+  const auto leave = [](CrossedSums& account, const PointCrossing& point) {
+    account.water_out.add(point.water_mass);
+    account.fines_out.add(point.fines_mass);
+    ++account.points_out;
+  };
+  const auto enter = [](CrossedSums& account, const PointCrossing& point) {
+    account.water_in.add(point.water_mass);
+    account.fines_in.add(point.fines_mass);
+    ++account.points_in;
+  };
+  for (const PointCrossing& point : crossings) {
+    (point.from < 0 ? enter : leave)(state.crossed[point.from + 1], point);
+    (point.to < 0 ? leave : enter)(state.crossed[point.to + 1], point);
+  }
+  state.empty_total += empty_elements(element_begins(state.liquid, grid_.mesh.element_count()));
+}
+
+template <int Dim>
+int DoublePoint<Dim>::empty_elements(const std::vector<int>& begins) const {
+  int empty = 0;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (skeleton_.is_soil(e) && begins[e] == begins[e + 1]) ++empty;
+  }
+  return empty;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::gather() {
+  const PassTimer timer(timings_.exchange);
+  const LiquidPoints<Dim>& liquid = state_.liquid;
+  VectorField<Dim> velocity = flow_.scheme().velocity();
+  std::vector<double> pressure = flow_.scheme().pressure();
+  VectorField<Dim> momentum(velocity.size(), Vector<Dim>::Zero());
+  std::vector<double> mass(velocity.size(), 0.0);
+  std::vector<double> work(pressure.size(), 0.0);
+  std::vector<double> volume(pressure.size(), 0.0);
+  const std::vector<double> point_volume = point_volumes(liquid, pressure);
+  for (int p = 0; p < liquid.size(); ++p) {
+    const int e = liquid.element[p];
+    work[e] += point_volume[p] * liquid.pressure[p];
+    volume[e] += point_volume[p];
+    for (int a = 0; a <= Dim; ++a) {
+      const int i = grid_.mesh.elements[e][a];
+      const double share = liquid.barycentric[p][a] * (liquid.water_mass[p] + liquid.fines_mass[p]);
+      mass[i] += share;
+      momentum[i] += share * liquid.velocity[p];
+    }
+  }
+  // Where no point is near, nodes and elements go on from what they had.
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (mass[i] > 0.0) velocity[i] = momentum[i] / mass[i];
+  }
+  for (std::size_t e = 0; e < volume.size(); ++e) {
+    if (volume[e] > 0.0) pressure[e] = work[e] / volume[e];
+  }
+  flow_.scheme().set_velocity(std::move(velocity));
+  flow_.scheme().set_pressure(std::move(pressure));
+  ++timings_.exchange.calls;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::scatter(const VectorField<Dim>& velocity_before,
+                               const std::vector<double>& pressure_before) {
+  const PassTimer timer(timings_.exchange);
+  LiquidPoints<Dim>& liquid = state_.liquid;
+  const VectorField<Dim>& velocity = flow_.scheme().velocity();
+  const std::vector<double>& pressure = flow_.scheme().pressure();
+  for (int p = 0; p < liquid.size(); ++p) {
+    const int e = liquid.element[p];
+    liquid.pressure[p] += pressure[e] - pressure_before[e];
+    for (int a = 0; a <= Dim; ++a) {
+      const int i = grid_.mesh.elements[e][a];
+      liquid.velocity[p] += liquid.barycentric[p][a] * (velocity[i] - velocity_before[i]);
+    }
+  }
+}
+
+template <int Dim>
+HistoryRow DoublePoint<Dim>::history_row(const State& state, const FlowMoment<Dim>& moment) const {
+  HistoryRow row;
+  row.t = state.time;
+  row.porosity_mean = mean_porosity(skeleton_, state.porosity);
+  flow_.describe(moment, row);
+  const LiquidPoints<Dim>& liquid = state.liquid;
+  const std::vector<int> begins = element_begins(liquid, grid_.mesh.element_count());
+  row.liquid_points = liquid.size();
+  row.empty_elements = empty_elements(begins);
+  row.empty_elements_total = state.empty_total;
+
+  const std::vector<double> volume = point_volumes(liquid, moment.pressure);
+  const std::vector<double> concentration = concentrations(liquid, volume);
+  if (!concentration.empty()) {
+    const auto [least, most] = std::minmax_element(concentration.begin(), concentration.end());
+    row.concentration_min = *least;
+    row.concentration_max = *most;
+  }
+  const ElementField<Dim> fit = concentration_fit(grid_, liquid, begins, volume, concentration);
+  CompensatedSum fines_out;
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    const double flux = flow_.nodal_operator().face_flux(f, moment.velocity);
+    if (!grid_.is_outer(f) || flux <= 0.0) continue;
+    const int e = grid_.face_left[f];
+    const ElementValues<Dim> at_vertices = FieldNodes<Dim>::at_vertices(fit[e]);
+    for (int a = 0; a <= Dim; ++a) {
+      if (grid_.element_face[e][a] != f) fines_out.add(flux * at_vertices[a] / Dim);
+    }
+  }
+  row.concentration_out = row.flux_out > 0.0 ? fines_out.value() / row.flux_out : 0.0;
+
+  const std::vector<double> porosity = element_porosity(state.porosity);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    double filled = 0.0;
+    for (int p = begins[e]; p < begins[e + 1]; ++p) filled += volume[p];
+    row.volume_defect =
+        std::max(row.volume_defect, std::abs(filled / (porosity[e] * grid_.volume[e]) - 1.0));
+  }
+  if (points_carry_flow_) {
+    row.pressure_scatter = point_pressure_scatter(liquid, volume, moment.pressure);
+  }
+  return row;
+}
+
+template <int Dim>
+double DoublePoint<Dim>::point_pressure_scatter(const LiquidPoints<Dim>& liquid,
+                                                const std::vector<double>& volume,
+                                                const std::vector<double>& pressure) const {
+  const std::vector<double> smooth = flow_.node_pressure(pressure);
+  double square = 0.0;
+  double sum = 0.0;
+  for (int p = 0; p < liquid.size(); ++p) {
+    const double off = liquid.pressure[p] - interpolated(liquid, p, smooth);
+    square += volume[p] * off * off;
+    sum += volume[p];
+  }
+  return std::sqrt(square / sum);
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::concentrations(const LiquidPoints<Dim>& liquid,
+                                                     const std::vector<double>& volume) const {
+  std::vector<double> result(liquid.size());
+  for (int p = 0; p < liquid.size(); ++p) {
+    result[p] = liquid.fines_mass[p] / (densities_.grain * volume[p]);
+  }
+  return result;
+}
+
+template <int Dim>
+double DoublePoint<Dim>::interpolated(const LiquidPoints<Dim>& liquid, int p,
+                                      const std::vector<double>& at_nodes) const {
+  double value = 0.0;
+  for (int a = 0; a <= Dim; ++a) {
+    value += liquid.barycentric[p][a] * at_nodes[grid_.mesh.elements[liquid.element[p]][a]];
+  }
+  return value;
+}
+
+template <int Dim>
+std::vector<Stored> DoublePoint<Dim>::stored(const State& state) const {
+  std::vector<StoredSums> sums(accounts_.count());
+  book_solid(skeleton_, grid_.mesh, densities_.grain, state.porosity, sums);
+  const LiquidPoints<Dim>& liquid = state.liquid;
+  for (int p = 0; p < liquid.size(); ++p) {
+    for (StoredSums* sum : {&sums[0], &sums[grid_.mesh.element_region[liquid.element[p]] + 1]}) {
+      sum->water.add(liquid.water_mass[p]);
+      sum->fines.add(liquid.fines_mass[p]);
+      ++sum->points;
+    }
+  }
+  for (const double volume : state.pending) sums[0].pending.add(densities_.grain * volume);
+  std::vector<Stored> result;
+  result.reserve(sums.size());
+  for (const StoredSums& s : sums) result.push_back(s.totals());
+  return result;
+}
+
+template <int Dim>
+LedgerRow DoublePoint<Dim>::ledger(const State& state) const {
+  return ledger_row(state.time, stored(state)[0], state.crossed[0].totals(), initial_[0]);
+}
+
+template <int Dim>
+std::vector<RegionRow> DoublePoint<Dim>::region_rows(const State& state) const {
+  return suffuse::region_rows(skeleton_, grid_, densities_.grain, state.time, stored(state),
+                              initial_, state.crossed);
+}
+
+template <int Dim>
+Snapshot DoublePoint<Dim>::snapshot(const State& state, const FlowMoment<Dim>& moment,
+                                    long step) const {
+  const LiquidPoints<Dim>& liquid = state.liquid;
+  const std::vector<int> begins = element_begins(liquid, grid_.mesh.element_count());
+  const std::vector<double> volume = point_volumes(liquid, moment.pressure);
+  const std::vector<double> concentration = concentrations(liquid, volume);
+
+  FinesState<Dim> between_points;
+  between_points.pore_volume = skeleton_.initial_pore_volume();
+  between_points.fines_volume = concentration_fit(grid_, liquid, begins, volume, concentration);
+  const ElementField<Dim> eroded =
+      skeleton_.eroded_volume(skeleton_.initial_porosity(), state.porosity);
+  for (std::size_t e = 0; e < eroded.size(); ++e) {
+    for (int j = 0; j <= Dim; ++j) {
+      between_points.pore_volume[e][j] += eroded[e][j];
+      between_points.fines_volume[e][j] *= between_points.pore_volume[e][j];
+    }
+  }
+  Snapshot result =
+      make_snapshot(grid_, skeleton_, flow_, state.porosity, between_points, moment, step);
+
+  Field saturation{"saturation_state", "1", 1, {}};
+  Field count{"liquid_points", "1", 1, {}};
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const bool soil = skeleton_.is_soil(e);
+    const bool filled = begins[e + 1] > begins[e];
+    const Saturation s = soil ? (filled ? Saturation::saturated_soil : Saturation::dry_soil)
+                              : (filled ? Saturation::free_liquid : Saturation::empty);
+    saturation.values.push_back(static_cast<double>(s));
+    count.values.push_back(begins[e + 1] - begins[e]);
+  }
+  result.cell.push_back(std::move(saturation));
+  result.cell.push_back(std::move(count));
+
+  const std::vector<double> smooth = flow_.node_pressure(moment.pressure);
+  const std::vector<double> porosity = element_porosity(state.porosity);
+  Field pressure{"pressure", "Pa", 1, {}};
+  Field velocity{"liquid_velocity", "m/s", Dim, {}};
+  Field element{"element", "1", 1, {}};
+  Field id{"id", "1", 1, {}};
+  for (int p = 0; p < liquid.size(); ++p) {
+    const int e = liquid.element[p];
+    const Vector<Dim> x = liquid.place(p).position(grid_.mesh);
+    for (int d = 0; d < 3; ++d) result.liquid_positions.push_back(d < Dim ? x[d] : 0.0);
+    pressure.values.push_back(points_carry_flow_ ? liquid.pressure[p]
+                                                 : interpolated(liquid, p, smooth));
+    Vector<Dim> flux = Vector<Dim>::Zero();
+    for (int a = 0; a <= Dim; ++a) {
+      const int i = grid_.mesh.elements[e][a];
+      flux += liquid.barycentric[p][a] * flow_.nodal_operator().carried_porosity()[i] *
+              moment.velocity[i];
+    }
+    for (int d = 0; d < Dim; ++d) velocity.values.push_back(flux[d] / porosity[e]);
+    element.values.push_back(e);
+    id.values.push_back(static_cast<double>(liquid.id[p]));
+  }
+  result.liquid = {{"concentration", "1", 1, concentration},
+                   std::move(pressure),
+                   std::move(velocity),
+                   {"volume", Dim == 2 ? "m3/m" : "m3", 1, volume},
+                   {"water_mass", Dim == 2 ? "kg/m" : "kg", 1, liquid.water_mass},
+                   {"fines_mass", Dim == 2 ? "kg/m" : "kg", 1, liquid.fines_mass},
+                   std::move(element),
+                   std::move(id)};
+  return result;
+}
+
+template <int Dim>
+std::vector<PassTiming> DoublePoint<Dim>::passes() const {
+  std::vector<PassTiming> result{timings_.flow, timings_.erosion, timings_.movement,
+                                 timings_.coefficients};
+  if (points_carry_flow_) result.insert(result.begin() + 1, timings_.exchange);
+  return result;
+}
+
+template <int Dim>
+std::vector<std::string> DoublePoint<Dim>::take_warnings() {
+  return std::exchange(warnings_, {});
+}
+
+template class DoublePoint<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,130 @@
+#pragma once
+
+/// The double-point formulation with a rigid skeleton: solid points stay and erode, liquid points
+/// carry water and fluidised grains through the pores between them.
+
+#include <string>
+#include <vector>
+
+#include "balance.hpp"
+#include "flow/nodal_flow.hpp"
+#include "plan.hpp"
+#include "transport/grain_transfer.hpp"
+#include "transport/lagrangian.hpp"
+
+namespace suffuse {
+
+/// Everything conserved, at one moment.
+template <int Dim>
+struct DoublePointState {
+  double time = 0.0;
+  std::vector<double> porosity;  ///< per solid point
+  LiquidPoints<Dim> liquid;
+  Entering entering;
+  std::vector<double> pending;       ///< grains that wait at nodes for liquid, m3
+  std::vector<CrossedSums> crossed;  ///< per account: model, then regions
+  double empty_total = 0.0;          ///< empty elements, added up over the times points moved
+};
+
+/// Two ways to integrate the flow (scene key `flow.integration`).
+///
+/// Mixed: nodes and elements keep velocity and pressure, as in the single-point formulation, and
+/// liquid points follow the flux; they move when transport asks for it, over many flow steps.
+///
+/// Material-point, the paper's: liquid points keep velocity and pressure. Each step nodes take
+/// their velocity from the points (mass-weighted), elements their pressure (volume-weighted),
+/// points take back the change of both (FLIP) and move.
+template <int Dim>
+class DoublePoint {
+ public:
+  using State = DoublePointState<Dim>;
+
+  DoublePoint(const Case<Dim>& c, const Plan& plan, const SolverOptions& options);
+
+  /// The model at a time between steps.
+  struct Observation {
+    State state;
+    FlowMoment<Dim> flow;
+  };
+  /// Runs the flow `steps` times `dt`, then lets erosion and transport catch up. Returns what was
+  /// to be seen at `times` (ascending, within these steps); looking changes nothing.
+  std::vector<Observation> advance(long steps, double dt, const std::vector<double>& times);
+
+  /// Flow steps of `dt` that transport lets pass before it must run.
+  [[nodiscard]] long steps_before_transport(double dt) const;
+
+  [[nodiscard]] StabilityLimit current_limit() const { return flow_.current_limit(); }
+
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] FlowMoment<Dim> moment() const {
+    return flow_.moment(state_.time, last_dt_ > 0.0 ? last_dt_ : plan_.step);
+  }
+  [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
+
+  [[nodiscard]] HistoryRow history_row(const State& state, const FlowMoment<Dim>& moment) const;
+  [[nodiscard]] LedgerRow ledger(const State& state) const;
+  [[nodiscard]] std::vector<RegionRow> region_rows(const State& state) const;
+  [[nodiscard]] Snapshot snapshot(const State& state, const FlowMoment<Dim>& moment,
+                                  long step) const;
+  [[nodiscard]] long liquid_points() const { return state_.liquid.size(); }
+
+  [[nodiscard]] std::vector<PassTiming> passes() const;
+  /// Things to say once, newly found.
+  [[nodiscard]] std::vector<std::string> take_warnings();
+
+ private:
+  struct PassTimings {
+    PassTiming flow{"flow", 0, 0.0};
+    PassTiming exchange{"exchange of points and nodes", 0, 0.0};
+    PassTiming erosion{"erosion and transfer of grains", 0, 0.0};
+    PassTiming movement{"movement of liquid points", 0, 0.0};
+    PassTiming coefficients{"coefficients of the flow", 0, 0.0};
+  };
+  void initialise();
+  void place_liquid();
+  [[nodiscard]] std::vector<double> volumes_at_boundary() const;
+  [[nodiscard]] std::vector<double> element_porosity(const std::vector<double>& porosity) const;
+  [[nodiscard]] std::vector<double> point_volumes(const LiquidPoints<Dim>& liquid,
+                                                  const std::vector<double>& pressure) const;
+  void update_flow();
+  [[nodiscard]] LiquidMotion<Dim> motion(const Passed<Dim>& passed, double duration) const;
+  /// What erosion and transport make of `begin` while the liquid moves so.
+  [[nodiscard]] State advanced(State state, const LiquidMotion<Dim>& motion,
+                               const std::vector<double>& pressure, PassTimings& timings) const;
+  void erode(State& state, double from, double to, const std::vector<double>& pressure) const;
+  void move(State& state, const LiquidMotion<Dim>& motion,
+            const std::vector<double>& pressure) const;
+  /// Nodes and elements take velocity and pressure from the liquid points.
+  void gather();
+  /// Liquid points take what the step changed at nodes and elements.
+  void scatter(const VectorField<Dim>& velocity_before, const std::vector<double>& pressure_before);
+  [[nodiscard]] std::vector<double> concentrations(const LiquidPoints<Dim>& liquid,
+                                                   const std::vector<double>& volume) const;
+  [[nodiscard]] double interpolated(const LiquidPoints<Dim>& liquid, int p,
+                                    const std::vector<double>& at_nodes) const;
+  [[nodiscard]] double point_pressure_scatter(const LiquidPoints<Dim>& liquid,
+                                              const std::vector<double>& volume,
+                                              const std::vector<double>& pressure) const;
+  [[nodiscard]] int empty_elements(const std::vector<int>& begins) const;
+  [[nodiscard]] std::vector<Stored> stored(const State& state) const;
+
+  const Case<Dim>& case_;
+  const Plan& plan_;
+  Grid<Dim> grid_;
+  RigidSkeleton<Dim> skeleton_;
+  NodalFlow<Dim> flow_;
+  BoundaryAccounts<Dim> accounts_;
+  LiquidDensities densities_;
+  bool points_carry_flow_;
+  LagrangianTransport<Dim> transport_;
+  GrainTransfer<Dim> transfer_;
+  State state_;
+  std::vector<Stored> initial_;
+  double last_dt_ = 0.0;
+  LiquidMotion<Dim> last_motion_;
+  long last_steps_ = 1;
+  std::vector<std::string> warnings_;
+  PassTimings timings_;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,202 @@
+#include "transport/lagrangian.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <tuple>
+
+#include "physics/liquid.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Fractional part of multiples of it spread evenly (golden ratio - 1).
+constexpr double golden = 0.6180339887498948482;
+/// A point may cross so much of an element in one step of erosion and transport.
+constexpr double most_of_an_element = 0.5;
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+/// Van der Corput's sequence in base two: each number falls into the widest gap so far.
+double radical_inverse(long number) {
+  double result = 0.0;
+  double digit = 0.5;
+  for (long n = number; n > 0; n /= 2, digit *= 0.5) {
+    if (n % 2 != 0) result += digit;
+  }
+  return result;
+}
+
+/// Where along a segment the share `u` of a flux has passed that is linear from `at_begin` to
+/// `at_end`, both >= 0.
+double share_along(double at_begin, double at_end, double u) {
+  const double root = std::sqrt(at_begin * at_begin * (1.0 - u) + at_end * at_end * u);
+  const double sum = at_begin + root;
+  return sum > 0.0 ? u * (at_begin + at_end) / sum : u;
+}
+
+}  // namespace
+
+template <int Dim>
+LagrangianTransport<Dim>::LagrangianTransport(const Grid<Dim>& grid,
+                                              const std::vector<FaceCondition>& conditions,
+                                              std::vector<double> point_volume,
+                                              LiquidDensities densities, double bulk_modulus,
+                                              int threads)
+    : grid_(grid),
+      conditions_(conditions),
+      point_volume_(std::move(point_volume)),
+      densities_(densities),
+      bulk_modulus_(bulk_modulus),
+      threads_(threads) {
+  for (const FaceCondition& condition : conditions) {
+    open_face_.push_back(condition.kind != FaceKind::interior && condition.kind != FaceKind::wall);
+  }
+}
+
+template <int Dim>
+Entering LagrangianTransport<Dim>::nothing_entered(long next_id) const {
+  Entering entering;
+  entering.next_id = next_id;
+  entering.born.assign(grid_.face_count(), 0);
+  entering.volume.assign(grid_.face_count(), 0.0);
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (open_face_[f] != 0) {
+      entering.volume[f] = point_volume_[f] * fraction(0.5 + golden * static_cast<double>(f));
+    }
+  }
+  return entering;
+}
+
+template <int Dim>
+double LagrangianTransport<Dim>::share_allowed(const LiquidMotion<Dim>& motion,
+                                               const std::vector<double>& porosity) const {
+  double fastest = 0.0;
+  const WalkField<Dim> here = field(motion, porosity);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    fastest = std::max(fastest, crossing_rate(grid_, here, e));
+  }
+  return fastest > 0.0 ? most_of_an_element / (fastest * motion.duration)
+                       : std::numeric_limits<double>::infinity();
+}
+
+template <int Dim>
+PointPlace<Dim> LagrangianTransport<Dim>::place_on_face(int face, long number,
+                                                        const LiquidMotion<Dim>& motion) const {
+  static_assert(Dim == 2, "a face of three nodes needs a share of the flux in two directions");
+  // As much of the face's inflow on either side of the point as its number says.
+  const auto& nodes = grid_.face_nodes[face];
+  const auto inward = [&](int i) {
+    return std::max(0.0, -grid_.face_normal[face].dot(motion.node_flux[i]));
+  };
+  const double u = fraction(radical_inverse(number + 1) + golden * static_cast<double>(face));
+  const double s = share_along(inward(nodes[0]), inward(nodes[1]), u);
+  const int e = grid_.face_left[face];
+  PointPlace<Dim> place{e, {}};
+  for (int a = 0; a <= Dim; ++a) {
+    const int node = grid_.mesh.elements[e][a];
+    if (node == nodes[0]) place.barycentric[a] = 1.0 - s;
+    if (node == nodes[1]) place.barycentric[a] = s;
+  }
+  return place;
+}
+
+template <int Dim>
+auto LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim>& motion) const
+    -> std::vector<Newborn> {
+  std::vector<Newborn> born;
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (open_face_[f] == 0) continue;
+    const double inflow = -motion.entered[f];
+    double waiting = entering.volume[f];
+    entering.volume[f] += inflow;
+    if (inflow <= 0.0) continue;
+    while (entering.volume[f] >= point_volume_[f]) {
+      const double share = std::clamp((point_volume_[f] - waiting) / inflow, 0.0, 1.0);
+      born.push_back(
+          {place_on_face(f, entering.born[f], motion), f, (1.0 - share) * motion.duration});
+      waiting -= point_volume_[f];
+      entering.volume[f] -= point_volume_[f];
+      ++entering.born[f];
+    }
+  }
+  return born;
+}
+
+template <int Dim>
+std::vector<PointCrossing> LagrangianTransport<Dim>::move(
+    LiquidPoints<Dim>& points, Entering& entering, const LiquidMotion<Dim>& motion,
+    const std::vector<double>& porosity, const std::vector<double>& element_pressure,
+    const std::vector<Vector<Dim>>& node_velocity) const {
+  std::vector<PointCrossing> crossings;
+  const auto& region = grid_.mesh.element_region;
+  const int old_points = points.size();
+  std::vector<int> from(old_points);
+  for (int p = 0; p < old_points; ++p) from[p] = region[points.element[p]];
+  std::vector<double> walk_time(old_points, motion.duration);
+
+  for (const Newborn& newborn : births(entering, motion)) {
+    const int e = newborn.place.element;
+    const double concentration = conditions_[newborn.face].concentration;
+    const double volume = point_volume_[newborn.face];
+    const double ratio = density_ratio(element_pressure[e], bulk_modulus_);
+    points.element.push_back(e);
+    points.barycentric.push_back(newborn.place.barycentric);
+    points.water_mass.push_back((1.0 - concentration) * volume * densities_.water * ratio);
+    points.fines_mass.push_back(concentration * volume * densities_.grain);
+    points.id.push_back(entering.next_id++);
+    if (!node_velocity.empty()) {
+      Vector<Dim> velocity = Vector<Dim>::Zero();
+      for (int a = 0; a <= Dim; ++a) {
+        velocity += newborn.place.barycentric[a] * node_velocity[grid_.mesh.elements[e][a]];
+      }
+      points.pressure.push_back(element_pressure[e]);
+      points.velocity.push_back(velocity);
+    }
+    from.push_back(-1);
+    walk_time.push_back(newborn.remaining);
+  }
+
+  const WalkField<Dim> here = field(motion, porosity);
+  const int count = points.size();
+  std::vector<int> left_by(count, -1);
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(static) num_threads(threads_) if (count > 4096)
+  for (int p = 0; p < count; ++p) {
+    try {
+      PointPlace<Dim> place = points.place(p);
+      left_by[p] = walk(grid_, here, place, walk_time[p], points.id[p]);
+      points.element[p] = place.element;
+      points.barycentric[p] = place.barycentric;
+    } catch (...) {
+#pragma omp critical(suffuse_walk_failure)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+
+  std::vector<unsigned char> keep(count, 1);
+  for (int p = 0; p < count; ++p) {
+    const bool left = left_by[p] >= 0;
+    const int to = left ? -1 : region[points.element[p]];
+    if (left) {
+      keep[p] = 0;
+      entering.volume[left_by[p]] +=
+          liquid_volume(points.water_mass[p], points.fines_mass[p], densities_, 1.0);
+    }
+    if (from[p] != to || left) {
+      // A point that enters and leaves at once counts in both directions.
+      crossings.push_back({from[p], to, points.water_mass[p], points.fines_mass[p]});
+    }
+  }
+  keep_points(points, keep);
+  sort_by_element(points, grid_.mesh.element_count());
+  return crossings;
+}
+
+template class LagrangianTransport<2>;
+
+}  // namespace suffuse

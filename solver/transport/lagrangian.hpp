@@ -1,0 +1,86 @@
+#pragma once
+
+/// Moves the liquid points of the double-point formulation: along the flux, in through boundaries
+/// and out through them.
+
+#include "flow/face_conditions.hpp"
+#include "transport/liquid_points.hpp"
+
+namespace suffuse {
+
+/// Liquid at the outer boundary, between volumes that flow and points that are whole.
+struct Entering {
+  /// Per face: what flowed in, less the points born of it, plus the points that left, m3. Once it
+  /// is a point's volume and the flow is inward, a point is born.
+  std::vector<double> volume;
+  std::vector<long> born;  ///< points so far, per face
+  long next_id = 0;
+};
+
+/// A point that changed its region; -1 is outside.
+struct PointCrossing {
+  int from;
+  int to;
+  double water_mass;  ///< kg
+  double fines_mass;  ///< kg
+};
+
+/// Flux over one interval.
+template <int Dim>
+struct LiquidMotion {
+  std::vector<Vector<Dim>> node_flux;  ///< mean over the interval, m/s
+  std::vector<double> entered;         ///< per face, liquid volume along its normal, m3
+  double duration = 0.0;               ///< s
+};
+
+template <int Dim>
+class LagrangianTransport {
+ public:
+  /// `point_volume`: liquid volume of one point per face, for those born there, m3.
+  LagrangianTransport(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                      std::vector<double> point_volume, LiquidDensities densities,
+                      double bulk_modulus, int threads);
+
+  /// The state of `entering` before anything came in. Faces take turns.
+  [[nodiscard]] Entering nothing_entered(long next_id) const;
+
+  /// Share of the motion after which some point may have crossed half an element.
+  [[nodiscard]] double share_allowed(const LiquidMotion<Dim>& motion,
+                                     const std::vector<double>& porosity) const;
+
+  /// Moves every point, lets new ones in and takes out those that leave; points stay sorted. New
+  /// points carry the concentration of their boundary, the water that
+  /// their element's pressure packs into their volume, and, where points carry the flow, the
+  /// pressure of their element and the velocity of its nodes. Returns who changed region.
+  std::vector<PointCrossing> move(LiquidPoints<Dim>& points, Entering& entering,
+                                  const LiquidMotion<Dim>& motion,
+                                  const std::vector<double>& porosity,
+                                  const std::vector<double>& element_pressure,
+                                  const std::vector<Vector<Dim>>& node_velocity) const;
+
+ private:
+  struct Newborn {
+    PointPlace<Dim> place;
+    int face;
+    double remaining;  ///< of the interval, s
+  };
+  [[nodiscard]] WalkField<Dim> field(const LiquidMotion<Dim>& motion,
+                                     const std::vector<double>& porosity) const {
+    return {motion.node_flux, porosity, open_face_};
+  }
+  [[nodiscard]] PointPlace<Dim> place_on_face(int face, long number,
+                                              const LiquidMotion<Dim>& motion) const;
+  /// New points at the moments at which their volume has come in.
+  [[nodiscard]] std::vector<Newborn> births(Entering& entering,
+                                            const LiquidMotion<Dim>& motion) const;
+
+  const Grid<Dim>& grid_;
+  const std::vector<FaceCondition>& conditions_;
+  std::vector<double> point_volume_;
+  std::vector<unsigned char> open_face_;
+  LiquidDensities densities_;
+  double bulk_modulus_;
+  int threads_;
+};
+
+}  // namespace suffuse

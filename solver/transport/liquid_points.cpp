@@ -1,0 +1,65 @@
+#include "transport/liquid_points.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace suffuse {
+namespace {
+
+template <class Values>
+void take(Values& values, const std::vector<int>& order) {
+  if (values.empty()) return;
+  Values taken(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) taken[i] = values[order[i]];
+  values = std::move(taken);
+}
+
+/// Points become those at `order`, in that order.
+template <int Dim>
+void rearrange(LiquidPoints<Dim>& points, const std::vector<int>& order) {
+  take(points.element, order);
+  take(points.barycentric, order);
+  take(points.water_mass, order);
+  take(points.fines_mass, order);
+  take(points.id, order);
+  take(points.pressure, order);
+  take(points.velocity, order);
+}
+
+std::vector<int> begins(const std::vector<int>& element, int element_count) {
+  std::vector<int> begin(element_count + 1, 0);
+  for (const int e : element) ++begin[e + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  return begin;
+}
+
+}  // namespace
+
+template <int Dim>
+void sort_by_element(LiquidPoints<Dim>& points, int element_count) {
+  if (std::is_sorted(points.element.begin(), points.element.end())) return;
+  std::vector<int> next = begins(points.element, element_count);
+  std::vector<int> order(points.element.size());
+  for (int p = 0; p < points.size(); ++p) order[next[points.element[p]]++] = p;
+  rearrange(points, order);
+}
+
+template <int Dim>
+std::vector<int> element_begins(const LiquidPoints<Dim>& points, int element_count) {
+  return begins(points.element, element_count);
+}
+
+template <int Dim>
+void keep_points(LiquidPoints<Dim>& points, const std::vector<unsigned char>& keep) {
+  std::vector<int> order;
+  for (int p = 0; p < points.size(); ++p) {
+    if (keep[p] != 0) order.push_back(p);
+  }
+  if (order.size() < keep.size()) rearrange(points, order);
+}
+
+template void sort_by_element(LiquidPoints<2>&, int);
+template std::vector<int> element_begins(const LiquidPoints<2>&, int);
+template void keep_points(LiquidPoints<2>&, const std::vector<unsigned char>&);
+
+}  // namespace suffuse

@@ -1,0 +1,52 @@
+#pragma once
+
+/// Liquid material points of the double-point formulation: where they are and what they carry.
+
+#include <vector>
+
+#include "grid/point_walk.hpp"
+
+namespace suffuse {
+
+/// Structure of arrays, sorted by element. Water and grains are what a point is; its volume
+/// follows.
+template <int Dim>
+struct LiquidPoints {
+  std::vector<int> element;
+  std::vector<std::array<double, Dim + 1>> barycentric;
+  std::vector<double> water_mass;  ///< kg, constant
+  std::vector<double> fines_mass;  ///< kg
+  std::vector<long> id;            ///< of this point for ever
+  /// Only where points carry the flow (material-point integration), else empty.
+  std::vector<double> pressure;       ///< Pa
+  std::vector<Vector<Dim>> velocity;  ///< m/s
+
+  [[nodiscard]] int size() const { return static_cast<int>(element.size()); }
+  [[nodiscard]] PointPlace<Dim> place(int p) const { return {element[p], barycentric[p]}; }
+};
+
+/// Sorts by element; points of one element keep their order.
+template <int Dim>
+void sort_by_element(LiquidPoints<Dim>& points, int element_count);
+
+/// Points of element e: begin[e] .. begin[e + 1]. For sorted points.
+template <int Dim>
+std::vector<int> element_begins(const LiquidPoints<Dim>& points, int element_count);
+
+/// Keeps the points for which `keep` is not zero.
+template <int Dim>
+void keep_points(LiquidPoints<Dim>& points, const std::vector<unsigned char>& keep);
+
+/// Densities from which a point's volume follows.
+struct LiquidDensities {
+  double water;  ///< at p = 0, kg/m3
+  double grain;  ///< kg/m3
+};
+
+/// V_p = m_w / rho_w + m_f / rho_s, m3; `ratio` = rho_w / rho_w0.
+inline double liquid_volume(double water_mass, double fines_mass, const LiquidDensities& densities,
+                            double ratio) {
+  return water_mass / (densities.water * ratio) + fines_mass / densities.grain;
+}
+
+}  // namespace suffuse
