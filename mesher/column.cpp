@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
 
 namespace suffuse {
 
@@ -33,19 +33,10 @@ void name_group(int dimension, const std::vector<int>& entities, const std::stri
   gmsh::model::setPhysicalName(dimension, group, name);
 }
 
-/// Position `row` of `rows` between two ends.
-double grid_position(double from, double to, double at, int rows) {
-  const auto row = static_cast<double>(std::lround((at - from) / (to - from) * rows));
-  return from + (to - from) * row / rows;
-}
-
-double exact_height(const ColumnShape& column, double y, double size) {
-  for (const ColumnLayer& layer : column.layers) {
-    const int rows = element_rows(layer.top - layer.bottom, size);
-    const bool last = &layer == &column.layers.back();
-    if (last || y < layer.top) return grid_position(layer.bottom, layer.top, y, rows);
-  }
-  return y;
+/// The nearest multiple of length / rows.
+double grid_position(double length, double at, int rows) {
+  const auto row = static_cast<double>(std::lround(at / length * rows));
+  return length * row / rows;
 }
 
 /// Gmsh places the points of a transfinite curve to about 1e-12 only; balances are held to less.
@@ -56,8 +47,8 @@ void place_nodes_exactly(const ColumnShape& column, double size) {
   gmsh::model::mesh::getNodes(tags, coordinates, parameters);
   const int columns = element_rows(column.width, size);
   for (std::size_t i = 0; i < tags.size(); ++i) {
-    const double x = grid_position(0.0, column.width, coordinates[3 * i], columns);
-    const double y = exact_height(column, coordinates[3 * i + 1], size);
+    const double x = grid_position(column.width, coordinates[3 * i], columns);
+    const double y = grid_position(column.height, coordinates[3 * i + 1], column.rows);
     gmsh::model::mesh::setNode(tags[i], {x, y, 0.0}, {});
   }
 }
@@ -65,7 +56,24 @@ void place_nodes_exactly(const ColumnShape& column, double size) {
 }  // namespace
 
 ColumnShape column_of(const Scene& scene) {
-  return {scene.geometry.width, {{"specimen", 0.0, scene.geometry.height}}};
+  const GeometrySettings& geometry = scene.geometry;
+  const LayerSettings& rows = geometry.layers;
+  ColumnShape column{geometry.width,
+                     geometry.height,
+                     element_rows(geometry.height, scene.mesh.size),
+                     {},
+                     rows.outflow > 0 ? "outflow" : "bottom",
+                     rows.inflow > 0 ? "inflow" : "top"};
+  const std::vector<std::pair<std::string, int>> upwards{
+      {"outflow", rows.outflow}, {"free_below", rows.free_below}, {"buffer", rows.below},
+      {"specimen", column.rows}, {"buffer", rows.above},          {"free_above", rows.free_above},
+      {"inflow", rows.inflow}};
+  int bottom = -(rows.outflow + rows.free_below + rows.below);
+  for (const auto& [region, count] : upwards) {
+    if (count > 0) column.layers.push_back({region, bottom, bottom + count});
+    bottom += count;
+  }
+  return column;
 }
 
 int element_rows(double length, double size) {
@@ -78,33 +86,36 @@ void mesh_column(const ColumnShape& column, const MeshSettings& settings) {
   gmsh::model::add("column");
   gmsh::option::setNumber("Mesh.MeshSizeMax", settings.size);
 
-  Level below =
-      add_level(column.layers.front().bottom, column.width, settings.size, columns, regular);
+  Level below = add_level(column.level(column.layers.front().bottom), column.width, settings.size,
+                          columns, regular);
   const int bottom = below.line;
   std::vector<int> left;
   std::vector<int> right;
-  std::map<std::string, std::vector<int>> regions;
+  std::vector<std::pair<std::string, std::vector<int>>> regions;  // bottom to top
   for (const ColumnLayer& layer : column.layers) {
-    const Level above = add_level(layer.top, column.width, settings.size, columns, regular);
+    const Level above =
+        add_level(column.level(layer.top), column.width, settings.size, columns, regular);
     right.push_back(geo::addLine(below.right, above.right));
     left.push_back(geo::addLine(above.left, below.left));
     const int loop = geo::addCurveLoop({below.line, right.back(), -above.line, left.back()});
     const int surface = geo::addPlaneSurface({loop});
     if (regular) {
-      const int rows = element_rows(layer.top - layer.bottom, settings.size);
+      const int rows = layer.top - layer.bottom;
       geo::mesh::setTransfiniteCurve(left.back(), rows + 1);
       geo::mesh::setTransfiniteCurve(right.back(), rows + 1);
       geo::mesh::setTransfiniteSurface(surface, "Left",
                                        {below.left, below.right, above.right, above.left});
       if (settings.structure == MeshStructure::crossed) geo::mesh::setRecombine(2, surface);
     }
-    regions[layer.region].push_back(surface);
+    auto region = std::ranges::find(regions, layer.region, [](const auto& r) { return r.first; });
+    if (region == regions.end()) region = regions.insert(region, {layer.region, {}});
+    region->second.push_back(surface);
     below = above;
   }
   geo::synchronize();
   for (const auto& [region, surfaces] : regions) name_group(2, surfaces, region);
-  name_group(1, {below.line}, "top");
-  name_group(1, {bottom}, "bottom");
+  name_group(1, {below.line}, column.upper_boundary);
+  name_group(1, {bottom}, column.lower_boundary);
   name_group(1, left, "left");
   name_group(1, right, "right");
   gmsh::model::mesh::generate(2);

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The built-in geometry: a rectangular column made of layers, bottom to top.
+/// The built-in geometry: a rectangular column made of layers, bottom to top, whose rows of
+/// elements are all as high as those of the specimen.
 
 #include <string>
 #include <vector>
@@ -9,26 +10,36 @@
 
 namespace suffuse {
 
-/// One layer over the whole width. Neighbours share their nodes.
+/// One layer over the whole width, in rows counted from the foot of the specimen. Neighbours share
+/// their nodes.
 struct ColumnLayer {
   std::string region;
-  double bottom;  ///< m
-  double top;     ///< m
+  int bottom;
+  int top;
 };
 
 struct ColumnShape {
   double width;                     ///< m, from x = 0
+  double height;                    ///< of the specimen, m, from y = 0
+  int rows;                         ///< of elements in the specimen
   std::vector<ColumnLayer> layers;  ///< ascending, without gaps
+  std::string lower_boundary;       ///< name of the lowest edge
+  std::string upper_boundary;       ///< name of the highest edge
+
+  /// Height y of the line under a row; exactly `height` at the top of the specimen.
+  [[nodiscard]] double level(int row) const { return height * row / rows; }
 };
 
-/// The column that a scene asks for.
+/// The column that a scene asks for, bottom to top: outflow, free_below, buffer, specimen, buffer,
+/// free_above, inflow, of which layers without rows are left out. Its ends are called "outflow" and
+/// "inflow" where such layers are, else "bottom" and "top".
 ColumnShape column_of(const Scene& scene);
 
 /// Number of elements along a side: as near to `size` as a whole number allows.
 int element_rows(double length, double size);
 
 /// Builds and meshes the column in the current Gmsh model, with a physical surface per region and
-/// physical curves "bottom", "top", "left" and "right". `regular` structure: two right triangles
+/// physical curves for both ends, "left" and "right". `regular` structure: two right triangles
 /// per rectangle; `crossed`: rectangles, for `extract_mesh` to cut. Gmsh's own errors come as its
 /// exceptions.
 void mesh_column(const ColumnShape& column, const MeshSettings& settings);

@@ -52,9 +52,12 @@ bool is_step_file(const std::string& path) {
       std::vector<InputProblem>{{document.locate(key), key, found, expected, std::string()}});
 }
 
-void refuse_too_many(const SceneDocument& document, double area) {
+/// \param strip  width of what is meshed besides, in rows of elements, all rows together, m
+void refuse_too_many(const SceneDocument& document, double area, double strip = 0.0) {
   const double size = document.scene.mesh.size;
-  const double smallest = std::sqrt(2.0 * area / most_triangles);
+  // Triangles fill half a square each: most_triangles = 2 (area + strip size) / size^2.
+  const double smallest =
+      (strip + std::sqrt(strip * strip + 2.0 * area * most_triangles)) / most_triangles;
   if (!(size < smallest)) return;
   refuse(document, "mesh.size", number(size),
          "at least " + number(smallest) + ", which makes 5 million triangles here");
@@ -81,7 +84,11 @@ void note_rounding(const Scene& scene, std::vector<std::string>& notes) {
 
 void build_column(const SceneDocument& document, std::vector<std::string>& notes) {
   const Scene& scene = document.scene;
-  refuse_too_many(document, scene.geometry.width * scene.geometry.height);
+  const double width = scene.geometry.width;
+  const LayerSettings& rows = scene.geometry.layers;
+  const int beside =
+      rows.inflow + rows.free_above + rows.above + rows.below + rows.free_below + rows.outflow;
+  refuse_too_many(document, width * scene.geometry.height, width * beside);
   const std::string complaint = gmsh_complaint([&] { mesh_column(column_of(scene), scene.mesh); });
   if (!complaint.empty()) throw FileError("Gmsh could not mesh the column: " + complaint);
   note_rounding(scene, notes);

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -7,6 +8,7 @@
 #include "case/case_file.hpp"
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
+#include "case/scene_schema.hpp"
 #include "geometry.hpp"
 #include "gmsh_export.hpp"
 #include "seeding.hpp"
@@ -75,6 +77,31 @@ void check_outputs(const Arguments& arguments, const SceneDocument& document) {
   }
 }
 
+void refuse_too_many_points(const SceneDocument& document, const Mesh<2>& mesh) {
+  // Beyond this a misplaced decimal point is likelier than intent.
+  constexpr double most_points = 1e8;
+  double count = 0.0;
+  for (const std::int64_t of_element : liquid_point_counts(mesh, document.scene)) {
+    count += static_cast<double>(of_element);
+  }
+  if (count <= most_points) return;
+  const std::string key = "points.liquid_per_element";
+  throw InputError(std::vector<InputProblem>{
+      {document.locate(key), key, shown_number(count) + " liquid points in all",
+       "at most 100 million: fewer per element, or larger elements", ""}});
+}
+
+Case<2> seed(const SceneDocument& document, Mesh<2> mesh) {
+  const Scene& scene = document.scene;
+  Case<2> result{document, std::move(mesh), {}, {}};
+  result.solid_points = seed_solid_points(result.mesh, scene);
+  if (scene.formulation == Formulation::double_point) {
+    refuse_too_many_points(document, result.mesh);
+    result.liquid_points = seed_liquid_points(result.mesh, scene);
+  }
+  return result;
+}
+
 void make_case(const Arguments& arguments) {
   if (arguments.scene.empty()) {
     throw InputError("a scene file is missing; expected suffuse-mesher SCENE.toml (see --help)");
@@ -82,13 +109,11 @@ void make_case(const Arguments& arguments) {
   const SceneDocument document = read_scene(arguments.scene, arguments.overrides);
   check_outputs(arguments, document);
   Geometry geometry = build_geometry(document);
-  MaterialPoints<2> points = seed_solid_points(geometry.mesh, document.scene.points);
-  const Case<2> result{document, std::move(geometry.mesh), std::move(points)};
+  const Case<2> result = seed(document, std::move(geometry.mesh));
   if (!arguments.msh.empty()) write_gmsh(arguments.msh, result.mesh);
   write_case(output_path(arguments), result);
 
-  std::cout << output_path(arguments) << '\n'
-            << mesh_summary(result.mesh, result.solid_points, geometry.notes);
+  std::cout << output_path(arguments) << '\n' << case_summary(result, geometry.notes);
   const std::string warning = angle_warning(result.mesh);
   if (!warning.empty()) std::cerr << program << ": warning: " << warning << '\n';
 }

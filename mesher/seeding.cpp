@@ -43,7 +43,9 @@ Rule twelve_points() {
 /// Uniform numbers from a fixed recipe: std::uniform_real_distribution differs between libraries.
 class UniformNumbers {
  public:
-  explicit UniformNumbers(int seed) : engine_(static_cast<std::uint64_t>(seed)) {}
+  /// Streams of one seed have nothing in common.
+  explicit UniformNumbers(int seed, std::uint64_t stream = 0)
+      : engine_(static_cast<std::uint64_t>(seed) + (stream << 32U)) {}
   /// In [0, 1).
   double next() { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
   /// Uniform in angle; by rejection, because sine and cosine differ between libraries.
@@ -92,6 +94,123 @@ class Jitter {
   UniformNumbers random_;
 };
 
+/// Points anywhere in the triangle by chance.
+class RandomPoints {
+ public:
+  explicit RandomPoints(int seed) : random_(seed, 1) {}
+  std::array<double, 3> next() {
+    double x = random_.next();
+    double y = random_.next();
+    if (x + y > 1.0) {  // the other half of the square, folded over
+      x = 1.0 - x;
+      y = 1.0 - y;
+    }
+    return {1.0 - x - y, x, y};
+  }
+
+ private:
+  UniformNumbers random_;
+};
+
+/// Basu and Owen's sequence: the digits of the index in base 4, the last one first, choose one of
+/// the four similar triangles again and again; the point is the centroid of the last. Any 4^m
+/// points from a multiple of 4^m on fall into different ones of the 4^m triangles.
+class EvenPoints {
+ public:
+  std::array<double, 3> next() {
+    std::array<double, 3> point{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+    // Half the way from the centroid to a corner; the middle triangle stands on its head.
+    double half = 0.5;
+    for (std::uint64_t rest = index_++; rest > 0; rest /= 4) {
+      const std::uint64_t digit = rest % 4;
+      for (std::uint64_t a = 0; a < 3 && digit > 0; ++a) {
+        point[a] += half * ((a + 1 == digit ? 1.0 : 0.0) - 1.0 / 3.0);
+      }
+      half *= digit > 0 ? 0.5 : -0.5;
+    }
+    point[0] = 1.0 - point[1] - point[2];
+    return point;
+  }
+
+ private:
+  std::uint64_t index_ = 0;
+};
+
+/// On an edge two elements would claim the point.
+bool is_inside(const std::array<double, 3>& barycentric) {
+  constexpr double margin = 1e-9;
+  return std::ranges::all_of(barycentric, [](double share) { return share > margin; });
+}
+
+double liquid_volume(const Mesh<2>& mesh, const Scene& scene, int element) {
+  const std::string& region = mesh.region_names[mesh.element_region[element]];
+  const Soil* soil = scene.find_soil(region);
+  // n_0 is linear: its mean is its value at the centroid.
+  const double porosity = soil ? soil->initial_porosity(element_centroid(mesh, element)) : 1.0;
+  return porosity * element_volume(mesh, element);
+}
+
+/// Of an element in the regions whose soil `counts`; 0 when there is none.
+template <class Counts>
+double mean_liquid_volume(const Mesh<2>& mesh, const Scene& scene, Counts counts) {
+  double sum = 0.0;
+  int elements = 0;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
+    if (soil == nullptr || !counts(*soil)) continue;
+    sum += liquid_volume(mesh, scene, e);
+    ++elements;
+  }
+  return elements > 0 ? sum / elements : 0.0;
+}
+
+/// To the nearest whole number, at least one. Halves go down even where round-off lifts them a
+/// little, so that equal elements have equally many.
+std::int64_t whole_points(double share) {
+  constexpr double round_off = 1e-9;
+  constexpr double most = 1e9;
+  return std::max<std::int64_t>(1,
+                                std::llround(std::ceil(std::min(share, most) - 0.5 - round_off)));
+}
+
+template <class NextPoint>
+void add_equal_points(MaterialPoints<2>& points, int element, std::int64_t count, double volume,
+                      NextPoint next) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    std::array<double, 3> at = next();
+    while (!is_inside(at)) at = next();
+    points.element.push_back(element);
+    points.barycentric.push_back(at);
+    points.volume.push_back(volume / static_cast<double>(count));
+  }
+}
+
+void add_gauss_points(MaterialPoints<2>& points, int element, const Rule& rule, double volume) {
+  for (const QuadraturePoint<2>& at : rule) {
+    points.element.push_back(element);
+    points.barycentric.push_back(at.barycentric);
+    points.volume.push_back(at.weight * volume);
+  }
+}
+
+template <class IsSoil>
+MaterialPoints<2> seed_solid_points_where(const Mesh<2>& mesh, const PointSettings& settings,
+                                          IsSoil is_soil) {
+  const Rule rule = triangle_rule(settings.solid_per_element);
+  Jitter jitter(mesh, settings);
+  MaterialPoints<2> points;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (!is_soil(e)) continue;
+    const auto first = static_cast<std::size_t>(points.size());
+    add_gauss_points(points, e, rule, element_volume(mesh, e));
+    if (!(settings.jitter > 0.0)) continue;
+    for (std::size_t p = first; p < points.barycentric.size(); ++p) {
+      jitter.move(e, points.barycentric[p]);
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 Rule triangle_rule(int count) {
@@ -110,22 +229,56 @@ Rule triangle_rule(int count) {
     case 12:
       return twelve_points();
     default:
-      throw InputError("points.solid_per_element: got " + std::to_string(count) +
+      throw InputError("Gauss points per element: got " + std::to_string(count) +
                        "; expected 1, 3, 6 or 12");
   }
 }
 
 MaterialPoints<2> seed_solid_points(const Mesh<2>& mesh, const PointSettings& settings) {
-  const Rule rule = triangle_rule(settings.solid_per_element);
-  Jitter jitter(mesh, settings);
+  return seed_solid_points_where(mesh, settings, [](int) { return true; });
+}
+
+MaterialPoints<2> seed_solid_points(const Mesh<2>& mesh, const Scene& scene) {
+  return seed_solid_points_where(mesh, scene.points, [&](int element) {
+    return !scene.is_free_water(mesh.region_names[mesh.element_region[element]]);
+  });
+}
+
+std::vector<std::int64_t> liquid_point_counts(const Mesh<2>& mesh, const Scene& scene) {
+  const PointSettings& settings = scene.points;
+  std::vector<std::int64_t> counts(mesh.elements.size(), settings.liquid_per_element);
+  if (!settings.equal_volume || settings.seeding == Seeding::gauss) return counts;
+  double mean = mean_liquid_volume(
+      mesh, scene, [](const Soil& soil) { return soil.erosion.law != ErosionLaw::none; });
+  if (mean == 0.0) mean = mean_liquid_volume(mesh, scene, [](const Soil&) { return true; });
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const double elements_worth = liquid_volume(mesh, scene, e) / mean;
+    counts[static_cast<std::size_t>(e)] =
+        whole_points(settings.liquid_per_element * elements_worth);
+  }
+  return counts;
+}
+
+MaterialPoints<2> seed_liquid_points(const Mesh<2>& mesh, const Scene& scene) {
+  const std::vector<std::int64_t> counts = liquid_point_counts(mesh, scene);
+  const bool gauss = scene.points.seeding == Seeding::gauss;
+  const Rule rule = gauss ? triangle_rule(scene.points.liquid_per_element) : Rule{};
+  RandomPoints random(scene.points.seed);
+  EvenPoints even;
   MaterialPoints<2> points;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    const double volume = element_volume(mesh, e);
-    for (const QuadraturePoint<2>& at : rule) {
-      points.element.push_back(e);
-      points.barycentric.push_back(at.barycentric);
-      points.volume.push_back(at.weight * volume);
-      if (settings.jitter > 0.0) jitter.move(e, points.barycentric.back());
+    const double volume = liquid_volume(mesh, scene, e);
+    const std::int64_t count = counts[static_cast<std::size_t>(e)];
+    switch (scene.points.seeding) {
+      case Seeding::gauss:
+        add_gauss_points(points, e, rule, volume);
+        break;
+      case Seeding::random:
+        add_equal_points(points, e, count, volume, [&] { return random.next(); });
+        break;
+      case Seeding::low_discrepancy:
+        add_equal_points(points, e, count, volume, [&] { return even.next(); });
+        break;
     }
   }
   return points;

@@ -30,6 +30,16 @@ double region_area(const Mesh<2>& mesh, std::size_t region) {
   return area;
 }
 
+/// All of them, and how many an element has: `400 (12 to 40 per element)`.
+std::string liquid_counts(const Mesh<2>& mesh, const MaterialPoints<2>& points) {
+  std::vector<int> counts(mesh.elements.size(), 0);
+  for (const int element : points.element) ++counts[static_cast<std::size_t>(element)];
+  const auto [least, most] = std::ranges::minmax(counts);
+  const std::string range =
+      std::to_string(least) + (most > least ? " to " + std::to_string(most) : "") + " per element";
+  return std::to_string(points.size()) + " (" + range + ")";
+}
+
 double boundary_length(const Mesh<2>& mesh, const BoundarySet<2>& set) {
   double length = 0.0;
   for (const auto& face : set.faces) length += (mesh.nodes[face[1]] - mesh.nodes[face[0]]).norm();
@@ -38,14 +48,19 @@ double boundary_length(const Mesh<2>& mesh, const BoundarySet<2>& set) {
 
 }  // namespace
 
-std::string mesh_summary(const Mesh<2>& mesh, const MaterialPoints<2>& points,
-                         const std::vector<std::string>& notes) {
+std::string case_summary(const Case<2>& c, const std::vector<std::string>& notes) {
+  const Mesh<2>& mesh = c.mesh;
   std::vector<Line> lines{{"elements", std::to_string(mesh.element_count())},
                           {"nodes", std::to_string(mesh.node_count())},
-                          {"solid points", std::to_string(points.size())},
-                          {"smallest angle", number(smallest_angle(mesh), "degrees")}};
+                          {"solid points", std::to_string(c.solid_points.size())}};
+  if (c.liquid_points.size() > 0) {
+    lines.push_back({"liquid points", liquid_counts(mesh, c.liquid_points)});
+  }
+  lines.push_back({"smallest angle", number(smallest_angle(mesh), "degrees")});
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
-    lines.push_back({"region " + mesh.region_names[r], number(region_area(mesh, r), "m2")});
+    const std::string& region = mesh.region_names[r];
+    const std::string water = c.document.scene.is_free_water(region) ? ", free water" : "";
+    lines.push_back({"region " + region, number(region_area(mesh, r), "m2") + water});
   }
   for (const BoundarySet<2>& set : mesh.boundaries) {
     lines.push_back({"boundary " + set.name, number(boundary_length(mesh, set), "m")});

@@ -5,14 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "case/material_points.hpp"
+#include "case/case_file.hpp"
 
 namespace suffuse {
 
-/// Counts, smallest angle, areas of the regions and lengths of the boundaries, then the notes; one
-/// aligned line each.
-std::string mesh_summary(const Mesh<2>& mesh, const MaterialPoints<2>& points,
-                         const std::vector<std::string>& notes);
+/// Counts, smallest angle, areas of the regions (and which of them are free water) and lengths of
+/// the boundaries, then the notes; one aligned line each.
+std::string case_summary(const Case<2>& c, const std::vector<std::string>& notes);
 
 /// A sentence when the smallest angle is below 5 degrees, empty otherwise.
 std::string angle_warning(const Mesh<2>& mesh);

@@ -17,7 +17,9 @@ namespace suffuse {
 namespace {
 
 constexpr const char* format_name = "suffuse-case";
-constexpr std::int64_t schema_version = 1;
+constexpr const char* solid_group = "/solid_points";
+constexpr const char* liquid_group = "/liquid_points";
+constexpr std::int64_t schema_version = 2;
 /// Barycentric coordinates are sums and products of a few doubles.
 constexpr double barycentric_tolerance = 1e-12;
 
@@ -63,14 +65,14 @@ void write_mesh(Hdf5File& file, const Mesh<Dim>& mesh) {
 }
 
 template <int Dim>
-void write_points(Hdf5File& file, const MaterialPoints<Dim>& points) {
+void write_points(Hdf5File& file, const std::string& group, const MaterialPoints<Dim>& points) {
   const std::size_t count = points.element.size();
-  file.write("/solid_points/element", std::span<const std::int32_t>(points.element), {count});
-  file.write("/solid_points/barycentric", flat_doubles(points.barycentric),
+  file.write(group + "/element", std::span<const std::int32_t>(points.element), {count});
+  file.write(group + "/barycentric", flat_doubles(points.barycentric),
              {count, std::size_t{Dim + 1}});
-  file.attribute("/solid_points/barycentric", "unit", std::string("1"));
-  file.write("/solid_points/volume", points.volume, {count});
-  file.attribute("/solid_points/volume", "unit", std::string(Dim == 2 ? "m3/m" : "m3"));
+  file.attribute(group + "/barycentric", "unit", std::string("1"));
+  file.write(group + "/volume", points.volume, {count});
+  file.attribute(group + "/volume", "unit", std::string(Dim == 2 ? "m3/m" : "m3"));
 }
 
 void write_scene(Hdf5File& file, const SceneDocument& document) {
@@ -98,21 +100,23 @@ class CaseReader {
     return mesh;
   }
 
-  [[nodiscard]] MaterialPoints<Dim> points(const Mesh<Dim>& mesh) const {
-    MaterialPoints<Dim> points;
-    points.element = read_indices("/solid_points/element", mesh.element_count());
-    points.barycentric = unflatten<Dim + 1>("/solid_points/barycentric",
-                                            file_.read_doubles("/solid_points/barycentric"));
-    points.volume = file_.read_doubles("/solid_points/volume");
-    const std::size_t count = points.element.size();
-    if (points.barycentric.size() != count || points.volume.size() != count) {
-      fail("/solid_points", "element, barycentric and volume differ in length");
+  [[nodiscard]] MaterialPoints<Dim> solid_points(const Mesh<Dim>& mesh, const Scene& scene) const {
+    MaterialPoints<Dim> points = read_points(solid_group, mesh);
+    for (int p = 0; p < points.size(); ++p) {
+      const std::string& region = mesh.region_names[mesh.element_region[points.element[p]]];
+      if (!scene.is_free_water(region)) continue;
+      fail(std::string(solid_group) + "/element",
+           "point " + std::to_string(p) + " lies in \"" + region + "\", which is free water");
     }
-    if (!std::ranges::is_sorted(points.element)) {
-      fail("/solid_points/element", "expected points sorted by element");
-    }
-    for (std::size_t p = 0; p < count; ++p) check_point(points, p);
     return points;
+  }
+
+  [[nodiscard]] MaterialPoints<Dim> liquid_points(const Mesh<Dim>& mesh, const Scene& scene) const {
+    const bool expected = scene.formulation == Formulation::double_point;
+    if (!expected && file_.exists(liquid_group)) {
+      fail(liquid_group, "the scene is single-point; expected no liquid points");
+    }
+    return expected ? read_points(liquid_group, mesh) : MaterialPoints<Dim>{};
   }
 
   /// The scene text is checked again: another version of the schema may have written it.
@@ -232,7 +236,26 @@ class CaseReader {
     check_names("/boundaries", names);
   }
 
-  void check_point(const MaterialPoints<Dim>& points, std::size_t p) const {
+  [[nodiscard]] MaterialPoints<Dim> read_points(const std::string& group,
+                                                const Mesh<Dim>& mesh) const {
+    const std::string barycentric = group + "/barycentric";
+    MaterialPoints<Dim> points;
+    points.element = read_indices(group + "/element", mesh.element_count());
+    points.barycentric = unflatten<Dim + 1>(barycentric, file_.read_doubles(barycentric));
+    points.volume = file_.read_doubles(group + "/volume");
+    const std::size_t count = points.element.size();
+    if (points.barycentric.size() != count || points.volume.size() != count) {
+      fail(group, "element, barycentric and volume differ in length");
+    }
+    if (!std::ranges::is_sorted(points.element)) {
+      fail(group + "/element", "expected points sorted by element");
+    }
+    for (std::size_t p = 0; p < count; ++p) check_point(group, points, p);
+    return points;
+  }
+
+  void check_point(const std::string& group, const MaterialPoints<Dim>& points,
+                   std::size_t p) const {
     double sum = 0.0;
     bool inside = true;
     for (double share : points.barycentric[p]) {
@@ -240,11 +263,11 @@ class CaseReader {
       inside = inside && share >= -barycentric_tolerance;
     }
     if (!inside || !(std::abs(sum - 1.0) <= barycentric_tolerance)) {
-      fail("/solid_points/barycentric",
+      fail(group + "/barycentric",
            "the coordinates of point " + std::to_string(p) + " do not lie in its element");
     }
     if (!(std::isfinite(points.volume[p]) && points.volume[p] > 0.0)) {
-      fail("/solid_points/volume",
+      fail(group + "/volume",
            "the volume of point " + std::to_string(p) + " is not positive and finite");
     }
   }
@@ -284,7 +307,10 @@ void write_case(const std::string& path, const Case<Dim>& c) {
   integer_attribute(file, "/suffuse", "schema_version", schema_version);
   integer_attribute(file, "/suffuse", "dimension", Dim);
   write_mesh(file, c.mesh);
-  write_points(file, c.solid_points);
+  write_points(file, solid_group, c.solid_points);
+  if (c.document.scene.formulation == Formulation::double_point) {
+    write_points(file, liquid_group, c.liquid_points);
+  }
   write_scene(file, c.document);
   file.close();
   pending.commit();
@@ -300,9 +326,10 @@ Case<Dim> read_case(const std::string& path) {
   }
   const CaseReader<Dim> reader(file);
   Mesh<Dim> mesh = reader.mesh();
-  MaterialPoints<Dim> points = reader.points(mesh);
   SceneDocument document = reader.scene(mesh);
-  return {std::move(document), std::move(mesh), std::move(points)};
+  MaterialPoints<Dim> solid = reader.solid_points(mesh, document.scene);
+  MaterialPoints<Dim> liquid = reader.liquid_points(mesh, document.scene);
+  return {std::move(document), std::move(mesh), std::move(solid), std::move(liquid)};
 }
 
 int read_case_dimension(const std::string& path) {

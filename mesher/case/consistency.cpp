@@ -89,10 +89,15 @@ class SceneCheck {
     std::vector<std::string> soils;
     for (const Soil& soil : document_.scene.soils) soils.push_back(soil.region);
     for (const std::string& region : mesh_.region_names) {
-      if (document_.scene.find_soil(region) != nullptr) continue;
+      const Scene& scene = document_.scene;
+      if (scene.find_soil(region) != nullptr || scene.is_free_water(region)) continue;
+      const std::string water =
+          names_free_water(region)
+              ? ", or formulation = \"double-point\", where it is free water without one"
+              : "";
       report("soil." + region, "nothing",
-             "a table [soil." + region + "] for the mesh's region of that name; the soils are " +
-                 quoted_list(soils),
+             "a table [soil." + region + "] for the mesh's region of that name" + water +
+                 "; the soils are " + quoted_list(soils),
              suggest(region, soils));
     }
   }

@@ -65,8 +65,10 @@ class SceneReader {
     if (places_.contains("geometry.file")) scene_.mesh.structure = MeshStructure::crossed;
     bind();
     complete();
-    check_scene(scene_, {.given = [this](const std::string& key) { return places_.contains(key); },
-                         .report = [this](const Contradiction& found) { report(found); }});
+    check_scene(scene_,
+                {.given = [this](const std::string& key) { return places_.contains(key); },
+                 .refused = [this](const std::string& key) { return refused_.contains(key); },
+                 .report = [this](const Contradiction& found) { report(found); }});
     throw_problems();
     return scene_;
   }
@@ -222,6 +224,7 @@ class SceneReader {
   void check_value(SceneNode& node, const std::string& key, const SceneKey& declared) {
     if (node.value) node.accepted = declared.accept(*node.value);
     if (node.accepted) return;
+    refused_.insert(key);
     std::string expected = declared.expected();
     const auto* real = node.value ? std::get_if<double>(&*node.value) : nullptr;
     if (real && !std::isfinite(*real) && expected.starts_with("a number")) {
@@ -391,21 +394,29 @@ class SceneReader {
     if (!places_.contains("output.snapshot_every")) {
       scene_.output.snapshot_every = scene_.output.every;
     }
+    if (!places_.contains("points.equal_volume") && scene_.points.seeding == Seeding::gauss) {
+      scene_.points.equal_volume = false;
+    }
   }
 
   std::string path_;
   std::vector<Problem> problems_;
   SceneNode root_;
   std::set<std::string> without_inheritance_;  ///< soils whose `like` leads nowhere
+  std::set<std::string> refused_;              ///< keys whose value is not allowed
   Places places_;
   Scene scene_;
 };
 
 }  // namespace
 
-bool Scene::is_free_water(const std::string& region) const {
+bool names_free_water(const std::string& region) {
   static const std::set<std::string> names{"inflow", "outflow", "free_above", "free_below"};
-  return formulation == Formulation::double_point && names.contains(region) &&
+  return names.contains(region);
+}
+
+bool Scene::is_free_water(const std::string& region) const {
+  return formulation == Formulation::double_point && names_free_water(region) &&
          find_soil(region) == nullptr;
 }
 

@@ -60,6 +60,7 @@ struct PointSettings {
   Seeding seeding = Seeding::low_discrepancy;  ///< of liquid points
   /// Liquid points stand for equal volumes, so their number per element goes with its liquid;
   /// false: the same number in every element, as the paper has it.
+  /// Gauss points cannot: it does not apply to them, and a scene that was read says false.
   bool equal_volume = true;
 };
 
@@ -155,6 +156,10 @@ struct Scene {
   /// free_above or free_below, in a double-point scene.
   [[nodiscard]] bool is_free_water(const std::string& region) const;
 };
+
+/// Whether a region of this name holds free water where it has no soil: inflow, outflow, free_above
+/// and free_below.
+bool names_free_water(const std::string& region);
 
 /// A scene with the text it came from, so that the next stage can check and report against it
 /// again.

@@ -23,12 +23,15 @@ class Checks {
     for (const Soil& soil : scene_.soils) check_soil(soil);
     check_grains();
     check_boundaries();
+    check_seeding();
+    check_formulation();
     check_third_term();
     check_times();
   }
 
  private:
   [[nodiscard]] bool given(const std::string& key) const { return inquiry_.given(key); }
+  [[nodiscard]] bool refused(const std::string& key) const { return inquiry_.refused(key); }
   void report(const std::string& key, const std::string& found, const std::string& expected,
               const std::vector<std::string>& others = {}) const {
     inquiry_.report({.key = key, .found = found, .expected = expected, .others = others});
@@ -56,6 +59,12 @@ class Checks {
         report(key, "a " + name + " beside geometry.file", name + " with shape = \"column\" only",
                {"geometry.file"});
       }
+    }
+    for (const std::string& key : keys_of("geometry.layers")) {
+      if (!given(key)) continue;
+      report(key, "a layer beside geometry.file",
+             "layers with shape = \"column\" only: a file has regions of its own",
+             {"geometry.file"});
     }
     if (given("mesh.structure") && scene_.mesh.structure == MeshStructure::regular) {
       report("mesh.structure", "\"regular\" for geometry.file",
@@ -118,7 +127,7 @@ class Checks {
     }
   }
 
-  /// The single-point liquid carries one kind of grains: mixed ones could not be told apart again.
+  /// The liquid carries one kind of grains: mixed ones could not be told apart again.
   void check_grains() const {
     for (const Soil& soil : scene_.soils) {
       const Soil& first = scene_.soils.front();
@@ -133,9 +142,61 @@ class Checks {
     }
   }
 
+  /// Gauss points are as many as their rule has, and stand for unequal volumes.
+  void check_seeding() const {
+    if (scene_.points.seeding != Seeding::gauss) return;
+    const int count = scene_.points.liquid_per_element;
+    const std::string offered = "points.solid_per_element";
+    if (!find_scene_key(offered)->accept(std::int64_t{count})) {
+      report("points.liquid_per_element", std::to_string(count) + " with seeding = \"gauss\"",
+             find_scene_key(offered)->expected(), {"points.seeding"});
+    }
+    const std::string key = "points.equal_volume";
+    if (given(key) && !refused(key) && scene_.points.equal_volume) {
+      report(key, "true with seeding = \"gauss\"",
+             "false: the volumes of Gauss points differ as their weights do", {"points.seeding"});
+    }
+  }
+
+  void check_formulation() const {
+    const std::string formulation = "formulation";
+    if (!given(formulation) || refused(formulation)) return;
+    if (scene_.formulation == Formulation::double_point) {
+      if (scene_.flow.porosity_gradient_term) return;
+      report("flow.porosity_gradient_term", "false with formulation = \"double-point\"",
+             "true: the balance of points that move with the liquid has no such term",
+             {formulation});
+      return;
+    }
+    for (const std::string& key : double_point_keys()) {
+      if (!given(key)) continue;
+      report(key, "a key of double-point scenes", "formulation = \"double-point\", or no such key",
+             {formulation});
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> double_point_keys() const {
+    std::vector<std::string> keys = keys_of("geometry.layers");
+    keys.insert(keys.end(), {"points.liquid_per_element", "points.seeding", "points.equal_volume",
+                             "flow.integration"});
+    for (const Soil& soil : scene_.soils) {
+      for (const std::string name : {"mass_transfer", "empty_elements"}) {
+        keys.push_back(table_of(soil) + ".erosion." + name);
+      }
+    }
+    return keys;
+  }
+
+  [[nodiscard]] static std::vector<std::string> keys_of(const std::string& table) {
+    std::vector<std::string> keys = scene_children(table);
+    for (std::string& key : keys) key = joined(table, key);
+    return keys;
+  }
+
   /// Without the third term of Eq. 2 no balance closes, so nothing else may be asked of the run.
   void check_third_term() const {
-    if (scene_.flow.porosity_gradient_term) return;
+    const bool single_point = scene_.formulation == Formulation::single_point;
+    if (scene_.flow.porosity_gradient_term || !single_point) return;
     const bool erodes = std::any_of(scene_.soils.begin(), scene_.soils.end(), [](const Soil& soil) {
       return soil.erosion.law != ErosionLaw::none && soil.erosion.rate > 0.0;
     });

@@ -23,6 +23,16 @@ auto at(Group Scene::*group, Member Group::*member) {
   return [=](Scene& scene, std::size_t) -> Member& { return scene.*group.*member; };
 }
 
+template <class Group, class Inner, class Member>
+auto at(Group Scene::*group, Inner Group::*inner, Member Inner::*member) {
+  return [=](Scene& scene, std::size_t) -> Member& { return scene.*group.*inner.*member; };
+}
+
+/// A number of rows of elements beside the specimen.
+auto rows(int LayerSettings::*member) {
+  return at(&Scene::geometry, &GeometrySettings::layers, member);
+}
+
 template <class Member>
 auto in_soil(Member Soil::*member) {
   return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].*member; };
@@ -133,6 +143,11 @@ Declaration choice(const char* pattern, Access access,
   return d;
 }
 
+/// Rows of elements in a layer of the column.
+Declaration layer(const char* pattern, int LayerSettings::*member, const char* sentence) {
+  return key(pattern, rows(member), sentence).at_least(0).at_most(1000).otherwise(0);
+}
+
 /// A key the reader itself acts on; the scene keeps nothing of it.
 Declaration instruction(const char* pattern, const char* sentence) {
   Declaration d;
@@ -145,15 +160,19 @@ Declaration instruction(const char* pattern, const char* sentence) {
 
 std::vector<SceneKey> declare_keys() {
   using Geometry = GeometrySettings;
+  using Layers = LayerSettings;
   using Points = PointSettings;
   using Liquid = LiquidProperties;
   using Boundary = BoundaryCondition;
   return {
       key("name", at(&Scene::name), "What the run is called in figures and reports.")
           .otherwise_as("the file's name"),
-      choice(
-          "formulation", at(&Scene::formulation), {{"single-point", Formulation::single_point}},
-          "How the two phases are carried: in one set of material points that follows the solid.")
+      choice("formulation", at(&Scene::formulation),
+             {{"single-point", Formulation::single_point},
+              {"double-point", Formulation::double_point}},
+             "How the two phases are carried: in one set of material points that follows the "
+             "solid, or in two, of which the second follows the liquid and carries the fluidised "
+             "grains.")
           .mandatory(),
       key("gravity", at(&Scene::gravity),
           "Acceleration of gravity. Without it p is the pressure in excess of the hydrostatic one.")
@@ -166,17 +185,32 @@ std::vector<SceneKey> declare_keys() {
           "regions and boundaries.")
           .otherwise_as("required without `shape`"),
       choice("geometry.shape", at(&Scene::geometry, &Geometry::shape), {{"column", "column"}},
-             "A built-in geometry. A column has the region `specimen` and the boundaries `top`, "
-             "`bottom`, `left` and `right`; its lower left corner is the origin.")
+             "A built-in geometry. A column has the region `specimen`, whose lower left corner is "
+             "the origin, and the boundaries `top`, `bottom`, `left` and `right`.")
           .otherwise_as("required without `file`"),
       key("geometry.width", at(&Scene::geometry, &Geometry::width), "Width of the column.")
           .in("m")
           .above(0.0)
           .otherwise_as("required with `shape`"),
-      key("geometry.height", at(&Scene::geometry, &Geometry::height), "Height of the column.")
+      key("geometry.height", at(&Scene::geometry, &Geometry::height), "Height of the specimen.")
           .in("m")
           .above(0.0)
           .otherwise_as("required with `shape`"),
+
+      layer("geometry.layers.inflow", &Layers::inflow,
+            "Free water on top, region `inflow`: liquid enters there, through the boundary "
+            "`inflow`, which takes the place of `top`."),
+      layer("geometry.layers.free_above", &Layers::free_above,
+            "Free water above the upper buffer, region `free_above`."),
+      layer("geometry.layers.above", &Layers::above,
+            "Soil on top of the specimen, region `buffer`."),
+      layer("geometry.layers.below", &Layers::below,
+            "Soil beneath the specimen, region `buffer` too."),
+      layer("geometry.layers.free_below", &Layers::free_below,
+            "Free water below the lower buffer, region `free_below`."),
+      layer("geometry.layers.outflow", &Layers::outflow,
+            "Free water at the foot, region `outflow`: liquid leaves there, through the boundary "
+            "`outflow`, which takes the place of `bottom`."),
 
       key("mesh.size", at(&Scene::mesh, &MeshSettings::size),
           "Size of the elements; with a .geo or .step file the largest size, and the one where the "
@@ -200,14 +234,35 @@ std::vector<SceneKey> declare_keys() {
           .one_of({1, 3, 6, 12})
           .otherwise(3),
       key("points.jitter", at(&Scene::points, &Points::jitter),
-          "How far points are moved off the Gauss positions, as a fraction of the element size.")
+          "How far solid points are moved off the Gauss positions, as a fraction of the element "
+          "size.")
           .at_least(0.0)
           .at_most(0.5)
           .otherwise(0.0),
       key("points.seed", at(&Scene::points, &Points::seed),
-          "Seed of the jitter: the same seed gives the same points.")
+          "Seed of the jitter and of random seeding: the same seed gives the same points.")
           .at_least(0)
           .otherwise(1),
+      key("points.liquid_per_element", at(&Scene::points, &Points::liquid_per_element),
+          "Liquid material points in each triangle; with `equal_volume` in a mean triangle of the "
+          "soil that erodes, at the start. With `seeding = \"gauss\"` 1, 3, 6 or 12. Double-point "
+          "only.")
+          .at_least(1)
+          .at_most(1000)
+          .otherwise(12),
+      choice("points.seeding", at(&Scene::points, &Points::seeding),
+             {{"gauss", Seeding::gauss},
+              {"random", Seeding::random},
+              {"low-discrepancy", Seeding::low_discrepancy}},
+             "Where liquid points start: at Gauss points, whose volumes differ as their weights "
+             "do; anywhere by chance; or spread as evenly as can be, without repeating a pattern. "
+             "Double-point only.")
+          .otherwise("low-discrepancy"),
+      key("points.equal_volume", at(&Scene::points, &Points::equal_volume),
+          "Liquid points stand for equal volumes, up to rounding to whole points: an element with "
+          "more liquid has more of them. Otherwise each element has the same number, as it always "
+          "has of Gauss points. Double-point only.")
+          .otherwise_as("`true`; with `seeding = \"gauss\"`, `false`"),
 
       key("liquid.density", at(&Scene::liquid, &Liquid::density), "Density of the water.")
           .named("rho_w")
@@ -263,6 +318,12 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .mandatory(),
 
+      choice("soil.*.drag", in_soil(&Soil::drag),
+             {{"darcy", SoilDrag::darcy}, {"ergun", SoilDrag::ergun}},
+             "Resistance to the flow: Darcy's, or Ergun's, which also grows with the square of the "
+             "flux and has Darcy's `conductivity` at small fluxes.")
+          .otherwise("darcy"),
+
       choice("soil.*.erosion.law", in_erosion(&ErosionSettings::law),
              {{"none", ErosionLaw::none},
               {"constant", ErosionLaw::constant},
@@ -286,6 +347,16 @@ std::vector<SceneKey> declare_keys() {
           "Keep rho_s phi_e (v_L - v_S), the momentum eroded grains take up, in the liquid's "
           "momentum.")
           .otherwise(false),
+      choice("soil.*.erosion.mass_transfer", in_erosion(&ErosionSettings::mass_transfer),
+             {{"nodal", MassTransfer::nodal}, {"element", MassTransfer::element}},
+             "Which liquid points take up eroded grains: those around, through the nodes, by their "
+             "volumes; or those in the same element, in equal shares. Double-point only.")
+          .otherwise("nodal"),
+      choice("soil.*.erosion.empty_elements", in_erosion(&ErosionSettings::empty_elements),
+             {{"wet", EmptyElements::wet}, {"dry", EmptyElements::dry}},
+             "An element that has no liquid point for the moment: erodes like any other, as its "
+             "pores are full all the same; or does not erode. Double-point only.")
+          .otherwise("wet"),
 
       key("boundary[].on", on_boundary(&Boundary::on), "Name of the boundary.").mandatory(),
       key("boundary[].pressure", on_boundary(&Boundary::pressure), "Pore pressure there.")
@@ -316,8 +387,14 @@ std::vector<SceneKey> declare_keys() {
 
       key("flow.porosity_gradient_term", at(&Scene::flow, &FlowSettings::porosity_gradient_term),
           "Keep (v_L - v_S) . grad n_L in the balance of water. Without it water is lost wherever "
-          "porosity varies: for comparison only.")
+          "porosity varies: for comparison only, and not in double-point scenes.")
           .otherwise(true),
+      choice("flow.integration", at(&Scene::flow, &FlowSettings::integration),
+             {{"mixed", PressureIntegration::mixed},
+              {"material-point", PressureIntegration::material_point}},
+             "Where the pressure lives: one per element; or at the liquid points, which then carry "
+             "the velocity too. Double-point only.")
+          .otherwise("mixed"),
 
       key("time.end", at(&Scene::time, &TimeSettings::end), "When the run ends.")
           .named("T")
@@ -391,10 +468,17 @@ const std::vector<SceneSection>& scene_sections() {
   static const std::vector<SceneSection> sections = {
       {"", "Top level", "Keys before the first table."},
       {"geometry", "[geometry]", "Either a built-in `shape` or your own `file`."},
+      {"geometry.layers", "[geometry.layers]",
+       "Rows of elements that a column has beside its specimen, each as high as a row of the "
+       "specimen. In this order from top to bottom, the specimen between `above` and `below`. "
+       "Double-point only."},
       {"mesh", "[mesh]", "Linear triangles."},
       {"points", "[points]", "Material points."},
       {"liquid", "[liquid]", "Weakly compressible water."},
-      {"soil.*", "[soil.NAME]", "One table per region, NAME being the region's."},
+      {"soil.*", "[soil.NAME]",
+       "One table per region, NAME being the region's. In double-point scenes the regions "
+       "`inflow`, `outflow`, `free_above` and `free_below`, of a column or of your own file, need "
+       "none: without a soil they are free water, n_L = 1."},
       {"soil.*.erosion", "[soil.NAME.erosion]",
        "How fines of this soil turn into fluidised grains. n_L,max = 1 - n_C."},
       {"boundary[]", "[[boundary]]",
