@@ -91,14 +91,12 @@ class SceneCheck {
     for (const std::string& region : mesh_.region_names) {
       const Scene& scene = document_.scene;
       if (scene.find_soil(region) != nullptr || scene.is_free_water(region)) continue;
-      const std::string water =
-          names_free_water(region)
-              ? ", or formulation = \"double-point\", where it is free water without one"
-              : "";
-      report("soil." + region, "nothing",
-             "a table [soil." + region + "] for the mesh's region of that name" + water +
-                 "; the soils are " + quoted_list(soils),
-             suggest(region, soils));
+      std::string expected = "a table [soil." + region + "] for the mesh's region of that name";
+      if (names_free_water(region)) {
+        expected += ", or formulation = \"double-point\", where it is free water without one";
+      }
+      expected += "; the soils are " + quoted_list(soils);
+      report("soil." + region, "nothing", expected, suggest(region, soils));
     }
   }
 

@@ -39,6 +39,23 @@ Case<2> small_case() {
   return c;
 }
 
+/// The same as a double-point case: the second element is free water, and each has two liquid
+/// points.
+Case<2> double_point_case() {
+  Case<2> c = small_case();
+  c.document = parse_scene(c.document.text, c.document.path, {"formulation=double-point"});
+  c.mesh.element_region = {0, 1};
+  c.mesh.region_names = {"specimen", "inflow"};
+  c.solid_points.element.resize(3);
+  c.solid_points.volume.resize(3);
+  c.solid_points.barycentric.resize(3);
+  c.liquid_points.element = {0, 0, 1, 1};
+  c.liquid_points.barycentric = {
+      {0.25, 0.25, 0.5}, {0.5, 0.125, 0.375}, {0.125, 0.75, 0.125}, {0.1, 0.2, 0.7}};
+  c.liquid_points.volume = {0.05, 0.1, 0.1, 1.0 / 30.0};
+  return c;
+}
+
 TEST(CaseFile, ReadsBackExactlyWhatWasWritten) {
   const TemporaryFolder folder;
   const Case<2> written = small_case();
@@ -61,6 +78,28 @@ TEST(CaseFile, ReadsBackExactlyWhatWasWritten) {
   EXPECT_EQ(read.document.path, "folder/test.toml");
   EXPECT_EQ(read.document.overrides, written.document.overrides);
   EXPECT_EQ(read.document.scene.liquid.bulk_modulus, 2.0e7);
+}
+
+TEST(CaseFile, ReadsBackLiquidPoints) {
+  const TemporaryFolder folder;
+  const Case<2> written = double_point_case();
+  write_case(folder.file("a.h5"), written);
+  const Case<2> read = read_case<2>(folder.file("a.h5"));
+  EXPECT_EQ(read.solid_points.element, written.solid_points.element);
+  EXPECT_EQ(read.liquid_points.element, written.liquid_points.element);
+  EXPECT_EQ(read.liquid_points.barycentric, written.liquid_points.barycentric);
+  EXPECT_EQ(read.liquid_points.volume, written.liquid_points.volume);
+  const Hdf5File file(folder.file("a.h5"), Hdf5File::Mode::read);
+  EXPECT_EQ(file.text_attribute("/liquid_points/volume", "unit"), "m3/m");
+}
+
+TEST(CaseFile, HasLiquidPointsInDoublePointCasesOnly) {
+  const TemporaryFolder folder;
+  Case<2> c = small_case();
+  c.liquid_points = double_point_case().liquid_points;
+  write_case(folder.file("a.h5"), c);
+  EXPECT_FALSE(Hdf5File(folder.file("a.h5"), Hdf5File::Mode::read).exists("/liquid_points"));
+  EXPECT_EQ(read_case<2>(folder.file("a.h5")).liquid_points.size(), 0);
 }
 
 TEST(CaseFile, EqualCasesAreEqualFiles) {
@@ -129,7 +168,7 @@ TEST(CaseFile, OtherFilesAreRefused) {
 TEST(CaseFile, EveryTruncationIsRefused) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.h5");
-  write_case(path, small_case());
+  write_case(path, double_point_case());
   const std::string whole = read_file(path);
   for (std::size_t length = 0; length < whole.size(); length += 997) {
     const std::string cut = folder.write("cut.h5", whole.substr(0, length));
@@ -140,7 +179,7 @@ TEST(CaseFile, EveryTruncationIsRefused) {
 TEST(CaseFile, DamagedBytesNeverCrash) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.h5");
-  write_case(path, small_case());
+  write_case(path, double_point_case());
   const std::string whole = read_file(path);
   for (std::size_t at = 0; at < whole.size(); at += 61) {
     std::string damaged = whole;
@@ -229,6 +268,22 @@ void set_attribute(const std::string& path, const std::string& name, std::int64_
   H5Fclose(file);
 }
 
+void create_group(const std::string& path, const std::string& group) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t made = H5Gcreate2(file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  ASSERT_GE(made, 0);
+  H5Gclose(made);
+  H5Fclose(file);
+}
+
+/// Puts one dataset in the place of another.
+void replace_by_copy(const std::string& path, const std::string& dataset, const std::string& by) {
+  remove_object(path, dataset);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(H5Ocopy(file, by.c_str(), file, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT), 0);
+  H5Fclose(file);
+}
+
 struct Damage {
   std::string name;
   std::function<void(const std::string&)> apply;
@@ -239,16 +294,26 @@ void PrintTo(const Damage& damage, std::ostream* stream) {
   *stream << damage.name;
 }
 
+void expect_refusal(const Case<2>& c, const Damage& damage) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.h5");
+  write_case(path, c);
+  damage.apply(path);
+  const std::string message = reading_failure(path);
+  EXPECT_EQ(message.find(path + ": "), 0U) << message;
+  EXPECT_NE(message.find(damage.message), std::string::npos) << message;
+}
+
 class DamagedCase : public testing::TestWithParam<Damage> {};
 
 TEST_P(DamagedCase, IsRefusedWithItsReason) {
-  const TemporaryFolder folder;
-  const std::string path = folder.file("a.h5");
-  write_case(path, small_case());
-  GetParam().apply(path);
-  const std::string message = reading_failure(path);
-  EXPECT_EQ(message.find(path + ": "), 0U) << message;
-  EXPECT_NE(message.find(GetParam().message), std::string::npos) << message;
+  expect_refusal(small_case(), GetParam());
+}
+
+class DamagedDoublePointCase : public testing::TestWithParam<Damage> {};
+
+TEST_P(DamagedDoublePointCase, IsRefusedWithItsReason) {
+  expect_refusal(double_point_case(), GetParam());
 }
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -302,12 +367,40 @@ INSTANTIATE_TEST_SUITE_P(
             "boundary[0].on: got \"top\"; expected a boundary of the mesh: \"tip\" or \"sides\""},
         Damage{"TwiceTheSameName", [](auto& f) { replace_text(f, "/boundaries/0/name", "sides"); },
                "expected names that differ"},
-        Damage{"Version", [](auto& f) { set_attribute(f, "schema_version", 2); },
-               "is a case file of schema version 2; this program reads version 1"},
+        Damage{"Version", [](auto& f) { set_attribute(f, "schema_version", 1); },
+               "is a case file of schema version 1; this program reads version 2"},
+        Damage{"LiquidPoints", [](auto& f) { create_group(f, "/liquid_points"); },
+               "/liquid_points: the scene is single-point; expected no liquid points"},
         Damage{"Dimension", [](auto& f) { set_attribute(f, "dimension", 3); },
                "is a case of dimension 3; expected 2"},
         Damage{"NoDimension", [](auto& f) { set_attribute(f, "dimension", 4); },
                "its dimension is 4"}),
+    [](const auto& tested) { return tested.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DamagedDoublePointCase,
+    testing::Values(
+        Damage{"NoLiquid", [](auto& f) { remove_object(f, "/liquid_points"); },
+               "/liquid_points/element: is missing"},
+        Damage{"Missing", [](auto& f) { remove_object(f, "/liquid_points/volume"); },
+               "/liquid_points/volume: is missing"},
+        Damage{"Lengths",
+               [](auto& f) { replace_by_copy(f, "/liquid_points/volume", "/solid_points/volume"); },
+               "/liquid_points: element, barycentric and volume differ in length"},
+        Damage{"Owner", [](auto& f) { set_integer(f, "/liquid_points/element", 3, 2); },
+               "/liquid_points/element: value 3 is 2; expected 0 to 1"},
+        Damage{"Unsorted", [](auto& f) { set_integer(f, "/liquid_points/element", 0, 1); },
+               "/liquid_points/element: expected points sorted by element"},
+        Damage{"Barycentric", [](auto& f) { set_double(f, "/liquid_points/barycentric", 4, 0.7); },
+               "/liquid_points/barycentric: the coordinates of point 1 do not lie in its element"},
+        Damage{"Volume", [](auto& f) { set_double(f, "/liquid_points/volume", 2, 0.0); },
+               "/liquid_points/volume: the volume of point 2 is not positive"},
+        Damage{"VolumeNan", [](auto& f) { set_double(f, "/liquid_points/volume", 2, nan); },
+               "/liquid_points/volume: the volume of point 2 is not positive and finite"},
+        Damage{"WrongType", [](auto& f) { replace_text(f, "/liquid_points/volume", "text"); },
+               "/liquid_points/volume: holds text; expected floating-point numbers"},
+        Damage{"SolidInFreeWater", [](auto& f) { set_integer(f, "/solid_points/element", 2, 1); },
+               "/solid_points/element: point 2 lies in \"inflow\", which is free water"}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(Hdf5File, TextsAndAttributesComeBack) {

@@ -53,6 +53,44 @@ TEST_F(CommandLine, MakesACaseNamedAfterTheScene) {
   EXPECT_EQ(made.document.path, "column.toml");
 }
 
+TEST_F(CommandLine, MakesADoublePointCase) {
+  const Outcome outcome =
+      run("'" SUFFUSE_TEST_DATA "/scenes/double-point.toml' -o dp.case.h5 --msh dp.msh");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(outcome.text,
+            "dp.case.h5\n"
+            "  elements          96\n"
+            "  nodes             65\n"
+            "  solid points      64\n"
+            "  liquid points     2048 (12 to 40 per element)\n"
+            "  smallest angle    45 degrees\n"
+            "  region outflow    0.5 m2, free water\n"
+            "  region buffer     1 m2\n"
+            "  region specimen   1 m2\n"
+            "  region inflow     0.5 m2, free water\n"
+            "  boundary inflow   1 m\n"
+            "  boundary outflow  1 m\n"
+            "  boundary left     3 m\n"
+            "  boundary right    3 m\n");
+  const Case<2> made = read_case<2>(folder_.file("dp.case.h5"));
+  EXPECT_EQ(made.mesh.element_count(), 96);
+  EXPECT_EQ(made.solid_points.size(), 64);
+  EXPECT_EQ(made.liquid_points.size(), 64 * 12 + 32 * 40);
+}
+
+TEST_F(CommandLine, RefusesMoreLiquidPointsThanAnyoneMeans) {
+  // Elements of free water hold a thousand million times as much liquid as those of this soil.
+  const Outcome outcome =
+      run("'" SUFFUSE_TEST_DATA "/scenes/double-point.toml' --set soil.specimen.porosity=1e-8");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.text.find("double-point.toml:21: points.liquid_per_element: got "
+                              "32000000768 liquid points in all; expected at most 100 million: "
+                              "fewer per element, or larger elements"),
+            std::string::npos)
+      << outcome.text;
+  EXPECT_EQ(folder_.count(), 1);
+}
+
 TEST_F(CommandLine, OverridesAndOutputs) {
   const Outcome outcome =
       run("--set points.solid_per_element=12 --set mesh.size=0.5 column.toml -o other.case.h5 "

@@ -27,8 +27,16 @@ std::string column(double width, double height, double size, const std::string& 
          "\nstructure = \"" + structure + "\"\n";
 }
 
-Geometry build(const std::string& geometry, const std::string& more = "") {
-  return build_geometry(parse_scene(scene_text(geometry, more), "test.toml"));
+Geometry build(const std::string& geometry, const std::string& more = "",
+               const std::vector<std::string>& overrides = {}) {
+  return build_geometry(parse_scene(scene_text(geometry, more), "test.toml", overrides));
+}
+
+const std::string buffer = "[soil.buffer]\nlike = \"specimen\"\n";
+
+Geometry build_layers(const std::string& geometry, const std::string& layers,
+                      const std::string& more = "") {
+  return build(geometry, more, {"formulation=double-point", "geometry.layers=" + layers});
 }
 
 std::vector<double> areas_by_region(const Mesh<2>& mesh) {
@@ -173,6 +181,110 @@ TEST(Column, RefusesMoreTrianglesThanAnyoneMeans) {
             "million triangles here");
 }
 
+/// Rows of every kind, 13 with the specimen's 3.
+const std::string all_layers =
+    "{inflow=2, free_above=1, above=3, below=1, free_below=2, outflow=1}";
+
+/// Nodes, less edges, plus elements: 1 for a mesh in one piece without holes.
+int euler_characteristic(const Mesh<2>& mesh) {
+  std::set<std::pair<int, int>> edges;
+  for (const auto& corners : mesh.elements) {
+    for (int a = 0; a < 3; ++a) edges.insert(std::minmax(corners[a], corners[(a + 1) % 3]));
+  }
+  return mesh.node_count() - static_cast<int>(edges.size()) + mesh.element_count();
+}
+
+class Layers : public testing::TestWithParam<std::string> {};
+
+TEST_P(Layers, LieInTheirOrderInOnePiece) {
+  // Rows of a third, because 0.3 does not divide the height.
+  const Mesh<2> mesh = build_layers(column(1.0, 1.0, 0.3, GetParam()), all_layers, buffer).mesh;
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"outflow", "free_below", "buffer",
+                                                         "specimen", "free_above", "inflow"}));
+  const auto expected_region = [](double thirds) -> std::string {
+    if (thirds < -3.0) return "outflow";
+    if (thirds < -1.0) return "free_below";
+    if (thirds > 7.0) return "inflow";
+    if (thirds > 6.0) return "free_above";
+    return thirds > 0.0 && thirds < 3.0 ? "specimen" : "buffer";
+  };
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const std::string& region = mesh.region_names[mesh.element_region[e]];
+    EXPECT_EQ(region, expected_region(3.0 * element_centroid(mesh, e)[1]));
+    for (const int node : mesh.elements[e]) {
+      if (region != "specimen") continue;
+      EXPECT_GE(mesh.nodes[node][1], 0.0);
+      EXPECT_LE(mesh.nodes[node][1], 1.0);
+    }
+  }
+  const std::vector<double> areas = areas_by_region(mesh);
+  const std::array<double, 6> rows{1, 2, 4, 3, 1, 2};
+  for (std::size_t r = 0; r < rows.size(); ++r) EXPECT_NEAR(areas[r], rows[r] / 3.0, 1e-12);
+  EXPECT_EQ(euler_characteristic(mesh), 1);
+}
+
+TEST_P(Layers, HaveTheirBoundariesAroundAllOfThem) {
+  const Mesh<2> mesh = build_layers(column(2.0, 1.0, 0.5, GetParam()), all_layers, buffer).mesh;
+  const std::map<std::string, std::pair<int, double>> places{
+      {"left", {0, 0.0}}, {"right", {0, 2.0}}, {"outflow", {1, -2.0}}, {"inflow", {1, 4.0}}};
+  ASSERT_EQ(mesh.boundaries.size(), places.size());
+  for (const auto& [name, place] : places) {
+    double length = 0.0;
+    for (const auto& face : boundary(mesh, name).faces) {
+      for (int node : face) EXPECT_NEAR(mesh.nodes[node][place.first], place.second, 1e-12);
+      length += (mesh.nodes[face[1]] - mesh.nodes[face[0]]).norm();
+    }
+    EXPECT_NEAR(length, place.first == 0 ? 6.0 : 2.0, 1e-12) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Structures, Layers, testing::Values("regular", "crossed", "free"),
+                         [](const auto& tested) { return tested.param; });
+
+TEST(Column, LeavesTheSpecimensNodesInTheirPlaces) {
+  const std::string geometry = column(1.0, 0.7, 0.1, "regular");
+  const Mesh<2> alone = build(geometry).mesh;
+  const Mesh<2> layered = build_layers(geometry, all_layers, buffer).mesh;
+  std::set<double> rows;
+  for (const Vector<2>& x : layered.nodes) rows.insert(x[1]);
+  EXPECT_EQ(rows.size(), 7U + 10U + 1U);  // no line twice, by round-off
+  std::set<std::pair<double, double>> places;
+  for (const Vector<2>& x : layered.nodes) places.emplace(x[0], x[1]);
+  for (const Vector<2>& x : alone.nodes) EXPECT_TRUE(places.contains({x[0], x[1]}));
+}
+
+TEST(Column, IsCalledTopAndBottomWhereNoFreeWaterEnds) {
+  const auto names = [](const std::string& layers) {
+    const Mesh<2> mesh = build_layers(test::unit_column, layers, buffer).mesh;
+    std::set<std::string> result;
+    for (const auto& set : mesh.boundaries) result.insert(set.name);
+    return result;
+  };
+  EXPECT_EQ(names("{above=1, free_above=1}"),
+            (std::set<std::string>{"top", "bottom", "left", "right"}));
+  EXPECT_EQ(names("{below=1, outflow=1}"),
+            (std::set<std::string>{"top", "outflow", "left", "right"}));
+}
+
+TEST(Column, CountsItsLayersAmongTooManyTriangles) {
+  // 1 / 7e-4 = 1429 rows of 1429 columns are 4.1 million triangles; 1000 rows more make 6.9.
+  EXPECT_EQ(refusal([] { build_layers(column(1.0, 1.0, 7e-4, "regular"), "{inflow=1000}"); }),
+            "test.toml:8: mesh.size: got 0.0007; expected at least 0.000863325, which makes 5 "
+            "million triangles here");
+}
+
+TEST(Scene, SoilsAndBoundariesMustFitTheLayers) {
+  const std::string top = "[[boundary]]\non = \"top\"\npressure = 1.0\n";
+  EXPECT_EQ(refusal([&] { build_layers(test::unit_column, "{inflow=1}", buffer + top); }),
+            "test.toml:24: soil.buffer: got \"buffer\"; expected a region of the mesh: "
+            "\"specimen\" or \"inflow\"\n"
+            "test.toml:27: boundary[0].on: got \"top\"; expected a boundary of the mesh: "
+            "\"inflow\", \"bottom\", \"left\" or \"right\"");
+  EXPECT_EQ(refusal([&] { build_layers(test::unit_column, "{above=1}"); }),
+            "test.toml:19: soil.buffer: got nothing; expected a table [soil.buffer] for the mesh's "
+            "region of that name; the soils are \"specimen\"");
+}
+
 TEST(Scene, EveryMisfitIsReportedAtOnceWithItsLine) {
   const std::string more =
       "[soil.clya]\nporosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700.0\n"
@@ -218,6 +330,13 @@ class UserFile : public testing::Test {
         parse_scene(scene_text(geometry, more), folder_.file("scene.toml"), overrides));
   }
 
+  Geometry build_free_water(const std::vector<std::string>& overrides,
+                            const std::string& more = "") {
+    return build_geometry(
+        parse_scene(scene_text("[geometry]\nfile = \"free_water.geo\"\n[mesh]\nsize = 0.5\n", more),
+                    folder_.file("scene.toml"), overrides));
+  }
+
   /// With the folder's name taken out.
   std::string refusal_of(const std::string& name) {
     std::string message = refusal([&] { build_file(name); });
@@ -232,6 +351,45 @@ class UserFile : public testing::Test {
   TemporaryFolder folder_;
   int files_;
 };
+
+TEST_F(UserFile, MayHoldFreeWater) {
+  const std::string ends =
+      "[[boundary]]\non = \"inflow\"\nvelocity = 0.1\n[[boundary]]\non = \"outflow\"\npressure = "
+      "0.0\n";
+  const Mesh<2> mesh = build_free_water({"formulation=double-point"}, ends).mesh;
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"outflow", "specimen", "inflow"}));
+  const std::vector<double> areas = areas_by_region(mesh);
+  EXPECT_NEAR(areas[0], 0.5, 1e-12);
+  EXPECT_NEAR(areas[1], 1.0, 1e-12);
+  EXPECT_NEAR(areas[2], 0.5, 1e-12);
+  for (const auto& face : boundary(mesh, "inflow").faces) {
+    for (const int node : face) EXPECT_EQ(mesh.nodes[node][1], 1.5);
+  }
+}
+
+TEST_F(UserFile, MayHoldSoilWhereFreeWaterWouldBe) {
+  const SceneDocument document = parse_scene(
+      scene_text("[geometry]\nfile = \"free_water.geo\"\n", "[soil.inflow]\nlike = \"specimen\"\n"),
+      folder_.file("scene.toml"), {"formulation=double-point"});
+  EXPECT_FALSE(document.scene.is_free_water("inflow"));
+  EXPECT_TRUE(document.scene.is_free_water("outflow"));
+  EXPECT_NO_THROW(build_geometry(document));
+}
+
+TEST_F(UserFile, HoldsNoFreeWaterInSinglePointScenes) {
+  const std::string message = refusal([&] { build_free_water({}); });
+  for (const std::string region : {"inflow", "outflow"}) {
+    const std::string key = "soil." + region;
+    EXPECT_NE(
+        message.find(key + ": got nothing; expected a table [" + key + "] for the mesh's region"),
+        std::string::npos)
+        << message;
+  }
+  EXPECT_NE(message.find("region of that name, or formulation = \"double-point\", where it is free "
+                         "water without one; the soils are \"specimen\""),
+            std::string::npos)
+      << message;
+}
 
 struct Refused {
   std::string file;
@@ -539,9 +697,35 @@ TEST(GmshExport, ReopensWithItsGroupsAndColours) {
   EXPECT_EQ(colours, (std::set<std::array<int, 3>>{{230, 159, 0}, {86, 180, 233}}));
 }
 
+TEST(GmshExport, OfLayersServesAsAGeometry) {
+  const TemporaryFolder folder;
+  const Mesh<2> mesh = build_layers(test::unit_column, all_layers, buffer).mesh;
+  write_gmsh(folder.file("a.msh"), mesh);
+  const std::string geometry = "[geometry]\nfile = \"" + folder.file("a.msh") + "\"\n";
+  const Mesh<2> again = build(geometry, buffer, {"formulation=double-point"}).mesh;
+  EXPECT_EQ(again.region_names, mesh.region_names);
+  EXPECT_EQ(again.nodes, mesh.nodes);
+  const auto elements_by_region = [](const Mesh<2>& m) {  // the file has them in this order
+    std::set<std::pair<int, std::array<int, 3>>> elements;
+    for (int e = 0; e < m.element_count(); ++e) {
+      elements.emplace(m.element_region[e], m.elements[e]);
+    }
+    return elements;
+  };
+  EXPECT_EQ(elements_by_region(again), elements_by_region(mesh));
+  ASSERT_EQ(again.boundaries.size(), mesh.boundaries.size());
+  for (const auto& set : mesh.boundaries) {
+    EXPECT_EQ(boundary(again, set.name).faces.size(), set.faces.size()) << set.name;
+  }
+}
+
+Case<2> case_with(Mesh<2> mesh, const std::vector<std::string>& overrides = {}) {
+  return {
+      parse_scene(scene_text(test::unit_column), "test.toml", overrides), std::move(mesh), {}, {}};
+}
+
 TEST(Summary, IsAlignedAndComplete) {
-  const Mesh<2> mesh = build(test::unit_column).mesh;
-  EXPECT_EQ(mesh_summary(mesh, {}, {"a note"}),
+  EXPECT_EQ(case_summary(case_with(build(test::unit_column).mesh), {"a note"}),
             "  elements         32\n"
             "  nodes            25\n"
             "  solid points     0\n"
@@ -552,6 +736,20 @@ TEST(Summary, IsAlignedAndComplete) {
             "  boundary left    1 m\n"
             "  boundary right   1 m\n"
             "  note: a note\n");
+}
+
+TEST(Summary, TellsOfLiquidPointsAndFreeWater) {
+  Case<2> c =
+      case_with(build_layers(test::unit_column, "{inflow=1}").mesh, {"formulation=double-point"});
+  for (int e = 0; e < c.mesh.element_count(); ++e) {
+    const int count = e == 3 ? 5 : 2;
+    c.liquid_points.element.insert(c.liquid_points.element.end(), count, e);
+  }
+  const std::string summary = case_summary(c, {});
+  EXPECT_NE(summary.find("  liquid points    83 (2 to 5 per element)\n"), std::string::npos)
+      << summary;
+  EXPECT_NE(summary.find("  region specimen  1 m2\n"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("  region inflow    0.25 m2, free water\n"), std::string::npos) << summary;
 }
 
 TEST(Summary, WarnsOfSharpAngles) {

@@ -163,6 +163,77 @@ TEST(Scene, fills_in_defaults) {
   EXPECT_TRUE(scene.boundaries.empty());
 }
 
+TEST(Scene, reads_every_value_of_the_double_point_scene) {
+  const Scene scene = read_scene((scenes / "double-point.toml").string(),
+                                 {"geometry.layers.free_above=3", "geometry.layers.free_below=4",
+                                  "geometry.layers.below=1", "points.liquid_per_element=40",
+                                  "soil.specimen.drag=ergun", "flow.integration=material-point",
+                                  "soil.specimen.erosion.mass_transfer=element",
+                                  "soil.specimen.erosion.empty_elements=dry",
+                                  "points.seeding=random", "points.equal_volume=false"})
+                          .scene;
+  EXPECT_EQ(scene.formulation, Formulation::double_point);
+  EXPECT_EQ(scene.geometry.layers.inflow, 2);
+  EXPECT_EQ(scene.geometry.layers.free_above, 3);
+  EXPECT_EQ(scene.geometry.layers.above, 2);
+  EXPECT_EQ(scene.geometry.layers.below, 1);
+  EXPECT_EQ(scene.geometry.layers.free_below, 4);
+  EXPECT_EQ(scene.geometry.layers.outflow, 2);
+  EXPECT_EQ(scene.points.solid_per_element, 1);
+  EXPECT_EQ(scene.points.liquid_per_element, 40);
+  EXPECT_EQ(scene.points.seeding, Seeding::random);
+  EXPECT_FALSE(scene.points.equal_volume);
+  EXPECT_EQ(scene.flow.integration, PressureIntegration::material_point);
+
+  const Soil& specimen = *scene.find_soil("specimen");
+  EXPECT_EQ(specimen.drag, SoilDrag::ergun);
+  EXPECT_EQ(specimen.erosion.law, ErosionLaw::constant);
+  EXPECT_EQ(specimen.erosion.mass_transfer, MassTransfer::element);
+  EXPECT_EQ(specimen.erosion.empty_elements, EmptyElements::dry);
+  const Soil& like_it = *scene.find_soil("buffer");
+  EXPECT_EQ(like_it.porosity, specimen.porosity);
+  EXPECT_EQ(like_it.drag, SoilDrag::ergun);
+  EXPECT_EQ(like_it.erosion.law, ErosionLaw::none);  // its rate is inherited, and of no account
+  EXPECT_EQ(like_it.erosion.rate, specimen.erosion.rate);
+
+  for (const std::string water : {"inflow", "outflow", "free_above", "free_below"}) {
+    EXPECT_TRUE(scene.is_free_water(water));
+  }
+  EXPECT_FALSE(scene.is_free_water("specimen"));
+  EXPECT_FALSE(scene.is_free_water("elsewhere"));
+}
+
+TEST(Scene, fills_in_defaults_of_double_point) {
+  const Scene scene = scene_of(least, {"formulation=double-point"});
+  EXPECT_EQ(scene.geometry.layers.inflow, 0);
+  EXPECT_EQ(scene.points.liquid_per_element, 12);
+  EXPECT_EQ(scene.points.seeding, Seeding::low_discrepancy);
+  EXPECT_TRUE(scene.points.equal_volume);
+  EXPECT_EQ(scene.flow.integration, PressureIntegration::mixed);
+  EXPECT_EQ(scene.soils[0].drag, SoilDrag::darcy);
+  EXPECT_EQ(scene.soils[0].erosion.mass_transfer, MassTransfer::nodal);
+  EXPECT_EQ(scene.soils[0].erosion.empty_elements, EmptyElements::wet);
+}
+
+TEST(Scene, gives_gauss_points_their_unequal_volumes) {
+  const std::vector<std::string> gauss{"formulation=double-point", "points.seeding=gauss"};
+  EXPECT_FALSE(scene_of(least, gauss).points.equal_volume);
+  for (const std::string count : {"1", "3", "6", "12"}) {
+    std::vector<std::string> overrides = gauss;
+    overrides.push_back("points.liquid_per_element=" + count);
+    EXPECT_EQ(problems_of(least, overrides), "") << count;
+  }
+}
+
+TEST(Scene, has_no_free_water_in_a_single_point_scene) {
+  EXPECT_FALSE(scene_of(least).is_free_water("inflow"));
+  EXPECT_TRUE(names_free_water("inflow"));
+}
+
+TEST(Scene, takes_ergun_for_either_formulation) {
+  EXPECT_EQ(scene_of(least, {"soil.specimen.drag=ergun"}).soils[0].drag, SoilDrag::ergun);
+}
+
 TEST(Scene, does_not_need_a_size_for_a_file) {
   std::string text = least;
   text.replace(text.find("geometry"), text.find("liquid") - text.find("geometry"),
