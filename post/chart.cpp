@@ -1,93 +1,52 @@
 #include "chart.hpp"
 
 #include <vtkAxis.h>
-#include <vtkBrush.h>
 #include <vtkChartXY.h>
-#include <vtkContext2D.h>
-#include <vtkContextActor.h>
-#include <vtkContextItem.h>
-#include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
-#include <vtkGL2PSExporter.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkPNGWriter.h>
 #include <vtkPen.h>
 #include <vtkPlotPoints.h>
-#include <vtkRenderer.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
 #include "chart_legend.hpp"
-#include "offscreen_window.hpp"
-#include "vtk_messages.hpp"
+#include "picture.hpp"
 
 namespace suffuse {
 namespace {
 
-constexpr int height = 800;
 constexpr int least_width = 1200;
-/// Where the axes stand: left, bottom, width, height.
-constexpr float left = 120.0F;
-constexpr float bottom = 90.0F;
+/// Axes of one chart, and the room about them for titles and labels.
 constexpr float plot_width = 720.0F;
 constexpr float plot_height = 630.0F;
+constexpr float left_room = 120.0F;
+constexpr float bottom_room = 90.0F;
+constexpr float top_room = 80.0F;
 constexpr float margin = 30.0F;
+constexpr float cell_width = left_room + plot_width + margin;
+constexpr float cell_height = bottom_room + plot_height + top_room;
 
-/// White below everything, so that pictures stay readable on dark pages, and the titles: VTK's own
-/// run into the labels of the ticks where a viewer has wider letters.
-class Paper : public vtkContextItem {
- public:
-  static Paper* New();
-  float width = 0.0F;
-  std::string title;
-  std::string x_label;
-  std::string y_label;
-
-  bool Paint(vtkContext2D* painter) override {
-    painter->GetPen()->SetLineType(vtkPen::NO_PEN);
-    painter->GetBrush()->SetColorF(1.0, 1.0, 1.0);
-    painter->DrawRect(0.0F, 0.0F, width, height);
-    painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
-    const float center = left + plot_width / 2.0F;
-    write(painter, title, 24, 0.0, center, bottom + plot_height + 40.0F);
-    write(painter, x_label, 21, 0.0, center, bottom - 60.0F);
-    write(painter, y_label, 21, 90.0, left - 92.0F, bottom + plot_height / 2.0F);
-    return true;
-  }
-
- private:
-  static void write(vtkContext2D* painter, const std::string& text, int size, double angle, float x,
-                    float y) {
-    vtkNew<vtkTextProperty> style;
-    style->SetFontSize(size);
-    style->SetOrientation(angle);
-    style->SetColor(0.0, 0.0, 0.0);
-    style->SetJustificationToCentered();
-    style->SetVerticalJustificationToCentered();
-    painter->ApplyTextProp(style);
-    painter->DrawString(x, y, text.c_str());
-  }
-};
-vtkStandardNewMacro(Paper);
-
-vtkSmartPointer<vtkTable> table_of(const Curve& curve) {
+/// All rows, or those that carry a marker.
+vtkSmartPointer<vtkTable> table_of(const Curve& curve, bool marked_only) {
   vtkNew<vtkDoubleArray> x;
   vtkNew<vtkDoubleArray> y;
   x->SetName("x");
   y->SetName("y");
-  for (const double value : curve.x) x->InsertNextValue(value);
-  for (const double value : curve.y) y->InsertNextValue(value);
+  const auto add = [&](std::size_t row) {
+    x->InsertNextValue(curve.x[row]);
+    y->InsertNextValue(curve.y[row]);
+  };
+  if (marked_only && !curve.marked.empty()) {
+    for (const std::size_t row : curve.marked) add(row);
+  } else {
+    for (std::size_t row = 0; row < curve.x.size(); ++row) add(row);
+  }
   auto table = vtkSmartPointer<vtkTable>::New();
   table->AddColumn(x);
   table->AddColumn(y);
@@ -95,24 +54,26 @@ vtkSmartPointer<vtkTable> table_of(const Curve& curve) {
 }
 
 void add_markers(vtkChartXY& chart, const Curve& curve, const MarkerLayer& layer) {
-  const auto color = layer.white ? std::array<double, 3>{1.0, 1.0, 1.0} : curve.color;
+  const Color color = layer.white ? Color{1.0, 1.0, 1.0} : curve.color;
   auto* plot = vtkPlotPoints::SafeDownCast(chart.AddPlot(vtkChart::POINTS));
-  plot->SetInputData(table_of(curve), 0, 1);
+  plot->SetInputData(table_of(curve, true), 0, 1);
   plot->SetMarkerStyle(layer.shape);
   plot->SetMarkerSize(layer.size);
   plot->SetColor(color[0], color[1], color[2]);
 }
 
-void add_curve(vtkChartXY& chart, const Curve& curve) {
-  if (curve.markers) {
-    for (const auto& layer : marker_layers(curve)) add_markers(chart, curve, layer);
-    return;
-  }
+void add_line(vtkChartXY& chart, const Curve& curve) {
   auto* plot = chart.AddPlot(vtkChart::LINE);
-  plot->SetInputData(table_of(curve), 0, 1);
+  plot->SetInputData(table_of(curve, false), 0, 1);
   plot->SetColor(curve.color[0], curve.color[1], curve.color[2]);
-  plot->SetWidth(2.0F);
+  plot->SetWidth(curve.width);
   plot->GetPen()->SetLineType(vtk_line_type(curve.dash));
+}
+
+void add_curve(vtkChartXY& chart, const Curve& curve) {
+  if (curve.has_line()) add_line(chart, curve);
+  if (!curve.markers) return;
+  for (const auto& layer : marker_layers(curve)) add_markers(chart, curve, layer);
 }
 
 /// The axis reaches a little beyond its ticks, so that no marker is cut in half.
@@ -126,10 +87,8 @@ void set_axis(vtkAxis& axis, const std::vector<double>& ticks) {
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
   for (const double tick : ticks) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", tick);
     positions->InsertNextValue(tick);
-    labels->InsertNextValue(text);
+    labels->InsertNextValue(tick_text(tick));
   }
   axis.SetCustomTickPositions(positions, labels);
 }
@@ -144,50 +103,44 @@ std::vector<double> ticks_of(const std::vector<Curve>& curves,
       high = std::max(high, value);
     }
   }
+  if (!(low <= high)) return round_ticks(0.0, 1.0);
   return round_ticks(low, high);
 }
 
-vtkSmartPointer<vtkChartXY> vtk_chart(const Chart& chart) {
-  auto drawn = vtkSmartPointer<vtkChartXY>::New();
+/// Adds a chart whose cell has its lower left corner there. VTK's own titles run into the labels of
+/// the ticks where a viewer has wider letters, so they are painted apart.
+void add_chart(vtkContextScene& scene, const Chart& chart, float x, float y) {
+  vtkNew<vtkChartXY> drawn;
   drawn->SetShowLegend(false);
   drawn->SetAutoSize(false);
   drawn->SetLayoutStrategy(vtkChart::AXES_TO_RECT);
+  const float left = x + left_room;
+  const float bottom = y + bottom_room;
   drawn->SetSize(vtkRectf(left, bottom, plot_width, plot_height));
   for (const auto& curve : chart.curves) add_curve(*drawn, curve);
   set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), ticks_of(chart.curves, &Curve::x));
   set_axis(*drawn->GetAxis(vtkAxis::LEFT), ticks_of(chart.curves, &Curve::y));
-  return drawn;
+  scene.AddItem(drawn);
+  add_painted(scene, [chart, left, bottom](vtkContext2D& painter) {
+    const float center = left + plot_width / 2.0F;
+    paint_text(painter, chart.title, 24, center, bottom + plot_height + 40.0F);
+    paint_text(painter, chart.x_label, 21, center, bottom - 60.0F);
+    paint_text(painter, chart.y_label, 21, left - 92.0F, bottom + plot_height / 2.0F,
+               Anchor::center, 90.0);
+  });
 }
 
-void write_png(vtkRenderWindow& window, const std::string& path) {
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(&window);
-  image->SetInputBufferTypeToRGB();
-  image->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(path.c_str());
-  writer->SetInputConnection(image->GetOutputPort());
-  writer->Write();
-}
-
-/// SVG or PDF: curves as curves, text as text.
-void write_vector(vtkRenderWindow& window, const Chart& chart, const std::string& path) {
-  const std::filesystem::path file(path);
-  vtkNew<vtkGL2PSExporter> exporter;
-  exporter->SetRenderWindow(&window);
-  // The exporter puts the suffix behind the prefix itself.
-  exporter->SetFilePrefix((file.parent_path() / file.stem()).string().c_str());
-  if (file.extension() == ".svg") {
-    exporter->SetFileFormatToSVG();
-  } else {
-    exporter->SetFileFormatToPDF();
+/// One row for each label of any chart.
+std::vector<Curve> legend_rows(const std::vector<Chart>& charts) {
+  std::vector<Curve> rows;
+  for (const auto& chart : charts) {
+    for (const auto& curve : chart.curves) {
+      const auto same = [&](const Curve& row) { return row.label == curve.label; };
+      if (curve.label.empty() || std::ranges::any_of(rows, same)) continue;
+      rows.push_back(curve);
+    }
   }
-  exporter->SetTitle(chart.title.c_str());
-  if (file.extension() == ".svg") exporter->CompressOff();
-  exporter->SilentOn();      // it says that an SVG cannot hold its (white) background
-  exporter->SetSortToOff();  // what is drawn later lies on top
-  exporter->TextAsPathOff();
-  exporter->Write();
+  return rows;
 }
 
 }  // namespace
@@ -212,47 +165,36 @@ std::vector<double> round_ticks(double low, double high) {
   return ticks;
 }
 
-std::string picture_format(const std::string& path) {
-  std::string suffix = std::filesystem::path(path).extension().string();
-  if (suffix == ".png" || suffix == ".svg" || suffix == ".pdf") return suffix;
-  throw InputError(std::vector{InputProblem{"suffuse-post figure", "-o", "\"" + path + "\"",
-                                            "a name that ends in .png, .svg or .pdf", ""}});
+std::string tick_text(double tick) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", tick);
+  return text;
 }
 
-void draw_chart(const Chart& chart, const std::string& path) {
-  const std::string format = picture_format(path);
-  PendingFile file(path);
-  const OffscreenContext context;
-  constexpr float legend_left = left + plot_width + margin;
-  const float legend_width = ChartLegend::width(chart.curves);
-  const int width = std::max(least_width, static_cast<int>(legend_left + legend_width + margin));
-  const auto window = make_offscreen_window(width, height);
-  const VtkMessages messages;
-
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1.0, 1.0, 1.0);
-  window->AddRenderer(renderer);
-  vtkNew<vtkContextActor> actor;
-  vtkNew<Paper> paper;
-  paper->width = static_cast<float>(width);
-  paper->title = chart.title;
-  paper->x_label = chart.x_label;
-  paper->y_label = chart.y_label;
-  actor->GetScene()->AddItem(paper);
-  actor->GetScene()->AddItem(vtk_chart(chart));
-  vtkNew<ChartLegend> legend;
-  legend->place(legend_left, bottom + plot_height, chart.curves);
-  actor->GetScene()->AddItem(legend);
-  actor->GetScene()->SetRenderer(renderer);
-  renderer->AddActor(actor);
-  window->Render();
-  if (format == ".png") {
-    write_png(*window, file.temporary_path());
-  } else {
-    write_vector(*window, chart, file.temporary_path());
-  }
-  messages.throw_errors(path);
-  file.commit();
+void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
+  const auto rows = legend_rows(charts);
+  const std::size_t count = charts.size();
+  const std::size_t columns = count < 3 ? count : 2;
+  const std::size_t lines = (count + columns - 1) / columns;
+  // An odd chart leaves a cell that the legend fits into.
+  const bool in_cell = lines * columns > count;
+  const float legend_left =
+      static_cast<float>(in_cell ? columns - 1 : columns) * cell_width + (in_cell ? left_room : 0);
+  const float legend_top = (in_cell ? 1.0F : static_cast<float>(lines)) * cell_height - top_room;
+  const float height = static_cast<float>(lines) * cell_height;
+  const float width =
+      std::max(legend_left + ChartLegend::width(rows) + margin,
+               std::max(static_cast<float>(columns) * cell_width, float{least_width}));
+  draw_picture(static_cast<int>(width), static_cast<int>(height), charts.front().title, path,
+               [&](vtkContextScene& scene) {
+                 for (std::size_t i = 0; i < count; ++i) {
+                   add_chart(scene, charts[i], static_cast<float>(i % columns) * cell_width,
+                             static_cast<float>(lines - 1 - i / columns) * cell_height);
+                 }
+                 vtkNew<ChartLegend> legend;
+                 legend->place(legend_left, legend_top, legend_top - margin, rows);
+                 scene.AddItem(legend);
+               });
 }
 
 }  // namespace suffuse

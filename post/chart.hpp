@@ -8,19 +8,26 @@
 
 namespace suffuse {
 
+using Color = std::array<double, 3>;
+
 enum class Dash { solid, dashed, dash_dot, dash_dot_dot, dotted };
 enum class Marker { circle, square, diamond, target };
 
-/// One curve: a black line for an exact solution, or coloured markers for a run.
+/// One curve: a line (black for an exact solution), markers, or both.
 struct Curve {
   std::string label;  ///< in the legend; empty leaves it out
   std::vector<double> x;
   std::vector<double> y;
   bool markers = false;
+  bool joined = false;              ///< a line too, where there are markers
+  std::vector<std::size_t> marked;  ///< rows with a marker; all of them when empty
   Dash dash = Dash::solid;
+  float width = 2.0F;  ///< of the line, pixels
   Marker marker = Marker::circle;
   bool hollow = false;  ///< white inside; a target has a smaller dot
-  std::array<double, 3> color{0.0, 0.0, 0.0};
+  Color color{0.0, 0.0, 0.0};
+
+  [[nodiscard]] bool has_line() const { return joined || !markers; }
 };
 
 struct Chart {
@@ -30,13 +37,14 @@ struct Chart {
   std::vector<Curve> curves;  ///< later ones cover earlier ones
 };
 
-/// The suffix of `path`: ".png", ".svg" or ".pdf". Throws InputError for any other.
-std::string picture_format(const std::string& path);
-
-/// Throws FileError.
-void draw_chart(const Chart& chart, const std::string& path);
+/// Draws charts beside one another, from three on in rows of two, with one legend for all. Throws
+/// InputError for an unknown suffix, FileError.
+void draw_charts(const std::vector<Chart>& charts, const std::string& path);
 
 /// At least two round numbers that enclose [low, high], evenly spaced, 5 to 11 of them.
 std::vector<double> round_ticks(double low, double high);
+
+/// A tick as text.
+std::string tick_text(double tick);
 
 }  // namespace suffuse

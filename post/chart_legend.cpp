@@ -3,17 +3,17 @@
 #include <vtkBrush.h>
 #include <vtkContext2D.h>
 #include <vtkMarkerUtilities.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPen.h>
-#include <vtkTextProperty.h>
 
 #include <algorithm>
+
+#include "picture.hpp"
 
 namespace suffuse {
 namespace {
 
-constexpr float row_height = 30.0F;
+constexpr float largest_row_height = 30.0F;
 constexpr float symbol_width = 64.0F;
 constexpr float gap = 12.0F;
 constexpr int font_size = 18;
@@ -22,7 +22,7 @@ constexpr float letter_width = 0.56F * font_size;
 
 void paint_marker(vtkContext2D* painter, const Curve& curve, float x, float y) {
   for (const auto& layer : marker_layers(curve)) {
-    const auto color = layer.white ? std::array<double, 3>{1.0, 1.0, 1.0} : curve.color;
+    const Color color = layer.white ? Color{1.0, 1.0, 1.0} : curve.color;
     painter->GetPen()->SetColorF(color[0], color[1], color[2]);
     painter->GetBrush()->SetColorF(color[0], color[1], color[2]);
     painter->GetPen()->SetWidth(layer.size);
@@ -66,11 +66,12 @@ std::vector<MarkerLayer> marker_layers(const Curve& curve) {
   return layers;
 }
 
-void ChartLegend::place(float left, float top, const std::vector<Curve>& curves) {
+void ChartLegend::place(float left, float top, float height, const std::vector<Curve>& curves) {
   left_ = left;
   top_ = top;
   std::copy_if(curves.begin(), curves.end(), std::back_inserter(rows_),
                [](const Curve& curve) { return !curve.label.empty(); });
+  row_height_ = std::min(largest_row_height, height / static_cast<float>(rows_.size()));
 }
 
 float ChartLegend::width(const std::vector<Curve>& curves) {
@@ -80,23 +81,18 @@ float ChartLegend::width(const std::vector<Curve>& curves) {
 }
 
 bool ChartLegend::Paint(vtkContext2D* painter) {
-  float y = top_ - row_height / 2.0F;
+  float y = top_ - row_height_ / 2.0F;
   for (const auto& curve : rows_) {
-    if (curve.markers) {
-      paint_marker(painter, curve, left_ + symbol_width / 2.0F, y);
-    } else {
+    if (curve.has_line()) {
       painter->GetPen()->SetLineType(vtk_line_type(curve.dash));
-      painter->GetPen()->SetWidth(2.0F);
+      painter->GetPen()->SetWidth(curve.width);
       painter->GetPen()->SetColorF(curve.color[0], curve.color[1], curve.color[2]);
       painter->DrawLine(left_, y, left_ + symbol_width, y);
     }
-    vtkNew<vtkTextProperty> text;
-    text->SetFontSize(font_size);
-    text->SetColor(0.0, 0.0, 0.0);
-    text->SetVerticalJustificationToCentered();
-    painter->ApplyTextProp(text);
-    painter->DrawString(left_ + symbol_width + gap, y, curve.label.c_str());
-    y -= row_height;
+    if (curve.markers) paint_marker(painter, curve, left_ + symbol_width / 2.0F, y);
+    paint_text(*painter, curve.label, std::min(font_size, static_cast<int>(0.8F * row_height_)),
+               left_ + symbol_width + gap, y, Anchor::left);
+    y -= row_height_;
   }
   painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
   return true;

@@ -24,8 +24,9 @@ class ChartLegend : public vtkContextItem {
  public:
   static ChartLegend* New();
 
-  /// Top left corner in pixels from the bottom left of the picture, and the rows to show.
-  void place(float left, float top, const std::vector<Curve>& curves);
+  /// Top left corner in pixels from the bottom left of the picture, the height there is, and the
+  /// rows to show. Many rows move closer together.
+  void place(float left, float top, float height, const std::vector<Curve>& curves);
   /// Pixels that these rows are wide.
   static float width(const std::vector<Curve>& curves);
 
@@ -34,6 +35,7 @@ class ChartLegend : public vtkContextItem {
  private:
   float left_ = 0.0F;
   float top_ = 0.0F;
+  float row_height_ = 0.0F;
   std::vector<Curve> rows_;
 };
 

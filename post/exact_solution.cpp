@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace suffuse {
@@ -43,6 +44,15 @@ double exact_porosity(const Soil& soil, double initial, double t) {
       return cap - (cap - initial) * std::exp(-rate * elapsed);
   }
   return unset;
+}
+
+double exhaustion_time(const Soil& soil, double initial) {
+  const double fines = soil.porosity_max() - initial;
+  if (fines <= 0.0) return soil.erosion.start;
+  if (soil.erosion.law != ErosionLaw::constant || soil.erosion.rate == 0.0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return soil.erosion.start + fines / soil.erosion.rate;
 }
 
 }  // namespace suffuse

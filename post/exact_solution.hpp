@@ -15,4 +15,8 @@ namespace suffuse {
 /// - first-order: n_L,max - (n_L,max - n_0) exp(-kappa (t - t_0))
 double exact_porosity(const Soil& soil, double initial, double t);
 
+/// When that soil has lost all its fines, s: infinity where the law only approaches it, or where
+/// nothing erodes.
+double exhaustion_time(const Soil& soil, double initial);
+
 }  // namespace suffuse

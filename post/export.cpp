@@ -28,12 +28,19 @@ void convert(const std::string& from, const std::string& to) {
   if (!written) throw FileError(to + ": cannot be written");
 }
 
+std::vector<std::string> kinds_of(const ResultsReader& results) {
+  std::vector<std::string> kinds{"mesh", "solid"};
+  if (results.scene().scene.formulation == Formulation::double_point) kinds.emplace_back("liquid");
+  return kinds;
+}
+
 /// VTK says of a damaged file neither its name nor what is wrong with it. All are looked at before
 /// anything is written.
 void check_snapshots(const ResultsReader& results) {
   for (std::size_t i = 0; i < results.times().size(); ++i) {
-    static_cast<void>(results.field_names(i, "cell"));
-    static_cast<void>(results.field_names(i, "solid"));
+    for (const auto& kind : kinds_of(results)) {
+      static_cast<void>(results.field_names(i, kind == "mesh" ? "cell" : kind));
+    }
   }
 }
 
@@ -62,7 +69,7 @@ void export_vtu(const ResultsReader& results, const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw FileError(folder + ": cannot be made: " + error.message());
-  for (const auto* kind : {"mesh", "solid"}) export_kind(results, kind, folder);
+  for (const auto& kind : kinds_of(results)) export_kind(results, kind, folder);
 }
 
 }  // namespace suffuse

@@ -8,8 +8,8 @@
 
 namespace suffuse {
 
-/// Writes mesh.pvd, solid.pvd and the .vtu files they name into `folder`, which is made if it is
-/// not there. Throws FileError.
+/// Writes mesh.pvd, solid.pvd, of a double-point run liquid.pvd, and the .vtu files they name into
+/// `folder`, which is made if it is not there. Throws FileError.
 void export_vtu(const ResultsReader& results, const std::string& folder);
 
 }  // namespace suffuse

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The figures of the paper, from results.
+/// The figures that `suffuse-post figure` knows, from results.
 
 #include <string>
 #include <vector>
@@ -10,13 +10,18 @@
 
 namespace suffuse {
 
-/// Names that `make_figure` knows.
+/// Names that `draw_figure` knows.
 std::vector<std::string> figure_names();
 
-/// "porosity" is Fig. 4: mean porosity of the eroding soil against time. "masses" is Fig. 7: solid,
-/// eroded, liquid and total mass of the eroding soil in closed accounting (in the soil, plus what
-/// left, less what entered). Both with the exact curves of each scene's own parameters. Without
-/// eroding soil, all soil counts. Throws InputError for another name.
-Chart make_figure(const std::string& name, const std::vector<ResultsReader>& runs);
+/// The charts of a figure, beside one another: "porosity", "masses", "solid-mass"
+/// (soil_figures.hpp), "outflow", "empty-elements", "flux" (flow_figures.hpp), and "comparison":
+/// porosity, masses and concentration of the outflow in one picture. Throws InputError for another
+/// name.
+std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs);
+
+/// Draws one of those, or "model", the sketch of one run's model (model_sketch.hpp). Throws
+/// InputError, FileError.
+void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs,
+                 const std::string& path);
 
 }  // namespace suffuse

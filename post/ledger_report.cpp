@@ -29,11 +29,16 @@ std::vector<double> sum(const std::vector<double>& a, const std::vector<double>&
   return total;
 }
 
+/// All grains in place; runs of earlier versions know no pending ones.
+std::vector<double> stored_grains(const Table& table) {
+  const auto grains = sum(table.column("solid"), table.column("fines"));
+  return table.has("pending") ? sum(grains, table.column("pending")) : grains;
+}
+
 Balance balance(const Table& table, const std::string& place, const std::string& constituent) {
   const bool is_water = constituent == "water";
   if (table.rows() == 0) throw FileError("the ledger of " + place + " has no rows yet");
-  const auto stored =
-      is_water ? table.column("water") : sum(table.column("solid"), table.column("fines"));
+  const auto stored = is_water ? table.column("water") : stored_grains(table);
   const auto& in = table.column(is_water ? "water_in" : "fines_in");
   const auto& out = table.column(is_water ? "water_out" : "fines_out");
   const auto& reported = table.column(is_water ? "residual_water" : "residual_grains");
@@ -70,6 +75,19 @@ std::string short_number(double value, const char* format) {
   char buffer[48];
   std::snprintf(buffer, sizeof buffer, format, value);
   return buffer;
+}
+
+/// What only a double-point run has.
+std::string liquid_point_text(const Table& ledger) {
+  const auto& pending = ledger.column("pending");
+  const auto most = std::ranges::max_element(pending);
+  const auto& t = ledger.column("t");
+  const auto last = [&](const char* name) { return number_text(ledger.column(name).back()); };
+  return "pending grains: " + short_number(pending.back(), "%.6g") + " kg, at most " +
+         short_number(*most, "%.6g") +
+         " kg at t = " + short_number(t[static_cast<std::size_t>(most - pending.begin())], "%.6g") +
+         " s\nliquid points: " + last("points") + "; entered " + last("points_in") + ", left " +
+         last("points_out") + "\n";
 }
 
 }  // namespace
@@ -111,6 +129,9 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
     text += cell(b.constituent == "water" ? "-" : short_number(b.eroded, "%.8g"), 15);
     text += cell(short_number(b.worst_residual, "%.2e"), 15);
     text += cell(short_number(b.worst_time, "%.6g"), 15) + "\n";
+  }
+  if (results.scene().scene.formulation == Formulation::double_point) {
+    text += liquid_point_text(ledger);
   }
   return text;
 }

@@ -21,12 +21,14 @@ struct Balance {
   double worst_time = 0.0;      ///< when, s
 };
 
-/// Water and grains of the whole model, then of every region when there are several. A residual is
+/// Water and grains (solid, fluidised and pending) of the whole model, then of every region when
+/// there are several. A residual is
 /// the larger of the solver's own and one formed anew from the masses in the table.
 /// Throws FileError when a table has no rows.
 std::vector<Balance> balances(const ResultsReader& results);
 
-/// An aligned table.
+/// An aligned table; below it, of a double-point run, the grains that wait for a liquid point and
+/// the liquid points.
 std::string balance_text(const ResultsReader& results, const std::vector<Balance>& balances);
 
 /// Throws NumericalError, naming place, constituent and time, when a residual exceeds `tolerance`

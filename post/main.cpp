@@ -5,15 +5,19 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
-#include "chart.hpp"
 #include "export.hpp"
 #include "figures.hpp"
 #include "ledger_report.hpp"
+#include "picture.hpp"
+#include "render.hpp"
 #include "results/number_text.hpp"
 #include "results/reader.hpp"
+#include "run_curves.hpp"
+#include "run_table.hpp"
 #include "sample.hpp"
 
 namespace suffuse {
@@ -27,6 +31,11 @@ struct Options {
   std::string figure;
   std::string line;
   std::string fields;
+  std::string field;
+  std::string on;
+  std::string range;
+  bool all = false;
+  std::optional<double> render_time;
   double tolerance = 1e-12;
   double time = 0.0;
   int count = 0;
@@ -75,11 +84,35 @@ void sample_line(const Options& options) {
   write_csv(results, options.csv, sample(results, options.time, line, options.count, fields));
 }
 
+std::vector<ResultsReader> all_runs(const Options& options) {
+  return {options.all_results.begin(), options.all_results.end()};
+}
+
 void figure(const Options& options) {
   picture_format(options.output);
-  const std::vector<ResultsReader> runs(options.all_results.begin(), options.all_results.end());
+  const auto runs = all_runs(options);
   for (const auto& run : runs) keep_out(run, "-o", options.output);
-  draw_chart(make_figure(options.figure, runs), options.output);
+  draw_figure(options.figure, runs, options.output);
+}
+
+void render_field(const Options& options) {
+  const ResultsReader results(options.results);
+  RenderRequest request;
+  request.field = options.field;
+  request.on = options.on;
+  request.time = options.render_time;
+  request.all = options.all;
+  if (!options.range.empty()) request.range = parse_range(options.range);
+  request.output =
+      options.output.empty() ? folder_name(results) + "-" + options.field + ".png" : options.output;
+  keep_out(results, "-o", request.output);
+  for (const auto& path : render(results, request)) std::cout << path << "\n";
+}
+
+void table(const Options& options) {
+  const auto runs = all_runs(options);
+  for (const auto& run : runs) keep_out(run, "--csv", options.csv);
+  write_run_table(options.csv, runs);
 }
 
 void export_results(const Options& options) {
@@ -123,12 +156,30 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
       ->type_name("NAME,...");
   command->add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
 
-  command = add_command(app, chosen, "figure", "A figure of the paper: porosity or masses", figure);
-  command->add_option("NAME", o.figure, "porosity or masses")->required();
+  command = add_command(app, chosen, "render", "Pictures of a field on the model", render_field);
+  one_folder(command);
+  command->add_option("--field", o.field, "what to show")->required();
+  auto* time = command->add_option("--time", o.render_time,
+                                   "time, s: the nearest snapshot; without it the last");
+  command->add_flag("--all", o.all, "every snapshot, in the same colours: FILE_0000.png, ...")
+      ->excludes(time);
+  command->add_option("--on", o.on, "where, if the field lives in several places")
+      ->type_name("cell|node|solid|liquid");
+  command->add_option("--range", o.range, "range of the colours; without it that of the values")
+      ->type_name("LO,HI");
+  command->add_option("-o,--output", o.output, "picture to write; without it RESULTS-FIELD.png")
+      ->type_name("FILE.png");
+
+  command = add_command(app, chosen, "figure", "A figure of one or more runs", figure);
+  command->add_option("NAME", o.figure, "one of " + quoted_list(figure_names()))->required();
   command->add_option("RESULTS", o.all_results, "results folders")->required()->type_name("FOLDER");
   command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");
+
+  command = add_command(app, chosen, "table", "One row per run: settings, cost, errors", table);
+  command->add_option("RESULTS", o.all_results, "results folders")->required()->type_name("FOLDER");
+  command->add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
 
   command =
       add_command(app, chosen, "export", ".pvd and .vtu files for other tools", export_results);

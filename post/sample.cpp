@@ -7,6 +7,7 @@
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
+#include "field_view.hpp"
 #include "results/number_text.hpp"
 
 namespace suffuse {
@@ -107,6 +108,19 @@ struct SampledField {
   [[nodiscard]] int width() const { return where == "element_vertex" ? 1 : values.components; }
 };
 
+/// A field that only points carry has no value in between.
+void refuse_point_field(const ResultsReader& results, std::size_t index, const std::string& name) {
+  std::vector<std::string> kinds{"solid"};
+  if (results.scene().scene.formulation == Formulation::double_point) kinds.emplace_back("liquid");
+  for (const auto& kind : kinds) {
+    const auto names = results.field_names(index, kind);
+    if (std::ranges::find(names, name) == names.end()) continue;
+    throw wrong("--fields", '"' + name + "\", which lives on the " + kind + " points",
+                "a field of elements or nodes: " + fields_and_places(results, index) +
+                    " (suffuse-post render --on " + kind + " shows it)");
+  }
+}
+
 SampledField read_at(const ResultsReader& results, const Moment& moment, const std::string& name) {
   std::vector<std::string> known;
   for (const std::string where : places) {
@@ -124,6 +138,7 @@ SampledField read_at(const ResultsReader& results, const Moment& moment, const s
     }
     return {field, where};
   }
+  refuse_point_field(results, moment.before, name);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   throw wrong("--fields", "\"" + name + "\"", quoted_list(known), closest_name(name, known));

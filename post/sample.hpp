@@ -24,10 +24,11 @@ std::vector<std::string> parse_field_names(const std::string& text);
 ///
 /// In an element its own linear field is taken where there is one, else nodal values are
 /// interpolated, else the element's mean holds. A point on an edge takes the mean of its elements
-/// in the soil. Between two snapshots, values are interpolated linearly in time.
+/// in the soil; free water counts only where no soil holds the point. Between two snapshots, values
+/// are interpolated linearly in time.
 ///
-/// Throws InputError for an unknown field, a time outside the snapshots or a point outside the
-/// model.
+/// Throws InputError for an unknown field, a field that only points carry, a time outside the
+/// snapshots or a point outside the model.
 Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
              const std::vector<std::string>& fields);
 

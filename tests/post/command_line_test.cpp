@@ -88,7 +88,7 @@ TEST_F(PostCommand, NothingIsWrittenIntoTheResults) {
 TEST_F(PostCommand, AMisspeltCommandIsNamed) {
   expect_refusal("ledgr " + run, 2,
                  "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"sample\", "
-                 "\"figure\" or \"export\"; did you mean ledger?");
+                 "\"render\", \"figure\", \"table\" or \"export\"; did you mean ledger?");
 }
 
 TEST_F(PostCommand, LedgerRefusesAResidual) {
@@ -231,9 +231,11 @@ TEST_F(PostCommand, EmptyFieldName) {
 }
 
 TEST_F(PostCommand, UnknownFigure) {
-  expect_refusal("figure porosty " + run + " -o " + scratch / "f.png", 2,
-                 "suffuse-post figure: NAME: got \"porosty\"; expected \"masses\" or \"porosity\"; "
-                 "did you mean porosity?");
+  expect_refusal(
+      "figure porosty " + run + " -o " + scratch / "f.png", 2,
+      "suffuse-post figure: NAME: got \"porosty\"; expected \"comparison\", "
+      "\"empty-elements\", \"flux\", \"masses\", \"model\", \"outflow\", \"porosity\" or "
+      "\"solid-mass\"; did you mean porosity?");
   EXPECT_FALSE(fs::exists(scratch / "f.png"));
 }
 

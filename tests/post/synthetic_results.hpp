@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -172,5 +173,209 @@ inline void write_synthetic_results(const std::string& folder,
   info.warnings = {"mass scaling 1e4 is large"};
   writer.write_run_info(info);
 }
+
+/// A double-point column of 1 m by 1 m between buffers and free water, for which the outflow is
+/// exact in closed form while it erodes: constant law, uniform Darcy flux.
+namespace double_point {
+
+inline constexpr double rate = 1e-3;
+inline constexpr double flux = 0.02;
+inline constexpr double start = 2.0;
+inline constexpr double grain_density = 2700.0;
+/// Of what eroded, the share that waits at nodes.
+inline constexpr double pending_share = 0.01;
+inline constexpr double end = 100.0;
+
+inline double porosity(double t) {
+  return 0.3 + rate * std::max(0.0, t - start);
+}
+
+/// When the liquid that entered as erosion began has passed the specimen.
+inline double front_time() {
+  return start + 0.3 * std::expm1(rate / flux) / rate;
+}
+
+/// c of what leaves: 1 - n_0 / n before the front arrives, 1 - exp(-alpha L / q) behind it.
+inline double concentration_out(double t) {
+  return t < front_time() ? 1.0 - 0.3 / porosity(t) : -std::expm1(-rate / flux);
+}
+
+/// Integral of q c_out, in kg.
+inline double fines_out(double t) {
+  const auto before = [](double s) { return s - start - 0.3 / rate * std::log(porosity(s) / 0.3); };
+  if (t <= start) return 0.0;
+  const double volume = t < front_time()
+                            ? before(t)
+                            : before(front_time()) + concentration_out(t) * (t - front_time());
+  return grain_density * flux * volume;
+}
+
+inline std::string scene() {
+  std::ostringstream text;
+  text << "name = \"two-phase\"\nformulation = \"double-point\"\n"
+       << "[geometry]\nshape = \"column\"\nwidth = 1.0\nheight = 1.0\n"
+       << "[geometry.layers]\ninflow = 1\nabove = 1\nbelow = 1\noutflow = 1\n"
+       << "[mesh]\nsize = 0.5\n[points]\nsolid_per_element = 1\nliquid_per_element = 3\n"
+       << "[liquid]\ndensity = 1000.0\nbulk_modulus = 2.0e7\nviscosity = 1.0e-3\n"
+       << "[soil.specimen]\nporosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = "
+       << grain_density << "\nconductivity = 2.0e-2\n[soil.specimen.erosion]\n"
+       << "law = \"constant\"\nrate = " << rate << "\nstart = " << start
+       << "\nempty_elements = \"dry\"\n[soil.buffer]\nlike = \"specimen\"\n"
+       << "erosion.law = \"none\"\n[[boundary]]\non = \"inflow\"\ndarcy_flux = " << flux
+       << "\n[[boundary]]\non = \"outflow\"\npressure = 0.0\n[time]\nend = " << end
+       << "\nscheme = \"explicit\"\n[output]\nevery = 1.0\n";
+  return text.str();
+}
+
+/// Regions by row of elements, from y = -1 to y = 2 m in steps of 0.5 m: two squares of two
+/// triangles each. Elements 4 r .. 4 r + 3 are row r.
+inline Case<2> column() {
+  constexpr std::array<int, 6> region_of_row{0, 1, 2, 2, 1, 3};
+  Case<2> c;
+  c.document = parse_scene(scene(), "two-phase.toml");
+  for (int j = 0; j <= 6; ++j) {
+    for (int i = 0; i <= 2; ++i) c.mesh.nodes.emplace_back(0.5 * i, -1.0 + 0.5 * j);
+  }
+  for (int j = 0; j < 6; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      const int a = 3 * j + i;
+      c.mesh.elements.push_back({a, a + 1, a + 4});
+      c.mesh.elements.push_back({a, a + 4, a + 3});
+      c.mesh.element_region.insert(c.mesh.element_region.end(), 2, region_of_row.at(j));
+    }
+  }
+  c.mesh.region_names = {"outflow", "buffer", "specimen", "inflow"};
+  BoundarySet<2> left{"left", {}};
+  BoundarySet<2> right{"right", {}};
+  for (int j = 0; j < 6; ++j) {
+    left.faces.push_back({3 * j + 3, 3 * j});
+    right.faces.push_back({3 * j + 2, 3 * j + 5});
+  }
+  c.mesh.boundaries = {
+      {"outflow", {{0, 1}, {1, 2}}}, {"inflow", {{20, 19}, {19, 18}}}, left, right};
+  for (int e = 0; e < c.mesh.element_count(); ++e) {
+    const bool soil = c.mesh.element_region[e] == 1 || c.mesh.element_region[e] == 2;
+    const double third = 1.0 / 3.0;
+    if (soil) {
+      c.solid_points.element.push_back(e);
+      c.solid_points.barycentric.push_back({third, third, third});
+      c.solid_points.volume.push_back(0.125);
+    }
+    for (int a = 0; a < 3; ++a) {
+      std::array<double, 3> b{1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0};
+      b.at(a) = 2.0 / 3.0;
+      c.liquid_points.element.push_back(e);
+      c.liquid_points.barycentric.push_back(b);
+      c.liquid_points.volume.push_back(0.125 * (soil ? 0.3 : 1.0) / 3.0);
+    }
+  }
+  return c;
+}
+
+/// Element 8 (the specimen's first) is dry soil and element 23 (in the inflow) empty: no liquid
+/// points there. concentration: the y of an element or point, in units of 100 m; pressure of liquid
+/// points: their number.
+inline Snapshot snapshot(const Case<2>& c, double t, long step) {
+  Snapshot s;
+  s.time = t;
+  s.step = step;
+  Field state{"saturation_state", "1", 1, {}};
+  Field region{"region", "1", 1, {}};
+  Field cell_concentration{"concentration", "1", 1, {}};
+  Field vertex_concentration{"concentration", "1", 3, {}};
+  Field porosity_field{"porosity", "1", 1, {}};
+  for (int e = 0; e < c.mesh.element_count(); ++e) {
+    const int r = c.mesh.element_region[e];
+    const bool soil = r == 1 || r == 2;
+    double value = soil ? 1.0 : 2.0;
+    if (e == 8) value = 0.0;
+    if (e == 23) value = 3.0;
+    state.values.push_back(value);
+    region.values.push_back(r);
+    cell_concentration.values.push_back(element_centroid(c.mesh, e)[1] / 100.0);
+    porosity_field.values.push_back(soil ? (r == 2 ? porosity(t) : 0.3) : 1.0);
+    for (const int node : c.mesh.elements[e]) {
+      // Another number in free water: a point on the surface of the soil takes the soil's.
+      vertex_concentration.values.push_back(soil ? c.mesh.nodes[node][1] / 100.0 : 0.5);
+    }
+  }
+  Field pressure{"pressure", "Pa", 1, {}};
+  Field velocity{"liquid_velocity", "m/s", 2, {}};
+  Field concentration{"concentration", "1", 1, {}};
+  for (int p = 0; p < c.liquid_points.size(); ++p) {
+    const int e = c.liquid_points.element[p];
+    if (e == 8 || e == 23) continue;
+    const auto x = c.liquid_points.position(c.mesh, p);
+    s.liquid_positions.insert(s.liquid_positions.end(), {x[0], x[1], 0.0});
+    pressure.values.push_back(p);
+    velocity.values.insert(velocity.values.end(), {3e-3, -4e-3});
+    concentration.values.push_back(x[1] / 100.0);
+  }
+  Field rate_field{"erosion_rate", "1/s", 1, std::vector(c.solid_points.element.size(), rate)};
+  Field nodal{"liquid_velocity", "m/s", 2, std::vector(2 * c.mesh.nodes.size(), 0.01)};
+  s.cell = {state, region, cell_concentration, porosity_field};
+  s.node = {nodal};
+  s.solid = {rate_field};
+  s.liquid = {concentration, pressure, velocity};
+  s.element_vertex = {vertex_concentration};
+  return s;
+}
+
+inline LedgerRow ledger_at(double t) {
+  LedgerRow row;
+  row.t = t;
+  row.solid = (1.0 - porosity(t)) * grain_density;
+  row.erodible = (0.4 - porosity(t)) * grain_density;
+  row.eroded = (porosity(t) - 0.3) * grain_density;
+  row.pending = pending_share * row.eroded;
+  row.fines_out = fines_out(t);
+  row.fines = row.eroded - row.pending - row.fines_out;
+  row.water_in = 1000.0 * flux * t;
+  row.water_out = row.water_in - row.fines_out * 1000.0 / grain_density;
+  row.water = 300.0 + row.water_in - row.water_out;
+  row.points = 72.0;
+  row.points_in = 3.0 * t;
+  row.points_out = 3.0 * t;
+  return row;
+}
+
+/// A whole run: rows to t = 100 s of the specimen's exact answer, with one in a hundred grains
+/// pending; snapshots at 0, 10 and 40 s.
+inline void write_results(const std::string& folder) {
+  const Case<2> c = column();
+  ResultsWriter<2> writer(folder, c);
+  for (double t = 0.0; t <= end; t += 1.0) {
+    HistoryRow history;
+    history.t = t;
+    history.dt = 0.05;
+    history.porosity_mean = porosity(t);
+    history.flux_in = flux;
+    history.flux_out = flux;
+    history.liquid_points = 72.0;
+    history.empty_elements = 2.0;
+    history.empty_elements_total = 2.0 * t;
+    history.volume_defect = 0.2 - 1e-3 * t;
+    writer.append_history(history);
+    const LedgerRow row = ledger_at(t);
+    writer.append_ledger(row);
+    LedgerRow still;
+    still.t = t;
+    const std::array<RegionRow, 4> rows{
+        {{0, 1.0, still}, {1, 0.3, still}, {2, porosity(t), row}, {3, 1.0, still}}};
+    writer.append_regions(rows);
+  }
+  long step = 0;
+  for (const double t : {0.0, 10.0, 40.0}) writer.write_snapshot(snapshot(c, t, step++));
+  RunInfo info;
+  info.status = "done";
+  info.steps = 2000;
+  info.elements = 24;
+  info.solid_points = 16;
+  info.liquid_points = 72;
+  info.wall_seconds = 1.5;
+  writer.write_run_info(info);
+}
+
+}  // namespace double_point
 
 }  // namespace suffuse::testing

@@ -1,0 +1,56 @@
+#pragma once
+
+/// Exact fluidised grains in a column that clean water enters at uniform Darcy flux q; independent
+/// of the solver. Along a path of the liquid D ln(1 - c)/Dt = -phi_e / n_L, and where porosity is
+/// uniform in space (1 - c) n_L stays constant on the path: n_f = n_L(t) - n_L(t_in) with
+/// x = integral of q / n_L from t_in to t.
+
+#include <optional>
+#include <vector>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// A specimen of uniform initial porosity between clean inflow and outflow.
+struct ColumnFlow {
+  Soil soil;
+  double porosity = unset;  ///< n_0
+  double length = unset;    ///< of the specimen along the flow, m
+  double width = unset;     ///< m
+  double flux = unset;      ///< q > 0, m/s
+};
+
+/// The steady flow through the one eroding soil of a built-in column, or nothing where the scene
+/// has no exact solution: another geometry, several eroding soils, a gradient of porosity, fines
+/// that enter, conditions on the sides, or a flux that neither a boundary (`darcy_flux`, `velocity`
+/// times a porosity that lasts) nor the heads at both ends (k i, Darcy's drag, no gravity) give.
+std::optional<ColumnFlow> column_flow(const ResultsReader& run);
+
+class ColumnFines {
+ public:
+  /// `end`: the latest time that will be asked for, s.
+  ColumnFines(const ColumnFlow& flow, double end);
+
+  /// c at distance `x` (m) from the inlet of the specimen; at `length`, of what leaves it.
+  [[nodiscard]] double concentration(double x, double t) const;
+  /// Fluidised grains in the specimen, kg (per metre of thickness).
+  [[nodiscard]] double fines(double t) const;
+  /// Grains that left the specimen since the start, kg (per metre of thickness).
+  [[nodiscard]] double fines_out(double t) const;
+
+ private:
+  [[nodiscard]] double porosity(double t) const;
+  /// Integral of q / n_L over an interval too short to need more than three Gauss points.
+  [[nodiscard]] double path_between(double from, double to) const;
+  /// Path of the liquid since erosion started; negative before that.
+  [[nodiscard]] double path(double t) const;
+  /// When the liquid entered that is at `x` at time `t`.
+  [[nodiscard]] double entry(double x, double t) const;
+
+  ColumnFlow flow_;
+  std::vector<double> times_;
+  std::vector<double> paths_;
+};
+
+}  // namespace suffuse

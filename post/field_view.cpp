@@ -1,0 +1,131 @@
+#include "field_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "case/closest_name.hpp"
+#include "case/errors.hpp"
+#include "color_map.hpp"
+
+namespace suffuse {
+namespace {
+
+/// What `--on` calls a place and the kinds of fields found there, best first.
+struct NamedPlace {
+  std::string name;
+  std::vector<std::string> kinds;
+};
+
+std::vector<NamedPlace> places_of(const ResultsReader& results) {
+  std::vector<NamedPlace> places{
+      {"cell", {"cell"}}, {"node", {"element_vertex", "node"}}, {"solid", {"solid"}}};
+  if (results.scene().scene.formulation == Formulation::double_point) {
+    places.push_back({"liquid", {"liquid"}});
+  }
+  return places;
+}
+
+std::vector<std::string> names_on(const ResultsReader& results, std::size_t index,
+                                  const NamedPlace& place) {
+  std::vector<std::string> names;
+  for (const auto& kind : place.kinds) {
+    for (const auto& name : results.field_names(index, kind)) names.push_back(name);
+  }
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+void check_place(const std::vector<NamedPlace>& places, const std::string& on,
+                 const std::string& command) {
+  std::vector<std::string> names;
+  for (const auto& place : places) names.push_back(place.name);
+  if (on.empty() || std::ranges::find(names, on) != names.end()) return;
+  throw InputError(std::vector{
+      InputProblem{command, "--on", '"' + on + '"', quoted_list(names), closest_name(on, names)}});
+}
+
+/// Symbols of the table in docs/theory.md.
+std::string symbol_of(const std::string& name) {
+  static const std::map<std::string, std::string> symbols{
+      {"porosity", "n_L"},          {"solid_fraction", "n_S"}, {"skeleton_fraction", "n_C"},
+      {"erodible_fraction", "n_e"}, {"fines_fraction", "n_f"}, {"water_fraction", "n_w"},
+      {"concentration", "c"},       {"erosion_rate", "phi_e"}, {"pressure", "p"},
+      {"liquid_velocity", "v_L"},   {"darcy_flux", "q"}};
+  const auto found = symbols.find(name);
+  return found == symbols.end() ? "" : " " + found->second;
+}
+
+}  // namespace
+
+std::string fields_and_places(const ResultsReader& results, std::size_t index) {
+  std::string text;
+  for (const auto& place : places_of(results)) {
+    const auto names = names_on(results, index, place);
+    if (names.empty()) continue;
+    if (!text.empty()) text += "; ";
+    text += "on " + place.name + ": " + quoted_list(names);
+  }
+  return text;
+}
+
+FieldPlace find_field(const ResultsReader& results, std::size_t index, const std::string& name,
+                      const std::string& on, const std::string& command) {
+  const auto places = places_of(results);
+  check_place(places, on, command);
+  std::vector<std::string> known;
+  for (const auto& place : places) {
+    if (!on.empty() && place.name != on) continue;
+    for (const auto& kind : place.kinds) {
+      const auto names = results.field_names(index, kind);
+      if (std::ranges::find(names, name) != names.end()) return {name, kind};
+      known.insert(known.end(), names.begin(), names.end());
+    }
+  }
+  throw InputError(std::vector{InputProblem{
+      command, "--field", '"' + name + '"' + (on.empty() ? "" : " on " + on),
+      "one of the fields " + fields_and_places(results, index), closest_name(name, known)}});
+}
+
+ScalarField read_scalar(const ResultsReader& results, std::size_t index, const FieldPlace& place) {
+  Field field = results.field(index, place.where, place.name);
+  ScalarField scalar{{}, field.unit, false};
+  if (place.where == "element_vertex" || field.components == 1) {
+    scalar.values = std::move(field.values);
+    return scalar;
+  }
+  scalar.is_vector = true;
+  const auto width = static_cast<std::size_t>(field.components);
+  for (std::size_t i = 0; i + width <= field.values.size(); i += width) {
+    double square = 0.0;
+    for (std::size_t k = 0; k < width; ++k) square += field.values[i + k] * field.values[i + k];
+    scalar.values.push_back(std::sqrt(square));
+  }
+  return scalar;
+}
+
+std::string field_label(const FieldPlace& place, const ScalarField& field) {
+  return (field.is_vector ? "magnitude of " : "") + place.name + symbol_of(place.name) + " (" +
+         (field.unit == "1" || field.unit.empty() ? "-" : field.unit) + ")";
+}
+
+std::vector<Category> categories(const ResultsReader& results, const FieldPlace& place) {
+  if (place.name == "saturation_state") {
+    return {{0.0, "dry soil", {0.87, 0.62, 0.25}},
+            {1.0, "saturated soil", {0.0, 0.27, 0.53}},
+            {2.0, "free liquid", {0.66, 0.85, 0.95}},
+            {3.0, "empty", {1.0, 1.0, 1.0}}};
+  }
+  std::vector<Category> regions;
+  if (place.name != "region") return regions;
+  const auto count = results.regions().size();
+  for (std::size_t r = 0; r < count; ++r) {
+    const double fraction =
+        count == 1 ? 0.7 : 0.15 + 0.85 * static_cast<double>(r) / static_cast<double>(count - 1);
+    regions.push_back({static_cast<double>(r), results.regions()[r], viridis(fraction)});
+  }
+  return regions;
+}
+
+}  // namespace suffuse

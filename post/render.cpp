@@ -1,0 +1,366 @@
+#include "render.hpp"
+
+#include <vtkBrush.h>
+#include <vtkCellArray.h>
+#include <vtkMapper.h>
+#include <vtkNew.h>
+#include <vtkPen.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "case/errors.hpp"
+#include "color_map.hpp"
+#include "field_view.hpp"
+#include "model_view.hpp"
+#include "picture.hpp"
+#include "results/number_text.hpp"
+
+namespace suffuse {
+namespace {
+
+const std::string command = "suffuse-post render";
+constexpr Color no_value{0.75, 0.75, 0.75};
+constexpr Color mesh_color{0.55, 0.55, 0.55};
+constexpr float largest_width = 1000.0F;
+constexpr float largest_height = 800.0F;
+constexpr float top_room = 70.0F;
+constexpr float gap = 40.0F;
+constexpr float bar_width = 30.0F;
+constexpr float least_bar = 340.0F;
+constexpr float bar_room = 215.0F;
+constexpr int bar_bands = 256;
+constexpr int most_triangles = 400'000;
+constexpr int finest_division = 16;
+
+/// Colours of values: by kind, or along the map between two numbers.
+struct Scale {
+  std::array<double, 2> range{0.0, 1.0};
+  bool exceeds_low = false;  ///< values lie outside a range that was asked for
+  bool exceeds_high = false;
+  std::vector<Category> kinds;
+
+  [[nodiscard]] Color color(double value) const {
+    for (const auto& kind : kinds) {
+      if (std::abs(value - kind.value) < 0.5) return kind.color;
+    }
+    if (!kinds.empty() || !std::isfinite(value)) return no_value;
+    return viridis((value - range[0]) / (range[1] - range[0]));
+  }
+};
+
+/// All that one picture shows.
+struct Frame {
+  std::string title;
+  std::string label;
+  std::string where;
+  std::vector<double> values;
+  std::vector<Vector<2>> positions;  ///< of points
+  Scale scale;
+};
+
+std::size_t nearest_snapshot(const std::vector<double>& times, double t) {
+  const auto distance = [&](double time) { return std::abs(time - t); };
+  return static_cast<std::size_t>(std::ranges::min_element(times, {}, distance) - times.begin());
+}
+
+std::string title_of(const ResultsReader& results, std::size_t index,
+                     const std::optional<double>& asked) {
+  const double t = results.times()[index];
+  std::string title = results.scene().scene.name + ", t = " + tick_text(t) + " s";
+  if (asked && std::abs(*asked - t) > 1e-9 * std::max(1.0, std::abs(t))) {
+    title += " (snapshot nearest to " + tick_text(*asked) + " s)";
+  }
+  return title;
+}
+
+std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
+                                          const RenderRequest& request) {
+  const auto& times = results.times();
+  if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  if (request.time) return {nearest_snapshot(times, *request.time)};
+  if (!request.all) return {times.size() - 1};
+  std::vector<std::size_t> every;
+  for (std::size_t i = 0; i < times.size(); ++i) every.push_back(i);
+  return every;
+}
+
+/// The range of the values of all frames, widened where they are one number to rounding.
+Scale make_scale(const ResultsReader& results, const std::vector<std::size_t>& snapshots,
+                 const FieldPlace& place, const RenderRequest& request) {
+  Scale scale;
+  scale.kinds = categories(results, place);
+  if (!scale.kinds.empty()) return scale;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const std::size_t index : snapshots) {
+    for (const double value : read_scalar(results, index, place).values) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  if (request.range) {
+    scale.range = *request.range;
+    scale.exceeds_low = low < scale.range[0];
+    scale.exceeds_high = high > scale.range[1];
+    return scale;
+  }
+  if (!(low <= high)) return scale;
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (high - low <= 1e-9 * size || size == 0.0) {
+    const double middle = 0.5 * (low + high);
+    const double room = size > 0.0 ? 0.05 * size : 1.0;
+    low = middle - room;
+    high = middle + room;
+  }
+  scale.range = {low, high};
+  return scale;
+}
+
+unsigned char byte_of(double value) {
+  return static_cast<unsigned char>(std::lround(255.0 * value));
+}
+
+/// Triangles in colours, one per corner.
+class ColoredTriangles {
+ public:
+  void add(const std::array<Vector<2>, 3>& corners, const std::array<Color, 3>& colors) {
+    triangles_->InsertNextCell(3);
+    for (int a = 0; a < 3; ++a) {
+      triangles_->InsertCellPoint(
+          points_->InsertNextPoint(corners.at(a)[0], corners.at(a)[1], 0.0));
+      const auto& color = colors.at(a);
+      const unsigned char bytes[4] = {byte_of(color[0]), byte_of(color[1]), byte_of(color[2]), 255};
+      colors_->InsertNextTypedTuple(bytes);
+    }
+  }
+  void paint(vtkContext2D& painter) {
+    grid_->SetPoints(points_);
+    grid_->SetPolys(triangles_);
+    painter.DrawPolyData(0.0F, 0.0F, grid_, colors_, VTK_SCALAR_MODE_USE_POINT_DATA);
+  }
+
+ private:
+  static vtkNew<vtkUnsignedCharArray> rgba() {
+    vtkNew<vtkUnsignedCharArray> array;
+    array->SetNumberOfComponents(4);
+    return array;
+  }
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> triangles_;
+  vtkNew<vtkPolyData> grid_;
+  vtkNew<vtkUnsignedCharArray> colors_ = rgba();
+};
+
+/// Values of a frame at the corners of an element.
+std::array<double, 3> corner_values(const Frame& frame, const Mesh<2>& mesh, int element) {
+  std::array<double, 3> values{};
+  for (int a = 0; a < 3; ++a) {
+    std::size_t at = static_cast<std::size_t>(element);
+    if (frame.where == "element_vertex") at = 3 * at + static_cast<std::size_t>(a);
+    if (frame.where == "node") at = static_cast<std::size_t>(mesh.elements[element][a]);
+    values.at(a) = frame.values[at];
+  }
+  return values;
+}
+
+/// Divides an element into `n` by `n` parts: colours between the corners of a triangle are mixed,
+/// which is not what the map has between them.
+void add_divided(ColoredTriangles& triangles, const std::array<Vector<2>, 3>& corners,
+                 const std::array<double, 3>& values, const Scale& scale, int n) {
+  const auto at = [&](int i, int j) {
+    const double b = static_cast<double>(i) / n;
+    const double c = static_cast<double>(j) / n;
+    const Vector<2> x = (1.0 - b - c) * corners[0] + b * corners[1] + c * corners[2];
+    return std::pair{x, scale.color((1.0 - b - c) * values[0] + b * values[1] + c * values[2])};
+  };
+  const auto add = [&](const auto& p, const auto& q, const auto& r) {
+    triangles.add({p.first, q.first, r.first}, {p.second, q.second, r.second});
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      add(at(i, j), at(i + 1, j), at(i, j + 1));
+      if (i + j + 1 < n) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+}
+
+void paint_elements(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
+                    const Frame& frame) {
+  const bool smooth = frame.where != "cell";
+  int division = 1;
+  while (smooth && division < finest_division &&
+         4 * division * division * mesh.element_count() <= most_triangles) {
+    division *= 2;
+  }
+  ColoredTriangles triangles;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    std::array<Vector<2>, 3> corners;
+    for (int a = 0; a < 3; ++a) corners.at(a) = view.pixel(mesh.nodes[mesh.elements[e][a]]);
+    add_divided(triangles, corners, corner_values(frame, mesh, e), frame.scale, division);
+  }
+  triangles.paint(painter);
+}
+
+/// Edges where elements are large enough for the colours to show between them.
+void paint_mesh(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh) {
+  const double pixels = double{view.width()} * view.height() / mesh.element_count();
+  if (pixels > 100.0) paint_edges(painter, view, mesh, all_edges(mesh), mesh_color, 0.7F);
+  paint_edges(painter, view, mesh, region_edges(mesh), {0.25, 0.25, 0.25}, 1.0F);
+  paint_edges(painter, view, mesh, outer_edges(mesh), {0.0, 0.0, 0.0}, 1.5F);
+}
+
+void paint_points(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
+                  const Frame& frame) {
+  std::vector<Color> colors;
+  for (const double value : frame.values) colors.push_back(frame.scale.color(value));
+  paint_discs(painter, view, frame.positions, colors,
+              disc_diameter(view, mesh, frame.positions.size()));
+}
+
+/// An end of the range is rarely round.
+std::string end_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+void paint_bar(vtkContext2D& painter, const Frame& frame, float left, float bottom, float height) {
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  for (int band = 0; band < bar_bands; ++band) {
+    const Color color = viridis((band + 0.5) / bar_bands);
+    painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
+    const float step = height / static_cast<float>(bar_bands);
+    painter.DrawRect(left, bottom + static_cast<float>(band) * step, bar_width, step);
+  }
+  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
+  painter.GetPen()->SetWidth(1.5F);
+  const auto [low, high] = frame.scale.range;
+  const auto mark = [&](double value, const std::string& text) {
+    const float y = bottom + height * static_cast<float>((value - low) / (high - low));
+    painter.DrawLine(left + bar_width, y, left + bar_width + 8.0F, y);
+    paint_text(painter, text, 18, left + bar_width + 14.0F, y, Anchor::left);
+  };
+  mark(low, (frame.scale.exceeds_low ? "<= " : "") + end_text(low));
+  mark(high, (frame.scale.exceeds_high ? ">= " : "") + end_text(high));
+  for (const double tick : round_ticks(low, high)) {
+    const double room = 24.0 / height * (high - low);
+    if (tick > low + room && tick < high - room) {
+      mark(tick, tick_text(tick));
+    }
+  }
+  paint_text(painter, frame.label, 20, left + bar_width + 150.0F, bottom + height / 2.0F,
+             Anchor::center, 90.0);
+}
+
+/// Pixels that the names of the kinds need.
+float kinds_width(const Frame& frame) {
+  std::size_t letters = frame.label.size();
+  for (const auto& kind : frame.scale.kinds) letters = std::max(letters, kind.name.size());
+  return 60.0F + 11.0F * static_cast<float>(letters);
+}
+
+void paint_kinds(vtkContext2D& painter, const Frame& frame, float left, float top) {
+  paint_text(painter, frame.label, 20, left, top - 12.0F, Anchor::left);
+  float y = top - 48.0F;
+  for (const auto& kind : frame.scale.kinds) {
+    painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+    painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
+    painter.GetPen()->SetWidth(1.0F);
+    painter.GetBrush()->SetColorF(kind.color[0], kind.color[1], kind.color[2]);
+    painter.DrawRect(left, y - 11.0F, 30.0F, 22.0F);
+    paint_text(painter, kind.name, 18, left + 42.0F, y, Anchor::left);
+    y -= 34.0F;
+  }
+}
+
+void draw_frame(const Mesh<2>& mesh, const Frame& frame, const std::string& path) {
+  const ModelView view(mesh, axes_left, axes_bottom, largest_width, largest_height);
+  const float right = view.left() + view.width() + gap;
+  const bool by_kind = !frame.scale.kinds.empty();
+  const float side = by_kind ? kinds_width(frame) : bar_room;
+  // A long title over a narrow model still fits: a letter of 24 pixels is about 14 wide.
+  const float title = 14.0F * static_cast<float>(frame.title.size()) + 2.0F * gap;
+  const auto width = static_cast<int>(std::max(right + side, title));
+  const auto height =
+      static_cast<int>(view.bottom() + std::max(view.height(), least_bar) + top_room);
+  draw_picture(width, height, frame.title, path, [&](vtkContextScene& scene) {
+    add_painted(scene, [&](vtkContext2D& painter) {
+      const bool points =
+          !frame.positions.empty() || frame.where == "solid" || frame.where == "liquid";
+      if (!points) paint_elements(painter, view, mesh, frame);
+      paint_mesh(painter, view, mesh);
+      if (points) paint_points(painter, view, mesh, frame);
+      view.paint_axes(painter);
+      paint_text(painter, frame.title, 24, static_cast<float>(width) / 2.0F,
+                 static_cast<float>(height) - 32.0F);
+      if (by_kind) {
+        paint_kinds(painter, frame, right, view.bottom() + view.height());
+      } else {
+        paint_bar(painter, frame, right, view.bottom(), std::max(view.height(), least_bar));
+      }
+    });
+  });
+}
+
+/// FILE_0000.png
+std::string numbered(const std::string& path, std::size_t number) {
+  char digits[24];
+  std::snprintf(digits, sizeof digits, "_%04zu", number);
+  const std::filesystem::path file(path);
+  return (file.parent_path() / (file.stem().string() + digits + file.extension().string()))
+      .string();
+}
+
+}  // namespace
+
+std::array<double, 2> parse_range(const std::string& text) {
+  const auto comma = text.find(',');
+  if (comma != std::string::npos) {
+    const auto low = parse_number(text.substr(0, comma));
+    const auto high = parse_number(text.substr(comma + 1));
+    if (low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high) {
+      return {*low, *high};
+    }
+  }
+  throw InputError(std::vector{
+      InputProblem{command, "--range", '"' + text + '"', "LO,HI with LO below HI", ""}});
+}
+
+std::vector<std::string> render(const ResultsReader& results, const RenderRequest& request) {
+  require_png(request.output, command);
+  if (request.time && !std::isfinite(*request.time)) {
+    throw InputError(std::vector{
+        InputProblem{command, "--time", number_text(*request.time), "a time in seconds", ""}});
+  }
+  const auto snapshots = wanted_snapshots(results, request);
+  const FieldPlace place =
+      find_field(results, snapshots.front(), request.field, request.on, command);
+  const Mesh<2> mesh = results.mesh();
+  Frame frame;
+  frame.where = place.where;
+  frame.scale = make_scale(results, snapshots, place, request);
+  std::vector<std::string> written;
+  for (const std::size_t index : snapshots) {
+    const ScalarField field = read_scalar(results, index, place);
+    frame.values = field.values;
+    frame.label = field_label(place, field);
+    frame.title = title_of(results, index, request.time);
+    if (place.where == "solid" || place.where == "liquid") {
+      frame.positions = results.point_positions(index, place.where);
+    }
+    written.push_back(request.all ? numbered(request.output, index) : request.output);
+    draw_frame(mesh, frame, written.back());
+  }
+  return written;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,138 @@
+#include "column_fines.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "post/synthetic_results.hpp"
+
+namespace suffuse {
+namespace {
+
+using testing::ScratchFolder;
+
+const std::string reference = std::string(SUFFUSE_TEST_DATA) + "/reference/";
+
+/// The first word of every line, the numbers behind it.
+struct Line {
+  std::string law;
+  std::vector<double> numbers;
+};
+
+std::vector<Line> read_lines(const std::string& name) {
+  std::ifstream in(reference + name);
+  std::string text;
+  std::getline(in, text);
+  std::vector<Line> lines;
+  while (std::getline(in, text)) {
+    std::istringstream cells(text);
+    Line line;
+    std::getline(cells, line.law, ',');
+    std::string cell;
+    while (std::getline(cells, cell, ',')) line.numbers.push_back(std::stod(cell));
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+ColumnFlow paper_flow(const std::string& law, double rate, double flux) {
+  ColumnFlow flow;
+  flow.soil.porosity = 0.3;
+  flow.soil.skeleton_fraction = 0.6;
+  flow.soil.grain_density = 2700.0;
+  flow.soil.erosion.law = law == "log" ? ErosionLaw::logarithmic : ErosionLaw::constant;
+  flow.soil.erosion.rate = rate;
+  flow.soil.erosion.start = 2.0;
+  flow.porosity = 0.3;
+  flow.length = 1.0;
+  flow.width = 1.0;
+  flow.flux = flux;
+  return flow;
+}
+
+// Columns: par, q, t, n_L, M_solid, M_eroded_total, M_fluidised_in, M_water_in, M_eroded_out,
+// c_out.
+TEST(ColumnFines, AgreesWithTheReferenceMasses) {
+  const auto lines = read_lines("masses.csv");
+  ASSERT_GT(lines.size(), 100U);
+  for (const auto& line : lines) {
+    const auto& v = line.numbers;
+    const ColumnFines fines(paper_flow(line.law, v[0], v[1]), v[2]);
+    EXPECT_NEAR(fines.fines(v[2]), v[6], 2e-8) << line.law << " t = " << v[2];
+    EXPECT_NEAR(fines.fines_out(v[2]), v[8], 2e-8) << line.law << " t = " << v[2];
+    EXPECT_NEAR(fines.concentration(1.0, v[2]), v[9], 1e-10) << line.law << " t = " << v[2];
+  }
+}
+
+// Columns: par, q, t, x, n_L, n_f, c.
+TEST(ColumnFines, AgreesWithTheReferenceProfiles) {
+  const auto lines = read_lines("fines-profile.csv");
+  ASSERT_GT(lines.size(), 100U);
+  for (const auto& line : lines) {
+    const auto& v = line.numbers;
+    const ColumnFines fines(paper_flow(line.law, v[0], v[1]), v[2]);
+    EXPECT_NEAR(fines.concentration(v[3], v[2]), v[6], 1e-10)
+        << line.law << " x = " << v[3] << " t = " << v[2];
+  }
+}
+
+TEST(ColumnFines, NothingMovesBeforeErosion) {
+  const ColumnFines fines(paper_flow("const", 1e-3, 0.012), 10.0);
+  EXPECT_EQ(fines.concentration(1.0, 1.5), 0.0);
+  EXPECT_NEAR(fines.fines(1.5), 0.0, 1e-10);
+  EXPECT_NEAR(fines.fines_out(2.0), 0.0, 1e-10);
+}
+
+std::optional<ColumnFlow> flow_of(const ScratchFolder& scratch, Case<2> c, const std::string& from,
+                                  const std::string& to) {
+  std::string text = c.document.text;
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  c.document = parse_scene(text, "changed.toml");
+  { const ResultsWriter<2> writer(scratch / "run.results", c); }
+  return column_flow(ResultsReader(scratch / "run.results"));
+}
+
+TEST(ColumnFlow, ComesFromTheHeadsAtBothEnds) {
+  const ScratchFolder scratch;
+  const Case<2> c = testing::unit_square_case();
+  const auto flow = flow_of(scratch, c, "start = 2.0", "start = 3.0");
+  ASSERT_TRUE(flow);
+  EXPECT_NEAR(flow->flux, 2e-2 * 6000.0 / (1000.0 * 9.81), 1e-16);
+  EXPECT_EQ(flow->length, 1.0);
+  EXPECT_EQ(flow->soil.erosion.start, 3.0);
+}
+
+TEST(ColumnFlow, ComesFromAFluxOrAVelocityInFreeWater) {
+  const ScratchFolder scratch;
+  const Case<2> c = testing::double_point::column();
+  auto flow = flow_of(scratch, c, "darcy_flux = 0.02", "darcy_flux = 0.03");
+  ASSERT_TRUE(flow);
+  EXPECT_EQ(flow->flux, 0.03);
+  EXPECT_EQ(flow->length, 1.0);
+  flow = flow_of(scratch, c, "darcy_flux = 0.02", "velocity = 0.12");
+  ASSERT_TRUE(flow);
+  EXPECT_EQ(flow->flux, 0.12);
+  // Two metres of soil, the buffers half of them, resist the head.
+  flow = flow_of(scratch, c, "darcy_flux = 0.02", "pressure = 9810.0");
+  ASSERT_TRUE(flow);
+  EXPECT_NEAR(flow->flux, 2e-2 / 2.0, 1e-16);
+}
+
+TEST(ColumnFlow, IsNotThereWhereNothingIsExact) {
+  const ScratchFolder scratch;
+  const Case<2> c = testing::double_point::column();
+  EXPECT_FALSE(flow_of(scratch, c, "darcy_flux = 0.02", "darcy_flux = 0.02\nconcentration = 0.1"));
+  EXPECT_FALSE(flow_of(scratch, c, "darcy_flux = 0.02", "darcy_flux = 0.0"));
+  EXPECT_FALSE(flow_of(scratch, c, "pressure = 0.0",
+                       "pressure = 0.0\n[[boundary]]\non = \"left\"\npressure = 1.0"));
+  EXPECT_FALSE(
+      flow_of(scratch, c, "porosity = 0.3", "porosity = 0.3\nporosity_gradient = [0, 0.01]"));
+  EXPECT_FALSE(flow_of(scratch, c, "law = \"constant\"", "law = \"none\""));
+}
+
+}  // namespace
+}  // namespace suffuse
