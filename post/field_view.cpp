@@ -59,9 +59,11 @@ std::string symbol_of(const std::string& name) {
 
 }  // namespace
 
-std::string fields_and_places(const ResultsReader& results, std::size_t index) {
+std::string fields_and_places(const ResultsReader& results, std::size_t index,
+                              const std::vector<std::string>& only) {
   std::string text;
   for (const auto& place : places_of(results)) {
+    if (!only.empty() && std::ranges::find(only, place.name) == only.end()) continue;
     const auto names = names_on(results, index, place);
     if (names.empty()) continue;
     if (!text.empty()) text += "; ";

@@ -23,8 +23,9 @@ struct FieldPlace {
 FieldPlace find_field(const ResultsReader& results, std::size_t index, const std::string& name,
                       const std::string& on, const std::string& command);
 
-/// `fields of cell: "a", "b"; node: ...`
-std::string fields_and_places(const ResultsReader& results, std::size_t index);
+/// `on cell: "a" or "b"; on node: ...` of the places named, or of all when none is.
+std::string fields_and_places(const ResultsReader& results, std::size_t index,
+                              const std::vector<std::string>& only = {});
 
 /// Values with vectors replaced by their magnitude: per element, per vertex of every element, per
 /// node or per point.

@@ -116,7 +116,7 @@ void refuse_point_field(const ResultsReader& results, std::size_t index, const s
     const auto names = results.field_names(index, kind);
     if (std::ranges::find(names, name) == names.end()) continue;
     throw wrong("--fields", '"' + name + "\", which lives on the " + kind + " points",
-                "a field of elements or nodes: " + fields_and_places(results, index) +
+                "a field " + fields_and_places(results, index, {"cell", "node"}) +
                     " (suffuse-post render --on " + kind + " shows it)");
   }
 }

@@ -176,6 +176,63 @@ TEST_F(PostCommand, ExportWritesVtu) {
   EXPECT_DOUBLE_EQ(porosity->GetComponent(3, 0), 40.3);
 }
 
+TEST_F(PostCommand, DoublePointLedgerCountsPendingGrains) {
+  testing::double_point::write_results(scratch / "dp.results");
+  const Outcome outcome = post("ledger " + scratch / "dp.results");
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("pending grains: 2.646 kg, at most 2.646 kg at t = 100 s\n"
+                             "liquid points: 72; entered 300, left 300\n"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(post("ledger " + run).out.find("pending"), std::string::npos);
+}
+
+TEST_F(PostCommand, DoublePointExportHasTheLiquidPoints) {
+  testing::double_point::write_results(scratch / "dp.results");
+  const Outcome outcome = post("export " + scratch / "dp.results" + " -o " + scratch / "vtu");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_NE(file_text(scratch / "vtu/liquid.pvd")
+                .find("timestep=\"10\" part=\"0\" "
+                      "file=\"liquid_000001.vtu\""),
+            std::string::npos);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  const std::string path = scratch / "vtu/liquid_000001.vtu";
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 66);
+  auto* pressure = reader->GetOutput()->GetPointData()->GetArray("pressure");
+  ASSERT_NE(pressure, nullptr);
+  EXPECT_EQ(pressure->GetComponent(24, 0), 27.0);  // three points of element 8 are not there
+}
+
+TEST_F(PostCommand, RenderNamesItsPictures) {
+  const std::string picture = scratch / "p.png";
+  Outcome outcome = post("render " + run + " --field porosity --time 12 -o " + picture);
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(outcome.out, picture + "\n");
+  EXPECT_GT(fs::file_size(picture), 5000U);
+  outcome = post("render " + run + " --field porosity --all --range 0.3,0.4 -o " + picture);
+  EXPECT_EQ(outcome.out, scratch / "p_0000.png" + "\n" + scratch / "p_0001.png" + "\n" +
+                             scratch / "p_0002.png" + "\n");
+  EXPECT_EQ(post("render " + run + " --field porosity --all --time 1 -o " + picture).code, 2);
+  expect_refusal("render " + run + " --field porosity --range 2,1 -o " + picture, 2,
+                 "suffuse-post render: --range: got \"2,1\"; expected LO,HI with LO below HI");
+  expect_refusal("render " + run + " --field porosity -o " + run + "/a.png", 2,
+                 "suffuse-post: -o: got \"" + run + "/a.png\"; expected a place outside " + run +
+                     ", which belongs to suffuse-solver");
+}
+
+TEST_F(PostCommand, TableHasARowPerRun) {
+  testing::double_point::write_results(scratch / "dp.results");
+  const Outcome outcome =
+      post("table " + run + " " + scratch / "dp.results" + " --csv " + scratch / "t.csv");
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  const std::string text = file_text(scratch / "t.csv");
+  EXPECT_EQ(text.find("run,status,formulation,law,rate,"), 0U);
+  EXPECT_NE(text.find("\nrun,done,single-point,constant,0.001,"), std::string::npos);
+  EXPECT_NE(text.find("\ndp,done,double-point,constant,0.001,0.02,"), std::string::npos);
+}
+
 TEST_F(PostCommand, UnknownField) {
   expect_refusal(sample_start + "--time 10 --line 0.5,0:0.5,1 --count 3 --fields porosty", 2,
                  "suffuse-post sample: --fields: got \"porosty\"; expected \"darcy_flux\", "

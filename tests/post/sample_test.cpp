@@ -71,5 +71,36 @@ TEST_F(Sample, CellMeansAndNodalVectors) {
   EXPECT_EQ(table.column("darcy_flux_x")[1], 0.25);
 }
 
+class DoublePointSample : public ::testing::Test {
+ protected:
+  DoublePointSample() { testing::double_point::write_results(scratch_ / "run.results"); }
+  [[nodiscard]] Table at(const std::string& line, const std::string& fields) const {
+    return sample(ResultsReader(scratch_ / "run.results"), 5.0, parse_line(line), 2,
+                  parse_field_names(fields));
+  }
+
+ private:
+  ScratchFolder scratch_;
+};
+
+// The soil has y / 100, free water 0.5: on the surface at y = 1.5 the soil's counts.
+TEST_F(DoublePointSample, FreeWaterCountsOnlyWhereThereIsNoSoil) {
+  EXPECT_NEAR(at("0.3,1.5:0.3,1.6", "concentration").column("concentration")[0], 0.015, 1e-14);
+  EXPECT_NEAR(at("0.3,1.5:0.3,1.6", "concentration").column("concentration")[1], 0.5, 1e-14);
+}
+
+TEST_F(DoublePointSample, FieldsOfPointsAreRefusedWithTheReason) {
+  try {
+    static_cast<void>(at("0.3,0:0.3,1", "pressure"));
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "suffuse-post sample: --fields: got \"pressure\", which lives on the liquid points; "
+              "expected a field on cell: \"concentration\", \"porosity\", \"region\" or "
+              "\"saturation_state\"; on node: \"concentration\" or \"liquid_velocity\" "
+              "(suffuse-post render --on liquid shows it)");
+  }
+}
+
 }  // namespace
 }  // namespace suffuse

@@ -1,0 +1,200 @@
+#include "render.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "case/errors.hpp"
+#include "color_map.hpp"
+#include "field_view.hpp"
+#include "model_view.hpp"
+#include "post/picture_pixels.hpp"
+#include "post/synthetic_results.hpp"
+
+namespace suffuse {
+namespace {
+
+using testing::expect_color;
+using testing::Pixels;
+using testing::ScratchFolder;
+
+class Render : public ::testing::Test {
+ protected:
+  Render() {
+    unsetenv("DISPLAY");
+    testing::double_point::write_results(scratch / "run.results");
+    testing::write_synthetic_results(scratch / "single.results");
+  }
+  [[nodiscard]] ResultsReader run() const { return ResultsReader(scratch / "run.results"); }
+  [[nodiscard]] ResultsReader single() const { return ResultsReader(scratch / "single.results"); }
+  [[nodiscard]] RenderRequest request(const std::string& field) const {
+    RenderRequest r;
+    r.field = field;
+    r.output = scratch / "picture.png";
+    return r;
+  }
+  [[nodiscard]] Pixels drawn(const ResultsReader& results, const RenderRequest& r) const {
+    EXPECT_EQ(render(results, r), std::vector<std::string>{r.output});
+    return Pixels(r.output);
+  }
+  /// Where a position of the double-point column lies in the picture: 800 pixels for its 3 m.
+  static Eigen::Vector2d place(double x, double y) {
+    return {axes_left + x * 800.0 / 3.0, axes_bottom + (y + 1.0) * 800.0 / 3.0};
+  }
+  void expect_refusal(const ResultsReader& results, const RenderRequest& r,
+                      const std::string& message) const {
+    try {
+      render(results, r);
+      ADD_FAILURE() << "not refused: " << message;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()), message);
+    }
+    EXPECT_FALSE(std::filesystem::exists(r.output));
+  }
+
+  const ScratchFolder scratch;
+};
+
+TEST(ColorMap, GetsBrighterWithoutATurn) {
+  for (int k = 0; k < 200; ++k) {
+    EXPECT_LT(luminance(viridis(k / 200.0)), luminance(viridis((k + 1) / 200.0))) << k;
+  }
+  // Ends of the original map, to the accuracy of the fit.
+  expect_color({68, 1, 84}, viridis(0.0), "low end");
+  expect_color({253, 231, 37}, viridis(1.0), "high end");
+  EXPECT_EQ(viridis(-1.0), viridis(0.0));
+  EXPECT_EQ(viridis(2.0), viridis(1.0));
+}
+
+// concentration is y / 100 in the middle of an element: -5/6 .. 11/6 of a hundredth.
+TEST_F(Render, ElementsHaveTheColoursOfTheirValues) {
+  auto r = request("concentration");
+  r.range = {{-0.01, 0.02}};
+  const Pixels pixels = drawn(run(), r);
+  const Case<2> c = testing::double_point::column();
+  for (int e = 0; e < c.mesh.element_count(); ++e) {
+    const auto middle = element_centroid(c.mesh, e);
+    expect_color(pixels.at(place(middle[0], middle[1])), viridis((middle[1] + 1.0) / 3.0),
+                 "element " + std::to_string(e));
+  }
+}
+
+TEST_F(Render, AutomaticRangeReachesFromTheLeastToTheGreatestValue) {
+  const Pixels pixels = drawn(run(), request("concentration"));
+  const Case<2> c = testing::double_point::column();
+  const auto lowest = element_centroid(c.mesh, 0);
+  const auto highest = element_centroid(c.mesh, 23);
+  expect_color(pixels.at(place(lowest[0], lowest[1])), viridis(0.0), "lowest");
+  expect_color(pixels.at(place(highest[0], highest[1])), viridis(1.0), "highest");
+}
+
+// The soil's own linear field is y / 100: smooth within an element.
+TEST_F(Render, VertexFieldsAreSmooth) {
+  auto r = request("concentration");
+  r.on = "node";
+  r.range = {{0.0, 0.01}};
+  const Pixels pixels = drawn(run(), r);
+  for (const double y : {0.05, 0.2, 0.45, 0.6, 0.85}) {
+    expect_color(pixels.at(place(0.8, y)), viridis(y), "y = " + std::to_string(y));
+  }
+}
+
+TEST_F(Render, LiquidPointsAreDiscsOfTheirColour) {
+  auto r = request("pressure");
+  r.on = "liquid";
+  r.range = {{0.0, 71.0}};
+  const Pixels pixels = drawn(run(), r);
+  const Case<2> c = testing::double_point::column();
+  for (const int p : {0, 31, 50}) {
+    const auto x = c.liquid_points.position(c.mesh, p);
+    expect_color(pixels.at(place(x[0], x[1])), viridis(p / 71.0), "point " + std::to_string(p));
+  }
+  // Element 8 has none, and white ground between its edges.
+  const auto dry = c.liquid_points.position(c.mesh, 24);
+  expect_color(pixels.at(place(dry[0], dry[1])), {1.0, 1.0, 1.0}, "where there is no point");
+}
+
+TEST_F(Render, VectorsShowTheirMagnitude) {
+  const ResultsReader results = run();
+  const FieldPlace place = find_field(results, 0, "liquid_velocity", "liquid", "test");
+  const ScalarField field = read_scalar(results, 0, place);
+  EXPECT_NEAR(field.values.front(), 5e-3, 1e-17);
+  EXPECT_EQ(field_label(place, field), "magnitude of liquid_velocity v_L (m/s)");
+}
+
+TEST_F(Render, StatesHaveNamesInsteadOfABar) {
+  const ResultsReader results = run();
+  const auto kinds = categories(results, {"saturation_state", "cell"});
+  ASSERT_EQ(kinds.size(), 4U);
+  EXPECT_EQ(kinds[0].name, "dry soil");
+  EXPECT_EQ(kinds[2].name, "free liquid");
+  const Pixels pixels = drawn(results, request("saturation_state"));
+  const Case<2> c = testing::double_point::column();
+  const std::vector<std::pair<int, int>> elements{{0, 2}, {4, 1}, {8, 0}, {22, 2}, {23, 3}};
+  for (const auto& [element, kind] : elements) {
+    const auto x = element_centroid(c.mesh, element);
+    expect_color(pixels.at(place(x[0], x[1])), kinds[kind].color,
+                 "element " + std::to_string(element));
+  }
+  for (int a = 0; a < 4; ++a) {  // in grey, too
+    for (int b = 0; b < a; ++b) {
+      EXPECT_GT(std::abs(luminance(kinds[a].color) - luminance(kinds[b].color)), 0.1);
+    }
+  }
+}
+
+TEST_F(Render, AllFramesShareOneRange) {
+  auto r = request("porosity");
+  r.on = "solid";
+  r.all = true;
+  const auto written = render(single(), r);
+  ASSERT_EQ(written,
+            (std::vector<std::string>{scratch / "picture_0000.png", scratch / "picture_0001.png",
+                                      scratch / "picture_0002.png"}));
+  // 0.1 p + t at point p: from 0 at the first point of the first frame to 40.7.
+  const Case<2> c = testing::unit_square_case();
+  const auto first = c.solid_points.position(c.mesh, 0);
+  const Eigen::Vector2d at{axes_left + 800.0 * first[0], axes_bottom + 800.0 * first[1]};
+  const std::vector<double> times{0.0, 10.0, 40.0};
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    expect_color(Pixels(written[i]).at(at), viridis(times[i] / 40.7), written[i]);
+  }
+}
+
+TEST_F(Render, OneValueEverywhereStillHasABar) {
+  auto r = request("erosion_rate");
+  const Pixels pixels = drawn(run(), r);
+  EXPECT_GT(pixels.color_count(), 200U);
+}
+
+TEST_F(Render, AnUnknownFieldListsWhatThereIsAndWhere) {
+  expect_refusal(
+      run(), request("concentratoin"),
+      "suffuse-post render: --field: got \"concentratoin\"; expected one of the fields on cell: "
+      "\"concentration\", \"porosity\", \"region\" or \"saturation_state\"; on node: "
+      "\"concentration\" or \"liquid_velocity\"; on solid: \"erosion_rate\"; on liquid: "
+      "\"concentration\", \"liquid_velocity\" or \"pressure\"; did you mean concentration?");
+}
+
+TEST_F(Render, OtherRefusals) {
+  auto r = request("porosity");
+  r.on = "liquid";
+  expect_refusal(single(), r,
+                 "suffuse-post render: --on: got \"liquid\"; expected \"cell\", \"node\" or "
+                 "\"solid\"");
+  r.on.clear();
+  r.time = std::nan("");
+  expect_refusal(run(), r, "suffuse-post render: --time: got nan; expected a time in seconds");
+  r.time.reset();
+  r.output = scratch / "picture.svg";
+  expect_refusal(
+      run(), r,
+      "suffuse-post render: -o: got \"" + r.output + "\"; expected a name that ends in .png");
+  EXPECT_EQ(parse_range("-1,2.5"), (std::array<double, 2>{-1.0, 2.5}));
+  for (const std::string text : {"1", "1,1", "2,1", "1,x", "nan,1", "1,2,3", ","}) {
+    EXPECT_THROW(parse_range(text), InputError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace suffuse
