@@ -188,8 +188,9 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
   draw_picture(static_cast<int>(width), static_cast<int>(height), charts.front().title, path,
                [&](vtkContextScene& scene) {
                  for (std::size_t i = 0; i < count; ++i) {
+                   const std::size_t line = lines - 1 - i / columns;
                    add_chart(scene, charts[i], static_cast<float>(i % columns) * cell_width,
-                             static_cast<float>(lines - 1 - i / columns) * cell_height);
+                             static_cast<float>(line) * cell_height);
                  }
                  vtkNew<ChartLegend> legend;
                  legend->place(legend_left, legend_top, legend_top - margin, rows);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "case/closest_name.hpp"
@@ -40,7 +41,7 @@ std::vector<std::string> names_on(const ResultsReader& results, std::size_t inde
 void check_place(const std::vector<NamedPlace>& places, const std::string& on,
                  const std::string& command) {
   std::vector<std::string> names;
-  for (const auto& place : places) names.push_back(place.name);
+  std::ranges::transform(places, std::back_inserter(names), &NamedPlace::name);
   if (on.empty() || std::ranges::find(names, on) != names.end()) return;
   throw InputError(std::vector{
       InputProblem{command, "--on", '"' + on + '"', quoted_list(names), closest_name(on, names)}});

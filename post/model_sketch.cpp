@@ -89,13 +89,14 @@ void paint_tints(vtkContext2D& painter, const ModelView& view, const Mesh<2>& me
   for (int e = 0; e < mesh.element_count(); ++e) {
     const auto& color = tints[mesh.element_region[e]].color;
     painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
-    std::array<float, 6> corners{};
+    std::array<float, 3> x{};
+    std::array<float, 3> y{};
     for (int a = 0; a < 3; ++a) {
       const Vector<2> at = view.pixel(mesh.nodes[mesh.elements[e][a]]);
-      corners.at(2 * a) = static_cast<float>(at[0]);
-      corners.at(2 * a + 1) = static_cast<float>(at[1]);
+      x.at(a) = static_cast<float>(at[0]);
+      y.at(a) = static_cast<float>(at[1]);
     }
-    painter.DrawPolygon(corners.data(), 3);
+    painter.DrawPolygon(x.data(), y.data(), 3);
   }
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
 }

@@ -163,7 +163,7 @@ class ColoredTriangles {
 std::array<double, 3> corner_values(const Frame& frame, const Mesh<2>& mesh, int element) {
   std::array<double, 3> values{};
   for (int a = 0; a < 3; ++a) {
-    std::size_t at = static_cast<std::size_t>(element);
+    auto at = static_cast<std::size_t>(element);
     if (frame.where == "element_vertex") at = 3 * at + static_cast<std::size_t>(a);
     if (frame.where == "node") at = static_cast<std::size_t>(mesh.elements[element][a]);
     values.at(a) = frame.values[at];
@@ -243,7 +243,8 @@ void paint_bar(vtkContext2D& painter, const Frame& frame, float left, float bott
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
   painter.GetPen()->SetWidth(1.5F);
-  const auto [low, high] = frame.scale.range;
+  const double low = frame.scale.range[0];
+  const double high = frame.scale.range[1];
   const auto mark = [&](double value, const std::string& text) {
     const float y = bottom + height * static_cast<float>((value - low) / (high - low));
     painter.DrawLine(left + bar_width, y, left + bar_width + 8.0F, y);

@@ -115,9 +115,11 @@ void refuse_point_field(const ResultsReader& results, std::size_t index, const s
   for (const auto& kind : kinds) {
     const auto names = results.field_names(index, kind);
     if (std::ranges::find(names, name) == names.end()) continue;
-    throw wrong("--fields", '"' + name + "\", which lives on the " + kind + " points",
-                "a field " + fields_and_places(results, index, {"cell", "node"}) +
-                    " (suffuse-post render --on " + kind + " shows it)");
+    std::string found = '"' + name + "\", which lives on the ";
+    found += kind + " points";
+    std::string expected = "a field " + fields_and_places(results, index, {"cell", "node"});
+    expected += " (suffuse-post render --on " + kind + " shows it)";
+    throw wrong("--fields", found, expected);
   }
 }
 

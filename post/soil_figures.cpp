@@ -70,6 +70,7 @@ Chart porosity_chart(const std::vector<ResultsReader>& runs) {
     require_curve(runs[r], history, "history.csv");
     const auto times = exact_times(history.column("t").back(), curves.soil(r));
     std::vector<double> exact;
+    exact.reserve(times.size());
     for (const double t : times) exact.push_back(exact_mean_porosity(curves.soil(r), t));
     curves.add_exact(r, times, exact);
     curves.add_run(r, history.column("t"), history.column("porosity_mean"));

@@ -105,6 +105,7 @@ std::vector<Masses> computed_masses(const ResultsReader& run, const Specimen& sp
     m.fines_in += at("fines_in");
   }
   std::vector<Masses> ascending;
+  ascending.reserve(masses.size());
   for (const auto& [t, m] : masses) ascending.push_back(m);
   return ascending;
 }

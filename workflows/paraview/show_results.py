@@ -4,6 +4,9 @@
     pvpython show_results.py NAME.results [--fields porosity,concentration] [--time T] [--save PICTURE.png]
     pvpython show_results.py NAME.results --list
 
+A field is looked for on the mesh, then at the solid points, then at the liquid points; "liquid:NAME" and "solid:NAME"
+say which. Points are drawn over the edges of the mesh.
+
 Without --save, pvpython opens a window to turn and zoom. --time takes the snapshot nearest to T; the last one is
 shown without it. --list prints the times and the fields, and draws nothing.
 """
@@ -15,7 +18,11 @@ import sys
 import paraview
 from paraview import simple as pv
 
-UNITS = {"pressure": "Pa", "liquid_velocity": "m/s", "darcy_flux": "m/s"}
+UNITS = {
+    "pressure": "Pa", "liquid_velocity": "m/s", "darcy_flux": "m/s", "erosion_rate": "1/s",
+    "volume": "m3/m", "water_mass": "kg/m", "fines_mass": "kg/m",
+}
+POINT_SIZE = 3  # pixels
 BAR_ROOM = 1.35  # how much taller a view is than the model, for the colour bar below and the time above
 
 
@@ -34,7 +41,7 @@ def arguments():
 
 
 def open_series(folder, kind):
-    """The snapshots of one kind ("mesh" or "solid") as one source that knows its times."""
+    """The snapshots of one kind ("mesh", "solid" or "liquid") as one source that knows its times."""
     path = os.path.join(folder, kind + ".hdf.series")
     if not os.path.isfile(path):
         sys.exit(f"show_results.py: {path}: no such file; expected the results folder of a run")
@@ -44,6 +51,14 @@ def open_series(folder, kind):
     pv.RenameSource(kind, source)
     source.UpdatePipeline()
     return source
+
+
+def open_all(folder):
+    """Mesh, solid points and, of a double-point run, liquid points, by kind."""
+    kinds = ["mesh", "solid"]
+    if os.path.isfile(os.path.join(folder, "liquid.hdf.series")):
+        kinds.append("liquid")
+    return {kind: open_series(folder, kind) for kind in kinds}
 
 
 def times_of(source):
@@ -60,15 +75,31 @@ def association_of(source, field):
     return None
 
 
-def show_field(source, field, view):
+def find_field(sources, wanted):
+    """Kind of source, name of the field and its association, of "NAME" or "KIND:NAME"."""
+    kind, _, field = wanted.rpartition(":")
+    for name, source in sources.items():
+        if kind in ("", name) and association_of(source, field):
+            return name, field, association_of(source, field)
+    names = [f"{name}:{field}" for name, source in sources.items()
+             for field in sorted(set(source.CellData.keys()) | set(source.PointData.keys()))]
+    sys.exit(f"show_results.py: there is no field '{wanted}'; expected one of {', '.join(names)}")
+
+
+def show_field(sources, wanted, view):
     """One field with a colour bar whose range covers all times."""
-    association = association_of(source, field)
-    if association is None:
-        names = sorted(set(source.CellData.keys()) | set(source.PointData.keys()))
-        sys.exit(f"show_results.py: there is no field '{field}'; expected one of {', '.join(names)}")
-    display = pv.Show(source, view)
-    display.Representation = "Surface With Edges"
-    display.EdgeColor = [0.35, 0.35, 0.35]
+    kind, field, association = find_field(sources, wanted)
+    display = pv.Show(sources[kind], view)
+    if kind == "mesh":
+        display.Representation = "Surface With Edges"
+        display.EdgeColor = [0.35, 0.35, 0.35]
+    else:
+        edges = pv.Show(sources["mesh"], view)
+        edges.Representation = "Wireframe"
+        edges.AmbientColor = edges.DiffuseColor = [0.7, 0.7, 0.7]
+        edges.ColorArrayName = [None, ""]
+        display.Representation = "Points"
+        display.PointSize = POINT_SIZE
     pv.ColorBy(display, (association, field))
     display.RescaleTransferFunctionToDataRangeOverTime()
     display.SetScalarBarVisibility(view, True)
@@ -112,8 +143,9 @@ def fit(view, bounds, size):
     view.CameraParallelScale = max(BAR_ROOM * height, 1.1 * width * size[1] / size[0]) / 2
 
 
-def lay_out(source, fields):
+def lay_out(sources, fields):
     """One view per field: side by side, or one above the other where the model is wide."""
+    source = sources["mesh"]
     bounds = source.GetDataInformation().GetBounds()
     wide = bounds[1] - bounds[0] > 1.5 * (bounds[3] - bounds[2])
     size = (1000, 480) if wide else (600, 680)
@@ -124,7 +156,7 @@ def lay_out(source, fields):
     for number, field in enumerate(fields):
         # Splitting cell i puts what was in it into 2 i + 1 and opens 2 i + 2.
         views.append(new_view(layout, cell))
-        show_field(source, field, views[-1])
+        show_field(sources, field, views[-1])
         add_time(source, views[-1])
         if number + 1 < len(fields):
             cell = split(cell, 1.0 / (len(fields) - number)) + 1
@@ -146,14 +178,17 @@ def go_to(times, wanted):
 
 def main():
     given = arguments()
-    source = open_series(given.results, "mesh")
+    sources = open_all(given.results)
+    source = sources["mesh"]
     times = times_of(source)
     if given.list:
         print("times:", " ".join(f"{t:g}" for t in times))
         print("cells:", " ".join(sorted(source.CellData.keys())))
         print("nodes:", " ".join(sorted(source.PointData.keys())))
+        for kind in list(sources)[1:]:
+            print(f"{kind} points:", " ".join(sorted(sources[kind].PointData.keys())))
         return
-    layout = lay_out(source, given.fields.split(","))
+    layout = lay_out(sources, given.fields.split(","))
     go_to(times, given.time)
     pv.RenderAllViews()
     if given.save:
