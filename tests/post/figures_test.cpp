@@ -132,6 +132,10 @@ TEST(Figures, FormulationsDifferInMarkerAndColour) {
   EXPECT_NE(single.marker, two.marker);
   EXPECT_GT(single.color[2], single.color[0]);  // cold
   EXPECT_GT(two.color[0], two.color[2]);        // warm
+  // Whatever the order.
+  const Chart reversed = make_figure("porosity", {runs[1], runs[0]}).front();
+  EXPECT_EQ(curve_labelled(reversed, two.label).color, two.color);
+  EXPECT_EQ(curve_labelled(reversed, single.label).marker, single.marker);
   const Chart masses = make_figure("masses", runs).front();
   EXPECT_FALSE(curve_labelled(masses, "one-phase, single-point: solid").hollow);
   EXPECT_TRUE(curve_labelled(masses, "two-phase, double-point: solid").hollow);

@@ -321,14 +321,15 @@ inline Snapshot snapshot(const Case<2>& c, double t, long step) {
   return s;
 }
 
-inline LedgerRow ledger_at(double t) {
+/// `delay`: time between leaving the specimen and leaving the place the row is about, s.
+inline LedgerRow ledger_at(double t, double delay) {
   LedgerRow row;
   row.t = t;
   row.solid = (1.0 - porosity(t)) * grain_density;
   row.erodible = (0.4 - porosity(t)) * grain_density;
   row.eroded = (porosity(t) - 0.3) * grain_density;
   row.pending = pending_share * row.eroded;
-  row.fines_out = fines_out(t);
+  row.fines_out = fines_out(t - delay);
   row.fines = row.eroded - row.pending - row.fines_out;
   row.water_in = 1000.0 * flux * t;
   row.water_out = row.water_in - row.fines_out * 1000.0 / grain_density;
@@ -356,12 +357,11 @@ inline void write_results(const std::string& folder) {
     history.empty_elements_total = 2.0 * t;
     history.volume_defect = 0.2 - 1e-3 * t;
     writer.append_history(history);
-    const LedgerRow row = ledger_at(t);
-    writer.append_ledger(row);
+    writer.append_ledger(ledger_at(t, 5.0));
     LedgerRow still;
     still.t = t;
     const std::array<RegionRow, 4> rows{
-        {{0, 1.0, still}, {1, 0.3, still}, {2, porosity(t), row}, {3, 1.0, still}}};
+        {{0, 1.0, still}, {1, 0.3, still}, {2, porosity(t), ledger_at(t, 0.0)}, {3, 1.0, still}}};
     writer.append_regions(rows);
   }
   long step = 0;
