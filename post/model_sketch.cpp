@@ -196,14 +196,14 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
       run.scene().scene.name + (double_point ? ", double-point model" : ", single-point model");
   draw_picture(width, height, title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
+      const float small = disc_diameter(view, mesh, std::max(liquid.size(), solid.size()));
       paint_tints(painter, view, mesh, tints);
-      paint_edges(painter, view, mesh, all_edges(mesh), black, 1.0F);
+      paint_edges(painter, view, mesh, all_edges(mesh), black, small < 5.0F ? 0.5F : 1.0F);
       paint_edges(painter, view, mesh, region_edges(mesh), black, 2.5F);
       for (std::size_t b = 0; b < boundaries.size(); ++b) {
         paint_edges(painter, view, mesh, boundaries[b].edges, boundary_color(boundaries, b),
                     boundary_width);
       }
-      const float small = disc_diameter(view, mesh, std::max(liquid.size(), solid.size()));
       paint_discs(painter, view, liquid, {blue}, small);
       paint_discs(painter, view, solid, {red}, double_point ? 1.6F * small : small);
       view.paint_axes(painter);

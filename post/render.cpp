@@ -225,8 +225,9 @@ void paint_points(vtkContext2D& painter, const ModelView& view, const Mesh<2>& m
               disc_diameter(view, mesh, frame.positions.size()));
 }
 
-/// An end of the range is rarely round.
-std::string end_text(double value) {
+/// An end of the range is rarely round; rounding beside zero says nothing.
+std::string end_text(double value, double range) {
+  if (std::abs(value) < 1e-9 * range) value = 0.0;
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -250,8 +251,8 @@ void paint_bar(vtkContext2D& painter, const Frame& frame, float left, float bott
     painter.DrawLine(left + bar_width, y, left + bar_width + 8.0F, y);
     paint_text(painter, text, 18, left + bar_width + 14.0F, y, Anchor::left);
   };
-  mark(low, (frame.scale.exceeds_low ? "<= " : "") + end_text(low));
-  mark(high, (frame.scale.exceeds_high ? ">= " : "") + end_text(high));
+  mark(low, (frame.scale.exceeds_low ? "<= " : "") + end_text(low, high - low));
+  mark(high, (frame.scale.exceeds_high ? ">= " : "") + end_text(high, high - low));
   for (const double tick : round_ticks(low, high)) {
     const double room = 24.0 / height * (high - low);
     if (tick > low + room && tick < high - room) {
