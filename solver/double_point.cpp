@@ -15,7 +15,7 @@ namespace {
 /// Transport and flow meet at the latest after so many flow steps.
 constexpr long most_steps_per_interval = 1000;
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
-constexpr double most_porosity_growth = 2e-3;
+constexpr double most_porosity_growth = 1e-3;
 /// Share of its limit that a transport step takes.
 constexpr double transport_safety = 0.9;
 
@@ -34,14 +34,14 @@ DoublePoint<Dim>::DoublePoint(const Case<Dim>& c, const Plan& plan, const Solver
       accounts_(grid_),
       densities_{c.document.scene.liquid.density, c.document.scene.soils.front().grain_density},
       points_carry_flow_(c.document.scene.flow.integration == PressureIntegration::material_point),
-      transport_(grid_, flow_.conditions(), volumes_at_boundary(), densities_,
+      transport_(grid_, flow_.conditions(), birth_settings(), densities_,
                  c.document.scene.liquid.bulk_modulus, options.threads),
       transfer_(grid_, skeleton_, densities_.grain) {
   initialise();
 }
 
 template <int Dim>
-std::vector<double> DoublePoint<Dim>::volumes_at_boundary() const {
+BirthSettings DoublePoint<Dim>::birth_settings() const {
   std::vector<double> volume(grid_.mesh.element_count(), 0.0);
   std::vector<int> count(grid_.mesh.element_count(), 0);
   const MaterialPoints<Dim>& points = case_.liquid_points;
@@ -49,10 +49,12 @@ std::vector<double> DoublePoint<Dim>::volumes_at_boundary() const {
     volume[points.element[p]] += points.volume[p];
     ++count[points.element[p]];
   }
-  std::vector<double> result(grid_.face_count());
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    const int e = grid_.face_left[f];
-    result[f] = volume[e] / count[e];
+  BirthSettings result;
+  result.random = case_.document.scene.points.seeding == Seeding::random;
+  result.seed = case_.document.scene.points.seed;
+  for (const int e : grid_.face_left) {
+    result.point_volume.push_back(volume[e] / count[e]);
+    result.points_per_element.push_back(count[e]);
   }
   return result;
 }
@@ -262,8 +264,8 @@ void DoublePoint<Dim>::erode(State& state, double from, double to,
     if (dry) porosity[s] = state.porosity[s];
   }
   const auto exchanged =
-      transfer_.transfer(state.porosity, porosity, begins, point_volumes(state.liquid, pressure),
-                         state.liquid, state.pending);
+      transfer_.transfer(state.porosity, porosity, element_porosity(state.porosity), begins,
+                         point_volumes(state.liquid, pressure), state.liquid, state.pending);
   state.porosity = std::move(porosity);
   // At a border of regions grains of one may join liquid of the other.
   for (std::size_t r = 0; r < exchanged.eroded.size(); ++r) {

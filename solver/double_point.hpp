@@ -82,7 +82,7 @@ class DoublePoint {
   };
   void initialise();
   void place_liquid();
-  [[nodiscard]] std::vector<double> volumes_at_boundary() const;
+  [[nodiscard]] BirthSettings birth_settings() const;
   [[nodiscard]] std::vector<double> element_porosity(const std::vector<double>& porosity) const;
   [[nodiscard]] std::vector<double> point_volumes(const LiquidPoints<Dim>& liquid,
                                                   const std::vector<double>& pressure) const;

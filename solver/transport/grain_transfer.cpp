@@ -1,26 +1,30 @@
 #include "transport/grain_transfer.hpp"
 
 #include <algorithm>
+
 #include <utility>
 
 namespace suffuse {
 namespace {
 
-/// Liquid volume that nodes see, weighted with their shape functions, in elements that `counts`.
-template <int Dim, class Counts>
-std::vector<double> seen_by_nodes(const Grid<Dim>& grid, const LiquidPoints<Dim>& points,
-                                  const std::vector<int>& begins,
-                                  const std::vector<double>& point_volume, const Counts& counts) {
-  std::vector<double> seen(grid.mesh.node_count(), 0.0);
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    if (!counts(e)) continue;
-    for (int p = begins[e]; p < begins[e + 1]; ++p) {
-      for (int a = 0; a <= Dim; ++a) {
-        seen[grid.mesh.elements[e][a]] += point_volume[p] * points.barycentric[p][a];
+/// How many times what nodes hold is passed on to their neighbours before it is compared.
+constexpr int smoothing_rounds = 4;
+
+/// Each node gives what it holds to its elements in equal parts, each element to its nodes.
+template <int Dim>
+std::vector<double> smoothed(const Grid<Dim>& grid, std::vector<double> at_nodes) {
+  for (int round = 0; round < smoothing_rounds; ++round) {
+    std::vector<double> next(at_nodes.size(), 0.0);
+    for (const auto& nodes : grid.mesh.elements) {
+      double sum = 0.0;
+      for (const int i : nodes) {
+        sum += at_nodes[i] / (grid.node_element_begin[i + 1] - grid.node_element_begin[i]);
       }
+      for (const int i : nodes) next[i] += sum / (Dim + 1);
     }
+    at_nodes = std::move(next);
   }
-  return seen;
+  return at_nodes;
 }
 
 }  // namespace
@@ -32,7 +36,9 @@ GrainTransfer<Dim>::GrainTransfer(const Grid<Dim>& grid, const RigidSkeleton<Dim
 
 template <int Dim>
 auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
-                                  const std::vector<double>& after, const std::vector<int>& begins,
+                                  const std::vector<double>& after,
+                                  const std::vector<double>& porosity,
+                                  const std::vector<int>& begins,
                                   const std::vector<double>& point_volume,
                                   LiquidPoints<Dim>& points, std::vector<double>& pending) const
     -> Result {
@@ -61,27 +67,82 @@ auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
   }
 
   const auto erodes = [&](int e) { return eroded[e] > 0.0; };
-  const std::vector<double> near = seen_by_nodes(grid_, points, begins, point_volume, erodes);
-  const auto misses = [&](int i) { return at_node[i] > 0.0 && near[i] <= 0.0; };
-  bool some_miss = false;
-  for (int i = 0; i < mesh.node_count(); ++i) some_miss = some_miss || misses(i);
-  std::vector<double> anywhere;
-  if (some_miss) {
-    anywhere = seen_by_nodes(grid_, points, begins, point_volume, [](int) { return true; });
+  // What each point would take by itself, per volume of liquid, at the nodes of eroding elements.
+  std::vector<double> gain(mesh.node_count(), 0.0);
+  {
+    std::vector<double> volume(mesh.node_count(), 0.0);
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      if (!erodes(e)) continue;
+      for (const int i : mesh.elements[e]) {
+        gain[i] += eroded[e] / porosity[e];
+        volume[i] += grid_.volume[e];
+      }
+    }
     for (int i = 0; i < mesh.node_count(); ++i) {
-      if (misses(i) && anywhere[i] <= 0.0) pending[i] = at_node[i];
+      if (volume[i] > 0.0) gain[i] /= volume[i];
+    }
+  }
+  const auto takes_by_nodes = [&](int e) { return erodes(e) && !stays_in_element(e); };
+  const auto at_point = [&](int e, int p, const std::vector<double>& at_nodes) {
+    double value = 0.0;
+    for (int a = 0; a <= Dim; ++a)
+      value += points.barycentric[p][a] * at_nodes[mesh.elements[e][a]];
+    return value;
+  };
+  std::vector<double> taken(mesh.node_count(), 0.0);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (!takes_by_nodes(e)) continue;
+    for (int p = begins[e]; p < begins[e + 1]; ++p) {
+      const double share = point_volume[p] * at_point(e, p, gain);
+      for (int a = 0; a <= Dim; ++a) {
+        taken[mesh.elements[e][a]] += share * points.barycentric[p][a];
+      }
+    }
+  }
+  // Points are too few to fill every node's surroundings evenly: compared over a few elements.
+  const std::vector<double> offered_near = smoothed(grid_, at_node);
+  const std::vector<double> taken_near = smoothed(grid_, taken);
+  std::vector<double> factor(mesh.node_count(), 0.0);
+  std::vector<double> left_over(mesh.node_count(), 0.0);
+  double offered = 0.0;
+  double handed_out = 0.0;
+  bool some_left = false;
+  for (int i = 0; i < mesh.node_count(); ++i) {
+    if (taken_near[i] > 0.0) {
+      factor[i] = offered_near[i] / taken_near[i];
+      offered += offered_near[i];
+      handed_out += factor[i] * taken[i];
+    } else if (offered_near[i] > 0.0) {
+      left_over[i] = offered_near[i];
+      some_left = true;
+    }
+  }
+  // What comparing over a few elements leaves out is little; all take their part in it.
+  if (handed_out > 0.0) {
+    for (double& f : factor) f *= offered / handed_out;
+  }
+  // No eroding element near has a point: to any point that the node sees, or to wait.
+  std::vector<double> per_volume(some_left ? mesh.node_count() : 0, 0.0);
+  if (some_left) {
+    std::vector<double> seen(mesh.node_count(), 0.0);
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      for (int p = begins[e]; p < begins[e + 1]; ++p) {
+        for (int a = 0; a <= Dim; ++a) {
+          seen[mesh.elements[e][a]] += point_volume[p] * points.barycentric[p][a];
+        }
+      }
+    }
+    for (int i = 0; i < mesh.node_count(); ++i) {
+      if (seen[i] > 0.0) {
+        per_volume[i] = left_over[i] / seen[i];
+      } else {
+        pending[i] = left_over[i];
+      }
     }
   }
 
-  // Grains per liquid volume that a node hands out, to eroding elements and to all.
-  std::vector<double> to_near(mesh.node_count(), 0.0);
-  std::vector<double> to_all(some_miss ? mesh.node_count() : 0, 0.0);
-  for (int i = 0; i < mesh.node_count(); ++i) {
-    if (near[i] > 0.0) to_near[i] = at_node[i] / near[i];
-    if (misses(i) && anywhere[i] > 0.0) to_all[i] = at_node[i] / anywhere[i];
-  }
   for (int e = 0; e < mesh.element_count(); ++e) {
-    if (begins[e + 1] == begins[e] || (!erodes(e) && !some_miss)) continue;
+    if (begins[e + 1] == begins[e] || (!erodes(e) && !some_left)) continue;
     double own = 0.0;
     if (erodes(e) && stays_in_element(e)) {
       double volume = 0.0;
@@ -90,13 +151,10 @@ auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
     }
     double received = 0.0;
     for (int p = begins[e]; p < begins[e + 1]; ++p) {
-      double gain = own;
-      for (int a = 0; a <= Dim; ++a) {
-        const int i = mesh.elements[e][a];
-        if (erodes(e)) gain += points.barycentric[p][a] * to_near[i];
-        if (some_miss) gain += points.barycentric[p][a] * to_all[i];
-      }
-      const double mass = grain_density_ * point_volume[p] * gain;
+      double share = own;
+      if (takes_by_nodes(e)) share += at_point(e, p, gain) * at_point(e, p, factor);
+      if (some_left) share += at_point(e, p, per_volume);
+      const double mass = grain_density_ * point_volume[p] * share;
       points.fines_mass[p] += mass;
       received += mass;
     }

@@ -26,8 +26,9 @@ class GrainTransfer {
   /// `point_volume` their liquid volumes, m3. `pending` is the volume of grains per node that waits
   /// for liquid, m3; its content is handed out first.
   Result transfer(const std::vector<double>& before, const std::vector<double>& after,
-                  const std::vector<int>& begins, const std::vector<double>& point_volume,
-                  LiquidPoints<Dim>& points, std::vector<double>& pending) const;
+                  const std::vector<double>& porosity, const std::vector<int>& begins,
+                  const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
+                  std::vector<double>& pending) const;
 
  private:
   const Grid<Dim>& grid_;

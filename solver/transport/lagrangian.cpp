@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <limits>
 #include <tuple>
@@ -14,10 +15,23 @@ namespace {
 /// Fractional part of multiples of it spread evenly (golden ratio - 1).
 constexpr double golden = 0.6180339887498948482;
 /// A point may cross so much of an element in one step of erosion and transport.
-constexpr double most_of_an_element = 0.5;
+constexpr double most_of_an_element = 0.25;
 
 double fraction(double x) {
   return x - std::floor(x);
+}
+
+/// Uniform in [0, 1), from whole numbers alone (splitmix64): the same on every platform, and born
+/// points do not depend on the order in which they are born.
+double hashed(std::uint64_t seed, std::uint64_t face, std::uint64_t number, std::uint64_t use) {
+  std::uint64_t x = seed;
+  for (const std::uint64_t word : {face, number, use}) {
+    x += 0x9e3779b97f4a7c15U + word;
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    x ^= x >> 31U;
+  }
+  return static_cast<double>(x >> 11U) * 0x1.0p-53;
 }
 
 /// Van der Corput's sequence in base two: each number falls into the widest gap so far.
@@ -43,12 +57,11 @@ double share_along(double at_begin, double at_end, double u) {
 template <int Dim>
 LagrangianTransport<Dim>::LagrangianTransport(const Grid<Dim>& grid,
                                               const std::vector<FaceCondition>& conditions,
-                                              std::vector<double> point_volume,
-                                              LiquidDensities densities, double bulk_modulus,
-                                              int threads)
+                                              BirthSettings births, LiquidDensities densities,
+                                              double bulk_modulus, int threads)
     : grid_(grid),
       conditions_(conditions),
-      point_volume_(std::move(point_volume)),
+      births_(std::move(births)),
       densities_(densities),
       bulk_modulus_(bulk_modulus),
       threads_(threads) {
@@ -65,7 +78,8 @@ Entering LagrangianTransport<Dim>::nothing_entered(long next_id) const {
   entering.volume.assign(grid_.face_count(), 0.0);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (open_face_[f] != 0) {
-      entering.volume[f] = point_volume_[f] * fraction(0.5 + golden * static_cast<double>(f));
+      entering.volume[f] =
+          births_.point_volume[f] * fraction(0.5 + golden * static_cast<double>(f));
     }
   }
   return entering;
@@ -92,7 +106,9 @@ PointPlace<Dim> LagrangianTransport<Dim>::place_on_face(int face, long number,
   const auto inward = [&](int i) {
     return std::max(0.0, -grid_.face_normal[face].dot(motion.node_flux[i]));
   };
-  const double u = fraction(radical_inverse(number + 1) + golden * static_cast<double>(face));
+  const double u = births_.random
+                       ? hashed(births_.seed, face, number, 1)
+                       : fraction(radical_inverse(number + 1) + golden * static_cast<double>(face));
   const double s = share_along(inward(nodes[0]), inward(nodes[1]), u);
   const int e = grid_.face_left[face];
   PointPlace<Dim> place{e, {}};
@@ -105,21 +121,39 @@ PointPlace<Dim> LagrangianTransport<Dim>::place_on_face(int face, long number,
 }
 
 template <int Dim>
+double LagrangianTransport<Dim>::volumes_at_birth(int face, long number) const {
+  if (!births_.random) return static_cast<double>(number) + 1.0;
+  const long batch = births_.points_per_element[face];
+  const long first = number / batch * batch;
+  std::vector<double> at(batch);
+  for (long k = 0; k < batch; ++k) {
+    at[k] = static_cast<double>(batch) * hashed(births_.seed, face, first + k, 0);
+  }
+  std::nth_element(at.begin(), at.begin() + (number - first), at.end());
+  return static_cast<double>(first) + at[number - first];
+}
+
+template <int Dim>
 auto LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim>& motion) const
     -> std::vector<Newborn> {
   std::vector<Newborn> born;
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (open_face_[f] == 0) continue;
     const double inflow = -motion.entered[f];
-    double waiting = entering.volume[f];
+    const double before = entering.volume[f];
     entering.volume[f] += inflow;
     if (inflow <= 0.0) continue;
-    while (entering.volume[f] >= point_volume_[f]) {
-      const double share = std::clamp((point_volume_[f] - waiting) / inflow, 0.0, 1.0);
+    const double volume = births_.point_volume[f];
+    const long born_before = entering.born[f];
+    for (;;) {
+      const long number = entering.born[f];
+      // In points' volumes, counted as `before` and `entering.volume` are: less those born.
+      const double due = volumes_at_birth(f, number) - static_cast<double>(born_before);
+      const double share = (due * volume - before) / inflow;
+      if (share > 1.0) break;
       born.push_back(
-          {place_on_face(f, entering.born[f], motion), f, (1.0 - share) * motion.duration});
-      waiting -= point_volume_[f];
-      entering.volume[f] -= point_volume_[f];
+          {place_on_face(f, number, motion), f, (1.0 - std::max(0.0, share)) * motion.duration});
+      entering.volume[f] -= volume;
       ++entering.born[f];
     }
   }
@@ -141,7 +175,7 @@ std::vector<PointCrossing> LagrangianTransport<Dim>::move(
   for (const Newborn& newborn : births(entering, motion)) {
     const int e = newborn.place.element;
     const double concentration = conditions_[newborn.face].concentration;
-    const double volume = point_volume_[newborn.face];
+    const double volume = births_.point_volume[newborn.face];
     const double ratio = density_ratio(element_pressure[e], bulk_modulus_);
     points.element.push_back(e);
     points.barycentric.push_back(newborn.place.barycentric);

@@ -33,13 +33,22 @@ struct LiquidMotion {
   double duration = 0.0;               ///< s
 };
 
+/// How new points are spread over the liquid that enters.
+struct BirthSettings {
+  std::vector<double> point_volume;  ///< per face: liquid volume of one point, m3
+  /// Per face: points that fill the element behind it.
+  std::vector<int> points_per_element;
+  /// Each element's worth of points at random in the liquid that fills it; else evenly.
+  bool random = false;
+  int seed = 1;
+};
+
 template <int Dim>
 class LagrangianTransport {
  public:
-  /// `point_volume`: liquid volume of one point per face, for those born there, m3.
   LagrangianTransport(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
-                      std::vector<double> point_volume, LiquidDensities densities,
-                      double bulk_modulus, int threads);
+                      BirthSettings births, LiquidDensities densities, double bulk_modulus,
+                      int threads);
 
   /// The state of `entering` before anything came in. Faces take turns.
   [[nodiscard]] Entering nothing_entered(long next_id) const;
@@ -68,6 +77,8 @@ class LagrangianTransport {
                                      const std::vector<double>& porosity) const {
     return {motion.node_flux, porosity, open_face_};
   }
+  /// How many points' volumes must have come in through a face for its point `number` to be born.
+  [[nodiscard]] double volumes_at_birth(int face, long number) const;
   [[nodiscard]] PointPlace<Dim> place_on_face(int face, long number,
                                               const LiquidMotion<Dim>& motion) const;
   /// New points at the moments at which their volume has come in.
@@ -76,7 +87,7 @@ class LagrangianTransport {
 
   const Grid<Dim>& grid_;
   const std::vector<FaceCondition>& conditions_;
-  std::vector<double> point_volume_;
+  BirthSettings births_;
   std::vector<unsigned char> open_face_;
   LiquidDensities densities_;
   double bulk_modulus_;

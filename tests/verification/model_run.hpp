@@ -6,15 +6,17 @@
 #include <cmath>
 #include <vector>
 
+#include "double_point.hpp"
 #include "single_point.hpp"
-#include "solver/model_case.hpp"
+#include "solver/double_point_case.hpp"
 
 namespace suffuse::model {
 
 /// A case, its plan and the model that runs it, kept together.
-class ModelRun {
+template <template <int> class Model>
+class FormulationRun {
  public:
-  explicit ModelRun(Case<2> c, SolverOptions options = {})
+  explicit FormulationRun(Case<2> c, SolverOptions options = {})
       : case_(std::move(c)),
         options_(options),
         plan_(make_plan(case_, options_)),
@@ -22,7 +24,7 @@ class ModelRun {
 
   /// State and flow at each of `times` (ascending).
   struct Moments {
-    std::vector<SinglePointState<2>> states;
+    std::vector<typename Model<2>::State> states;
     std::vector<FlowMoment<2>> flows;
   };
   Moments run(const std::vector<double>& times) {
@@ -47,7 +49,7 @@ class ModelRun {
     return result;
   }
 
-  [[nodiscard]] SinglePoint<2>& model() { return model_; }
+  [[nodiscard]] Model<2>& model() { return model_; }
   [[nodiscard]] const Case<2>& input() const { return case_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
   [[nodiscard]] long steps() const { return steps_; }
@@ -64,9 +66,12 @@ class ModelRun {
   Case<2> case_;
   SolverOptions options_;
   Plan plan_;
-  SinglePoint<2> model_;
+  Model<2> model_;
   long steps_ = 0;
   double worst_residual_ = 0.0;
 };
+
+using ModelRun = FormulationRun<SinglePoint>;
+using DoublePointRun = FormulationRun<DoublePoint>;
 
 }  // namespace suffuse::model
