@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
+
+#include "case/errors.hpp"
 
 #include "observation.hpp"
 #include "pass_timer.hpp"
@@ -18,6 +21,8 @@ constexpr long most_steps_per_interval = 1000;
 constexpr double most_porosity_growth = 1e-3;
 /// Share of its limit that a transport step takes.
 constexpr double transport_safety = 0.9;
+/// Liquid that needs more steps of transport than this between two meetings goes nowhere sensible.
+constexpr double most_substeps = 1e4;
 
 /// Codes of the field `saturation_state`.
 enum class Saturation { dry_soil, saturated_soil, free_liquid, empty };
@@ -226,6 +231,12 @@ auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
   const double allowed =
       transport_safety * transport_.share_allowed(motion, element_porosity(state.porosity));
   const double substeps = allowed >= 1.0 ? 1.0 : std::ceil(1.0 / allowed);
+  if (!(substeps <= most_substeps)) {
+    std::ostringstream message;
+    message << "the flow has run away: at t = " << begin << " s liquid would cross "
+            << "thousands of elements in " << motion.duration << " s";
+    throw NumericalError(message.str());
+  }
   LiquidMotion<Dim> part = motion;
   part.duration /= substeps;
   for (double& volume : part.entered) volume /= substeps;

@@ -53,7 +53,9 @@ class DoublePoint {
   /// Flow steps of `dt` that transport lets pass before it must run.
   [[nodiscard]] long steps_before_transport(double dt) const;
 
-  [[nodiscard]] StabilityLimit current_limit() const { return flow_.current_limit(); }
+  [[nodiscard]] StabilityLimit current_limit(double step) const {
+    return flow_.current_limit(step);
+  }
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] FlowMoment<Dim> moment() const {

@@ -31,10 +31,11 @@ double largest_inflow_concentration(const Scene& scene) {
 /// Coefficients at which the stability limit is smallest: porosity as it will be at the end, water
 /// fraction at its least. Erosion swaps solid for grains in the liquid, so where a soil erodes n_w
 /// stays at its initial value; a soil that does not erode can fill with the richest liquid there
-/// is.
+/// is, but need not: `with_richest_liquid` says whether it counts.
 template <int Dim>
 FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& grid,
-                                         const RigidSkeleton<Dim>& skeleton) {
+                                         const RigidSkeleton<Dim>& skeleton,
+                                         bool with_richest_liquid) {
   const Scene& scene = c.document.scene;
   const int elements = grid.mesh.element_count();
   const std::vector<double> final_porosity =
@@ -60,7 +61,8 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
     const double damped_porosity =
         scene.time.drag == DragIntegration::explicit_drag ? last[e] : first[e];
     worst.porosity.push_back(last[e]);
-    worst.water_volume.push_back(grid.volume[e] * first[e] * clean * (erodes ? 1.0 : dilution));
+    worst.water_volume.push_back(grid.volume[e] * first[e] * clean *
+                                 (erodes || !with_richest_liquid ? 1.0 : dilution));
     worst.mixture_density.push_back(scene.liquid.density);
     worst.drag.push_back(darcy_drag(damped_porosity, scene.liquid.density,
                                     skeleton.soil_of_element(e).conductivity));
@@ -163,14 +165,21 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   plan.erosion = skeleton.erodes();
   plan.transport = plan.erosion || largest_inflow_concentration(scene) > 0.0;
 
-  const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton);
+  // A step that the scene gives is refused for what is certain to come; while the run goes on it is
+  // checked against what came.
+  plan.step_given = scene.time.step.has_value();
+  const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton, !plan.step_given);
   const std::vector<FaceCondition> conditions = face_conditions(c, grid);
   refuse_contradictory_fluxes(c, grid, skeleton, conditions);
   NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
   op.update(worst);
   plan.limit = stability_limit(grid, worst, op.node_porosity(), scene.liquid.bulk_modulus,
                                scene.time.mass_scaling, scene.time.drag);
-  plan.step_given = scene.time.step.has_value();
+  if (plan.step_given && *scene.time.step > plan.limit.step) {
+    plan.limit.step =
+        std::max(plan.limit.step, assembled_limit(op, worst, scene.liquid.bulk_modulus,
+                                                  scene.time.mass_scaling, scene.time.drag));
+  }
   plan.step = scene.time.step.value_or(0.9 * plan.limit.step);
   refuse_unstable_step(c, plan);
 

@@ -128,7 +128,7 @@ class FormulationRun {
 
   /// The limit moves with porosity and concentration: shrink the step, or stop when it was given.
   void check_step() {
-    const StabilityLimit limit = model_.current_limit();
+    const StabilityLimit limit = model_.current_limit(step_);
     if (step_ <= limit.step) return;
     std::ostringstream message;
     message << "the stability limit fell to " << limit.step << " s at t = " << model_.state().time

@@ -45,7 +45,9 @@ class SinglePoint {
   /// Flow steps of `dt` that transport lets pass before it must run.
   [[nodiscard]] long steps_before_transport(double dt) const;
 
-  [[nodiscard]] StabilityLimit current_limit() const { return flow_.current_limit(); }
+  [[nodiscard]] StabilityLimit current_limit(double step) const {
+    return flow_.current_limit(step);
+  }
 
   [[nodiscard]] const SinglePointState<Dim>& state() const { return state_; }
   [[nodiscard]] FlowMoment<Dim> moment() const {

@@ -14,8 +14,8 @@ struct ExplicitSettings {
   DragIntegration drag = DragIntegration::explicit_drag;
   /// false drops the third term of Eq. 2, for comparison: see FlowSettings.
   bool porosity_gradient_term = true;
-  /// Pressure belongs to liquid that moves: it changes with its strain alone, and whoever moves the
-  /// liquid carries it on.
+  /// Pressure changes with strain alone: its convection, of order p / K, is done by whoever moves
+  /// the liquid, or left out where no mass hangs on it.
   bool pressure_moves_with_liquid = false;
   bool sum_displacements = false;
   int threads = 1;

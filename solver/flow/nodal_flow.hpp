@@ -72,8 +72,9 @@ class NodalFlow {
   /// At rest or steady, as the scene says. Warns where this mesh cannot follow the flow.
   void start(std::vector<std::string>& warnings);
 
-  /// Stability limit with the coefficients and speeds of this moment.
-  [[nodiscard]] StabilityLimit current_limit() const;
+  /// Stability limit with the coefficients and speeds of this moment: element by element, and where
+  /// `step` is above that, of the assembled scheme.
+  [[nodiscard]] StabilityLimit current_limit(double step) const;
 
   [[nodiscard]] FlowMoment<Dim> moment(double time, double dt) const {
     return {time, dt, scheme_.pressure(), scheme_.velocity()};
@@ -138,6 +139,10 @@ class NodalFlow {
   std::vector<double> grain_size_;  ///< per element, of Ergun's drag; empty where no soil has it, m
   double grain_density_ = unset;
   std::vector<bool> inflow_warned_;
+  /// The two limits when the assembled one was last found; it follows the other until that has
+  /// moved.
+  mutable double assembled_limit_ = unset;
+  mutable double element_limit_ = unset;
 };
 
 }  // namespace suffuse

@@ -106,7 +106,7 @@ void NodalOperator<Dim>::update(const FlowCoefficients<Dim>& coefficients) {
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const double share = grid_.volume[e] / (Dim + 1);
     for (const int i : grid_.mesh.elements[e]) {
-      node_porosity_[i] += share * coefficients.porosity[e];
+      node_porosity_[i] += share / coefficients.porosity[e];
       node_mass_[i] += share * coefficients.mixture_density[e];
       node_drag_[i] += share * coefficients.drag[e] / coefficients.porosity[e];
       if (quadratic) node_quadratic_drag_[i] += share * coefficients.quadratic_drag[e];
@@ -114,7 +114,7 @@ void NodalOperator<Dim>::update(const FlowCoefficients<Dim>& coefficients) {
   }
   external_force_ = boundary_force_;
   for (int i = 0; i < nodes; ++i) {
-    node_porosity_[i] /= grid_.node_volume[i];
+    node_porosity_[i] = grid_.node_volume[i] / node_porosity_[i];
     node_drag_[i] *= node_porosity_[i];
     if (quadratic) node_quadratic_drag_[i] *= node_porosity_[i] * node_porosity_[i];
     external_force_[i] += node_mass_[i] * gravity_;

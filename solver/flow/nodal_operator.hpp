@@ -40,6 +40,8 @@ class NodalOperator {
 
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
+  /// Harmonic mean of the elements around a node: what is one on both sides of a jump is the flux,
+  /// and its inertia per volume is rho / n.
   [[nodiscard]] const std::vector<double>& node_porosity() const { return node_porosity_; }
   /// What a node's velocity is multiplied with to give the flux through faces.
   [[nodiscard]] const std::vector<double>& carried_porosity() const { return carried_porosity_; }

@@ -7,6 +7,7 @@
 
 #include "case/scene.hpp"
 #include "flow/flow.hpp"
+#include "flow/nodal_operator.hpp"
 #include "grid/grid.hpp"
 
 namespace suffuse {
@@ -31,5 +32,14 @@ StabilityLimit stability_limit(const Grid<Dim>& grid, const FlowCoefficients<Dim
                                const std::vector<double>& carried_porosity, double bulk_modulus,
                                double mass_scaling, DragIntegration drag,
                                const std::vector<double>& node_speed = {});
+
+/// The limit of the assembled scheme: its highest frequency by Lanczos' method, with the error that
+/// the method admits added, and the worst drag of any node. Higher than the limit element by
+/// element where porosity jumps or a few elements are small; it costs some hundred steps. `op` has
+/// taken `coefficients`.
+template <int Dim>
+double assembled_limit(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& coefficients,
+                       double bulk_modulus, double mass_scaling, DragIntegration drag,
+                       const std::vector<double>& node_speed = {});
 
 }  // namespace suffuse

@@ -125,6 +125,11 @@ int walk(const Grid<Dim>& grid, const WalkField<Dim>& field, PointPlace<Dim>& pl
                               rate_at(moved<Dim>(place.barycentric, piece.rate, 0.5 * piece.time)),
                               remaining, held);
     }
+    // Out at once by an extrapolated velocity: the one at the point itself decides, or two elements
+    // could hand the point to each other without end.
+    if (piece.face >= 0 && piece.time == 0.0) {
+      piece = first_exit<Dim>(place.barycentric, start, remaining, held);
+    }
     place.barycentric = moved<Dim>(place.barycentric, piece.rate, piece.time);
     if (piece.face < 0) {
       // Round-off must not leave the point a hair outside.
