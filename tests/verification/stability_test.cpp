@@ -27,6 +27,7 @@ class FreeFlow {
     flow_.update(coefficients_);
     limit_ =
         stability_limit(grid_, coefficients_, op_.node_porosity(), modulus, scaling, drag).step;
+    assembled_limit_ = assembled_limit(op_, coefficients_, modulus, scaling, drag);
   }
 
   void start_at_random(unsigned seed) {
@@ -52,6 +53,7 @@ class FreeFlow {
     return sum;
   }
   [[nodiscard]] double limit() const { return limit_; }
+  [[nodiscard]] double assembled() const { return assembled_limit_; }
 
  private:
   static constexpr double modulus = 2e7;
@@ -68,6 +70,7 @@ class FreeFlow {
   FlowCoefficients<2> coefficients_;
   double scaling_;
   double limit_ = 0.0;
+  double assembled_limit_ = 0.0;
 };
 
 struct MeshCase {
@@ -100,6 +103,27 @@ class StabilityLimitRun : public ::testing::TestWithParam<std::size_t> {
  protected:
   [[nodiscard]] static const MeshCase& mesh_case() { return mesh_cases()[GetParam()]; }
 };
+
+/// The bound by elements is safe; the assembled limit is sharp where there is next to no drag.
+TEST_P(StabilityLimitRun, TheAssembledLimitIsSharp) {
+  for (const DragIntegration drag :
+       {DragIntegration::explicit_drag, DragIntegration::implicit_drag}) {
+    const auto growth = [&](double share, double conductivity, long steps) {
+      FreeFlow flow(mesh_case().mesh(), 1.0, drag, mesh_case().porosity, conductivity);
+      flow.start_at_random(11);
+      const double before = flow.energy();
+      flow.run(steps, share * flow.assembled());
+      return flow.energy() / before;
+    };
+    const FreeFlow flow(mesh_case().mesh(), 1.0, drag, mesh_case().porosity, 1e6);
+    EXPECT_GE(flow.assembled(), flow.limit());
+    std::cout << mesh_case().name << ": assembled limit " << flow.assembled() / flow.limit()
+              << " times the bound by elements\n";
+    EXPECT_LT(growth(0.995, 1e6, 20000), 100.0);
+    EXPECT_GT(growth(1.01, 1e6, 500), 1e6);
+    EXPECT_LT(growth(0.995, 1e-3, 20000), 1.0);
+  }
+}
 
 TEST_P(StabilityLimitRun, HoldsForAHundredThousandSteps) {
   for (const DragIntegration drag :
