@@ -175,7 +175,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   op.update(worst);
   plan.limit = stability_limit(grid, worst, op.node_porosity(), scene.liquid.bulk_modulus,
                                scene.time.mass_scaling, scene.time.drag);
-  if (plan.step_given && *scene.time.step > plan.limit.step) {
+  if (uses_assembled_limit(scene) && plan.step_given && *scene.time.step > plan.limit.step) {
     plan.limit.step =
         std::max(plan.limit.step, assembled_limit(op, worst, scene.liquid.bulk_modulus,
                                                   scene.time.mass_scaling, scene.time.drag));

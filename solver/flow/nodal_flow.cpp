@@ -149,7 +149,7 @@ StabilityLimit NodalFlow<Dim>::current_limit(double step) const {
   const TimeSettings& time = scene_.time;
   StabilityLimit limit = stability_limit(grid_, coefficients_, operator_.node_porosity(),
                                          liquid.bulk_modulus, time.mass_scaling, time.drag, speed);
-  if (step <= limit.step) return limit;
+  if (step <= limit.step || !uses_assembled_limit(scene_)) return limit;
   // Not a number at first, which is far from everything.
   if (!(std::abs(limit.step - element_limit_) <= moved * limit.step)) {
     element_limit_ = limit.step;

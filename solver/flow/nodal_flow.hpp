@@ -72,8 +72,8 @@ class NodalFlow {
   /// At rest or steady, as the scene says. Warns where this mesh cannot follow the flow.
   void start(std::vector<std::string>& warnings);
 
-  /// Stability limit with the coefficients and speeds of this moment: element by element, and where
-  /// `step` is above that, of the assembled scheme.
+  /// Stability limit with the coefficients and speeds of this moment: element by element, and in
+  /// double-point scenes, where `step` is above that, of the assembled scheme.
   [[nodiscard]] StabilityLimit current_limit(double step) const;
 
   [[nodiscard]] FlowMoment<Dim> moment(double time, double dt) const {

@@ -33,6 +33,12 @@ StabilityLimit stability_limit(const Grid<Dim>& grid, const FlowCoefficients<Dim
                                double mass_scaling, DragIntegration drag,
                                const std::vector<double>& node_speed = {});
 
+/// Double-point columns have jumps from free water to soil, where the bound by elements is too low
+/// for steps that are in fact stable.
+inline bool uses_assembled_limit(const Scene& scene) {
+  return scene.formulation == Formulation::double_point;
+}
+
 /// The limit of the assembled scheme: its highest frequency by Lanczos' method, with the error that
 /// the method admits added, and the worst drag of any node. Higher than the limit element by
 /// element where porosity jumps or a few elements are small; it costs some hundred steps. `op` has

