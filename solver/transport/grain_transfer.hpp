@@ -7,11 +7,14 @@
 
 namespace suffuse {
 
-/// Both ways share by liquid volume. `element` (the paper's): among the points of the element that
-/// eroded. `nodal`: eroded volume goes to the element's nodes by their shape functions, and from
-/// each node, by its shape function again, to the points of eroding elements around it, or to all
-/// points around it where none lies in an eroding element. What erodes in an element without points
-/// takes the nodal way in either case. A node that sees no point keeps its share pending.
+/// `element` (the paper's): what an element eroded is shared among its points by volume.
+///
+/// `nodal`: each point of an eroding element would by itself take phi_e V_p / n_L, exact along its
+/// path (Eq. 5). The sum of that misses the eroded volume by as much as points fill the pores
+/// unevenly; the two are compared at the nodes, smoothed over a few elements, and each point takes
+/// its own times their ratio. A common factor near one closes the balance. What erodes in an
+/// element without points takes this way in either case. Where no eroding element near a node has a
+/// point, grains go to any point that the node sees; where it sees none they stay pending.
 template <int Dim>
 class GrainTransfer {
  public:
