@@ -68,14 +68,14 @@ NodalFlow<Dim>::NodalFlow(const Case<Dim>& c, const Grid<Dim>& grid,
 
 template <int Dim>
 void NodalFlow<Dim>::update(double time, const PoreContent& content,
-                            std::vector<double> face_concentration) {
+                            const std::vector<double>& face_concentration) {
   const int elements = grid_.mesh.element_count();
   coefficients_.porosity = content.porosity;
   coefficients_.water_volume = content.water_volume;
   coefficients_.mixture_density.resize(elements);
   coefficients_.drag.resize(elements);
   coefficients_.quadratic_drag.resize(grain_size_.size());
-  coefficients_.face_concentration = std::move(face_concentration);
+  coefficients_.face_concentration = face_concentration;
   const double water_density = scene_.liquid.density;
   for (int e = 0; e < elements; ++e) {
     const double porosity = content.porosity[e];

@@ -67,7 +67,8 @@ class NodalFlow {
   [[nodiscard]] const FlowCoefficients<Dim>& coefficients() const { return coefficients_; }
 
   /// Takes what the pores hold at `time`, and the concentration of what crosses each face.
-  void update(double time, const PoreContent& content, std::vector<double> face_concentration);
+  void update(double time, const PoreContent& content,
+              const std::vector<double>& face_concentration);
 
   /// At rest or steady, as the scene says. Warns where this mesh cannot follow the flow.
   void start(std::vector<std::string>& warnings);

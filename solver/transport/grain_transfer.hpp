@@ -25,9 +25,10 @@ class GrainTransfer {
     std::vector<double> eroded;    ///< per region: grains its solid lost, kg
   };
 
-  /// Solid points went from porosity `before` to `after`; `begins` are the points of each element,
-  /// `point_volume` their liquid volumes, m3. `pending` is the volume of grains per node that waits
-  /// for liquid, m3; its content is handed out first.
+  /// Solid points went from porosity `before` to `after`; `porosity` is that of the elements
+  /// before; `begins` are the points of each element, `point_volume` their liquid volumes, m3.
+  /// `pending` is the volume of grains per node that waits for liquid, m3; its content is handed
+  /// out first.
   Result transfer(const std::vector<double>& before, const std::vector<double>& after,
                   const std::vector<double>& porosity, const std::vector<int>& begins,
                   const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
