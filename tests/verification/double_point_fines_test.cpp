@@ -1,0 +1,290 @@
+/// Fluidised grains that liquid points carry, against exact profiles: physical masses, steady flow
+/// of q = 0.012 m/s from the first step, clean water from above.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <cmath>
+#include <iostream>
+#include <map>
+
+#include "double_point_modes.hpp"
+#include "exact_fines.hpp"
+#include "reference_table.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double flux = 0.012;
+constexpr double rate = 1e-3;
+constexpr double start = 2.0;
+
+Scene fines_scene(int points, double end) {
+  Scene scene = model::double_point_scene(flux, rate);
+  scene.points.liquid_per_element = points;
+  scene.time.end = end;
+  return scene;
+}
+
+double concentration(const LiquidPoints<2>& liquid, int p) {
+  return liquid.fines_mass[p] / 2700.0 /
+         liquid_volume(liquid.water_mass[p], liquid.fines_mass[p], {1000.0, 2700.0}, 1.0);
+}
+
+/// Root mean square over the liquid of the error of c at the points of the specimen.
+double point_error(const Mesh<2>& mesh, const LiquidPoints<2>& liquid,
+                   const std::function<double(double)>& exact) {
+  const int specimen = model::region_index(mesh, "specimen");
+  double square = 0.0;
+  double sum = 0.0;
+  for (int p = 0; p < liquid.size(); ++p) {
+    if (mesh.element_region[liquid.element[p]] != specimen) continue;
+    const double depth = 1.0 - liquid.place(p).position(mesh)[1];
+    const double volume =
+        liquid_volume(liquid.water_mass[p], liquid.fines_mass[p], {1000.0, 2700.0}, 1.0);
+    square += volume * std::pow(concentration(liquid, p) - exact(depth), 2);
+    sum += volume;
+  }
+  return std::sqrt(square / sum);
+}
+
+/// The same, root mean square over 10, 20 ... 60 s of a run; the specimen alone.
+double error_of(int columns, Scene scene) {
+  const int across = std::max(2, columns / 2);
+  model::DoublePointRun run(model::make_double_point_case(
+      model::layered_mesh(across, {}, columns, static_cast<double>(across) / columns),
+      std::move(scene)));
+  const std::vector<double> times = model::times_up_to(60.0, 10.0);
+  const auto moments = run.run(times);
+  EXPECT_LE(run.worst_residual(), 1e-12);
+  const UniformFines exact([](double) { return rate; }, 0.3, 0.4, start, flux, times.back());
+  double square = 0.0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    square += std::pow(point_error(run.input().mesh, moments.states[k].liquid,
+                                   [&](double x) { return exact.concentration(x, times[k]); }),
+                       2);
+  }
+  return std::sqrt(square / static_cast<double>(times.size()));
+}
+
+/// What the specimen holds in a run of a column with these layers, against the exact masses.
+struct FluidisedMass {
+  double worst_mass = 0.0;  ///< largest difference, relative to the largest mass
+  /// The same of what the pores would hold at the mean concentration of their points.
+  double worst_concentration = 0.0;
+};
+
+FluidisedMass compare_masses(const LayerSettings& layers, int points) {
+  std::vector<double> times;
+  std::vector<double> expected;
+  std::vector<double> porosity;
+  double most = 0.0;
+  for (const auto& row : read_reference("masses.csv")) {
+    if (row.text("law") != "const" || row.number("par") != rate || row.number("q") != flux ||
+        row.number("t") > 62.0) {
+      continue;
+    }
+    times.push_back(row.number("t"));
+    expected.push_back(row.number("M_fluidised_in"));
+    porosity.push_back(row.number("n_L"));
+    most = std::max(most, expected.back());
+  }
+  EXPECT_GE(times.size(), 8u);
+  model::DoublePointRun run(model::make_double_point_case(model::layered_mesh(4, layers),
+                                                          fines_scene(points, times.back())));
+  const auto moments = run.run(times);
+  const int specimen = model::region_index(run.input().mesh, "specimen");
+  FluidisedMass worst;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const LedgerRow row = run.model().region_rows(moments.states[k])[specimen].ledger;
+    const double fraction = row.fines / liquid_volume(row.water, row.fines, {1000.0, 2700.0}, 1.0);
+    worst.worst_mass = std::max(worst.worst_mass, std::abs(row.fines - expected[k]) / most);
+    worst.worst_concentration =
+        std::max(worst.worst_concentration, std::abs(fraction * porosity[k] - expected[k]) / most);
+  }
+  EXPECT_LE(run.worst_residual(), 1e-12);
+  return worst;
+}
+
+TEST(DoublePointFines, FluidisedMassInTheSpecimen) {
+  const FluidisedMass alone = compare_masses({}, 12);
+  LayerSettings layers;
+  layers.inflow = layers.above = layers.below = layers.outflow = 2;
+  const FluidisedMass between = compare_masses(layers, 12);
+  const FluidisedMass many = compare_masses(layers, 48);
+  for (const auto& [name, worst] :
+       {std::pair{"specimen alone, 12 points", alone}, std::pair{"with layers, 12 points", between},
+        std::pair{"with layers, 48 points", many}}) {
+    std::cout << name << ": largest error of the fluidised mass " << 100.0 * worst.worst_mass
+              << " %, at the exact pore volume " << 100.0 * worst.worst_concentration << " %\n";
+  }
+  // Grains come and go with whole points, and the specimen never holds exactly as many as its pores
+  // are worth, least of all behind layers.
+  EXPECT_LE(alone.worst_mass, 0.012);
+  EXPECT_LE(alone.worst_concentration, 0.006);
+  EXPECT_LE(between.worst_mass, 0.045);
+  EXPECT_LE(between.worst_concentration, 0.03);
+  EXPECT_LE(many.worst_mass, 0.5 * between.worst_mass);
+  EXPECT_LE(many.worst_concentration, 0.7 * between.worst_concentration);
+}
+
+TEST(DoublePointFines, ErrorFallsWithPointsPerElement) {
+  std::vector<double> errors;
+  for (const int points : {1, 3, 12}) {
+    errors.push_back(error_of(8, fines_scene(points, 60.0)));
+    std::cout << points << " points per element: error of c " << errors.back() << '\n';
+  }
+  EXPECT_LT(errors[1], errors[0]);
+  EXPECT_LT(errors[2], errors[1]);
+}
+
+TEST(DoublePointFines, ErrorFallsWithTheMesh) {
+  std::vector<double> errors;
+  for (const int columns : {4, 8, 16}) {
+    errors.push_back(error_of(columns, fines_scene(12, 60.0)));
+    std::cout << columns << " columns: error of c " << errors.back() << '\n';
+  }
+  // Small, and not from the mesh alone: it falls slowly.
+  const double order = 0.5 * std::log2(errors[0] / errors[2]);
+  std::cout << "order " << order << '\n';
+  EXPECT_GE(order, 0.2);
+  EXPECT_LE(errors[0], 4e-4);
+}
+
+TEST(DoublePointFines, ThreePointsBeatTwelveInThePapersMode) {
+  const double standard = error_of(4, fines_scene(3, 60.0));
+  std::vector<double> papers;
+  for (int seed = 1; seed <= 8; ++seed) {
+    Scene scene = fines_scene(12, 60.0);
+    model::use_paper_mode(scene, seed);
+    papers.push_back(error_of(4, scene));
+  }
+  std::sort(papers.begin(), papers.end());
+  const double median = 0.5 * (papers[3] + papers[4]);
+  std::cout << "error of c: 3 points " << standard << "; paper's mode with 12, of 8 seeds "
+            << papers.front() << " to " << papers.back() << ", median " << median << ", ratio "
+            << median / standard << '\n';
+  EXPECT_GE(median, 5.0 * standard);
+}
+
+TEST(DoublePointFines, PorosityThatVariesWithDepth) {
+  // n_0 = 0.25 + 0.1 x with x from the inlet above.
+  const std::vector<double> times{7, 12, 22, 42, 52};
+  const auto porosity = [](double x, double t) {
+    return std::min(0.4, 0.25 + 0.1 * x + rate * std::max(0.0, t - start));
+  };
+  std::vector<double> worst;
+  for (const int columns : {4, 8}) {
+    Scene scene = fines_scene(12, times.back());
+    scene.soils[0].porosity = 0.35;
+    scene.soils[0].porosity_gradient = {0.0, -0.1, 0.0};
+    model::DoublePointRun run(
+        model::make_double_point_case(model::layered_mesh(2, {}, columns, 2.0 / columns), scene));
+    const auto moments = run.run(times);
+    EXPECT_LE(run.worst_residual(), 1e-12);
+    worst.push_back(0.0);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const auto exact = [&](double x) {
+        return concentration_along_path(
+            porosity, [](double, double) { return rate; }, start, flux, x, times[k]);
+      };
+      const double error = point_error(run.input().mesh, moments.states[k].liquid, exact);
+      std::cout << "non-uniform porosity, " << columns << " columns, t = " << times[k]
+                << " s: error of c " << error << ", c at the outlet " << exact(1.0) << '\n';
+      worst.back() = std::max(worst.back(), error / exact(1.0));
+    }
+  }
+  EXPECT_LE(worst[0], 0.02);
+  EXPECT_LE(worst[1], 0.0125);
+}
+
+/// A value at y = 0, by a parabola through what is given near it, in least squares.
+class ValueAtInterface {
+ public:
+  void add(double y, double value) {
+    heights_.push_back(y);
+    values_.push_back(value);
+  }
+  [[nodiscard]] double value() const {
+    const auto rows = static_cast<Eigen::Index>(heights_.size());
+    Eigen::MatrixXd a(rows, 3);
+    Eigen::VectorXd b(rows);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      a.row(i) << 1.0, heights_[i], heights_[i] * heights_[i];
+      b[i] = values_[i];
+    }
+    return a.colPivHouseholderQr().solve(b)[0];
+  }
+
+ private:
+  std::vector<double> heights_;
+  std::vector<double> values_;
+};
+
+TEST(DoublePointFines, FluxOfGrainsIsContinuousWherePorosityJumps) {
+  constexpr double buffer_porosity = 0.3;
+  constexpr double specimen_porosity = 0.4;
+  constexpr double end = 60.0;  // all water up to half a metre below entered after the start
+  constexpr double every = 0.25;
+  Scene scene = fines_scene(12, end);
+  scene.soils[0].porosity = specimen_porosity;
+  scene.soils[0].skeleton_fraction = 0.4;
+  for (Soil& soil : scene.soils) {
+    if (soil.region == "buffer") soil.porosity = buffer_porosity;
+  }
+  LayerSettings layers;
+  layers.above = layers.below = 4;
+  model::DoublePointRun run(
+      model::make_double_point_case(model::layered_mesh(2, layers, 8, 0.25), scene));
+  const std::vector<double> times = model::times_up_to(end, every);
+  const auto moments = run.run(times);
+  const Mesh<2>& mesh = run.input().mesh;
+  const int specimen = model::region_index(mesh, "specimen");
+
+  // Eq. 5 as printed, along the same points: n_f of a point grows by phi_e alone.
+  struct Printed {
+    double fines = 0.0;  ///< n_f
+    bool in_specimen = false;
+  };
+  std::map<long, Printed> printed;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const LiquidPoints<2>& liquid = moments.states[k].liquid;
+    const double eroding = std::clamp(times[k] - start, 0.0, every);
+    for (int p = 0; p < liquid.size(); ++p) {
+      const bool inside = mesh.element_region[liquid.element[p]] == specimen;
+      Printed& point = printed[liquid.id[p]];
+      const double share = 0.5 * ((inside ? 1.0 : 0.0) + (point.in_specimen ? 1.0 : 0.0));
+      point.fines += share * rate * eroding;
+      point.in_specimen = inside;
+    }
+  }
+
+  const LiquidPoints<2>& liquid = moments.states.back().liquid;
+  const double porosity_above = specimen_porosity + rate * (end - start);
+  ValueAtInterface above;
+  ValueAtInterface below;
+  ValueAtInterface printed_above;
+  ValueAtInterface printed_below;
+  for (int p = 0; p < liquid.size(); ++p) {
+    const double y = liquid.place(p).position(mesh)[1];
+    if (std::abs(y) > 0.4) continue;
+    (y > 0.0 ? above : below).add(y, concentration(liquid, p));
+    const double n = y > 0.0 ? porosity_above : buffer_porosity;
+    (y > 0.0 ? printed_above : printed_below).add(y, printed[liquid.id[p]].fines / n);
+  }
+  const double jump = below.value() / above.value() - 1.0;
+  const double printed_jump = printed_below.value() / printed_above.value() - 1.0;
+  const auto specimen_fines = [](double) { return rate; };
+  const double exact = UniformFines(specimen_fines, specimen_porosity, 0.6, start, flux, end)
+                           .concentration(1.0, end);
+  std::cout << "flux of grains at the interface: " << flux * above.value() << " from above, "
+            << flux * below.value() << " below, exact " << flux * exact << " m/s, jump " << jump
+            << "; by Eq. 5 as printed it jumps by " << printed_jump << '\n';
+  EXPECT_NEAR(above.value() / exact, 1.0, 0.01);
+  EXPECT_LE(std::abs(jump), 1e-3);
+  EXPECT_GE(printed_jump, 0.1);
+  EXPECT_LE(run.worst_residual(), 1e-12);
+}
+
+}  // namespace
+}  // namespace suffuse
