@@ -31,24 +31,31 @@ expect() {
   fi
 }
 
-# Everything made from one scene except the insides of its results folder.
-made_from() {
-  local stem=$1
-  printf '%s\n' "$stem".case.h5 "$stem".{history,ledger}.csv "$stem".{porosity,masses}.{png,svg} \
-    "$stem".results/run.json
-}
+# Everything made from one run, and from one scene, except the insides of its results folder.
+made_by_run() { printf '%s\n' "$1".case.h5 "$1".{history,ledger}.csv "$1".results/run.json; }
+made_from() { made_by_run "$1"; printf '%s\n' "$1".{porosity,masses}.{png,svg}; }
+
+# insides_removed: the list on standard input without the insides of results folders.
+insides_removed() { grep -v '\.results/[^r]\|\.results/regions'; }
 
 mkdir "$work/paper"
-for scene in "$workflows"/paper/sp-*.toml; do
+cp "$workflows/paper/paper-says.csv" "$work/paper"
+for scene in "$workflows"/paper/*.toml; do
   sed 's/^end .*/end = 4.0/' "$scene" > "$work/paper/$(basename "$scene")"
 done
+sed 's/end=120.0/end=4.0/' "$workflows/paper/variants.mk" > "$work/paper/variants.mk"
+variants=(dp-paper-{12,6,3,1} dp-default-{3,1} dp-no-mass-scaling)
 
 run_make paper
-combined=$(printf 'paper/%s\n' fig4-porosity.{png,svg} fig7-masses.{png,svg})
-expected=$({ echo "$combined"; for scene in "$work"/paper/*.toml; do
-  made_from "paper/$(basename "$scene" .toml)"; done; } | sort)
+tables=$(printf 'paper/%s.csv\n' runs paper)
+of_laws=$(printf 'paper/%s\n' {fig4-porosity,fig7-masses}.{png,svg})
+of_variants=$(printf 'paper/%s\n' {fig5-solid-mass,fig6-empty-elements,mass-scaling-flux}.{png,svg})
+others=$(printf 'paper/%s\n' fig2-model-sp.png fig3-model-dp.png sp-dp-comparison.{png,svg})
+made_by_variants=$(for name in "${variants[@]}"; do made_by_run "paper/$name"; done)
+expected=$({ echo "$tables"; echo "$of_laws"; echo "$of_variants"; echo "$others"; echo "$made_by_variants"
+  for scene in "$work"/paper/*.toml; do made_from "paper/$(basename "$scene" .toml)"; done; } | sort)
 expect 'paper makes every figure, table and result' "$expected" \
-  "$(inventory | cut -d' ' -f1 | grep -v '\.results/[^r]\|\.results/regions' | sort)"
+  "$(inventory | cut -d' ' -f1 | insides_removed | sort)"
 
 inventory > "$work/before"
 run_make paper
@@ -58,8 +65,21 @@ touch "$work/paper/sp-logarithmic.toml"
 inventory > "$work/before"
 run_make paper
 expect 'touching one scene makes its own files and the figures it is in, and no others' \
-  "$({ made_from paper/sp-logarithmic; echo "$combined"; } | sort)" \
-  "$(redone "$work/before" | grep -v 'sp-logarithmic\.results/[^r]\|\.results/regions' | sort)"
+  "$({ made_from paper/sp-logarithmic; echo "$of_laws"; echo "$tables"; } | sort)" \
+  "$(redone "$work/before" | insides_removed | sort)"
+
+touch "$work/paper/variants.mk"
+inventory > "$work/before"
+run_make paper
+expect 'touching the variants makes them, their figures and the tables, and no others' \
+  "$({ echo "$made_by_variants"; echo "$of_variants"; echo "$tables"; } | sort)" \
+  "$(redone "$work/before" | insides_removed | sort)"
+
+touch "$work/paper/paper-says.csv"
+inventory > "$work/before"
+run_make paper
+expect 'touching what the paper says makes the table of it, alone' paper/paper.csv \
+  "$(redone "$work/before")"
 
 inventory > "$work/before"
 sed -i 's/"status": *"done"/"status": "running"/' "$work/out/paper/sp-constant-table.results/run.json"
@@ -79,7 +99,7 @@ inventory > "$work/before"
 (cd "$work/elsewhere" && run_make study SCENE=mine.toml)
 expect 'study works on a scene elsewhere' \
   "$({ made_from study/mine; echo study/mine.scene; } | sort)" \
-  "$(redone "$work/before" | grep -v '\.results/[^r]\|\.results/regions' | sort)"
+  "$(redone "$work/before" | insides_removed | sort)"
 
 inventory > "$work/before"
 run_make study SCENE="$work/elsewhere/mine.toml"
