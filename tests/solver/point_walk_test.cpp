@@ -126,7 +126,7 @@ TEST(PointWalk, UniformFluxMovesPointsStraightAcrossManyElements) {
     const Vector<2> flux =
         along_edges ? Vector<2>(0.3, 0.3) : Vector<2>(0.6 * random() - 0.3, 0.6 * random() - 0.3);
     const Field field(along_edges ? model::column_mesh(9, 9) : rough_mesh(9, seed),
-                      [&](const Vector<2>&) { return flux; });
+                      [&](const Vector<2>&) { return Vector<2>(flux); });
     for (int p = 0; p < 300; ++p) {
       PointPlace<2> place = random_place(field.mesh, random);
       const double duration = random();
@@ -169,8 +169,8 @@ TEST(PointWalk, LinearFluxIsFollowedToSecondOrderInTheStep) {
   }
   for (std::size_t k = 0; k + 1 < errors.size(); ++k) {
     const double order = std::log2(errors[k] / errors[k + 1]);
-    std::cout << "linear flux, " << (16 << k) << " -> " << (32 << k) << " steps: error " << errors[k]
-              << " -> " << errors[k + 1] << ", order " << order << '\n';
+    std::cout << "linear flux, " << (16 << k) << " -> " << (32 << k) << " steps: error "
+              << errors[k] << " -> " << errors[k + 1] << ", order " << order << '\n';
     EXPECT_GE(order, 1.8);
   }
 }
