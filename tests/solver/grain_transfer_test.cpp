@@ -55,6 +55,7 @@ struct TransferCase {
   }
   [[nodiscard]] std::vector<double> volumes() const {
     std::vector<double> result;
+    result.reserve(points.size());
     for (int p = 0; p < points.size(); ++p) {
       result.push_back(
           liquid_volume(points.water_mass[p], points.fines_mass[p], {1000.0, grain_density}, 1.0));
@@ -145,6 +146,7 @@ TEST(GrainTransfer, ByNodesEvenErosionGivesEvenConcentration) {
     TransferCase c(way, Seeding::random, 12, 0.04);
     // A third of the points, uneven from element to element.
     std::vector<unsigned char> keep;
+    keep.reserve(c.points.size());
     for (int p = 0; p < c.points.size(); ++p) keep.push_back((p * p + p / 7) % 3 == 0 ? 1 : 0);
     keep_points(c.points, keep);
     const std::vector<double> volumes = c.volumes();

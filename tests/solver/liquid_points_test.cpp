@@ -129,6 +129,7 @@ TEST(ConcentrationFit, IsExactForALinearFunctionInEachRegion) {
     return region == 0 ? 0.1 + 0.2 * x[0] - 0.05 * x[1] : 0.4 - 0.1 * x[0];
   };
   std::vector<double> values;
+  values.reserve(c.points.size());
   for (int p = 0; p < c.points.size(); ++p) {
     values.push_back(
         exact(c.points.place(p).position(c.mesh), c.mesh.element_region[c.points.element[p]]));
@@ -155,6 +156,7 @@ TEST(ConcentrationFit, GoesByTheNeighboursWhereAnElementIsEmpty) {
   c.points.id.assign(keep.size(), 0);
   keep_points(c.points, keep);
   std::vector<double> values;
+  values.reserve(c.points.size());
   for (int p = 0; p < c.points.size(); ++p) {
     values.push_back(0.1 + 0.3 * c.points.place(p).position(c.mesh)[0]);
   }
