@@ -17,5 +17,6 @@ function of(run, name) {
     print FILENAME ":" FNR ": no column " name " of a run " run > "/dev/stderr"
     exit 2
   }
-  return value[run, name] ~ /^-?[0-9]/ ? sprintf("%.4g", value[run, name]) : value[run, name]
+  # Counts as they are, other numbers to four digits, words as they are.
+  return value[run, name] ~ /^-?[0-9]+[.e]/ ? sprintf("%.4g", value[run, name]) : value[run, name]
 }
