@@ -1,8 +1,8 @@
 # Runs of the paper's scenes with some keys changed: name, scene, KEY=VALUE as for the mesher's --set.
 
-# Figs. 5 and 6. As in the paper: points anywhere, each element's eroded mass in equal shares to its own
+# Figs. 5 and 6. As in the paper: as many points in every element at the start, each element's eroded mass in equal shares to its own
 # liquid points, no erosion where there are none.
-as_in_paper := points.seeding=random points.equal_volume=false flow.integration=material-point \
+as_in_paper := points.seeding=gauss points.equal_volume=false flow.integration=material-point \
   soil.specimen.erosion.mass_transfer=element soil.specimen.erosion.empty_elements=dry
 
 point_counts := 12 6 3 1
