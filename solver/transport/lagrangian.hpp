@@ -53,7 +53,7 @@ class LagrangianTransport {
   /// The state of `entering` before anything came in. Faces take turns.
   [[nodiscard]] Entering nothing_entered(long next_id) const;
 
-  /// Share of the motion after which some point may have crossed half an element.
+  /// Share of the motion after which some point may have crossed a quarter of an element.
   [[nodiscard]] double share_allowed(const LiquidMotion<Dim>& motion,
                                      const std::vector<double>& porosity) const;
 
