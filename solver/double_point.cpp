@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "case/errors.hpp"
-
+#include "meeting.hpp"
 #include "observation.hpp"
 #include "pass_timer.hpp"
 #include "physics/liquid.hpp"
@@ -15,12 +14,8 @@
 namespace suffuse {
 namespace {
 
-/// Transport and flow meet at the latest after so many flow steps.
-constexpr long most_steps_per_interval = 1000;
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
 constexpr double most_porosity_growth = 1e-3;
-/// Share of its limit that a transport step takes.
-constexpr double transport_safety = 0.9;
 /// Liquid that needs more steps of transport than this between two meetings goes nowhere sensible.
 constexpr double most_substeps = 1e4;
 
@@ -66,6 +61,9 @@ BirthSettings DoublePoint<Dim>::birth_settings() const {
 
 template <int Dim>
 void DoublePoint<Dim>::initialise() {
+  for (const ElementValues<Dim>& pores : skeleton_.initial_pore_volume()) {
+    initial_pores_.push_back(element_sum<Dim>(pores));
+  }
   state_.porosity = skeleton_.initial_porosity();
   state_.pending.assign(grid_.mesh.node_count(), 0.0);
   state_.crossed.resize(accounts_.count());
@@ -105,9 +103,7 @@ void DoublePoint<Dim>::place_liquid() {
 
 template <int Dim>
 std::vector<double> DoublePoint<Dim>::element_porosity(const std::vector<double>& porosity) const {
-  const ElementField<Dim> initial = skeleton_.initial_pore_volume();
-  std::vector<double> result(grid_.mesh.element_count());
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) result[e] = element_sum<Dim>(initial[e]);
+  std::vector<double> result = initial_pores_;
   const MaterialPoints<Dim>& solid = skeleton_.points();
   for (int s = 0; s < solid.size(); ++s) {
     result[solid.element[s]] += solid.volume[s] * (porosity[s] - skeleton_.initial_porosity()[s]);
@@ -163,15 +159,9 @@ long DoublePoint<Dim>::steps_before_transport(double dt) const {
   LiquidMotion<Dim> one_step = last_motion_;
   one_step.duration = dt;
   const std::vector<double>& porosity = flow_.coefficients().porosity;
-  double allowed = transport_safety * transport_.share_allowed(one_step, porosity);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const ErosionModel& model = skeleton_.erosion_of_element(e);
-    const double rate = erosion_rate(model, porosity[e], std::max(state_.time, model.start));
-    if (rate > 0.0) allowed = std::min(allowed, most_porosity_growth * porosity[e] / (rate * dt));
-  }
-  // The flow may have grown since: go up by doubling.
-  const long most = std::min(most_steps_per_interval, 2 * last_steps_);
-  return std::max(1L, allowed < static_cast<double>(most) ? static_cast<long>(allowed) : most);
+  return steps_to_meeting(skeleton_, porosity, state_.time, dt,
+                          transport_.share_allowed(one_step, porosity), most_porosity_growth,
+                          last_steps_);
 }
 
 template <int Dim>

@@ -122,6 +122,7 @@ class DoublePoint {
   GrainTransfer<Dim> transfer_;
   State state_;
   std::vector<Stored> initial_;
+  std::vector<double> initial_pores_;  ///< volume per element, m3
   double last_dt_ = 0.0;
   LiquidMotion<Dim> last_motion_;
   long last_steps_ = 1;

@@ -1,11 +1,12 @@
 #include "single_point.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "meeting.hpp"
 #include "observation.hpp"
 #include "pass_timer.hpp"
 #include "physics/liquid.hpp"
@@ -13,12 +14,8 @@
 namespace suffuse {
 namespace {
 
-/// Transport and flow meet at the latest after so many flow steps.
-constexpr long most_steps_per_interval = 1000;
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
 constexpr double most_porosity_growth = 2e-3;
-/// Share of its limit that a transport step takes.
-constexpr double transport_safety = 0.9;
 
 }  // namespace
 
@@ -72,16 +69,9 @@ template <int Dim>
 long SinglePoint<Dim>::steps_before_transport(double dt) const {
   std::vector<double> per_step = last_volume_rate_;
   for (double& volume : per_step) volume *= dt;
-  double allowed = transport_safety * transport_.steps_allowed(state_.liquid, per_step);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const ErosionModel& model = skeleton_.erosion_of_element(e);
-    const double porosity = flow_.coefficients().porosity[e];
-    const double rate = erosion_rate(model, porosity, std::max(state_.time, model.start));
-    if (rate > 0.0) allowed = std::min(allowed, most_porosity_growth * porosity / (rate * dt));
-  }
-  // The flow may have grown since: go up by doubling.
-  const long most = std::min(most_steps_per_interval, 2 * last_steps_);
-  return std::max(1L, allowed < static_cast<double>(most) ? static_cast<long>(allowed) : most);
+  return steps_to_meeting(skeleton_, flow_.coefficients().porosity, state_.time, dt,
+                          transport_.steps_allowed(state_.liquid, per_step), most_porosity_growth,
+                          last_steps_);
 }
 
 template <int Dim>
