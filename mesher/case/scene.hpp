@@ -18,8 +18,10 @@ inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
 enum class Formulation { single_point, double_point };
 enum class MeshStructure { regular, crossed, free };
-enum class ErosionLaw { none, constant, logarithmic, first_order };
-enum class FlowScheme { explicit_nodal };
+enum class ErosionLaw { none, constant, logarithmic, first_order, flux };
+enum class ConductivityLaw { constant, kozeny_carman };
+enum class FlowScheme { explicit_nodal, implicit_mixed };
+enum class TimeStepping { second_order, monotone };
 enum class DragIntegration { explicit_drag, implicit_drag };
 enum class InitialFlow { rest, steady };
 enum class Seeding { gauss, random, low_discrepancy };
@@ -72,7 +74,7 @@ struct LiquidProperties {
 
 struct ErosionSettings {
   ErosionLaw law = ErosionLaw::none;
-  double rate = 0.0;               ///< alpha (Eq. 6), beta (Eq. 7) or kappa (first-order), 1/s
+  double rate = 0.0;  ///< alpha (Eq. 6), beta (Eq. 7), kappa (first-order), 1/s; lambda (flux), 1/m
   double start = 0.0;              ///< t_0, s
   bool momentum_transfer = false;  ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
   MassTransfer mass_transfer = MassTransfer::nodal;  ///< double-point: who gets eroded grains
@@ -87,7 +89,8 @@ struct Soil {
   std::array<double, 3> porosity_origin{};    ///< m
   double skeleton_fraction = unset;           ///< n_C
   double grain_density = unset;               ///< rho_s, kg/m3
-  double conductivity = unset;                ///< k, m/s
+  double conductivity = unset;                ///< k at the initial porosity, m/s
+  ConductivityLaw conductivity_law = ConductivityLaw::constant;
   SoilDrag drag = SoilDrag::darcy;
   ErosionSettings erosion;
 
@@ -115,10 +118,14 @@ struct BoundaryCondition {
 
 struct TimeSettings {
   double end = unset;  ///< s
-  FlowScheme scheme = FlowScheme::explicit_nodal;
-  std::optional<double> step;  ///< s; without it 0.9 of the stability limit
-  double mass_scaling = 1.0;   ///< S
-  DragIntegration drag = DragIntegration::explicit_drag;
+  FlowScheme scheme = FlowScheme::implicit_mixed;
+  /// s; without it: explicit, 0.9 of the stability limit; implicit, chosen by `tolerance`
+  std::optional<double> step;
+  double mass_scaling = 1.0;                              ///< S; explicit only
+  DragIntegration drag = DragIntegration::explicit_drag;  ///< explicit only
+  TimeStepping stepping = TimeStepping::second_order;     ///< implicit only
+  std::optional<bool> inertia;  ///< implicit only; without it decided from the scene
+  double tolerance = 1e-3;      ///< implicit only: bound of the relative local error of a step
 };
 
 struct FlowSettings {

@@ -30,9 +30,14 @@ double logarithmic_porosity_after(double porosity, double porosity_max, double s
   return std::max(porosity, porosity_max * std::exp(-std::exp(w)));
 }
 
+/// n_max - n decays by exp(-scaled_time).
+double first_order_porosity_after(double porosity, double porosity_max, double scaled_time) {
+  return std::min(porosity_max, porosity - (porosity_max - porosity) * std::expm1(-scaled_time));
+}
+
 }  // namespace
 
-double erosion_rate(const ErosionModel& model, double porosity, double time) {
+double erosion_rate(const ErosionModel& model, double porosity, double time, double flux) {
   if (time < model.start || porosity >= model.porosity_max) return 0.0;
   switch (model.law) {
     case ErosionLaw::none:
@@ -43,11 +48,14 @@ double erosion_rate(const ErosionModel& model, double porosity, double time) {
       return -model.rate * std::log(porosity / model.porosity_max);
     case ErosionLaw::first_order:
       return model.rate * (model.porosity_max - porosity);
+    case ErosionLaw::flux:
+      return model.rate * flux * (model.porosity_max - porosity);
   }
   return unset;
 }
 
-double porosity_after(const ErosionModel& model, double porosity, double from, double to) {
+double porosity_after(const ErosionModel& model, double porosity, double from, double to,
+                      double flux) {
   const double duration = to - std::max(from, model.start);
   if (duration <= 0.0 || porosity >= model.porosity_max) return porosity;
   switch (model.law) {
@@ -59,8 +67,9 @@ double porosity_after(const ErosionModel& model, double porosity, double from, d
       return logarithmic_porosity_after(porosity, model.porosity_max,
                                         model.rate * duration / model.porosity_max);
     case ErosionLaw::first_order:
-      return std::min(model.porosity_max, porosity - (model.porosity_max - porosity) *
-                                                         std::expm1(-model.rate * duration));
+      return first_order_porosity_after(porosity, model.porosity_max, model.rate * duration);
+    case ErosionLaw::flux:
+      return first_order_porosity_after(porosity, model.porosity_max, model.rate * flux * duration);
   }
   return unset;
 }

@@ -50,11 +50,12 @@ RigidSkeleton<Dim>::RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid)
 
 template <int Dim>
 std::vector<double> RigidSkeleton<Dim>::porosity_after(const std::vector<double>& porosity,
-                                                       double from, double to) const {
+                                                       double from, double to,
+                                                       const std::vector<double>& flux) const {
   std::vector<double> result(porosity.size());
   for (int p = 0; p < points_.size(); ++p) {
-    result[p] =
-        suffuse::porosity_after(erosion_of_element(points_.element[p]), porosity[p], from, to);
+    result[p] = suffuse::porosity_after(erosion_of_element(points_.element[p]), porosity[p], from,
+                                        to, flux.empty() ? unset : flux[p]);
   }
   return result;
 }
@@ -94,6 +95,13 @@ template <int Dim>
 bool RigidSkeleton<Dim>::erodes() const {
   return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(), [](const auto& model) {
     return model.law != ErosionLaw::none && model.rate > 0.0;
+  });
+}
+
+template <int Dim>
+bool RigidSkeleton<Dim>::erodes_by_flux() const {
+  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(), [](const auto& model) {
+    return model.law == ErosionLaw::flux && model.rate > 0.0;
   });
 }
 

@@ -25,9 +25,11 @@ class RigidSkeleton {
   [[nodiscard]] const std::vector<double>& porosity() const { return porosity_; }
   [[nodiscard]] const std::vector<double>& initial_porosity() const { return initial_porosity_; }
 
-  /// n_L of every point at time `to`, from `porosity` (per point) at `from`.
+  /// n_L of every point at time `to`, from `porosity` (per point) at `from`. `flux`: mean of |q| at
+  /// every point over that time, m/s; may be empty unless `erodes_by_flux`.
   [[nodiscard]] std::vector<double> porosity_after(const std::vector<double>& porosity, double from,
-                                                   double to) const;
+                                                   double to,
+                                                   const std::vector<double>& flux) const;
 
   /// Volume eroded between two states, per element and field node, m3: each point's volume times
   /// its gain, shared by the basis functions at the point. Adds up to what the points lost exactly.
@@ -40,6 +42,8 @@ class RigidSkeleton {
   [[nodiscard]] ElementField<Dim> initial_pore_volume() const;
 
   [[nodiscard]] bool erodes() const;
+  /// Some soil's erosion depends on the flow.
+  [[nodiscard]] bool erodes_by_flux() const;
   [[nodiscard]] bool is_soil(int element) const {
     return soil_of_region_[mesh_.element_region[element]] != free_water_.get();
   }

@@ -27,6 +27,7 @@ inline Scene paper_scene() {
   soil.conductivity = 2.0e-2;
   scene.soils = {soil};
   scene.time.end = 120.0;
+  scene.time.scheme = FlowScheme::explicit_nodal;
   scene.output.every = 1.0;
   scene.output.snapshot_every = 1.0;
   return scene;

@@ -1,0 +1,48 @@
+#pragma once
+
+/// The field of lowest order of Raviart and Thomas inside an element, from the fluxes through its
+/// faces.
+
+#include <vector>
+
+#include "case/material_points.hpp"
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+/// Flux at a place of the element, in the unit of `face_flux` (along each face's normal) per area:
+/// m/s from m3/s, m from m3.
+template <int Dim>
+Vector<Dim> flux_at(const Grid<Dim>& grid, const std::vector<double>& face_flux, int element,
+                    const Vector<Dim>& place) {
+  Vector<Dim> result = Vector<Dim>::Zero();
+  for (int k = 0; k <= Dim; ++k) {
+    result += grid.element_face_sign[element][k] * face_flux[grid.element_face[element][k]] *
+              (place - grid.mesh.nodes[grid.mesh.elements[element][k]]);
+  }
+  return result / (Dim * grid.volume[element]);
+}
+
+/// The same at the centroid of each element.
+template <int Dim>
+std::vector<Vector<Dim>> element_flux(const Grid<Dim>& grid, const std::vector<double>& face_flux) {
+  std::vector<Vector<Dim>> result(grid.mesh.element_count());
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    result[e] = flux_at(grid, face_flux, e, element_centroid(grid.mesh, e));
+  }
+  return result;
+}
+
+/// Its magnitude at material points, times `scale`.
+template <int Dim>
+std::vector<double> flux_magnitude_at(const Grid<Dim>& grid, const std::vector<double>& face_flux,
+                                      const MaterialPoints<Dim>& points, double scale) {
+  std::vector<double> result(points.size());
+  for (int p = 0; p < points.size(); ++p) {
+    result[p] =
+        scale * flux_at(grid, face_flux, points.element[p], points.position(grid.mesh, p)).norm();
+  }
+  return result;
+}
+
+}  // namespace suffuse
