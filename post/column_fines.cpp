@@ -80,20 +80,27 @@ std::optional<Ends> find_ends(const Scene& scene, const Mesh<2>& mesh) {
   return ends;
 }
 
-/// Darcy flux into the model that an end prescribes; not a number where it is not known.
-double prescribed_flux(const End& end) {
-  if (end.condition->darcy_flux) return *end.condition->darcy_flux;
-  if (end.condition->velocity) return *end.condition->velocity * end.porosity;
-  return unset;
+/// The value that holds at all times; not a number where none does.
+double lasting(const std::optional<TimeFunction>& value) {
+  return value && value->is_constant() ? value->value(0.0) : unset;
 }
 
-/// Integral of 1/k through all soil along the column, s; not a number with drag that is not linear.
+/// Darcy flux into the model that an end prescribes; not a number where it is not known.
+double prescribed_flux(const End& end) {
+  if (end.condition->darcy_flux) return lasting(end.condition->darcy_flux);
+  return lasting(end.condition->velocity) * end.porosity;
+}
+
+/// Integral of 1/k through all soil along the column, s; not a number with drag that is not linear
+/// or a conductivity that does not last.
 double resistance(const Scene& scene, const Mesh<2>& mesh, double width) {
   double total = 0.0;
   for (int e = 0; e < mesh.element_count(); ++e) {
     const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
     if (soil == nullptr) continue;
-    if (soil->drag != SoilDrag::darcy) return unset;
+    const bool lasts = soil->conductivity_law == ConductivityLaw::constant ||
+                       soil->erosion.law == ErosionLaw::none;
+    if (soil->drag != SoilDrag::darcy || !lasts) return unset;
     total += element_volume(mesh, e) / (width * soil->conductivity);
   }
   return total;
@@ -103,10 +110,10 @@ double resistance(const Scene& scene, const Mesh<2>& mesh, double width) {
 double upward_flux(const Scene& scene, const Mesh<2>& mesh, const Ends& ends) {
   if (const double q = prescribed_flux(ends.low); std::isfinite(q)) return q;
   if (const double q = -prescribed_flux(ends.high); std::isfinite(q)) return q;
-  if (!ends.low.condition->pressure || !ends.high.condition->pressure) return unset;
   if (scene.gravity != std::array<double, 3>{}) return unset;
-  const double head = (*ends.low.condition->pressure - *ends.high.condition->pressure) /
-                      (scene.liquid.density * gravity_of_conductivity);
+  const double head =
+      (lasting(ends.low.condition->pressure) - lasting(ends.high.condition->pressure)) /
+      (scene.liquid.density * gravity_of_conductivity);
   return head / resistance(scene, mesh, scene.geometry.width);
 }
 
@@ -133,11 +140,17 @@ std::optional<ColumnFlow> column_flow(const ResultsReader& run) {
   if (soil == nullptr || !ends) return std::nullopt;
   const double upward = upward_flux(scene, mesh, *ends);
   const End& inlet = upward > 0.0 ? ends->low : ends->high;
-  if (!(std::abs(upward) > 0.0) || inlet.condition->concentration.value_or(0.0) != 0.0) {
-    return std::nullopt;
+  const TimeFunction entering = inlet.condition->concentration.value_or(0.0);
+  const bool clean = entering.smallest() == 0.0 && entering.largest() == 0.0;
+  if (!(std::abs(upward) > 0.0) || !clean) return std::nullopt;
+  ColumnFlow flow{*soil, soil->porosity, scene.geometry.height, scene.geometry.width,
+                  std::abs(upward)};
+  if (soil->erosion.law == ErosionLaw::flux) {
+    // At a uniform flux that lasts it is the first-order law with kappa = lambda |q|.
+    flow.soil.erosion.law = ErosionLaw::first_order;
+    flow.soil.erosion.rate *= flow.flux;
   }
-  return ColumnFlow{*soil, soil->porosity, scene.geometry.height, scene.geometry.width,
-                    std::abs(upward)};
+  return flow;
 }
 
 ColumnFines::ColumnFines(const ColumnFlow& flow, double end) : flow_(flow) {

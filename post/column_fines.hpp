@@ -14,7 +14,7 @@ namespace suffuse {
 
 /// A specimen of uniform initial porosity between clean inflow and outflow.
 struct ColumnFlow {
-  Soil soil;
+  Soil soil;  ///< with a law that depends on porosity alone, which at this flux the flux law is too
   double porosity = unset;  ///< n_0
   double length = unset;    ///< of the specimen along the flow, m
   double width = unset;     ///< m
@@ -24,7 +24,8 @@ struct ColumnFlow {
 /// The steady flow through the one eroding soil of a built-in column, or nothing where the scene
 /// has no exact solution: another geometry, several eroding soils, a gradient of porosity, fines
 /// that enter, conditions on the sides, or a flux that neither a boundary (`darcy_flux`, `velocity`
-/// times a porosity that lasts) nor the heads at both ends (k i, Darcy's drag, no gravity) give.
+/// times a porosity that lasts) nor the heads at both ends (k i, Darcy's drag, a conductivity that
+/// lasts, no gravity) give. Boundary values that change in time give none.
 std::optional<ColumnFlow> column_flow(const ResultsReader& run);
 
 class ColumnFines {

@@ -28,6 +28,10 @@ double invert_li(double start, double decrease) {
 
 }  // namespace
 
+bool has_exact_porosity(const Soil& soil) {
+  return soil.erosion.law != ErosionLaw::flux;
+}
+
 double exact_porosity(const Soil& soil, double initial, double t) {
   const double elapsed = t - soil.erosion.start;
   const double cap = soil.porosity_max();
@@ -42,6 +46,8 @@ double exact_porosity(const Soil& soil, double initial, double t) {
       return cap * invert_li(initial / cap, rate * elapsed / cap);
     case ErosionLaw::first_order:
       return cap - (cap - initial) * std::exp(-rate * elapsed);
+    case ErosionLaw::flux:
+      return unset;
   }
   return unset;
 }

@@ -34,21 +34,22 @@ constexpr float top_room = 80.0F;
 constexpr float gap = 50.0F;
 constexpr float legend_row = 30.0F;
 
+/// "6000", or from the least to the most of what changes in time: "0 to 6000".
+std::string range_text(const TimeFunction& f) {
+  const std::string least = number_text(f.smallest());
+  return f.is_constant() ? least : least + " to " + number_text(f.largest());
+}
+
 /// What is prescribed on a boundary; empty where nothing flows.
 std::string condition_text(const BoundaryCondition& b) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  double enters = 0.0;
-  if (b.pressure) add("pressure " + number_text(*b.pressure) + " Pa");
-  if (b.velocity) {
-    add("velocity " + number_text(*b.velocity) + " m/s");
-    enters = *b.velocity;
-  }
-  if (b.darcy_flux) {
-    add("Darcy flux " + number_text(*b.darcy_flux) + " m/s");
-    enters = *b.darcy_flux;
-  }
-  if (b.concentration || enters > 0.0) add("c = " + number_text(b.concentration.value_or(0.0)));
+  if (b.pressure) add("pressure " + range_text(*b.pressure) + " Pa");
+  if (b.velocity) add("velocity " + range_text(*b.velocity) + " m/s");
+  if (b.darcy_flux) add("Darcy flux " + range_text(*b.darcy_flux) + " m/s");
+  const double enters =
+      std::max(b.velocity.value_or(0.0).largest(), b.darcy_flux.value_or(0.0).largest());
+  if (b.concentration || enters > 0.0) add("c = " + range_text(b.concentration.value_or(0.0)));
   return text;
 }
 

@@ -121,9 +121,9 @@ Row row_of(const ResultsReader& run, const std::string& label) {
   Row row{{"run", label}, {"status", run.status()}};
   add_run_info(row, run);
   add_settings(row, run, soil);
-  row["complete_exact"] = number_text(exact_exhaustion(soil));
+  if (has_exact_porosity(soil)) row["complete_exact"] = number_text(exact_exhaustion(soil));
   row["complete_computed"] = number_text(computed_exhaustion(masses));
-  add_errors(row, run, soil, masses);
+  if (has_exact_porosity(soil)) add_errors(row, run, soil, masses);
   add_fines_error(row, run, masses);
   const Table ledger = run.ledger();
   row["residual_water"] = number_text(largest_magnitude(ledger, "residual_water"));

@@ -16,6 +16,8 @@ std::string scene_word(ErosionLaw value) {
       return "logarithmic";
     case ErosionLaw::first_order:
       return "first-order";
+    case ErosionLaw::flux:
+      return "flux";
   }
   return "";
 }

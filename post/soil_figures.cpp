@@ -50,8 +50,10 @@ void add_quantity(RunCurves& curves, const std::vector<ResultsReader>& runs,
                   const Quantity& quantity) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto masses = computed_masses(runs[r], curves.soil(r));
-    const auto exact = series(exact_series(runs[r], curves.soil(r), masses.back().t), quantity);
-    curves.add_exact(r, exact.t, exact.y);
+    if (has_exact_porosity(curves.soil(r))) {
+      const auto exact = series(exact_series(runs[r], curves.soil(r), masses.back().t), quantity);
+      curves.add_exact(r, exact.t, exact.y);
+    }
     const auto computed = series(masses, quantity);
     curves.add_run(r, computed.t, computed.y);
   }
@@ -68,11 +70,13 @@ Chart porosity_chart(const std::vector<ResultsReader>& runs) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Table history = runs[r].history();
     require_curve(runs[r], history, "history.csv");
-    const auto times = exact_times(history.column("t").back(), curves.soil(r));
-    std::vector<double> exact;
-    exact.reserve(times.size());
-    for (const double t : times) exact.push_back(exact_mean_porosity(curves.soil(r), t));
-    curves.add_exact(r, times, exact);
+    if (has_exact_porosity(curves.soil(r))) {
+      const auto times = exact_times(history.column("t").back(), curves.soil(r));
+      std::vector<double> exact;
+      exact.reserve(times.size());
+      for (const double t : times) exact.push_back(exact_mean_porosity(curves.soil(r), t));
+      curves.add_exact(r, times, exact);
+    }
     curves.add_run(r, history.column("t"), history.column("porosity_mean"));
   }
   return curves.chart("Mean porosity of " + curves.soil_name(), "porosity n_L (-)");
@@ -83,13 +87,17 @@ Chart masses_chart(const std::vector<ResultsReader>& runs) {
   const bool mixed = is_mixed(runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto masses = computed_masses(runs[r], curves.soil(r));
-    const auto exact = exact_series(runs[r], curves.soil(r), masses.back().t);
+    const auto exact = has_exact_porosity(curves.soil(r))
+                           ? exact_series(runs[r], curves.soil(r), masses.back().t)
+                           : std::vector<Masses>{};
     for (const auto& quantity : quantities) {
-      const auto line = series(exact, quantity);
-      if (&quantity == quantities.data()) {
-        curves.add_exact(r, line.t, line.y);
-      } else {
-        curves.add_unlabelled_exact(r, line.t, line.y);
+      if (!exact.empty()) {
+        const auto line = series(exact, quantity);
+        if (&quantity == quantities.data()) {
+          curves.add_exact(r, line.t, line.y);
+        } else {
+          curves.add_unlabelled_exact(r, line.t, line.y);
+        }
       }
       const auto computed = series(masses, quantity);
       Curve points;

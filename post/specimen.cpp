@@ -70,6 +70,11 @@ double integrate(const Specimen& specimen, double t,
   return total;
 }
 
+bool has_exact_porosity(const Specimen& specimen) {
+  return std::ranges::all_of(specimen.portions,
+                             [](const Portion& p) { return has_exact_porosity(p.soil); });
+}
+
 double exact_mean_porosity(const Specimen& specimen, double t) {
   return integrate(specimen, t, [](const Soil&, double, double now) { return now; }) /
          specimen.volume;

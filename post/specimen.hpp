@@ -35,6 +35,10 @@ std::string soil_named(bool all);
 double integrate(const Specimen& specimen, double t,
                  const std::function<double(const Soil&, double, double)>& density);
 
+/// Whether the porosity of all of it is exact whatever the flow; else the exact quantities below
+/// are not numbers.
+bool has_exact_porosity(const Specimen& specimen);
+
 /// Volume mean of the exact porosity.
 double exact_mean_porosity(const Specimen& specimen, double t);
 

@@ -227,7 +227,8 @@ class SceneReader {
     refused_.insert(key);
     std::string expected = declared.expected();
     const auto* real = node.value ? std::get_if<double>(&*node.value) : nullptr;
-    if (real && !std::isfinite(*real) && expected.starts_with("a number")) {
+    if (real && !std::isfinite(*real) && !declared.infinite_allowed &&
+        expected.starts_with("a number")) {
       expected.replace(0, 1, "a finite");
     }
     // With a single word, what is expected says it all.
@@ -235,7 +236,8 @@ class SceneReader {
     std::string suggestion;
     if (text && declared.words.size() > 1) suggestion = closest_name(*text, declared.words);
     if (!suggestion.empty()) suggestion = shown_value(suggestion);
-    report(node.place, key, node.shown, expected, suggestion);
+    const std::string fault = node.value ? declared.fault(*node.value) : "";
+    report(node.place, key, fault.empty() ? node.shown : fault, expected, suggestion);
   }
 
   void report_unknown(const std::string& table, const std::string& pattern,

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "case/time_function.hpp"
+
 namespace suffuse {
 
 /// A value not yet set: using it shows.
@@ -68,7 +70,7 @@ struct PointSettings {
 
 struct LiquidProperties {
   double density = unset;       ///< rho_w, kg/m3
-  double bulk_modulus = unset;  ///< K, Pa
+  double bulk_modulus = unset;  ///< K, Pa; infinite: incompressible (implicit scheme only)
   double viscosity = unset;     ///< mu, Pa s
 };
 
@@ -110,10 +112,11 @@ struct Soil {
 /// What holds on one named boundary: at most one of the three flow conditions.
 struct BoundaryCondition {
   std::string on;
-  std::optional<double> pressure;       ///< Pa
-  std::optional<double> velocity;       ///< intrinsic liquid velocity, positive into the model, m/s
-  std::optional<double> darcy_flux;     ///< volume flux, positive into the model, m/s
-  std::optional<double> concentration;  ///< c of the liquid that enters
+  std::optional<TimeFunction> pressure;  ///< Pa
+  std::optional<TimeFunction>
+      velocity;  ///< intrinsic liquid velocity, positive into the model, m/s
+  std::optional<TimeFunction> darcy_flux;     ///< volume flux, positive into the model, m/s
+  std::optional<TimeFunction> concentration;  ///< c of the liquid that enters
 };
 
 struct TimeSettings {

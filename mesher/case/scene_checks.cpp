@@ -1,6 +1,7 @@
 #include "case/scene_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "case/scene_schema.hpp"
@@ -26,6 +27,7 @@ class Checks {
     check_seeding();
     check_formulation();
     check_third_term();
+    check_scheme();
     check_times();
   }
 
@@ -202,10 +204,56 @@ class Checks {
     });
     const bool grains_enter =
         std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(),
-                    [](const auto& b) { return b.concentration.value_or(0.0) > 0.0; });
+                    [](const auto& b) { return b.concentration.value_or(0.0).largest() > 0.0; });
     if (!erodes && !grains_enter) return;
     report("flow.porosity_gradient_term", "false where soil erodes or grains enter",
            "true: without this term of Eq. 2 no balance closes");
+  }
+
+  void check_scheme() const {
+    const std::string key = "time.scheme";
+    if (refused(key)) return;
+    if (scene_.time.scheme == FlowScheme::explicit_nodal) {
+      check_explicit();
+      return;
+    }
+    const std::string scheme =
+        std::string("with scheme = \"implicit\"") + (given(key) ? "" : ", the default");
+    for (const std::string other : {"time.mass_scaling", "time.drag"}) {
+      if (!given(other)) continue;
+      report(other, "a key of the explicit scheme " + scheme,
+             "scheme = \"explicit\", or no such key", {key});
+    }
+    // In the other formulation these are wrong whatever the scheme, and reported as that.
+    const bool single_point = scene_.formulation == Formulation::single_point;
+    if (single_point && !scene_.flow.porosity_gradient_term) {
+      report("flow.porosity_gradient_term", "false " + scheme,
+             "true, or scheme = \"explicit\": the implicit scheme has no such variant", {key});
+    }
+    if (!single_point && scene_.flow.integration == PressureIntegration::material_point) {
+      report(
+          "flow.integration", "\"material-point\" " + scheme,
+          "\"mixed\", or scheme = \"explicit\": the implicit scheme has one pressure per element",
+          {key});
+    }
+    if (given("time.tolerance") && given("time.step")) {
+      report("time.tolerance", "a tolerance beside time.step",
+             "one of the two: a step that is given is not chosen", {"time.step"});
+    }
+  }
+
+  void check_explicit() const {
+    for (const std::string other : {"time.stepping", "time.inertia", "time.tolerance"}) {
+      if (!given(other)) continue;
+      report(other, "a key of the implicit scheme with scheme = \"explicit\"",
+             "scheme = \"implicit\", or no such key", {"time.scheme"});
+    }
+    if (std::isinf(scene_.liquid.bulk_modulus)) {
+      report("liquid.bulk_modulus", "inf with scheme = \"explicit\"",
+             "a finite number with K > 0, in Pa, or scheme = \"implicit\": the explicit scheme "
+             "steps the waves of pressure, whose speed grows with K",
+             {"time.scheme"});
+    }
   }
 
   void check_boundaries() const {
@@ -244,13 +292,19 @@ class Checks {
     check_outflow(boundary.darcy_flux, "darcy_flux", boundary, entry);
   }
 
-  /// A concentration is that of liquid that enters: contradictory where liquid is drawn out.
-  void check_outflow(const std::optional<double>& flow, const std::string& name,
+  [[nodiscard]] static std::string shown_range(const TimeFunction& f) {
+    const std::string smallest = shown_number(f.smallest());
+    return f.is_constant() ? smallest : smallest + " to " + shown_number(f.largest());
+  }
+
+  /// A concentration is that of liquid that enters: contradictory where liquid is drawn out at all
+  /// times.
+  void check_outflow(const std::optional<TimeFunction>& flow, const std::string& name,
                      const BoundaryCondition& boundary, const std::string& entry) const {
-    if (!boundary.concentration || !flow || *flow >= 0.0) return;
+    if (!boundary.concentration || !flow || flow->largest() >= 0.0) return;
     report(entry + ".concentration",
-           "c = " + shown_number(*boundary.concentration) + " where the liquid leaves, " + name +
-               " = " + shown_number(*flow),
+           "c = " + shown_range(*boundary.concentration) + " where the liquid leaves, " + name +
+               " = " + shown_range(*flow),
            "no concentration, or an inflow", {joined(entry, name)});
   }
 

@@ -12,7 +12,8 @@ constexpr const char* introduction = R"(# Scene reference
      suffuse-mesher --scene-reference > docs/scene-reference.md -->
 
 A scene is a [TOML](https://toml.io) file that `suffuse-mesher` turns into a case. Units are SI. Where
-a number is expected, `6000`, `6e3` and `6000.0` are the same; `nan` and `inf` are refused.
+a number is expected, `6000`, `6e3` and `6000.0` are the same; `nan` is refused, and so is `inf`
+except for `liquid.bulk_modulus`.
 
 Every key of the file is checked before anything is computed. Unknown keys, wrong types, values out of
 bounds, missing keys and keys that contradict each other are all reported at once, as
@@ -23,12 +24,13 @@ bounds, missing keys and keys that contradict each other are all reported at onc
 `--set KEY=VALUE` gives a key of the scene another value, or adds it, as often as needed. It goes
 through the same checks. Write keys in full, entries of `[[boundary]]` by position from 0:
 
-    suffuse-mesher scene.toml --set soil.specimen.erosion.rate=5e-3 --set time.drag=implicit
+    suffuse-mesher scene.toml --set soil.specimen.erosion.rate=5e-3 --set time.stepping=monotone
     suffuse-mesher scene.toml --set boundary[0].pressure=3e3
+    suffuse-mesher scene.toml --set 'boundary[0].pressure=[[0, 0], [5, 6e3]]'
     suffuse-mesher scene.toml --set 'boundary[0]={on = "top", darcy_flux = 0.012}'
 
-The value is TOML; a text that is not TOML, such as `implicit`, needs no quotes. Setting a whole table
-replaces it, as in the third line: the pressure given in the file is gone.
+The value is TOML; a text that is not TOML, such as `monotone`, needs no quotes. Setting a whole table
+replaces it, as in the last line: the pressure given in the file is gone.
 
 ## Keys
 
@@ -39,8 +41,8 @@ replaces it, as in the third line: the pressure given in the file is gone.
 constexpr const char* example = R"(
 ## An example
 
-Two layers under a pressure of 6 kPa, the lower of which does not erode. The regions `sand` and `base`
-and the boundaries `top` and `bottom` are physical groups of `layers.geo`.
+Two layers under a pressure that rises to 6 kPa within 10 s; the lower does not erode. The regions
+`sand` and `base` and the boundaries `top` and `bottom` are physical groups of `layers.geo`.
 
 ```toml
 name        = "two-layers"
@@ -74,7 +76,7 @@ erosion.law  = "none"
 
 [[boundary]]
 on            = "top"
-pressure      = 6.0e3
+pressure      = [[0.0, 0.0], [10.0, 6.0e3]]
 concentration = 0.0
 
 [[boundary]]
@@ -82,9 +84,7 @@ on       = "bottom"
 pressure = 0.0
 
 [time]
-end          = 120.0
-scheme       = "explicit"
-mass_scaling = 1.0e4
+end = 120.0
 
 [output]
 every = 1.0
@@ -112,7 +112,9 @@ std::string type_of(const SceneKey& key) {
       for (const std::string& word : key.words) all.push_back(code(shown_value(word)));
       return listed(all);
     case ValueKind::number:
-      return "number";
+      return key.infinite_allowed ? "number or `inf`" : "number";
+    case ValueKind::time_function:
+      return "number, or pairs `[[t, value], ...]`";
     case ValueKind::integer:
       for (const std::int64_t integer : key.integers) all.push_back(std::to_string(integer));
       return all.empty() ? "integer" : listed(all);

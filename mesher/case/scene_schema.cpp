@@ -56,10 +56,22 @@ void keep(double& member, const Value& value) {
 void keep(std::optional<double>& member, const Value& value) {
   member = std::get<double>(value);
 }
+void keep(std::optional<TimeFunction>& member, const Value& value) {
+  if (const auto* constant = std::get_if<double>(&value)) {
+    member = *constant;
+    return;
+  }
+  std::vector<std::pair<double, double>> knots;
+  for (const auto& row : std::get<Rows>(value)) knots.emplace_back(row[0], row[1]);
+  member = TimeFunction(std::move(knots));
+}
 void keep(int& member, const Value& value) {
   member = static_cast<int>(std::get<std::int64_t>(value));
 }
 void keep(bool& member, const Value& value) {
+  member = std::get<bool>(value);
+}
+void keep(std::optional<bool>& member, const Value& value) {
   member = std::get<bool>(value);
 }
 void keep(std::string& member, const Value& value) {
@@ -76,10 +88,16 @@ ValueKind kind_of(const double&) {
 ValueKind kind_of(const std::optional<double>&) {
   return ValueKind::number;
 }
+ValueKind kind_of(const std::optional<TimeFunction>&) {
+  return ValueKind::time_function;
+}
 ValueKind kind_of(const int&) {
   return ValueKind::integer;
 }
 ValueKind kind_of(const bool&) {
+  return ValueKind::boolean;
+}
+ValueKind kind_of(const std::optional<bool>&) {
   return ValueKind::boolean;
 }
 ValueKind kind_of(const std::string&) {
@@ -100,6 +118,7 @@ struct Declaration : SceneKey {
   Declaration&& at_least(double x) && { return set(lower, Bound{x, false}); }
   Declaration&& below(double x) && { return set(upper, Bound{x, true}); }
   Declaration&& at_most(double x) && { return set(upper, Bound{x, false}); }
+  Declaration&& or_infinite() && { return set(infinite_allowed, true); }
   Declaration&& one_of(std::vector<std::int64_t> all) && { return set(integers, std::move(all)); }
   Declaration&& mandatory() && { return set(required, true); }
   Declaration&& otherwise(Value value) && { return set(default_value, std::move(value)); }
@@ -270,10 +289,12 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .mandatory(),
       key("liquid.bulk_modulus", at(&Scene::liquid, &Liquid::bulk_modulus),
-          "Bulk modulus of the water; the explicit scheme needs a finite one.")
+          "Bulk modulus of the water; the explicit scheme needs a finite one. `inf`: "
+          "incompressible.")
           .named("K")
           .in("Pa")
           .above(0.0)
+          .or_infinite()
           .mandatory(),
       key("liquid.viscosity", at(&Scene::liquid, &Liquid::viscosity),
           "Dynamic viscosity of the water.")
@@ -318,6 +339,12 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .mandatory(),
 
+      choice("soil.*.conductivity_law", in_soil(&Soil::conductivity_law),
+             {{"constant", ConductivityLaw::constant},
+              {"kozeny-carman", ConductivityLaw::kozeny_carman}},
+             "How conductivity follows porosity: not at all, or k = k_0 KC(n_L) / KC(n_0) with "
+             "KC(n) = n^3 / (1 - n)^2, k_0 being `conductivity`.")
+          .otherwise("constant"),
       choice("soil.*.drag", in_soil(&Soil::drag),
              {{"darcy", SoilDrag::darcy}, {"ergun", SoilDrag::ergun}},
              "Resistance to the flow: Darcy's, or Ergun's, which also grows with the square of the "
@@ -328,14 +355,16 @@ std::vector<SceneKey> declare_keys() {
              {{"none", ErosionLaw::none},
               {"constant", ErosionLaw::constant},
               {"logarithmic", ErosionLaw::logarithmic},
-              {"first-order", ErosionLaw::first_order}},
-             "phi_e = alpha; phi_e = -beta ln(n_L / n_L,max); phi_e = kappa (n_L,max - n_L).")
+              {"first-order", ErosionLaw::first_order},
+              {"flux", ErosionLaw::flux}},
+             "No erosion; phi_e = alpha; phi_e = -beta ln(n_L / n_L,max); "
+             "phi_e = kappa (n_L,max - n_L); phi_e = lambda (n_L,max - n_L) |q|.")
           .named("phi_e")
           .otherwise_as("`\"none\"`; required with any other erosion key"),
       key("soil.*.erosion.rate", in_erosion(&ErosionSettings::rate),
-          "Rate of the law: alpha, beta or kappa.")
-          .named("alpha, beta, kappa")
-          .in("1/s")
+          "Rate of the law: alpha, beta, kappa or lambda.")
+          .named("alpha, beta, kappa, lambda")
+          .in("1/s (lambda: 1/m)")
           .at_least(0.0)
           .otherwise_as("required unless `law = \"none\"`"),
       key("soil.*.erosion.start", in_erosion(&ErosionSettings::start), "When erosion starts.")
@@ -387,13 +416,14 @@ std::vector<SceneKey> declare_keys() {
 
       key("flow.porosity_gradient_term", at(&Scene::flow, &FlowSettings::porosity_gradient_term),
           "Keep (v_L - v_S) . grad n_L in the balance of water. Without it water is lost wherever "
-          "porosity varies: for comparison only, and not in double-point scenes.")
+          "porosity varies: for comparison only, with the explicit scheme, and not in double-point "
+          "scenes.")
           .otherwise(true),
       choice("flow.integration", at(&Scene::flow, &FlowSettings::integration),
              {{"mixed", PressureIntegration::mixed},
               {"material-point", PressureIntegration::material_point}},
              "Where the pressure lives: one per element; or at the liquid points, which then carry "
-             "the velocity too. Double-point only.")
+             "the velocity too. Double-point only; at points with the explicit scheme only.")
           .otherwise("mixed"),
 
       key("time.end", at(&Scene::time, &TimeSettings::end), "When the run ends.")
@@ -402,23 +432,40 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .mandatory(),
       choice("time.scheme", at(&Scene::time, &TimeSettings::scheme),
-             {{"explicit", FlowScheme::explicit_nodal}},
-             "How the flow is stepped: explicit, with velocities at nodes.")
-          .mandatory(),
+             {{"implicit", FlowScheme::implicit_mixed}, {"explicit", FlowScheme::explicit_nodal}},
+             "How the flow is stepped: implicit, with fluxes through faces and pressures of "
+             "elements; or explicit, with velocities at nodes.")
+          .otherwise("implicit"),
       key("time.step", at(&Scene::time, &TimeSettings::step), "Time step.")
           .named("dt")
           .in("s")
           .above(0.0)
-          .otherwise_as("0.9 of the stability limit"),
+          .otherwise_as("explicit: 0.9 of the stability limit; implicit: chosen by `tolerance`"),
+      choice("time.stepping", at(&Scene::time, &TimeSettings::stepping),
+             {{"second-order", TimeStepping::second_order}, {"monotone", TimeStepping::monotone}},
+             "Second order in time; or backward Euler, whose pressures stay within those at the "
+             "boundaries on meshes without obtuse angles. Implicit only.")
+          .otherwise("second-order"),
+      key("time.inertia", at(&Scene::time, &TimeSettings::inertia),
+          "Keep the liquid's inertia. Implicit only.")
+          .otherwise_as("decided from the scene: left out where the time in which flow settles, "
+                        "k/(n g), is below 1 % of the step or of `output.every`"),
+      key("time.tolerance", at(&Scene::time, &TimeSettings::tolerance),
+          "Bound of the local error of a step, relative: of fluxes, of pressures, of what erodes. "
+          "Implicit only, and not with `step`.")
+          .above(0.0)
+          .at_most(0.1)
+          .otherwise(1e-3),
       key("time.mass_scaling", at(&Scene::time, &TimeSettings::mass_scaling),
-          "Factor on the liquid's inertia that allows larger steps and slows the flow's start-up.")
+          "Factor on the liquid's inertia that allows larger steps and slows the flow's start-up. "
+          "Explicit only.")
           .named("S")
           .at_least(1.0)
           .otherwise(1.0),
       choice("time.drag", at(&Scene::time, &TimeSettings::drag),
              {{"explicit", DragIntegration::explicit_drag},
               {"implicit", DragIntegration::implicit_drag}},
-             "How Darcy's drag is stepped within the explicit scheme.")
+             "How Darcy's drag is stepped within the explicit scheme. Explicit only.")
           .otherwise("explicit"),
 
       key("output.every", at(&Scene::output, &OutputSettings::every),
@@ -440,7 +487,14 @@ std::vector<SceneKey> declare_keys() {
 bool within(const SceneKey& key, double x) {
   if (key.lower && (key.lower->open ? x <= key.lower->value : x < key.lower->value)) return false;
   if (key.upper && (key.upper->open ? x >= key.upper->value : x > key.upper->value)) return false;
-  return std::isfinite(x);
+  return std::isfinite(x) || (key.infinite_allowed && x > 0.0);
+}
+
+/// How messages and the reference call a value of this key.
+std::string quantity_of(const SceneKey& key) {
+  // A list of symbols would not read as one quantity between bounds.
+  const bool one_symbol = !key.symbol.empty() && key.symbol.find(',') == std::string::npos;
+  return one_symbol ? key.symbol : key.leaf();
 }
 
 std::string quoted(const std::string& text) {
@@ -474,7 +528,7 @@ const std::vector<SceneSection>& scene_sections() {
        "Double-point only."},
       {"mesh", "[mesh]", "Linear triangles."},
       {"points", "[points]", "Material points."},
-      {"liquid", "[liquid]", "Weakly compressible water."},
+      {"liquid", "[liquid]", "Weakly compressible or incompressible water."},
       {"soil.*", "[soil.NAME]",
        "One table per region, NAME being the region's. In double-point scenes the regions "
        "`inflow`, `outflow`, `free_above` and `free_below`, of a column or of your own file, need "
@@ -483,7 +537,9 @@ const std::vector<SceneSection>& scene_sections() {
        "How fines of this soil turn into fluidised grains. n_L,max = 1 - n_C."},
       {"boundary[]", "[[boundary]]",
        "One entry per named boundary, with at most one of `pressure`, `velocity` and `darcy_flux`. "
-       "Boundaries without an entry are impervious."},
+       "Boundaries without an entry are impervious. Each value is a number, or changes in time: "
+       "pairs `[[t, value], ...]`, linear between them, constant before the first and after the "
+       "last; two pairs at nearly the same time make a jump."},
       {"initial", "[initial]", "State at the start."},
       {"flow", "[flow]", "Variants of the flow."},
       {"time", "[time]", "Time stepping."},
@@ -525,9 +581,7 @@ std::string SceneKey::leaf() const {
 }
 
 std::string SceneKey::bounds() const {
-  // A list of symbols would not read as one quantity between bounds.
-  const bool one_symbol = !symbol.empty() && symbol.find(',') == std::string::npos;
-  const std::string quantity = one_symbol ? symbol : leaf();
+  const std::string quantity = quantity_of(*this);
   const auto relation = [](const Bound& bound, const char* strict, const char* weak) {
     return std::string(bound.open ? strict : weak);
   };
@@ -551,7 +605,10 @@ std::string SceneKey::expected() const {
       for (const std::string& word : words) all.push_back(quoted(word));
       return listed(all);
     case ValueKind::number:
-      return "a number" + limits + measure;
+      return "a number" + limits + measure + (infinite_allowed ? ", or inf" : "");
+    case ValueKind::time_function:
+      return "a number" + limits + measure + ", or pairs [[t, " + quantity_of(*this) +
+             "], ...] of times (s, ascending) and such numbers";
     case ValueKind::integer:
       for (const std::int64_t integer : integers) all.push_back(std::to_string(integer));
       return all.empty() ? "an integer" + limits : listed(all);
@@ -575,12 +632,6 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
     case ValueKind::word:
       accepted = text && std::ranges::count(words, *text);
       break;
-    case ValueKind::number: {
-      const auto* real = std::get_if<double>(&value);
-      if (!real && !integer) return std::nullopt;
-      const double x = real ? *real : static_cast<double>(*integer);
-      return within(*this, x) ? std::optional<Value>(x) : std::nullopt;
-    }
     case ValueKind::integer:
       accepted = integer && std::in_range<int>(*integer) &&
                  within(*this, static_cast<double>(*integer)) &&
@@ -589,12 +640,45 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
     case ValueKind::boolean:
       accepted = std::holds_alternative<bool>(value);
       break;
+    case ValueKind::time_function:
+      if (const auto* rows = std::get_if<Rows>(&value)) {
+        accepted = !rows->empty() && fault(value).empty();
+        break;
+      }
+      [[fallthrough]];
+    case ValueKind::number: {
+      const auto* real = std::get_if<double>(&value);
+      if (!real && !integer) return std::nullopt;
+      const double x = real ? *real : static_cast<double>(*integer);
+      return within(*this, x) ? std::optional<Value>(x) : std::nullopt;
+    }
     case ValueKind::vector:
       accepted = numbers && (numbers->size() == 2 || numbers->size() == 3) &&
                  std::ranges::all_of(*numbers, [](double x) { return std::isfinite(x); });
       break;
   }
   return accepted ? std::optional<Value>(value) : std::nullopt;
+}
+
+std::string SceneKey::fault(const Value& value) const {
+  const auto* rows = std::get_if<Rows>(&value);
+  if (kind != ValueKind::time_function || !rows) return {};
+  const std::vector<double>* earlier = nullptr;
+  for (const std::vector<double>& row : *rows) {
+    if (row.size() != 2) {
+      return "entry " + std::to_string(&row - rows->data() + 1) + ", " + shown_value(row);
+    }
+    const std::string time = "t = " + shown_number(row[0]);
+    if (!std::isfinite(row[0])) return time;
+    if (earlier && row[0] <= earlier->front()) {
+      return time + " after t = " + shown_number(earlier->front());
+    }
+    if (!within(*this, row[1])) {
+      return quantity_of(*this) + " = " + shown_number(row[1]) + " at " + time;
+    }
+    earlier = &row;
+  }
+  return {};
 }
 
 std::string shown_name(const std::string& name) {
@@ -624,8 +708,13 @@ std::string shown_value(const Value& value) {
     return looks_integer ? text + ".0" : text;
   }
   std::string text;
-  for (const double x : std::get<std::vector<double>>(value)) {
-    text += (text.empty() ? "" : ", ") + shown_value(x);
+  const auto add = [&text](const Value& item) {
+    text += (text.empty() ? "" : ", ") + shown_value(item);
+  };
+  if (const auto* rows = std::get_if<Rows>(&value)) {
+    for (const auto& row : *rows) add(row);
+  } else {
+    for (const double x : std::get<std::vector<double>>(value)) add(x);
   }
   return '[' + text + ']';
 }

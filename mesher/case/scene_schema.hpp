@@ -14,10 +14,14 @@
 
 namespace suffuse {
 
-/// A value as TOML has it; an array counts only when it holds nothing but numbers.
-using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+/// Arrays of numbers: a table of values against time has two in each.
+using Rows = std::vector<std::vector<double>>;
 
-enum class ValueKind { text, word, number, integer, boolean, vector };
+/// A value as TOML has it; an array counts only when it holds nothing but numbers, or nothing but
+/// arrays of numbers.
+using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, Rows>;
+
+enum class ValueKind { text, word, number, integer, boolean, vector, time_function };
 
 struct Bound {
   double value = 0.0;
@@ -33,6 +37,7 @@ struct SceneKey {
   std::string unit;
   std::optional<Bound> lower;
   std::optional<Bound> upper;
+  bool infinite_allowed = false;       ///< of a number: inf is within the bounds
   std::vector<std::string> words;      ///< all there are, for ValueKind::word
   std::vector<std::int64_t> integers;  ///< all there are, or empty for any within the bounds
   bool required = false;
@@ -46,6 +51,9 @@ struct SceneKey {
   [[nodiscard]] std::string expected() const;
   /// The value as `store` wants it, or nothing when it is not allowed here.
   [[nodiscard]] std::optional<Value> accept(const Value& value) const;
+  /// What is wrong with a table of values against time, where one entry of it is: `t = 3 after
+  /// t = 5`. Empty where the value as a whole is to be quoted.
+  [[nodiscard]] std::string fault(const Value& value) const;
 };
 
 /// A table of the scene, for the reference.

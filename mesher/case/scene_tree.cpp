@@ -31,6 +31,15 @@ bool is_bare(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
 }
 
+std::optional<std::vector<double>> read_numbers(const toml::array& array) {
+  std::vector<double> numbers;
+  for (const toml::node& item : array) {
+    if (!item.is_number()) return std::nullopt;
+    numbers.push_back(*item.value<double>());
+  }
+  return numbers;
+}
+
 std::optional<Value> read_value(const toml::node& node) {
   if (const auto* boolean = node.as_boolean()) return boolean->get();
   if (const auto* integer = node.as_integer()) return integer->get();
@@ -38,12 +47,16 @@ std::optional<Value> read_value(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   const auto* array = node.as_array();
   if (!array) return std::nullopt;
-  std::vector<double> numbers;
-  for (const toml::node& item : *array) {
-    if (!item.is_number()) return std::nullopt;
-    numbers.push_back(*item.value<double>());
+  if (!array->empty() && array->front().is_array()) {
+    Rows rows;
+    for (const toml::node& item : *array) {
+      auto row = item.is_array() ? read_numbers(*item.as_array()) : std::nullopt;
+      if (!row) return std::nullopt;
+      rows.push_back(*std::move(row));
+    }
+    return rows;
   }
-  return numbers;
+  return read_numbers(*array);
 }
 
 std::string show(const toml::node& node) {

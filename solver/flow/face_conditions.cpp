@@ -7,23 +7,33 @@
 namespace suffuse {
 namespace {
 
-FaceCondition condition_of(const BoundaryCondition& boundary, int index) {
+FaceCondition condition_of(const BoundaryCondition& boundary, int index, double time) {
   FaceCondition condition;
   condition.kind = FaceKind::wall;
   condition.boundary = index;
   if (boundary.pressure) {
     condition.kind = FaceKind::pressure;
-    condition.value = *boundary.pressure;
+    condition.value = boundary.pressure->value(time);
   } else if (boundary.velocity) {
     condition.kind = FaceKind::velocity;
-    condition.value = *boundary.velocity;
+    condition.value = boundary.velocity->value(time);
   } else if (boundary.darcy_flux) {
     condition.kind = FaceKind::flux;
-    condition.value = *boundary.darcy_flux;
+    condition.value = boundary.darcy_flux->value(time);
   }
   condition.concentration_given = boundary.concentration.has_value();
-  condition.concentration = boundary.concentration.value_or(0.0);
+  if (boundary.concentration) condition.concentration = boundary.concentration->value(time);
   return condition;
+}
+
+/// Those of a boundary's values that change in time.
+std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
+  std::vector<TimeFunction> varying;
+  for (const auto& value :
+       {boundary.pressure, boundary.velocity, boundary.darcy_flux, boundary.concentration}) {
+    if (value && !value->is_constant()) varying.push_back(*value);
+  }
+  return varying;
 }
 
 }  // namespace
@@ -55,13 +65,51 @@ std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& 
                             ""});
         break;
       }
-      result[f] = condition_of(entries[b], b);
+      result[f] = condition_of(entries[b], b, 0.0);
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   return result;
 }
 
+template <int Dim>
+BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
+    : initial_(face_conditions(c, grid)) {
+  const auto& entries = c.document.scene.boundaries;
+  for (int b = 0; b < static_cast<int>(entries.size()); ++b) {
+    const std::vector<TimeFunction> values = varying_values(entries[b]);
+    if (values.empty()) continue;
+    Varying& varying = varying_.emplace_back(Varying{entries[b], b, {}});
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (initial_[f].boundary == b) varying.faces.push_back(f);
+    }
+    for (const TimeFunction& value : values) {
+      for (const double time : value.knot_times()) {
+        if (time > 0.0 && time < c.document.scene.time.end) events_.push_back(time);
+      }
+    }
+  }
+  std::ranges::sort(events_);
+  const auto repeated = std::ranges::unique(events_);
+  events_.erase(repeated.begin(), repeated.end());
+}
+
+template <int Dim>
+std::vector<FaceCondition> BoundaryValues<Dim>::at(double time) const {
+  std::vector<FaceCondition> conditions = initial_;
+  update(time, conditions);
+  return conditions;
+}
+
+template <int Dim>
+void BoundaryValues<Dim>::update(double time, std::vector<FaceCondition>& conditions) const {
+  for (const Varying& varying : varying_) {
+    const FaceCondition now = condition_of(varying.boundary, varying.index, time);
+    for (const int f : varying.faces) conditions[f] = now;
+  }
+}
+
 template std::vector<FaceCondition> face_conditions(const Case<2>&, const Grid<2>&);
+template class BoundaryValues<2>;
 
 }  // namespace suffuse

@@ -31,9 +31,39 @@ struct FaceCondition {
   }
 };
 
-/// Per face of the grid. Throws InputError when a condition names no boundary of the mesh or two
-/// conditions meet on one face.
+/// Per face of the grid, with the values at t = 0. Throws InputError when a condition names no
+/// boundary of the mesh or two conditions meet on one face.
 template <int Dim>
 std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& grid);
+
+/// Boundary conditions whose values change in time; their kinds do not.
+template <int Dim>
+class BoundaryValues {
+ public:
+  /// Throws as `face_conditions` does.
+  BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid);
+
+  /// Per face of the grid, at a time in s.
+  [[nodiscard]] std::vector<FaceCondition> at(double time) const;
+  /// The same in place: `conditions` come from `at` or `face_conditions` of the same case, at any
+  /// time. Touches the faces of boundaries that change in time and no others.
+  void update(double time, std::vector<FaceCondition>& conditions) const;
+  /// Whether any value changes in time.
+  [[nodiscard]] bool vary() const { return !varying_.empty(); }
+  /// Times at which a value that changes may have a kink, in (0, end), s: ascending, each once.
+  /// Between two of them every value is linear in time.
+  [[nodiscard]] const std::vector<double>& events() const { return events_; }
+
+ private:
+  struct Varying {
+    BoundaryCondition boundary;
+    int index = -1;  ///< of the scene's boundary entry
+    std::vector<int> faces;
+  };
+
+  std::vector<FaceCondition> initial_;
+  std::vector<Varying> varying_;
+  std::vector<double> events_;
+};
 
 }  // namespace suffuse

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -147,6 +148,7 @@ TEST(Scene, reads_every_value_of_the_papers_scene) {
 
 TEST(Scene, fills_in_defaults) {
   const Scene scene = scene_of(least);
+  EXPECT_EQ(scene.time.scheme, FlowScheme::explicit_nodal);
   EXPECT_EQ(scene.name, "column");  // of the file folder/column.toml
   EXPECT_EQ(scene.mesh.structure, MeshStructure::regular);
   EXPECT_EQ(scene.points.solid_per_element, 3);
@@ -159,8 +161,116 @@ TEST(Scene, fills_in_defaults) {
   EXPECT_EQ(scene.output.snapshot_every, scene.output.every);
   EXPECT_FALSE(scene.output.exact);
   EXPECT_EQ(scene.gravity, (std::array{0.0, 0.0, 0.0}));
+  EXPECT_EQ(scene.soils[0].conductivity_law, ConductivityLaw::constant);
   EXPECT_EQ(scene.soils[0].erosion.law, ErosionLaw::none);
   EXPECT_TRUE(scene.boundaries.empty());
+}
+
+/// The same without a scheme.
+std::string without_scheme() {
+  const std::string scheme = ", scheme = \"explicit\"";
+  std::string text = least;
+  return text.erase(text.find(scheme), scheme.size());
+}
+
+TEST(Scene, is_implicit_unless_it_says_otherwise) {
+  const Scene scene = scene_of(without_scheme());
+  EXPECT_EQ(scene.time.scheme, FlowScheme::implicit_mixed);
+  EXPECT_EQ(scene.time.step, std::nullopt);
+  EXPECT_EQ(scene.time.stepping, TimeStepping::second_order);
+  EXPECT_EQ(scene.time.inertia, std::nullopt);
+  EXPECT_EQ(scene.time.tolerance, 1e-3);
+}
+
+TEST(Scene, reads_every_key_of_the_implicit_scheme) {
+  const Scene scene = scene_of(without_scheme(), {"time.scheme=implicit", "time.stepping=monotone",
+                                                  "time.inertia=false", "time.tolerance=0.1"});
+  EXPECT_EQ(scene.time.scheme, FlowScheme::implicit_mixed);
+  EXPECT_EQ(scene.time.stepping, TimeStepping::monotone);
+  EXPECT_EQ(scene.time.inertia, std::optional(false));
+  EXPECT_EQ(scene.time.tolerance, 0.1);
+  EXPECT_EQ(scene_of(without_scheme(), {"time.inertia=true"}).time.inertia, std::optional(true));
+  EXPECT_EQ(scene_of(without_scheme(), {"time.step=0.5"}).time.step, 0.5);
+}
+
+TEST(Scene, takes_incompressible_water_for_the_implicit_scheme_only) {
+  const std::string incompressible = "liquid.bulk_modulus=inf";
+  EXPECT_EQ(scene_of(without_scheme(), {incompressible}).liquid.bulk_modulus,
+            std::numeric_limits<double>::infinity());
+  EXPECT_NE(problems_of(least, {incompressible}), "");
+  EXPECT_NE(problems_of(without_scheme(), {"liquid.bulk_modulus=-inf"}), "");
+  EXPECT_NE(problems_of(without_scheme(), {"liquid.bulk_modulus=nan"}), "");
+  for (const std::string other : {"liquid.viscosity", "time.end", "soil.specimen.conductivity"}) {
+    EXPECT_NE(problems_of(without_scheme(), {other + "=inf"}), "") << other;
+  }
+}
+
+TEST(Scene, takes_laws_that_follow_the_flux_and_the_porosity) {
+  const Scene scene =
+      scene_of(least, {"soil.specimen.erosion.law=flux", "soil.specimen.erosion.rate=4",
+                       "soil.specimen.conductivity_law=kozeny-carman"});
+  EXPECT_EQ(scene.soils[0].erosion.law, ErosionLaw::flux);
+  EXPECT_EQ(scene.soils[0].erosion.rate, 4.0);
+  EXPECT_EQ(scene.soils[0].conductivity_law, ConductivityLaw::kozeny_carman);
+}
+
+using Knots = std::vector<std::pair<double, double>>;
+
+TEST(Scene, takes_boundary_values_in_time) {
+  const Scene scene = scene_of(least + R"([[boundary]]
+on = "top"
+pressure = [[0, 0], [5, 6000], [5.001, 0.5]]
+concentration = [[-1, 0], [1e1, 0.25]]
+[[boundary]]
+on = "bottom"
+darcy_flux = [[3, -0.012]]
+[[boundary]]
+on = "left"
+velocity = [[0, -1], [1, 1]]
+concentration = 0.1
+)");
+  ASSERT_EQ(scene.boundaries.size(), 3U);
+  EXPECT_EQ(scene.boundaries[0].pressure->knots, (Knots{{0.0, 0.0}, {5.0, 6e3}, {5.001, 0.5}}));
+  EXPECT_EQ(scene.boundaries[0].concentration->knots, (Knots{{-1.0, 0.0}, {10.0, 0.25}}));
+  EXPECT_EQ(scene.boundaries[1].darcy_flux->knots, (Knots{{3.0, -0.012}}));
+  EXPECT_TRUE(scene.boundaries[1].darcy_flux->is_constant());
+  // Liquid leaves through the left at first, and enters later: a concentration may be given.
+  EXPECT_EQ(scene.boundaries[2].velocity->knots, (Knots{{0.0, -1.0}, {1.0, 1.0}}));
+}
+
+TEST(Override, takes_a_table) {
+  const Scene scene =
+      scene_of(least, {"boundary[0].on=top", "boundary[0].pressure=[[0,0],[5,6000]]"});
+  EXPECT_EQ(scene.boundaries[0].pressure->knots, (Knots{{0.0, 0.0}, {5.0, 6e3}}));
+}
+
+TEST(TimeFunction, is_linear_between_knots_and_constant_beyond) {
+  const TimeFunction f(Knots{{1.0, 2.0}, {3.0, 6.0}, {4.0, -1.0}});
+  EXPECT_EQ(f.value(-5.0), 2.0);
+  EXPECT_EQ(f.value(1.0), 2.0);
+  EXPECT_EQ(f.value(1.5), 3.0);
+  EXPECT_EQ(f.value(3.0), 6.0);
+  EXPECT_EQ(f.value(3.5), 2.5);
+  EXPECT_EQ(f.value(4.0), -1.0);
+  EXPECT_EQ(f.value(1e9), -1.0);
+  EXPECT_FALSE(f.is_constant());
+  EXPECT_EQ(f.smallest(), -1.0);
+  EXPECT_EQ(f.largest(), 6.0);
+  EXPECT_EQ(f.knot_times(), (std::vector{1.0, 3.0, 4.0}));
+}
+
+TEST(TimeFunction, is_constant_from_a_number_or_a_level_table) {
+  const TimeFunction number = 7.5;
+  EXPECT_TRUE(number.is_constant());
+  EXPECT_EQ(number.value(-1.0), 7.5);
+  EXPECT_EQ(number.value(1.0), 7.5);
+  EXPECT_TRUE(TimeFunction(Knots{{1.0, 7.5}, {2.0, 7.5}}).is_constant());
+}
+
+TEST(TimeFunction, follows_a_jump) {
+  const TimeFunction f(Knots{{0.0, 1.0}, {5.0, 1.0}, {std::nextafter(5.0, 6.0), 9.0}});
+  EXPECT_EQ(f.value(5.0), 1.0);
+  EXPECT_EQ(f.value(std::nextafter(5.0, 6.0)), 9.0);
 }
 
 TEST(Scene, reads_every_value_of_the_double_point_scene) {

@@ -1,0 +1,29 @@
+#pragma once
+
+/// A value that may change in time, as a boundary condition of the scene gives it.
+
+#include <utility>
+#include <vector>
+
+namespace suffuse {
+
+/// Linear between its knots, constant before the first and after the last.
+struct TimeFunction {
+  /// The same at all times. Implicit: a plain number is the usual boundary value.
+  TimeFunction(double value) : knots{{0.0, value}} {}  // NOLINT(google-explicit-constructor)
+  /// \param pairs  of time (s) and value: at least one, times strictly ascending
+  explicit TimeFunction(std::vector<std::pair<double, double>> pairs) : knots(std::move(pairs)) {}
+
+  [[nodiscard]] double value(double time) const;
+  /// Has the same value at all times, whether given as a number or as a table.
+  [[nodiscard]] bool is_constant() const;
+  [[nodiscard]] double smallest() const;
+  [[nodiscard]] double largest() const;
+  [[nodiscard]] std::vector<double> knot_times() const;
+
+  friend bool operator==(const TimeFunction&, const TimeFunction&) = default;
+
+  std::vector<std::pair<double, double>> knots;  ///< (s, value), times strictly ascending
+};
+
+}  // namespace suffuse
