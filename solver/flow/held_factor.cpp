@@ -1,0 +1,107 @@
+#include "flow/held_factor.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// Residual per row that double precision cannot tell from nothing: a row's terms are as large as
+/// its diagonal times the largest unknown.
+Eigen::VectorXd with_round_off(const Matrix& matrix, const Eigen::VectorXd& rhs,
+                               const Eigen::VectorXd& x, const Eigen::VectorXd& tolerance) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double largest = x.lpNorm<Eigen::Infinity>();
+  return tolerance.array() +
+         4.0 * epsilon * (rhs.array().abs() + largest * matrix.diagonal().array());
+}
+
+bool within(const Eigen::VectorXd& residual, const Eigen::VectorXd& tolerance) {
+  return (residual.array().abs() <= tolerance.array()).all();
+}
+
+}  // namespace
+
+HeldFactor::HeldFactor(const Matrix& pattern) {
+  factor_.analyzePattern(pattern);
+}
+
+void HeldFactor::factorise(const Matrix& matrix) {
+  factored_values_.clear();  // nothing is held if this throws
+  factor_.factorize(matrix);
+  ++counts_.factorisations;
+  if (factor_.info() != Eigen::Success || !(factor_.vectorD().minCoeff() > 0.0)) {
+    throw NumericalError(
+        "the pressures could not be solved for: the matrix of the flow is not positive definite");
+  }
+  factored_values_.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
+}
+
+bool HeldFactor::is_factored(const Matrix& matrix) const {
+  return !factored_values_.empty() &&
+         std::equal(factored_values_.begin(), factored_values_.end(), matrix.valuePtr());
+}
+
+Eigen::VectorXd HeldFactor::solve_directly(const Matrix& matrix, const Eigen::VectorXd& rhs,
+                                           const Eigen::VectorXd& tolerance) const {
+  Eigen::VectorXd x = factor_.solve(rhs);
+  const Eigen::VectorXd residual = rhs - matrix * x;
+  if (!within(residual, with_round_off(matrix, rhs, x, tolerance))) x += factor_.solve(residual);
+  return x;
+}
+
+bool HeldFactor::iterate(const Matrix& matrix, const Eigen::VectorXd& rhs,
+                         const Eigen::VectorXd& tolerance, Eigen::VectorXd& x) {
+  Eigen::VectorXd residual = rhs - matrix * x;
+  int iterations = 0;
+  // Conjugate gradients update the residual rather than compute it, and the two drift apart: begin
+  // again from the true one where they have.
+  while (true) {
+    const Eigen::VectorXd enough = with_round_off(matrix, rhs, x, tolerance);
+    if (within(residual, enough)) return true;
+    if (iterations == most_iterations) return false;
+    Eigen::VectorXd direction;
+    double last_product = 0.0;
+    while (iterations < most_iterations && !within(residual, 0.5 * enough)) {
+      const Eigen::VectorXd preconditioned = factor_.solve(residual);
+      const double product = residual.dot(preconditioned);
+      if (direction.size() == 0) {
+        direction = preconditioned;
+      } else {
+        direction = preconditioned + (product / last_product) * direction;
+      }
+      last_product = product;
+      const Eigen::VectorXd image = matrix * direction;
+      const double curvature = direction.dot(image);
+      if (!(product > 0.0 && curvature > 0.0)) return false;
+      const double length = product / curvature;
+      x += length * direction;
+      residual -= length * image;
+      ++iterations;
+      ++counts_.iterations;
+    }
+    residual = rhs - matrix * x;
+  }
+}
+
+Eigen::VectorXd HeldFactor::solve(const Matrix& matrix, const Eigen::VectorXd& rhs,
+                                  const Eigen::VectorXd& guess, const Eigen::VectorXd& tolerance) {
+  ++counts_.solves;
+  if (matrix.rows() == 0) return rhs;
+  if (!factored_values_.empty() && !is_factored(matrix)) {
+    Eigen::VectorXd x = guess;
+    if (iterate(matrix, rhs, tolerance, x)) return x;
+  }
+  if (!is_factored(matrix)) factorise(matrix);
+  Eigen::VectorXd x = solve_directly(matrix, rhs, tolerance);
+  if (!x.allFinite()) {
+    throw NumericalError("the pressures could not be solved for: they are not finite numbers");
+  }
+  return x;
+}
+
+}  // namespace suffuse

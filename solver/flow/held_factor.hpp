@@ -1,0 +1,53 @@
+#pragma once
+
+/// Solves a sequence of similar symmetric positive definite systems with as few factorisations as
+/// it takes.
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace suffuse {
+
+/// What the linear systems of a run took.
+struct SolveCounts {
+  long factorisations = 0;
+  long solves = 0;
+  long iterations = 0;  ///< of conjugate gradients
+};
+
+/// Keeps the factor of one matrix and the values it belongs to. A matrix with the same values is
+/// solved with it directly; one that has changed, by conjugate gradients preconditioned with it;
+/// one that has changed so much that these need more than `most_iterations`, with a new factor.
+class HeldFactor {
+ public:
+  static constexpr int most_iterations = 15;
+
+  /// Orders and analyses the pattern (approximate minimum degree), which every matrix given to
+  /// `solve` must have. Both triangles are stored.
+  explicit HeldFactor(const Eigen::SparseMatrix<double>& pattern);
+
+  /// Solution of matrix x = rhs. Iterations begin at `guess` and end when each row's residual is
+  /// within `tolerance` (per row, in the unit of `rhs`) or within the round-off of computing it.
+  /// Throws NumericalError when the matrix is not positive definite or not finite.
+  Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+                        const Eigen::VectorXd& guess, const Eigen::VectorXd& tolerance);
+
+  [[nodiscard]] const SolveCounts& counts() const { return counts_; }
+
+ private:
+  void factorise(const Eigen::SparseMatrix<double>& matrix);
+  [[nodiscard]] bool is_factored(const Eigen::SparseMatrix<double>& matrix) const;
+  [[nodiscard]] Eigen::VectorXd solve_directly(const Eigen::SparseMatrix<double>& matrix,
+                                               const Eigen::VectorXd& rhs,
+                                               const Eigen::VectorXd& tolerance) const;
+  /// Improves `x`; whether it got there in time.
+  bool iterate(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+               const Eigen::VectorXd& tolerance, Eigen::VectorXd& x);
+
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  std::vector<double> factored_values_;
+  SolveCounts counts_;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,135 @@
+#pragma once
+
+/// Flow by mixed finite elements and implicit steps of any length. Unknowns are the pressures at
+/// face centres (Crouzeix and Raviart); each element has one mean Darcy flux, which is eliminated;
+/// the fluxes through faces are those of Raviart and Thomas (Marini, SIAM J. Numer. Anal. 22 (1985)
+/// 493). With the porosity n, intrinsic velocity v, q = n v and momentum divided by n:
+///
+///   rho_L dv/dt = -grad p + rho_L g - (drag / n) q - b |q| q
+///   (water_volume / volume / K) dp/dt + div q = source
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "flow/face_conditions.hpp"
+#include "flow/flow.hpp"
+#include "flow/flux_correction.hpp"
+#include "flow/held_factor.hpp"
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+struct ImplicitSettings {
+  double bulk_modulus = std::numeric_limits<double>::infinity();  ///< K, Pa; may be infinite
+  bool inertia = false;                                           ///< keep rho_L dv/dt
+  TimeStepping stepping = TimeStepping::second_order;
+};
+
+template <int Dim>
+struct MixedState {
+  std::vector<double> face_pressure;  ///< at face centres, Pa
+  std::vector<Vector<Dim>> velocity;  ///< mean of each element, intrinsic, m/s
+};
+
+/// What drives the flow at one moment.
+template <int Dim>
+struct FlowForcing {
+  FlowCoefficients<Dim> coefficients;
+  std::vector<FaceCondition> conditions;  ///< per face
+  /// Per element: liquid that leaves it beyond what it stores, m3/s. Empty where there is none.
+  std::vector<double> source;
+};
+
+template <int Dim>
+struct MixedStep {
+  MixedState<Dim> end;
+  std::vector<double> face_volume;  ///< over the step, along each face's normal, m3
+  std::vector<double> face_flux;    ///< at the end, likewise, m3/s
+};
+
+/// `second_order` is Alexander's two-stage diagonally implicit method (SIAM J. Numer. Anal. 14
+/// (1977) 1006), L-stable; `monotone` is backward Euler, which with scalar mobility and no obtuse
+/// angles keeps pressures within those it starts from and those at the boundary.
+template <int Dim>
+class ImplicitMixed {
+ public:
+  ImplicitMixed(const Grid<Dim>& grid, ImplicitSettings settings, Vector<Dim> gravity);
+  ImplicitMixed(const ImplicitMixed&) = delete;
+  ImplicitMixed& operator=(const ImplicitMixed&) = delete;
+
+  /// Shares of the step at which `step` asks for the forcing, ascending; the last is one.
+  [[nodiscard]] std::vector<double> stages() const;
+
+  /// One step of `dt` seconds; forcing[i] at stages()[i]. Faces keep their kind of condition from
+  /// call to call (else everything is set up anew). At faces with a prescribed pressure the end
+  /// state holds that. Water stores (water_volume / K) dp/dt with the volume of each stage. Where
+  /// water does not compress and no pressure is prescribed the first face of the piece has p = 0,
+  /// and prescribed inflow and sources must cancel. Throws NumericalError when they do not, when an
+  /// element has no resistance, or when Newton's method for the quadratic drag does not converge.
+  MixedStep<Dim> step(const MixedState<Dim>& begin, double dt,
+                      const std::vector<const FlowForcing<Dim>*>& forcing);
+
+  /// Steady state, without inertia and storage: face_flux as rates; face_volume stays empty.
+  MixedStep<Dim> steady(const FlowForcing<Dim>& forcing);
+
+  /// Of all calls so far.
+  [[nodiscard]] SolveCounts counts() const;
+
+ private:
+  /// An implicit stage: from `base` over `duration` seconds (infinite: steady).
+  struct Stage {
+    MixedState<Dim> state;
+    std::vector<double> rise;  ///< of the pressure over the base, per face, Pa
+    std::vector<double> face_flux;
+  };
+  /// The linear law a = mobility (drive - grad p) of each element, with the mobility
+  /// scalar (I - direction direction^T).
+  struct MomentumLaw {
+    std::vector<double> mobility;
+    std::vector<Vector<Dim>> direction;
+    std::vector<Vector<Dim>> drive;
+  };
+  using Field = std::vector<Vector<Dim>>;
+
+  void set_up(const std::vector<FaceCondition>& conditions);
+  Stage solve_stage(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
+                    const Field& flux_guess);
+  /// Pressures with the law given, as rise over `reference`.
+  void solve_pressure(const MomentumLaw& law, const std::vector<double>& reference,
+                      const std::vector<double>& storage, const std::vector<double>& net_source,
+                      const FlowForcing<Dim>& forcing, std::vector<double>& rise);
+  void assemble(const MomentumLaw& law, const std::vector<double>& storage);
+
+  [[nodiscard]] Vector<Dim> outward_normal(int e, int k) const {
+    return grid_.element_face_sign[e][k] * grid_.face_normal[grid_.element_face[e][k]];
+  }
+  /// Inward flux prescribed at a face, m3/s.
+  [[nodiscard]] double prescribed_inflow(const FlowForcing<Dim>& forcing, int face) const;
+  [[nodiscard]] Vector<Dim> pressure_gradient(int e, const std::vector<double>& reference,
+                                              const std::vector<double>& rise) const;
+
+  const Grid<Dim>& grid_;
+  ImplicitSettings settings_;
+  Vector<Dim> gravity_;
+
+  std::vector<FaceKind> kinds_;  ///< everything below is set up for these
+  std::vector<int> unknown_;     ///< per face, -1 where the pressure is prescribed
+  int unknowns_ = 0;
+  Eigen::SparseMatrix<double> matrix_;
+  /// Per element, where entry (a, b) of its own matrix goes among the values; -1 for none.
+  std::vector<std::array<std::array<int, Dim + 1>, Dim + 1>> position_;
+  std::vector<std::array<std::array<double, Dim + 1>, Dim + 1>> normal_products_;  ///< N.N / volume
+  std::optional<HeldFactor> factor_;
+  std::optional<FluxCorrection<Dim>> correction_;
+  SolveCounts earlier_counts_;  ///< of factors given up
+
+  // Where iterations start; they change no result beyond round-off.
+  std::vector<double> rise_rate_;  ///< of the last stage, per face, Pa/s
+  double flux_scale_ = 0.0;        ///< largest flux through a face then, m3/s
+  MixedState<Dim> last_steady_;
+  Field last_steady_flux_;
+};
+
+}  // namespace suffuse
