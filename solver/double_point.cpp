@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "grid/face_flux.hpp"
 #include "meeting.hpp"
 #include "observation.hpp"
 #include "pass_timer.hpp"
@@ -25,17 +26,19 @@ enum class Saturation { dry_soil, saturated_soil, free_liquid, empty };
 }  // namespace
 
 template <int Dim>
-DoublePoint<Dim>::DoublePoint(const Case<Dim>& c, const Plan& plan, const SolverOptions& options)
+DoublePoint<Dim>::DoublePoint(const Case<Dim>& c, const Plan& plan)
     : case_(c),
       plan_(plan),
       grid_(c.mesh),
       skeleton_(c, grid_),
-      flow_(c, grid_, skeleton_, options.threads),
+      flow_(make_flow(c, grid_, skeleton_, plan.flow)),
+      carried_flow_(c.document.scene.flow.integration == PressureIntegration::material_point
+                        ? dynamic_cast<NodalFlow<Dim>*>(flow_.get())
+                        : nullptr),
       accounts_(grid_),
       densities_{c.document.scene.liquid.density, c.document.scene.soils.front().grain_density},
-      points_carry_flow_(c.document.scene.flow.integration == PressureIntegration::material_point),
-      transport_(grid_, flow_.conditions(), birth_settings(), densities_,
-                 c.document.scene.liquid.bulk_modulus, options.threads),
+      transport_(grid_, flow_->conditions(), birth_settings(), densities_,
+                 c.document.scene.liquid.bulk_modulus, plan.flow.threads),
       transfer_(grid_, skeleton_, densities_.grain) {
   initialise();
 }
@@ -68,7 +71,7 @@ void DoublePoint<Dim>::initialise() {
   state_.pending.assign(grid_.mesh.node_count(), 0.0);
   state_.crossed.resize(accounts_.count());
   update_flow();
-  flow_.start(warnings_);
+  flow_->start();
   place_liquid();
   update_flow();
   last_motion_ = {VectorField<Dim>(grid_.mesh.node_count(), Vector<Dim>::Zero()),
@@ -84,16 +87,17 @@ void DoublePoint<Dim>::place_liquid() {
   liquid.barycentric = points.barycentric;
   liquid.fines_mass.assign(points.size(), 0.0);
   const double modulus = case_.document.scene.liquid.bulk_modulus;
-  const std::vector<double>& pressure = flow_.scheme().pressure();
+  const std::vector<double>& pressure = flow_->pressure();
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
     liquid.id.push_back(p);
     liquid.water_mass.push_back(densities_.water * density_ratio(pressure[e], modulus) *
                                 points.volume[p]);
-    if (!points_carry_flow_) continue;
+    if (carried_flow_ == nullptr) continue;
     Vector<Dim> velocity = Vector<Dim>::Zero();
     for (int a = 0; a <= Dim; ++a) {
-      velocity += points.barycentric[p][a] * flow_.scheme().velocity()[grid_.mesh.elements[e][a]];
+      velocity +=
+          points.barycentric[p][a] * carried_flow_->scheme().velocity()[grid_.mesh.elements[e][a]];
     }
     liquid.pressure.push_back(pressure[e]);
     liquid.velocity.push_back(velocity);
@@ -120,7 +124,7 @@ std::vector<double> DoublePoint<Dim>::point_volumes(const LiquidPoints<Dim>& liq
   int ratio_of = -1;
   double ratio = 1.0;
   for (int p = 0; p < liquid.size(); ++p) {
-    if (points_carry_flow_) {
+    if (carried_flow_ != nullptr) {
       ratio = density_ratio(liquid.pressure[p], modulus);
     } else if (liquid.element[p] != ratio_of) {
       ratio_of = liquid.element[p];
@@ -132,13 +136,13 @@ std::vector<double> DoublePoint<Dim>::point_volumes(const LiquidPoints<Dim>& liq
 }
 
 template <int Dim>
-void DoublePoint<Dim>::update_flow() {
+PoreContent DoublePoint<Dim>::pores(const State& state) const {
   const int elements = grid_.mesh.element_count();
   PoreContent content;
-  content.porosity = element_porosity(state_.porosity);
+  content.porosity = element_porosity(state.porosity);
   content.concentration.assign(elements, 0.0);
   std::vector<double> volume(elements, 0.0);
-  const LiquidPoints<Dim>& liquid = state_.liquid;
+  const LiquidPoints<Dim>& liquid = state.liquid;
   for (int p = 0; p < liquid.size(); ++p) {
     const double grains = liquid.fines_mass[p] / densities_.grain;
     content.concentration[liquid.element[p]] += grains;
@@ -149,67 +153,101 @@ void DoublePoint<Dim>::update_flow() {
     content.water_volume.push_back(content.porosity[e] * grid_.volume[e] *
                                    (1.0 - content.concentration[e]));
   }
+  if (skeleton_.erodes_by_flux()) {
+    for (const Vector<Dim>& q : element_flux(grid_, last_motion_.entered)) {
+      content.flux.push_back(q.norm() / last_motion_.duration);
+    }
+  }
+  return content;
+}
+
+template <int Dim>
+PoreContent DoublePoint<Dim>::pores_at(double time) const {
+  PoreContent content = pores(state_);
+  if (plan_.erosion) {
+    content.porosity = element_porosity(
+        skeleton_.porosity_after(state_.porosity, state_.time, time, point_flux(last_motion_)));
+  }
+  return content;
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::point_flux(const LiquidMotion<Dim>& motion) const {
+  if (!skeleton_.erodes_by_flux()) return {};
+  return flux_magnitude_at(grid_, motion.entered, skeleton_.points(), 1.0 / motion.duration);
+}
+
+template <int Dim>
+void DoublePoint<Dim>::update_flow() {
   // The density of what crosses a face plays no part: points carry it.
-  flow_.update(state_.time, content, std::vector<double>(grid_.face_count(), 0.0));
+  flow_->update(state_.time, pores(state_), std::vector<double>(grid_.face_count(), 0.0));
 }
 
 template <int Dim>
 long DoublePoint<Dim>::steps_before_transport(double dt) const {
-  if (points_carry_flow_) return 1;
+  if (carried_flow_ != nullptr) return 1;
   LiquidMotion<Dim> one_step = last_motion_;
   one_step.duration = dt;
-  const std::vector<double>& porosity = flow_.coefficients().porosity;
-  return steps_to_meeting(skeleton_, porosity, state_.time, dt,
+  const std::vector<double>& porosity = flow_->coefficients().porosity;
+  std::vector<double> flux;
+  for (const Vector<Dim>& q : element_flux(grid_, last_motion_.entered)) {
+    flux.push_back(q.norm() / last_motion_.duration);
+  }
+  return steps_to_meeting(skeleton_, porosity, flux, state_.time, dt,
                           transport_.share_allowed(one_step, porosity), most_porosity_growth,
                           last_steps_);
 }
 
 template <int Dim>
 LiquidMotion<Dim> DoublePoint<Dim>::motion(const Passed<Dim>& passed, double duration) const {
-  LiquidMotion<Dim> result{passed.displacements, passed.volumes.liquid, duration};
-  const std::vector<double>& porosity = flow_.nodal_operator().carried_porosity();
+  LiquidMotion<Dim> result{passed.node_shift, passed.volumes.liquid, duration};
   const double rate = duration > 0.0 ? 1.0 / duration : 0.0;
-  for (std::size_t i = 0; i < result.node_flux.size(); ++i) {
-    result.node_flux[i] *= porosity[i] * rate;
-  }
+  for (Vector<Dim>& flux : result.node_flux) flux *= rate;
   return result;
 }
 
 template <int Dim>
-auto DoublePoint<Dim>::advance(long steps, double dt, const std::vector<double>& times)
+auto DoublePoint<Dim>::advance(
+    double target, const std::function<std::vector<double>(double reached)>& times_until)
     -> std::vector<Observation> {
   const double begin = state_.time;
-  const double duration = static_cast<double>(steps) * dt;
   std::vector<Observation> seen;
-  if (points_carry_flow_) gather();
-  const VectorField<Dim> velocity_before = flow_.scheme().velocity();
-  const std::vector<double> pressure_before = flow_.scheme().pressure();
-  {
-    const PassTimer timer(timings_.flow);
-    flow_.run(begin, steps, dt, times, [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
-      PassTimings outputs_are_not_the_run;
-      Observation observation;
-      observation.state = advanced(state_, motion(passed, moment.time - begin), moment.pressure,
-                                   outputs_are_not_the_run);
-      observation.state.time = moment.time;
-      observation.state.empty_total = state_.empty_total;
-      observation.flow = std::move(moment);
-      seen.push_back(std::move(observation));
-    });
-  }
-  timings_.flow.calls += steps;
-  if (points_carry_flow_) scatter(velocity_before, pressure_before);
+  if (carried_flow_ != nullptr) gather();
+  const bool carried = carried_flow_ != nullptr;
+  const VectorField<Dim> velocity_before =
+      carried ? carried_flow_->scheme().velocity() : VectorField<Dim>{};
+  const std::vector<double> pressure_before = flow_->pressure();
+  FlowInterval<Dim> interval;
+  interval.begin = begin;
+  interval.target = target;
+  interval.end_on_target = case_.document.scene.output.exact;
+  interval.steps_allowed = [this](double dt) { return steps_before_transport(dt); };
+  interval.pores_at = [this](double time) { return pores_at(time); };
+  interval.times_until = times_until;
+  interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
+    PassTimings outputs_are_not_the_run;
+    Observation observation;
+    observation.state = advanced(state_, motion(passed, moment.time - begin), moment.pressure,
+                                 outputs_are_not_the_run);
+    observation.state.time = moment.time;
+    observation.state.empty_total = state_.empty_total;
+    observation.flow = std::move(moment);
+    seen.push_back(std::move(observation));
+  };
+  const FlowProgress<Dim> progress = flow_->run(interval);
+  if (carried) scatter(velocity_before, pressure_before);
 
-  last_motion_ = motion(flow_.passed(), duration);
-  state_ = advanced(std::move(state_), last_motion_, flow_.scheme().pressure(), timings_);
-  flow_.warn_of_unstated_inflow(state_.time, last_motion_.entered, warnings_);
+  last_motion_ = motion(progress.passed, progress.duration);
+  state_ = advanced(std::move(state_), last_motion_, flow_->pressure(), timings_);
+  flow_->warn_of_unstated_inflow(state_.time, last_motion_.entered);
   {
     const PassTimer timer(timings_.coefficients);
     update_flow();
     ++timings_.coefficients.calls;
   }
-  last_steps_ = steps;
-  last_dt_ = dt;
+  steps_ += progress.steps;
+  last_steps_ = progress.steps;
+  last_dt_ = progress.dt;
   return seen;
 }
 
@@ -233,11 +271,12 @@ auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
   // Half a step of erosion, a step of movement, half a step of erosion: second order. Halves that
   // meet are one.
   const auto time_at = [&](double step) { return begin + motion.duration * step / substeps; };
+  const std::vector<double> flux = point_flux(motion);
   double eroded_until = begin;
   for (double s = 0.0; s < substeps; ++s) {
     {
       const PassTimer timer(timings.erosion);
-      erode(state, eroded_until, time_at(s + 0.5), pressure);
+      erode(state, eroded_until, time_at(s + 0.5), flux, pressure);
       eroded_until = time_at(s + 0.5);
       ++timings.erosion.calls;
     }
@@ -247,16 +286,16 @@ auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
   }
   const PassTimer timer(timings.erosion);
   state.time = begin + motion.duration;
-  erode(state, eroded_until, state.time, pressure);
+  erode(state, eroded_until, state.time, flux, pressure);
   return state;
 }
 
 template <int Dim>
-void DoublePoint<Dim>::erode(State& state, double from, double to,
+void DoublePoint<Dim>::erode(State& state, double from, double to, const std::vector<double>& flux,
                              const std::vector<double>& pressure) const {
   if (!plan_.erosion) return;
   const std::vector<int> begins = element_begins(state.liquid, grid_.mesh.element_count());
-  std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to);
+  std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to, flux);
   const MaterialPoints<Dim>& solid = skeleton_.points();
   for (int s = 0; s < solid.size(); ++s) {
     const int e = solid.element[s];
@@ -281,7 +320,7 @@ void DoublePoint<Dim>::move(State& state, const LiquidMotion<Dim>& motion,
                             const std::vector<double>& pressure) const {
   const auto crossings = transport_.move(
       state.liquid, state.entering, motion, element_porosity(state.porosity), pressure,
-      points_carry_flow_ ? flow_.scheme().velocity() : VectorField<Dim>{});
+      carried_flow_ != nullptr ? carried_flow_->scheme().velocity() : VectorField<Dim>{});
   const auto leave = [](CrossedSums& account, const PointCrossing& point) {
     account.water_out.add(point.water_mass);
     account.fines_out.add(point.fines_mass);
@@ -312,8 +351,8 @@ template <int Dim>
 void DoublePoint<Dim>::gather() {
   const PassTimer timer(timings_.exchange);
   const LiquidPoints<Dim>& liquid = state_.liquid;
-  VectorField<Dim> velocity = flow_.scheme().velocity();
-  std::vector<double> pressure = flow_.scheme().pressure();
+  VectorField<Dim> velocity = carried_flow_->scheme().velocity();
+  std::vector<double> pressure = flow_->pressure();
   VectorField<Dim> momentum(velocity.size(), Vector<Dim>::Zero());
   std::vector<double> mass(velocity.size(), 0.0);
   std::vector<double> work(pressure.size(), 0.0);
@@ -337,8 +376,8 @@ void DoublePoint<Dim>::gather() {
   for (std::size_t e = 0; e < volume.size(); ++e) {
     if (volume[e] > 0.0) pressure[e] = work[e] / volume[e];
   }
-  flow_.scheme().set_velocity(std::move(velocity));
-  flow_.scheme().set_pressure(std::move(pressure));
+  carried_flow_->scheme().set_velocity(std::move(velocity));
+  carried_flow_->scheme().set_pressure(std::move(pressure));
   ++timings_.exchange.calls;
 }
 
@@ -347,8 +386,8 @@ void DoublePoint<Dim>::scatter(const VectorField<Dim>& velocity_before,
                                const std::vector<double>& pressure_before) {
   const PassTimer timer(timings_.exchange);
   LiquidPoints<Dim>& liquid = state_.liquid;
-  const VectorField<Dim>& velocity = flow_.scheme().velocity();
-  const std::vector<double>& pressure = flow_.scheme().pressure();
+  const VectorField<Dim>& velocity = carried_flow_->scheme().velocity();
+  const std::vector<double>& pressure = flow_->pressure();
   for (int p = 0; p < liquid.size(); ++p) {
     const int e = liquid.element[p];
     liquid.pressure[p] += pressure[e] - pressure_before[e];
@@ -364,7 +403,7 @@ HistoryRow DoublePoint<Dim>::history_row(const State& state, const FlowMoment<Di
   HistoryRow row;
   row.t = state.time;
   row.porosity_mean = mean_porosity(skeleton_, state.porosity);
-  flow_.describe(moment, row);
+  flow_->describe(moment, row);
   const LiquidPoints<Dim>& liquid = state.liquid;
   const std::vector<int> begins = element_begins(liquid, grid_.mesh.element_count());
   row.liquid_points = liquid.size();
@@ -381,7 +420,7 @@ HistoryRow DoublePoint<Dim>::history_row(const State& state, const FlowMoment<Di
   const ElementField<Dim> fit = concentration_fit(grid_, liquid, begins, volume, concentration);
   CompensatedSum fines_out;
   for (int f = 0; f < grid_.face_count(); ++f) {
-    const double flux = flow_.nodal_operator().face_flux(f, moment.velocity);
+    const double flux = moment.face_flux[f];
     if (!grid_.is_outer(f) || flux <= 0.0) continue;
     const int e = grid_.face_left[f];
     const ElementValues<Dim> at_vertices = FieldNodes<Dim>::at_vertices(fit[e]);
@@ -398,8 +437,8 @@ HistoryRow DoublePoint<Dim>::history_row(const State& state, const FlowMoment<Di
     row.volume_defect =
         std::max(row.volume_defect, std::abs(filled / (porosity[e] * grid_.volume[e]) - 1.0));
   }
-  if (points_carry_flow_) {
-    row.pressure_scatter = point_pressure_scatter(liquid, volume, moment.pressure);
+  if (carried_flow_ != nullptr) {
+    row.pressure_scatter = point_pressure_scatter(liquid, volume, moment.node_pressure);
   }
   return row;
 }
@@ -407,8 +446,7 @@ HistoryRow DoublePoint<Dim>::history_row(const State& state, const FlowMoment<Di
 template <int Dim>
 double DoublePoint<Dim>::point_pressure_scatter(const LiquidPoints<Dim>& liquid,
                                                 const std::vector<double>& volume,
-                                                const std::vector<double>& pressure) const {
-  const std::vector<double> smooth = flow_.node_pressure(pressure);
+                                                const std::vector<double>& smooth) const {
   double square = 0.0;
   double sum = 0.0;
   for (int p = 0; p < liquid.size(); ++p) {
@@ -488,8 +526,7 @@ Snapshot DoublePoint<Dim>::snapshot(const State& state, const FlowMoment<Dim>& m
       between_points.fines_volume[e][j] *= between_points.pore_volume[e][j];
     }
   }
-  Snapshot result =
-      make_snapshot(grid_, skeleton_, flow_, state.porosity, between_points, moment, step);
+  Snapshot result = make_snapshot(grid_, skeleton_, state.porosity, between_points, moment, step);
 
   Field saturation{"saturation_state", "1", 1, {}};
   Field count{"liquid_points", "1", 1, {}};
@@ -504,7 +541,7 @@ Snapshot DoublePoint<Dim>::snapshot(const State& state, const FlowMoment<Dim>& m
   result.cell.push_back(std::move(saturation));
   result.cell.push_back(std::move(count));
 
-  const std::vector<double> smooth = flow_.node_pressure(moment.pressure);
+  const std::vector<double>& smooth = moment.node_pressure;
   const std::vector<double> porosity = element_porosity(state.porosity);
   Field pressure{"pressure", "Pa", 1, {}};
   Field velocity{"liquid_velocity", "m/s", Dim, {}};
@@ -514,14 +551,9 @@ Snapshot DoublePoint<Dim>::snapshot(const State& state, const FlowMoment<Dim>& m
     const int e = liquid.element[p];
     const Vector<Dim> x = liquid.place(p).position(grid_.mesh);
     for (int d = 0; d < 3; ++d) result.liquid_positions.push_back(d < Dim ? x[d] : 0.0);
-    pressure.values.push_back(points_carry_flow_ ? liquid.pressure[p]
-                                                 : interpolated(liquid, p, smooth));
-    Vector<Dim> flux = Vector<Dim>::Zero();
-    for (int a = 0; a <= Dim; ++a) {
-      const int i = grid_.mesh.elements[e][a];
-      flux += liquid.barycentric[p][a] * flow_.nodal_operator().carried_porosity()[i] *
-              moment.velocity[i];
-    }
+    pressure.values.push_back(carried_flow_ != nullptr ? liquid.pressure[p]
+                                                       : interpolated(liquid, p, smooth));
+    const Vector<Dim> flux = flux_at(grid_, moment.face_flux, e, x);
     for (int d = 0; d < Dim; ++d) velocity.values.push_back(flux[d] / porosity[e]);
     element.values.push_back(e);
     id.values.push_back(static_cast<double>(liquid.id[p]));
@@ -539,15 +571,15 @@ Snapshot DoublePoint<Dim>::snapshot(const State& state, const FlowMoment<Dim>& m
 
 template <int Dim>
 std::vector<PassTiming> DoublePoint<Dim>::passes() const {
-  std::vector<PassTiming> result{timings_.flow, timings_.erosion, timings_.movement,
-                                 timings_.coefficients};
-  if (points_carry_flow_) result.insert(result.begin() + 1, timings_.exchange);
+  std::vector<PassTiming> result = flow_->passes();
+  if (carried_flow_ != nullptr) result.push_back(timings_.exchange);
+  result.insert(result.end(), {timings_.erosion, timings_.movement, timings_.coefficients});
   return result;
 }
 
 template <int Dim>
 std::vector<std::string> DoublePoint<Dim>::take_warnings() {
-  return std::exchange(warnings_, {});
+  return flow_->take_warnings();
 }
 
 template class DoublePoint<2>;

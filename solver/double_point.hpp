@@ -3,11 +3,14 @@
 /// The double-point formulation with a rigid skeleton: solid points stay and erode, liquid points
 /// carry water and fluidised grains through the pores between them.
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "balance.hpp"
 #include "flow/nodal_flow.hpp"
+#include "flow/scene_flow.hpp"
 #include "plan.hpp"
 #include "transport/grain_transfer.hpp"
 #include "transport/lagrangian.hpp"
@@ -39,28 +42,25 @@ class DoublePoint {
  public:
   using State = DoublePointState<Dim>;
 
-  DoublePoint(const Case<Dim>& c, const Plan& plan, const SolverOptions& options);
+  DoublePoint(const Case<Dim>& c, const Plan& plan);
 
   /// The model at a time between steps.
   struct Observation {
     State state;
     FlowMoment<Dim> flow;
   };
-  /// Runs the flow `steps` times `dt`, then lets erosion and transport catch up. Returns what was
-  /// to be seen at `times` (ascending, within these steps); looking changes nothing.
-  std::vector<Observation> advance(long steps, double dt, const std::vector<double>& times);
-
-  /// Flow steps of `dt` that transport lets pass before it must run.
-  [[nodiscard]] long steps_before_transport(double dt) const;
-
-  [[nodiscard]] StabilityLimit current_limit(double step) const {
-    return flow_.current_limit(step);
-  }
+  /// Runs the flow to its next meeting with erosion and transport, not beyond `target`, and lets
+  /// them catch up. Returns what was to be seen at the times that `times_until` gives (ascending),
+  /// asked with the time that is reached; looking changes nothing.
+  std::vector<Observation> advance(
+      double target, const std::function<std::vector<double>(double reached)>& times_until);
+  [[nodiscard]] long steps() const { return steps_; }
+  /// Length of the last step of the flow, s.
+  [[nodiscard]] double last_step() const { return last_dt_; }
 
   [[nodiscard]] const State& state() const { return state_; }
-  [[nodiscard]] FlowMoment<Dim> moment() const {
-    return flow_.moment(state_.time, last_dt_ > 0.0 ? last_dt_ : plan_.step);
-  }
+  [[nodiscard]] FlowMoment<Dim> moment() const { return flow_->moment(state_.time); }
+  [[nodiscard]] const SceneFlow<Dim>& flow() const { return *flow_; }
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
 
   [[nodiscard]] HistoryRow history_row(const State& state, const FlowMoment<Dim>& moment) const;
@@ -76,7 +76,6 @@ class DoublePoint {
 
  private:
   struct PassTimings {
-    PassTiming flow{"flow", 0, 0.0};
     PassTiming exchange{"exchange of points and nodes", 0, 0.0};
     PassTiming erosion{"erosion and transfer of grains", 0, 0.0};
     PassTiming movement{"movement of liquid points", 0, 0.0};
@@ -88,12 +87,19 @@ class DoublePoint {
   [[nodiscard]] std::vector<double> element_porosity(const std::vector<double>& porosity) const;
   [[nodiscard]] std::vector<double> point_volumes(const LiquidPoints<Dim>& liquid,
                                                   const std::vector<double>& pressure) const;
+  [[nodiscard]] long steps_before_transport(double dt) const;
+  [[nodiscard]] PoreContent pores(const State& state) const;
+  /// The pores at a time ahead, before points have moved.
+  [[nodiscard]] PoreContent pores_at(double time) const;
+  /// |q| at solid points (empty when no soil erodes by it), m/s.
+  [[nodiscard]] std::vector<double> point_flux(const LiquidMotion<Dim>& motion) const;
   void update_flow();
   [[nodiscard]] LiquidMotion<Dim> motion(const Passed<Dim>& passed, double duration) const;
   /// What erosion and transport make of `begin` while the liquid moves so.
   [[nodiscard]] State advanced(State state, const LiquidMotion<Dim>& motion,
                                const std::vector<double>& pressure, PassTimings& timings) const;
-  void erode(State& state, double from, double to, const std::vector<double>& pressure) const;
+  void erode(State& state, double from, double to, const std::vector<double>& flux,
+             const std::vector<double>& pressure) const;
   void move(State& state, const LiquidMotion<Dim>& motion,
             const std::vector<double>& pressure) const;
   /// Nodes and elements take velocity and pressure from the liquid points.
@@ -106,7 +112,7 @@ class DoublePoint {
                                     const std::vector<double>& at_nodes) const;
   [[nodiscard]] double point_pressure_scatter(const LiquidPoints<Dim>& liquid,
                                               const std::vector<double>& volume,
-                                              const std::vector<double>& pressure) const;
+                                              const std::vector<double>& smooth) const;
   [[nodiscard]] int empty_elements(const std::vector<int>& begins) const;
   [[nodiscard]] std::vector<Stored> stored(const State& state) const;
 
@@ -114,10 +120,11 @@ class DoublePoint {
   const Plan& plan_;
   Grid<Dim> grid_;
   RigidSkeleton<Dim> skeleton_;
-  NodalFlow<Dim> flow_;
+  std::unique_ptr<SceneFlow<Dim>> flow_;
+  NodalFlow<Dim>* carried_flow_;  ///< the same where liquid points carry it, else null
   BoundaryAccounts<Dim> accounts_;
   LiquidDensities densities_;
-  bool points_carry_flow_;
+
   LagrangianTransport<Dim> transport_;
   GrainTransfer<Dim> transfer_;
   State state_;
@@ -126,7 +133,8 @@ class DoublePoint {
   double last_dt_ = 0.0;
   LiquidMotion<Dim> last_motion_;
   long last_steps_ = 1;
-  std::vector<std::string> warnings_;
+  long steps_ = 0;
+
   PassTimings timings_;
 };
 

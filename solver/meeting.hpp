@@ -13,16 +13,19 @@ inline constexpr double transport_safety = 0.9;
 
 /// Flow steps of `dt` until the next meeting: as many as transport allows (`transport_steps`), with
 /// porosity growing by no more than `most_growth` of itself until the flow learns of it, at most a
-/// thousand and at most twice the `last` ones: the flow may have grown since.
+/// thousand and at most twice the `last` ones: the flow may have grown since. `element_flux`: |q|,
+/// m/s.
 template <int Dim>
 long steps_to_meeting(const RigidSkeleton<Dim>& skeleton,
-                      const std::vector<double>& element_porosity, double time, double dt,
+                      const std::vector<double>& element_porosity,
+                      const std::vector<double>& element_flux, double time, double dt,
                       double transport_steps, double most_growth, long last) {
   constexpr long most_steps = 1000;
   double allowed = transport_safety * transport_steps;
   for (std::size_t e = 0; e < element_porosity.size(); ++e) {
     const ErosionModel& model = skeleton.erosion_of_element(static_cast<int>(e));
-    const double rate = erosion_rate(model, element_porosity[e], std::max(time, model.start));
+    const double rate =
+        erosion_rate(model, element_porosity[e], std::max(time, model.start), element_flux[e]);
     if (rate > 0.0) allowed = std::min(allowed, most_growth * element_porosity[e] / (rate * dt));
   }
   const long most = std::min(most_steps, 2 * last);

@@ -1,5 +1,7 @@
 #include "observation.hpp"
 
+#include "grid/face_flux.hpp"
+
 namespace suffuse {
 
 template <int Dim>
@@ -56,8 +58,8 @@ std::vector<RegionRow> region_rows(const RigidSkeleton<Dim>& skeleton, const Gri
 
 template <int Dim>
 Snapshot make_snapshot(const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
-                       const NodalFlow<Dim>& flow, const std::vector<double>& porosity_of_points,
-                       const FinesState<Dim>& liquid, const FlowMoment<Dim>& moment, long step) {
+                       const std::vector<double>& porosity_of_points, const FinesState<Dim>& liquid,
+                       const FlowMoment<Dim>& moment, long step) {
   using Nodes = FieldNodes<Dim>;
   const int elements = grid.mesh.element_count();
   Snapshot result;
@@ -76,7 +78,7 @@ Snapshot make_snapshot(const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton
   Field vertex_fines{"fines_fraction", "1", Dim + 1, {}};
   Field vertex_water{"water_fraction", "1", Dim + 1, {}};
 
-  const VectorField<Dim> element_flux = flow.darcy_flux(flow.face_fluxes(moment.velocity));
+  const VectorField<Dim> element_flux = suffuse::element_flux(grid, moment.face_flux);
   ElementField<Dim> concentration_at_nodes(elements);
   ElementField<Dim> fines_at_nodes(elements);
   for (int e = 0; e < elements; ++e) {
@@ -124,7 +126,7 @@ Snapshot make_snapshot(const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton
   for (const Vector<Dim>& v : moment.velocity) {
     velocity.values.insert(velocity.values.end(), v.begin(), v.end());
   }
-  result.node = {std::move(velocity), {"pressure", "Pa", 1, flow.node_pressure(moment.pressure)}};
+  result.node = {std::move(velocity), {"pressure", "Pa", 1, moment.node_pressure}};
 
   Field point_solid{"solid_fraction", "1", 1, {}};
   Field point_erodible{"erodible_fraction", "1", 1, {}};
@@ -133,6 +135,7 @@ Snapshot make_snapshot(const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton
   Field point_rate{"erosion_rate", "1/s", 1, {}};
   Field point_pressure{"pressure", "Pa", 1, {}};
   const MaterialPoints<Dim>& points = skeleton.points();
+  const std::vector<double> point_flux = flux_magnitude_at(grid, moment.face_flux, points, 1.0);
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
     const double n = porosity_of_points[p];
@@ -141,7 +144,8 @@ Snapshot make_snapshot(const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton
     point_concentration.values.push_back(
         Nodes::value(concentration_at_nodes[e], points.barycentric[p]));
     point_fines.values.push_back(Nodes::value(fines_at_nodes[e], points.barycentric[p]));
-    point_rate.values.push_back(erosion_rate(skeleton.erosion_of_element(e), n, moment.time));
+    point_rate.values.push_back(
+        erosion_rate(skeleton.erosion_of_element(e), n, moment.time, point_flux[p]));
     point_pressure.values.push_back(moment.pressure[e]);
   }
   result.solid = {{"porosity", "1", 1, porosity_of_points},
@@ -160,8 +164,7 @@ template void book_solid(const RigidSkeleton<2>&, const Mesh<2>&, double,
 template std::vector<RegionRow> region_rows(const RigidSkeleton<2>&, const Grid<2>&, double, double,
                                             const std::vector<Stored>&, const std::vector<Stored>&,
                                             const std::vector<CrossedSums>&);
-template Snapshot make_snapshot(const Grid<2>&, const RigidSkeleton<2>&, const NodalFlow<2>&,
-                                const std::vector<double>&, const FinesState<2>&,
-                                const FlowMoment<2>&, long);
+template Snapshot make_snapshot(const Grid<2>&, const RigidSkeleton<2>&, const std::vector<double>&,
+                                const FinesState<2>&, const FlowMoment<2>&, long);
 
 }  // namespace suffuse

@@ -3,7 +3,7 @@
 /// What the results hold of a model, whichever way its liquid is carried.
 
 #include "balance.hpp"
-#include "flow/nodal_flow.hpp"
+#include "flow/scene_flow.hpp"
 #include "transport/eulerian.hpp"
 
 namespace suffuse {
@@ -29,7 +29,7 @@ std::vector<RegionRow> region_rows(const RigidSkeleton<Dim>& skeleton, const Gri
 /// Fields of elements, nodes and solid points.
 template <int Dim>
 Snapshot make_snapshot(const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
-                       const NodalFlow<Dim>& flow, const std::vector<double>& porosity,
-                       const FinesState<Dim>& liquid, const FlowMoment<Dim>& moment, long step);
+                       const std::vector<double>& porosity, const FinesState<Dim>& liquid,
+                       const FlowMoment<Dim>& moment, long step);
 
 }  // namespace suffuse

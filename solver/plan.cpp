@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "case/errors.hpp"
@@ -23,7 +24,7 @@ std::string number(double value) {
 double largest_inflow_concentration(const Scene& scene) {
   double largest = 0.0;
   for (const BoundaryCondition& b : scene.boundaries) {
-    largest = std::max(largest, b.concentration.value_or(0.0));
+    if (b.concentration) largest = std::max(largest, b.concentration->largest());
   }
   return largest;
 }
@@ -38,8 +39,9 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
                                          bool with_richest_liquid) {
   const Scene& scene = c.document.scene;
   const int elements = grid.mesh.element_count();
-  const std::vector<double> final_porosity =
-      skeleton.porosity_after(skeleton.initial_porosity(), 0.0, scene.time.end);
+  const std::vector<double> final_porosity = skeleton.porosity_after(
+      skeleton.initial_porosity(), 0.0, scene.time.end,
+      std::vector<double>(skeleton.points().size(), std::numeric_limits<double>::infinity()));
   std::vector<double> first(elements, 0.0);
   std::vector<double> last(elements, 0.0);
   const MaterialPoints<Dim>& points = skeleton.points();
@@ -73,7 +75,7 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
 
 template <int Dim>
 void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
-  if (!plan.step_given || plan.step <= plan.limit.step) return;
+  if (!plan.flow.step_given || plan.flow.step <= plan.limit.step) return;
   const Vector<Dim> place = element_centroid(c.mesh, plan.limit.element);
   std::ostringstream expected;
   expected.precision(6);
@@ -83,7 +85,7 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
   expected << ")";
   std::ostringstream found;
   found.precision(6);
-  found << plan.step << " s";
+  found << plan.flow.step << " s";
   throw InputError(
       {{c.document.locate("time.step"), "time.step", found.str(), expected.str(), ""}});
 }
@@ -132,10 +134,10 @@ void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
 
 void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
-  const double steps = std::ceil(scene.time.end / plan.step * (1.0 - 1e-12));
+  const double steps = std::ceil(scene.time.end / plan.flow.step * (1.0 - 1e-12));
   say("run: flow, explicit nodal scheme, about " + number(steps) + " steps of " +
-      number(plan.step) + " s (stability limit " + number(plan.limit.step) + " s, " +
-      (plan.step_given ? "step from the scene" : "0.9 of the limit") + ")");
+      number(plan.flow.step) + " s (stability limit " + number(plan.limit.step) + " s, " +
+      (plan.flow.step_given ? "step from the scene" : "0.9 of the limit") + ")");
   const std::string because = options.no_skip ? " (--no-skip)" : "";
   say(plan.erosion ? "run: erosion" + because : "skip: erosion, no soil erodes");
   if (scene.formulation == Formulation::double_point) {
@@ -168,20 +170,21 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
 
   // A step that the scene gives is refused for what is certain to come; while the run goes on it is
   // checked against what came.
-  plan.step_given = scene.time.step.has_value();
-  const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton, !plan.step_given);
+  plan.flow.threads = options.threads;
+  plan.flow.step_given = scene.time.step.has_value();
+  const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton, !plan.flow.step_given);
   const std::vector<FaceCondition> conditions = face_conditions(c, grid);
   refuse_contradictory_fluxes(c, grid, skeleton, conditions);
   NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
   op.update(worst);
   plan.limit = stability_limit(grid, worst, op.node_porosity(), scene.liquid.bulk_modulus,
                                scene.time.mass_scaling, scene.time.drag);
-  if (uses_assembled_limit(scene) && plan.step_given && *scene.time.step > plan.limit.step) {
+  if (uses_assembled_limit(scene) && plan.flow.step_given && *scene.time.step > plan.limit.step) {
     plan.limit.step =
         std::max(plan.limit.step, assembled_limit(op, worst, scene.liquid.bulk_modulus,
                                                   scene.time.mass_scaling, scene.time.drag));
   }
-  plan.step = scene.time.step.value_or(0.9 * plan.limit.step);
+  plan.flow.step = scene.time.step.value_or(0.9 * plan.limit.step);
   refuse_unstable_step(c, plan);
 
   if (options.no_skip && scene.flow.porosity_gradient_term) plan.erosion = plan.transport = true;

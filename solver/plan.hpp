@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "flow/scene_flow.hpp"
 #include "flow/stability_limit.hpp"
 
 namespace suffuse {
@@ -16,10 +17,9 @@ struct SolverOptions {
 };
 
 struct Plan {
-  double step = unset;      ///< of the flow, s
-  bool step_given = false;  ///< by the scene; else it may shrink with the limit
-  StabilityLimit limit;     ///< the smallest the run is expected to meet
-  bool transport = true;    ///< fluidised grains move
+  FlowOptions flow;
+  StabilityLimit limit;   ///< explicit: the smallest the run is expected to meet
+  bool transport = true;  ///< fluidised grains move
   bool erosion = true;
   std::vector<std::string> sentences;  ///< what runs, what is skipped, and why
   std::vector<std::string> warnings;

@@ -49,11 +49,10 @@ class FormulationRun {
         options_(options),
         start_(std::chrono::steady_clock::now()),
         writer_(folder, c),
-        model_(c, plan, options),
+        model_(c, plan),
         progress_(c.document.scene.time.end, quiet),
         rows_(c.document.scene.output.every, c.document.scene.time.end),
-        snapshots_(c.document.scene.output.snapshot_every, c.document.scene.time.end),
-        step_(plan.step) {}
+        snapshots_(c.document.scene.output.snapshot_every, c.document.scene.time.end) {}
 
   ExitCode run() {
     for (const std::string& warning : plan_.warnings) warn(warning);
@@ -81,36 +80,20 @@ class FormulationRun {
     write_info("running", "");
     output(model_.state(), model_.moment());
     while (!rows_.finished() && interrupt_requested == 0) {
-      check_step();
-      const auto [steps, dt] = next_steps();
-      const auto observations = model_.advance(steps, dt, times_within(steps, dt));
-      steps_done_ += steps;
+      const double target = case_.document.scene.output.exact ? next_output() : end();
+      const auto observations =
+          model_.advance(target, [this](double reached) { return times_until(reached); });
       for (const auto& [state, flow] : observations) output(state, flow);
       for (const std::string& warning : model_.take_warnings()) warn(warning);
-      progress_.report(model_.state().time, dt);
+      progress_.report(model_.state().time, model_.last_step());
     }
-  }
-
-  /// How many steps to the next meeting of flow and transport, and how long each is.
-  [[nodiscard]] std::pair<long, double> next_steps() const {
-    const double now = model_.state().time;
-    const double target = case_.document.scene.output.exact ? next_output() : end();
-    const double remaining = target - now;
-    const auto to_target = static_cast<long>(std::ceil(remaining / step_ * (1.0 - 1e-12)));
-    const double dt = case_.document.scene.output.exact
-                          ? remaining / static_cast<double>(std::max(1L, to_target))
-                          : step_;
-    return {std::clamp(model_.steps_before_transport(dt), 1L, std::max(1L, to_target)), dt};
   }
 
   [[nodiscard]] double end() const { return case_.document.scene.time.end; }
   [[nodiscard]] double next_output() const { return std::min(rows_.next(), snapshots_.next()); }
 
-  /// Output times that the next `steps` steps reach.
-  [[nodiscard]] std::vector<double> times_within(long steps, double dt) const {
-    // Round-off must not push an output time that a step ends on into the next interval.
-    const double reached =
-        model_.state().time + static_cast<double>(steps) * dt * (1.0 + 1e-12) + 1e-12 * dt;
+  /// Output times still to come, up to `reached`.
+  [[nodiscard]] std::vector<double> times_until(double reached) const {
     std::vector<double> times;
     OutputTimes rows = rows_;
     OutputTimes snapshots = snapshots_;
@@ -126,23 +109,6 @@ class FormulationRun {
     return times;
   }
 
-  /// The limit moves with porosity and concentration: shrink the step, or stop when it was given.
-  void check_step() {
-    const StabilityLimit limit = model_.current_limit(step_);
-    if (step_ <= limit.step) return;
-    std::ostringstream message;
-    message << "the stability limit fell to " << limit.step << " s at t = " << model_.state().time
-            << " s (element " << limit.element << " at ("
-            << element_centroid(case_.mesh, limit.element).transpose() << "))";
-    if (plan_.step_given) {
-      message << ", below time.step = " << step_ << " s; take a shorter step or leave it out";
-      throw NumericalError(message.str());
-    }
-    step_ = 0.9 * limit.step;
-    message << "; the step is now " << step_ << " s";
-    warn(message.str());
-  }
-
   void output(const typename Model<Dim>::State& state, const FlowMoment<Dim>& moment) {
     if (!rows_.finished() && rows_.next() <= moment.time) {
       const HistoryRow row = model_.history_row(state, moment);
@@ -156,7 +122,7 @@ class FormulationRun {
       rows_.advance();
     }
     if (!snapshots_.finished() && snapshots_.next() <= moment.time) {
-      writer_.write_snapshot(model_.snapshot(state, moment, steps_done_));
+      writer_.write_snapshot(model_.snapshot(state, moment, model_.steps()));
       snapshots_.advance();
     }
   }
@@ -210,7 +176,7 @@ class FormulationRun {
     RunInfo info;
     info.status = status;
     info.message = message;
-    info.steps = steps_done_;
+    info.steps = model_.steps();
     info.solid_points = case_.solid_points.size();
     info.liquid_points = model_.liquid_points();
     info.elements = case_.mesh.element_count();
@@ -232,8 +198,6 @@ class FormulationRun {
   Progress progress_;
   OutputTimes rows_;
   OutputTimes snapshots_;
-  double step_;
-  long steps_done_ = 0;
   bool speed_warned_ = false;
   bool compression_warned_ = false;
   std::vector<std::string> warnings_;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "grid/face_flux.hpp"
 #include "meeting.hpp"
 #include "observation.hpp"
 #include "pass_timer.hpp"
@@ -20,13 +20,13 @@ constexpr double most_porosity_growth = 2e-3;
 }  // namespace
 
 template <int Dim>
-SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const Plan& plan, const SolverOptions& options)
+SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const Plan& plan)
     : case_(c),
       plan_(plan),
       grid_(c.mesh),
       skeleton_(c, grid_),
-      flow_(c, grid_, skeleton_, options.threads),
-      transport_(grid_, flow_.conditions()),
+      flow_(make_flow(c, grid_, skeleton_, plan.flow)),
+      transport_(grid_, flow_->conditions()),
       accounts_(grid_),
       grain_density_(c.document.scene.soils.front().grain_density),
       last_volume_rate_(grid_.face_count(), 0.0) {
@@ -40,69 +40,106 @@ void SinglePoint<Dim>::initialise() {
   state_.liquid.pore_volume = skeleton_.initial_pore_volume();
   state_.liquid.fines_volume.assign(grid_.mesh.element_count(), ElementValues<Dim>{});
   update_flow();
-  flow_.start(warnings_);
+  flow_->start();
   state_.water_mass.resize(grid_.mesh.element_count());
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    state_.water_mass[e] = scene.liquid.density * flow_.coefficients().water_volume[e] *
-                           density_ratio(flow_.scheme().pressure()[e], scene.liquid.bulk_modulus);
+    state_.water_mass[e] = scene.liquid.density * flow_->coefficients().water_volume[e] *
+                           density_ratio(flow_->pressure()[e], scene.liquid.bulk_modulus);
   }
   state_.crossed.resize(accounts_.count());
   initial_ = stored(state_);
 }
 
 template <int Dim>
-void SinglePoint<Dim>::update_flow() {
+PoreContent SinglePoint<Dim>::pores(const SinglePointState<Dim>& state) const {
   PoreContent content;
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const double pores = element_sum<Dim>(state_.liquid.pore_volume[e]);
-    const double fines = element_sum<Dim>(state_.liquid.fines_volume[e]);
+    const double pores = element_sum<Dim>(state.liquid.pore_volume[e]);
+    const double fines = element_sum<Dim>(state.liquid.fines_volume[e]);
     content.porosity.push_back(pores / grid_.volume[e]);
     content.water_volume.push_back(pores - fines);
     content.concentration.push_back(fines / pores);
   }
-  flow_.update(state_.time, content,
-               plan_.transport ? transport_.face_concentration(state_.liquid, last_volume_rate_)
-                               : std::vector<double>(grid_.face_count(), 0.0));
+  if (skeleton_.erodes_by_flux()) {
+    for (const Vector<Dim>& q : element_flux(grid_, last_volume_rate_)) {
+      content.flux.push_back(q.norm());
+    }
+  }
+  return content;
+}
+
+template <int Dim>
+PoreContent SinglePoint<Dim>::pores_at(double time) const {
+  PoreContent content = pores(state_);
+  if (!plan_.erosion) return content;
+  const std::vector<double> porosity = skeleton_.porosity_after(state_.porosity, state_.time, time,
+                                                                point_flux(last_volume_rate_, 1.0));
+  const MaterialPoints<Dim>& points = skeleton_.points();
+  for (int p = 0; p < points.size(); ++p) {
+    const int e = points.element[p];
+    content.porosity[e] += points.volume[p] * (porosity[p] - state_.porosity[p]) / grid_.volume[e];
+  }
+  return content;
+}
+
+template <int Dim>
+std::vector<double> SinglePoint<Dim>::point_flux(const std::vector<double>& face_volume,
+                                                 double duration) const {
+  if (!skeleton_.erodes_by_flux()) return {};
+  return flux_magnitude_at(grid_, face_volume, skeleton_.points(), 1.0 / duration);
+}
+
+template <int Dim>
+void SinglePoint<Dim>::update_flow() {
+  flow_->update(state_.time, pores(state_),
+                plan_.transport ? transport_.face_concentration(state_.liquid, last_volume_rate_)
+                                : std::vector<double>(grid_.face_count(), 0.0));
 }
 
 template <int Dim>
 long SinglePoint<Dim>::steps_before_transport(double dt) const {
   std::vector<double> per_step = last_volume_rate_;
   for (double& volume : per_step) volume *= dt;
-  return steps_to_meeting(skeleton_, flow_.coefficients().porosity, state_.time, dt,
+  std::vector<double> flux;
+  for (const Vector<Dim>& q : element_flux(grid_, last_volume_rate_)) flux.push_back(q.norm());
+  return steps_to_meeting(skeleton_, flow_->coefficients().porosity, flux, state_.time, dt,
                           transport_.steps_allowed(state_.liquid, per_step), most_porosity_growth,
                           last_steps_);
 }
 
 template <int Dim>
-auto SinglePoint<Dim>::advance(long steps, double dt, const std::vector<double>& times)
+auto SinglePoint<Dim>::advance(
+    double target, const std::function<std::vector<double>(double reached)>& times_until)
     -> std::vector<Observation> {
   const double begin = state_.time;
   std::vector<Observation> seen;
-  {
-    const PassTimer timer(timings_.flow);
-    flow_.run(begin, steps, dt, times, [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
-      PassTimings outputs_are_not_the_run;
-      Observation observation;
-      observation.state =
-          advanced(state_, passed.volumes, moment.time - begin, outputs_are_not_the_run);
-      observation.state.time = moment.time;
-      observation.flow = std::move(moment);
-      seen.push_back(std::move(observation));
-    });
-  }
-  timings_.flow.calls += steps;
+  FlowInterval<Dim> interval;
+  interval.begin = begin;
+  interval.target = target;
+  interval.end_on_target = case_.document.scene.output.exact;
+  interval.steps_allowed = [this](double dt) { return steps_before_transport(dt); };
+  interval.pores_at = [this](double time) { return pores_at(time); };
+  interval.times_until = times_until;
+  interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
+    PassTimings outputs_are_not_the_run;
+    Observation observation;
+    observation.state =
+        advanced(state_, passed.volumes, moment.time - begin, outputs_are_not_the_run);
+    observation.state.time = moment.time;
+    observation.flow = std::move(moment);
+    seen.push_back(std::move(observation));
+  };
+  const FlowProgress<Dim> progress = flow_->run(interval);
 
-  const double duration = static_cast<double>(steps) * dt;
-  state_ = advanced(state_, flow_.scheme().volumes(), duration, timings_);
-  if (plan_.transport) {
-    flow_.warn_of_unstated_inflow(state_.time, flow_.scheme().volumes().liquid, warnings_);
-  }
-  last_volume_rate_ = flow_.scheme().volumes().liquid;
-  for (double& rate : last_volume_rate_) rate /= duration;
+  const FaceVolumes& volumes = progress.passed.volumes;
+  state_ = advanced(state_, volumes, progress.duration, timings_);
+  if (plan_.transport) flow_->warn_of_unstated_inflow(state_.time, volumes.liquid);
+  last_volume_rate_ = volumes.liquid;
+  for (double& rate : last_volume_rate_) rate /= progress.duration;
   synchronise_flow();
-  last_steps_ = steps;
-  last_dt_ = dt;
+  steps_ += progress.steps;
+  last_steps_ = progress.steps;
+  last_dt_ = progress.dt;
   return seen;
 }
 
@@ -120,13 +157,14 @@ SinglePointState<Dim> SinglePoint<Dim>::advanced(const SinglePointState<Dim>& be
   if (substeps > 1.0) {
     for (double& v : part) v /= substeps;
   }
+  const std::vector<double> flux = point_flux(volumes.liquid, duration);
   for (double s = 0.0; s < substeps; ++s) {
     const double from = begin.time + duration * s / substeps;
     const double to = begin.time + duration * (s + 1.0) / substeps;
     ElementField<Dim> eroded(grid_.mesh.element_count(), ElementValues<Dim>{});
     if (plan_.erosion) {
       const PassTimer timer(timings.erosion);
-      std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to);
+      std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to, flux);
       eroded = skeleton_.eroded_volume(state.porosity, porosity);
       state.porosity = std::move(porosity);
       ++timings.erosion.calls;
@@ -154,10 +192,10 @@ void SinglePoint<Dim>::move_water(SinglePointState<Dim>& state, const FaceVolume
   std::vector<double> fines(grid_.face_count());
   for (int f = 0; f < grid_.face_count(); ++f) {
     const double excess =
-        (1.0 - flow_.coefficients().face_concentration[f]) * volumes.density_excess[f];
+        (1.0 - flow_->coefficients().face_concentration[f]) * volumes.density_excess[f];
     water[f] = density * ((volumes.liquid[f] - grains_crossed[f]) + excess);
     fines[f] = grain_density_ * grains_crossed[f];
-    if (!conservative) water[f] *= flow_.coefficients().porosity[grid_.face_left[f]];
+    if (!conservative) water[f] *= flow_->coefficients().porosity[grid_.face_left[f]];
   }
   for (int e = 0; e < grid_.mesh.element_count() && conservative; ++e) {
     for (int k = 0; k <= Dim; ++k) {
@@ -172,25 +210,16 @@ void SinglePoint<Dim>::synchronise_flow() {
   const PassTimer timer(timings_.water);
   update_flow();
   const LiquidProperties& liquid = case_.document.scene.liquid;
-  std::vector<double> pressure = flow_.scheme().pressure();
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const double reference_mass = liquid.density * flow_.coefficients().water_volume[e];
-    if (!case_.document.scene.flow.porosity_gradient_term) {
-      // Without the third term of Eq. 2 strain alone is integrated, and the mass made to follow it.
-      state_.water_mass[e] = reference_mass * density_ratio(pressure[e], liquid.bulk_modulus);
-      continue;
-    }
+  if (case_.document.scene.flow.porosity_gradient_term) {
     // The masses are what is conserved; the pressure follows from them.
-    const double ratio = state_.water_mass[e] / reference_mass;
-    if (!(ratio > 0.0)) {
-      std::ostringstream message;
-      message << "element " << e << " at (" << element_centroid(grid_.mesh, e).transpose()
-              << ") has no water left at t = " << state_.time << " s";
-      throw NumericalError(message.str());
-    }
-    pressure[e] = pressure_from_density_ratio(ratio, liquid.bulk_modulus);
+    flow_->follow_masses(state_.time, state_.water_mass);
+    return;
   }
-  flow_.scheme().set_pressure(std::move(pressure));
+  // Without the third term of Eq. 2 strain alone is integrated, and the mass made to follow it.
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    state_.water_mass[e] = liquid.density * flow_->coefficients().water_volume[e] *
+                           density_ratio(flow_->pressure()[e], liquid.bulk_modulus);
+  }
 }
 
 template <int Dim>
@@ -199,9 +228,9 @@ HistoryRow SinglePoint<Dim>::history_row(const SinglePointState<Dim>& state,
   HistoryRow row;
   row.t = state.time;
   row.porosity_mean = mean_porosity(skeleton_, state.porosity);
-  flow_.describe(moment, row);
+  flow_->describe(moment, row);
 
-  const std::vector<double> flux = flow_.face_fluxes(moment.velocity);
+  const std::vector<double>& flux = moment.face_flux;
   const std::vector<double> concentration = transport_.face_concentration(state.liquid, flux);
   CompensatedSum fines_out;
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -253,17 +282,19 @@ std::vector<RegionRow> SinglePoint<Dim>::region_rows(const SinglePointState<Dim>
 template <int Dim>
 Snapshot SinglePoint<Dim>::snapshot(const SinglePointState<Dim>& state,
                                     const FlowMoment<Dim>& moment, long step) const {
-  return make_snapshot(grid_, skeleton_, flow_, state.porosity, state.liquid, moment, step);
+  return make_snapshot(grid_, skeleton_, state.porosity, state.liquid, moment, step);
 }
 
 template <int Dim>
 std::vector<PassTiming> SinglePoint<Dim>::passes() const {
-  return {timings_.flow, timings_.erosion, timings_.transport, timings_.water};
+  std::vector<PassTiming> result = flow_->passes();
+  result.insert(result.end(), {timings_.erosion, timings_.transport, timings_.water});
+  return result;
 }
 
 template <int Dim>
 std::vector<std::string> SinglePoint<Dim>::take_warnings() {
-  return std::exchange(warnings_, {});
+  return flow_->take_warnings();
 }
 
 template class SinglePoint<2>;

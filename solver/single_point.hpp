@@ -4,11 +4,13 @@
 /// liquid at once. Flow, erosion and transport advance together over one interval: many flow steps,
 /// as many transport steps as their own limit asks for.
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "balance.hpp"
-#include "flow/nodal_flow.hpp"
+#include "flow/scene_flow.hpp"
 #include "plan.hpp"
 #include "results/writer.hpp"
 #include "solid/rigid_skeleton.hpp"
@@ -31,28 +33,25 @@ class SinglePoint {
  public:
   using State = SinglePointState<Dim>;
 
-  SinglePoint(const Case<Dim>& c, const Plan& plan, const SolverOptions& options);
+  SinglePoint(const Case<Dim>& c, const Plan& plan);
 
   /// The model at a time between steps.
   struct Observation {
     SinglePointState<Dim> state;
     FlowMoment<Dim> flow;
   };
-  /// Runs the flow `steps` times `dt`, then lets erosion and transport catch up. Returns what was
-  /// to be seen at `times` (ascending, within these steps); looking changes nothing.
-  std::vector<Observation> advance(long steps, double dt, const std::vector<double>& times);
-
-  /// Flow steps of `dt` that transport lets pass before it must run.
-  [[nodiscard]] long steps_before_transport(double dt) const;
-
-  [[nodiscard]] StabilityLimit current_limit(double step) const {
-    return flow_.current_limit(step);
-  }
+  /// Runs the flow to its next meeting with erosion and transport, not beyond `target`, and lets
+  /// them catch up. Returns what was to be seen at the times that `times_until` gives (ascending),
+  /// asked with the time that is reached; looking changes nothing.
+  std::vector<Observation> advance(
+      double target, const std::function<std::vector<double>(double reached)>& times_until);
+  [[nodiscard]] long steps() const { return steps_; }
+  /// Length of the last step of the flow, s.
+  [[nodiscard]] double last_step() const { return last_dt_; }
 
   [[nodiscard]] const SinglePointState<Dim>& state() const { return state_; }
-  [[nodiscard]] FlowMoment<Dim> moment() const {
-    return flow_.moment(state_.time, last_dt_ > 0.0 ? last_dt_ : plan_.step);
-  }
+  [[nodiscard]] FlowMoment<Dim> moment() const { return flow_->moment(state_.time); }
+  [[nodiscard]] const SceneFlow<Dim>& flow() const { return *flow_; }
 
   [[nodiscard]] HistoryRow history_row(const SinglePointState<Dim>& state,
                                        const FlowMoment<Dim>& moment) const;
@@ -69,9 +68,15 @@ class SinglePoint {
 
  private:
   void initialise();
+  [[nodiscard]] long steps_before_transport(double dt) const;
+  [[nodiscard]] PoreContent pores(const SinglePointState<Dim>& state) const;
+  /// The pores at a time ahead, before grains have moved.
+  [[nodiscard]] PoreContent pores_at(double time) const;
+  /// |q| at solid points (empty when no soil erodes by it), m/s, from volumes over a duration.
+  [[nodiscard]] std::vector<double> point_flux(const std::vector<double>& face_volume,
+                                               double duration) const;
   void update_flow();
   struct PassTimings {
-    PassTiming flow{"flow", 0, 0.0};
     PassTiming erosion{"erosion", 0, 0.0};
     PassTiming transport{"transport", 0, 0.0};
     PassTiming water{"water masses and coefficients", 0, 0.0};
@@ -90,7 +95,7 @@ class SinglePoint {
   const Plan& plan_;
   Grid<Dim> grid_;
   RigidSkeleton<Dim> skeleton_;
-  NodalFlow<Dim> flow_;
+  std::unique_ptr<SceneFlow<Dim>> flow_;
   EulerianTransport<Dim> transport_;
   BoundaryAccounts<Dim> accounts_;
   SinglePointState<Dim> state_;
@@ -99,7 +104,7 @@ class SinglePoint {
   double last_dt_ = 0.0;
   std::vector<double> last_volume_rate_;  ///< per face over the last interval, m3/s
   long last_steps_ = 1;
-  std::vector<std::string> warnings_;
+  long steps_ = 0;
   PassTimings timings_;
 };
 

@@ -8,6 +8,9 @@
 
 namespace suffuse {
 
+template <int Dim>
+using VectorField = std::vector<Vector<Dim>>;
+
 /// What the rest of the model tells the flow. All per element unless noted.
 template <int Dim>
 struct FlowCoefficients {

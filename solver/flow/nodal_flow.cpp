@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
+#include "case/errors.hpp"
 #include "flow/locking.hpp"
 #include "flow/steady_nodal.hpp"
-#include "grid/compensated_sum.hpp"
-#include "physics/drag.hpp"
+#include "pass_timer.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {
@@ -16,13 +17,6 @@ namespace {
 /// Solving for the steady flow of more elements than this would take longer than the warning is
 /// worth.
 constexpr int most_elements_checked = 100000;
-
-template <int Dim>
-Vector<Dim> gravity_of(const Scene& scene) {
-  Vector<Dim> g;
-  for (int d = 0; d < Dim; ++d) g[d] = scene.gravity[d];
-  return g;
-}
 
 ExplicitSettings scheme_settings(const Scene& scene, int threads) {
   ExplicitSettings settings;
@@ -43,66 +37,29 @@ ExplicitSettings scheme_settings(const Scene& scene, int threads) {
 
 template <int Dim>
 NodalFlow<Dim>::NodalFlow(const Case<Dim>& c, const Grid<Dim>& grid,
-                          const RigidSkeleton<Dim>& skeleton, int threads)
-    : scene_(c.document.scene),
-      grid_(grid),
-      skeleton_(skeleton),
-      conditions_(face_conditions(c, grid)),
-      operator_(grid, conditions_, gravity_of<Dim>(scene_), scene_.flow.porosity_gradient_term),
-      scheme_(operator_, scheme_settings(scene_, threads)),
-      grain_density_(scene_.soils.front().grain_density),
-      inflow_warned_(scene_.boundaries.size(), false) {
-  const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
-                                 [](const Soil& s) { return s.drag == SoilDrag::ergun; });
-  if (!ergun) return;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const Soil& soil = skeleton.soil_of_element(e);
-    const bool has_it = soil.drag == SoilDrag::ergun;
-    grain_size_.push_back(
-        has_it ? ergun_grain_size(soil.conductivity,
-                                  soil.initial_porosity(element_centroid(grid.mesh, e)),
-                                  scene_.liquid.density, scene_.liquid.viscosity)
-               : std::numeric_limits<double>::infinity());
-  }
-}
+                          const RigidSkeleton<Dim>& skeleton, const FlowOptions& options)
+    : SceneFlow<Dim>(c, grid, skeleton),
+      operator_(grid, this->conditions_, this->gravity(),
+                this->scene().flow.porosity_gradient_term),
+      scheme_(operator_, scheme_settings(this->scene(), options.threads)),
+      step_(options.step),
+      step_given_(options.step_given) {}
 
 template <int Dim>
 void NodalFlow<Dim>::update(double time, const PoreContent& content,
                             const std::vector<double>& face_concentration) {
-  const int elements = grid_.mesh.element_count();
-  coefficients_.porosity = content.porosity;
-  coefficients_.water_volume = content.water_volume;
-  coefficients_.mixture_density.resize(elements);
-  coefficients_.drag.resize(elements);
-  coefficients_.quadratic_drag.resize(grain_size_.size());
-  coefficients_.face_concentration = face_concentration;
-  const double water_density = scene_.liquid.density;
-  for (int e = 0; e < elements; ++e) {
-    const double porosity = content.porosity[e];
-    const Soil& soil = skeleton_.soil_of_element(e);
-    coefficients_.mixture_density[e] =
-        mixture_density(content.concentration[e], water_density, grain_density_);
-    coefficients_.drag[e] = darcy_drag(porosity, water_density, soil.conductivity);
-    if (!grain_size_.empty()) {
-      coefficients_.quadratic_drag[e] =
-          ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
-    }
-    if (soil.erosion.momentum_transfer) {
-      const double rate = erosion_rate(skeleton_.erosion_of_element(e), porosity, time);
-      coefficients_.drag[e] += grain_density_ * rate / porosity;
-    }
-  }
-  operator_.update(coefficients_);
-  scheme_.update(coefficients_);
+  SceneFlow<Dim>::update(time, content, face_concentration);
+  operator_.update(this->coefficients_);
+  scheme_.update(this->coefficients_);
 }
 
 template <int Dim>
-void NodalFlow<Dim>::start(std::vector<std::string>& warnings) {
-  if (scene_.initial_flow == InitialFlow::rest) {
-    if (grid_.mesh.element_count() <= most_elements_checked) {
-      warn_of_locking(steady_flow(operator_).velocity, warnings);
+void NodalFlow<Dim>::start() {
+  if (this->scene().initial_flow == InitialFlow::rest) {
+    if (this->grid().mesh.element_count() <= most_elements_checked) {
+      warn_of_locking(steady_flow(operator_).velocity);
     }
-    scheme_.set_velocity(VectorField<Dim>(grid_.mesh.node_count(), Vector<Dim>::Zero()));
+    scheme_.set_velocity(VectorField<Dim>(this->grid().mesh.node_count(), Vector<Dim>::Zero()));
     return;
   }
   NodalFlowState<Dim> steady = steady_flow(operator_);
@@ -111,21 +68,20 @@ void NodalFlow<Dim>::start(std::vector<std::string>& warnings) {
     message << "the steady initial flow leaves a net outflow of " << steady.imbalance
             << " times the largest face flux in an element: linear velocities cannot follow this "
                "flow on this mesh; it will store or release water at first";
-    warnings.push_back(message.str());
+    this->warn(message.str());
   }
-  warn_of_locking(steady.velocity, warnings);
+  warn_of_locking(steady.velocity);
   scheme_.set_pressure(std::move(steady.pressure));
   scheme_.set_velocity(std::move(steady.velocity));
 }
 
 template <int Dim>
-void NodalFlow<Dim>::warn_of_locking(const VectorField<Dim>& steady_velocity,
-                                     std::vector<std::string>& warnings) const {
-  if (grid_.mesh.element_count() > most_elements_checked) return;
+void NodalFlow<Dim>::warn_of_locking(const VectorField<Dim>& steady_velocity) {
+  if (this->grid().mesh.element_count() > most_elements_checked) return;
   // The mixed elements it is compared with know Darcy's drag alone.
-  if (!scene_.flow.porosity_gradient_term || !grain_size_.empty()) return;
+  if (!this->scene().flow.porosity_gradient_term || this->has_ergun()) return;
   const auto deviation =
-      deviation_from_mixed_flow(operator_, coefficients_, gravity_of<Dim>(scene_), steady_velocity);
+      deviation_from_mixed_flow(operator_, this->coefficients_, this->gravity(), steady_velocity);
   if (!deviation || *deviation < locked_deviation) return;
   std::ostringstream message;
   message.precision(2);
@@ -135,25 +91,26 @@ void NodalFlow<Dim>::warn_of_locking(const VectorField<Dim>& steady_velocity,
       << " % from that of mixed finite elements (volumetric locking). Fluxes, pressures and fines "
          "will be wrong; porosity is not touched. Take mesh.structure = \"crossed\", or smaller "
          "elements if it is";
-  warnings.push_back(message.str());
+  this->warn(message.str());
 }
 
 template <int Dim>
 StabilityLimit NodalFlow<Dim>::current_limit(double step) const {
   std::vector<double> speed;
-  if (!grain_size_.empty()) {
+  if (this->has_ergun()) {
     for (const Vector<Dim>& v : scheme_.velocity()) speed.push_back(v.norm());
   }
   constexpr double moved = 1e-3;
-  const LiquidProperties& liquid = scene_.liquid;
-  const TimeSettings& time = scene_.time;
-  StabilityLimit limit = stability_limit(grid_, coefficients_, operator_.node_porosity(),
-                                         liquid.bulk_modulus, time.mass_scaling, time.drag, speed);
-  if (step <= limit.step || !uses_assembled_limit(scene_)) return limit;
+  const LiquidProperties& liquid = this->scene().liquid;
+  const TimeSettings& time = this->scene().time;
+  StabilityLimit limit =
+      stability_limit(this->grid(), this->coefficients_, operator_.node_porosity(),
+                      liquid.bulk_modulus, time.mass_scaling, time.drag, speed);
+  if (step <= limit.step || !uses_assembled_limit(this->scene())) return limit;
   // Not a number at first, which is far from everything.
   if (!(std::abs(limit.step - element_limit_) <= moved * limit.step)) {
     element_limit_ = limit.step;
-    assembled_limit_ = assembled_limit(operator_, coefficients_, liquid.bulk_modulus,
+    assembled_limit_ = assembled_limit(operator_, this->coefficients_, liquid.bulk_modulus,
                                        time.mass_scaling, time.drag, speed);
   }
   limit.step = std::max(limit.step, (1.0 - moved) * assembled_limit_);
@@ -161,98 +118,113 @@ StabilityLimit NodalFlow<Dim>::current_limit(double step) const {
 }
 
 template <int Dim>
-std::vector<double> NodalFlow<Dim>::face_fluxes(const VectorField<Dim>& velocity) const {
-  std::vector<double> result(grid_.face_count());
-  for (int f = 0; f < grid_.face_count(); ++f) result[f] = operator_.face_flux(f, velocity);
-  return result;
+void NodalFlow<Dim>::check_step(double time) {
+  const StabilityLimit limit = current_limit(step_);
+  if (step_ <= limit.step) return;
+  std::ostringstream message;
+  message << "the stability limit fell to " << limit.step << " s at t = " << time << " s (element "
+          << limit.element << " at ("
+          << element_centroid(this->grid().mesh, limit.element).transpose() << "))";
+  if (step_given_) {
+    message << ", below time.step = " << step_ << " s; take a shorter step or leave it out";
+    throw NumericalError(message.str());
+  }
+  step_ = 0.9 * limit.step;
+  message << "; the step is now " << step_ << " s";
+  this->warn(message.str());
 }
 
 template <int Dim>
-VectorField<Dim> NodalFlow<Dim>::darcy_flux(const std::vector<double>& face_flux) const {
-  VectorField<Dim> result(grid_.mesh.element_count(), Vector<Dim>::Zero());
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const Vector<Dim> centre = element_centroid(grid_.mesh, e);
-    for (int k = 0; k <= Dim; ++k) {
-      result[e] += grid_.element_face_sign[e][k] * face_flux[grid_.element_face[e][k]] *
-                   (centre - grid_.mesh.nodes[grid_.mesh.elements[e][k]]) / (Dim * grid_.volume[e]);
-    }
-  }
-  return result;
-}
+FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
+  check_step(interval.begin);
+  FlowProgress<Dim> progress;
+  const double remaining = interval.target - interval.begin;
+  const long to_target =
+      std::max(1L, static_cast<long>(std::ceil(remaining / step_ * (1.0 - 1e-12))));
+  const double dt = interval.end_on_target ? remaining / static_cast<double>(to_target) : step_;
+  const long steps = std::clamp(interval.steps_allowed(dt), 1L, to_target);
+  progress.steps = steps;
+  progress.dt = dt;
+  progress.duration = static_cast<double>(steps) * dt;
 
-template <int Dim>
-std::vector<double> NodalFlow<Dim>::node_pressure(const std::vector<double>& pressure) const {
-  std::vector<double> result(grid_.mesh.node_count(), 0.0);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    for (const int i : grid_.mesh.elements[e]) {
-      result[i] += grid_.volume[e] / (Dim + 1) / grid_.node_volume[i] * pressure[e];
-    }
-  }
-  std::vector<double> prescribed(result.size(), 0.0);
-  std::vector<int> faces(result.size(), 0);
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    if (conditions_[f].kind != FaceKind::pressure) continue;
-    for (const int i : grid_.face_nodes[f]) {
-      prescribed[i] += conditions_[f].value;
-      ++faces[i];
-    }
-  }
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (faces[i] > 0) result[i] = prescribed[i] / faces[i];
-  }
-  return result;
-}
-
-template <int Dim>
-void NodalFlow<Dim>::describe(const FlowMoment<Dim>& moment, HistoryRow& row) const {
-  row.dt = moment.dt;
-  CompensatedSum in;
-  CompensatedSum out;
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    if (!grid_.is_outer(f)) continue;
-    const double flux = operator_.face_flux(f, moment.velocity);
-    if (flux < 0.0) in.add(-flux);
-    if (flux > 0.0) out.add(flux);
-  }
-  row.flux_in = in.value();
-  row.flux_out = out.value();
-  // At the nodes: single elements carry patterns that push nothing.
-  const std::vector<double> pressure = node_pressure(moment.pressure);
-  const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
-  row.pressure_min = *low;
-  row.pressure_max = *high;
-  double square = 0.0;
-  double volume = 0.0;
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    double smooth = 0.0;
-    for (const int i : grid_.mesh.elements[e]) smooth += pressure[i] / (Dim + 1);
-    const double off = moment.pressure[e] - smooth;
-    square += grid_.volume[e] * off * off;
-    volume += grid_.volume[e];
-  }
-  row.pressure_scatter = std::sqrt(square / volume);
-  for (const Vector<Dim>& v : moment.velocity) row.speed_max = std::max(row.speed_max, v.norm());
-}
-
-template <int Dim>
-void NodalFlow<Dim>::warn_of_unstated_inflow(double time, const std::vector<double>& entered,
-                                             std::vector<std::string>& warnings) {
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    const FaceCondition& condition = conditions_[f];
-    if (condition.boundary < 0 || condition.concentration_given ||
-        inflow_warned_[condition.boundary]) {
+  const PassTimer timer(timing_);
+  timing_.calls += steps;
+  // Round-off must not push a time that a step ends on into the next interval.
+  const double reached =
+      interval.begin + static_cast<double>(steps) * dt * (1.0 + 1e-12) + 1e-12 * dt;
+  const std::vector<double> times = interval.times_until(reached);
+  scheme_.reset_volumes();
+  auto next = times.begin();
+  for (long s = 0; s < steps; ++s) {
+    const double step_begin = interval.begin + static_cast<double>(s) * dt;
+    const double step_end =
+        s + 1 == steps ? std::numeric_limits<double>::infinity() : step_begin + dt;
+    if (next == times.end() || *next > step_end) {
+      scheme_.step(dt);
       continue;
     }
-    // Round-off of a flow at rest is no inflow.
-    const int e = grid_.face_left[f];
-    if (entered[f] >= -1e-12 * coefficients_.porosity[e] * grid_.volume[e]) continue;
-    inflow_warned_[condition.boundary] = true;
-    std::ostringstream message;
-    message << "liquid enters through boundary \"" << scene_.boundaries[condition.boundary].on
-            << "\" at t = " << time
-            << " s and the scene gives it no concentration: clean water is taken (concentration 0)";
-    warnings.push_back(message.str());
+    const std::vector<double> pressure = scheme_.pressure();
+    const Passed<Dim> before = passed();
+    scheme_.step(dt);
+    // Flux is constant within a step, so what has passed is linear.
+    for (; next != times.end() && *next <= step_end; ++next) {
+      const double share = (*next - step_begin) / dt;
+      FlowMoment<Dim> moment = moment_of(*next, between(pressure, scheme_.pressure(), share),
+                                         scheme_.velocity_at((share - 0.5) * dt));
+      moment.dt = dt;
+      interval.see(std::move(moment), between(before, passed(), share));
+    }
   }
+  progress.passed = passed();
+  return progress;
+}
+
+template <int Dim>
+Passed<Dim> NodalFlow<Dim>::passed() const {
+  Passed<Dim> result{scheme_.volumes(), scheme_.displacements()};
+  for (std::size_t i = 0; i < result.node_shift.size(); ++i) {
+    result.node_shift[i] *= operator_.carried_porosity()[i];
+  }
+  return result;
+}
+
+template <int Dim>
+FlowMoment<Dim> NodalFlow<Dim>::moment_of(double time, std::vector<double> pressure,
+                                          VectorField<Dim> velocity) const {
+  FlowMoment<Dim> result;
+  result.time = time;
+  result.dt = step_;
+  result.node_pressure = this->node_means(pressure);
+  result.face_flux.resize(this->grid().face_count());
+  for (int f = 0; f < this->grid().face_count(); ++f) {
+    result.face_flux[f] = operator_.face_flux(f, velocity);
+  }
+  result.pressure = std::move(pressure);
+  result.velocity = std::move(velocity);
+  return result;
+}
+
+template <int Dim>
+FlowMoment<Dim> NodalFlow<Dim>::moment(double time) const {
+  return moment_of(time, scheme_.pressure(), scheme_.velocity());
+}
+
+template <int Dim>
+void NodalFlow<Dim>::follow_masses(double time, const std::vector<double>& water_mass) {
+  const LiquidProperties& liquid = this->scene().liquid;
+  std::vector<double> pressure(water_mass.size());
+  for (std::size_t e = 0; e < pressure.size(); ++e) {
+    const double ratio = water_mass[e] / (liquid.density * this->coefficients_.water_volume[e]);
+    if (!(ratio > 0.0)) {
+      std::ostringstream message;
+      message << "element " << e << " at ("
+              << element_centroid(this->grid().mesh, static_cast<int>(e)).transpose()
+              << ") has no water left at t = " << time << " s";
+      throw NumericalError(message.str());
+    }
+    pressure[e] = pressure_from_density_ratio(ratio, liquid.bulk_modulus);
+  }
+  scheme_.set_pressure(std::move(pressure));
 }
 
 template class NodalFlow<2>;

@@ -15,9 +15,6 @@
 
 namespace suffuse {
 
-template <int Dim>
-using VectorField = std::vector<Vector<Dim>>;
-
 /// Velocity components that walls and prescribed fluxes fix at a node: v <- free v + prescribed.
 template <int Dim>
 struct NodeConstraint {

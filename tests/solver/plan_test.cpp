@@ -54,7 +54,7 @@ TEST(Plan, WarnsOfMassScalingThatDistortsTheFlow) {
 
 TEST(Plan, TakesNineTenthsOfTheLimitWithoutAStep) {
   const Plan plan = make_plan(model::make_case(model::column_mesh(4, 4), fluxes(0.01, -0.01)), {});
-  EXPECT_DOUBLE_EQ(plan.step, 0.9 * plan.limit.step);
+  EXPECT_DOUBLE_EQ(plan.flow.step, 0.9 * plan.limit.step);
 }
 
 }  // namespace

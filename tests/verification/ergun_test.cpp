@@ -27,7 +27,7 @@ Fluxes fluxes_of(Case<2> c) {
   };
   Fluxes result;
   result.start = flux(run.model().state(), run.model().moment()).flux_in / 0.5;
-  const auto moments = run.run({3000.0 * run.plan().step});
+  const auto moments = run.run({3000.0 * run.plan().flow.step});
   const HistoryRow row = flux(moments.states[0], moments.flows[0]);
   result.later = row.flux_in / 0.5;
   result.uneven = row.flux_out / 0.5 - result.later;

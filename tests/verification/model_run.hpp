@@ -17,10 +17,7 @@ template <template <int> class Model>
 class FormulationRun {
  public:
   explicit FormulationRun(Case<2> c, SolverOptions options = {})
-      : case_(std::move(c)),
-        options_(options),
-        plan_(make_plan(case_, options_)),
-        model_(case_, plan_, options_) {}
+      : case_(std::move(c)), plan_(make_plan(case_, options)), model_(case_, plan_) {}
 
   /// State and flow at each of `times` (ascending).
   struct Moments {
@@ -31,19 +28,16 @@ class FormulationRun {
     Moments result;
     auto next = times.begin();
     while (next != times.end()) {
-      const double remaining = times.back() - model_.state().time;
-      const auto to_end = static_cast<long>(std::ceil(remaining / plan_.step * (1.0 - 1e-12)));
-      const long steps = std::min(model_.steps_before_transport(plan_.step), std::max(1L, to_end));
-      const double reached = model_.state().time + static_cast<double>(steps) * plan_.step;
-      std::vector<double> within;
-      for (; next != times.end() && *next <= reached * (1.0 + 1e-12); ++next) {
-        within.push_back(*next);
-      }
-      for (auto& [state, flow] : model_.advance(steps, plan_.step, within)) {
+      const auto within = [&](double reached) {
+        std::vector<double> found;
+        for (auto t = next; t != times.end() && *t <= reached; ++t) found.push_back(*t);
+        return found;
+      };
+      for (auto& [state, flow] : model_.advance(times.back(), within)) {
         result.states.push_back(std::move(state));
         result.flows.push_back(std::move(flow));
+        ++next;
       }
-      steps_ += steps;
       note_residuals();
     }
     return result;
@@ -52,7 +46,7 @@ class FormulationRun {
   [[nodiscard]] Model<2>& model() { return model_; }
   [[nodiscard]] const Case<2>& input() const { return case_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
-  [[nodiscard]] long steps() const { return steps_; }
+  [[nodiscard]] long steps() const { return model_.steps(); }
   /// Largest residual of either constituent at the end of any interval.
   [[nodiscard]] double worst_residual() const { return worst_residual_; }
 
@@ -64,10 +58,8 @@ class FormulationRun {
   }
 
   Case<2> case_;
-  SolverOptions options_;
   Plan plan_;
   Model<2> model_;
-  long steps_ = 0;
   double worst_residual_ = 0.0;
 };
 

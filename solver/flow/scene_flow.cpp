@@ -1,0 +1,156 @@
+#include "flow/scene_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "grid/compensated_sum.hpp"
+#include "physics/drag.hpp"
+#include "physics/liquid.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+SceneFlow<Dim>::SceneFlow(const Case<Dim>& c, const Grid<Dim>& grid,
+                          const RigidSkeleton<Dim>& skeleton)
+    : conditions_(face_conditions(c, grid)),
+      scene_(c.document.scene),
+      grid_(grid),
+      skeleton_(skeleton),
+      grain_density_(scene_.soils.front().grain_density),
+      inflow_warned_(scene_.boundaries.size(), false) {
+  const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
+                                 [](const Soil& s) { return s.drag == SoilDrag::ergun; });
+  if (!ergun) return;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const Soil& soil = skeleton.soil_of_element(e);
+    const bool has_it = soil.drag == SoilDrag::ergun;
+    grain_size_.push_back(
+        has_it ? ergun_grain_size(soil.conductivity,
+                                  soil.initial_porosity(element_centroid(grid.mesh, e)),
+                                  scene_.liquid.density, scene_.liquid.viscosity)
+               : std::numeric_limits<double>::infinity());
+  }
+}
+
+template <int Dim>
+Vector<Dim> SceneFlow<Dim>::gravity() const {
+  Vector<Dim> g;
+  for (int d = 0; d < Dim; ++d) g[d] = scene_.gravity[d];
+  return g;
+}
+
+template <int Dim>
+void SceneFlow<Dim>::update(double time, const PoreContent& content,
+                            const std::vector<double>& face_concentration) {
+  coefficients_ = coefficients_of(time, content, face_concentration);
+}
+
+template <int Dim>
+FlowCoefficients<Dim> SceneFlow<Dim>::coefficients_of(
+    double time, const PoreContent& content, const std::vector<double>& face_concentration) const {
+  FlowCoefficients<Dim> result;
+  const int elements = grid_.mesh.element_count();
+  result.porosity = content.porosity;
+  result.water_volume = content.water_volume;
+  result.mixture_density.resize(elements);
+  result.drag.resize(elements);
+  result.quadratic_drag.resize(grain_size_.size());
+  result.face_concentration = face_concentration;
+  const double water_density = scene_.liquid.density;
+  for (int e = 0; e < elements; ++e) {
+    const double porosity = content.porosity[e];
+    const Soil& soil = skeleton_.soil_of_element(e);
+    result.mixture_density[e] =
+        mixture_density(content.concentration[e], water_density, grain_density_);
+    result.drag[e] = darcy_drag(porosity, water_density, soil.conductivity);
+    if (!grain_size_.empty()) {
+      result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
+    }
+    if (soil.erosion.momentum_transfer) {
+      const double rate = erosion_rate(skeleton_.erosion_of_element(e), porosity, time,
+                                       content.flux.empty() ? unset : content.flux[e]);
+      result.drag[e] += grain_density_ * rate / porosity;
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> SceneFlow<Dim>::node_means(const std::vector<double>& pressure) const {
+  std::vector<double> result(grid_.mesh.node_count(), 0.0);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    for (const int i : grid_.mesh.elements[e]) {
+      result[i] += grid_.volume[e] / (Dim + 1) / grid_.node_volume[i] * pressure[e];
+    }
+  }
+  std::vector<double> prescribed(result.size(), 0.0);
+  std::vector<int> faces(result.size(), 0);
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (conditions_[f].kind != FaceKind::pressure) continue;
+    for (const int i : grid_.face_nodes[f]) {
+      prescribed[i] += conditions_[f].value;
+      ++faces[i];
+    }
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i] > 0) result[i] = prescribed[i] / faces[i];
+  }
+  return result;
+}
+
+template <int Dim>
+void SceneFlow<Dim>::describe(const FlowMoment<Dim>& moment, HistoryRow& row) const {
+  row.dt = moment.dt;
+  CompensatedSum in;
+  CompensatedSum out;
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (!grid_.is_outer(f)) continue;
+    const double flux = moment.face_flux[f];
+    if (flux < 0.0) in.add(-flux);
+    if (flux > 0.0) out.add(flux);
+  }
+  row.flux_in = in.value();
+  row.flux_out = out.value();
+  // At the nodes: single elements carry patterns that push nothing.
+  const std::vector<double>& pressure = moment.node_pressure;
+  const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
+  row.pressure_min = *low;
+  row.pressure_max = *high;
+  double square = 0.0;
+  double volume = 0.0;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    double smooth = 0.0;
+    for (const int i : grid_.mesh.elements[e]) smooth += pressure[i] / (Dim + 1);
+    const double off = moment.pressure[e] - smooth;
+    square += grid_.volume[e] * off * off;
+    volume += grid_.volume[e];
+  }
+  row.pressure_scatter = std::sqrt(square / volume);
+  for (const Vector<Dim>& v : moment.velocity) row.speed_max = std::max(row.speed_max, v.norm());
+}
+
+template <int Dim>
+void SceneFlow<Dim>::warn_of_unstated_inflow(double time, const std::vector<double>& entered) {
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    const FaceCondition& condition = conditions_[f];
+    if (condition.boundary < 0 || condition.concentration_given ||
+        inflow_warned_[condition.boundary]) {
+      continue;
+    }
+    // Round-off of a flow at rest is no inflow.
+    const int e = grid_.face_left[f];
+    if (entered[f] >= -1e-12 * coefficients_.porosity[e] * grid_.volume[e]) continue;
+    inflow_warned_[condition.boundary] = true;
+    std::ostringstream message;
+    message << "liquid enters through boundary \"" << scene_.boundaries[condition.boundary].on
+            << "\" at t = " << time
+            << " s and the scene gives it no concentration: clean water is taken (concentration 0)";
+    warn(message.str());
+  }
+}
+
+template class SceneFlow<2>;
+
+}  // namespace suffuse
