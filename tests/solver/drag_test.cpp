@@ -1,0 +1,48 @@
+#include "physics/drag.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference_table.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Under a head that does not change the flux goes as the conductivity.
+TEST(Conductivity, FollowsKozenyCarmanAsInTheReferenceTable) {
+  const auto rows = read_reference("permeability-feedback.csv");
+  ASSERT_GT(rows.size(), 20U);
+  double largest = 0.0;
+  for (const auto& row : rows) {
+    const double expected = row.number("q") / row.number("q0");
+    const double k =
+        conductivity_at(ConductivityLaw::kozeny_carman, 2e-2, 0.3, row.number("n_L")) / 2e-2;
+    EXPECT_NEAR(k, expected, 1e-12 * expected) << row.number("n_L");
+    largest = std::max(largest, k);
+  }
+  EXPECT_GT(largest, 3.0);  // the table says something
+}
+
+TEST(Conductivity, StaysWhereTheLawIsConstant) {
+  EXPECT_EQ(conductivity_at(ConductivityLaw::constant, 2e-2, 0.3, 0.4), 2e-2);
+}
+
+TEST(Conductivity, IsTheGivenOneAtTheInitialPorosity) {
+  for (const double n : {0.1, 0.3, 0.37, 0.9}) {
+    EXPECT_EQ(conductivity_at(ConductivityLaw::kozeny_carman, 2e-2, n, n), 2e-2) << n;
+  }
+}
+
+/// Ergun's linear term is Kozeny and Carman's with the same grains: kappa = d^2 KC(n) / 150.
+TEST(Conductivity, AgreesWithErgunsGrains) {
+  const double n_0 = 0.3;
+  const double n = 0.37;
+  const double d = ergun_grain_size(2e-2, n_0, 1000.0, 1e-3);
+  const double permeability = d * d * kozeny_carman(n) / 150.0;
+  EXPECT_NEAR(conductivity_at(ConductivityLaw::kozeny_carman, 2e-2, n_0, n),
+              permeability * 1000.0 * 9.81 / 1e-3, 1e-15);
+}
+
+}  // namespace
+}  // namespace suffuse
