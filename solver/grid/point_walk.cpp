@@ -83,18 +83,6 @@ Piece<Dim> first_exit(const Barycentric<Dim>& from, const Barycentric<Dim>& rate
   return piece;
 }
 
-/// Onto the face opposite vertex `vertex`, and exactly so; the coordinates add up to one.
-template <int Dim>
-void put_on_face(Barycentric<Dim>& at, int vertex) {
-  at[vertex] = 0.0;
-  double sum = 0.0;
-  for (double& share : at) {
-    share = std::max(0.0, share);
-    sum += share;
-  }
-  for (double& share : at) share /= sum;
-}
-
 template <int Dim>
 [[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {
   std::ostringstream message;
@@ -134,11 +122,11 @@ int walk(const Grid<Dim>& grid, const WalkField<Dim>& field, PointPlace<Dim>& pl
     if (piece.face < 0) {
       // Round-off must not leave the point a hair outside.
       for (int a = 0; a <= Dim; ++a) {
-        if (place.barycentric[a] < 0.0) put_on_face<Dim>(place.barycentric, a);
+        if (place.barycentric[a] < 0.0) put_on_face(place.barycentric, a);
       }
       return -1;
     }
-    put_on_face<Dim>(place.barycentric, piece.face);
+    put_on_face(place.barycentric, piece.face);
     remaining -= piece.time;
     const int f = grid.element_face[e][piece.face];
     if (grid.is_outer(f)) {
@@ -147,16 +135,7 @@ int walk(const Grid<Dim>& grid, const WalkField<Dim>& field, PointPlace<Dim>& pl
       continue;
     }
     held = {};
-    const int next = grid.face_left[f] == e ? grid.face_right[f] : grid.face_left[f];
-    Barycentric<Dim> there{};
-    for (int a = 0; a <= Dim; ++a) {
-      for (int b = 0; b <= Dim; ++b) {
-        if (grid.mesh.elements[next][b] == grid.mesh.elements[e][a] && a != piece.face) {
-          there[b] = place.barycentric[a];
-        }
-      }
-    }
-    place = {next, there};
+    place = across(grid, place, piece.face);
   }
   refuse_endless(grid, place, id);
 }

@@ -4,23 +4,9 @@
 
 #include <vector>
 
-#include "case/mesh.hpp"
-#include "grid/grid.hpp"
+#include "grid/point_place.hpp"
 
 namespace suffuse {
-
-/// Where a point is: barycentric coordinates in the element that holds it.
-template <int Dim>
-struct PointPlace {
-  int element;
-  std::array<double, Dim + 1> barycentric;
-
-  [[nodiscard]] Vector<Dim> position(const Mesh<Dim>& mesh) const {
-    Vector<Dim> x = Vector<Dim>::Zero();
-    for (int a = 0; a <= Dim; ++a) x += barycentric[a] * mesh.nodes[mesh.elements[element][a]];
-    return x;
-  }
-};
 
 /// A flux that is continuous and linear in each element, and what divides it there: points move
 /// with flux / porosity. At a jump of porosity the velocity jumps with it, on the face and nowhere

@@ -1,0 +1,173 @@
+#include "grid/face_walk.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+namespace {
+
+/// A walk that goes on for so long goes in a circle.
+constexpr int most_crossings = 10000;
+/// Circles no larger than this share of an element are as good as a point.
+constexpr double small_circle = 0.01;
+
+/// log(1 + x) / x, 1 at 0.
+double log_quotient(double x) {
+  return x != 0.0 ? std::log1p(x) / x : 1.0;
+}
+
+/// (exp(x) - 1) / x, 1 at 0.
+double exp_quotient(double x) {
+  return x != 0.0 ? std::expm1(x) / x : 1.0;
+}
+
+/// Porosity of an element from a share of the interval on, linear in time, and the clock
+/// tau = integral of ds/n.
+struct PorosityInTime {
+  double now;
+  double growth_rate;
+
+  [[nodiscard]] double clock(double shares) const {
+    return shares / now * log_quotient(growth_rate * shares / now);
+  }
+  [[nodiscard]] double shares(double clock) const {
+    return now * clock * exp_quotient(growth_rate * clock);
+  }
+};
+
+/// What moves a point in one element, in the element's clock.
+template <int Dim>
+struct ElementFlow {
+  std::array<double, Dim + 1> out;  ///< V_k / (Dim |e|)
+  double sum = 0.0;
+
+  ElementFlow(const Grid<Dim>& grid, const std::vector<double>& face_volume, int e) {
+    for (int k = 0; k <= Dim; ++k) {
+      out[k] = grid.element_face_sign[e][k] * face_volume[grid.element_face[e][k]] /
+               (Dim * grid.volume[e]);
+      sum += out[k];
+    }
+  }
+
+  /// When the face opposite vertex k is reached, infinity for never.
+  [[nodiscard]] double exit(int k, double coordinate) const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (!(out[k] > 0.0)) return never;
+    const double straight = std::max(0.0, coordinate) / out[k];
+    const double bent = sum * straight;
+    return bent < 1.0 ? straight * log_quotient(-bent) : never;
+  }
+
+  [[nodiscard]] std::array<double, Dim + 1> moved(const std::array<double, Dim + 1>& from,
+                                                  double clock) const {
+    const double weight = clock * exp_quotient(sum * clock);
+    std::array<double, Dim + 1> to;
+    for (int k = 0; k <= Dim; ++k) to[k] = from[k] + (sum * from[k] - out[k]) * weight;
+    return to;
+  }
+};
+
+/// Notices walks around a node: about a node that the flow turns around, circles are crossed the
+/// faster the smaller they are, without end at the node itself.
+template <int Dim>
+class Circling {
+ public:
+  explicit Circling(const Grid<Dim>& grid) : grid_(grid) {}
+
+  /// `place` has come onto the face opposite its local vertex `vertex`.
+  void crossed(const PointPlace<Dim>& place, int vertex) {
+    const auto& nodes = grid_.mesh.elements[place.element];
+    const auto found = std::find(nodes.begin(), nodes.end(), node_);
+    if (found == nodes.end() || found - nodes.begin() == vertex) {
+      const auto& at = place.barycentric;
+      node_ = nodes[std::max_element(at.begin(), at.end()) - at.begin()];
+      crossings_ = 0;
+    }
+    ++crossings_;
+  }
+  [[nodiscard]] bool in_a_small_circle(const PointPlace<Dim>& place) const {
+    const auto& nodes = grid_.mesh.elements[place.element];
+    const auto found = std::find(nodes.begin(), nodes.end(), node_);
+    return crossings_ > most_crossings / 2 && found != nodes.end() &&
+           place.barycentric[found - nodes.begin()] > 1.0 - small_circle;
+  }
+
+ private:
+  const Grid<Dim>& grid_;
+  int node_ = -1;
+  int crossings_ = 0;
+};
+
+template <int Dim>
+[[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {
+  std::ostringstream message;
+  message << "liquid point " << id << " at (" << place.position(grid.mesh).transpose()
+          << ") in element " << place.element << " crosses faces without end; take a shorter step";
+  throw NumericalError(message.str());
+}
+
+}  // namespace
+
+template <int Dim>
+int walk_along_faces(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, PointPlace<Dim>& place,
+                     double from, double to, long id, std::vector<FacePassage<Dim>>& passages) {
+  double now = from;
+  Circling<Dim> circling(grid);
+  for (int crossing = 0; crossing <= most_crossings; ++crossing) {
+    const int e = place.element;
+    const double change = field.porosity_end[e] - field.porosity_begin[e];
+    const PorosityInTime porosity{field.porosity_begin[e] + now * change, change};
+    // Too small a circle to follow: the point stays, and only its element's porosity goes on.
+    const bool stays = crossing == most_crossings && circling.in_a_small_circle(place);
+    if (crossing == most_crossings && !stays) break;
+
+    const ElementFlow<Dim> flow(grid, field.face_volume, e);
+    double clock = porosity.clock(to - now);
+    int exit = -1;
+    for (int k = 0; k <= Dim && !stays; ++k) {
+      const double reached = flow.exit(k, place.barycentric[k]);
+      if (reached >= clock) continue;
+      clock = reached;
+      exit = k;
+    }
+    const double shares = exit < 0 ? to - now : porosity.shares(clock);
+    const auto start = place.barycentric;
+    if (!stays) place.barycentric = flow.moved(start, clock);
+    // Round-off must not leave the point a hair outside.
+    if (exit >= 0) put_on_face(place.barycentric, exit);
+    for (int k = 0; k <= Dim; ++k) {
+      if (place.barycentric[k] < 0.0) put_on_face(place.barycentric, k);
+    }
+    if (change != 0.0 && shares > 0.0) {
+      FacePassage<Dim> passage{e, start, (porosity.now + shares * change) / porosity.now};
+      for (int k = 0; k <= Dim; ++k) {
+        passage.barycentric[k] = 0.5 * (start[k] + place.barycentric[k]);
+      }
+      passages.push_back(passage);
+    }
+    if (exit < 0) return -1;
+    const int f = grid.element_face[e][exit];
+    if (grid.is_outer(f)) return f;
+    now = std::min(to, now + shares);
+    circling.crossed(place, exit);
+    place = across(grid, place, exit);
+  }
+  refuse_endless(grid, place, id);
+}
+
+template <int Dim>
+double crossings(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, int element) {
+  const ElementFlow<Dim> flow(grid, field.face_volume, element);
+  double most = 0.0;
+  for (const double out : flow.out) most = std::max(most, std::abs(out));
+  return most / std::min(field.porosity_begin[element], field.porosity_end[element]);
+}
+
+template int walk_along_faces(const Grid<2>&, const FaceWalkField<2>&, PointPlace<2>&, double,
+                              double, long, std::vector<FacePassage<2>>&);
+template double crossings(const Grid<2>&, const FaceWalkField<2>&, int);
+
+}  // namespace suffuse

@@ -1,0 +1,48 @@
+#pragma once
+
+/// Moves points along the field of Raviart and Thomas that volumes through faces make, exactly
+/// within each element (Pollock 1988, on simplices).
+
+#include <vector>
+
+#include "grid/point_place.hpp"
+
+namespace suffuse {
+
+/// Liquid over one interval. Points move with flux / porosity; porosity goes linearly in time from
+/// begin to end. Nothing crosses a face of volume zero.
+template <int Dim>
+struct FaceWalkField {
+  const std::vector<double>& face_volume;     ///< along each face's normal, whole interval, m3
+  const std::vector<double>& porosity_begin;  ///< per element
+  const std::vector<double>& porosity_end;    ///< per element
+};
+
+/// A point's way through an element whose porosity changed meanwhile.
+template <int Dim>
+struct FacePassage {
+  int element;
+  std::array<double, Dim + 1> barycentric;  ///< half-way between its ends
+  double growth;                            ///< porosity at the end over that at the beginning
+};
+
+/// Walks `place` through the interval's shares from `from` to `to` (0 <= from <= to <= 1). With
+/// V_k the volume out of the element of measure |e| through the face opposite vertex k, and the
+/// clock tau = integral of ds/n,
+///
+///   d lambda_k / d tau = (lambda_k sum_j V_j - V_k) / (Dim |e|)
+///
+/// so that each coordinate and the moment at which it vanishes have closed forms. Adds to
+/// `passages` where porosity changed. Returns the outer face by which the point left, with the
+/// place on that face, or -1. Throws NumericalError when the walk does not come to an end; `id` is
+/// for the message.
+template <int Dim>
+int walk_along_faces(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, PointPlace<Dim>& place,
+                     double from, double to, long id, std::vector<FacePassage<Dim>>& passages);
+
+/// Most that one barycentric coordinate changes over the interval by the volume through one face of
+/// the element: about how many times a point could cross it.
+template <int Dim>
+double crossings(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, int element);
+
+}  // namespace suffuse

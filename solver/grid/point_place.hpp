@@ -1,0 +1,54 @@
+#pragma once
+
+/// Where a point is in a mesh, and how it gets from one element into the next.
+
+#include <algorithm>
+
+#include "case/mesh.hpp"
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+/// Barycentric coordinates in the element that holds the point.
+template <int Dim>
+struct PointPlace {
+  int element;
+  std::array<double, Dim + 1> barycentric;
+
+  [[nodiscard]] Vector<Dim> position(const Mesh<Dim>& mesh) const {
+    Vector<Dim> x = Vector<Dim>::Zero();
+    for (int a = 0; a <= Dim; ++a) x += barycentric[a] * mesh.nodes[mesh.elements[element][a]];
+    return x;
+  }
+};
+
+/// Onto the face opposite local vertex `vertex`, and exactly so; the coordinates add up to one.
+template <std::size_t Count>
+void put_on_face(std::array<double, Count>& at, int vertex) {
+  at[vertex] = 0.0;
+  double sum = 0.0;
+  for (double& share : at) {
+    share = std::max(0.0, share);
+    sum += share;
+  }
+  for (double& share : at) share /= sum;
+}
+
+/// The same place seen from the other side of the inner face opposite local vertex `vertex`, on
+/// which it lies.
+template <int Dim>
+PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int vertex) {
+  const int e = place.element;
+  const int f = grid.element_face[e][vertex];
+  PointPlace<Dim> there{grid.face_left[f] == e ? grid.face_right[f] : grid.face_left[f], {}};
+  for (int a = 0; a <= Dim; ++a) {
+    for (int b = 0; b <= Dim; ++b) {
+      if (grid.mesh.elements[there.element][b] == grid.mesh.elements[e][a] && a != vertex) {
+        there.barycentric[b] = place.barycentric[a];
+      }
+    }
+  }
+  return there;
+}
+
+}  // namespace suffuse
