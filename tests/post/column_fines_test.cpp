@@ -122,6 +122,39 @@ TEST(ColumnFlow, ComesFromAFluxOrAVelocityInFreeWater) {
   EXPECT_NEAR(flow->flux, 2e-2 / 2.0, 1e-16);
 }
 
+TEST(ColumnFlow, TakesTheFluxLawForFirstOrderAtItsFlux) {
+  const ScratchFolder scratch;
+  const auto flow = flow_of(scratch, testing::double_point::column(),
+                            "law = \"constant\"\nrate = 0.001", "law = \"flux\"\nrate = 4.0");
+  ASSERT_TRUE(flow);
+  EXPECT_EQ(flow->soil.erosion.law, ErosionLaw::first_order);
+  EXPECT_DOUBLE_EQ(flow->soil.erosion.rate, 4.0 * 0.02);
+}
+
+TEST(ColumnFlow, IsThereForLevelTablesAndNotForChangingOnes) {
+  const ScratchFolder scratch;
+  const Case<2> c = testing::double_point::column();
+  auto flow = flow_of(scratch, c, "darcy_flux = 0.02", "darcy_flux = [[0, 0.03], [9, 0.03]]");
+  ASSERT_TRUE(flow);
+  EXPECT_EQ(flow->flux, 0.03);
+  EXPECT_FALSE(flow_of(scratch, c, "darcy_flux = 0.02", "darcy_flux = [[0, 0.0], [9, 0.03]]"));
+  EXPECT_FALSE(flow_of(scratch, c, "darcy_flux = 0.02", "velocity = [[0, 0.0], [9, 0.03]]"));
+  EXPECT_FALSE(flow_of(scratch, c, "darcy_flux = 0.02",
+                       "darcy_flux = 0.02\nconcentration = [[0, 0.0], [9, 0.1]]"));
+  const Case<2> heads = testing::unit_square_case();
+  EXPECT_TRUE(flow_of(scratch, heads, "pressure = 6.0e3", "pressure = [[0, 6.0e3]]"));
+  EXPECT_FALSE(flow_of(scratch, heads, "pressure = 6.0e3", "pressure = [[0, 0], [1, 6.0e3]]"));
+}
+
+TEST(ColumnFlow, IsNotThatOfHeadsWhereConductivityGrows) {
+  const ScratchFolder scratch;
+  const std::string conductivity = "conductivity = 2.0e-2";
+  const std::string grows = conductivity + "\nconductivity_law = \"kozeny-carman\"";
+  EXPECT_FALSE(flow_of(scratch, testing::unit_square_case(), conductivity, grows));
+  // A flux that is prescribed does not care.
+  EXPECT_TRUE(flow_of(scratch, testing::double_point::column(), conductivity, grows));
+}
+
 TEST(ColumnFlow, IsNotThereWhereNothingIsExact) {
   const ScratchFolder scratch;
   const Case<2> c = testing::double_point::column();

@@ -87,6 +87,15 @@ TEST(ExactSolution, FirstOrderLawDecaysExponentially) {
   EXPECT_NEAR(exact_porosity(soil, 0.3, 2.0 + std::log(2.0) / 0.05), 0.35, 1e-15);
 }
 
+TEST(ExactSolution, FluxLawIsNotExactWithoutTheFlow) {
+  const Soil soil = paper_soil(ErosionLaw::flux, 4.0);
+  EXPECT_FALSE(has_exact_porosity(soil));
+  EXPECT_TRUE(std::isnan(exact_porosity(soil, 0.3, 10.0)));
+  EXPECT_EQ(exact_porosity(soil, 0.3, 2.0), 0.3);
+  EXPECT_EQ(exact_porosity(soil, 0.4, 10.0), 0.4);
+  EXPECT_TRUE(has_exact_porosity(paper_soil(ErosionLaw::first_order, 4.0)));
+}
+
 TEST(ExactSolution, WithoutALawNothingErodes) {
   EXPECT_EQ(exact_porosity(paper_soil(ErosionLaw::none, 1.0), 0.3, 100.0), 0.3);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -55,6 +56,28 @@ TEST(Figures, PorositySvgHasItsTexts) {
         "exact, constant law, 0.001 1/s", "exact, constant law, 0.005 1/s", ">120<", ">0.4<"}) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   }
+}
+
+TEST(Figures, FluxLawHasNoExactCurveWithoutTheFlow) {
+  const ScratchFolder scratch;
+  const Case<2> c = testing::unit_square_case("flux", "flux", 4.0);
+  {
+    ResultsWriter<2> writer(scratch / "run.results", c);
+    testing::write_rows(writer, 120.0, [](double t) { return 0.3 + 1e-4 * t; });
+  }
+  const std::vector<ResultsReader> runs{ResultsReader(scratch / "run.results")};
+  for (const auto* name : {"porosity", "masses", "solid-mass"}) {
+    for (const Chart& chart : make_figure(name, runs)) {
+      for (const Curve& curve : chart.curves) {
+        EXPECT_EQ(curve.label.find("exact"), std::string::npos) << curve.label;
+        for (const double y : curve.y) EXPECT_TRUE(std::isfinite(y)) << curve.label;
+      }
+    }
+  }
+  // The outflow is exact at the steady flux of the heads, 6 kPa over 1 m: the first-order law.
+  const auto charts = make_figure("outflow", runs);
+  EXPECT_EQ(charts.front().curves.front().label.find("exact, flux law, 4 1/m, steady"), 0U)
+      << charts.front().curves.front().label;
 }
 
 TEST(Figures, MassesSvgHasItsTexts) {

@@ -39,6 +39,25 @@ TEST(ModelSketch, SinglePointModel) {
                 "bottom: pressure 0 Pa", "unnamed: impervious", "8 material points"});
 }
 
+TEST(ModelSketch, ValuesThatChangeAreShownFromLeastToMost) {
+  const ScratchFolder scratch;
+  Case<2> c = testing::unit_square_case();
+  std::string text = c.document.text;
+  const std::string top = "pressure = 6.0e3\nconcentration = 0.0";
+  const std::string bottom = "pressure = 0.0";
+  ASSERT_NE(text.find(top), std::string::npos);
+  text.replace(text.find(bottom), bottom.size(), "darcy_flux = [[0, 0.01], [1, -0.02]]");
+  text.replace(text.find(top), top.size(),
+               "pressure = [[0, 0], [5, 6.0e3], [9, 100]]\nconcentration = [[0, 0.2], [1, 0.1]]");
+  c.document = parse_scene(text, "changed.toml");
+  { const ResultsWriter<2> writer(scratch / "run.results", c); }
+  const auto boundaries = sketched_boundaries(ResultsReader(scratch / "run.results"));
+  ASSERT_EQ(boundaries.size(), 3U);
+  EXPECT_EQ(boundaries[1].label, "top: pressure 0 to 6000 Pa, c = 0.1 to 0.2");
+  // Clean liquid enters for a while.
+  EXPECT_EQ(boundaries[0].label, "bottom: Darcy flux -0.02 to 0.01 m/s, c = 0");
+}
+
 TEST(ModelSketch, EdgesOfTheMeshAreBlackAndPointsRedOrBlue) {
   const ScratchFolder scratch;
   testing::double_point::write_results(scratch / "run.results");

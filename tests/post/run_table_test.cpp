@@ -77,6 +77,23 @@ TEST(RunTable, SinglePointRun) {
   EXPECT_EQ(std::stod(rows[1]["error_fines_relative"]), 1.0);
 }
 
+// Without the flow nothing is exact of a law that follows it.
+TEST(RunTable, FluxLawRun) {
+  const ScratchFolder scratch;
+  const Case<2> c = testing::unit_square_case("flux", "flux", 4.0);
+  {
+    ResultsWriter<2> writer(scratch / "run.results", c);
+    testing::write_rows(writer, 120.0, [](double t) { return 0.3 + 1e-4 * t; });
+  }
+  auto row = parsed(run_table({ResultsReader(scratch / "run.results")})).front();
+  EXPECT_EQ(row["law"], "flux");
+  EXPECT_EQ(row["rate"], "4");
+  for (const auto* name : {"complete_exact", "error_porosity_percent", "error_solid_percent",
+                           "error_eroded_percent"}) {
+    EXPECT_EQ(row[name], "") << name;
+  }
+}
+
 // A run that eroded half as fast as it should: worst when the exact one is done, at 102 s.
 TEST(RunTable, ErrorsAreSharesOfTheErodibleMass) {
   const ScratchFolder scratch;
