@@ -668,7 +668,7 @@ std::string SceneKey::fault(const Value& value) const {
     if (row.size() != 2) {
       return "entry " + std::to_string(&row - rows->data() + 1) + ", " + shown_value(row);
     }
-    const std::string time = "t = " + shown_number(row[0]);
+    std::string time = "t = " + shown_number(row[0]);
     if (!std::isfinite(row[0])) return time;
     if (earlier && row[0] <= earlier->front()) {
       return time + " after t = " + shown_number(earlier->front());

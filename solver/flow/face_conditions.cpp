@@ -90,8 +90,7 @@ BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
     }
   }
   std::ranges::sort(events_);
-  const auto repeated = std::ranges::unique(events_);
-  events_.erase(repeated.begin(), repeated.end());
+  events_.erase(std::unique(events_.begin(), events_.end()), events_.end());
 }
 
 template <int Dim>
