@@ -17,6 +17,9 @@ namespace {
 
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
 constexpr double most_porosity_growth = 1e-3;
+/// Steps of transport between two meetings with a flow that could go further: whoever looks in
+/// between has them done again.
+constexpr double most_transport_steps = 4.0;
 /// Liquid that needs more steps of transport than this between two meetings goes nowhere sensible.
 constexpr double most_substeps = 1e4;
 
@@ -199,6 +202,12 @@ long DoublePoint<Dim>::steps_before_transport(double dt) const {
 }
 
 template <int Dim>
+double DoublePoint<Dim>::longest_interval() const {
+  return most_transport_steps * transport_safety * last_motion_.duration *
+         transport_.share_allowed(last_motion_, flow_->coefficients().porosity);
+}
+
+template <int Dim>
 LiquidMotion<Dim> DoublePoint<Dim>::motion(const Passed<Dim>& passed, double duration) const {
   LiquidMotion<Dim> result{passed.node_shift, passed.volumes.liquid, duration};
   const double rate = duration > 0.0 ? 1.0 / duration : 0.0;
@@ -222,6 +231,7 @@ auto DoublePoint<Dim>::advance(
   interval.target = target;
   interval.end_on_target = case_.document.scene.output.exact;
   interval.steps_allowed = [this](double dt) { return steps_before_transport(dt); };
+  interval.longest = [this] { return longest_interval(); };
   interval.pores_at = [this](double time) { return pores_at(time); };
   interval.times_until = times_until;
   interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {

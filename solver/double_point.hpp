@@ -88,6 +88,7 @@ class DoublePoint {
   [[nodiscard]] std::vector<double> point_volumes(const LiquidPoints<Dim>& liquid,
                                                   const std::vector<double>& pressure) const;
   [[nodiscard]] long steps_before_transport(double dt) const;
+  [[nodiscard]] double longest_interval() const;
   [[nodiscard]] PoreContent pores(const State& state) const;
   /// The pores at a time ahead, before points have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;

@@ -115,13 +115,19 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
         "prescribed fluxes that add up to zero, or a boundary with a pressure", ""}});
 }
 
-void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
-  const double scaling = scene.time.mass_scaling;
-  if (scaling <= 1.0) return;
+/// Longest time in which drag brings the flow of a soil to its end, k / (n g), s.
+double longest_relaxation(const Scene& scene) {
   double relaxation = 0.0;
   for (const Soil& soil : scene.soils) {
     relaxation = std::max(relaxation, soil.conductivity / (soil.porosity * conductivity_gravity));
   }
+  return relaxation;
+}
+
+void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
+  const double scaling = scene.time.mass_scaling;
+  if (scaling <= 1.0) return;
+  const double relaxation = longest_relaxation(scene);
   if (relaxation * scaling > 0.01 * scene.time.end) {
     plan.warnings.push_back(
         "mass_scaling = " + number(scaling) +
@@ -132,12 +138,39 @@ void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
   }
 }
 
-void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
-  const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
+void describe_explicit_flow(const Scene& scene, Plan& plan) {
   const double steps = std::ceil(scene.time.end / plan.flow.step * (1.0 - 1e-12));
-  say("run: flow, explicit nodal scheme, about " + number(steps) + " steps of " +
+  plan.sentences.push_back(
+      "run: flow, explicit nodal scheme, about " + number(steps) + " steps of " +
       number(plan.flow.step) + " s (stability limit " + number(plan.limit.step) + " s, " +
       (plan.flow.step_given ? "step from the scene" : "0.9 of the limit") + ")");
+}
+
+void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Plan& plan) {
+  const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
+  const bool monotone = scene.time.stepping == TimeStepping::monotone;
+  say("run: flow, implicit mixed finite elements, " +
+      std::string(monotone ? "monotone (first order)" : "second order") + " in time, steps " +
+      (plan.flow.step_given ? "of " + number(plan.flow.step) + " s as given"
+                            : "chosen for a local error of " + number(scene.time.tolerance)));
+  const std::string why = scene.time.inertia ? "as the scene says"
+                          : plan.flow.inertia
+                              ? "it takes longer than 1 % of the time between two looks"
+                              : "less than 1 % of the time between two looks";
+  say((plan.flow.inertia ? "run" : "skip") +
+      std::string(": inertia of the liquid; drag stops it within ") +
+      number(longest_relaxation(scene)) + " s, " + why);
+  say(options.no_skip ? "run: the flow in every step (--no-skip)"
+                      : "skip: the flow while it is steady and nothing that drives it changes");
+}
+
+void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
+  const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
+  if (scene.time.scheme == FlowScheme::explicit_nodal) {
+    describe_explicit_flow(scene, plan);
+  } else {
+    describe_implicit_flow(scene, options, plan);
+  }
   const std::string because = options.no_skip ? " (--no-skip)" : "";
   say(plan.erosion ? "run: erosion" + because : "skip: erosion, no soil erodes");
   if (scene.formulation == Formulation::double_point) {
@@ -157,24 +190,23 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   say(gravity ? "run: gravity" : "skip: gravity, none is given");
 }
 
-}  // namespace
+/// Inertia matters while the flow settles: it is kept unless that is over before anybody looks.
+void plan_implicit_step(const Scene& scene, Plan& plan) {
+  constexpr double unseen = 0.01;
+  plan.flow.step = scene.time.step.value_or(unset);
+  const double seen = scene.time.step.value_or(scene.output.every);
+  plan.flow.inertia = scene.time.inertia.value_or(longest_relaxation(scene) > unseen * seen);
+}
 
+/// The step of the explicit scheme, checked against its stability limit.
 template <int Dim>
-Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
+void plan_explicit_step(const Case<Dim>& c, const Grid<Dim>& grid,
+                        const RigidSkeleton<Dim>& skeleton,
+                        const std::vector<FaceCondition>& conditions, Plan& plan) {
   const Scene& scene = c.document.scene;
-  const Grid<Dim> grid(c.mesh);
-  const RigidSkeleton<Dim> skeleton(c, grid);
-  Plan plan;
-  plan.erosion = skeleton.erodes();
-  plan.transport = plan.erosion || largest_inflow_concentration(scene) > 0.0;
-
   // A step that the scene gives is refused for what is certain to come; while the run goes on it is
   // checked against what came.
-  plan.flow.threads = options.threads;
-  plan.flow.step_given = scene.time.step.has_value();
   const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton, !plan.flow.step_given);
-  const std::vector<FaceCondition> conditions = face_conditions(c, grid);
-  refuse_contradictory_fluxes(c, grid, skeleton, conditions);
   NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
   op.update(worst);
   plan.limit = stability_limit(grid, worst, op.node_porosity(), scene.liquid.bulk_modulus,
@@ -186,6 +218,29 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   }
   plan.flow.step = scene.time.step.value_or(0.9 * plan.limit.step);
   refuse_unstable_step(c, plan);
+}
+
+}  // namespace
+
+template <int Dim>
+Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
+  const Scene& scene = c.document.scene;
+  const Grid<Dim> grid(c.mesh);
+  const RigidSkeleton<Dim> skeleton(c, grid);
+  Plan plan;
+  plan.erosion = skeleton.erodes();
+  plan.transport = plan.erosion || largest_inflow_concentration(scene) > 0.0;
+
+  plan.flow.threads = options.threads;
+  plan.flow.freeze = !options.no_skip;
+  plan.flow.step_given = scene.time.step.has_value();
+  const std::vector<FaceCondition> conditions = face_conditions(c, grid);
+  refuse_contradictory_fluxes(c, grid, skeleton, conditions);
+  if (scene.time.scheme == FlowScheme::explicit_nodal) {
+    plan_explicit_step(c, grid, skeleton, conditions, plan);
+  } else {
+    plan_implicit_step(scene, plan);
+  }
 
   if (options.no_skip && scene.flow.porosity_gradient_term) plan.erosion = plan.transport = true;
   warn_of_mass_scaling(scene, plan);

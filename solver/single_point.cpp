@@ -16,6 +16,9 @@ namespace {
 
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
 constexpr double most_porosity_growth = 2e-3;
+/// Steps of transport between two meetings with a flow that could go further: whoever looks in
+/// between has them done again.
+constexpr double most_transport_steps = 4.0;
 
 }  // namespace
 
@@ -108,6 +111,13 @@ long SinglePoint<Dim>::steps_before_transport(double dt) const {
 }
 
 template <int Dim>
+double SinglePoint<Dim>::longest_interval() const {
+  if (!plan_.transport) return std::numeric_limits<double>::infinity();
+  return most_transport_steps * transport_safety *
+         transport_.steps_allowed(state_.liquid, last_volume_rate_);
+}
+
+template <int Dim>
 auto SinglePoint<Dim>::advance(
     double target, const std::function<std::vector<double>(double reached)>& times_until)
     -> std::vector<Observation> {
@@ -118,6 +128,7 @@ auto SinglePoint<Dim>::advance(
   interval.target = target;
   interval.end_on_target = case_.document.scene.output.exact;
   interval.steps_allowed = [this](double dt) { return steps_before_transport(dt); };
+  interval.longest = [this] { return longest_interval(); };
   interval.pores_at = [this](double time) { return pores_at(time); };
   interval.times_until = times_until;
   interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {

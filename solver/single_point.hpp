@@ -69,6 +69,7 @@ class SinglePoint {
  private:
   void initialise();
   [[nodiscard]] long steps_before_transport(double dt) const;
+  [[nodiscard]] double longest_interval() const;
   [[nodiscard]] PoreContent pores(const SinglePointState<Dim>& state) const;
   /// The pores at a time ahead, before grains have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;

@@ -17,6 +17,7 @@ SceneFlow<Dim>::SceneFlow(const Case<Dim>& c, const Grid<Dim>& grid,
     : conditions_(face_conditions(c, grid)),
       scene_(c.document.scene),
       grid_(grid),
+      boundary_values_(c, grid),
       skeleton_(skeleton),
       grain_density_(scene_.soils.front().grain_density),
       inflow_warned_(scene_.boundaries.size(), false) {
@@ -64,7 +65,10 @@ FlowCoefficients<Dim> SceneFlow<Dim>::coefficients_of(
     const Soil& soil = skeleton_.soil_of_element(e);
     result.mixture_density[e] =
         mixture_density(content.concentration[e], water_density, grain_density_);
-    result.drag[e] = darcy_drag(porosity, water_density, soil.conductivity);
+    result.drag[e] = darcy_drag(
+        porosity, water_density,
+        conductivity_at(soil.conductivity_law, soil.conductivity,
+                        soil.initial_porosity(element_centroid(grid_.mesh, e)), porosity));
     if (!grain_size_.empty()) {
       result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
     }
@@ -85,8 +89,14 @@ std::vector<double> SceneFlow<Dim>::node_means(const std::vector<double>& pressu
       result[i] += grid_.volume[e] / (Dim + 1) / grid_.node_volume[i] * pressure[e];
     }
   }
-  std::vector<double> prescribed(result.size(), 0.0);
-  std::vector<int> faces(result.size(), 0);
+  prescribe_at_nodes(result);
+  return result;
+}
+
+template <int Dim>
+void SceneFlow<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) const {
+  std::vector<double> prescribed(node_pressure.size(), 0.0);
+  std::vector<int> faces(node_pressure.size(), 0);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (conditions_[f].kind != FaceKind::pressure) continue;
     for (const int i : grid_.face_nodes[f]) {
@@ -95,14 +105,15 @@ std::vector<double> SceneFlow<Dim>::node_means(const std::vector<double>& pressu
     }
   }
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (faces[i] > 0) result[i] = prescribed[i] / faces[i];
+    if (faces[i] > 0) node_pressure[i] = prescribed[i] / faces[i];
   }
-  return result;
 }
 
 template <int Dim>
 void SceneFlow<Dim>::describe(const FlowMoment<Dim>& moment, HistoryRow& row) const {
   row.dt = moment.dt;
+  row.eos_error = moment.eos_error;
+  row.pressure_overshoot = moment.pressure_overshoot;
   CompensatedSum in;
   CompensatedSum out;
   for (int f = 0; f < grid_.face_count(); ++f) {

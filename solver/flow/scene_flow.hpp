@@ -34,6 +34,7 @@ struct FlowMoment {
   VectorField<Dim> velocity;          ///< per node, intrinsic, m/s
   std::vector<double> face_flux;      ///< along each face's normal, m3/s
   double eos_error = 0.0;             ///< see HistoryRow
+  double pressure_overshoot = 0.0;    ///< see HistoryRow
 };
 
 /// What has passed since the last meeting of flow and transport, up to some moment.
@@ -68,6 +69,8 @@ struct FlowInterval {
   bool end_on_target = false;
   /// Steps of a length that erosion and transport let pass before they must follow.
   std::function<long(double dt)> steps_allowed;
+  /// Longest interval, s, that erosion and transport may follow in a few steps of their own.
+  std::function<double()> longest;
   /// The pores at a time within the interval, as erosion will have made them.
   std::function<PoreContent(double time)> pores_at;
   /// Times at which somebody looks, ascending, given the time that the interval ends at.
@@ -146,13 +149,17 @@ class SceneFlow {
   [[nodiscard]] const RigidSkeleton<Dim>& skeleton() const { return skeleton_; }
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;
+  [[nodiscard]] const BoundaryValues<Dim>& boundary_values() const { return boundary_values_; }
+  /// Where a pressure is prescribed, that is the node's.
+  void prescribe_at_nodes(std::vector<double>& node_pressure) const;
 
-  std::vector<FaceCondition> conditions_;
+  std::vector<FaceCondition> conditions_;  ///< with the values of this moment
   FlowCoefficients<Dim> coefficients_;
 
  private:
   const Scene& scene_;
   const Grid<Dim>& grid_;
+  BoundaryValues<Dim> boundary_values_;
   const RigidSkeleton<Dim>& skeleton_;
   std::vector<double> grain_size_;  ///< per element, of Ergun's drag; empty where no soil has it, m
   double grain_density_ = unset;

@@ -35,9 +35,15 @@ struct HistoryRow {
   /// Root mean square of the pressures (of elements, or of liquid points where they carry it) about
   /// the smooth field of the node pressures, Pa.
   double pressure_scatter = 0.0;
+  /// Single-point, implicit: largest relative difference between an element's mass of water and
+  /// what fits its pores at its pressure (equation of state); the next step corrects it.
+  double eos_error = 0.0;
+  /// Implicit: how far pressures lie outside the range of their boundary and initial values, over
+  /// that range; 0 where gravity or a prescribed flux leaves them without such bounds.
+  double pressure_overshoot = 0.0;
 };
 
-inline constexpr std::array<Column<HistoryRow>, 16> history_columns{{
+inline constexpr std::array<Column<HistoryRow>, 18> history_columns{{
     {"t", &HistoryRow::t},
     {"dt", &HistoryRow::dt},
     {"porosity_mean", &HistoryRow::porosity_mean},
@@ -54,6 +60,8 @@ inline constexpr std::array<Column<HistoryRow>, 16> history_columns{{
     {"speed_max", &HistoryRow::speed_max},
     {"volume_defect", &HistoryRow::volume_defect},
     {"pressure_scatter", &HistoryRow::pressure_scatter},
+    {"eos_error", &HistoryRow::eos_error},
+    {"pressure_overshoot", &HistoryRow::pressure_overshoot},
 }};
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross

@@ -1,6 +1,8 @@
 #include "solid/rigid_skeleton.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "case/errors.hpp"
 
@@ -103,6 +105,31 @@ bool RigidSkeleton<Dim>::erodes_by_flux() const {
   return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(), [](const auto& model) {
     return model.law == ErosionLaw::flux && model.rate > 0.0;
   });
+}
+
+template <int Dim>
+std::vector<double> RigidSkeleton<Dim>::erosion_events() const {
+  std::vector<double> events;
+  for (std::size_t r = 0; r < erosion_of_region_.size(); ++r) {
+    const ErosionModel& model = erosion_of_region_[r];
+    if (model.law == ErosionLaw::none || model.rate == 0.0) continue;
+    events.push_back(model.start);
+    if (model.law != ErosionLaw::constant) continue;
+    double first = std::numeric_limits<double>::infinity();
+    double last = 0.0;
+    for (int p = 0; p < points_.size(); ++p) {
+      if (mesh_.element_region[points_.element[p]] != static_cast<int>(r)) continue;
+      const double gone = (model.porosity_max - initial_porosity_[p]) / model.rate;
+      first = std::min(first, gone);
+      last = std::max(last, gone);
+    }
+    for (const double gone : {first, last}) {
+      if (std::isfinite(gone)) events.push_back(model.start + gone);
+    }
+  }
+  std::sort(events.begin(), events.end());
+  events.erase(std::unique(events.begin(), events.end()), events.end());
+  return events;
 }
 
 template class RigidSkeleton<2>;

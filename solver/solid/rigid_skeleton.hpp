@@ -44,6 +44,9 @@ class RigidSkeleton {
   [[nodiscard]] bool erodes() const;
   /// Some soil's erosion depends on the flow.
   [[nodiscard]] bool erodes_by_flux() const;
+  /// Times at which erosion starts or, at a constant rate, runs out (of the first and the last
+  /// point of a region), ascending, s.
+  [[nodiscard]] std::vector<double> erosion_events() const;
   [[nodiscard]] bool is_soil(int element) const {
     return soil_of_region_[mesh_.element_region[element]] != free_water_.get();
   }

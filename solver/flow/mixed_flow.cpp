@@ -1,0 +1,561 @@
+#include "flow/mixed_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "grid/face_flux.hpp"
+#include "pass_timer.hpp"
+#include "physics/drag.hpp"
+#include "physics/liquid.hpp"
+
+namespace suffuse {
+namespace {
+
+/// A step may be so much longer or shorter than the one before.
+constexpr double most_growth = 4.0;
+constexpr double most_shrinkage = 0.1;
+constexpr double safety = 0.85;
+/// Of the tolerance: how far from steady a flow may be that is kept.
+constexpr double kept_share = 0.02;
+/// A step never differs from what is left before an event by less than this share of itself.
+constexpr double sliver = 1e-9;
+
+ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options) {
+  ImplicitSettings settings;
+  settings.bulk_modulus = scene.liquid.bulk_modulus;
+  settings.inertia = options.inertia;
+  settings.stepping = scene.time.stepping;
+  return settings;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+double largest(const std::vector<double>& values) {
+  double result = 0.0;
+  for (const double v : values) result = std::max(result, std::abs(v));
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+MixedFlow<Dim>::MixedFlow(const Case<Dim>& c, const Grid<Dim>& grid,
+                          const RigidSkeleton<Dim>& skeleton, const FlowOptions& options)
+    : SceneFlow<Dim>(c, grid, skeleton),
+      options_(options),
+      tolerance_(this->scene().time.tolerance),
+      end_(this->scene().time.end),
+      scheme_(grid, scheme_settings(this->scene(), options), this->gravity()),
+      follows_pores_(options.inertia || this->has_ergun()) {
+  for (const Soil& soil : this->scene().soils) {
+    follows_pores_ |=
+        soil.conductivity_law != ConductivityLaw::constant || soil.erosion.momentum_transfer;
+  }
+  for (const FaceCondition& condition : this->conditions_) {
+    follows_pores_ |= condition.kind == FaceKind::velocity;
+  }
+  events_ = skeleton.erosion_events();
+  const std::vector<double>& knots = this->boundary_values().events();
+  events_.insert(events_.end(), knots.begin(), knots.end());
+  std::sort(events_.begin(), events_.end());
+}
+
+template <int Dim>
+void MixedFlow<Dim>::update(double time, const PoreContent& content,
+                            const std::vector<double>& face_concentration) {
+  SceneFlow<Dim>::update(time, content, face_concentration);
+  if (keep_ && !same_resistance(this->coefficients_, kept_coefficients_)) keep_ = false;
+}
+
+template <int Dim>
+void MixedFlow<Dim>::start() {
+  const Grid<Dim>& grid = this->grid();
+  const bool stiff = std::isinf(this->scene().liquid.bulk_modulus);
+  now_.state.face_pressure.assign(grid.face_count(), 0.0);
+  now_.state.velocity.assign(grid.mesh.element_count(), Vector<Dim>::Zero());
+  now_.face_flux.assign(grid.face_count(), 0.0);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    const FaceCondition& condition = this->conditions_[f];
+    if (condition.kind == FaceKind::pressure) now_.state.face_pressure[f] = condition.value;
+  }
+  find_scales();
+  // Water without compressibility and inertia has no start-up: it flows at once.
+  const bool at_once = stiff && !options_.inertia;
+  if (this->scene().initial_flow == InitialFlow::steady || at_once) {
+    MixedStep<Dim> steady = scheme_.steady({this->coefficients_, this->conditions_, {}});
+    now_ = {std::move(steady.end), std::move(steady.face_flux)};
+    at_rest_ = false;
+  }
+  pressure_ = element_means(now_.state.face_pressure);
+  const auto [low, high] =
+      std::minmax_element(now_.state.face_pressure.begin(), now_.state.face_pressure.end());
+  if (!at_once) {
+    lowest_bound_ = std::min(lowest_bound_, *low);
+    highest_bound_ = std::max(highest_bound_, *high);
+  }
+  pressure_scale_ = std::max(pressure_scale_, *high - *low);
+  flux_scale_ = std::max(flux_scale_, largest(now_.face_flux));
+  warn_of_obtuse_angles();
+
+  if (options_.step_given) {
+    next_dt_ = options_.step;
+  } else if (!at_rest_) {
+    next_dt_ = 1e-2 * end_;
+  } else {
+    // Short against everything that can happen at first, so that the flow it gives is the one right
+    // after the start.
+    double fastest = 0.0;
+    const LiquidProperties& liquid = this->scene().liquid;
+    for (int e = 0; e < grid.mesh.element_count(); ++e) {
+      const double resistance = this->coefficients_.drag[e] / this->coefficients_.porosity[e];
+      double size = 0.0;
+      for (const Vector<Dim>& g : grid.shape_gradient[e]) size = std::max(size, g.norm());
+      const double relaxation =
+          this->coefficients_.mixture_density[e] / this->coefficients_.drag[e];
+      const double diffusivity =
+          liquid.bulk_modulus * grid.volume[e] / (resistance * this->coefficients_.water_volume[e]);
+      if (options_.inertia) {
+        fastest = std::max(fastest, 1.0 / relaxation);
+      } else if (std::isfinite(diffusivity)) {
+        fastest = std::max(fastest, diffusivity * size * size);
+      }
+    }
+    next_dt_ = fastest > 0.0 ? std::min(1e-2 / fastest, 1e-2 * end_) : 1e-2 * end_;
+  }
+}
+
+template <int Dim>
+void MixedFlow<Dim>::find_scales() {
+  // The fluxes and pressures that the boundary conditions can drive, now and at each of their
+  // kinks: errors are relative to the largest.
+  const BoundaryValues<Dim>& values = this->boundary_values();
+  std::vector<double> times{0.0};
+  if (values.vary()) times.insert(times.end(), values.events().begin(), values.events().end());
+  bool prescribes = false;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const double time : times) {
+    FlowForcing<Dim> forcing{this->coefficients_, this->conditions_, {}};
+    values.update(time, forcing.conditions);
+    for (const FaceCondition& condition : forcing.conditions) {
+      if (condition.kind == FaceKind::pressure) {
+        low = std::min(low, condition.value);
+        high = std::max(high, condition.value);
+      }
+      prescribes |= condition.fixes_flux() && condition.value != 0.0;
+    }
+    try {
+      const MixedStep<Dim> steady = scheme_.steady(forcing);
+      flux_scale_ = std::max(flux_scale_, largest(steady.face_flux));
+      const auto [least, most] =
+          std::minmax_element(steady.end.face_pressure.begin(), steady.end.face_pressure.end());
+      pressure_scale_ = std::max(pressure_scale_, *most - *least);
+    } catch (const NumericalError&) {
+      // Boundaries that prescribe fluxes alone may have no steady flow: then the flow itself sets
+      // the scales as it goes.
+    }
+  }
+  const bool heavy = this->gravity().norm() > 0.0;
+  has_bounds_ = low <= high && !prescribes && !heavy;
+  lowest_bound_ = low;
+  highest_bound_ = high;
+  if (low <= high) pressure_scale_ = std::max(pressure_scale_, high - low);
+}
+
+template <int Dim>
+void MixedFlow<Dim>::warn_of_obtuse_angles() {
+  constexpr double strong_contrast = 100.0;
+  const Grid<Dim>& grid = this->grid();
+  int obtuse = 0;
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    double widest = 0.0;
+    for (int a = 0; a <= Dim; ++a) {
+      for (int b = 0; b < a; ++b) {
+        const auto& g = grid.shape_gradient[e];
+        widest = std::max(widest, g[a].dot(g[b]) / (g[a].norm() * g[b].norm()));
+      }
+    }
+    if (widest > 1e-9) ++obtuse;
+    const double resistance = this->coefficients_.drag[e] / this->coefficients_.porosity[e];
+    least = std::min(least, resistance);
+    most = std::max(most, resistance);
+  }
+  if (obtuse == 0 || most < strong_contrast * least) return;
+  std::ostringstream message;
+  message.precision(3);
+  message
+      << obtuse << " of " << grid.mesh.element_count()
+      << " elements have obtuse angles, and conductivities differ by a factor of " << most / least
+      << ": pressures may leave the range of their boundary values; history.csv has by how much "
+         "(pressure_overshoot)";
+  this->warn(message.str());
+}
+
+template <int Dim>
+FlowForcing<Dim> MixedFlow<Dim>::forcing_at(const FlowInterval<Dim>& interval, double time) const {
+  FlowForcing<Dim> forcing;
+  forcing.coefficients = follows_pores_
+                             ? this->coefficients_of(time, interval.pores_at(time),
+                                                     this->coefficients_.face_concentration)
+                             : this->coefficients_;
+  forcing.conditions = this->conditions_;
+  this->boundary_values().update(time, forcing.conditions);
+  return forcing;
+}
+
+template <int Dim>
+double MixedFlow<Dim>::length_of_step(const FlowInterval<Dim>& interval) const {
+  double until = interval.end_on_target ? interval.target : end_;
+  const double round_off = 1e-13 * end_;
+  for (const double event : events_) {
+    if (event > interval.begin + round_off) {
+      until = std::min(until, event);
+      break;
+    }
+  }
+  const double left = until - interval.begin;
+  double dt = next_dt_;
+  if (!options_.step_given) {
+    dt = std::min(dt, interval.longest());
+    // No sliver before an event: two halves are better than nine tenths and one.
+    if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
+  }
+  return dt * (1.0 + sliver) >= left ? left : dt;
+}
+
+template <int Dim>
+double MixedFlow<Dim>::error_of(const MixedStep<Dim>& step, double dt) const {
+  const double flux_scale = std::max(flux_scale_, largest(step.face_flux));
+  double flux_error = 0.0;
+  double pressure_error = 0.0;
+  const double ahead = before_ ? dt / before_dt_ : 0.0;
+  for (int f = 0; f < this->grid().face_count(); ++f) {
+    double flux = now_.face_flux[f];
+    double pressure = now_.state.face_pressure[f];
+    if (before_) {
+      flux += ahead * (flux - before_->face_flux[f]);
+      pressure += ahead * (pressure - before_->state.face_pressure[f]);
+    }
+    flux_error = std::max(flux_error, std::abs(step.face_flux[f] - flux));
+    pressure_error = std::max(pressure_error, std::abs(step.end.face_pressure[f] - pressure));
+  }
+  double error = flux_scale > 0.0 ? flux_error / flux_scale : 0.0;
+  // Without a pressure of its own water that does not compress has no history of it.
+  const bool pressure_counts = !std::isinf(this->scene().liquid.bulk_modulus);
+  if (pressure_counts && pressure_scale_ > 0.0) {
+    error = std::max(error, pressure_error / pressure_scale_);
+  }
+  // The prediction's own error, of one order less than the step's, is what this measures.
+  return 0.5 * error / tolerance_;
+}
+
+template <int Dim>
+MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, double& dt) {
+  const std::vector<double> shares = scheme_.stages();
+  for (;;) {
+    std::vector<FlowForcing<Dim>> forcing;
+    for (const double share : shares) {
+      forcing.push_back(forcing_at(interval, interval.begin + share * dt));
+      if (mismatch_.empty()) continue;
+      forcing.back().source = outflow_rate_;
+      const double release = 1.0 / std::max(dt, last_dt_);
+      for (std::size_t e = 0; e < mismatch_.size(); ++e) {
+        forcing.back().source[e] += release * mismatch_[e];
+      }
+    }
+    std::vector<const FlowForcing<Dim>*> views;
+    for (const FlowForcing<Dim>& f : forcing) views.push_back(&f);
+    MixedStep<Dim> step = scheme_.step(now_.state, dt, views);
+    ++solving_.calls;
+    if (!mismatch_.empty()) {
+      released_ = forcing.back().source;
+      for (double& volume : released_) volume *= dt;
+    }
+    if (options_.step_given) return step;
+    const bool first = at_rest_ && last_dt_ == 0.0 && !options_.inertia;
+    const double error = first ? 0.0 : error_of(step, dt);
+    const double order = before_ ? 2.0 : 1.0;
+    const double wanted = error > 0.0 ? safety * std::pow(error, -1.0 / order) : most_growth;
+    if (error <= 1.0) {
+      next_dt_ = dt * std::clamp(wanted, most_shrinkage, most_growth);
+      return step;
+    }
+    ++rejected_;
+    dt *= std::clamp(wanted, most_shrinkage, 0.9);
+    if (dt < 1e-13 * end_) {
+      std::ostringstream message;
+      message << "no step is short enough for time.tolerance = " << tolerance_
+              << " at t = " << interval.begin << " s";
+      throw NumericalError(message.str());
+    }
+  }
+}
+
+template <int Dim>
+MixedStep<Dim> MixedFlow<Dim>::kept(double dt) const {
+  MixedStep<Dim> step{now_.state, now_.face_flux, now_.face_flux};
+  for (double& volume : step.face_volume) volume *= dt;
+  return step;
+}
+
+template <int Dim>
+FaceVolumes MixedFlow<Dim>::volumes_of(const MixedStep<Dim>& step) const {
+  const Grid<Dim>& grid = this->grid();
+  const double modulus = this->scene().liquid.bulk_modulus;
+  FaceVolumes result{step.face_volume, std::vector<double>(grid.face_count(), 0.0)};
+  if (std::isinf(modulus)) return result;
+  const std::vector<double> end = element_means(step.end.face_pressure);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    const double volume = step.face_volume[f];
+    const int from = volume < 0.0 ? grid.face_right[f] : grid.face_left[f];
+    const double upwind = from >= 0
+                              ? 0.5 * (pressure_[from] + end[from])
+                              : 0.5 * (now_.state.face_pressure[f] + step.end.face_pressure[f]);
+    result.density_excess[f] = volume * std::expm1(upwind / modulus);
+  }
+  return result;
+}
+
+template <int Dim>
+void MixedFlow<Dim>::show(const FlowInterval<Dim>& interval, const Point& begin, double dt,
+                          const FaceVolumes& volumes) {
+  const double reached = interval.begin + dt * (1.0 + 1e-12) + 1e-13 * end_;
+  for (const double time : interval.times_until(reached)) {
+    const double share = std::min(1.0, (time - interval.begin) / dt);
+    Point flow;
+    flow.state.face_pressure = between(begin.state.face_pressure, now_.state.face_pressure, share);
+    flow.state.velocity = between(begin.state.velocity, now_.state.velocity, share);
+    flow.face_flux = between(begin.face_flux, now_.face_flux, share);
+    // The flux is taken as linear over the step, and its integral made to end at the step's volume.
+    Passed<Dim> passed;
+    passed.volumes = volumes;
+    for (std::size_t f = 0; f < volumes.liquid.size(); ++f) {
+      const double curved =
+          volumes.liquid[f] * share +
+          0.5 * dt * share * (1.0 - share) * (begin.face_flux[f] - now_.face_flux[f]);
+      passed.volumes.liquid[f] = curved;
+      passed.volumes.density_excess[f] *=
+          volumes.liquid[f] != 0.0 ? curved / volumes.liquid[f] : share;
+    }
+    interval.see(moment_of(time, dt, flow), passed);
+  }
+}
+
+template <int Dim>
+void MixedFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
+  Point next{std::move(step.end), std::move(step.face_flux)};
+  flux_scale_ = std::max(flux_scale_, largest(next.face_flux));
+  const auto [low, high] =
+      std::minmax_element(next.state.face_pressure.begin(), next.state.face_pressure.end());
+  pressure_scale_ = std::max(pressure_scale_, *high - *low);
+  before_ = std::move(now_);
+  before_dt_ = dt;
+  now_ = std::move(next);
+  pressure_ = element_means(now_.state.face_pressure);
+  last_dt_ = dt;
+}
+
+template <int Dim>
+FlowProgress<Dim> MixedFlow<Dim>::run(const FlowInterval<Dim>& interval) {
+  double dt = length_of_step(interval);
+  // The first step from rest gives the flow right after the start: what was before tells nothing.
+  const bool leaves_rest = at_rest_ && !options_.inertia;
+  MixedStep<Dim> step;
+  if (keep_) {
+    const PassTimer timer(keeping_);
+    ++keeping_.calls;
+    step = kept(dt);
+  } else {
+    const PassTimer timer(solving_);
+    step = accepted_step(interval, dt);
+  }
+  FlowProgress<Dim> progress;
+  progress.steps = 1;
+  progress.dt = progress.duration = dt;
+  progress.passed.volumes = volumes_of(step);
+
+  remember(std::move(step), dt);
+  Point begin = *before_;
+  if (leaves_rest) begin.face_flux = now_.face_flux;
+  show(interval, begin, dt, progress.passed.volumes);
+  if (leaves_rest) before_.reset();
+  at_rest_ = false;
+
+  const double time = interval.begin + dt;
+  this->boundary_values().update(time, this->conditions_);
+  const bool at_event = std::any_of(events_.begin(), events_.end(), [&](double event) {
+    return std::abs(event - time) <= 1e-13 * end_;
+  });
+  if (at_event) {
+    // A kink: what was before tells nothing of what comes.
+    if (!keep_) before_.reset();
+    const auto& knots = this->boundary_values().events();
+    const bool kink = std::any_of(knots.begin(), knots.end(), [&](double knot) {
+      return std::abs(knot - time) <= 1e-13 * end_;
+    });
+    if (kink) keep_ = false;
+  } else if (!keep_) {
+    const PassTimer timer(solving_);
+    keep_if_steady(time);
+  }
+  return progress;
+}
+
+template <int Dim>
+bool MixedFlow<Dim>::same_resistance(const FlowCoefficients<Dim>& a,
+                                     const FlowCoefficients<Dim>& b) const {
+  constexpr double round_off = 1e-12;
+  const bool heavy = this->gravity().norm() > 0.0;
+  const auto same = [](double x, double y) { return std::abs(x - y) <= round_off * std::abs(y); };
+  const bool prescribes_velocity =
+      std::any_of(this->conditions_.begin(), this->conditions_.end(),
+                  [](const FaceCondition& c) { return c.kind == FaceKind::velocity; });
+  for (std::size_t e = 0; e < a.drag.size(); ++e) {
+    if (!same(a.drag[e] / a.porosity[e], b.drag[e] / b.porosity[e])) return false;
+    if (heavy && !same(a.mixture_density[e], b.mixture_density[e])) return false;
+    if (prescribes_velocity && !same(a.porosity[e], b.porosity[e])) return false;
+    if (!a.quadratic_drag.empty() && !same(a.quadratic_drag[e], b.quadratic_drag[e])) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+void MixedFlow<Dim>::keep_if_steady(double time) {
+  if (!options_.freeze || !before_) return;
+  const double close = kept_share * tolerance_;
+  if (largest_difference(now_.face_flux, before_->face_flux) > close * flux_scale_) return;
+  // Between two kinks boundary values are linear: different at their ends means they are moving.
+  const BoundaryValues<Dim>& values = this->boundary_values();
+  if (values.vary()) {
+    std::vector<FaceCondition> later = this->conditions_;
+    const auto next =
+        std::upper_bound(values.events().begin(), values.events().end(), time + 1e-13 * end_);
+    values.update(next != values.events().end() ? *next : end_, later);
+    for (std::size_t f = 0; f < later.size(); ++f) {
+      if (later[f].value != this->conditions_[f].value) return;
+    }
+  }
+  MixedStep<Dim> steady;
+  try {
+    steady = scheme_.steady({this->coefficients_, this->conditions_, outflow_rate_});
+  } catch (const NumericalError&) {
+    return;
+  }
+  if (largest_difference(now_.face_flux, steady.face_flux) > close * flux_scale_) return;
+  if (largest_difference(now_.state.face_pressure, steady.end.face_pressure) >
+      close * pressure_scale_) {
+    return;
+  }
+  keep_ = true;
+  now_ = {std::move(steady.end), std::move(steady.face_flux)};
+  pressure_ = element_means(now_.state.face_pressure);
+  kept_coefficients_ = this->coefficients_;
+  mismatch_when_kept_ = eos_error_;
+}
+
+template <int Dim>
+void MixedFlow<Dim>::follow_masses(double time, const std::vector<double>& water_mass) {
+  const LiquidProperties& liquid = this->scene().liquid;
+  const std::size_t elements = water_mass.size();
+  const bool stiff = std::isinf(liquid.bulk_modulus);
+  std::vector<double> mismatch(elements);
+  eos_error_ = 0.0;
+  for (std::size_t e = 0; e < elements; ++e) {
+    const double volume = this->coefficients_.water_volume[e];
+    const double fills =
+        water_mass[e] / (liquid.density * density_ratio(pressure_[e], liquid.bulk_modulus));
+    if (!(fills > 0.0)) {
+      std::ostringstream message;
+      message << "element " << e << " at ("
+              << element_centroid(this->grid().mesh, static_cast<int>(e)).transpose()
+              << ") has no water left at t = " << time << " s";
+      throw NumericalError(message.str());
+    }
+    mismatch[e] = fills - volume;
+    eos_error_ = std::max(eos_error_, std::abs(mismatch[e]) / volume);
+  }
+  // Water without compressibility fits by construction; its round-off has nowhere to go.
+  if (stiff) return;
+  // What the step made is what it would make again: let out as it comes. The rest later.
+  if (!mismatch_.empty() && last_dt_ > 0.0 && !keep_) {
+    for (std::size_t e = 0; e < elements; ++e) {
+      outflow_rate_[e] = (mismatch[e] - mismatch_[e] + released_[e]) / last_dt_;
+    }
+  }
+  if (outflow_rate_.empty()) outflow_rate_.assign(elements, 0.0);
+  released_.assign(elements, 0.0);
+  mismatch_ = std::move(mismatch);
+  if (keep_ && eos_error_ > mismatch_when_kept_ + kept_share * tolerance_) keep_ = false;
+}
+
+template <int Dim>
+std::vector<double> MixedFlow<Dim>::element_means(const std::vector<double>& face_pressure) const {
+  const Grid<Dim>& grid = this->grid();
+  std::vector<double> result(grid.mesh.element_count(), 0.0);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    for (const int f : grid.element_face[e]) result[e] += face_pressure[f] / (Dim + 1);
+  }
+  return result;
+}
+
+template <int Dim>
+double MixedFlow<Dim>::overshoot(const std::vector<double>& face_pressure) const {
+  if (!has_bounds_ || pressure_scale_ == 0.0) return 0.0;
+  const auto [low, high] = std::minmax_element(face_pressure.begin(), face_pressure.end());
+  return std::max({0.0, *high - highest_bound_, lowest_bound_ - *low}) / pressure_scale_;
+}
+
+template <int Dim>
+FlowMoment<Dim> MixedFlow<Dim>::moment_of(double time, double dt, const Point& flow) const {
+  const Grid<Dim>& grid = this->grid();
+  FlowMoment<Dim> result;
+  result.time = time;
+  result.dt = dt;
+  result.pressure = element_means(flow.state.face_pressure);
+  result.face_flux = flow.face_flux;
+  result.eos_error = eos_error_;
+  result.pressure_overshoot = overshoot(flow.state.face_pressure);
+  // Nodes: what the linear fields of the elements around have there, on the mean.
+  result.node_pressure.assign(grid.mesh.node_count(), 0.0);
+  result.velocity.assign(grid.mesh.node_count(), Vector<Dim>::Zero());
+  const std::vector<Vector<Dim>> flux = element_flux(grid, flow.face_flux);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    for (int k = 0; k <= Dim; ++k) {
+      const int i = grid.mesh.elements[e][k];
+      const double weight = grid.volume[e] / (Dim + 1) / grid.node_volume[i];
+      const double at_vertex =
+          (Dim + 1) * result.pressure[e] - Dim * flow.state.face_pressure[grid.element_face[e][k]];
+      result.node_pressure[i] += weight * at_vertex;
+      result.velocity[i] += weight / this->coefficients_.porosity[e] * flux[e];
+    }
+  }
+  this->prescribe_at_nodes(result.node_pressure);
+  return result;
+}
+
+template <int Dim>
+FlowMoment<Dim> MixedFlow<Dim>::moment(double time) const {
+  return moment_of(time, last_dt_ > 0.0 ? last_dt_ : next_dt_, now_);
+}
+
+template <int Dim>
+std::vector<PassTiming> MixedFlow<Dim>::passes() const {
+  const SolveCounts counts = scheme_.counts();
+  return {solving_,
+          {"flow, rejected steps", rejected_, 0.0},
+          {"flow, matrices factored", counts.factorisations, 0.0},
+          {"flow, conjugate gradients", counts.iterations, 0.0},
+          keeping_};
+}
+
+template class MixedFlow<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,98 @@
+#pragma once
+
+/// The implicit flow of a scene (`scheme = "implicit"`): mixed finite elements with steps chosen by
+/// the scene's tolerance, or given by it. A flow that no longer changes is kept, not solved again.
+
+#include <optional>
+#include <vector>
+
+#include "flow/implicit_mixed.hpp"
+#include "flow/scene_flow.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class MixedFlow final : public SceneFlow<Dim> {
+ public:
+  MixedFlow(const Case<Dim>& c, const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
+            const FlowOptions& options);
+
+  void update(double time, const PoreContent& content,
+              const std::vector<double>& face_concentration) override;
+  void start() override;
+  /// One step. Throws NumericalError when no step is short enough for the tolerance.
+  FlowProgress<Dim> run(const FlowInterval<Dim>& interval) override;
+
+  [[nodiscard]] const std::vector<double>& pressure() const override { return pressure_; }
+  /// Where an element's water does not fit its pores at its pressure, the next step lets it out.
+  void follow_masses(double time, const std::vector<double>& water_mass) override;
+
+  [[nodiscard]] FlowMoment<Dim> moment(double time) const override;
+  [[nodiscard]] std::vector<PassTiming> passes() const override;
+
+ private:
+  /// The flow at one end of a step.
+  struct Point {
+    MixedState<Dim> state;
+    std::vector<double> face_flux;  ///< m3/s
+  };
+
+  [[nodiscard]] FlowForcing<Dim> forcing_at(const FlowInterval<Dim>& interval, double time) const;
+  /// Changes of the step `dt` that is tried next: events, the target, and slivers before them.
+  [[nodiscard]] double length_of_step(const FlowInterval<Dim>& interval) const;
+  /// Estimated local error of a step over the tolerance.
+  [[nodiscard]] double error_of(const MixedStep<Dim>& step, double dt) const;
+  [[nodiscard]] MixedStep<Dim> accepted_step(const FlowInterval<Dim>& interval, double& dt);
+  /// The same flow again, over `dt`.
+  [[nodiscard]] MixedStep<Dim> kept(double dt) const;
+  void show(const FlowInterval<Dim>& interval, const Point& begin, double dt,
+            const FaceVolumes& volumes);
+  [[nodiscard]] FaceVolumes volumes_of(const MixedStep<Dim>& step) const;
+  void remember(MixedStep<Dim> step, double dt);
+  /// Keeps the flow when it has become steady and nothing that drives it will change by itself.
+  void keep_if_steady(double time);
+  [[nodiscard]] bool same_resistance(const FlowCoefficients<Dim>& a,
+                                     const FlowCoefficients<Dim>& b) const;
+  void find_scales();
+  [[nodiscard]] std::vector<double> element_means(const std::vector<double>& face_pressure) const;
+  [[nodiscard]] FlowMoment<Dim> moment_of(double time, double dt, const Point& flow) const;
+  [[nodiscard]] double overshoot(const std::vector<double>& face_pressure) const;
+  void warn_of_obtuse_angles();
+
+  FlowOptions options_;
+  double tolerance_;
+  double end_;
+  ImplicitMixed<Dim> scheme_;
+  std::vector<double> events_;  ///< ascending, s
+  bool follows_pores_;          ///< coefficients change with porosity within a step
+
+  Point now_;
+  std::vector<double> pressure_;  ///< per element, Pa
+  double last_dt_ = 0.0;
+  double next_dt_ = 0.0;
+  /// Flux and pressure at the begin of the last step, for the prediction of the next; empty when
+  /// there is none.
+  std::optional<Point> before_;
+  double before_dt_ = 0.0;
+  bool at_rest_ = true;  ///< fluxes at the start do not belong to the pressures yet
+  double flux_scale_ = 0.0;
+  double pressure_scale_ = 0.0;
+  double lowest_bound_ = 0.0;  ///< pressures of boundaries and start, Pa
+  double highest_bound_ = 0.0;
+  bool has_bounds_ = false;
+
+  bool keep_ = false;
+  FlowCoefficients<Dim> kept_coefficients_;
+  double mismatch_when_kept_ = 0.0;
+
+  std::vector<double> mismatch_;      ///< water too much per element, m3
+  std::vector<double> released_;      ///< of it in the last step, m3
+  std::vector<double> outflow_rate_;  ///< that compression of moving water asks for, m3/s
+  double eos_error_ = 0.0;
+
+  PassTiming solving_{"flow", 0, 0.0};
+  PassTiming keeping_{"flow, steady and kept", 0, 0.0};
+  long rejected_ = 0;
+};
+
+}  // namespace suffuse
