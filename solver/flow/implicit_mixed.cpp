@@ -173,33 +173,45 @@ void ImplicitMixed<Dim>::assemble(const MomentumLaw& law, const std::vector<doub
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::solve_pressure(const MomentumLaw& law,
-                                        const std::vector<double>& reference,
-                                        const std::vector<double>& storage,
+void ImplicitMixed<Dim>::FacePressure::move_reference(const std::vector<double>& base) {
+  for (std::size_t f = 0; f < rise.size(); ++f) {
+    const double old = reference[f];
+    reference[f] += rise[f];
+    rise[f] -= reference[f] - old;
+    offset[f] = reference[f] - base[f];
+  }
+}
+
+template <int Dim>
+double ImplicitMixed<Dim>::conductance_of(int e, double mobility) const {
+  double largest = 0.0;
+  for (int k = 0; k <= Dim; ++k) largest = std::max(largest, normal_products_[e][k][k]);
+  return mobility * largest;
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::solve_pressure(const MomentumLaw& law, const std::vector<double>& storage,
                                         const std::vector<double>& net_source,
-                                        const FlowForcing<Dim>& forcing,
-                                        std::vector<double>& rise) {
+                                        const FlowForcing<Dim>& forcing, FacePressure& pressure) {
   const int elements = grid_.mesh.element_count();
   const int faces = grid_.face_count();
   assemble(law, storage);
 
-  // Everything relative to the reference pressure, so that small changes of a large pressure keep
-  // their digits.
   Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns_);
   Eigen::VectorXd guess = Eigen::VectorXd::Zero(unknowns_);
   std::vector<double> known_rise(faces, 0.0);
   for (int f = 0; f < faces; ++f) {
     if (unknown_[f] < 0) {
-      known_rise[f] = rise[f];
+      known_rise[f] = pressure.rise[f];
     } else {
-      guess[unknown_[f]] = rise[f];
+      guess[unknown_[f]] = pressure.rise[f];
       if (kinds_[f] != FaceKind::interior) load[unknown_[f]] += prescribed_inflow(forcing, f);
     }
   }
   // Residuals need be no smaller than the round-off of the load, nor than this share of the flux.
   Eigen::VectorXd tolerance = Eigen::VectorXd::Constant(unknowns_, 1e-13 * flux_scale_);
   for (int e = 0; e < elements; ++e) {
-    const Vector<Dim> gradient = pressure_gradient(e, reference, known_rise);
+    const Vector<Dim> gradient = pressure_gradient(e, pressure.reference, known_rise);
     Vector<Dim> push = law.drive[e] - gradient;
     if (!law.direction.empty()) push -= law.direction[e] * law.direction[e].dot(push);
     push *= law.mobility[e];
@@ -209,7 +221,8 @@ void ImplicitMixed<Dim>::solve_pressure(const MomentumLaw& law,
       const int f = grid_.element_face[e][k];
       const int row = unknown_[f];
       if (row < 0) continue;
-      load[row] += push.dot(outward_normal(e, k)) + net_source[e] / (Dim + 1);
+      load[row] += push.dot(outward_normal(e, k)) + net_source[e] / (Dim + 1) -
+                   storage[e] * pressure.offset[f];
       tolerance[row] += round_off * grid_.face_normal[f].norm();
     }
   }
@@ -223,7 +236,7 @@ void ImplicitMixed<Dim>::solve_pressure(const MomentumLaw& law,
 
   const Eigen::VectorXd solution = factor_->solve(matrix_, load, guess, tolerance);
   for (int f = 0; f < faces; ++f) {
-    if (unknown_[f] >= 0) rise[f] = solution[unknown_[f]];
+    if (unknown_[f] >= 0) pressure.rise[f] = solution[unknown_[f]];
   }
 }
 
@@ -295,25 +308,29 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
     }
   }
 
-  Stage stage;
-  stage.rise.resize(faces);
+  FacePressure pressure;
+  pressure.reference = base.face_pressure;
+  pressure.offset.assign(faces, 0.0);
+  pressure.rise.resize(faces);
   for (int f = 0; f < faces; ++f) {
     if (kinds_[f] == FaceKind::pressure) {
-      stage.rise[f] = forcing.conditions[f].value - base.face_pressure[f];
+      pressure.rise[f] = forcing.conditions[f].value - base.face_pressure[f];
     } else {
-      stage.rise[f] = std::isfinite(duration) ? rise_rate_[f] * duration : 0.0;
+      pressure.rise[f] = std::isfinite(duration) ? rise_rate_[f] * duration : 0.0;
     }
   }
 
   // Newton's method on flux and pressure together: continuity is linear, so after the first
-  // iteration only momentum is left to fulfil.
+  // iteration only momentum is left to fulfil. Without quadratic drag there is one iteration, or a
+  // second one to be rid of round-off: pressures that rise a lot leave that of the rise times the
+  // largest conductance, which may be more than what flows through a tight soil.
   const bool quadratic = !c.quadratic_drag.empty();
   MomentumLaw law;
   law.mobility.resize(elements);
   law.drive = drive;
   if (quadratic) law.direction.resize(elements);
-  Field flux = quadratic ? flux_guess : Field(elements);
-  Field push(elements);  // drive less pressure gradient
+  Field flux = quadratic ? flux_guess : Field(elements, Vector<Dim>::Zero());
+  Field push = drive;  // drive less pressure gradient
   double error = std::numeric_limits<double>::infinity();
   double last_change = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration) {
@@ -329,46 +346,48 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
         law.direction[e] = std::sqrt(secant / (resistance[e] + 2.0 * secant)) / speed * flux[e];
       }
     }
-    solve_pressure(law, base.face_pressure, storage, net_source, forcing, stage.rise);
+    if (iteration > 0) pressure.move_reference(base.face_pressure);
+    solve_pressure(law, storage, net_source, forcing, pressure);
     Field new_flux(elements);
     Field new_push(elements);
     for (int e = 0; e < elements; ++e) {
-      const Vector<Dim> gradient = pressure_gradient(e, base.face_pressure, stage.rise);
+      const Vector<Dim> gradient = pressure_gradient(e, pressure.reference, pressure.rise);
       new_push[e] = drive[e] - gradient;
       Vector<Dim> linear = law.drive[e] - gradient;
       if (quadratic) linear -= law.direction[e] * law.direction[e].dot(linear);
       new_flux[e] = law.mobility[e] * linear;
     }
-    if (!quadratic) {
-      flux = std::move(new_flux);
-      break;
-    }
-
     double largest = 0.0;
     double change = 0.0;
-    for (int e = 0; e < elements; ++e) {
-      largest = std::max(largest, new_flux[e].norm());
-    }
+    double most_through = 0.0;  // a face, m3/s
+    double most_round_off = 0.0;
     bool converged = true;
+    for (int e = 0; e < elements; ++e) largest = std::max(largest, new_flux[e].norm());
     for (int e = 0; e < elements; ++e) {
-      double level = 0.0;
+      double rise = 0.0;
       double area = 0.0;
       for (const int f : grid_.element_face[e]) {
-        level = std::max(level, std::abs(base.face_pressure[f]) + std::abs(stage.rise[f]));
+        rise = std::max(rise, std::abs(pressure.rise[f]));
         area = std::max(area, grid_.face_normal[f].norm());
       }
       const double round_off =
-          epsilon * law.mobility[e] * (drive[e].norm() + level * area / grid_.volume[e]);
+          epsilon * (conductance_of(e, law.mobility[e]) * rise / area +
+                     law.mobility[e] * (law.drive[e].norm() + new_push[e].norm()));
       const double here = (new_flux[e] - flux[e]).norm();
-      change = std::max(change, here);
       if (here > 1e-12 * largest + 16.0 * round_off) converged = false;
+      change = std::max(change, here);
+      most_through = std::max(most_through, new_flux[e].norm() * area);
+      most_round_off =
+          std::max(most_round_off, epsilon * conductance_of(e, law.mobility[e]) * rise);
     }
+    if (!quadratic) converged = iteration > 0 || most_round_off <= 1e-12 * most_through;
     // A small change that no longer halves is round-off that spread through the mesh.
     if (change <= 1e-6 * largest && change > 0.5 * last_change) converged = true;
     if (converged) {
       flux = std::move(new_flux);
       break;
     }
+    if (!quadratic) continue;
     if (iteration == 100) {
       std::ostringstream text;
       text << "the flow with quadratic drag did not converge in 100 iterations of Newton's method: "
@@ -411,6 +430,10 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
     flux = std::move(new_flux);
     push = std::move(new_push);
   }
+
+  Stage stage;
+  stage.rise.resize(faces);
+  for (int f = 0; f < faces; ++f) stage.rise[f] = pressure.offset[f] + pressure.rise[f];
 
   // The water that a sealed piece stores takes up what enters it: to the last digit where next to
   // no storage hardly holds the level.
@@ -526,16 +549,11 @@ MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& begin, double dt,
 template <int Dim>
 MixedStep<Dim> ImplicitMixed<Dim>::steady(const FlowForcing<Dim>& forcing) {
   set_up(forcing.conditions);
-  Stage stage;
-  // Twice: the second solution is a small rise over the first, which is free of the round-off of
-  // pressures times the largest conductance.
-  for (int pass = 0; pass < 2; ++pass) {
-    stage = solve_stage(last_steady_, std::numeric_limits<double>::infinity(), forcing,
-                        last_steady_flux_);
-    last_steady_ = stage.state;
-    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-      last_steady_flux_[e] = forcing.coefficients.porosity[e] * stage.state.velocity[e];
-    }
+  Stage stage = solve_stage(last_steady_, std::numeric_limits<double>::infinity(), forcing,
+                            last_steady_flux_);
+  last_steady_ = stage.state;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    last_steady_flux_[e] = forcing.coefficients.porosity[e] * stage.state.velocity[e];
   }
   return {std::move(stage.state), {}, std::move(stage.face_flux)};
 }

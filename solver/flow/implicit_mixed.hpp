@@ -91,15 +91,25 @@ class ImplicitMixed {
     std::vector<Vector<Dim>> direction;
     std::vector<Vector<Dim>> drive;
   };
+  /// Pressures at face centres as a sum, base + offset + rise, so that small changes of large
+  /// pressures have all their digits; offset = reference - base.
+  struct FacePressure {
+    std::vector<double> reference;
+    std::vector<double> offset;
+    std::vector<double> rise;
+
+    /// Makes the reference what the pressure is, as nearly as it can hold it.
+    void move_reference(const std::vector<double>& base);
+  };
   using Field = std::vector<Vector<Dim>>;
 
   void set_up(const std::vector<FaceCondition>& conditions);
   Stage solve_stage(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
                     const Field& flux_guess);
-  /// Pressures with the law given, as rise over `reference`.
-  void solve_pressure(const MomentumLaw& law, const std::vector<double>& reference,
-                      const std::vector<double>& storage, const std::vector<double>& net_source,
-                      const FlowForcing<Dim>& forcing, std::vector<double>& rise);
+  /// Solves for the pressures with the law given. At prescribed pressures `rise` is known.
+  void solve_pressure(const MomentumLaw& law, const std::vector<double>& storage,
+                      const std::vector<double>& net_source, const FlowForcing<Dim>& forcing,
+                      FacePressure& pressure);
   void assemble(const MomentumLaw& law, const std::vector<double>& storage);
 
   [[nodiscard]] Vector<Dim> outward_normal(int e, int k) const {
@@ -109,6 +119,8 @@ class ImplicitMixed {
   [[nodiscard]] double prescribed_inflow(const FlowForcing<Dim>& forcing, int face) const;
   [[nodiscard]] Vector<Dim> pressure_gradient(int e, const std::vector<double>& reference,
                                               const std::vector<double>& rise) const;
+  /// Flux per pressure, m3/(s Pa), of the element's largest face.
+  [[nodiscard]] double conductance_of(int e, double mobility) const;
 
   const Grid<Dim>& grid_;
   ImplicitSettings settings_;

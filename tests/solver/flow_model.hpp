@@ -1,0 +1,87 @@
+#pragma once
+
+/// Flow without a scene, for tests of flow schemes.
+
+#include <random>
+#include <string>
+
+#include "flow/implicit_mixed.hpp"
+#include "solver/model_case.hpp"
+
+namespace suffuse::model {
+
+/// Random numbers, the same for the same seed.
+class Uniform {
+ public:
+  explicit Uniform(unsigned seed) : random_(seed) {}
+  /// In [-1, 1).
+  double operator()() { return 2.0 * static_cast<double>(random_() >> 11) * 0x1p-53 - 1.0; }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// Flow alone on a mesh: walls unless said otherwise, soil of 0.02 m/s.
+struct FlowModel {
+  explicit FlowModel(const Mesh<2>& mesh_in) : mesh(mesh_in), grid(mesh) {
+    forcing.coefficients = model::flow_coefficients(grid, 0.02);
+    forcing.conditions.resize(grid.face_count());
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (grid.is_outer(f)) forcing.conditions[f].kind = FaceKind::wall;
+    }
+  }
+  void set(const std::string& boundary, FaceKind kind, double value) {
+    for (const auto& set : mesh.boundaries) {
+      if (set.name != boundary) continue;
+      for (const auto& nodes : set.faces) {
+        FaceCondition& c = forcing.conditions[grid.find_face(nodes)];
+        c.kind = kind;
+        c.value = value;
+      }
+    }
+  }
+  template <class OfPlace>
+  void set_conductivity(const OfPlace& conductivity) {
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      forcing.coefficients.drag[e] = darcy_drag(forcing.coefficients.porosity[e], 1000.0,
+                                                conductivity(element_centroid(mesh, e)));
+    }
+  }
+  /// The forcing at each stage of a step, constant.
+  [[nodiscard]] std::vector<const FlowForcing<2>*> constant(const ImplicitMixed<2>& flow) const {
+    return std::vector<const FlowForcing<2>*>(flow.stages().size(), &forcing);
+  }
+  [[nodiscard]] MixedState<2> rest(double pressure = 0.0) const {
+    return {std::vector<double>(grid.face_count(), pressure),
+            std::vector<Vector<2>>(mesh.element_count(), Vector<2>::Zero())};
+  }
+  /// Volume per pressure that an element stores at each of its faces, m3/Pa.
+  [[nodiscard]] double capacity(int e, double modulus) const {
+    return forcing.coefficients.water_volume[e] / (3.0 * modulus);
+  }
+
+  FlowModel(const FlowModel&) = delete;
+  FlowModel& operator=(const FlowModel&) = delete;
+
+  Mesh<2> mesh;
+  Grid<2> grid;
+  FlowForcing<2> forcing;
+};
+
+/// Largest |net outflow of an element - what it should be| over the largest flux through a face.
+inline double imbalance(const Grid<2>& grid, const std::vector<double>& flux,
+                        const std::vector<double>& net_outflow) {
+  double worst = 0.0;
+  double largest = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    double outflow = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      outflow += grid.element_face_sign[e][k] * flux[grid.element_face[e][k]];
+    }
+    worst = std::max(worst, std::abs(outflow - net_outflow[e]));
+  }
+  for (const double f : flux) largest = std::max(largest, std::abs(f));
+  return worst / largest;
+}
+
+}  // namespace suffuse::model

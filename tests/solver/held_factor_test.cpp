@@ -1,0 +1,106 @@
+#include "flow/held_factor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Five-point matrix of flow on an n x n grid, conductances 1 + amount * (something between -1 and
+/// 1 that depends on place), grounded on one side.
+Eigen::SparseMatrix<double> flow_matrix(int n, double amount) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto connect = [&](int a, int b, double conductance) {
+    entries.emplace_back(a, a, conductance);
+    entries.emplace_back(b, b, conductance);
+    entries.emplace_back(a, b, -conductance);
+    entries.emplace_back(b, a, -conductance);
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double conductance = 1.0 + amount * std::sin(12.9 * i + 78.2 * j);
+      if (i + 1 < n) connect(i * n + j, (i + 1) * n + j, conductance);
+      if (j + 1 < n) connect(i * n + j, i * n + j + 1, conductance);
+    }
+    entries.emplace_back(i, i, 1.0);
+  }
+  Eigen::SparseMatrix<double> matrix(n * n, n * n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+Eigen::VectorXd load(int size) {
+  Eigen::VectorXd result(size);
+  for (int i = 0; i < size; ++i) result[i] = std::cos(0.37 * i);
+  return result;
+}
+
+double difference_from_dense(const Eigen::SparseMatrix<double>& matrix,
+                             const Eigen::VectorXd& solution) {
+  const Eigen::VectorXd exact =
+      Eigen::MatrixXd(matrix).ldlt().solve(load(static_cast<int>(matrix.rows())));
+  return (solution - exact).lpNorm<Eigen::Infinity>() / exact.lpNorm<Eigen::Infinity>();
+}
+
+class HeldFactorTest : public ::testing::Test {
+ protected:
+  static constexpr int n = 15;
+  Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& matrix) {
+    return held_.solve(matrix, load(n * n), Eigen::VectorXd::Zero(n * n),
+                       Eigen::VectorXd::Constant(n * n, 1e-14));
+  }
+  HeldFactor held_{flow_matrix(n, 0.0)};
+};
+
+TEST_F(HeldFactorTest, SameMatrixIsFactoredOnce) {
+  const auto matrix = flow_matrix(n, 0.2);
+  for (int i = 0; i < 3; ++i) EXPECT_LE(difference_from_dense(matrix, solve(matrix)), 1e-12);
+  EXPECT_EQ(held_.counts().factorisations, 1);
+  EXPECT_EQ(held_.counts().solves, 3);
+  EXPECT_EQ(held_.counts().iterations, 0);
+}
+
+TEST_F(HeldFactorTest, MatrixThatDriftedIsSolvedByIterations) {
+  solve(flow_matrix(n, 0.2));
+  const auto drifted = flow_matrix(n, 0.21);
+  EXPECT_LE(difference_from_dense(drifted, solve(drifted)), 1e-12);
+  EXPECT_EQ(held_.counts().factorisations, 1);
+  EXPECT_GE(held_.counts().iterations, 3);
+  EXPECT_LE(held_.counts().iterations, 10);
+  RecordProperty("iterations_drift_1_percent", static_cast<int>(held_.counts().iterations));
+}
+
+TEST_F(HeldFactorTest, AGoodGuessSavesIterations) {
+  solve(flow_matrix(n, 0.2));
+  const auto drifted = flow_matrix(n, 0.21);
+  const Eigen::VectorXd x = solve(drifted);
+  const long before = held_.counts().iterations;
+  held_.solve(drifted, load(n * n), x, Eigen::VectorXd::Constant(n * n, 1e-12));
+  EXPECT_EQ(held_.counts().iterations, before);
+}
+
+TEST_F(HeldFactorTest, MatrixThatChangedALotIsFactoredAnew) {
+  solve(flow_matrix(n, 0.0));
+  const auto changed = flow_matrix(n, 0.95);
+  EXPECT_LE(difference_from_dense(changed, solve(changed)), 1e-12);
+  EXPECT_EQ(held_.counts().factorisations, 2);
+  EXPECT_EQ(held_.counts().iterations, HeldFactor::most_iterations);
+  solve(changed);
+  EXPECT_EQ(held_.counts().factorisations, 2);
+}
+
+TEST_F(HeldFactorTest, RefusesWhatIsNotPositiveDefiniteOrNotFinite) {
+  Eigen::SparseMatrix<double> matrix = flow_matrix(n, 0.0);
+  matrix.coeffRef(3, 3) = -1.0;
+  EXPECT_THROW(solve(matrix), NumericalError);
+  matrix.coeffRef(3, 3) = std::nan("");
+  EXPECT_THROW(solve(matrix), NumericalError);
+  EXPECT_NO_THROW(solve(flow_matrix(n, 0.0)));
+}
+
+}  // namespace
+}  // namespace suffuse

@@ -1,0 +1,340 @@
+/// What the implicit mixed flow must keep on any mesh and with any contrast: volumes, bounds,
+/// energy, rest.
+
+#include "flow/implicit_mixed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "case/errors.hpp"
+#include "flow_model.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+using model::FlowModel;
+using model::imbalance;
+using model::Uniform;
+
+std::vector<double> stored(const FlowModel& m, double modulus, const MixedState<2>& a,
+                           const MixedState<2>& b) {
+  std::vector<double> result(m.mesh.element_count(), 0.0);
+  for (int e = 0; e < m.mesh.element_count(); ++e) {
+    for (const int f : m.grid.element_face[e]) {
+      result[e] += m.capacity(e, modulus) * (b.face_pressure[f] - a.face_pressure[f]);
+    }
+  }
+  return result;
+}
+
+struct Contrast {
+  const char* name;
+  double (*conductivity)(const Vector<2>&);
+};
+
+double thin_layer(const Vector<2>& x) {
+  return x[1] > 0.5 && x[1] < 0.55 ? 1e-8 : 1.0;
+}
+double checkerboard(const Vector<2>& x) {
+  return (static_cast<int>(5 * x[0]) + static_cast<int>(5 * x[1])) % 2 == 0 ? 1e-4 : 1e4;
+}
+double scattered(const Vector<2>& x) {
+  const double share = std::sin(1e4 * x[0] + 3e4 * x[1]);
+  return std::pow(10.0, 4.0 * share);
+}
+
+class ImplicitMixedContrast : public ::testing::TestWithParam<Contrast> {};
+
+TEST_P(ImplicitMixedContrast, VolumesBalanceInEveryElement) {
+  double worst_steady = 0.0;
+  double worst_step = 0.0;
+  double worst_volume = 0.0;
+  for (const double amount : {0.0, 0.012}) {
+    FlowModel m(model::column_mesh(20, 20, 1.0, 1.0, model::jittered(amount, 3)));
+    m.set_conductivity(GetParam().conductivity);
+    m.set("top", FaceKind::pressure, 6000.0);
+    m.set("bottom", FaceKind::pressure, 0.0);
+    m.set("left", FaceKind::flux, 1e-7);
+    m.set("right", FaceKind::velocity, -2e-7);
+    m.forcing.source.assign(m.mesh.element_count(), 0.0);
+    Uniform uniform(7);
+    for (double& s : m.forcing.source) s = 1e-9 * uniform();
+
+    ImplicitMixed<2> still(m.grid, {infinite, false, TimeStepping::monotone}, {0.0, -9.81});
+    const auto steady = still.steady(m.forcing);
+    EXPECT_TRUE(steady.face_volume.empty());
+    worst_steady = std::max(worst_steady, imbalance(m.grid, steady.face_flux, m.forcing.source));
+
+    for (const auto stepping : {TimeStepping::monotone, TimeStepping::second_order}) {
+      for (const bool inertia : {false, true}) {
+        const double modulus = 2e7;
+        ImplicitMixed<2> flow(m.grid, {modulus, inertia, stepping}, {0.0, -9.81});
+        MixedState<2> state = m.rest(3000.0);
+        for (const double dt : {1e-4, 1e-3, 1e-1, 10.0}) {
+          const auto step = flow.step(state, dt, m.constant(flow));
+          std::vector<double> expected = stored(m, modulus, state, step.end);
+          for (int e = 0; e < m.mesh.element_count(); ++e) {
+            expected[e] = dt * m.forcing.source[e] - expected[e];
+          }
+          worst_volume = std::max(worst_volume, imbalance(m.grid, step.face_volume, expected));
+          for (int f = 0; f < m.grid.face_count(); ++f) {
+            const FaceCondition& c = m.forcing.conditions[f];
+            if (c.kind == FaceKind::pressure) {
+              EXPECT_EQ(step.end.face_pressure[f], c.value);
+            }
+            const double area = m.grid.face_normal[f].norm();
+            if (c.kind == FaceKind::flux) {
+              EXPECT_EQ(step.face_flux[f], -1e-7 * area);
+            }
+            if (c.kind == FaceKind::velocity) {
+              EXPECT_DOUBLE_EQ(step.face_flux[f], 0.3 * 2e-7 * area);
+            }
+          }
+          state = step.end;
+        }
+        // The last step again, of which storage is known without differences: nothing stored.
+        ImplicitMixed<2> stiff(m.grid, {infinite, inertia, stepping}, {0.0, -9.81});
+        const auto step = stiff.step(state, 0.1, m.constant(stiff));
+        worst_step = std::max(worst_step, imbalance(m.grid, step.face_flux, m.forcing.source));
+      }
+    }
+  }
+  std::cout << GetParam().name << ": largest imbalance over largest flux, steady " << worst_steady
+            << ", step of water that stores nothing " << worst_step
+            << ", volumes with storage from the pressures " << worst_volume << '\n';
+  EXPECT_LE(worst_steady, 1e-12);
+  EXPECT_LE(worst_step, 1e-12);
+  EXPECT_LE(worst_volume, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Contrasts, ImplicitMixedContrast,
+                         ::testing::Values(Contrast{"thin_layer", thin_layer},
+                                           Contrast{"checkerboard", checkerboard},
+                                           Contrast{"scattered", scattered}),
+                         [](const auto& param_info) { return param_info.param.name; });
+
+/// How far face pressures leave [0, 6000] Pa, over steps from 1e-6 s to 1e3 s, as a share of it.
+double overshoot(FlowModel& m, const ImplicitSettings& settings) {
+  m.set("top", FaceKind::pressure, 6000.0);
+  m.set("bottom", FaceKind::pressure, 0.0);
+  ImplicitMixed<2> flow(m.grid, settings, Vector<2>::Zero());
+  double worst = 0.0;
+  for (double dt = 1e-6; dt < 2e3; dt *= 10.0) {
+    MixedState<2> state = m.rest();
+    for (int i = 0; i < 5; ++i) {
+      state = flow.step(state, dt, m.constant(flow)).end;
+      for (const double p : state.face_pressure) {
+        worst = std::max({worst, -p / 6000.0, p / 6000.0 - 1.0});
+      }
+    }
+  }
+  return worst;
+}
+
+TEST(ImplicitMixed, MonotoneStepsKeepPressuresWithinThoseAtTheBoundary) {
+  FlowModel layer(model::column_mesh(10, 20));
+  layer.set_conductivity(thin_layer);
+  FlowModel water(model::column_mesh(10, 20));
+  for (int e = 0; e < water.mesh.element_count(); ++e) {
+    if (element_centroid(water.mesh, e)[1] < 0.7) continue;
+    FlowCoefficients<2>& c = water.forcing.coefficients;
+    c.porosity[e] = 1.0;
+    c.water_volume[e] = water.grid.volume[e];
+    c.drag[e] = darcy_drag(1.0, 1000.0, 0.02 * 1e4);
+  }
+  for (const bool inertia : {false, true}) {
+    for (const double modulus : {2e7, 2e9, infinite}) {
+      const std::string of =
+          std::string(inertia ? "inertia" : "no inertia") + ", K = " + std::to_string(modulus);
+      // With inertia pressure is a wave that goes beyond them by itself.
+      for (const auto stepping : {TimeStepping::monotone, TimeStepping::second_order}) {
+        const bool monotone = stepping == TimeStepping::monotone;
+        const double in_layer = overshoot(layer, {modulus, inertia, stepping});
+        const double in_water = overshoot(water, {modulus, inertia, stepping});
+        std::cout << of << (monotone ? ", monotone" : ", second order") << ": overshoot "
+                  << in_layer << " with a thin layer, " << in_water << " with free water\n";
+        if (monotone && !inertia) {
+          EXPECT_LE(in_layer, 1e-10) << of;
+          EXPECT_LE(in_water, 1e-10) << of;
+        }
+      }
+    }
+  }
+}
+
+/// Kinetic energy and that of the compressed water, J. Kinetic: momentum per flux is rho v, so the
+/// rate of |e| rho n |v|^2 / 2 is what pressure and drag do.
+double energy(const FlowModel& m, double modulus, bool inertia, const MixedState<2>& state) {
+  double sum = 0.0;
+  const FlowCoefficients<2>& c = m.forcing.coefficients;
+  for (int e = 0; e < m.mesh.element_count(); ++e) {
+    if (inertia) {
+      sum += 0.5 * m.grid.volume[e] * c.mixture_density[e] * c.porosity[e] *
+             state.velocity[e].squaredNorm();
+    }
+    for (const int f : m.grid.element_face[e]) {
+      if (std::isfinite(modulus)) {
+        sum += 0.5 * m.capacity(e, modulus) * state.face_pressure[f] * state.face_pressure[f];
+      }
+    }
+  }
+  return sum;
+}
+
+TEST(ImplicitMixed, EnergyDoesNotGrow) {
+  double largest_growth = -1.0;
+  double least_kept = 1.0;
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    FlowModel m(model::column_mesh(8, 8, 1.0, 1.0, model::jittered(0.03, seed)));
+    Uniform uniform(seed);
+    for (int e = 0; e < m.mesh.element_count(); ++e) {
+      FlowCoefficients<2>& c = m.forcing.coefficients;
+      c.porosity[e] = 0.5 + 0.4 * uniform();
+      c.water_volume[e] = c.porosity[e] * m.grid.volume[e];
+      c.mixture_density[e] = 1200.0 + 200.0 * uniform();
+      c.drag[e] = darcy_drag(c.porosity[e], 1000.0, std::pow(10.0, 2.0 * uniform()));
+    }
+    m.set("top", FaceKind::pressure, 0.0);
+    for (const auto stepping : {TimeStepping::monotone, TimeStepping::second_order}) {
+      for (const bool inertia : {false, true}) {
+        for (const double modulus : {2e7, infinite}) {
+          if (!inertia && modulus == infinite) continue;  // no state
+          ImplicitMixed<2> flow(m.grid, {modulus, inertia, stepping}, Vector<2>::Zero());
+          for (const double dt : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1.0}) {
+            MixedState<2> state = m.rest();
+            for (int f = 0; f < m.grid.face_count(); ++f) {
+              if (m.forcing.conditions[f].kind != FaceKind::pressure) {
+                state.face_pressure[f] = 1e4 * uniform();
+              }
+            }
+            for (auto& v : state.velocity) v = Vector<2>(uniform(), uniform());
+            double last = energy(m, modulus, inertia, state);
+            for (int i = 0; i < 6; ++i) {
+              state = flow.step(state, dt, m.constant(flow)).end;
+              const double now = energy(m, modulus, inertia, state);
+              largest_growth = std::max(largest_growth, now / last - 1.0);
+              least_kept = std::min(least_kept, now / last);
+              EXPECT_LE(now, last * (1.0 + 1e-12));
+              last = now;
+            }
+          }
+        }
+      }
+    }
+  }
+  std::cout << "energy: largest relative growth in a step " << largest_growth << ", least kept "
+            << least_kept << '\n';
+}
+
+TEST(ImplicitMixed, WaterAtRestStaysAtRest) {
+  for (const double modulus : {2e7, infinite}) {
+    for (const bool open : {true, false}) {
+      FlowModel m(model::column_mesh(10, 10, 1.0, 1.0, model::jittered(0.03, 5)));
+      m.set_conductivity([](const Vector<2>& x) { return x[1] > 0.5 ? 1e-4 : 1.0; });
+      Uniform uniform(1);
+      for (int e = 0; e < m.mesh.element_count(); ++e) {
+        m.forcing.coefficients.porosity[e] = 0.5 + 0.4 * uniform();
+      }
+      if (open) m.set("top", FaceKind::pressure, 0.0);
+      MixedState<2> state = m.rest();
+      for (int f = 0; f < m.grid.face_count(); ++f) {
+        state.face_pressure[f] = 9810.0 * (1.0 - m.grid.face_centre(f)[1]);
+      }
+      const MixedState<2> begin = state;
+      double worst_flux = 0.0;
+      double worst_pressure = 0.0;
+      const auto compare = [&](const MixedStep<2>& step) {
+        const double level = open || modulus < infinite ? 0.0 : begin.face_pressure[0];
+        const double shift = level - (level != 0.0 ? step.end.face_pressure[0] : 0.0);
+        for (int f = 0; f < m.grid.face_count(); ++f) {
+          worst_flux =
+              std::max(worst_flux, std::abs(step.face_flux[f]) / m.grid.face_normal[f].norm());
+          worst_pressure = std::max(
+              worst_pressure, std::abs(step.end.face_pressure[f] + shift - begin.face_pressure[f]));
+        }
+      };
+      for (const auto stepping : {TimeStepping::monotone, TimeStepping::second_order}) {
+        ImplicitMixed<2> flow(m.grid, {modulus, true, stepping}, {0.0, -9.81});
+        for (const double dt : {1e-4, 1.0, 100.0}) {
+          const auto step = flow.step(state, dt, m.constant(flow));
+          compare(step);
+          state = step.end;
+        }
+        if (open) compare(flow.steady(m.forcing));
+      }
+      // Against the flux that gravity would drive by itself in the most conductive soil, 1 m/s.
+      EXPECT_LE(worst_flux, 1e-12);
+      EXPECT_LE(worst_pressure, 1e-12 * 9810.0);
+      std::cout << (open ? "open" : "sealed") << ", K = " << modulus << ": flux at rest "
+                << worst_flux << " m/s, pressure off by " << worst_pressure << " Pa\n";
+    }
+  }
+}
+
+TEST(ImplicitMixed, SealedBoxStoresWhatIsPutIn) {
+  // Nothing prescribes a pressure: the mean pressure follows from the volume alone, however stiff
+  // the water and whatever the flow inside.
+  for (const double modulus : {2e7, 2e9, 2e14}) {
+    FlowModel m(model::column_mesh(8, 8, 1.0, 1.0, model::jittered(0.03, 5)));
+    m.set_conductivity(checkerboard);
+    m.set("left", FaceKind::flux, 1e-3);
+    m.forcing.source.assign(m.mesh.element_count(), 0.0);
+    m.forcing.source[17] = 2e-4;
+    for (const auto stepping : {TimeStepping::monotone, TimeStepping::second_order}) {
+      ImplicitMixed<2> flow(m.grid, {modulus, true, stepping}, Vector<2>::Zero());
+      MixedState<2> state = m.rest();
+      double time = 0.0;
+      for (const double dt : {1e-5, 1e-3, 1.0}) {
+        const auto step = flow.step(state, dt, m.constant(flow));
+        EXPECT_LE(imbalance(m.grid, step.face_volume,
+                            [&] {
+                              auto v = stored(m, modulus, state, step.end);
+                              for (double& s : v) s = -s;
+                              v[17] += dt * 2e-4;
+                              return v;
+                            }()),
+                  1e-12);
+        state = step.end;
+        time += dt;
+        double volume = 0.0;
+        for (const double s : stored(m, modulus, m.rest(), state)) volume += s;
+        EXPECT_NEAR(volume / (time * (1e-3 + 2e-4)), 1.0, 1e-11) << "K = " << modulus;
+      }
+    }
+  }
+}
+
+TEST(ImplicitMixed, WithoutPressureBoundaryFluxesMustCancel) {
+  FlowModel m(model::column_mesh(6, 6, 1.0, 1.0, model::jittered(0.03, 5)));
+  m.set("left", FaceKind::flux, 1e-3);
+  m.set("right", FaceKind::flux, -1.5e-3);
+  m.forcing.source.assign(m.mesh.element_count(), 0.5e-3 / m.mesh.element_count());
+  ImplicitMixed<2> stiff(m.grid, {infinite, true, TimeStepping::second_order}, Vector<2>::Zero());
+  ImplicitMixed<2> soft(m.grid, {2e7, true, TimeStepping::second_order}, Vector<2>::Zero());
+  const std::vector<const FlowForcing<2>*> both = {&m.forcing, &m.forcing};
+  for (const auto& step :
+       {stiff.steady(m.forcing), soft.steady(m.forcing), stiff.step(m.rest(), 0.1, both)}) {
+    EXPECT_LE(imbalance(m.grid, step.face_flux, m.forcing.source), 1e-12);
+    EXPECT_EQ(step.end.face_pressure[m.grid.element_face[0][0]], 0.0);
+  }
+
+  m.set("left", FaceKind::flux, 1.1e-3);
+  EXPECT_THROW(soft.steady(m.forcing), NumericalError);
+  EXPECT_THROW(stiff.step(m.rest(), 0.1, both), NumericalError);
+  EXPECT_NO_THROW(soft.step(m.rest(), 0.1, both));
+  try {
+    stiff.steady(m.forcing);
+    FAIL() << "no error";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("0.0001 m3/s, of 0.0031 m3/s"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace suffuse
