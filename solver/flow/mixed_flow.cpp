@@ -7,7 +7,6 @@
 #include "case/errors.hpp"
 #include "grid/face_flux.hpp"
 #include "pass_timer.hpp"
-#include "physics/drag.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {
@@ -17,6 +16,12 @@ namespace {
 constexpr double most_growth = 4.0;
 constexpr double most_shrinkage = 0.1;
 constexpr double safety = 0.85;
+/// Water that does not fit its pores is let out over so many steps at least, and no faster than the
+/// flow passes through an element: at once, it would be a jump of the flux that no step is too
+/// short for.
+constexpr double slow_release = 4.0;
+/// Of the tolerance: what a kept flow may lack of it before that is mended.
+constexpr double mended_share = 1e-3;
 /// Of the tolerance: how far from steady a flow may be that is kept.
 constexpr double kept_share = 0.02;
 /// A step never differs from what is left before an event by less than this share of itself.
@@ -122,6 +127,9 @@ void MixedFlow<Dim>::start() {
           liquid.bulk_modulus * grid.volume[e] / (resistance * this->coefficients_.water_volume[e]);
       if (options_.inertia) {
         fastest = std::max(fastest, 1.0 / relaxation);
+        if (std::isfinite(diffusivity)) {
+          fastest = std::max(fastest, std::sqrt(diffusivity / relaxation) * size);
+        }
       } else if (std::isfinite(diffusivity)) {
         fastest = std::max(fastest, diffusivity * size * size);
       }
@@ -248,13 +256,21 @@ double MixedFlow<Dim>::error_of(const MixedStep<Dim>& step, double dt) const {
     pressure_error = std::max(pressure_error, std::abs(step.end.face_pressure[f] - pressure));
   }
   double error = flux_scale > 0.0 ? flux_error / flux_scale : 0.0;
-  // Without a pressure of its own water that does not compress has no history of it.
-  const bool pressure_counts = !std::isinf(this->scene().liquid.bulk_modulus);
-  if (pressure_counts && pressure_scale_ > 0.0) {
+  if (pressure_scale_ > 0.0) {
     error = std::max(error, pressure_error / pressure_scale_);
   }
   // The prediction's own error, of one order less than the step's, is what this measures.
   return 0.5 * error / tolerance_;
+}
+
+template <int Dim>
+std::vector<double> MixedFlow<Dim>::source_with(double dt) const {
+  std::vector<double> source = outflow_rate_;
+  const double smallest = *std::min_element(this->coefficients_.water_volume.begin(),
+                                            this->coefficients_.water_volume.end());
+  const double rate = 1.0 / std::max(slow_release * dt, smallest / largest(now_.face_flux));
+  for (std::size_t e = 0; e < mismatch_.size(); ++e) source[e] += rate * mismatch_[e];
+  return source;
 }
 
 template <int Dim>
@@ -264,23 +280,15 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
     std::vector<FlowForcing<Dim>> forcing;
     for (const double share : shares) {
       forcing.push_back(forcing_at(interval, interval.begin + share * dt));
-      if (mismatch_.empty()) continue;
-      forcing.back().source = outflow_rate_;
-      const double release = 1.0 / std::max(dt, last_dt_);
-      for (std::size_t e = 0; e < mismatch_.size(); ++e) {
-        forcing.back().source[e] += release * mismatch_[e];
-      }
+      if (!mismatch_.empty()) forcing.back().source = source_with(dt);
     }
     std::vector<const FlowForcing<Dim>*> views;
     for (const FlowForcing<Dim>& f : forcing) views.push_back(&f);
     MixedStep<Dim> step = scheme_.step(now_.state, dt, views);
     ++solving_.calls;
-    if (!mismatch_.empty()) {
-      released_ = forcing.back().source;
-      for (double& volume : released_) volume *= dt;
-    }
+    if (!mismatch_.empty()) source_ = std::move(forcing.back().source);
     if (options_.step_given) return step;
-    const bool first = at_rest_ && last_dt_ == 0.0 && !options_.inertia;
+    const bool first = at_rest_ && last_dt_ == 0.0;
     const double error = first ? 0.0 : error_of(step, dt);
     const double order = before_ ? 2.0 : 1.0;
     const double wanted = error > 0.0 ? safety * std::pow(error, -1.0 / order) : most_growth;
@@ -367,12 +375,13 @@ template <int Dim>
 FlowProgress<Dim> MixedFlow<Dim>::run(const FlowInterval<Dim>& interval) {
   double dt = length_of_step(interval);
   // The first step from rest gives the flow right after the start: what was before tells nothing.
-  const bool leaves_rest = at_rest_ && !options_.inertia;
+  const bool leaves_rest = at_rest_;
   MixedStep<Dim> step;
   if (keep_) {
     const PassTimer timer(keeping_);
     ++keeping_.calls;
     step = kept(dt);
+    next_dt_ = options_.step_given ? options_.step : most_growth * dt;
   } else {
     const PassTimer timer(solving_);
     step = accepted_step(interval, dt);
@@ -401,7 +410,8 @@ FlowProgress<Dim> MixedFlow<Dim>::run(const FlowInterval<Dim>& interval) {
     const bool kink = std::any_of(knots.begin(), knots.end(), [&](double knot) {
       return std::abs(knot - time) <= 1e-13 * end_;
     });
-    if (kink) keep_ = false;
+    // Where erosion starts the kept flow still looks right, and is not.
+    if (kink || follows_pores_) keep_ = false;
   } else if (!keep_) {
     const PassTimer timer(solving_);
     keep_if_steady(time);
@@ -445,9 +455,9 @@ void MixedFlow<Dim>::keep_if_steady(double time) {
   }
   MixedStep<Dim> steady;
   try {
-    steady = scheme_.steady({this->coefficients_, this->conditions_, outflow_rate_});
+    steady = scheme_.steady({this->coefficients_, this->conditions_, source_});
   } catch (const NumericalError&) {
-    return;
+    return;  // Fluxes that do not balance have no steady flow.
   }
   if (largest_difference(now_.face_flux, steady.face_flux) > close * flux_scale_) return;
   if (largest_difference(now_.state.face_pressure, steady.end.face_pressure) >
@@ -458,7 +468,15 @@ void MixedFlow<Dim>::keep_if_steady(double time) {
   now_ = {std::move(steady.end), std::move(steady.face_flux)};
   pressure_ = element_means(now_.state.face_pressure);
   kept_coefficients_ = this->coefficients_;
-  mismatch_when_kept_ = eos_error_;
+}
+
+template <int Dim>
+void MixedFlow<Dim>::mend_kept() {
+  std::vector<double> source = source_with(last_dt_);
+  if (largest_difference(source, source_) <= mended_share * tolerance_ * flux_scale_) return;
+  source_ = std::move(source);
+  MixedStep<Dim> steady = scheme_.steady({this->coefficients_, this->conditions_, source_});
+  now_ = {std::move(steady.end), std::move(steady.face_flux)};
 }
 
 template <int Dim>
@@ -485,15 +503,15 @@ void MixedFlow<Dim>::follow_masses(double time, const std::vector<double>& water
   // Water without compressibility fits by construction; its round-off has nowhere to go.
   if (stiff) return;
   // What the step made is what it would make again: let out as it comes. The rest later.
-  if (!mismatch_.empty() && last_dt_ > 0.0 && !keep_) {
+  if (outflow_rate_.empty()) outflow_rate_.assign(elements, 0.0);
+  if (source_.empty()) source_.assign(elements, 0.0);
+  if (last_dt_ > 0.0 && !mismatch_.empty()) {
     for (std::size_t e = 0; e < elements; ++e) {
-      outflow_rate_[e] = (mismatch[e] - mismatch_[e] + released_[e]) / last_dt_;
+      outflow_rate_[e] = (mismatch[e] - mismatch_[e]) / last_dt_ + source_[e];
     }
   }
-  if (outflow_rate_.empty()) outflow_rate_.assign(elements, 0.0);
-  released_.assign(elements, 0.0);
   mismatch_ = std::move(mismatch);
-  if (keep_ && eos_error_ > mismatch_when_kept_ + kept_share * tolerance_) keep_ = false;
+  if (keep_) mend_kept();
 }
 
 template <int Dim>
