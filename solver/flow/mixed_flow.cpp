@@ -293,7 +293,9 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
     const double order = before_ ? 2.0 : 1.0;
     const double wanted = error > 0.0 ? safety * std::pow(error, -1.0 / order) : most_growth;
     if (error <= 1.0) {
-      next_dt_ = dt * std::clamp(wanted, most_shrinkage, most_growth);
+      // A step cut short by an event says nothing against a longer one.
+      const double next = dt * std::clamp(wanted, most_shrinkage, most_growth);
+      next_dt_ = wanted >= 1.0 ? std::max(next, next_dt_) : next;
       return step;
     }
     ++rejected_;
@@ -381,7 +383,7 @@ FlowProgress<Dim> MixedFlow<Dim>::run(const FlowInterval<Dim>& interval) {
     const PassTimer timer(keeping_);
     ++keeping_.calls;
     step = kept(dt);
-    next_dt_ = options_.step_given ? options_.step : most_growth * dt;
+    if (!options_.step_given) next_dt_ = std::max(next_dt_, most_growth * dt);
   } else {
     const PassTimer timer(solving_);
     step = accepted_step(interval, dt);

@@ -51,6 +51,11 @@ class MixedFlow final : public SceneFlow<Dim> {
   void remember(MixedStep<Dim> step, double dt);
   /// Keeps the flow when it has become steady and nothing that drives it will change by itself.
   void keep_if_steady(double time);
+  /// The kept flow with what its mismatch of masses asks for by now.
+  void mend_kept();
+  /// Outflow per element that keeps water and pores in step and makes up for the mismatch so far,
+  /// for a step of `dt`, m3/s.
+  [[nodiscard]] std::vector<double> source_with(double dt) const;
   [[nodiscard]] bool same_resistance(const FlowCoefficients<Dim>& a,
                                      const FlowCoefficients<Dim>& b) const;
   void find_scales();
@@ -83,11 +88,10 @@ class MixedFlow final : public SceneFlow<Dim> {
 
   bool keep_ = false;
   FlowCoefficients<Dim> kept_coefficients_;
-  double mismatch_when_kept_ = 0.0;
 
   std::vector<double> mismatch_;      ///< water too much per element, m3
-  std::vector<double> released_;      ///< of it in the last step, m3
-  std::vector<double> outflow_rate_;  ///< that compression of moving water asks for, m3/s
+  std::vector<double> outflow_rate_;  ///< that keeps it from growing: moving water expands, m3/s
+  std::vector<double> source_;        ///< of the last step, m3/s
   double eos_error_ = 0.0;
 
   PassTiming solving_{"flow", 0, 0.0};
