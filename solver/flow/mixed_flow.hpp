@@ -59,6 +59,7 @@ class MixedFlow final : public SceneFlow<Dim> {
   [[nodiscard]] bool same_resistance(const FlowCoefficients<Dim>& a,
                                      const FlowCoefficients<Dim>& b) const;
   void find_scales();
+  void raise_scales_over_round_off();
   [[nodiscard]] std::vector<double> element_means(const std::vector<double>& face_pressure) const;
   [[nodiscard]] FlowMoment<Dim> moment_of(double time, double dt, const Point& flow) const;
   [[nodiscard]] double overshoot(const std::vector<double>& face_pressure) const;

@@ -7,9 +7,17 @@
 
 #include "free_mesh.hpp"
 #include "model_run.hpp"
+#include "scheme_case.hpp"
 
 namespace suffuse {
 namespace {
+
+const auto schemes =
+    ::testing::Values(model::explicit_scheme, model::implicit_scheme, model::implicit_one_second);
+
+std::string name_of(const ::testing::TestParamInfo<model::SchemeCase>& info) {
+  return info.param.name;
+}
 
 double largest(const std::vector<double>& values) {
   double result = 0.0;
@@ -23,11 +31,15 @@ double largest_speed(const VectorField<2>& velocity) {
   return result;
 }
 
-TEST(SealedBox, ErosionSourcesNoPressureAndLosesNoMass) {
+class SealedBox : public ::testing::TestWithParam<model::SchemeCase> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, SealedBox, schemes, name_of);
+
+TEST_P(SealedBox, ErosionSourcesNoPressureAndLosesNoMass) {
   for (const ErosionLaw law : {ErosionLaw::constant, ErosionLaw::logarithmic}) {
     Scene scene = model::paper_scene();
     scene.soils[0].erosion = {law, law == ErosionLaw::constant ? 5e-3 : 1e-2, 2.0, false};
     scene.time.end = 30.0;
+    GetParam().apply(scene);
     model::ModelRun run(
         model::make_case(model::column_mesh(6, 6, 1.0, 1.0, model::jittered(0.04, 7)), scene));
     const auto moments = run.run({1.0, 5.0, 10.0, 22.0, 30.0});
@@ -53,7 +65,10 @@ Mesh<2> two_soils_free_mesh(double size) {
   return mesh;
 }
 
-TEST(HydrostaticRest, StaysAtRestOnAnUnstructuredMeshWithTwoPorosities) {
+class HydrostaticRest : public ::testing::TestWithParam<model::SchemeCase> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, HydrostaticRest, schemes, name_of);
+
+TEST_P(HydrostaticRest, StaysAtRestOnAnUnstructuredMeshWithTwoPorosities) {
   Scene scene = model::paper_scene();
   scene.gravity = {0.0, -9.81, 0.0};
   Soil loose = scene.soils[0];
@@ -64,6 +79,7 @@ TEST(HydrostaticRest, StaysAtRestOnAnUnstructuredMeshWithTwoPorosities) {
   scene.boundaries = {model::pressure_on("top", 0.0)};
   scene.initial_flow = InitialFlow::steady;
   scene.time.end = 1.0;
+  GetParam().apply(scene);
   model::ModelRun run(model::make_case(two_soils_free_mesh(0.12), scene));
   const Mesh<2>& mesh = run.input().mesh;
   const FlowMoment<2> begin = run.model().moment();
@@ -99,11 +115,15 @@ TEST(EquationOfState, PressureIsThatOfTheMasses) {
   }
 }
 
-TEST(SteadyFlow, StaysSteady) {
+class SteadyFlow : public ::testing::TestWithParam<model::SchemeCase> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, SteadyFlow, schemes, name_of);
+
+TEST_P(SteadyFlow, StaysSteady) {
   Scene scene = model::paper_scene();
   scene.boundaries = {model::flux_on("top", 0.012), model::pressure_on("bottom", 0.0)};
   scene.initial_flow = InitialFlow::steady;
   scene.time.end = 1.0;
+  GetParam().apply(scene);
   model::ModelRun run(model::make_case(model::column_mesh(4, 8), scene));
   const auto moments = run.run({0.1, 1.0});
   for (std::size_t k = 0; k < 2; ++k) {

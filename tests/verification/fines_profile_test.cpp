@@ -1,5 +1,6 @@
 /// Fluidised grains against exact profiles: physical masses (no mass scaling), steady flow of
-/// q = 0.012 m/s from the first step, clean water from above.
+/// q = 0.012 m/s from the first step, clean water from above. With the explicit scheme, and with
+/// the implicit one in steps of its own choice and of one second.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include "exact_fines.hpp"
 #include "model_run.hpp"
 #include "reference_table.hpp"
+#include "scheme_case.hpp"
 
 namespace suffuse {
 namespace {
@@ -18,12 +20,13 @@ namespace {
 constexpr double flux = 0.012;
 constexpr double start = 2.0;
 
-Scene fines_scene(ErosionLaw law, double rate, double end) {
+Scene fines_scene(const model::SchemeCase& scheme, ErosionLaw law, double rate, double end) {
   Scene scene = model::paper_scene();
   scene.soils[0].erosion = {law, rate, start, false};
   scene.boundaries = {model::flux_on("top", flux), model::pressure_on("bottom", 0.0)};
   scene.initial_flow = InitialFlow::steady;
   scene.time.end = end;
+  scheme.apply(scene);
   return scene;
 }
 
@@ -125,15 +128,27 @@ std::vector<std::pair<double, double>> table_profile(const LawCase& c, double t)
   return result;
 }
 
-class FinesProfile : public ::testing::TestWithParam<LawCase> {};
+const auto schemes =
+    ::testing::Values(model::explicit_scheme, model::implicit_scheme, model::implicit_one_second);
+
+std::string name_of(const ::testing::TestParamInfo<model::SchemeCase>& info) {
+  return info.param.name;
+}
+
+class FinesProfile : public ::testing::TestWithParam<std::tuple<LawCase, model::SchemeCase>> {
+ protected:
+  [[nodiscard]] static const LawCase& law() { return std::get<0>(GetParam()); }
+  [[nodiscard]] static const model::SchemeCase& scheme() { return std::get<1>(GetParam()); }
+};
 
 TEST_P(FinesProfile, ErrorAndOrder) {
-  const LawCase& law = GetParam();
+  const LawCase& law = FinesProfile::law();
   const double end = law.times.back();
   const UniformFines exact(rate_of(law), 0.3, 0.4, start, flux, end);
   std::map<int, std::vector<double>> smooth_errors;
   for (const int cells : {8, 16, 32}) {
-    model::ModelRun run(model::make_case(strip(cells), fines_scene(law.law, law.rate, end)));
+    model::ModelRun run(
+        model::make_case(strip(cells), fines_scene(scheme(), law.law, law.rate, end)));
     const auto moments = run.run(law.times);
     EXPECT_LE(run.worst_residual(), 1e-12);
     for (std::size_t k = 0; k < law.times.size(); ++k) {
@@ -150,8 +165,8 @@ TEST_P(FinesProfile, ErrorAndOrder) {
       if (cells != 16) continue;
       const double error = relative_error(run.input().mesh, state, profile, 0.0, -1.0);
       EXPECT_LE(error, 0.01) << "t = " << t;
-      std::cout << law.name << " t = " << t << " s: relative L1 error of c at 1/16 " << error
-                << '\n';
+      std::cout << scheme().name << ", " << law.name << " t = " << t
+                << " s: relative L1 error of c at 1/16 " << error << '\n';
 
       const auto table = table_profile(law, t);
       ASSERT_GE(table.size(), 11u) << "t = " << t;
@@ -169,8 +184,8 @@ TEST_P(FinesProfile, ErrorAndOrder) {
     const double coarse = smooth_errors[8][k];
     const double fine = smooth_errors[32][k];
     const double order = 0.5 * std::log2(coarse / fine);
-    std::cout << law.name << " t = " << law.times[k] << " s: " << coarse << " -> " << fine
-              << ", order " << order << '\n';
+    std::cout << scheme().name << ", " << law.name << " t = " << law.times[k] << " s: " << coarse
+              << " -> " << fine << ", order " << order << '\n';
     // The exact solution is incompressible; water that expands by p/K on its way is not. Where the
     // coarse mesh is already closer than that there is no order left to see.
     constexpr double expansion = 6000.0 / 2e7;
@@ -184,14 +199,22 @@ TEST_P(FinesProfile, ErrorAndOrder) {
 
 INSTANTIATE_TEST_SUITE_P(
     Laws, FinesProfile,
-    ::testing::Values(
-        LawCase{"constant_1e3", "const", ErosionLaw::constant, 1e-3, {7, 12, 22, 27, 52}},
-        LawCase{"constant_5e3", "const", ErosionLaw::constant, 5e-3, {7, 12, 22, 27}},
-        LawCase{"logarithmic", "log", ErosionLaw::logarithmic, 1e-2, {7, 12, 22, 27}},
-        LawCase{"first_order", "", ErosionLaw::first_order, 0.05, {7, 12, 22, 42}}),
-    [](const auto& param_info) { return param_info.param.name; });
+    ::testing::Combine(
+        ::testing::Values(
+            LawCase{"constant_1e3", "const", ErosionLaw::constant, 1e-3, {7, 12, 22, 27, 52}},
+            LawCase{"constant_5e3", "const", ErosionLaw::constant, 5e-3, {7, 12, 22, 27}},
+            LawCase{"logarithmic", "log", ErosionLaw::logarithmic, 1e-2, {7, 12, 22, 27}},
+            LawCase{"first_order", "", ErosionLaw::first_order, 0.05, {7, 12, 22, 42}}),
+        schemes),
+    [](const auto& param_info) {
+      return std::string(std::get<0>(param_info.param).name) + "_" +
+             std::get<1>(param_info.param).name;
+    });
 
-TEST(FinesOutflow, CumulativeMassWithinOnePercent) {
+class FinesOutflow : public ::testing::TestWithParam<model::SchemeCase> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, FinesOutflow, schemes, name_of);
+
+TEST_P(FinesOutflow, CumulativeMassWithinOnePercent) {
   for (const auto& [name, law, rate] : {std::tuple{"const", ErosionLaw::constant, 1e-3},
                                         std::tuple{"const", ErosionLaw::constant, 5e-3},
                                         std::tuple{"log", ErosionLaw::logarithmic, 1e-2}}) {
@@ -204,7 +227,8 @@ TEST(FinesOutflow, CumulativeMassWithinOnePercent) {
       expected.push_back(row.number("M_eroded_out"));
     }
     ASSERT_GE(times.size(), 8u);
-    model::ModelRun run(model::make_case(strip(16), fines_scene(law, rate, times.back())));
+    model::ModelRun run(
+        model::make_case(strip(16), fines_scene(GetParam(), law, rate, times.back())));
     const auto moments = run.run(times);
     const double width = 2.0 / 16.0;
     for (std::size_t k = 0; k < times.size(); ++k) {
@@ -215,10 +239,13 @@ TEST(FinesOutflow, CumulativeMassWithinOnePercent) {
   }
 }
 
-TEST(FinesProfileNonUniform, PorosityThatVariesWithDepth) {
+class FinesProfileNonUniform : public ::testing::TestWithParam<model::SchemeCase> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, FinesProfileNonUniform, schemes, name_of);
+
+TEST_P(FinesProfileNonUniform, PorosityThatVariesWithDepth) {
   // n_0 = 0.25 + 0.1 x with x from the inlet above.
   const std::vector<double> times{7, 12, 22, 42, 52};
-  Scene scene = fines_scene(ErosionLaw::constant, 1e-3, times.back());
+  Scene scene = fines_scene(GetParam(), ErosionLaw::constant, 1e-3, times.back());
   scene.soils[0].porosity = 0.35;
   scene.soils[0].porosity_gradient = {0.0, -0.1, 0.0};
   const auto porosity = [](double x, double t) {
@@ -248,14 +275,14 @@ TEST(FinesProfileNonUniform, PorosityThatVariesWithDepth) {
     const double error = relative_error(
         run.input().mesh, moments.states[k], [&](double x) { return exact(x, t); }, 0.0, -1.0);
     EXPECT_LE(error, 0.01) << "t = " << t;
-    std::cout << "non-uniform porosity, t = " << t << " s: relative L1 error of c " << error
-              << '\n';
+    std::cout << GetParam().name << ", non-uniform porosity, t = " << t
+              << " s: relative L1 error of c " << error << '\n';
   }
 }
 
 /// Water made from nothing, relative to the water that entered, without erosion.
 double water_made(bool third_term) {
-  Scene scene = fines_scene(ErosionLaw::none, 0.0, 5.0);
+  Scene scene = fines_scene(model::explicit_scheme, ErosionLaw::none, 0.0, 5.0);
   scene.soils[0].porosity = 0.35;
   scene.soils[0].porosity_gradient = {0.0, -0.1, 0.0};
   scene.flow.porosity_gradient_term = third_term;

@@ -1,0 +1,31 @@
+#pragma once
+
+/// Ways to step the flow, for tests that every one of them must pass.
+
+#include <ostream>
+
+#include "case/scene.hpp"
+
+namespace suffuse::model {
+
+struct SchemeCase {
+  const char* name;
+  FlowScheme scheme;
+  double step;  ///< s; 0: the scheme's own choice
+
+  void apply(Scene& scene) const {
+    scene.time.scheme = scheme;
+    if (step > 0.0) scene.time.step = step;
+  }
+};
+
+inline std::ostream& operator<<(std::ostream& out, const SchemeCase& scheme) {
+  return out << scheme.name;
+}
+
+inline constexpr SchemeCase explicit_scheme{"explicit", FlowScheme::explicit_nodal, 0.0};
+inline constexpr SchemeCase implicit_scheme{"implicit", FlowScheme::implicit_mixed, 0.0};
+inline constexpr SchemeCase implicit_one_second{"implicit_one_second", FlowScheme::implicit_mixed,
+                                                1.0};
+
+}  // namespace suffuse::model
