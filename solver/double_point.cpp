@@ -71,6 +71,7 @@ void DoublePoint<Dim>::initialise() {
     initial_pores_.push_back(element_sum<Dim>(pores));
   }
   state_.porosity = skeleton_.initial_porosity();
+  bends_ = bends_of_porosity();
   state_.pending.assign(grid_.mesh.node_count(), 0.0);
   state_.crossed.resize(accounts_.count());
   update_flow();
@@ -190,6 +191,7 @@ template <int Dim>
 long DoublePoint<Dim>::steps_before_transport(double dt) const {
   if (carried_flow_ != nullptr) return 1;
   LiquidMotion<Dim> one_step = last_motion_;
+  for (double& volume : one_step.entered) volume *= dt / last_motion_.duration;
   one_step.duration = dt;
   const std::vector<double>& porosity = flow_->coefficients().porosity;
   std::vector<double> flux;
@@ -265,16 +267,9 @@ template <int Dim>
 auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
                                 const std::vector<double>& pressure, PassTimings& timings) const
     -> State {
+  if (motion.along_faces()) return followed(std::move(state), motion, pressure, timings);
   const double begin = state.time;
-  const double allowed =
-      transport_safety * transport_.share_allowed(motion, element_porosity(state.porosity));
-  const double substeps = allowed >= 1.0 ? 1.0 : std::ceil(1.0 / allowed);
-  if (!(substeps <= most_substeps)) {
-    std::ostringstream message;
-    message << "the flow has run away: at t = " << begin << " s liquid would cross "
-            << "thousands of elements in " << motion.duration << " s";
-    throw NumericalError(message.str());
-  }
+  const double substeps = this->substeps(motion, begin, element_porosity(state.porosity));
   LiquidMotion<Dim> part = motion;
   part.duration /= substeps;
   for (double& volume : part.entered) volume /= substeps;
@@ -301,9 +296,120 @@ auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
 }
 
 template <int Dim>
-void DoublePoint<Dim>::erode(State& state, double from, double to, const std::vector<double>& flux,
-                             const std::vector<double>& pressure) const {
-  if (!plan_.erosion) return;
+double DoublePoint<Dim>::substeps(const LiquidMotion<Dim>& motion, double begin,
+                                  const std::vector<double>& porosity) const {
+  const double allowed = transport_safety * transport_.share_allowed(motion, porosity);
+  const double result = allowed >= 1.0 ? 1.0 : std::ceil(1.0 / allowed);
+  if (!(result <= most_substeps)) {
+    std::ostringstream message;
+    message << "the flow has run away: at t = " << begin << " s liquid would cross "
+            << "thousands of elements in " << motion.duration << " s";
+    throw NumericalError(message.str());
+  }
+  return result;
+}
+
+template <int Dim>
+auto DoublePoint<Dim>::followed(State state, const LiquidMotion<Dim>& motion,
+                                const std::vector<double>& pressure, PassTimings& timings) const
+    -> State {
+  const double begin = state.time;
+  const std::vector<double> flux = point_flux(motion);
+  double done = 0.0;
+  for (const double end : pieces(state, motion)) {
+    LiquidMotion<Dim> part = motion;
+    part.duration = begin + end * motion.duration - state.time;
+    for (double& volume : part.entered) volume *= end - done;
+    follow(state, part, flux, pressure, timings);
+    done = end;
+  }
+  state.time = begin + motion.duration;
+  return state;
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::pieces(const State& state,
+                                             const LiquidMotion<Dim>& motion) const {
+  // Porosity is taken to be linear in time within a piece.
+  std::vector<double> smooth;
+  for (const double bend : bends_) {
+    const double share = (bend - state.time) / motion.duration;
+    if (share > 1e-9 && share < 1.0 - 1e-9) smooth.push_back(share);
+  }
+  smooth.push_back(1.0);
+  const double all = substeps(motion, state.time, element_porosity(state.porosity));
+  std::vector<double> ends;
+  double done = 0.0;
+  for (const double end : smooth) {
+    const double parts = std::ceil((end - done) * all * (1.0 - 1e-9));
+    for (double k = 1.0; k < parts; ++k) ends.push_back(done + (end - done) * k / parts);
+    ends.push_back(end);
+    done = end;
+  }
+  return ends;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::follow(State& state, const LiquidMotion<Dim>& part,
+                              const std::vector<double>& flux, const std::vector<double>& pressure,
+                              PassTimings& timings) const {
+  const double end = state.time + part.duration;
+  std::vector<double> porosity = state.porosity;
+  if (plan_.erosion) {
+    const PassTimer timer(timings.erosion);
+    porosity = eroded_porosity(state, state.time, end, flux);
+  }
+  WalkedPoints<Dim> walked;
+  {
+    const PassTimer timer(timings.movement);
+    walked = transport_.follow(state.liquid, state.entering, part, element_porosity(state.porosity),
+                               element_porosity(porosity), pressure);
+    ++timings.movement.calls;
+  }
+  if (plan_.erosion) {
+    const PassTimer timer(timings.erosion);
+    book(transfer_.transfer_on_the_way(state.porosity, porosity,
+                                       point_volumes(state.liquid, pressure), state.liquid,
+                                       walked.takes, state.pending),
+         state);
+    ++timings.erosion.calls;
+  }
+  const PassTimer timer(timings.movement);
+  book(transport_.settle(state.liquid, state.entering, walked), state);
+  state.empty_total += empty_elements(element_begins(state.liquid, grid_.mesh.element_count()));
+  state.porosity = std::move(porosity);
+  state.time = end;
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::bends_of_porosity() const {
+  std::vector<double> result;
+  const MaterialPoints<Dim>& solid = skeleton_.points();
+  const std::vector<double>& initial = skeleton_.initial_porosity();
+  const auto regions = static_cast<int>(grid_.mesh.region_names.size());
+  for (int r = 0; r < regions; ++r) {
+    double least = 1.0;
+    double most = 0.0;
+    ErosionModel model;
+    for (int s = 0; s < solid.size(); ++s) {
+      if (grid_.mesh.element_region[solid.element[s]] != r) continue;
+      model = skeleton_.erosion_of_element(solid.element[s]);
+      least = std::min(least, initial[s]);
+      most = std::max(most, initial[s]);
+    }
+    if (model.law == ErosionLaw::none || !(model.rate > 0.0)) continue;
+    result.push_back(model.start);
+    if (model.law == ErosionLaw::constant && least == most) {
+      result.push_back(model.start + (model.porosity_max - most) / model.rate);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::eroded_porosity(const State& state, double from, double to,
+                                                      const std::vector<double>& flux) const {
   const std::vector<int> begins = element_begins(state.liquid, grid_.mesh.element_count());
   std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to, flux);
   const MaterialPoints<Dim>& solid = skeleton_.points();
@@ -313,10 +419,25 @@ void DoublePoint<Dim>::erode(State& state, double from, double to, const std::ve
                      skeleton_.soil_of_element(e).erosion.empty_elements == EmptyElements::dry;
     if (dry) porosity[s] = state.porosity[s];
   }
+  return porosity;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::erode(State& state, double from, double to, const std::vector<double>& flux,
+                             const std::vector<double>& pressure) const {
+  if (!plan_.erosion) return;
+  std::vector<double> porosity = eroded_porosity(state, from, to, flux);
   const auto exchanged =
-      transfer_.transfer(state.porosity, porosity, element_porosity(state.porosity), begins,
+      transfer_.transfer(state.porosity, porosity, element_porosity(state.porosity),
+                         element_begins(state.liquid, grid_.mesh.element_count()),
                          point_volumes(state.liquid, pressure), state.liquid, state.pending);
   state.porosity = std::move(porosity);
+  book(exchanged, state);
+}
+
+template <int Dim>
+void DoublePoint<Dim>::book(const typename GrainTransfer<Dim>::Result& exchanged,
+                            State& state) const {
   // At a border of regions grains of one may join liquid of the other.
   for (std::size_t r = 0; r < exchanged.eroded.size(); ++r) {
     const double left = exchanged.eroded[r] - exchanged.received[r];
@@ -328,9 +449,15 @@ void DoublePoint<Dim>::erode(State& state, double from, double to, const std::ve
 template <int Dim>
 void DoublePoint<Dim>::move(State& state, const LiquidMotion<Dim>& motion,
                             const std::vector<double>& pressure) const {
-  const auto crossings = transport_.move(
-      state.liquid, state.entering, motion, element_porosity(state.porosity), pressure,
-      carried_flow_ != nullptr ? carried_flow_->scheme().velocity() : VectorField<Dim>{});
+  book(transport_.move(
+           state.liquid, state.entering, motion, element_porosity(state.porosity), pressure,
+           carried_flow_ != nullptr ? carried_flow_->scheme().velocity() : VectorField<Dim>{}),
+       state);
+  state.empty_total += empty_elements(element_begins(state.liquid, grid_.mesh.element_count()));
+}
+
+template <int Dim>
+void DoublePoint<Dim>::book(const std::vector<PointCrossing>& crossings, State& state) const {
   const auto leave = [](CrossedSums& account, const PointCrossing& point) {
     account.water_out.add(point.water_mass);
     account.fines_out.add(point.fines_mass);
@@ -345,7 +472,6 @@ void DoublePoint<Dim>::move(State& state, const LiquidMotion<Dim>& motion,
     (point.from < 0 ? enter : leave)(state.crossed[point.from + 1], point);
     (point.to < 0 ? leave : enter)(state.crossed[point.to + 1], point);
   }
-  state.empty_total += empty_elements(element_begins(state.liquid, grid_.mesh.element_count()));
 }
 
 template <int Dim>

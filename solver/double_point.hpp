@@ -99,10 +99,27 @@ class DoublePoint {
   /// What erosion and transport make of `begin` while the liquid moves so.
   [[nodiscard]] State advanced(State state, const LiquidMotion<Dim>& motion,
                                const std::vector<double>& pressure, PassTimings& timings) const;
+  /// The same where points follow the volumes through faces and take up grains on their way.
+  [[nodiscard]] State followed(State state, const LiquidMotion<Dim>& motion,
+                               const std::vector<double>& pressure, PassTimings& timings) const;
+  /// Ends of the pieces, as shares of the motion, in each of which porosity goes smoothly and no
+  /// point goes too far.
+  [[nodiscard]] std::vector<double> pieces(const State& state,
+                                           const LiquidMotion<Dim>& motion) const;
+  void follow(State& state, const LiquidMotion<Dim>& part, const std::vector<double>& flux,
+              const std::vector<double>& pressure, PassTimings& timings) const;
+  [[nodiscard]] double substeps(const LiquidMotion<Dim>& motion, double begin,
+                                const std::vector<double>& porosity) const;
   void erode(State& state, double from, double to, const std::vector<double>& flux,
              const std::vector<double>& pressure) const;
   void move(State& state, const LiquidMotion<Dim>& motion,
             const std::vector<double>& pressure) const;
+  [[nodiscard]] std::vector<double> eroded_porosity(const State& state, double from, double to,
+                                                    const std::vector<double>& flux) const;
+  void book(const typename GrainTransfer<Dim>::Result& exchanged, State& state) const;
+  void book(const std::vector<PointCrossing>& crossings, State& state) const;
+  /// When some soil begins to erode, or all of it at once has no fines left.
+  [[nodiscard]] std::vector<double> bends_of_porosity() const;
   /// Nodes and elements take velocity and pressure from the liquid points.
   void gather();
   /// Liquid points take what the step changed at nodes and elements.
@@ -131,6 +148,7 @@ class DoublePoint {
   State state_;
   std::vector<Stored> initial_;
   std::vector<double> initial_pores_;  ///< volume per element, m3
+  std::vector<double> bends_;          ///< see bends_of_porosity, ascending, s
   double last_dt_ = 0.0;
   LiquidMotion<Dim> last_motion_;
   long last_steps_ = 1;

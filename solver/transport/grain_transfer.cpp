@@ -7,13 +7,15 @@
 namespace suffuse {
 namespace {
 
-/// How many times what nodes hold is passed on to their neighbours before it is compared.
-constexpr int smoothing_rounds = 4;
+/// How many times what nodes hold is passed on to their neighbours before it is compared. What
+/// points take on their way is right by itself, so the wider it is compared the better.
+constexpr int rounds_of_places = 4;
+constexpr int rounds_of_ways = 8;
 
 /// Each node gives what it holds to its elements in equal parts, each element to its nodes.
 template <int Dim>
-std::vector<double> smoothed(const Grid<Dim>& grid, std::vector<double> at_nodes) {
-  for (int round = 0; round < smoothing_rounds; ++round) {
+std::vector<double> smoothed(const Grid<Dim>& grid, std::vector<double> at_nodes, int rounds) {
+  for (int round = 0; round < rounds; ++round) {
     std::vector<double> next(at_nodes.size(), 0.0);
     for (const auto& nodes : grid.mesh.elements) {
       double sum = 0.0;
@@ -35,6 +37,79 @@ GrainTransfer<Dim>::GrainTransfer(const Grid<Dim>& grid, const RigidSkeleton<Dim
     : grid_(grid), skeleton_(skeleton), grain_density_(grain_density) {}
 
 template <int Dim>
+auto GrainTransfer<Dim>::collect(const std::vector<double>& before,
+                                 const std::vector<double>& after,
+                                 const std::function<bool(int)>& stays_in_element,
+                                 std::vector<double>& pending, Result& result) const -> Eroded {
+  const Mesh<Dim>& mesh = grid_.mesh;
+  result.received.assign(mesh.region_names.size(), 0.0);
+  result.eroded.assign(mesh.region_names.size(), 0.0);
+  Eroded eroded{std::vector<double>(mesh.element_count(), 0.0),
+                std::exchange(pending, std::vector<double>(pending.size(), 0.0))};
+  const MaterialPoints<Dim>& solid = skeleton_.points();
+  for (int s = 0; s < solid.size(); ++s) {
+    const double volume = solid.volume[s] * (after[s] - before[s]);
+    if (volume == 0.0) continue;
+    const int e = solid.element[s];
+    eroded.in_element[e] += volume;
+    result.eroded[mesh.element_region[e]] += grain_density_ * volume;
+    if (stays_in_element(e)) continue;
+    for (int a = 0; a <= Dim; ++a) {
+      eroded.at_node[mesh.elements[e][a]] += volume * solid.barycentric[s][a];
+    }
+  }
+  return eroded;
+}
+
+template <int Dim>
+auto GrainTransfer<Dim>::compare(const std::vector<double>& at_node,
+                                 const std::vector<double>& taken, int rounds,
+                                 const std::vector<double>& point_volume,
+                                 const LiquidPoints<Dim>& points,
+                                 std::vector<double>& pending) const -> Handout {
+  const Mesh<Dim>& mesh = grid_.mesh;
+  // Points are too few to fill every node's surroundings evenly: compared over a few elements.
+  const std::vector<double> offered_near = smoothed(grid_, at_node, rounds);
+  const std::vector<double> taken_near = smoothed(grid_, taken, rounds);
+  Handout handout{std::vector<double>(mesh.node_count(), 0.0), {}};
+  std::vector<double> left_over(mesh.node_count(), 0.0);
+  double offered = 0.0;
+  double handed_out = 0.0;
+  bool some_left = false;
+  for (int i = 0; i < mesh.node_count(); ++i) {
+    if (taken_near[i] > 0.0) {
+      handout.factor[i] = offered_near[i] / taken_near[i];
+      offered += offered_near[i];
+      handed_out += handout.factor[i] * taken[i];
+    } else if (offered_near[i] > 0.0) {
+      left_over[i] = offered_near[i];
+      some_left = true;
+    }
+  }
+  // What comparing over a few elements leaves out is little; all take their part in it.
+  if (handed_out > 0.0) {
+    for (double& f : handout.factor) f *= offered / handed_out;
+  }
+  if (!some_left) return handout;
+  // No eroding element near has a point: to any point that the node sees, or to wait.
+  handout.per_volume.assign(mesh.node_count(), 0.0);
+  std::vector<double> seen(mesh.node_count(), 0.0);
+  for (int p = 0; p < points.size(); ++p) {
+    for (int a = 0; a <= Dim; ++a) {
+      seen[mesh.elements[points.element[p]][a]] += point_volume[p] * points.barycentric[p][a];
+    }
+  }
+  for (int i = 0; i < mesh.node_count(); ++i) {
+    if (seen[i] > 0.0) {
+      handout.per_volume[i] = left_over[i] / seen[i];
+    } else {
+      pending[i] = left_over[i];
+    }
+  }
+  return handout;
+}
+
+template <int Dim>
 auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
                                   const std::vector<double>& after,
                                   const std::vector<double>& porosity,
@@ -44,29 +119,11 @@ auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
     -> Result {
   const Mesh<Dim>& mesh = grid_.mesh;
   Result result;
-  result.received.assign(mesh.region_names.size(), 0.0);
-  result.eroded.assign(mesh.region_names.size(), 0.0);
-
-  // What erodes, per element and, where it goes by the nodes, per node.
-  std::vector<double> eroded(mesh.element_count(), 0.0);
-  std::vector<double> at_node = std::exchange(pending, std::vector<double>(pending.size(), 0.0));
-  const MaterialPoints<Dim>& solid = skeleton_.points();
   const auto stays_in_element = [&](int e) {
-    const bool by_element =
-        skeleton_.soil_of_element(e).erosion.mass_transfer == MassTransfer::element;
-    return by_element && begins[e + 1] > begins[e];
+    return shares_by_element(e) && begins[e + 1] > begins[e];
   };
-  for (int s = 0; s < solid.size(); ++s) {
-    const double volume = solid.volume[s] * (after[s] - before[s]);
-    if (volume == 0.0) continue;
-    const int e = solid.element[s];
-    eroded[e] += volume;
-    result.eroded[mesh.element_region[e]] += grain_density_ * volume;
-    if (stays_in_element(e)) continue;
-    for (int a = 0; a <= Dim; ++a) at_node[mesh.elements[e][a]] += volume * solid.barycentric[s][a];
-  }
-
-  const auto erodes = [&](int e) { return eroded[e] > 0.0; };
+  const auto [eroded, at_node] = collect(before, after, stays_in_element, pending, result);
+  const auto erodes = [&in = eroded](int e) { return in[e] > 0.0; };
   // What each point would take by itself, per volume of liquid, at the nodes of eroding elements.
   std::vector<double> gain(mesh.node_count(), 0.0);
   {
@@ -84,10 +141,7 @@ auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
   }
   const auto takes_by_nodes = [&](int e) { return erodes(e) && !stays_in_element(e); };
   const auto at_point = [&](int e, int p, const std::vector<double>& at_nodes) {
-    double value = 0.0;
-    for (int a = 0; a <= Dim; ++a)
-      value += points.barycentric[p][a] * at_nodes[mesh.elements[e][a]];
-    return value;
+    return at_place(e, points.barycentric[p], at_nodes);
   };
   std::vector<double> taken(mesh.node_count(), 0.0);
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -99,47 +153,8 @@ auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
       }
     }
   }
-  // Points are too few to fill every node's surroundings evenly: compared over a few elements.
-  const std::vector<double> offered_near = smoothed(grid_, at_node);
-  const std::vector<double> taken_near = smoothed(grid_, taken);
-  std::vector<double> factor(mesh.node_count(), 0.0);
-  std::vector<double> left_over(mesh.node_count(), 0.0);
-  double offered = 0.0;
-  double handed_out = 0.0;
-  bool some_left = false;
-  for (int i = 0; i < mesh.node_count(); ++i) {
-    if (taken_near[i] > 0.0) {
-      factor[i] = offered_near[i] / taken_near[i];
-      offered += offered_near[i];
-      handed_out += factor[i] * taken[i];
-    } else if (offered_near[i] > 0.0) {
-      left_over[i] = offered_near[i];
-      some_left = true;
-    }
-  }
-  // What comparing over a few elements leaves out is little; all take their part in it.
-  if (handed_out > 0.0) {
-    for (double& f : factor) f *= offered / handed_out;
-  }
-  // No eroding element near has a point: to any point that the node sees, or to wait.
-  std::vector<double> per_volume(some_left ? mesh.node_count() : 0, 0.0);
-  if (some_left) {
-    std::vector<double> seen(mesh.node_count(), 0.0);
-    for (int e = 0; e < mesh.element_count(); ++e) {
-      for (int p = begins[e]; p < begins[e + 1]; ++p) {
-        for (int a = 0; a <= Dim; ++a) {
-          seen[mesh.elements[e][a]] += point_volume[p] * points.barycentric[p][a];
-        }
-      }
-    }
-    for (int i = 0; i < mesh.node_count(); ++i) {
-      if (seen[i] > 0.0) {
-        per_volume[i] = left_over[i] / seen[i];
-      } else {
-        pending[i] = left_over[i];
-      }
-    }
-  }
+  const Handout handout = compare(at_node, taken, rounds_of_places, point_volume, points, pending);
+  const bool some_left = !handout.per_volume.empty();
 
   for (int e = 0; e < mesh.element_count(); ++e) {
     if (begins[e + 1] == begins[e] || (!erodes(e) && !some_left)) continue;
@@ -152,13 +167,57 @@ auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
     double received = 0.0;
     for (int p = begins[e]; p < begins[e + 1]; ++p) {
       double share = own;
-      if (takes_by_nodes(e)) share += at_point(e, p, gain) * at_point(e, p, factor);
-      if (some_left) share += at_point(e, p, per_volume);
+      if (takes_by_nodes(e)) share += at_point(e, p, gain) * at_point(e, p, handout.factor);
+      if (some_left) share += at_point(e, p, handout.per_volume);
       const double mass = grain_density_ * point_volume[p] * share;
       points.fines_mass[p] += mass;
       received += mass;
     }
     result.received[mesh.element_region[e]] += received;
+  }
+  return result;
+}
+
+template <int Dim>
+auto GrainTransfer<Dim>::transfer_on_the_way(const std::vector<double>& before,
+                                             const std::vector<double>& after,
+                                             const std::vector<double>& point_volume,
+                                             LiquidPoints<Dim>& points,
+                                             std::vector<GrainTake<Dim>>& takes,
+                                             std::vector<double>& pending) const -> Result {
+  const Mesh<Dim>& mesh = grid_.mesh;
+  std::vector<double> taken_in_element(mesh.element_count(), 0.0);
+  for (const GrainTake<Dim>& take : takes) taken_in_element[take.element] += take.own_volume;
+  const auto stays_in_element = [&](int e) {
+    return shares_by_element(e) && taken_in_element[e] > 0.0;
+  };
+  Result result;
+  const Eroded eroded = collect(before, after, stays_in_element, pending, result);
+  std::vector<double> taken(mesh.node_count(), 0.0);
+  for (const GrainTake<Dim>& take : takes) {
+    if (stays_in_element(take.element)) continue;
+    for (int a = 0; a <= Dim; ++a) {
+      taken[mesh.elements[take.element][a]] += take.own_volume * take.barycentric[a];
+    }
+  }
+  const Handout handout =
+      compare(eroded.at_node, taken, rounds_of_ways, point_volume, points, pending);
+
+  for (GrainTake<Dim>& take : takes) {
+    const int e = take.element;
+    const double ratio = stays_in_element(e) ? eroded.in_element[e] / taken_in_element[e]
+                                             : at_place(e, take.barycentric, handout.factor);
+    take.mass = grain_density_ * take.own_volume * ratio;
+    points.fines_mass[take.point] += take.mass;
+    result.received[take.region] += take.mass;
+  }
+  if (handout.per_volume.empty()) return result;
+  for (int p = 0; p < points.size(); ++p) {
+    const int e = points.element[p];
+    const double mass =
+        grain_density_ * point_volume[p] * at_place(e, points.barycentric[p], handout.per_volume);
+    points.fines_mass[p] += mass;
+    result.received[mesh.element_region[e]] += mass;
   }
   return result;
 }

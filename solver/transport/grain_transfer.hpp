@@ -2,7 +2,10 @@
 
 /// Hands what solid points lose to liquid points, to the last gram.
 
+#include <functional>
+
 #include "solid/rigid_skeleton.hpp"
+#include "transport/grain_take.hpp"
 #include "transport/liquid_points.hpp"
 
 namespace suffuse {
@@ -34,7 +37,47 @@ class GrainTransfer {
                   const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
                   std::vector<double>& pending) const;
 
+  /// The same for points that went their way while porosity grew: instead of phi_e V_p / n_L each
+  /// point by itself takes `own_volume` of each of its `takes`, and comparing gives each take its
+  /// mass. By `element`, what an element eroded is shared in proportion to what was taken there.
+  /// `points`, in any order, are where they ended.
+  Result transfer_on_the_way(const std::vector<double>& before, const std::vector<double>& after,
+                             const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
+                             std::vector<GrainTake<Dim>>& takes,
+                             std::vector<double>& pending) const;
+
  private:
+  /// Volume that eroded, m3: per element, and per node what goes by the nodes, with what waited.
+  struct Eroded {
+    std::vector<double> in_element;
+    std::vector<double> at_node;
+  };
+  [[nodiscard]] Eroded collect(const std::vector<double>& before, const std::vector<double>& after,
+                               const std::function<bool(int)>& stays_in_element,
+                               std::vector<double>& pending, Result& result) const;
+  /// How nodes hand out: `factor` times what points would take by themselves; to every point that
+  /// the node sees `per_volume` of it (empty when there is nothing left to hand out so).
+  struct Handout {
+    std::vector<double> factor;
+    std::vector<double> per_volume;
+  };
+  /// `taken`: what points would take by themselves near each node, m3; compared after `rounds` of
+  /// passing on to neighbours.
+  [[nodiscard]] Handout compare(const std::vector<double>& at_node,
+                                const std::vector<double>& taken, int rounds,
+                                const std::vector<double>& point_volume,
+                                const LiquidPoints<Dim>& points,
+                                std::vector<double>& pending) const;
+  [[nodiscard]] bool shares_by_element(int e) const {
+    return skeleton_.soil_of_element(e).erosion.mass_transfer == MassTransfer::element;
+  }
+  [[nodiscard]] double at_place(int e, const std::array<double, Dim + 1>& barycentric,
+                                const std::vector<double>& at_nodes) const {
+    double value = 0.0;
+    for (int a = 0; a <= Dim; ++a) value += barycentric[a] * at_nodes[grid_.mesh.elements[e][a]];
+    return value;
+  }
+
   const Grid<Dim>& grid_;
   const RigidSkeleton<Dim>& skeleton_;
   double grain_density_;

@@ -15,6 +15,12 @@ namespace {
 constexpr double golden = 0.6180339887498948482;
 /// A point may cross so much of an element in one step of erosion and transport.
 constexpr double most_of_an_element = 0.25;
+/// The same where it follows face volumes. Grains are taken on the way there, and in steady flow
+/// the answer does not depend on the step, beyond two elements either; but where the flow changes,
+/// points follow its mean over the step.
+constexpr double most_elements_along_faces = 1.0;
+/// Points that one thread walks at a time.
+constexpr int walked_together = 1024;
 
 double fraction(double x) {
   return x - std::floor(x);
@@ -87,13 +93,20 @@ Entering LagrangianTransport<Dim>::nothing_entered(long next_id) const {
 template <int Dim>
 double LagrangianTransport<Dim>::share_allowed(const LiquidMotion<Dim>& motion,
                                                const std::vector<double>& porosity) const {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  if (motion.along_faces()) {
+    double most = 0.0;
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      most = std::max(most, crossings(grid_, {motion.entered, porosity, porosity}, e));
+    }
+    return most > 0.0 ? most_elements_along_faces / most : any;
+  }
   double fastest = 0.0;
   const WalkField<Dim> here = field(motion, porosity);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     fastest = std::max(fastest, crossing_rate(grid_, here, e));
   }
-  return fastest > 0.0 ? most_of_an_element / (fastest * motion.duration)
-                       : std::numeric_limits<double>::infinity();
+  return fastest > 0.0 ? most_of_an_element / (fastest * motion.duration) : any;
 }
 
 template <int Dim>
@@ -103,6 +116,7 @@ PointPlace<Dim> LagrangianTransport<Dim>::place_on_face(int face, long number,
   // As much of the face's inflow on either side of the point as its number says.
   const auto& nodes = grid_.face_nodes[face];
   const auto inward = [&](int i) {
+    if (motion.along_faces()) return 1.0;  // the same all along the face
     return std::max(0.0, -grid_.face_normal[face].dot(motion.node_flux[i]));
   };
   const double u = births_.random
@@ -150,13 +164,27 @@ auto LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim
       const double due = volumes_at_birth(f, number) - static_cast<double>(born_before);
       const double share = (due * volume - before) / inflow;
       if (share > 1.0) break;
-      born.push_back(
-          {place_on_face(f, number, motion), f, (1.0 - std::max(0.0, share)) * motion.duration});
+      born.push_back({place_on_face(f, number, motion), f, std::max(0.0, share)});
       entering.volume[f] -= volume;
       ++entering.born[f];
     }
   }
   return born;
+}
+
+template <int Dim>
+void LagrangianTransport<Dim>::admit(LiquidPoints<Dim>& points, Entering& entering,
+                                     const Newborn& newborn,
+                                     const std::vector<double>& element_pressure) const {
+  const int e = newborn.place.element;
+  const double concentration = conditions_[newborn.face].concentration;
+  const double volume = births_.point_volume[newborn.face];
+  const double ratio = density_ratio(element_pressure[e], bulk_modulus_);
+  points.element.push_back(e);
+  points.barycentric.push_back(newborn.place.barycentric);
+  points.water_mass.push_back((1.0 - concentration) * volume * densities_.water * ratio);
+  points.fines_mass.push_back(concentration * volume * densities_.grain);
+  points.id.push_back(entering.next_id++);
 }
 
 template <int Dim>
@@ -172,16 +200,9 @@ std::vector<PointCrossing> LagrangianTransport<Dim>::move(
   std::vector<double> walk_time(old_points, motion.duration);
 
   for (const Newborn& newborn : births(entering, motion)) {
-    const int e = newborn.place.element;
-    const double concentration = conditions_[newborn.face].concentration;
-    const double volume = births_.point_volume[newborn.face];
-    const double ratio = density_ratio(element_pressure[e], bulk_modulus_);
-    points.element.push_back(e);
-    points.barycentric.push_back(newborn.place.barycentric);
-    points.water_mass.push_back((1.0 - concentration) * volume * densities_.water * ratio);
-    points.fines_mass.push_back(concentration * volume * densities_.grain);
-    points.id.push_back(entering.next_id++);
+    admit(points, entering, newborn, element_pressure);
     if (!node_velocity.empty()) {
+      const int e = newborn.place.element;
       Vector<Dim> velocity = Vector<Dim>::Zero();
       for (int a = 0; a <= Dim; ++a) {
         velocity += newborn.place.barycentric[a] * node_velocity[grid_.mesh.elements[e][a]];
@@ -190,7 +211,7 @@ std::vector<PointCrossing> LagrangianTransport<Dim>::move(
       points.velocity.push_back(velocity);
     }
     from.push_back(-1);
-    walk_time.push_back(newborn.remaining);
+    walk_time.push_back((1.0 - newborn.share) * motion.duration);
   }
 
   const WalkField<Dim> here = field(motion, porosity);
@@ -224,6 +245,93 @@ std::vector<PointCrossing> LagrangianTransport<Dim>::move(
       // A point that enters and leaves at once counts in both directions.
       crossings.push_back({from[p], to, points.water_mass[p], points.fines_mass[p]});
     }
+  }
+  keep_points(points, keep);
+  sort_by_element(points, grid_.mesh.element_count());
+  return crossings;
+}
+
+template <int Dim>
+WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
+    LiquidPoints<Dim>& points, Entering& entering, const LiquidMotion<Dim>& motion,
+    const std::vector<double>& porosity_begin, const std::vector<double>& porosity_end,
+    const std::vector<double>& element_pressure) const {
+  WalkedPoints<Dim> walked;
+  const auto& region = grid_.mesh.element_region;
+  for (const int e : points.element) walked.from.push_back(region[e]);
+  std::vector<double> begin(points.size(), 0.0);
+  for (const Newborn& newborn : births(entering, motion)) {
+    admit(points, entering, newborn, element_pressure);
+    walked.from.push_back(-1);
+    begin.push_back(newborn.share);
+  }
+  walked.grains = points.fines_mass;
+
+  const FaceWalkField<Dim> field{motion.entered, porosity_begin, porosity_end};
+  const int count = points.size();
+  walked.left_by.assign(count, -1);
+  // One list for each block of points: their order does not depend on the threads.
+  const int blocks = (count + walked_together - 1) / walked_together;
+  std::vector<std::vector<GrainTake<Dim>>> takes(blocks);
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic) num_threads(threads_) if (blocks > 4)
+  for (int block = 0; block < blocks; ++block) {
+    try {
+      std::vector<FacePassage<Dim>> passages;
+      const int end = std::min(count, (block + 1) * walked_together);
+      for (int p = block * walked_together; p < end; ++p) {
+        double volume =
+            liquid_volume(points.water_mass[p], points.fines_mass[p], densities_,
+                          density_ratio(element_pressure[points.element[p]], bulk_modulus_));
+        PointPlace<Dim> place = points.place(p);
+        passages.clear();
+        walked.left_by[p] =
+            walk_along_faces(grid_, field, place, begin[p], 1.0, points.id[p], passages);
+        points.element[p] = place.element;
+        points.barycentric[p] = place.barycentric;
+        const int last = region[place.element];
+        for (const FacePassage<Dim>& passage : passages) {
+          const bool in_first = region[passage.element] == walked.from[p];
+          takes[block].push_back({p, passage.element, passage.barycentric,
+                                  volume * (passage.growth - 1.0),
+                                  in_first ? walked.from[p] : last});
+          volume *= passage.growth;
+        }
+      }
+    } catch (...) {
+#pragma omp critical(suffuse_walk_failure)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  for (const auto& of_block : takes) {
+    walked.takes.insert(walked.takes.end(), of_block.begin(), of_block.end());
+  }
+  return walked;
+}
+
+template <int Dim>
+std::vector<PointCrossing> LagrangianTransport<Dim>::settle(LiquidPoints<Dim>& points,
+                                                            Entering& entering,
+                                                            const WalkedPoints<Dim>& walked) const {
+  const auto& region = grid_.mesh.element_region;
+  const int count = points.size();
+  std::vector<double> carried = walked.grains;
+  for (const GrainTake<Dim>& take : walked.takes) {
+    if (take.region == walked.from[take.point]) carried[take.point] += take.mass;
+  }
+  std::vector<PointCrossing> crossings;
+  std::vector<unsigned char> keep(count, 1);
+  for (int p = 0; p < count; ++p) {
+    const int last = region[points.element[p]];
+    if (walked.from[p] != last) {
+      crossings.push_back({walked.from[p], last, points.water_mass[p], carried[p]});
+    }
+    if (walked.left_by[p] < 0) continue;
+    keep[p] = 0;
+    crossings.push_back({last, -1, points.water_mass[p], points.fines_mass[p]});
+    entering.volume[walked.left_by[p]] +=
+        liquid_volume(points.water_mass[p], points.fines_mass[p], densities_, 1.0);
   }
   keep_points(points, keep);
   sort_by_element(points, grid_.mesh.element_count());

@@ -4,6 +4,8 @@
 /// and out through them.
 
 #include "flow/face_conditions.hpp"
+#include "grid/face_walk.hpp"
+#include "transport/grain_take.hpp"
 #include "transport/liquid_points.hpp"
 
 namespace suffuse {
@@ -28,9 +30,22 @@ struct PointCrossing {
 /// Flux over one interval.
 template <int Dim>
 struct LiquidMotion {
-  std::vector<Vector<Dim>> node_flux;  ///< mean over the interval, m/s
-  std::vector<double> entered;         ///< per face, liquid volume along its normal, m3
-  double duration = 0.0;               ///< s
+  /// Mean over the interval, m/s. Empty where points follow the volumes through faces.
+  std::vector<Vector<Dim>> node_flux;
+  std::vector<double> entered;  ///< per face, liquid volume along its normal, m3
+  double duration = 0.0;        ///< s
+
+  [[nodiscard]] bool along_faces() const { return node_flux.empty(); }
+};
+
+/// Points that have gone their way, the new ones at the end; those that left are still among them,
+/// in their last element.
+template <int Dim>
+struct WalkedPoints {
+  std::vector<int> from;       ///< region at the beginning, -1: outside
+  std::vector<int> left_by;    ///< outer face, -1: none
+  std::vector<double> grains;  ///< of each point before it took any, kg
+  std::vector<GrainTake<Dim>> takes;
 };
 
 /// How new points are spread over the liquid that enters.
@@ -53,7 +68,8 @@ class LagrangianTransport {
   /// The state of `entering` before anything came in. Faces take turns.
   [[nodiscard]] Entering nothing_entered(long next_id) const;
 
-  /// Share of the motion after which some point may have crossed a quarter of an element.
+  /// Share of the motion after which erosion and transport must take turns: when some point may
+  /// have crossed a quarter of an element by node fluxes, a whole one by face volumes.
   [[nodiscard]] double share_allowed(const LiquidMotion<Dim>& motion,
                                      const std::vector<double>& porosity) const;
 
@@ -67,11 +83,27 @@ class LagrangianTransport {
                                   const std::vector<double>& element_pressure,
                                   const std::vector<Vector<Dim>>& node_velocity) const;
 
+  /// Moves every point along the face volumes, new ones from the moment at which they come in, and
+  /// those that leave until then, while porosity goes from `porosity_begin` to `porosity_end`
+  /// (per element). Tells what each takes up on its way; nothing is handed out yet.
+  WalkedPoints<Dim> follow(LiquidPoints<Dim>& points, Entering& entering,
+                           const LiquidMotion<Dim>& motion,
+                           const std::vector<double>& porosity_begin,
+                           const std::vector<double>& porosity_end,
+                           const std::vector<double>& element_pressure) const;
+
+  /// After `follow`, once points have their grains: takes out those that left; points are sorted.
+  /// Returns who changed region. What a point took in the region that it came from it carries
+  /// across, the rest it receives where it goes; one that leaves the model first crosses into its
+  /// last region.
+  std::vector<PointCrossing> settle(LiquidPoints<Dim>& points, Entering& entering,
+                                    const WalkedPoints<Dim>& walked) const;
+
  private:
   struct Newborn {
     PointPlace<Dim> place;
     int face;
-    double remaining;  ///< of the interval, s
+    double share;  ///< of the interval that had passed
   };
   [[nodiscard]] WalkField<Dim> field(const LiquidMotion<Dim>& motion,
                                      const std::vector<double>& porosity) const {
@@ -84,6 +116,8 @@ class LagrangianTransport {
   /// New points at the moments at which their volume has come in.
   [[nodiscard]] std::vector<Newborn> births(Entering& entering,
                                             const LiquidMotion<Dim>& motion) const;
+  void admit(LiquidPoints<Dim>& points, Entering& entering, const Newborn& newborn,
+             const std::vector<double>& element_pressure) const;
 
   const Grid<Dim>& grid_;
   const std::vector<FaceCondition>& conditions_;

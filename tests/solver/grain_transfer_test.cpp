@@ -196,5 +196,75 @@ TEST(GrainTransfer, AnEmptyElementGivesToItsNeighbours) {
   }
 }
 
+/// Takes of points that stayed where they are.
+std::vector<GrainTake<2>> takes_in_place(const TransferCase& c, double growth) {
+  std::vector<GrainTake<2>> takes;
+  const std::vector<double> volume = c.volumes();
+  for (int p = 0; p < c.points.size(); ++p) {
+    takes.push_back({p, c.points.element[p], c.points.barycentric[p], volume[p] * growth, 0});
+  }
+  return takes;
+}
+
+TEST(GrainTransfer, OnTheWayEachTakeGetsItsOwnTimesACommonFactor) {
+  // Takes that add up to half of what eroded, evenly: twice each.
+  TransferCase c(MassTransfer::nodal, Seeding::gauss, 3, 0.04);
+  auto takes = takes_in_place(c, 0.5 * 1e-3 / 0.3);
+  std::vector<double> after = c.before;
+  for (double& n : after) n += 1e-3;
+  const auto result =
+      c.transfer.transfer_on_the_way(c.before, after, c.volumes(), c.points, takes, c.pending);
+  for (const GrainTake<2>& take : takes) {
+    EXPECT_NEAR(take.mass / (grain_density * take.own_volume), 2.0, 1e-12);
+    EXPECT_EQ(c.points.fines_mass[take.point], take.mass);
+  }
+  EXPECT_NEAR(result.received[0], grain_density * 1e-3, 1e-13);
+  EXPECT_NEAR(result.eroded[0], grain_density * 1e-3, 1e-13);
+}
+
+TEST(GrainTransfer, OnTheWayNothingIsLost) {
+  for (const MassTransfer way : {MassTransfer::nodal, MassTransfer::element}) {
+    TransferCase c(way, Seeding::random, 3, 0.04);
+    c.empty([](int e) { return e % 7 == 3 || e < 4; });
+    const auto growth = [](int e) { return e % 3 == 0 ? 0.0 : 1e-3 * (1 + e % 5); };
+    std::vector<double> after = c.before;
+    for (std::size_t s = 0; s < after.size(); ++s) {
+      after[s] += growth(c.skeleton.points().element[s]);
+    }
+    // Only some points took anything, and by far not what eroded.
+    auto takes = takes_in_place(c, 1e-4);
+    std::erase_if(takes, [&](const GrainTake<2>& take) {
+      return take.point % 2 == 0 || growth(take.element) == 0.0;
+    });
+    const auto result =
+        c.transfer.transfer_on_the_way(c.before, after, c.volumes(), c.points, takes, c.pending);
+    EXPECT_NEAR(c.fines() + c.pending_mass(), result.eroded[0], 1e-13);
+    EXPECT_NEAR(c.fines(), result.received[0], 1e-13);
+    if (way == MassTransfer::nodal) continue;
+    // By element: what it eroded, as long as anyone took grains there.
+    std::vector<double> of_element(c.input.mesh.element_count(), 0.0);
+    for (const GrainTake<2>& take : takes) of_element[take.element] += take.mass;
+    for (const GrainTake<2>& take : takes) {
+      const int e = take.element;
+      EXPECT_NEAR(of_element[e], grain_density * c.volume_of(e) * growth(e), 1e-14);
+    }
+  }
+}
+
+TEST(GrainTransfer, OnTheWayGrainsThatNobodyTookGoToPointsNear) {
+  TransferCase c(MassTransfer::nodal, Seeding::low_discrepancy, 3, 0.0);
+  std::vector<double> after = c.before;
+  for (double& n : after) n += 1e-3;
+  std::vector<GrainTake<2>> none;
+  c.transfer.transfer_on_the_way(c.before, after, c.volumes(), c.points, none, c.pending);
+  EXPECT_NEAR(c.fines(), grain_density * 1e-3, 1e-13);
+  EXPECT_EQ(c.pending_mass(), 0.0);
+
+  TransferCase dry(MassTransfer::nodal, Seeding::low_discrepancy, 3, 0.0);
+  dry.empty([](int) { return true; });
+  dry.transfer.transfer_on_the_way(dry.before, after, {}, dry.points, none, dry.pending);
+  EXPECT_NEAR(dry.pending_mass(), grain_density * 1e-3, 1e-13);
+}
+
 }  // namespace
 }  // namespace suffuse

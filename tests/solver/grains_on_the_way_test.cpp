@@ -1,0 +1,370 @@
+/// Erosion and the motion of liquid points together, along given face volumes: the column of the
+/// paper's soil under a uniform flux, without a flow scheme.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <numeric>
+
+#include "solver/double_point_case.hpp"
+#include "transport/grain_transfer.hpp"
+#include "transport/lagrangian.hpp"
+#include "verification/exact_fines.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr LiquidDensities densities{1000.0, 2700.0};
+constexpr double bulk_modulus = 2.0e7;
+constexpr double flux = 0.012;
+constexpr double rate = 5e-3;
+constexpr double start = 2.0;
+
+enum class Way { along_faces, split };
+
+struct Column {
+  Column(Mesh<2> mesh, Scene scene, int threads = 1)
+      : input(model::make_double_point_case(std::move(mesh), std::move(scene))),
+        grid(input.mesh),
+        skeleton(input, grid),
+        conditions(face_conditions(input, grid)),
+        transport(grid, conditions, births(), densities, bulk_modulus, threads),
+        transfer(grid, skeleton, densities.grain),
+        pressure(input.mesh.element_count(), 0.0),
+        porosity(skeleton.initial_porosity()),
+        pending(input.mesh.node_count(), 0.0) {
+    const MaterialPoints<2>& seeded = input.liquid_points;
+    liquid.element = seeded.element;
+    liquid.barycentric = seeded.barycentric;
+    liquid.fines_mass.assign(seeded.size(), 0.0);
+    for (int p = 0; p < seeded.size(); ++p) {
+      liquid.water_mass.push_back(densities.water * seeded.volume[p]);
+      liquid.id.push_back(p);
+    }
+    sort_by_element(liquid, input.mesh.element_count());
+    entering = transport.nothing_entered(liquid.size());
+  }
+  Column(const Column&) = delete;
+  Column& operator=(const Column&) = delete;
+  ~Column() = default;
+
+  [[nodiscard]] BirthSettings births() const {
+    std::vector<double> volume(input.mesh.element_count(), 0.0);
+    std::vector<int> count(input.mesh.element_count(), 0);
+    for (int p = 0; p < input.liquid_points.size(); ++p) {
+      volume[input.liquid_points.element[p]] += input.liquid_points.volume[p];
+      ++count[input.liquid_points.element[p]];
+    }
+    BirthSettings result;
+    for (const int e : grid.face_left) {
+      result.point_volume.push_back(volume[e] / count[e]);
+      result.points_per_element.push_back(count[e]);
+    }
+    return result;
+  }
+  [[nodiscard]] std::vector<double> element_porosity(const std::vector<double>& at_points) const {
+    std::vector<double> result(input.mesh.element_count(), 0.0);
+    const MaterialPoints<2>& solid = skeleton.points();
+    for (int s = 0; s < solid.size(); ++s) {
+      result[solid.element[s]] += solid.volume[s] * at_points[s] / grid.volume[solid.element[s]];
+    }
+    return result;
+  }
+  [[nodiscard]] std::vector<double> volumes() const {
+    std::vector<double> result;
+    result.reserve(liquid.size());
+    for (int p = 0; p < liquid.size(); ++p) {
+      result.push_back(liquid_volume(liquid.water_mass[p], liquid.fines_mass[p], densities, 1.0));
+    }
+    return result;
+  }
+  /// Darcy flux straight down.
+  [[nodiscard]] LiquidMotion<2> motion(double dt, Way way) const {
+    LiquidMotion<2> result;
+    const Vector<2> down(0.0, -flux);
+    if (way == Way::split) result.node_flux.assign(input.mesh.node_count(), down);
+    for (const Vector<2>& normal : grid.face_normal) {
+      result.entered.push_back(std::abs(normal[1]) > 1e-12 * normal.norm() ? dt * normal.dot(down)
+                                                                           : 0.0);
+    }
+    result.duration = dt;
+    return result;
+  }
+
+  void step(double dt, Way way) {
+    if (way == Way::along_faces) {
+      std::vector<double> after = skeleton.porosity_after(porosity, time, time + dt, {});
+      auto walked = transport.follow(liquid, entering, motion(dt, way), element_porosity(porosity),
+                                     element_porosity(after), pressure);
+      note(transfer.transfer_on_the_way(porosity, after, volumes(), liquid, walked.takes, pending));
+      note(transport.settle(liquid, entering, walked));
+      porosity = std::move(after);
+    } else {
+      erode(time, time + 0.5 * dt);
+      note(transport.move(liquid, entering, motion(dt, way), element_porosity(porosity), pressure,
+                          {}));
+      erode(time + 0.5 * dt, time + dt);
+    }
+    time += dt;
+  }
+  void erode(double from, double to) {
+    std::vector<double> after = skeleton.porosity_after(porosity, from, to, {});
+    note(transfer.transfer(porosity, after, element_porosity(porosity),
+                           element_begins(liquid, input.mesh.element_count()), volumes(), liquid,
+                           pending));
+    porosity = std::move(after);
+  }
+
+  void note(const GrainTransfer<2>::Result& result) {
+    for (std::size_t r = 0; r < result.eroded.size(); ++r) {
+      eroded += result.eroded[r];
+      regions.resize(result.eroded.size(), 0.0);
+      regions[r] += result.received[r];
+    }
+  }
+  void note(const std::vector<PointCrossing>& crossings) {
+    for (const PointCrossing& point : crossings) {
+      if (point.from < 0) fines_in += point.fines_mass;
+      if (point.to < 0) fines_out += point.fines_mass;
+      if (point.from >= 0) regions.at(point.from) -= point.fines_mass;
+      if (point.to >= 0) regions.at(point.to) += point.fines_mass;
+    }
+  }
+
+  [[nodiscard]] double fines() const {
+    return std::accumulate(liquid.fines_mass.begin(), liquid.fines_mass.end(), 0.0);
+  }
+  /// Grains that are neither in the liquid nor accounted for, of all that eroded.
+  [[nodiscard]] double residual() const {
+    const double waiting = densities.grain * std::accumulate(pending.begin(), pending.end(), 0.0);
+    return (fines() + waiting + fines_out - fines_in - eroded) / std::max(eroded, 1.0);
+  }
+  /// Largest difference between the grains in a region's liquid and what was booked.
+  [[nodiscard]] double region_residual() const {
+    std::vector<double> left = regions;
+    for (int p = 0; p < liquid.size(); ++p) {
+      left[input.mesh.element_region[liquid.element[p]]] -= liquid.fines_mass[p];
+    }
+    double largest = 0.0;
+    for (const double mass : left) largest = std::max(largest, std::abs(mass));
+    return largest / std::max(eroded, 1.0);
+  }
+  [[nodiscard]] double concentration(int p) const {
+    return liquid.fines_mass[p] / densities.grain /
+           liquid_volume(liquid.water_mass[p], liquid.fines_mass[p], densities, 1.0);
+  }
+  /// Root mean square of the error of c over the liquid, x from the inlet.
+  [[nodiscard]] double error(const std::function<double(double)>& exact,
+                             double height = 1.0) const {
+    double square = 0.0;
+    double sum = 0.0;
+    const auto volume = volumes();
+    for (int p = 0; p < liquid.size(); ++p) {
+      const double x = height - liquid.place(p).position(input.mesh)[1];
+      square += volume[p] * std::pow(concentration(p) - exact(x), 2);
+      sum += volume[p];
+    }
+    return std::sqrt(square / sum);
+  }
+
+  Case<2> input;
+  Grid<2> grid;
+  RigidSkeleton<2> skeleton;
+  std::vector<FaceCondition> conditions;
+  LagrangianTransport<2> transport;
+  GrainTransfer<2> transfer;
+  std::vector<double> pressure;
+  std::vector<double> porosity;
+  std::vector<double> pending;
+  LiquidPoints<2> liquid;
+  Entering entering;
+  double time = 0.0;
+  double eroded = 0.0;
+  double fines_in = 0.0;
+  double fines_out = 0.0;
+  std::vector<double> regions;  ///< grains of each region's liquid by what was booked
+};
+
+struct Outcome {
+  double error = 0.0;  ///< of c in L2, root mean square over times
+  double mass = 0.0;   ///< largest error of the fluidised mass, of its maximum
+};
+
+/// Every two seconds up to `end`, in a column 1 m high of `rows` rows and `across` columns of
+/// cells.
+Outcome run(int rows, int across, int points, double dt, Way way) {
+  constexpr double end = 30.0;
+  Scene scene = model::double_point_scene(flux, rate);
+  scene.points.liquid_per_element = points;
+  const double width = static_cast<double>(across) / rows;
+  Column column(model::layered_mesh(across, {}, rows, width), std::move(scene));
+  const UniformFines exact([](double) { return rate; }, 0.3, 0.4, start, flux, end + 1.0);
+  Outcome outcome;
+  double square = 0.0;
+  double most = 0.0;
+  int times = 0;
+  const int every = static_cast<int>(std::lround(2.0 / dt));
+  for (int k = 1; k * dt < end + 1e-9; ++k) {
+    column.step(dt, way);
+    EXPECT_LE(std::abs(column.residual()), 1e-13);
+    if (k % every != 0) continue;
+    const double t = column.time;
+    const auto concentration = [&](double x) { return exact.concentration(x, t); };
+    square += std::pow(column.error(concentration), 2);
+    ++times;
+    double mass = 0.0;
+    for (int i = 0; i < 2000; ++i) mass += concentration((i + 0.5) / 2000) / 2000;
+    mass *= densities.grain * exact.porosity(t) * width;
+    most = std::max(most, mass);
+    outcome.mass = std::max(outcome.mass, std::abs(column.fines() - mass));
+  }
+  outcome.mass /= most;
+  outcome.error = std::sqrt(square / times);
+  return outcome;
+}
+
+TEST(GrainsOnTheWay, TheErrorIsThatOfThePointsWhateverTheStep) {
+  // Steps of 2 s and more cross 0.65 of an element, the finer mesh's more than one.
+  for (const int rows : {8, 16}) {
+    for (const int points : {1, 3, 12}) {
+      std::vector<double> errors;
+      for (const double dt : {2.0, 1.0, 0.5, 0.25}) {
+        errors.push_back(run(rows, rows / 2, points, dt, Way::along_faces).error);
+      }
+      const double split = run(rows, rows / 2, points, 1.0, Way::split).error;
+      std::cout << rows << " rows, " << points
+                << " points per element: error of c at steps of 2, 1, "
+                << "1/2, 1/4 s " << errors[0] << ' ' << errors[1] << ' ' << errors[2] << ' '
+                << errors[3] << "; erosion and motion in turns, 1 s " << split << '\n';
+      for (const double error : errors) EXPECT_NEAR(error / errors.back(), 1.0, 0.1);
+      EXPECT_LE(errors[1], points == 1 ? 2.3e-3 : points == 3 ? 8e-4 : 2e-4);
+      EXPECT_GE(split, (points == 1 ? 1.2 : points == 3 ? 3.0 : 12.0) * errors[1]);
+    }
+  }
+}
+
+TEST(GrainsOnTheWay, FluidisedMass) {
+  const Outcome coarse = run(4, 4, 12, 1.0, Way::along_faces);
+  const Outcome fine = run(8, 8, 12, 1.0, Way::along_faces);
+  const Outcome finer_step = run(8, 8, 12, 0.25, Way::along_faces);
+  std::cout << "fluidised mass, 12 points per element, steps of 1 s: largest error "
+            << 100.0 * coarse.mass << " % at 1/4 m, " << 100.0 * fine.mass
+            << " % at 1/8 m; steps of 1/4 s " << 100.0 * finer_step.mass << " %\n";
+  EXPECT_LE(fine.mass, 0.005);
+  EXPECT_LE(coarse.mass, 0.016);
+  // Points are whole: the column never holds exactly as many as its pores are worth.
+  EXPECT_NEAR(fine.mass, finer_step.mass, 2e-4);
+}
+
+TEST(GrainsOnTheWay, SecondOrderWherePorosityCurvesInTime) {
+  // phi_e = kappa (n_max - n): within a step porosity is taken to be linear in time.
+  constexpr double kappa = 0.25;
+  constexpr double end = 24.0;
+  std::vector<double> errors;
+  const UniformFines exact([](double n) { return kappa * (0.4 - n); }, 0.2, 0.4, 0.0, flux, end);
+  for (const double dt : {6.0, 3.0, 1.5}) {
+    Scene scene = model::double_point_scene(flux, kappa);
+    scene.soils[0].porosity = 0.2;
+    scene.soils[0].erosion.law = ErosionLaw::first_order;
+    scene.soils[0].erosion.start = 0.0;
+    scene.points.liquid_per_element = 48;
+    Column column(model::layered_mesh(4, {}, 8, 0.5), std::move(scene));
+    double square = 0.0;
+    for (int k = 1; k * dt < end + 1e-9; ++k) {
+      column.step(dt, Way::along_faces);
+      EXPECT_LE(std::abs(column.residual()), 1e-13);
+      if (std::fmod(column.time, 6.0) != 0.0) continue;
+      square +=
+          std::pow(column.error([&](double x) { return exact.concentration(x, column.time); }), 2);
+    }
+    errors.push_back(std::sqrt(square / 4.0));
+  }
+  for (int k = 0; k < 2; ++k) {
+    const double order = std::log2(errors[k] / errors[k + 1]);
+    std::cout << "first-order law, steps of " << 6.0 / (1 << k) << " and " << 3.0 / (1 << k)
+              << " s: error of c " << errors[k] << ' ' << errors[k + 1] << ", order " << order
+              << '\n';
+    EXPECT_GE(order, 1.8);
+  }
+}
+
+TEST(GrainsOnTheWay, PorosityThatVariesWithDepth) {
+  // n_0 = 0.25 + 0.1 x with x from the inlet: (1 - c) n_L is not constant on a path.
+  constexpr double slow = 1e-3;
+  const auto porosity = [](double x, double t) {
+    return 0.25 + 0.1 * x + slow * std::max(0.0, t - start);
+  };
+  std::vector<double> errors;
+  for (const int rows : {8, 16}) {
+    Scene scene = model::double_point_scene(flux, slow);
+    scene.soils[0].porosity = 0.35;
+    scene.soils[0].porosity_gradient = {0.0, -0.1, 0.0};
+    scene.points.liquid_per_element = 12;
+    Column column(model::layered_mesh(rows / 4, {}, rows, 0.25), std::move(scene));
+    for (int k = 1; k <= 21; ++k) column.step(2.0, Way::along_faces);
+    const auto exact = [&](double x) {
+      return concentration_along_path(
+          porosity, [](double, double) { return slow; }, start, flux, x, column.time);
+    };
+    errors.push_back(column.error(exact) / exact(1.0));
+  }
+  std::cout << "porosity that varies with depth, 8 and 16 rows: error of c " << errors[0] << ' '
+            << errors[1] << " of that at the outlet\n";
+  EXPECT_LE(errors[0], 1e-3);
+  EXPECT_LE(errors[1], 1e-3);
+}
+
+TEST(GrainsOnTheWay, BooksCloseForEveryRegion) {
+  // Steps long enough to cross layers of one row within one step, and in the end the whole column.
+  for (const MassTransfer way : {MassTransfer::nodal, MassTransfer::element}) {
+    Scene scene = model::double_point_scene(flux, rate);
+    scene.soils[0].erosion.mass_transfer = way;
+    scene.points.liquid_per_element = 3;
+    LayerSettings layers;
+    layers.above = layers.below = 1;
+    Column column(model::layered_mesh(4, layers, 8, 0.5), std::move(scene));
+    for (const double dt : {1.0, 3.0, 7.0, 60.0}) {
+      column.step(dt, Way::along_faces);
+      EXPECT_LE(std::abs(column.residual()), 1e-13);
+      EXPECT_LE(column.region_residual(), 1e-12) << "after a step of " << dt << " s";
+    }
+    EXPECT_GT(column.fines_out, 0.5 * column.eroded);
+    // Nothing is there now but what came in clean during the last step, and passed eroding soil.
+    EXPECT_LT(column.fines(), 0.5 * column.eroded);
+  }
+}
+
+TEST(GrainsOnTheWay, GrainsStayInSoilThatErodes) {
+  // What is above the specimen gets none.
+  Scene scene = model::double_point_scene(flux, rate);
+  LayerSettings layers;
+  layers.above = 4;
+  Column column(model::layered_mesh(4, layers, 8, 0.5), std::move(scene));
+  for (int k = 0; k < 10; ++k) column.step(2.0, Way::along_faces);
+  for (int p = 0; p < column.liquid.size(); ++p) {
+    if (column.liquid.place(p).position(column.input.mesh)[1] <= 1.0) continue;
+    EXPECT_EQ(column.liquid.fines_mass[p], 0.0);
+  }
+}
+
+TEST(GrainsOnTheWay, ThreadsChangeNothing) {
+  const auto fines = [](int threads) {
+    Column column(model::layered_mesh(16, {}, 16), model::double_point_scene(flux, rate), threads);
+    EXPECT_GE(column.liquid.size(), 5000);
+    for (int k = 0; k < 5; ++k) column.step(2.0, Way::along_faces);
+    return std::pair{column.liquid.fines_mass, column.liquid.barycentric};
+  };
+  EXPECT_EQ(fines(1), fines(3));
+}
+
+TEST(GrainsOnTheWay, StepsMayCrossOneElement) {
+  Column column(model::layered_mesh(4, {}, 4), model::double_point_scene(flux, rate));
+  // Elements of 1/4 m at 0.04 m/s: 6.25 s.
+  const auto motion = column.motion(1.0, Way::along_faces);
+  EXPECT_NEAR(column.transport.share_allowed(motion, column.element_porosity(column.porosity)),
+              6.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace suffuse
