@@ -108,6 +108,16 @@ void BoundaryValues<Dim>::update(double time, std::vector<FaceCondition>& condit
   }
 }
 
+template <int Dim>
+void BoundaryValues<Dim>::update_concentrations(double time,
+                                                std::vector<FaceCondition>& conditions) const {
+  for (const Varying& varying : varying_) {
+    if (!varying.boundary.concentration) continue;
+    const double now = varying.boundary.concentration->value(time);
+    for (const int f : varying.faces) conditions[f].concentration = now;
+  }
+}
+
 template std::vector<FaceCondition> face_conditions(const Case<2>&, const Grid<2>&);
 template class BoundaryValues<2>;
 

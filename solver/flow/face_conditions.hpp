@@ -48,6 +48,9 @@ class BoundaryValues {
   /// The same in place: `conditions` come from `at` or `face_conditions` of the same case, at any
   /// time. Touches the faces of boundaries that change in time and no others.
   void update(double time, std::vector<FaceCondition>& conditions) const;
+  /// Concentrations of another time alone, in place: what entered over an interval has that of its
+  /// middle, which is the mean wherever it is linear.
+  void update_concentrations(double time, std::vector<FaceCondition>& conditions) const;
   /// Whether any value changes in time.
   [[nodiscard]] bool vary() const { return !varying_.empty(); }
   /// Times at which a value that changes may have a kink, in (0, end), s: ascending, each once.

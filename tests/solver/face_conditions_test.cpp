@@ -114,6 +114,15 @@ TEST(BoundaryValues, AreUpdatedInPlaceFromAnyTime) {
   }
 }
 
+TEST(BoundaryValues, GiveConcentrationsOfAnotherTime) {
+  const Column column({rising_pressure(), turning_flux(), level_velocity()});
+  auto conditions = column.values.at(8.0);
+  column.values.update_concentrations(1.5, conditions);
+  EXPECT_NEAR(column.on("bottom", conditions).concentration, 0.05, 1e-16);
+  EXPECT_NEAR(column.on("bottom", conditions).value, 0.006, 1e-17);
+  EXPECT_EQ(column.on("top", conditions).value, 4500.0);
+}
+
 TEST(BoundaryValues, TouchNoFaceThatDoesNotChange) {
   const Column column({rising_pressure(), level_velocity()});
   auto conditions = column.values.at(0.0);
