@@ -124,8 +124,8 @@ void FluxCorrection<Dim>::correct(std::vector<double>& face_flux,
     }
     excess[e] = outflow - net_outflow[e];
   }
-  for (auto next = from_root_.rbegin(); next != from_root_.rend(); ++next) {
-    const int e = *next;
+  for (std::size_t i = from_root_.size(); i-- > 0;) {
+    const int e = from_root_[i];
     const int f = drain_[e];
     if (f < 0) continue;
     const bool is_left = grid_.face_left[f] == e;

@@ -231,6 +231,49 @@ TEST(ImplicitMixed, EnergyDoesNotGrow) {
             << least_kept << '\n';
 }
 
+TEST(ImplicitMixed, QuadraticDragIsFulfilledInEveryElementHoweverItVaries) {
+  // From Darcy's drag to a million times it, over four decades from element to element, with a
+  // layer without quadratic drag.
+  double worst = 0.0;
+  double worst_imbalance = 0.0;
+  long most_solves = 0;
+  for (const double scale : {1e5, 1e8, 1e11}) {
+    for (const bool pressures : {true, false}) {
+      FlowModel m(model::column_mesh(12, 12, 1.0, 1.0, model::jittered(0.02, 6)));
+      Uniform uniform(8);
+      m.set_conductivity([&](const Vector<2>&) { return std::pow(10.0, 2.0 * uniform()); });
+      FlowCoefficients<2>& c = m.forcing.coefficients;
+      for (int e = 0; e < m.mesh.element_count(); ++e) {
+        const bool without = element_centroid(m.mesh, e)[1] > 0.8;
+        c.quadratic_drag.push_back(without ? 0.0 : scale * std::pow(10.0, 2.0 * uniform()));
+      }
+      m.set("top", FaceKind::pressure, 6000.0);
+      m.set("left", pressures ? FaceKind::pressure : FaceKind::flux, pressures ? 0.0 : 1e-2);
+      ImplicitMixed<2> flow(m.grid, {2e7, true, TimeStepping::second_order}, {0.0, -9.81});
+      const auto steady = flow.steady(m.forcing);
+      most_solves = std::max(most_solves, flow.counts().solves);
+      worst_imbalance = std::max(
+          worst_imbalance,
+          imbalance(m.grid, steady.face_flux, std::vector<double>(m.mesh.element_count(), 0.0)));
+      for (int e = 0; e < m.mesh.element_count(); ++e) {
+        const Vector<2> flux = c.porosity[e] * steady.end.velocity[e];
+        const Vector<2> drag =
+            (c.drag[e] / c.porosity[e] + c.quadratic_drag[e] * flux.norm()) * flux;
+        Vector<2> push(0.0, -9.81 * c.mixture_density[e]);
+        for (int k = 0; k < 3; ++k) {
+          push += 2.0 * steady.end.face_pressure[m.grid.element_face[e][k]] *
+                  m.grid.shape_gradient[e][k];
+        }
+        worst = std::max(worst, (drag - push).norm() / 9810.0);
+      }
+    }
+  }
+  std::cout << "quadratic drag: drag less push " << worst << " of the weight of water, imbalance "
+            << worst_imbalance << ", at most " << most_solves << " solves\n";
+  EXPECT_LE(worst, 1e-10);
+  EXPECT_LE(worst_imbalance, 1e-12);
+}
+
 TEST(ImplicitMixed, WaterAtRestStaysAtRest) {
   for (const double modulus : {2e7, infinite}) {
     for (const bool open : {true, false}) {

@@ -20,8 +20,9 @@ using model::FlowModel;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double unit_weight = 9810.0;  // of water, N/m3
 
-/// Steady flow with conductivity e^x and the head e^(a x) cos(b y): div(k grad h) = 0 where
-/// a^2 + a = b^2. Heads above and below and on the left, fluxes on the right.
+/// Steady flow with conductivity e^x and the head e^(a x) cos(b y) + x^2. The first part has no
+/// source, as a^2 + a = b^2; the second has -e^x (2 + 2 x). Heads above and below and on the left,
+/// fluxes on the right.
 class SmoothFlow {
  public:
   explicit SmoothFlow(const Mesh<2>& mesh) : m_(mesh) {
@@ -37,19 +38,26 @@ class SmoothFlow {
         // The mean over the face, whose length is dy.
         const double dy = m_.grid.face_normal[f].norm();
         c.kind = FaceKind::flux;
-        c.value = a * std::exp(1.0 + a) *
-                  (std::sin(b * (x[1] + 0.5 * dy)) - std::sin(b * (x[1] - 0.5 * dy))) / (b * dy);
+        c.value = 2.0 * std::exp(1.0) +
+                  a * std::exp(1.0 + a) *
+                      (std::sin(b * (x[1] + 0.5 * dy)) - std::sin(b * (x[1] - 0.5 * dy))) /
+                      (b * dy);
       }
+    }
+    for (int e = 0; e < m_.mesh.element_count(); ++e) {
+      const double x = element_centroid(m_.mesh, e)[0];
+      m_.forcing.source.push_back(-m_.grid.volume[e] * std::exp(x) * (2.0 + 2.0 * x));
     }
     ImplicitMixed<2> flow(m_.grid, {infinite, false, TimeStepping::second_order},
                           Vector<2>::Zero());
     step_ = flow.steady(m_.forcing);
   }
   static double pressure(const Vector<2>& x) {
-    return unit_weight * std::exp(a * x[0]) * std::cos(b * x[1]);
+    return unit_weight * (std::exp(a * x[0]) * std::cos(b * x[1]) + x[0] * x[0]);
   }
   static Vector<2> flux(const Vector<2>& x) {
-    return std::exp((1.0 + a) * x[0]) * Vector<2>(-a * std::cos(b * x[1]), b * std::sin(b * x[1]));
+    return std::exp((1.0 + a) * x[0]) * Vector<2>(-a * std::cos(b * x[1]), b * std::sin(b * x[1])) -
+           std::exp(x[0]) * Vector<2>(2.0 * x[0], 0.0);
   }
   /// L2 norms of the errors, by the rule of degree two inside each element: head in m, flux in m/s.
   [[nodiscard]] std::array<double, 2> errors() const {
