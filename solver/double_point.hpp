@@ -57,6 +57,8 @@ class DoublePoint {
   [[nodiscard]] long steps() const { return steps_; }
   /// Length of the last step of the flow, s.
   [[nodiscard]] double last_step() const { return last_dt_; }
+  /// Longest step, s, that erosion and transport leave to a flow that could take any.
+  [[nodiscard]] double longest_interval() const;
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] FlowMoment<Dim> moment() const { return flow_->moment(state_.time); }
@@ -88,7 +90,6 @@ class DoublePoint {
   [[nodiscard]] std::vector<double> point_volumes(const LiquidPoints<Dim>& liquid,
                                                   const std::vector<double>& pressure) const;
   [[nodiscard]] long steps_before_transport(double dt) const;
-  [[nodiscard]] double longest_interval() const;
   [[nodiscard]] PoreContent pores(const State& state) const;
   /// The pores at a time ahead, before points have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;

@@ -5,6 +5,8 @@
 #include <iostream>
 
 #include "case/errors.hpp"
+#include "estimate.hpp"
+#include "interrupt.hpp"
 #include "run.hpp"
 
 namespace {
@@ -26,6 +28,19 @@ std::string default_folder(const std::string& case_path) {
   return name + ".results";
 }
 
+/// What would run, and what it would take. Leaves nothing behind.
+int explain(const suffuse::Case<2>& c, const suffuse::Plan& plan, int threads) {
+  using namespace suffuse;
+  for (const std::string& sentence : plan.sentences) std::cout << sentence << '\n';
+  for (const std::string& warning : plan.warnings) std::cout << "warning: " << warning << '\n';
+  std::cout << std::flush;
+  catch_interrupts();
+  const Estimate estimate = estimate_run(c, plan);
+  if (interrupted()) return static_cast<int>(ExitCode::interrupted);
+  for (const std::string& sentence : sentences(estimate, threads)) std::cout << sentence << '\n';
+  return static_cast<int>(ExitCode::done);
+}
+
 int solve(const Arguments& arguments) {
   using namespace suffuse;
   const int dimension = read_case_dimension(arguments.case_path);
@@ -35,11 +50,7 @@ int solve(const Arguments& arguments) {
   }
   const Case<2> c = read_case<2>(arguments.case_path);
   const Plan plan = make_plan(c, arguments.solver);
-  if (arguments.explain) {
-    for (const std::string& sentence : plan.sentences) std::cout << sentence << '\n';
-    for (const std::string& warning : plan.warnings) std::cout << "warning: " << warning << '\n';
-    return static_cast<int>(ExitCode::done);
-  }
+  if (arguments.explain) return explain(c, plan, arguments.solver.threads);
   const std::string folder =
       arguments.folder.empty() ? default_folder(arguments.case_path) : arguments.folder;
   const int code = run_case(c, plan, arguments.solver, folder, arguments.quiet);
@@ -59,7 +70,7 @@ int run(int argc, char** argv) {
   app.add_option("--threads", arguments.solver.threads, "Threads; results do not depend on them")
       ->check(CLI::Range(1, 1024));
   app.add_flag("--explain", arguments.explain,
-               "Print what would run and what is skipped, and stop");
+               "Print what would run, what is skipped and what it would take, and stop");
   app.add_flag("--no-skip", arguments.solver.no_skip, "Run every pass, needed or not");
   app.add_flag("--quiet", arguments.quiet, "No progress, warnings only");
   try {

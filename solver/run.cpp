@@ -3,40 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <sstream>
 
 #include "case/errors.hpp"
 #include "double_point.hpp"
+#include "interrupt.hpp"
+#include "memory.hpp"
 #include "progress.hpp"
 #include "single_point.hpp"
+#include "step_loop.hpp"
 
 namespace suffuse {
 namespace {
-
-volatile std::sig_atomic_t interrupt_requested = 0;
-void request_interrupt(int) {
-  interrupt_requested = 1;
-}
-
-/// Times k * every up to the end, and the end itself. Multiples, not sums: no drift.
-class OutputTimes {
- public:
-  OutputTimes(double every, double end) : every_(every), end_(end) {}
-
-  [[nodiscard]] double next() const { return std::min(static_cast<double>(index_) * every_, end_); }
-  [[nodiscard]] bool finished() const { return finished_; }
-  void advance() {
-    finished_ = next() >= end_;
-    ++index_;
-  }
-
- private:
-  double every_;
-  double end_;
-  long index_ = 0;
-  bool finished_ = false;
-};
 
 /// One run of a formulation, SinglePoint or DoublePoint.
 template <template <int> class Model, int Dim>
@@ -51,8 +29,7 @@ class FormulationRun {
         writer_(folder, c),
         model_(c, plan),
         progress_(c.document.scene.time.end, quiet),
-        rows_(c.document.scene.output.every, c.document.scene.time.end),
-        snapshots_(c.document.scene.output.snapshot_every, c.document.scene.time.end) {}
+        loop_(c.document.scene, model_) {}
 
   ExitCode run() {
     for (const std::string& warning : plan_.warnings) warn(warning);
@@ -64,7 +41,7 @@ class FormulationRun {
       throw;
     }
     progress_.finish();
-    if (interrupt_requested != 0) {
+    if (interrupted()) {
       write_info("interrupted", "");
       std::ostringstream line;
       line << "interrupted at t = " << model_.state().time << " s; what is written is complete";
@@ -76,41 +53,22 @@ class FormulationRun {
   }
 
  private:
+  using State = typename Model<Dim>::State;
+
   void loop() {
     write_info("running", "");
-    output(model_.state(), model_.moment());
-    while (!rows_.finished() && interrupt_requested == 0) {
-      const double target = case_.document.scene.output.exact ? next_output() : end();
-      const auto observations =
-          model_.advance(target, [this](double reached) { return times_until(reached); });
-      for (const auto& [state, flow] : observations) output(state, flow);
+    const auto write = [this](const State& state, const FlowMoment<Dim>& moment,
+                              OutputSchedule::Due due) { output(state, moment, due); };
+    loop_.start(write);
+    while (!loop_.finished() && !interrupted()) {
+      loop_.advance(write);
       for (const std::string& warning : model_.take_warnings()) warn(warning);
       progress_.report(model_.state().time, model_.last_step());
     }
   }
 
-  [[nodiscard]] double end() const { return case_.document.scene.time.end; }
-  [[nodiscard]] double next_output() const { return std::min(rows_.next(), snapshots_.next()); }
-
-  /// Output times still to come, up to `reached`.
-  [[nodiscard]] std::vector<double> times_until(double reached) const {
-    std::vector<double> times;
-    OutputTimes rows = rows_;
-    OutputTimes snapshots = snapshots_;
-    while (!rows.finished() || !snapshots.finished()) {
-      const double next = rows.finished()        ? snapshots.next()
-                          : snapshots.finished() ? rows.next()
-                                                 : std::min(rows.next(), snapshots.next());
-      if (next > reached) break;
-      times.push_back(next);
-      if (!rows.finished() && rows.next() == next) rows.advance();
-      if (!snapshots.finished() && snapshots.next() == next) snapshots.advance();
-    }
-    return times;
-  }
-
-  void output(const typename Model<Dim>::State& state, const FlowMoment<Dim>& moment) {
-    if (!rows_.finished() && rows_.next() <= moment.time) {
+  void output(const State& state, const FlowMoment<Dim>& moment, OutputSchedule::Due due) {
+    if (due.row) {
       const HistoryRow row = model_.history_row(state, moment);
       check_finite(row);
       check_compression(row);
@@ -119,12 +77,8 @@ class FormulationRun {
       writer_.append_ledger(model_.ledger(state));
       const std::vector<RegionRow> regions = model_.region_rows(state);
       writer_.append_regions(regions);
-      rows_.advance();
     }
-    if (!snapshots_.finished() && snapshots_.next() <= moment.time) {
-      writer_.write_snapshot(model_.snapshot(state, moment, model_.steps()));
-      snapshots_.advance();
-    }
+    if (due.snapshot) writer_.write_snapshot(model_.snapshot(state, moment, model_.steps()));
   }
 
   static void check_finite(const HistoryRow& row) {
@@ -183,6 +137,7 @@ class FormulationRun {
     info.threads = options_.threads;
     info.wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    info.memory_bytes = peak_memory();
     info.passes = model_.passes();
     info.plan = plan_.sentences;
     info.warnings = warnings_;
@@ -196,8 +151,7 @@ class FormulationRun {
   ResultsWriter<Dim> writer_;
   Model<Dim> model_;
   Progress progress_;
-  OutputTimes rows_;
-  OutputTimes snapshots_;
+  StepLoop<Model<Dim>> loop_;
   bool speed_warned_ = false;
   bool compression_warned_ = false;
   std::vector<std::string> warnings_;
@@ -208,9 +162,7 @@ class FormulationRun {
 template <int Dim>
 int run_case(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
              const std::string& folder, bool quiet) {
-  interrupt_requested = 0;
-  std::signal(SIGINT, request_interrupt);
-  std::signal(SIGTERM, request_interrupt);
+  catch_interrupts();
   const bool single_point = c.document.scene.formulation == Formulation::single_point;
   const ExitCode code =
       single_point ? FormulationRun<SinglePoint, Dim>(c, plan, options, folder, quiet).run()

@@ -48,6 +48,8 @@ class SinglePoint {
   [[nodiscard]] long steps() const { return steps_; }
   /// Length of the last step of the flow, s.
   [[nodiscard]] double last_step() const { return last_dt_; }
+  /// Longest step, s, that erosion and transport leave to a flow that could take any.
+  [[nodiscard]] double longest_interval() const;
 
   [[nodiscard]] const SinglePointState<Dim>& state() const { return state_; }
   [[nodiscard]] FlowMoment<Dim> moment() const { return flow_->moment(state_.time); }
@@ -69,7 +71,6 @@ class SinglePoint {
  private:
   void initialise();
   [[nodiscard]] long steps_before_transport(double dt) const;
-  [[nodiscard]] double longest_interval() const;
   [[nodiscard]] PoreContent pores(const SinglePointState<Dim>& state) const;
   /// The pores at a time ahead, before grains have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;

@@ -274,6 +274,7 @@ void ResultsWriter<Dim>::write_run_info(const RunInfo& info) {
       {"elements", info.elements},
       {"threads", info.threads},
       {"wall_seconds", info.wall_seconds},
+      {"memory_bytes", static_cast<std::int64_t>(info.memory_bytes)},
       {"passes", passes},
       {"plan", info.plan},
       {"warnings", info.warnings},

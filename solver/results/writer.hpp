@@ -56,6 +56,7 @@ struct RunInfo {
   long elements = 0;
   int threads = 1;
   double wall_seconds = 0.0;
+  double memory_bytes = 0.0;  ///< largest resident set so far
   std::vector<PassTiming> passes;
   std::vector<std::string> plan;      ///< sentences: what runs, what is skipped and why
   std::vector<std::string> warnings;  ///< as printed
