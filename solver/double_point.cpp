@@ -313,6 +313,7 @@ template <int Dim>
 auto DoublePoint<Dim>::followed(State state, const LiquidMotion<Dim>& motion,
                                 const std::vector<double>& pressure, PassTimings& timings) const
     -> State {
+  if (!(motion.duration > 0.0)) return state;
   const double begin = state.time;
   const std::vector<double> flux = point_flux(motion);
   double done = 0.0;

@@ -1,0 +1,138 @@
+/// Double-point with the implicit flow: liquid points follow the volumes through faces. The column
+/// under a uniform flux against exact profiles, whatever the step.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "double_point_modes.hpp"
+#include "exact_fines.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double flux = 0.012;
+constexpr double rate = 5e-3;
+constexpr double start = 2.0;
+
+Scene faces_scene(int points, double end) {
+  Scene scene = model::double_point_scene(flux, rate);
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.end = end;
+  scene.points.liquid_per_element = points;
+  return scene;
+}
+
+struct Errors {
+  double concentration = 0.0;  ///< of points in L2, root mean square over times
+  double mass = 0.0;           ///< largest of the fluidised mass, of its maximum
+};
+
+/// At 5, 10 ... 30 s in a column 1 m high; regions' books must close at each of these times.
+Errors errors_of(int rows, Scene scene, const LayerSettings& layers = {}) {
+  model::DoublePointRun run(
+      model::make_double_point_case(model::layered_mesh(rows, layers, rows), std::move(scene)));
+  const std::vector<double> times = model::times_up_to(30.0, 5.0);
+  const auto moments = run.run(times);
+  EXPECT_LE(run.worst_residual(), 1e-12);
+  const Mesh<2>& mesh = run.input().mesh;
+  const int specimen = model::region_index(mesh, "specimen");
+  const UniformFines exact([](double) { return rate; }, 0.3, 0.4, start, flux, 31.0);
+  Errors errors;
+  double most = 0.0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const LiquidPoints<2>& liquid = moments.states[k].liquid;
+    double square = 0.0;
+    double sum = 0.0;
+    double mass = 0.0;
+    for (int p = 0; p < liquid.size(); ++p) {
+      if (mesh.element_region[liquid.element[p]] != specimen) continue;
+      const double volume =
+          liquid_volume(liquid.water_mass[p], liquid.fines_mass[p], {1000.0, 2700.0}, 1.0);
+      const double c = liquid.fines_mass[p] / 2700.0 / volume;
+      const double x = 1.0 - liquid.place(p).position(mesh)[1];
+      square += volume * std::pow(c - exact.concentration(x, times[k]), 2);
+      sum += volume;
+      mass += liquid.fines_mass[p];
+    }
+    errors.concentration += square / sum / static_cast<double>(times.size());
+    double expected = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      expected += exact.concentration((i + 0.5) / 2000, times[k]) / 2000;
+    }
+    expected *= 2700.0 * exact.porosity(times[k]);
+    most = std::max(most, expected);
+    errors.mass = std::max(errors.mass, std::abs(mass - expected));
+    for (const RegionRow& row : run.model().region_rows(moments.states[k])) {
+      EXPECT_LE(std::abs(row.ledger.residual_water), 1e-12);
+      EXPECT_LE(std::abs(row.ledger.residual_grains), 1e-12);
+    }
+  }
+  errors.concentration = std::sqrt(errors.concentration);
+  errors.mass /= most;
+  return errors;
+}
+
+TEST(DoublePointFaces, TheErrorDoesNotDependOnTheStep) {
+  // Erosion starts within the steps of 1.5 and 5 s and ends within those of 1.5, 4 and 5 s.
+  std::vector<double> errors;
+  for (const double step : {0.5, 1.0, 1.5, 4.0, 5.0}) {
+    Scene scene = faces_scene(12, 30.0);
+    scene.time.step = step;
+    const Errors e = errors_of(8, std::move(scene));
+    std::cout << "steps of " << step << " s: error of c " << e.concentration
+              << ", of the fluidised mass " << 100.0 * e.mass << " %\n";
+    errors.push_back(e.concentration);
+    EXPECT_LE(e.mass, 0.005);
+  }
+  for (const double error : errors) {
+    EXPECT_LE(error, 1.6e-4);
+    EXPECT_NEAR(error / errors.front(), 1.0, 0.1);
+  }
+}
+
+TEST(DoublePointFaces, TheStepChosenByTheSolverIsAsGood) {
+  for (const int points : {1, 3, 12}) {
+    const Errors e = errors_of(8, faces_scene(points, 30.0));
+    std::cout << points << " points per element: error of c " << e.concentration
+              << ", of the fluidised mass " << 100.0 * e.mass << " %\n";
+    EXPECT_LE(e.concentration, points == 1 ? 2.5e-3 : points == 3 ? 8e-4 : 1.6e-4);
+  }
+}
+
+TEST(DoublePointFaces, BetweenLayersOfSoilAndWater) {
+  LayerSettings layers;
+  layers.inflow = layers.above = layers.below = layers.outflow = 1;
+  const Errors e = errors_of(8, faces_scene(12, 30.0), layers);
+  std::cout << "between layers: error of c " << e.concentration << ", of the fluidised mass "
+            << 100.0 * e.mass << " %\n";
+  EXPECT_LE(e.concentration, 3e-4);
+  EXPECT_LE(e.mass, 0.005);
+}
+
+TEST(DoublePointFaces, ThePapersModeClosesItsBooksToo) {
+  Scene scene = faces_scene(3, 30.0);
+  model::use_paper_mode(scene);
+  const Errors e = errors_of(8, std::move(scene));
+  std::cout << "paper's mode, 3 points: error of c " << e.concentration << '\n';
+  EXPECT_LE(e.concentration, 0.025);
+}
+
+TEST(DoublePointFaces, ThreadsAndLookingChangeNothing) {
+  const auto result = [](int threads, double every) {
+    SolverOptions options;
+    options.threads = threads;
+    model::DoublePointRun run(
+        model::make_double_point_case(model::layered_mesh(16, {}, 16), faces_scene(12, 10.0)),
+        options);
+    run.run(model::times_up_to(10.0, every));
+    return std::pair{run.model().state().liquid.barycentric, run.model().state().liquid.fines_mass};
+  };
+  const auto reference = result(1, 10.0);
+  EXPECT_EQ(reference, result(3, 10.0));
+  EXPECT_EQ(reference, result(1, 0.7));
+}
+
+}  // namespace
+}  // namespace suffuse
