@@ -168,7 +168,7 @@ PoreContent DoublePoint<Dim>::pores(const State& state) const {
 template <int Dim>
 PoreContent DoublePoint<Dim>::pores_at(double time) const {
   PoreContent content = pores(state_);
-  if (plan_.erosion) {
+  if (plan_.erodes(state_.time, time)) {
     content.porosity = element_porosity(
         skeleton_.porosity_after(state_.porosity, state_.time, time, point_flux(last_motion_)));
   }
@@ -279,19 +279,21 @@ auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
   const std::vector<double> flux = point_flux(motion);
   double eroded_until = begin;
   for (double s = 0.0; s < substeps; ++s) {
-    {
+    if (has_to_erode(state, eroded_until, time_at(s + 0.5))) {
       const PassTimer timer(timings.erosion);
       erode(state, eroded_until, time_at(s + 0.5), flux, pressure);
-      eroded_until = time_at(s + 0.5);
       ++timings.erosion.calls;
     }
+    eroded_until = time_at(s + 0.5);
     const PassTimer timer(timings.movement);
     move(state, part, pressure);
     ++timings.movement.calls;
   }
   const PassTimer timer(timings.erosion);
   state.time = begin + motion.duration;
-  erode(state, eroded_until, state.time, flux, pressure);
+  if (has_to_erode(state, eroded_until, state.time)) {
+    erode(state, eroded_until, state.time, flux, pressure);
+  }
   return state;
 }
 
@@ -356,7 +358,8 @@ void DoublePoint<Dim>::follow(State& state, const LiquidMotion<Dim>& part,
                               PassTimings& timings) const {
   const double end = state.time + part.duration;
   std::vector<double> porosity = state.porosity;
-  if (plan_.erosion) {
+  const bool erodes = has_to_erode(state, state.time, end);
+  if (erodes) {
     const PassTimer timer(timings.erosion);
     porosity = eroded_porosity(state, state.time, end, flux);
   }
@@ -367,7 +370,7 @@ void DoublePoint<Dim>::follow(State& state, const LiquidMotion<Dim>& part,
                                element_porosity(porosity), pressure);
     ++timings.movement.calls;
   }
-  if (plan_.erosion) {
+  if (erodes) {
     const PassTimer timer(timings.erosion);
     book(transfer_.transfer_on_the_way(state.porosity, porosity,
                                        point_volumes(state.liquid, pressure), state.liquid,
@@ -409,6 +412,12 @@ std::vector<double> DoublePoint<Dim>::bends_of_porosity() const {
 }
 
 template <int Dim>
+bool DoublePoint<Dim>::has_to_erode(const State& state, double from, double to) const {
+  return plan_.erodes(from, to) ||
+         std::any_of(state.pending.begin(), state.pending.end(), [](double v) { return v != 0.0; });
+}
+
+template <int Dim>
 std::vector<double> DoublePoint<Dim>::eroded_porosity(const State& state, double from, double to,
                                                       const std::vector<double>& flux) const {
   const std::vector<int> begins = element_begins(state.liquid, grid_.mesh.element_count());
@@ -426,7 +435,6 @@ std::vector<double> DoublePoint<Dim>::eroded_porosity(const State& state, double
 template <int Dim>
 void DoublePoint<Dim>::erode(State& state, double from, double to, const std::vector<double>& flux,
                              const std::vector<double>& pressure) const {
-  if (!plan_.erosion) return;
   std::vector<double> porosity = eroded_porosity(state, from, to, flux);
   const auto exchanged =
       transfer_.transfer(state.porosity, porosity, element_porosity(state.porosity),

@@ -111,6 +111,8 @@ class DoublePoint {
               const std::vector<double>& pressure, PassTimings& timings) const;
   [[nodiscard]] double substeps(const LiquidMotion<Dim>& motion, double begin,
                                 const std::vector<double>& porosity) const;
+  /// Solid can erode meanwhile, or grains wait for liquid.
+  [[nodiscard]] bool has_to_erode(const State& state, double from, double to) const;
   void erode(State& state, double from, double to, const std::vector<double>& flux,
              const std::vector<double>& pressure) const;
   void move(State& state, const LiquidMotion<Dim>& motion,

@@ -164,6 +164,18 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
                       : "skip: the flow while it is steady and nothing that drives it changes");
 }
 
+/// When nothing erodes, and whether grains are in the liquid until then.
+void describe_spans(const Scene& scene, Plan& plan) {
+  const bool late = plan.erosion && plan.erosion_span.begin > 0.0;
+  const bool early = plan.erosion && plan.erosion_span.end < scene.time.end;
+  std::string when;
+  if (late) when = "before t = " + number(std::min(plan.erosion_span.begin, scene.time.end)) + " s";
+  if (early) {
+    when += std::string(late ? " and " : "") + "after t = " + number(plan.erosion_span.end) + " s";
+  }
+  if (late || early) plan.sentences.push_back("skip: erosion " + when + ", nothing can erode");
+}
+
 void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
   if (scene.time.scheme == FlowScheme::explicit_nodal) {
@@ -173,6 +185,7 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   }
   const std::string because = options.no_skip ? " (--no-skip)" : "";
   say(plan.erosion ? "run: erosion" + because : "skip: erosion, no soil erodes");
+  describe_spans(scene, plan);
   if (scene.formulation == Formulation::double_point) {
     const bool carried = scene.flow.integration == PressureIntegration::material_point;
     say(carried
@@ -183,6 +196,10 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   } else {
     say(plan.transport ? "run: transport of fluidised grains" + because
                        : "skip: transport, no soil erodes and no grains flow in");
+    if (plan.transport && plan.grains_from > 0.0) {
+      say("skip: transport before t = " + number(std::min(plan.grains_from, scene.time.end)) +
+          " s, no grains in the liquid");
+    }
   }
   say("skip: motion of the solid, the skeleton is rigid");
   const bool gravity =
@@ -230,6 +247,11 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   Plan plan;
   plan.erosion = skeleton.erodes();
   plan.transport = plan.erosion || largest_inflow_concentration(scene) > 0.0;
+
+  if (!options.no_skip) {
+    plan.erosion_span = skeleton.erosion_span();
+    if (largest_inflow_concentration(scene) == 0.0) plan.grains_from = plan.erosion_span.begin;
+  }
 
   plan.flow.threads = options.threads;
   plan.flow.freeze = !options.no_skip;

@@ -2,6 +2,7 @@
 
 /// Decides from the scene, once and before anything runs, what a run does and what it leaves out.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,18 @@ struct Plan {
   StabilityLimit limit;   ///< explicit: the smallest the run is expected to meet
   bool transport = true;  ///< fluidised grains move
   bool erosion = true;
+  /// Times, s, within which the skeleton can change and from which on the liquid can hold grains.
+  TimeSpan erosion_span;
+  double grains_from = -std::numeric_limits<double>::infinity();
   std::vector<std::string> sentences;  ///< what runs, what is skipped, and why
   std::vector<std::string> warnings;
+
+  /// Erosion has something to do within an interval.
+  [[nodiscard]] bool erodes(double from, double to) const {
+    return erosion && to > erosion_span.begin && from < erosion_span.end;
+  }
+  /// Grains may have got into the liquid by then.
+  [[nodiscard]] bool carries(double time) const { return transport && time > grains_from; }
 };
 
 /// Throws InputError for a step above the stability limit and for what the scheme cannot do.

@@ -74,7 +74,7 @@ PoreContent SinglePoint<Dim>::pores(const SinglePointState<Dim>& state) const {
 template <int Dim>
 PoreContent SinglePoint<Dim>::pores_at(double time) const {
   PoreContent content = pores(state_);
-  if (!plan_.erosion) return content;
+  if (!plan_.erodes(state_.time, time)) return content;
   const std::vector<double> porosity = skeleton_.porosity_after(state_.porosity, state_.time, time,
                                                                 point_flux(last_volume_rate_, 1.0));
   const MaterialPoints<Dim>& points = skeleton_.points();
@@ -95,8 +95,9 @@ std::vector<double> SinglePoint<Dim>::point_flux(const std::vector<double>& face
 template <int Dim>
 void SinglePoint<Dim>::update_flow() {
   flow_->update(state_.time, pores(state_),
-                plan_.transport ? transport_.face_concentration(state_.liquid, last_volume_rate_)
-                                : std::vector<double>(grid_.face_count(), 0.0));
+                plan_.carries(state_.time)
+                    ? transport_.face_concentration(state_.liquid, last_volume_rate_)
+                    : std::vector<double>(grid_.face_count(), 0.0));
 }
 
 template <int Dim>
@@ -161,8 +162,9 @@ SinglePointState<Dim> SinglePoint<Dim>::advanced(const SinglePointState<Dim>& be
   SinglePointState<Dim> state = begin;
   std::vector<double> grains_crossed(grid_.face_count(), 0.0);
   const double allowed =
-      plan_.transport ? transport_safety * transport_.steps_allowed(state.liquid, volumes.liquid)
-                      : 1.0;
+      plan_.carries(begin.time + duration)
+          ? transport_safety * transport_.steps_allowed(state.liquid, volumes.liquid)
+          : 1.0;
   const double substeps = allowed >= 1.0 ? 1.0 : std::ceil(1.0 / allowed);
   std::vector<double> part = volumes.liquid;
   if (substeps > 1.0) {
@@ -173,14 +175,14 @@ SinglePointState<Dim> SinglePoint<Dim>::advanced(const SinglePointState<Dim>& be
     const double from = begin.time + duration * s / substeps;
     const double to = begin.time + duration * (s + 1.0) / substeps;
     ElementField<Dim> eroded(grid_.mesh.element_count(), ElementValues<Dim>{});
-    if (plan_.erosion) {
+    if (plan_.erodes(from, to)) {
       const PassTimer timer(timings.erosion);
       std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to, flux);
       eroded = skeleton_.eroded_volume(state.porosity, porosity);
       state.porosity = std::move(porosity);
       ++timings.erosion.calls;
     }
-    if (plan_.transport) {
+    if (plan_.carries(to)) {
       const PassTimer timer(timings.transport);
       const std::vector<double> crossed = transport_.advance(state.liquid, part, eroded);
       for (std::size_t f = 0; f < crossed.size(); ++f) grains_crossed[f] += crossed[f];

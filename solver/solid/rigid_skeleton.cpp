@@ -132,6 +132,25 @@ std::vector<double> RigidSkeleton<Dim>::erosion_events() const {
   return events;
 }
 
+template <int Dim>
+TimeSpan RigidSkeleton<Dim>::erosion_span() const {
+  // Porosity that is added up over many steps reaches its end earlier or later by their round-off.
+  constexpr double round_off = 1e-6;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  TimeSpan span{never, -never};
+  for (int p = 0; p < points_.size(); ++p) {
+    const ErosionModel& model = erosion_of_element(points_.element[p]);
+    if (model.law == ErosionLaw::none || model.rate == 0.0) continue;
+    span.begin = std::min(span.begin, model.start);
+    const bool runs_out =
+        model.law == ErosionLaw::constant &&
+        soil_of_point(p).erosion.empty_elements != EmptyElements::dry;  // those wait for liquid
+    const double gone = model.start + (model.porosity_max - initial_porosity_[p]) / model.rate;
+    span.end = std::max(span.end, runs_out ? gone * (1.0 + round_off) : never);
+  }
+  return span;
+}
+
 template class RigidSkeleton<2>;
 
 }  // namespace suffuse

@@ -3,6 +3,7 @@
 /// The solid phase: porosity at fixed material points, eroding. Whatever else needs the solid sees
 /// it through this class, so that a moving skeleton can take its place.
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,12 @@
 #include "physics/erosion_law.hpp"
 
 namespace suffuse {
+
+/// s
+struct TimeSpan {
+  double begin = -std::numeric_limits<double>::infinity();
+  double end = std::numeric_limits<double>::infinity();
+};
 
 /// Pore volume and what erosion added to it, element by element, as the liquid sees it. Free water
 /// (double-point) is there as a soil of porosity 1 without solid points.
@@ -47,6 +54,9 @@ class RigidSkeleton {
   /// Times at which erosion starts or, at a constant rate, runs out (of the first and the last
   /// point of a region), ascending, s.
   [[nodiscard]] std::vector<double> erosion_events() const;
+  /// When porosity can change at all: from the first start on until, if only constant rates are at
+  /// work, the last soil has nothing left to erode; infinite where that cannot be told.
+  [[nodiscard]] TimeSpan erosion_span() const;
   [[nodiscard]] bool is_soil(int element) const {
     return soil_of_region_[mesh_.element_region[element]] != free_water_.get();
   }
