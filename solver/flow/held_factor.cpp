@@ -1,6 +1,7 @@
 #include "flow/held_factor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "case/errors.hpp"
@@ -20,8 +21,18 @@ Eigen::VectorXd with_round_off(const Matrix& matrix, const Eigen::VectorXd& rhs,
          4.0 * epsilon * (rhs.array().abs() + largest * matrix.diagonal().array());
 }
 
-bool within(const Eigen::VectorXd& residual, const Eigen::VectorXd& tolerance) {
-  return (residual.array().abs() <= tolerance.array()).all();
+/// Largest residual over what is allowed; infinite where nothing is and something is left.
+double excess(const Eigen::VectorXd& residual, const Eigen::VectorXd& allowed) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    if (residual[i] != 0.0) largest = std::max(largest, std::abs(residual[i]) / allowed[i]);
+    if (std::isnan(residual[i])) return residual[i];
+  }
+  return largest;
+}
+
+bool within(const Eigen::VectorXd& residual, const Eigen::VectorXd& allowed) {
+  return excess(residual, allowed) <= 1.0;
 }
 
 }  // namespace
@@ -58,6 +69,7 @@ bool HeldFactor::iterate(const Matrix& matrix, const Eigen::VectorXd& rhs,
                          const Eigen::VectorXd& tolerance, Eigen::VectorXd& x) {
   Eigen::VectorXd residual = rhs - matrix * x;
   int iterations = 0;
+  double first_excess = 0.0;
   // Conjugate gradients update the residual rather than compute it, and the two drift apart: begin
   // again from the true one where they have.
   while (true) {
@@ -66,7 +78,15 @@ bool HeldFactor::iterate(const Matrix& matrix, const Eigen::VectorXd& rhs,
     if (iterations == most_iterations) return false;
     Eigen::VectorXd direction;
     double last_product = 0.0;
-    while (iterations < most_iterations && !within(residual, 0.5 * enough)) {
+    while (iterations < most_iterations) {
+      const double now = excess(residual, 0.5 * enough);
+      if (now <= 1.0) break;
+      if (iterations == 0) first_excess = now;
+      // Less than half the progress that a third of the iterations should have made: hopeless.
+      if (iterations == most_iterations / 3 &&
+          std::log(first_excess / now) < std::log(first_excess) / 6.0) {
+        return false;
+      }
       const Eigen::VectorXd preconditioned = factor_.solve(residual);
       const double product = residual.dot(preconditioned);
       if (direction.size() == 0) {

@@ -18,7 +18,8 @@ struct SolveCounts {
 
 /// Keeps the factor of one matrix and the values it belongs to. A matrix with the same values is
 /// solved with it directly; one that has changed, by conjugate gradients preconditioned with it;
-/// one that has changed so much that these need more than `most_iterations`, with a new factor.
+/// one that has changed so much that these need more than `most_iterations`, or would by their pace
+/// after a third of them, with a new factor.
 class HeldFactor {
  public:
   static constexpr int most_iterations = 15;
