@@ -42,6 +42,11 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
+/// The same time, but for the rounding of sums of steps.
+bool is_same_time(double a, double b) {
+  return std::abs(a - b) <= 1e-14 * std::max(std::abs(a), std::abs(b));
+}
+
 double largest(const std::vector<double>& values) {
   double result = 0.0;
   for (const double v : values) result = std::max(result, std::abs(v));
@@ -255,9 +260,8 @@ FlowForcing<Dim> MixedFlow<Dim>::forcing_at(const FlowInterval<Dim>& interval, d
 template <int Dim>
 double MixedFlow<Dim>::length_of_step(const FlowInterval<Dim>& interval) const {
   double until = interval.end_on_target ? interval.target : end_;
-  const double round_off = 1e-13 * end_;
   for (const double event : events_) {
-    if (event > interval.begin + round_off) {
+    if (event > interval.begin && !is_same_time(event, interval.begin)) {
       until = std::min(until, event);
       break;
     }
@@ -313,14 +317,19 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
     std::vector<FlowForcing<Dim>> forcing;
     for (const double share : shares) {
       forcing.push_back(forcing_at(interval, interval.begin + share * dt));
-      if (!mismatch_.empty()) forcing.back().source = source_with(dt);
+      if (mismatch_.empty()) continue;
+      // Shorter steps change it by less: else it would be a jump that no step is too short for.
+      forcing.back().source = between(source_, source_with(dt), std::min(1.0, dt / last_dt_));
     }
     std::vector<const FlowForcing<Dim>*> views;
     for (const FlowForcing<Dim>& f : forcing) views.push_back(&f);
     MixedStep<Dim> step = scheme_.step(now_.state, dt, views);
     ++solving_.calls;
-    if (!mismatch_.empty()) source_ = std::move(forcing.back().source);
-    if (options_.step_given) return step;
+    const auto accepted = [&] {
+      if (!mismatch_.empty()) source_ = std::move(forcing.back().source);
+      return std::move(step);
+    };
+    if (options_.step_given) return accepted();
     const bool first = at_rest_ && last_dt_ == 0.0;
     const double error = first ? 0.0 : error_of(step, dt);
     const double order = before_ ? 2.0 : 1.0;
@@ -329,11 +338,11 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
       // A step cut short by an event says nothing against a longer one.
       const double next = dt * std::clamp(wanted, most_shrinkage, most_growth);
       next_dt_ = wanted >= 1.0 ? std::max(next, next_dt_) : next;
-      return step;
+      return accepted();
     }
     ++rejected_;
     dt *= std::clamp(wanted, most_shrinkage, 0.9);
-    if (dt < 1e-13 * end_) {
+    if (!(dt > 1e-14 * interval.begin) || dt < 1e-20 * end_) {
       std::ostringstream message;
       message << "no step is short enough for time.tolerance = " << tolerance_
               << " at t = " << interval.begin << " s";
@@ -370,7 +379,7 @@ FaceVolumes MixedFlow<Dim>::volumes_of(const MixedStep<Dim>& step) const {
 template <int Dim>
 void MixedFlow<Dim>::show(const FlowInterval<Dim>& interval, const Point& begin, double dt,
                           const FaceVolumes& volumes) {
-  const double reached = interval.begin + dt * (1.0 + 1e-12) + 1e-13 * end_;
+  const double reached = (interval.begin + dt) * (1.0 + 1e-14) + 1e-12 * dt;
   for (const double time : interval.times_until(reached)) {
     const double share = std::min(1.0, (time - interval.begin) / dt);
     Point flow;
@@ -435,16 +444,14 @@ FlowProgress<Dim> MixedFlow<Dim>::run(const FlowInterval<Dim>& interval) {
 
   const double time = interval.begin + dt;
   this->boundary_values().update(time, this->conditions_);
-  const bool at_event = std::any_of(events_.begin(), events_.end(), [&](double event) {
-    return std::abs(event - time) <= 1e-13 * end_;
-  });
+  const bool at_event = std::any_of(events_.begin(), events_.end(),
+                                    [&](double event) { return is_same_time(event, time); });
   if (at_event) {
     // A kink: what was before tells nothing of what comes.
     if (!keep_) before_.reset();
     const auto& knots = this->boundary_values().events();
-    const bool kink = std::any_of(knots.begin(), knots.end(), [&](double knot) {
-      return std::abs(knot - time) <= 1e-13 * end_;
-    });
+    const bool kink = std::any_of(knots.begin(), knots.end(),
+                                  [&](double knot) { return is_same_time(knot, time); });
     // Where erosion starts the kept flow still looks right, and is not.
     if (kink || follows_pores_) keep_ = false;
   } else if (!keep_) {
@@ -486,7 +493,7 @@ void MixedFlow<Dim>::keep_if_steady(double time) {
   if (values.vary()) {
     std::vector<FaceCondition> later = this->conditions_;
     const auto next =
-        std::upper_bound(values.events().begin(), values.events().end(), time + 1e-13 * end_);
+        std::upper_bound(values.events().begin(), values.events().end(), time * (1.0 + 1e-14));
     values.update(next != values.events().end() ? *next : end_, later);
     for (std::size_t f = 0; f < later.size(); ++f) {
       if (later[f].value != this->conditions_[f].value) return;
