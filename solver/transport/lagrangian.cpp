@@ -260,7 +260,11 @@ WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
   const auto& region = grid_.mesh.element_region;
   for (const int e : points.element) walked.from.push_back(region[e]);
   std::vector<double> begin(points.size(), 0.0);
-  for (const Newborn& newborn : births(entering, motion)) {
+  // In the order in which they come, so that a look at part of the interval numbers them the same.
+  std::vector<Newborn> born = births(entering, motion);
+  std::stable_sort(born.begin(), born.end(),
+                   [](const Newborn& a, const Newborn& b) { return a.share < b.share; });
+  for (const Newborn& newborn : born) {
     admit(points, entering, newborn, element_pressure);
     walked.from.push_back(-1);
     begin.push_back(newborn.share);
