@@ -200,6 +200,7 @@ TEST(GrainTransfer, AnEmptyElementGivesToItsNeighbours) {
 std::vector<GrainTake<2>> takes_in_place(const TransferCase& c, double growth) {
   std::vector<GrainTake<2>> takes;
   const std::vector<double> volume = c.volumes();
+  takes.reserve(volume.size());
   for (int p = 0; p < c.points.size(); ++p) {
     takes.push_back({p, c.points.element[p], c.points.barycentric[p], volume[p] * growth, 0});
   }
