@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -309,15 +310,13 @@ class Trial {
     }
   }
 
-  /// What came after half of the steps; the first intervals are like no others.
+  /// What came after half of the time: the start of a flow is like nothing that comes later.
   [[nodiscard]] std::vector<Interval> latter_part() const {
-    double all = 0.0;
-    for (const Interval& i : intervals_) all += i.steps;
-    double steps = 0.0;
-    auto from = intervals_.begin();
-    while (from != intervals_.end() && steps < 0.5 * all) steps += (from++)->steps;
-    if (intervals_.end() - from < 2 && intervals_.size() > 1) from = intervals_.end() - 2;
-    if (from == intervals_.end() && !intervals_.empty()) --from;
+    const double half = 0.5 * intervals_.back().time;
+    auto from = std::find_if(intervals_.begin(), intervals_.end(),
+                             [half](const Interval& i) { return i.time > half; });
+    const std::ptrdiff_t few = std::min<std::ptrdiff_t>(2, std::ssize(intervals_));
+    if (intervals_.end() - from < few) from = intervals_.end() - few;
     return {from, intervals_.end()};
   }
 

@@ -1,0 +1,199 @@
+#include "estimate.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "case/case_file.hpp"
+#include "mesher/temporary_folder.hpp"
+#include "output_times.hpp"
+#include "run.hpp"
+#include "solver/double_point_case.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+
+Scene single_point_scene(FlowScheme scheme) {
+  Scene scene = model::paper_scene();
+  scene.soils[0].erosion.law = ErosionLaw::constant;
+  scene.soils[0].erosion.rate = 5e-3;
+  scene.soils[0].erosion.start = 2.0;
+  scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
+  scene.boundaries[0].concentration = 0.0;
+  scene.time.scheme = scheme;
+  scene.time.end = 40.0;
+  scene.output.every = 0.5;
+  return scene;
+}
+
+struct Example {
+  std::string name;
+  Case<2> input;
+};
+
+/// Small runs of both formulations and both schemes, with flow from rest and from the steady state,
+/// and one whose flow changes to the end.
+std::vector<Example> examples() {
+  std::vector<Example> result;
+  for (const FlowScheme scheme : {FlowScheme::explicit_nodal, FlowScheme::implicit_mixed}) {
+    const bool implicit = scheme == FlowScheme::implicit_mixed;
+    const std::string name = implicit ? "implicit" : "explicit";
+    Scene scene = single_point_scene(scheme);
+    result.push_back({"single-point, " + name, model::make_case(model::column_mesh(4, 4), scene)});
+    scene.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
+    scene.soils[0].erosion.law = ErosionLaw::logarithmic;
+    scene.soils[0].erosion.rate = 1e-2;
+    scene.soils[0].erosion.start = 0.0;
+    result.push_back({"single-point, " + name + ", Kozeny-Carman",
+                      model::make_case(model::column_mesh(4, 4), scene)});
+
+    scene = model::double_point_scene(0.012, 5e-3);
+    scene.time.scheme = scheme;
+    scene.time.end = 30.0;
+    LayerSettings layers;
+    layers.inflow = layers.outflow = layers.above = layers.below = 1;
+    result.push_back({"double-point, " + name,
+                      model::make_double_point_case(model::layered_mesh(4, layers), scene)});
+  }
+  return result;
+}
+
+/// What a run that writes really took.
+struct Actual {
+  double steps;
+  double memory;
+  double disk;
+  long snapshots;
+};
+Actual run(const Case<2>& c) {
+  const TemporaryFolder folder;
+  const std::string results = folder.file("run.results");
+  const SolverOptions options;
+  EXPECT_EQ(run_case(c, make_plan(c, options), options, results, true), 0);
+  const auto info = nlohmann::json::parse(test::read_file(results + "/run.json"));
+  Actual actual{info["steps"], info["memory_bytes"], 0.0, 0};
+  for (const auto& entry : fs::recursive_directory_iterator(results)) {
+    if (!entry.is_regular_file()) continue;
+    actual.disk += static_cast<double>(entry.file_size());
+    if (entry.path().filename().string().starts_with("mesh_")) ++actual.snapshots;
+  }
+  return actual;
+}
+
+void expect_within_factor(double factor, double estimate, double actual) {
+  EXPECT_LE(estimate, factor * actual);
+  EXPECT_GE(estimate, actual / factor);
+}
+
+TEST(OutputTimes, CountsThemselves) {
+  for (const auto& [every, end] : std::vector<std::pair<double, double>>{
+           {1.0, 120.0}, {0.1, 0.3}, {0.7, 10.0}, {5.0, 3.0}, {1e-3, 1.0}}) {
+    OutputTimes times(every, end);
+    long count = 0;
+    for (; !times.finished(); times.advance()) ++count;
+    EXPECT_EQ(OutputTimes(every, end).count(), count) << every << " to " << end;
+    EXPECT_EQ(times.past(), count);
+  }
+}
+
+TEST(OutputSchedule, MergesRowsAndSnapshots) {
+  Scene scene;
+  scene.time.end = 1.0;
+  scene.output.every = 0.25;
+  scene.output.snapshot_every = 0.5;
+  OutputSchedule schedule(scene);
+  EXPECT_EQ(schedule.times_until(0.6), (std::vector<double>{0.0, 0.25, 0.5}));
+  const auto first = schedule.take(0.0);
+  EXPECT_TRUE(first.row && first.snapshot);
+  const auto second = schedule.take(0.25);
+  EXPECT_TRUE(second.row && !second.snapshot);
+  EXPECT_EQ(schedule.times_until(9.0), (std::vector<double>{0.5, 0.75, 1.0}));
+}
+
+TEST(Estimate, OfAWholeTrialIsTheRun) {
+  for (const auto& [name, input] : examples()) {
+    SCOPED_TRACE(name);
+    const Estimate estimate = estimate_run(input, make_plan(input, {}), {.seconds = 60.0});
+    const Actual actual = run(input);
+    EXPECT_TRUE(estimate.whole);
+    EXPECT_EQ(estimate.steps, actual.steps);
+    EXPECT_EQ(estimate.snapshots, actual.snapshots);
+    expect_within_factor(1.05, estimate.disk, actual.disk);
+    expect_within_factor(2.0, estimate.memory, actual.memory);
+  }
+}
+
+TEST(Estimate, OfAQuarterIsNear) {
+  for (const auto& [name, input] : examples()) {
+    SCOPED_TRACE(name);
+    const TrialBudget quarter{.seconds = 60.0, .share = 0.25};
+    const Estimate estimate = estimate_run(input, make_plan(input, {}), quarter);
+    const Actual actual = run(input);
+    EXPECT_FALSE(estimate.whole);
+    EXPECT_LT(static_cast<double>(estimate.trial_steps), actual.steps);
+    expect_within_factor(2.0, estimate.steps, actual.steps);
+    expect_within_factor(1.5, estimate.disk, actual.disk);
+  }
+}
+
+TEST(Estimate, SaysWhatItRestsOn) {
+  const Case<2> c =
+      model::make_case(model::column_mesh(4, 4), single_point_scene(FlowScheme::explicit_nodal));
+  const Plan plan = make_plan(c, {});
+  const std::vector<std::string> whole = sentences(estimate_run(c, plan, {.seconds = 60.0}), 1);
+  ASSERT_EQ(whole.size(), 2U);
+  EXPECT_NE(whole[0].find(" on 1 thread, "), std::string::npos) << whole[0];
+  EXPECT_NE(whole[0].find(" MB of memory, "), std::string::npos) << whole[0];
+  EXPECT_NE(whole[0].find(" in 41 snapshots and 3 tables"), std::string::npos) << whole[0];
+  EXPECT_EQ(whole[1], "estimate: from a trial of the whole run without writing");
+
+  const std::vector<std::string> one = sentences(estimate_run(c, plan, {.seconds = 0.0}), 2);
+  EXPECT_NE(one[0].find(" on 2 threads, "), std::string::npos) << one[0];
+  EXPECT_NE(one[1].find("a trial of the first 2 steps (t = "), std::string::npos) << one[1];
+  EXPECT_NE(one[1].find("too large for a longer one"), std::string::npos) << one[1];
+}
+
+TEST(Estimate, SaysThatARunFails) {
+  Scene scene = single_point_scene(FlowScheme::explicit_nodal);
+  scene.boundaries[0].pressure = 1e9;
+  const Case<2> c = model::make_case(model::column_mesh(4, 4), scene);
+  const Estimate estimate = estimate_run(c, make_plan(c, {}), {.seconds = 60.0});
+  EXPECT_NE(estimate.failure, "");
+  EXPECT_EQ(sentences(estimate, 1).back(), "the run will fail: " + estimate.failure);
+}
+
+TEST(Explain, PrintsTheEstimateAndLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "here");
+  fs::create_directory(folder.path() / "temporary");
+  const std::string mesher = std::string(SUFFUSE_BIN) + "/suffuse-mesher " + SUFFUSE_SOURCE_DIR +
+                             "/workflows/paper/sp-constant-figure.toml -o " +
+                             folder.file("run.case.h5") + " > /dev/null 2>&1";
+  ASSERT_EQ(std::system(mesher.c_str()), 0);
+  const auto explain = [&](const std::string& temporary) {
+    const std::string command = "cd " + folder.file("here") + " && TMPDIR=" + temporary + " " +
+                                SUFFUSE_BIN + "/suffuse-solver " + folder.file("run.case.h5") +
+                                " --explain > " + folder.file("out") + " 2> " +
+                                folder.file("error");
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 0) << test::read_file(folder.file("error"));
+    return test::read_file(folder.file("out"));
+  };
+  const std::string text = explain(folder.file("temporary"));
+  EXPECT_NE(text.find("\nestimate: "), std::string::npos) << text;
+  EXPECT_NE(text.find("from a trial of the whole run"), std::string::npos) << text;
+  EXPECT_TRUE(fs::is_empty(folder.path() / "here"));
+  EXPECT_TRUE(fs::is_empty(folder.path() / "temporary"));
+  EXPECT_EQ(folder.count(), 5);  // here, temporary, run.case.h5, out, error
+
+  EXPECT_NE(explain(folder.file("missing")).find("of unknown size"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace suffuse
