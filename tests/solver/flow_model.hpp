@@ -49,7 +49,8 @@ struct FlowModel {
   }
   /// The forcing at each stage of a step, constant.
   [[nodiscard]] std::vector<const FlowForcing<2>*> constant(const ImplicitMixed<2>& flow) const {
-    return std::vector<const FlowForcing<2>*>(flow.stages().size(), &forcing);
+    std::vector<const FlowForcing<2>*> result(flow.stages().size(), &forcing);
+    return result;
   }
   [[nodiscard]] MixedState<2> rest(double pressure = 0.0) const {
     return {std::vector<double>(grid.face_count(), pressure),

@@ -28,30 +28,31 @@ Eigen::SparseMatrix<double> flow_matrix(int n, double amount) {
     }
     entries.emplace_back(i, i, 1.0);
   }
-  Eigen::SparseMatrix<double> matrix(n * n, n * n);
+  const int size = n * n;
+  Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 
-Eigen::VectorXd load(int size) {
+Eigen::VectorXd load(Eigen::Index size) {
   Eigen::VectorXd result(size);
-  for (int i = 0; i < size; ++i) result[i] = std::cos(0.37 * i);
+  for (Eigen::Index i = 0; i < size; ++i) result[i] = std::cos(0.37 * static_cast<double>(i));
   return result;
 }
 
 double difference_from_dense(const Eigen::SparseMatrix<double>& matrix,
                              const Eigen::VectorXd& solution) {
-  const Eigen::VectorXd exact =
-      Eigen::MatrixXd(matrix).ldlt().solve(load(static_cast<int>(matrix.rows())));
+  const Eigen::VectorXd exact = Eigen::MatrixXd(matrix).ldlt().solve(load(matrix.rows()));
   return (solution - exact).lpNorm<Eigen::Infinity>() / exact.lpNorm<Eigen::Infinity>();
 }
 
 class HeldFactorTest : public ::testing::Test {
  protected:
   static constexpr int n = 15;
+  static constexpr Eigen::Index size = 225;  // n * n
   Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& matrix) {
-    return held_.solve(matrix, load(n * n), Eigen::VectorXd::Zero(n * n),
-                       Eigen::VectorXd::Constant(n * n, 1e-14));
+    return held_.solve(matrix, load(size), Eigen::VectorXd::Zero(size),
+                       Eigen::VectorXd::Constant(size, 1e-14));
   }
   HeldFactor held_{flow_matrix(n, 0.0)};
 };
@@ -79,7 +80,7 @@ TEST_F(HeldFactorTest, AGoodGuessSavesIterations) {
   const auto drifted = flow_matrix(n, 0.21);
   const Eigen::VectorXd x = solve(drifted);
   const long before = held_.counts().iterations;
-  held_.solve(drifted, load(n * n), x, Eigen::VectorXd::Constant(n * n, 1e-12));
+  held_.solve(drifted, load(size), x, Eigen::VectorXd::Constant(size, 1e-12));
   EXPECT_EQ(held_.counts().iterations, before);
 }
 
@@ -97,7 +98,8 @@ TEST_F(HeldFactorTest, HopelessIterationsEndEarly) {
   solve(flow_matrix(n, 0.0));
   // Grounded a thousand times better everywhere, in places: each is another eigenvalue.
   Eigen::SparseMatrix<double> changed = flow_matrix(n, 0.0);
-  for (int i = 0; i < n * n; ++i) changed.coeffRef(i, i) += std::pow(10.0, 3.0 * std::sin(7.0 * i));
+  for (int i = 0; i < static_cast<int>(size); ++i)
+    changed.coeffRef(i, i) += std::pow(10.0, 3.0 * std::sin(7.0 * i));
   EXPECT_LE(difference_from_dense(changed, solve(changed)), 1e-12);
   EXPECT_EQ(held_.counts().factorisations, 2);
   EXPECT_EQ(held_.counts().iterations, HeldFactor::most_iterations / 3);

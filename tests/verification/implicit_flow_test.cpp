@@ -126,6 +126,7 @@ TEST(ImplicitStartup, ForcingThatChangesWithinAStepKeepsTheOrder) {
         std::vector<FlowForcing<2>> forcing;
         for (const double share : flow.stages()) forcing.push_back(forcing_at((i + share) * dt));
         std::vector<const FlowForcing<2>*> pointers;
+        pointers.reserve(forcing.size());
         for (const auto& f : forcing) pointers.push_back(&f);
         const auto step = flow.step(state, dt, pointers);
         state = step.end;
