@@ -60,10 +60,9 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.points = stored.points;
   row.points_in = crossed.points_in;
   row.points_out = crossed.points_out;
-  row.residual_water =
-      relative(stored.water - initial.water + crossed.water_out - crossed.water_in, initial.water);
+  row.residual_water = relative((stored.water - initial.water) + crossed.water_net, initial.water);
   row.residual_grains = relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
-                                     stored.pending + crossed.fines_out - crossed.fines_in,
+                                     stored.pending + crossed.fines_net,
                                  initial.solid + initial.fines);
   return row;
 }

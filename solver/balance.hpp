@@ -20,6 +20,8 @@ struct Crossed {
   double fines_out = 0.0;
   double points_in = 0.0;  ///< liquid points, numbers
   double points_out = 0.0;
+  double water_net = 0.0;  ///< out less in, with more digits than their difference
+  double fines_net = 0.0;
 };
 
 /// Masses inside a boundary, kg.
@@ -51,8 +53,9 @@ struct CrossedSums {
   double points_out = 0.0;
 
   [[nodiscard]] Crossed totals() const {
-    return {water_in.value(),  fines_in.value(), water_out.value(),
-            fines_out.value(), points_in,        points_out};
+    return {
+        water_in.value(), fines_in.value(), water_out.value(),         fines_out.value(),
+        points_in,        points_out,       water_out.minus(water_in), fines_out.minus(fines_in)};
   }
 };
 

@@ -60,14 +60,20 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
   FlowCoefficients<Dim> worst;
   for (int e = 0; e < elements; ++e) {
     const bool erodes = last[e] > first[e];
-    const double damped_porosity =
-        scene.time.drag == DragIntegration::explicit_drag ? last[e] : first[e];
+    const Soil& soil = skeleton.soil_of_element(e);
+    const auto drag_at = [&](double porosity) {
+      return darcy_drag(
+          porosity, scene.liquid.density,
+          conductivity_at(soil.conductivity_law, soil.conductivity, first[e], porosity));
+    };
+    // Stepped explicitly drag takes from the limit, implicitly it adds to it. With Kozeny-Carman it
+    // falls as pores open, else it grows.
+    const auto [least, most] = std::minmax({drag_at(first[e]), drag_at(last[e])});
     worst.porosity.push_back(last[e]);
     worst.water_volume.push_back(grid.volume[e] * first[e] * clean *
                                  (erodes || !with_richest_liquid ? 1.0 : dilution));
     worst.mixture_density.push_back(scene.liquid.density);
-    worst.drag.push_back(darcy_drag(damped_porosity, scene.liquid.density,
-                                    skeleton.soil_of_element(e).conductivity));
+    worst.drag.push_back(scene.time.drag == DragIntegration::explicit_drag ? most : least);
   }
   worst.face_concentration.assign(grid.face_count(), 0.0);
   return worst;
@@ -119,7 +125,11 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
 double longest_relaxation(const Scene& scene) {
   double relaxation = 0.0;
   for (const Soil& soil : scene.soils) {
-    relaxation = std::max(relaxation, soil.conductivity / (soil.porosity * conductivity_gravity));
+    for (const double n : {soil.porosity, soil.porosity_max()}) {
+      if (n > soil.porosity && soil.erosion.law == ErosionLaw::none) continue;
+      const double k = conductivity_at(soil.conductivity_law, soil.conductivity, soil.porosity, n);
+      relaxation = std::max(relaxation, k / (n * conductivity_gravity));
+    }
   }
   return relaxation;
 }

@@ -397,6 +397,7 @@ void MixedFlow<Dim>::show(const FlowInterval<Dim>& interval, const Point& begin,
       passed.volumes.density_excess[f] *=
           volumes.liquid[f] != 0.0 ? curved / volumes.liquid[f] : share;
     }
+    this->take_boundary_values(interval.begin, time);
     interval.see(moment_of(time, dt, flow), passed);
   }
 }
@@ -443,7 +444,7 @@ FlowProgress<Dim> MixedFlow<Dim>::run(const FlowInterval<Dim>& interval) {
   at_rest_ = false;
 
   const double time = interval.begin + dt;
-  this->boundary_values().update(time, this->conditions_);
+  this->take_boundary_values(interval.begin, time);
   const bool at_event = std::any_of(events_.begin(), events_.end(),
                                     [&](double event) { return is_same_time(event, time); });
   if (at_event) {

@@ -138,7 +138,11 @@ template <int Dim>
 FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
   check_step(interval.begin);
   FlowProgress<Dim> progress;
-  const double remaining = interval.target - interval.begin;
+  // A boundary value that turns or jumps begins another interval.
+  const std::vector<double>& events = this->boundary_values().events();
+  const auto event = std::ranges::upper_bound(events, interval.begin + 1e-9 * step_);
+  const double target = event == events.end() ? interval.target : std::min(interval.target, *event);
+  const double remaining = target - interval.begin;
   const long to_target =
       std::max(1L, static_cast<long>(std::ceil(remaining / step_ * (1.0 - 1e-12))));
   const double dt = interval.end_on_target ? remaining / static_cast<double>(to_target) : step_;
@@ -160,15 +164,16 @@ FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
     const double step_end =
         s + 1 == steps ? std::numeric_limits<double>::infinity() : step_begin + dt;
     if (next == times.end() || *next > step_end) {
-      scheme_.step(dt);
+      step(step_begin, dt);
       continue;
     }
     const std::vector<double> pressure = scheme_.pressure();
     const Passed<Dim> before = passed();
-    scheme_.step(dt);
+    step(step_begin, dt);
     // Flux is constant within a step, so what has passed is linear.
     for (; next != times.end() && *next <= step_end; ++next) {
       const double share = (*next - step_begin) / dt;
+      this->take_boundary_values(interval.begin, *next);
       FlowMoment<Dim> moment = moment_of(*next, between(pressure, scheme_.pressure(), share),
                                          scheme_.velocity_at((share - 0.5) * dt));
       moment.dt = dt;
@@ -176,7 +181,16 @@ FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
     }
   }
   progress.passed = passed();
+  this->take_boundary_values(interval.begin, interval.begin + progress.duration);
   return progress;
+}
+
+template <int Dim>
+void NodalFlow<Dim>::step(double begin, double dt) {
+  if (this->boundary_values().vary()) {
+    operator_.set_boundary_values(this->boundary_values(), begin, begin + 0.5 * dt);
+  }
+  scheme_.step(dt);
 }
 
 template <int Dim>

@@ -38,6 +38,8 @@ class NodalFlow final : public SceneFlow<Dim> {
 
  private:
   void check_step(double time);
+  /// One step of the scheme under the boundary values of its time.
+  void step(double begin, double dt);
   [[nodiscard]] FlowMoment<Dim> moment_of(double time, std::vector<double> pressure,
                                           VectorField<Dim> velocity) const;
   [[nodiscard]] Passed<Dim> passed() const;

@@ -35,6 +35,11 @@ class NodalOperator {
   /// Takes new coefficients: node porosities, masses, drag, and prescribed values.
   void update(const FlowCoefficients<Dim>& coefficients);
 
+  /// Takes boundary values of other times, s: pressures, and velocities and fluxes. They live half
+  /// a step apart. Between updates, and touching nothing but the boundary.
+  void set_boundary_values(const BoundaryValues<Dim>& values, double pressure_time,
+                           double flux_time);
+
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
   /// Harmonic mean of the elements around a node: what is one on both sides of a jump is the flux,
@@ -86,7 +91,11 @@ class NodalOperator {
   };
 
   void make_constraint_normals();
+  void set_boundary_force();
+  void set_held_values();
+  void set_fixed_fluxes();
   void update_constraints();
+  void set_prescribed();
 
   const Grid<Dim>& grid_;
   std::vector<FaceCondition> conditions_;
@@ -101,6 +110,9 @@ class NodalOperator {
   std::vector<unsigned char>
       flux_is_fixed_;  ///< one byte per face: the hot loop reads nothing else
   std::vector<double> fixed_flux_;
+  std::vector<int> pressure_faces_;  ///< where a pressure is prescribed
+  std::vector<int> fixed_faces_;     ///< where the flux is, walls included
+  std::vector<int> pressure_nodes_;  ///< of the former, ascending, each once
   VectorField<Dim> boundary_force_;
   VectorField<Dim> external_force_;
   std::vector<NodeConstraint<Dim>> constraints_;
@@ -109,10 +121,18 @@ class NodalOperator {
   struct HeldNormal {
     int node;
     Vector<Dim> normal;
-    double velocity;  ///< outward intrinsic velocity prescribed, m/s
-    double flux;      ///< outward Darcy flux prescribed, m/s
+    std::vector<int> faces;
+    double velocity = 0.0;  ///< outward intrinsic velocity prescribed, m/s
+    double flux = 0.0;      ///< outward Darcy flux prescribed, m/s
   };
   std::vector<HeldNormal> held_;  ///< ascending in node
+
+  /// How the values of a node's normals make up its prescribed velocity, as `constraints_`.
+  struct Prescription {
+    int first;                                           ///< of `held_`
+    Eigen::Matrix<double, Dim, Eigen::Dynamic> inverse;  ///< a column per normal
+  };
+  std::vector<Prescription> prescriptions_;
 };
 
 }  // namespace suffuse

@@ -150,6 +150,11 @@ class SceneFlow {
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;
   [[nodiscard]] const BoundaryValues<Dim>& boundary_values() const { return boundary_values_; }
+  /// Takes the boundary values of this moment, with the concentrations of what entered `since`.
+  void take_boundary_values(double since, double now) {
+    boundary_values_.update(now, conditions_);
+    boundary_values_.update_concentrations(0.5 * (since + now), conditions_);
+  }
   /// Where a pressure is prescribed, that is the node's.
   void prescribe_at_nodes(std::vector<double>& node_pressure) const;
 

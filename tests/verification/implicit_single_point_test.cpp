@@ -342,36 +342,5 @@ TEST(KeptFlow, SteadyFlowIsNotSolvedAgain) {
   }
 }
 
-TEST(Stiffness, AnySoilAndAnyWaterGetThroughADay) {
-  for (const double conductivity : {1e-9, 1e-7, 1e-5, 1e-3, 1e-1}) {
-    for (const double modulus : {2e5, 2e7, 2e9, stiff}) {
-      Scene scene = under_head(86400.0);
-      scene.initial_flow = InitialFlow::rest;
-      scene.liquid.bulk_modulus = modulus;
-      scene.output.every = scene.output.snapshot_every = 3600.0;
-      scene.soils[0].conductivity = conductivity;
-      scene.soils[0].erosion = {ErosionLaw::first_order, 1e-4, 600.0, false};
-      model::ModelRun run(model::make_case(model::column_mesh(4, 4), scene));
-      const auto moments = run.run({86400.0});
-      const HistoryRow row = run.model().history_row(moments.states[0], moments.flows[0]);
-      std::cout << "k = " << conductivity << ", K = " << modulus << ": " << run.steps()
-                << " steps\n";
-      EXPECT_LE(run.worst_residual(), 1e-12);
-      EXPECT_GE(row.concentration_min, 0.0);
-      EXPECT_LT(row.concentration_max, 1.0);
-      for (const double n : moments.states[0].porosity) {
-        EXPECT_NEAR(n, 0.4 - 0.1 * std::exp(-1e-4 * 85800.0), 1e-11);
-      }
-      // Where diffusion of pressure, of the time L^2 rho g n / (K k), is done: Darcy's flux. Water
-      // that expands by p / K on its way flows faster below, by so much more or less.
-      const double settling = 1000.0 * 9.81 * 0.3 / (modulus * conductivity);
-      if (settling < 1e3) {
-        std::cout << "  flux over Darcy's: " << row.flux_in / (conductivity * 0.6) << '\n';
-        EXPECT_NEAR(row.flux_in / (conductivity * 0.6), 1.0, head / modulus + 1e-6);
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace suffuse
