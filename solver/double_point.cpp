@@ -301,7 +301,7 @@ template <int Dim>
 double DoublePoint<Dim>::substeps(const LiquidMotion<Dim>& motion, double begin,
                                   const std::vector<double>& porosity) const {
   const double allowed = transport_safety * transport_.share_allowed(motion, porosity);
-  const double result = allowed >= 1.0 ? 1.0 : std::ceil(1.0 / allowed);
+  const double result = transport_substeps(allowed);
   if (!(result <= most_substeps)) {
     std::ostringstream message;
     message << "the flow has run away: at t = " << begin << " s liquid would cross "

@@ -3,6 +3,7 @@
 /// When flow, which takes many small steps, next meets erosion and transport.
 
 #include <algorithm>
+#include <cmath>
 
 #include "solid/rigid_skeleton.hpp"
 
@@ -10,6 +11,14 @@ namespace suffuse {
 
 /// Share of its limit that a transport step takes.
 inline constexpr double transport_safety = 0.9;
+
+/// Steps of transport over an interval of which one step may take the share `allowed` (safety
+/// included). Intervals are often cut to a whole number of them: a share that is off by little, as
+/// the flow may be, must not ask for one more. The safety has room for it.
+inline double transport_substeps(double allowed) {
+  constexpr double little = 0.01;
+  return std::max(1.0, std::ceil((1.0 - little) / allowed));
+}
 
 /// Flow steps of `dt` until the next meeting: as many as transport allows (`transport_steps`), with
 /// porosity growing by no more than `most_growth` of itself until the flow learns of it, at most a

@@ -165,7 +165,7 @@ SinglePointState<Dim> SinglePoint<Dim>::advanced(const SinglePointState<Dim>& be
       plan_.carries(begin.time + duration)
           ? transport_safety * transport_.steps_allowed(state.liquid, volumes.liquid)
           : 1.0;
-  const double substeps = allowed >= 1.0 ? 1.0 : std::ceil(1.0 / allowed);
+  const double substeps = transport_substeps(allowed);
   std::vector<double> part = volumes.liquid;
   if (substeps > 1.0) {
     for (double& v : part) v /= substeps;
