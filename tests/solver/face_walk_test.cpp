@@ -418,6 +418,22 @@ TEST(FaceWalk, WallsAreNeverCrossed) {
   }
 }
 
+TEST(FaceWalk, WithoutFlowPointsStayWhilePorosityGrows) {
+  Field field(rough_mesh(4, 1));
+  field.end.assign(field.end.size(), 0.36);
+  Random random(4);
+  for (int p = 0; p < 100; ++p) {
+    PointPlace<2> place = random_place(field.mesh, random);
+    const PointPlace<2> start = place;
+    field.passages.clear();
+    EXPECT_EQ(field.walk(place, 0.5, 1.0), -1);
+    EXPECT_EQ(place.element, start.element);
+    EXPECT_EQ(place.barycentric, start.barycentric);
+    ASSERT_EQ(field.passages.size(), 1u);
+    EXPECT_NEAR(field.passages[0].growth, 0.36 / 0.33, 1e-15);
+  }
+}
+
 TEST(FaceWalk, SaysWhereAWalkHasNoEnd) {
   // Once around through a ring of elements, 20 000 times: too wide a circle to be taken for a
   // point.
