@@ -521,8 +521,14 @@ template <int Dim>
 void MixedFlow<Dim>::mend_kept() {
   std::vector<double> source = source_with(last_dt_);
   if (largest_difference(source, source_) <= mended_share * tolerance_ * flux_scale_) return;
+  MixedStep<Dim> steady = scheme_.steady({this->coefficients_, this->conditions_, source});
+  if (largest_difference(now_.face_flux, steady.face_flux) >
+      kept_share * tolerance_ * flux_scale_) {
+    // More than may be missing at once: the flow is on its way again and has to be followed.
+    keep_ = false;
+    return;
+  }
   source_ = std::move(source);
-  MixedStep<Dim> steady = scheme_.steady({this->coefficients_, this->conditions_, source_});
   now_ = {std::move(steady.end), std::move(steady.face_flux)};
 }
 

@@ -51,7 +51,8 @@ class MixedFlow final : public SceneFlow<Dim> {
   void remember(MixedStep<Dim> step, double dt);
   /// Keeps the flow when it has become steady and nothing that drives it will change by itself.
   void keep_if_steady(double time);
-  /// The kept flow with what its mismatch of masses asks for by now.
+  /// The kept flow with what its mismatch of masses asks for by now; no longer kept when that is
+  /// too much.
   void mend_kept();
   /// Outflow per element that keeps water and pores in step and makes up for the mismatch so far,
   /// for a step of `dt`, m3/s.
