@@ -1,0 +1,48 @@
+# From the lines of measure.sh, with a header, to a table for people, and to a verdict:
+#     awk -F, -f report.awk [-v form=markdown] plan.csv
+# Exits 1 when a run with the plan differs from the one without by more than its bound, or an estimate
+# is not within a factor of two. Wall time is judged from 5 s on: below, the machine's moods decide.
+
+function ratio(estimate, actual, judged,    r) {
+  r = estimate / actual
+  if (judged && (r > 2 || r < 0.5)) { wrong = 1; return sprintf("%.2f (!)", r) }
+  return judged ? sprintf("%.2f", r) : sprintf("(%.2f)", r)
+}
+
+function line(cells,    count, part, i, text) {
+  count = split(cells, part, "|")
+  if (form == "markdown") {
+    for (i = 1; i <= count; ++i) text = text "| " part[i] " "
+    print text "|"
+    return
+  }
+  text = sprintf("%-22s", part[1])
+  for (i = 2; i <= count; ++i) text = text sprintf("%" width[i] "s", part[i])
+  print text
+}
+
+BEGIN {
+  split("0 10 10 10 10 9 11 24 8 8 8 9 8", width, " ")
+}
+
+FNR == 1 {
+  for (i = 1; i <= NF; ++i) at[$i] = i
+  line("scene|s, plan|s, all|steps|steps, all|speed-up|difference|where largest|bound|steps|time|memory|disk")
+  if (form == "markdown") line("---|---:|---:|---:|---:|---:|---:|---|---:|---:|---:|---:|---:")
+  next
+}
+
+{
+  difference = sprintf("%.1e", $at["difference"])
+  if ($at["difference"] == 0) difference = "0"
+  if ($at["difference"] > $at["bound"]) { wrong = 1; difference = difference " (!)" }
+  line(sprintf("%s|%.3g|%.3g|%d|%d|%.2f|%s|%s|%s|%s|%s|%s|%s", $at["scene"], $at["seconds"],
+               $at["seconds_no_skip"], $at["steps"], $at["steps_no_skip"],
+               $at["seconds_no_skip"] / $at["seconds"], difference, $at["column"], $at["bound"],
+               ratio($at["estimate_steps"], $at["steps"], 1),
+               ratio($at["estimate_seconds"], $at["seconds"], $at["seconds"] >= 5),
+               ratio($at["estimate_memory"], $at["memory"], 1),
+               ratio($at["estimate_disk"], $at["disk"], 1)))
+}
+
+END { exit wrong }
