@@ -198,11 +198,16 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   describe_spans(scene, plan);
   if (scene.formulation == Formulation::double_point) {
     const bool carried = scene.flow.integration == PressureIntegration::material_point;
-    say(carried
-            ? "run: movement of liquid points with every step of the flow; they carry velocity "
-              "and pressure (material-point integration)"
-            : "run: movement of liquid points whenever the flow has brought them a quarter of an "
-              "element on; nodes and elements keep velocity and pressure (mixed integration)");
+    if (scene.time.scheme == FlowScheme::implicit_mixed) {
+      say("run: movement of liquid points along the volumes that cross the faces, by an element at "
+          "most at a time");
+    } else {
+      say(carried
+              ? "run: movement of liquid points with every step of the flow; they carry velocity "
+                "and pressure (material-point integration)"
+              : "run: movement of liquid points whenever the flow has brought them a quarter of an "
+                "element on; nodes and elements keep velocity and pressure (mixed integration)");
+    }
   } else {
     say(plan.transport ? "run: transport of fluidised grains" + because
                        : "skip: transport, no soil erodes and no grains flow in");
