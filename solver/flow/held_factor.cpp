@@ -43,6 +43,7 @@ HeldFactor::HeldFactor(const Matrix& pattern) {
 
 void HeldFactor::factorise(const Matrix& matrix) {
   factored_values_.clear();  // nothing is held if this throws
+  last_iterations_ = 0;
   factor_.factorize(matrix);
   ++counts_.factorisations;
   if (factor_.info() != Eigen::Success || !(factor_.vectorD().minCoeff() > 0.0)) {
@@ -112,9 +113,12 @@ Eigen::VectorXd HeldFactor::solve(const Matrix& matrix, const Eigen::VectorXd& r
                                   const Eigen::VectorXd& guess, const Eigen::VectorXd& tolerance) {
   ++counts_.solves;
   if (matrix.rows() == 0) return rhs;
-  if (!factored_values_.empty() && !is_factored(matrix)) {
+  if (!factored_values_.empty() && last_iterations_ <= tiring_iterations && !is_factored(matrix)) {
     Eigen::VectorXd x = guess;
-    if (iterate(matrix, rhs, tolerance, x)) return x;
+    const long before = counts_.iterations;
+    const bool solved = iterate(matrix, rhs, tolerance, x);
+    last_iterations_ = counts_.iterations - before;
+    if (solved) return x;
   }
   if (!is_factored(matrix)) factorise(matrix);
   Eigen::VectorXd x = solve_directly(matrix, rhs, tolerance);

@@ -23,6 +23,9 @@ struct SolveCounts {
 class HeldFactor {
  public:
   static constexpr int most_iterations = 15;
+  /// After a solution that took more than this many the next changed matrix is factored at once:
+  /// a factorisation costs about ten iterations, and matrices that drift drift on.
+  static constexpr int tiring_iterations = 7;
 
   /// Orders and analyses the pattern (approximate minimum degree), which every matrix given to
   /// `solve` must have. Both triangles are stored.
@@ -48,6 +51,7 @@ class HeldFactor {
 
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   std::vector<double> factored_values_;
+  long last_iterations_ = 0;
   SolveCounts counts_;
 };
 

@@ -94,6 +94,18 @@ TEST_F(HeldFactorTest, MatrixThatChangedALotIsFactoredAnew) {
   EXPECT_EQ(held_.counts().factorisations, 2);
 }
 
+TEST_F(HeldFactorTest, AfterATiringSolutionTheNextMatrixIsFactored) {
+  solve(flow_matrix(n, 0.0));
+  solve(flow_matrix(n, 0.2));
+  EXPECT_EQ(held_.counts().factorisations, 1);
+  EXPECT_GT(held_.counts().iterations, HeldFactor::tiring_iterations);
+  const long before = held_.counts().iterations;
+  const auto next = flow_matrix(n, 0.21);
+  EXPECT_LE(difference_from_dense(next, solve(next)), 1e-12);
+  EXPECT_EQ(held_.counts().factorisations, 2);
+  EXPECT_EQ(held_.counts().iterations, before);
+}
+
 TEST_F(HeldFactorTest, HopelessIterationsEndEarly) {
   solve(flow_matrix(n, 0.0));
   // Grounded a thousand times better everywhere, in places: each is another eigenvalue.
