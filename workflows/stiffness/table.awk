@@ -17,7 +17,10 @@ FNR == 1 {
   if (name ~ /explicit/) { sub(/-explicit.*/, "", name) } else { sub(/\.results.*/, "", name); run = name }
 }
 # estimate: 130 steps, 0.48 s on 1 thread, ...
-/^estimate: [0-9].* steps, / { steps_of[name] = $2; seconds_of[name] = $4 }
+/^estimate: [0-9].* steps, / {
+  steps_of[name] = $2
+  seconds_of[name] = sprintf("%.2g", $4 * ($5 == "h" ? 3600 : $5 == "min" ? 60 : 1))
+}
 /"steps":/ { steps = number($0) }
 /"wall_seconds":/ { wall = number($0) }
 /"name":/ { pass = $0 }
