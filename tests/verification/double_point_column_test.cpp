@@ -8,6 +8,7 @@
 
 #include "double_point_modes.hpp"
 #include "reference_table.hpp"
+#include "scheme_case.hpp"
 
 namespace suffuse {
 namespace {
@@ -15,7 +16,8 @@ namespace {
 constexpr double erodible_mass = 2700.0 * 0.1;  ///< of one square metre of specimen, kg
 
 /// Free water and buffers around the specimen, water entering at 0.12 m/s, from rest.
-Scene column_scene(ErosionLaw law, double rate, int points, double end) {
+Scene column_scene(ErosionLaw law, double rate, int points, double end,
+                   const model::SchemeCase& scheme = model::explicit_scheme) {
   Scene scene = model::double_point_scene(0.0, rate);
   scene.soils.front().erosion.law = law;
   BoundaryCondition inflow;
@@ -24,7 +26,8 @@ Scene column_scene(ErosionLaw law, double rate, int points, double end) {
   inflow.concentration = 0.0;
   scene.boundaries = {inflow, model::pressure_on("outflow", 0.0)};
   scene.initial_flow = InitialFlow::rest;
-  scene.time.mass_scaling = 1e4;
+  if (scheme.scheme == FlowScheme::explicit_nodal) scene.time.mass_scaling = 1e4;
+  scheme.apply(scene);
   scene.time.end = end;
   scene.points.liquid_per_element = points;
   return scene;
@@ -114,36 +117,45 @@ struct LawCase {
   double exact;  ///< to which the solver integrates this law
 };
 
-class DoublePointColumn : public ::testing::TestWithParam<LawCase> {};
+class DoublePointColumn : public ::testing::TestWithParam<std::tuple<LawCase, model::SchemeCase>> {
+};
 
 TEST_P(DoublePointColumn, ErodesAsTheLawSays) {
-  const LawCase& law = GetParam();
-  const Seen seen = compare(column_scene(law.law, law.rate, 12, law.end), law.column);
-  print(law.name, seen);
+  const auto& [law, scheme] = GetParam();
+  const Seen seen = compare(column_scene(law.law, law.rate, 12, law.end, scheme), law.column);
+  print(std::string(law.name) + ", " + scheme.name, seen);
   expect_balanced(seen);
   EXPECT_LE(seen.worst_porosity, law.exact);
   EXPECT_LE(seen.worst_solid, law.exact);
   EXPECT_LE(seen.worst_eroded, law.exact);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, DoublePointColumn,
-                         ::testing::Values(LawCase{"constant_1e3", ErosionLaw::constant, 1e-3,
-                                                   "n_const_alpha1e-3", 120.0, 1e-12},
-                                           LawCase{"constant_5e3", ErosionLaw::constant, 5e-3,
-                                                   "n_const_alpha5e-3", 120.0, 1e-12},
-                                           // The table has 14 digits.
-                                           LawCase{"logarithmic", ErosionLaw::logarithmic, 1e-2,
-                                                   "n_log_beta1e-2", 40.0, 1e-12}),
-                         [](const auto& param_info) { return param_info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Laws, DoublePointColumn,
+    ::testing::Combine(::testing::Values(LawCase{"constant_1e3", ErosionLaw::constant, 1e-3,
+                                                 "n_const_alpha1e-3", 120.0, 1e-12},
+                                         LawCase{"constant_5e3", ErosionLaw::constant, 5e-3,
+                                                 "n_const_alpha5e-3", 120.0, 1e-12},
+                                         // The table has 14 digits.
+                                         LawCase{"logarithmic", ErosionLaw::logarithmic, 1e-2,
+                                                 "n_log_beta1e-2", 40.0, 1e-12}),
+                       ::testing::Values(model::explicit_scheme, model::implicit_scheme,
+                                         model::implicit_one_second)),
+    [](const auto& param_info) {
+      return std::string(std::get<0>(param_info.param).name) + "_" +
+             std::get<1>(param_info.param).name;
+    });
 
 TEST(DoublePointColumnPoints, FewPointsErodeAsWellWhenEmptyElementsCountAsWet) {
-  for (const int points : {1, 3}) {
-    const Seen seen =
-        compare(column_scene(ErosionLaw::constant, 1e-3, points, 60.0), "n_const_alpha1e-3");
-    print(std::to_string(points) + " points", seen);
-    expect_balanced(seen);
-    EXPECT_LE(seen.worst_solid, 1e-12) << points;
-    EXPECT_LE(seen.worst_eroded, 1e-12) << points;
+  for (const model::SchemeCase& scheme : {model::explicit_scheme, model::implicit_scheme}) {
+    for (const int points : {1, 3}) {
+      const Seen seen = compare(column_scene(ErosionLaw::constant, 1e-3, points, 60.0, scheme),
+                                "n_const_alpha1e-3");
+      print(std::to_string(points) + " points, " + scheme.name, seen);
+      expect_balanced(seen);
+      EXPECT_LE(seen.worst_solid, 1e-12) << points;
+      EXPECT_LE(seen.worst_eroded, 1e-12) << points;
+    }
   }
 }
 
