@@ -74,12 +74,13 @@ void DoublePoint<Dim>::initialise() {
   bends_ = bends_of_porosity();
   state_.pending.assign(grid_.mesh.node_count(), 0.0);
   state_.crossed.resize(accounts_.count());
-  update_flow();
-  flow_->start();
-  place_liquid();
-  update_flow();
   last_motion_ = {VectorField<Dim>(grid_.mesh.node_count(), Vector<Dim>::Zero()),
                   std::vector<double>(grid_.face_count(), 0.0), 1.0};
+  update_flow();
+  flow_->start();
+  last_motion_.entered = flow_->moment(0.0).face_flux;
+  place_liquid();
+  update_flow();
   initial_ = stored(state_);
 }
 

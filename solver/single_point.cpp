@@ -44,6 +44,7 @@ void SinglePoint<Dim>::initialise() {
   state_.liquid.fines_volume.assign(grid_.mesh.element_count(), ElementValues<Dim>{});
   update_flow();
   flow_->start();
+  last_volume_rate_ = flow_->moment(0.0).face_flux;
   state_.water_mass.resize(grid_.mesh.element_count());
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     state_.water_mass[e] = scene.liquid.density * flow_->coefficients().water_volume[e] *
