@@ -11,7 +11,7 @@ namespace suffuse {
 
 /// How long a trial may go on. It ends with the interval in which it reaches either bound.
 struct TrialBudget {
-  double seconds = 1.5;  ///< of wall time
+  double seconds = 1.2;  ///< of wall time
   double share = 1.0;    ///< of the simulated time
 };
 
@@ -26,6 +26,7 @@ struct Estimate {
   // What it rests on.
   long trial_steps = 0;
   double trial_time = 0.0;     ///< simulated, s
+  long steady_steps = 0;       ///< of a second trial that began with the steady flow; 0: none
   double trial_seconds = 0.0;  ///< of wall time
   bool whole = false;          ///< the trial reached the end
   bool over_budget = false;    ///< not even one interval fitted the budget
@@ -34,8 +35,9 @@ struct Estimate {
 
 /// Runs the case from its start for a while, with the outputs that it would make computed but not
 /// written, and writes the first and the last of them into a temporary folder, removed afterwards.
-/// The rest is extrapolated from the latter part of the trial. Ends early on an interrupt
-/// (see catch_interrupts).
+/// The rest is extrapolated from the latter part of the trial; when that is
+/// still the start-up of the flow, from a second trial that begins with the steady flow. Ends early
+/// on an interrupt (see catch_interrupts).
 template <int Dim>
 Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget = {});
 
