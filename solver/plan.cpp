@@ -163,10 +163,9 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
       std::string(monotone ? "monotone (first order)" : "second order") + " in time, steps " +
       (plan.flow.step_given ? "of " + number(plan.flow.step) + " s as given"
                             : "chosen for a local error of " + number(scene.time.tolerance)));
-  const std::string why = scene.time.inertia ? "as the scene says"
-                          : plan.flow.inertia
-                              ? "it takes longer than 1 % of the time between two looks"
-                              : "less than 1 % of the time between two looks";
+  const std::string why = scene.time.inertia  ? "as the scene says"
+                          : plan.flow.inertia ? "too long to leave out"
+                                              : "too short to be noticed";
   say((plan.flow.inertia ? "run" : "skip") +
       std::string(": inertia of the liquid; drag stops it within ") +
       number(longest_relaxation(scene)) + " s, " + why);
@@ -222,12 +221,14 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   say(gravity ? "run: gravity" : "skip: gravity, none is given");
 }
 
-/// Inertia matters while the flow settles: it is kept unless that is over before anybody looks.
+/// Inertia delays the flow by its relaxation time: kept unless that is short against the step, or
+/// what it keeps from flowing is within the tolerance of what flows in the whole run.
 void plan_implicit_step(const Scene& scene, Plan& plan) {
-  constexpr double unseen = 0.01;
+  constexpr double short_of_a_step = 0.01;
   plan.flow.step = scene.time.step.value_or(unset);
-  const double seen = scene.time.step.value_or(scene.output.every);
-  plan.flow.inertia = scene.time.inertia.value_or(longest_relaxation(scene) > unseen * seen);
+  const double unnoticed =
+      scene.time.step ? short_of_a_step * *scene.time.step : scene.time.tolerance * scene.time.end;
+  plan.flow.inertia = scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
 }
 
 /// The step of the explicit scheme, checked against its stability limit.

@@ -449,7 +449,7 @@ std::vector<SceneKey> declare_keys() {
       key("time.inertia", at(&Scene::time, &TimeSettings::inertia),
           "Keep the liquid's inertia. Implicit only.")
           .otherwise_as("decided from the scene: left out where the time in which flow settles, "
-                        "k/(n g), is below 1 % of the step or of `output.every`"),
+                        "k/(n g), is below 1 % of a given step, or below `tolerance` times `end`"),
       key("time.tolerance", at(&Scene::time, &TimeSettings::tolerance),
           "Bound of the local error of a step, relative: of fluxes, of pressures, of what erodes. "
           "Implicit only, and not with `step`.")
