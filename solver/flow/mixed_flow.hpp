@@ -62,7 +62,8 @@ class MixedFlow final : public SceneFlow<Dim> {
   void find_scales();
   void raise_scales_over_round_off();
   [[nodiscard]] std::vector<double> element_means(const std::vector<double>& face_pressure) const;
-  [[nodiscard]] FlowMoment<Dim> moment_of(double time, double dt, const Point& flow) const;
+  [[nodiscard]] FlowMoment<Dim> moment_of(double time, double dt, const Point& flow,
+                                          const std::vector<double>& porosity) const;
   [[nodiscard]] double overshoot(const std::vector<double>& face_pressure) const;
   void warn_of_obtuse_angles();
 
