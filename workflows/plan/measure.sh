@@ -14,18 +14,21 @@ small=5
 value() { sed -n "s/^  \"$1\": \([-+.e0-9]*\),*$/\1/p" "$2/run.json"; }
 # Calls of a pass: calls NAME FOLDER
 calls() { sed -n "/\"name\": \"$1\"/,/}/s/.*\"calls\": \([0-9]*\),*/\1/p" "$2/run.json"; }
+# Seconds of all passes: what is left when nothing is written.
+pass_seconds() { awk '/"passes":/,/\]/ { if (sub(/.*"seconds": /, "")) sum += $0 } END { print sum }' "$1/run.json"; }
 bytes() { find "$1" -type f -printf '%s\n' | awk '{ sum += $1 } END { printf "%.0f", sum }'; }
 is_small() { awk -v s="$1" -v most=$small 'BEGIN { exit !(s < most) }'; }
 
-declare -A times=([with]="" [without]="")
+declare -A times=([with]="" [without]="") passes=([with]="" [without]="")
 run() { # FOLDER OPTION...
   local folder=$1
   shift
   "$solver" "$case" -o "$stem.$folder.results" --quiet "$@" 2> "$stem.$folder.log" ||
     { cat "$stem.$folder.log" >&2; exit 1; }
   times[$folder]+="$(value wall_seconds "$stem.$folder.results")"$'\n'
+  passes[$folder]+="$(pass_seconds "$stem.$folder.results")"$'\n'
 }
-median() { printf '%s' "${times[$1]}" | sort -g | awk '{ t[NR] = $1 } END { print t[int((NR + 1) / 2)] }'; }
+median() { printf '%s' "$1" | sort -g | awk '{ t[NR] = $1 } END { print t[int((NR + 1) / 2)] }'; }
 
 "$solver" "$case" --explain > "$stem.explain"
 run with
@@ -54,7 +57,8 @@ for table in history ledger; do
 done
 
 {
-  printf '%s,' "$(basename "$stem")" "$(median with)" "$(median without)" \
+  printf '%s,' "$(basename "$stem")" "$(median "${times[with]}")" "$(median "${times[without]}")" \
+    "$(median "${passes[with]}")" "$(median "${passes[without]}")" \
     "$(value steps "$stem.with.results")" "$(value steps "$stem.without.results")" \
     "${apart/ /,}" "$bound"
   printf '%s,' "$(value memory_bytes "$stem.with.results")" "$(bytes "$stem.with.results")"

@@ -22,13 +22,14 @@ function line(cells,    count, part, i, text) {
 }
 
 BEGIN {
-  split("0 10 10 10 10 9 11 24 8 8 8 9 8", width, " ")
+  split("0 9 9 10 11 9 12 12 22 9 8 9 8 8", width, " ")
 }
 
 FNR == 1 {
   for (i = 1; i <= NF; ++i) at[$i] = i
-  line("scene|s, plan|s, all|steps|steps, all|speed-up|difference|where largest|bound|steps|time|memory|disk")
-  if (form == "markdown") line("---|---:|---:|---:|---:|---:|---:|---|---:|---:|---:|---:|---:")
+  line("scene|s, plan|s, all|speed-up|of passes|steps|steps, all|difference|where largest|bound|steps|seconds|memory|disk")
+  if (form == "markdown")
+    line("---|---:|---:|---:|---:|---:|---:|---:|---|---:|---:|---:|---:|---:")
   next
 }
 
@@ -36,9 +37,10 @@ FNR == 1 {
   difference = sprintf("%.1e", $at["difference"])
   if ($at["difference"] == 0) difference = "0"
   if ($at["difference"] > $at["bound"]) { wrong = 1; difference = difference " (!)" }
-  line(sprintf("%s|%.3g|%.3g|%d|%d|%.2f|%s|%s|%s|%s|%s|%s|%s", $at["scene"], $at["seconds"],
-               $at["seconds_no_skip"], $at["steps"], $at["steps_no_skip"],
-               $at["seconds_no_skip"] / $at["seconds"], difference, $at["column"], $at["bound"],
+  line(sprintf("%s|%.3g|%.3g|%.2f|%.2f|%d|%d|%s|%s|%s|%s|%s|%s|%s", $at["scene"], $at["seconds"],
+               $at["seconds_no_skip"],
+               $at["seconds_no_skip"] / $at["seconds"], $at["passes_no_skip"] / $at["passes"],
+               $at["steps"], $at["steps_no_skip"], difference, $at["column"], $at["bound"],
                ratio($at["estimate_steps"], $at["steps"], 1),
                ratio($at["estimate_seconds"], $at["seconds"], $at["seconds"] >= 5),
                ratio($at["estimate_memory"], $at["memory"], 1),
