@@ -457,7 +457,8 @@ Estimate estimate_formulation(const Case<Dim>& c, const Plan& plan, const TrialB
   // begins where that is over.
   Case<Dim> steady = c;
   steady.document.scene.initial_flow = InitialFlow::steady;
-  Trial<Model, Dim> later(steady, plan, budget);
+  const TrialBudget to_the_end{budget.seconds, 1.0};
+  Trial<Model, Dim> later(steady, plan, to_the_end);
   Estimate result = later.run();
   if (!result.failure.empty()) return first;
   const auto start_up = trial.start_up(std::min(settled, scene.time.end), later.longest_step());

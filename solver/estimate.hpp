@@ -12,7 +12,7 @@ namespace suffuse {
 /// How long a trial may go on. It ends with the interval in which it reaches either bound.
 struct TrialBudget {
   double seconds = 1.2;  ///< of wall time
-  double share = 1.0;    ///< of the simulated time
+  double share = 1.0;    ///< of the simulated time; a second trial may always go to the end
 };
 
 struct Estimate {

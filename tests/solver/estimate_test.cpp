@@ -142,6 +142,20 @@ TEST(Estimate, OfAQuarterIsNear) {
   }
 }
 
+TEST(Estimate, OfTheStartUpAloneIsNear) {
+  for (const auto& [name, input] : examples()) {
+    if (input.document.scene.time.scheme != FlowScheme::implicit_mixed) continue;
+    if (input.document.scene.initial_flow == InitialFlow::steady) continue;
+    SCOPED_TRACE(name);
+    // The flow is not on its way for a hundredth of the time that it needs to settle.
+    const TrialBudget start{.seconds = 60.0, .share = 1e-4};
+    const Estimate estimate = estimate_run(input, make_plan(input, {}), start);
+    EXPECT_GT(estimate.steady_steps, 0);
+    EXPECT_LT(estimate.trial_time, 0.01);
+    expect_within_factor(2.0, estimate.steps, run(input).steps);
+  }
+}
+
 TEST(Estimate, SaysWhatItRestsOn) {
   const Case<2> c =
       model::make_case(model::column_mesh(4, 4), single_point_scene(FlowScheme::explicit_nodal));
