@@ -88,5 +88,29 @@ TEST(ErgunFlux, IsTheSameInTheDoublePointFormulation) {
   }
 }
 
+TEST(ErgunFlux, IsReachedFromRestByTheImplicitScheme) {
+  double worst = 0.0;
+  for (const auto& row : read_reference("ergun.csv")) {
+    Scene scene = ergun_scene(row);
+    scene.time.scheme = FlowScheme::implicit_mixed;
+    scene.initial_flow = InitialFlow::rest;
+    scene.time.inertia = true;
+    scene.time.step = 1.0;
+    model::ModelRun one(model::make_case(model::column_mesh(2, 4, 0.5), scene));
+    scene.formulation = Formulation::double_point;
+    model::DoublePointRun two(model::make_double_point_case(model::column_mesh(2, 4, 0.5), scene));
+    const auto single = one.run({60.0});
+    const auto both = two.run({60.0});
+    for (const double flux :
+         {one.model().history_row(single.states[0], single.flows[0]).flux_in / 0.5,
+          two.model().history_row(both.states[0], both.flows[0]).flux_in / 0.5}) {
+      EXPECT_NEAR(flux / row.number("q_ergun"), 1.0, 1e-6)
+          << row.text("k") << ' ' << row.text("n") << ' ' << row.text("gradp");
+      worst = std::max(worst, std::abs(flux / row.number("q_ergun") - 1.0));
+    }
+  }
+  std::cout << "Ergun, implicit from rest: largest relative error " << worst << '\n';
+}
+
 }  // namespace
 }  // namespace suffuse
