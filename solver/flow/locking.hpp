@@ -12,7 +12,7 @@ namespace suffuse {
 /// flows that turn are held back, on regular meshes altogether ("volumetric locking"). Returns the
 /// relative L2 difference of the steady Darcy flux `velocity` (intrinsic, per node) from that of
 /// mixed finite elements: it falls with the mesh where the scheme follows, and stays near one where
-/// it locks. Nothing when the steady flow is rest.
+/// it locks. Nothing when the steady flow is rest, or when there is none.
 template <int Dim>
 std::optional<double> deviation_from_mixed_flow(const NodalOperator<Dim>& op,
                                                 const FlowCoefficients<Dim>& coefficients,

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "flow/mixed_steady_flow.hpp"
 #include "flow/steady_nodal.hpp"
 #include "solver/model_case.hpp"
 
@@ -106,24 +105,6 @@ TEST(Locking, IsNoMatterForTheColumn) {
   EXPECT_NEAR(
       *deviation_from_mixed_flow<2>(op, coefficients, Vector<2>::Zero(), steady_flow(op).velocity),
       0.0, 1e-10);
-}
-
-TEST(MixedSteadyFlow, IsExactForLinearPressureAndHydrostaticRest) {
-  Scene scene = model::paper_scene();
-  scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
-  const Case<2> c =
-      model::make_case(model::column_mesh(5, 5, 1.0, 1.0, model::jittered(0.05, 4)), scene);
-  const Grid<2> grid(c.mesh);
-  const FlowCoefficients<2> coefficients = model::flow_coefficients(grid, 0.02);
-  const auto conditions = face_conditions(c, grid);
-  for (const auto& q : mixed_steady_flux<2>(grid, conditions, coefficients, Vector<2>::Zero())) {
-    EXPECT_NEAR(q[0], 0.0, 1e-14);
-    EXPECT_NEAR(q[1], -0.02 * 6000.0 / 9810.0, 1e-13);
-  }
-  // Gravity that balances the drop of pressure.
-  for (const auto& q : mixed_steady_flux<2>(grid, conditions, coefficients, Vector<2>(0.0, 6.0))) {
-    EXPECT_NEAR(q.norm(), 0.0, 1e-13);
-  }
 }
 
 }  // namespace
