@@ -1,10 +1,9 @@
 #include "estimate.hpp"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -359,15 +358,15 @@ class Trial {
     for (const Interval& i : intervals_) result.seconds += i.seconds;
     result.memory = peak_memory();
 
-    const double points = static_cast<double>(model.liquid_points());
+    const auto points = static_cast<double>(model.liquid_points());
     double more_points = 0.0;  // at the end, as a share of those there are
     if (!result.whole && result.failure.empty() && !intervals_.empty()) {
       const std::vector<Interval> latter = latter_part();
       const double steps = std::max(1.0, std::round(steps_to_go(latter, model.longest_interval(),
                                                                 case_.document.scene.time.end)));
       const Costs cost = costs(latter);
-      const double rows_left = static_cast<double>(result.rows - schedule.rows().past());
-      const double snapshots_left =
+      const auto rows_left = static_cast<double>(result.rows - schedule.rows().past());
+      const auto snapshots_left =
           static_cast<double>(result.snapshots - schedule.snapshots().past());
       result.steps += steps;
       result.seconds +=
