@@ -219,6 +219,11 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   const bool gravity =
       std::any_of(scene.gravity.begin(), scene.gravity.end(), [](double g) { return g != 0.0; });
   say(gravity ? "run: gravity" : "skip: gravity, none is given");
+  const auto outputs = [&](double every) {
+    return number(std::ceil(scene.time.end / every * (1.0 - 1e-12)) + 1.0);
+  };
+  say("skip: what only outputs need, but for " + outputs(scene.output.every) + " rows and " +
+      outputs(scene.output.snapshot_every) + " snapshots");
 }
 
 /// Inertia delays the flow by its relaxation time: kept unless that is short against the step, or
