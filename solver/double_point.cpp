@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "case/errors.hpp"
 #include "grid/face_flux.hpp"
@@ -170,8 +171,13 @@ template <int Dim>
 PoreContent DoublePoint<Dim>::pores_at(double time) const {
   PoreContent content = pores(state_);
   if (plan_.erodes(state_.time, time)) {
-    content.porosity = element_porosity(
-        skeleton_.porosity_after(state_.porosity, state_.time, time, point_flux(last_motion_)));
+    const std::vector<double> before = std::exchange(
+        content.porosity, element_porosity(skeleton_.porosity_after(
+                              state_.porosity, state_.time, time, point_flux(last_motion_))));
+    for (std::size_t e = 0; e < before.size(); ++e) {
+      const double clean = (1.0 - content.concentration[e]) * before[e] / content.porosity[e];
+      content.concentration[e] = 1.0 - clean;
+    }
   }
   return content;
 }

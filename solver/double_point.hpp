@@ -91,7 +91,7 @@ class DoublePoint {
                                                   const std::vector<double>& pressure) const;
   [[nodiscard]] long steps_before_transport(double dt) const;
   [[nodiscard]] PoreContent pores(const State& state) const;
-  /// The pores at a time ahead, before points have moved.
+  /// The pores at a time ahead, as erosion fills them, before points have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;
   /// |q| at solid points (empty when no soil erodes by it), m/s.
   [[nodiscard]] std::vector<double> point_flux(const LiquidMotion<Dim>& motion) const;

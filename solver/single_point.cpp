@@ -81,7 +81,9 @@ PoreContent SinglePoint<Dim>::pores_at(double time) const {
   const MaterialPoints<Dim>& points = skeleton_.points();
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
-    content.porosity[e] += points.volume[p] * (porosity[p] - state_.porosity[p]) / grid_.volume[e];
+    const double growth = points.volume[p] * (porosity[p] - state_.porosity[p]) / grid_.volume[e];
+    content.porosity[e] += growth;
+    content.concentration[e] += (1.0 - content.concentration[e]) * growth / content.porosity[e];
   }
   return content;
 }

@@ -72,7 +72,7 @@ class SinglePoint {
   void initialise();
   [[nodiscard]] long steps_before_transport(double dt) const;
   [[nodiscard]] PoreContent pores(const SinglePointState<Dim>& state) const;
-  /// The pores at a time ahead, before grains have moved.
+  /// The pores at a time ahead, as erosion fills them, before grains have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;
   /// |q| at solid points (empty when no soil erodes by it), m/s, from volumes over a duration.
   [[nodiscard]] std::vector<double> point_flux(const std::vector<double>& face_volume,

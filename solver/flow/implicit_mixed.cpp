@@ -493,6 +493,12 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
   correction_->follow(conductance);
   correction_->correct(stage.face_flux, net_outflow);
 
+  stage.flux_through = stage.face_flux;
+  for (int f = 0; f < faces; ++f) {
+    if (kinds_[f] != FaceKind::pressure) continue;
+    stage.flux_through[f] += storage[grid_.face_left[f]] * stage.rise[f];
+  }
+
   flux_scale_ = 0.0;
   for (const double value : stage.face_flux) flux_scale_ = std::max(flux_scale_, std::abs(value));
   if (std::isfinite(duration)) {
@@ -523,7 +529,8 @@ MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& begin, double dt,
     Stage stage = solve_stage(begin, dt, last, flux_of(begin.velocity, last.coefficients));
     std::vector<double> volume = stage.face_flux;
     for (double& v : volume) v *= dt;
-    return {std::move(stage.state), std::move(volume), std::move(stage.face_flux)};
+    return {std::move(stage.state), std::move(volume), std::move(stage.face_flux),
+            std::move(stage.flux_through)};
   }
 
   const double duration = stage_share * dt;
@@ -543,7 +550,8 @@ MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& begin, double dt,
   for (int f = 0; f < grid_.face_count(); ++f) {
     volume[f] = dt * ((1.0 - stage_share) * first.face_flux[f] + stage_share * second.face_flux[f]);
   }
-  return {std::move(second.state), std::move(volume), std::move(second.face_flux)};
+  return {std::move(second.state), std::move(volume), std::move(second.face_flux),
+          std::move(second.flux_through)};
 }
 
 template <int Dim>
@@ -555,7 +563,7 @@ MixedStep<Dim> ImplicitMixed<Dim>::steady(const FlowForcing<Dim>& forcing) {
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     last_steady_flux_[e] = forcing.coefficients.porosity[e] * stage.state.velocity[e];
   }
-  return {std::move(stage.state), {}, std::move(stage.face_flux)};
+  return {std::move(stage.state), {}, std::move(stage.face_flux), std::move(stage.flux_through)};
 }
 
 template class ImplicitMixed<2>;

@@ -47,6 +47,9 @@ struct MixedStep {
   MixedState<Dim> end;
   std::vector<double> face_volume;  ///< over the step, along each face's normal, m3
   std::vector<double> face_flux;    ///< at the end, likewise, m3/s
+  /// The same without what faces with a prescribed pressure store of it in their share of an
+  /// element: that jumps where the pressure has a kink in time, this does not.
+  std::vector<double> flux_through;
 };
 
 /// `second_order` is Alexander's two-stage diagonally implicit method (SIAM J. Numer. Anal. 14
@@ -83,6 +86,7 @@ class ImplicitMixed {
     MixedState<Dim> state;
     std::vector<double> rise;  ///< of the pressure over the base, per face, Pa
     std::vector<double> face_flux;
+    std::vector<double> flux_through;
   };
   /// The linear law a = mobility (drive - grad p) of each element, with the mobility
   /// scalar (I - direction direction^T).

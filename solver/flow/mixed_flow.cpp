@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "case/errors.hpp"
@@ -27,6 +28,11 @@ constexpr double mended_share = 0.01;
 constexpr double kept_share = 0.02;
 /// A step never differs from what is left before an event by less than this share of itself.
 constexpr double sliver = 1e-9;
+/// Of the step that ends on an event: in this, coefficients get where the event makes them jump to.
+constexpr double event_share = 1e-2;
+/// Boundary values that change within this share of the run over the tolerance jump: in one step,
+/// as time has no digits for those that could follow.
+constexpr double jump_share = 1e-12;
 
 ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options) {
   ImplicitSettings settings;
@@ -63,7 +69,7 @@ MixedFlow<Dim>::MixedFlow(const Case<Dim>& c, const Grid<Dim>& grid,
       tolerance_(this->scene().time.tolerance),
       end_(this->scene().time.end),
       scheme_(grid, scheme_settings(this->scene(), options), this->gravity()),
-      follows_pores_(options.inertia || this->has_ergun()) {
+      follows_pores_(options.inertia || this->has_ergun() || this->gravity().norm() > 0.0) {
   for (const Soil& soil : this->scene().soils) {
     follows_pores_ |=
         soil.conductivity_law != ConductivityLaw::constant || soil.erosion.momentum_transfer;
@@ -81,6 +87,7 @@ template <int Dim>
 void MixedFlow<Dim>::update(double time, const PoreContent& content,
                             const std::vector<double>& face_concentration) {
   SceneFlow<Dim>::update(time, content, face_concentration);
+  if (expected_) learn_from_expected();
   if (keep_ && !same_resistance(this->coefficients_, kept_coefficients_)) keep_ = false;
 }
 
@@ -91,6 +98,7 @@ void MixedFlow<Dim>::start() {
   now_.state.face_pressure.assign(grid.face_count(), 0.0);
   now_.state.velocity.assign(grid.mesh.element_count(), Vector<Dim>::Zero());
   now_.face_flux.assign(grid.face_count(), 0.0);
+  now_.flux_through = now_.face_flux;
   for (int f = 0; f < grid.face_count(); ++f) {
     const FaceCondition& condition = this->conditions_[f];
     if (condition.kind == FaceKind::pressure) now_.state.face_pressure[f] = condition.value;
@@ -100,7 +108,7 @@ void MixedFlow<Dim>::start() {
   const bool at_once = stiff && !options_.inertia;
   if (this->scene().initial_flow == InitialFlow::steady || at_once) {
     MixedStep<Dim> steady = scheme_.steady({this->coefficients_, this->conditions_, {}});
-    now_ = {std::move(steady.end), std::move(steady.face_flux)};
+    now_ = {std::move(steady.end), steady.face_flux, steady.flux_through};
     at_rest_ = false;
   }
   pressure_ = element_means(now_.state.face_pressure);
@@ -248,13 +256,75 @@ void MixedFlow<Dim>::warn_of_obtuse_angles() {
 template <int Dim>
 FlowForcing<Dim> MixedFlow<Dim>::forcing_at(const FlowInterval<Dim>& interval, double time) const {
   FlowForcing<Dim> forcing;
-  forcing.coefficients = follows_pores_
-                             ? this->coefficients_of(time, interval.pores_at(time),
-                                                     this->coefficients_.face_concentration)
-                             : this->coefficients_;
+  forcing.coefficients = this->coefficients_;
+  if (follows_pores_) forcing.coefficients = coefficients_at(interval, time);
+  join_to_last_step(interval.begin, time, forcing.coefficients);
   forcing.conditions = this->conditions_;
   this->boundary_values().update(time, forcing.conditions);
   return forcing;
+}
+
+template <int Dim>
+void MixedFlow<Dim>::join_to_last_step(double begin, double time,
+                                       FlowCoefficients<Dim>& coefficients) const {
+  for (std::size_t e = 0; e < density_drift_.size(); ++e) {
+    coefficients.mixture_density[e] += density_drift_[e] * (time - begin);
+  }
+  const double share = 1.0 - (time - begin) / joining_;
+  if (options_.step_given || used_.porosity.empty() || !(share > 0.0)) return;
+  const FlowCoefficients<Dim>& now = this->coefficients_;
+  const auto join = [&](const std::vector<double>& before, const std::vector<double>& after,
+                        std::vector<double>& values) {
+    for (std::size_t e = 0; e < values.size(); ++e) {
+      if (after[e] > 0.0) values[e] *= 1.0 + share * (before[e] / after[e] - 1.0);
+    }
+  };
+  join(used_.water_volume, now.water_volume, coefficients.water_volume);
+  if (!follows_pores_) return;
+  join(used_.mixture_density, now.mixture_density, coefficients.mixture_density);
+  join(used_.porosity, now.porosity, coefficients.porosity);
+  join(used_.drag, now.drag, coefficients.drag);
+  join(used_.quadratic_drag, now.quadratic_drag, coefficients.quadratic_drag);
+}
+
+template <int Dim>
+FlowCoefficients<Dim> MixedFlow<Dim>::coefficients_at(const FlowInterval<Dim>& interval,
+                                                      double time) const {
+  // What an event at the end of a step begins or ends is not yet to be seen.
+  const double before = time - sliver * (time - interval.begin);
+  return this->coefficients_of(before, interval.pores_at(before),
+                               this->coefficients_.face_concentration);
+}
+
+template <int Dim>
+void MixedFlow<Dim>::learn_from_expected() {
+  const FlowCoefficients<Dim>& now = this->coefficients_;
+  double off = 0.0;
+  density_drift_ = now.mixture_density;
+  for (std::size_t e = 0; e < now.drag.size(); ++e) {
+    density_drift_[e] = (density_drift_[e] - expected_->mixture_density[e]) / last_dt_;
+    const double resistance = expected_->drag[e] / expected_->porosity[e];
+    off = std::max(off, std::abs(resistance * now.porosity[e] / now.drag[e] - 1.0));
+  }
+  expected_.reset();
+  if (options_.step_given) return;
+  // They were right at the begin: what they lack on the mean is half of it.
+  const double error = 0.5 * off / tolerance_;
+  if (error > 1.0) {
+    const double share = std::max(safety * std::pow(error, -0.5), most_shrinkage);
+    next_dt_ = std::min(next_dt_, share * last_dt_);
+  }
+}
+
+template <int Dim>
+bool MixedFlow<Dim>::jumps(double begin, double dt) const {
+  if (!(dt <= jump_share * end_ / tolerance_)) return false;
+  const auto& knots = this->boundary_values().events();
+  const auto is_knot = [&](double time) {
+    return std::any_of(knots.begin(), knots.end(),
+                       [&](double knot) { return is_same_time(knot, time); });
+  };
+  return is_knot(begin) && is_knot(begin + dt);
 }
 
 template <int Dim>
@@ -269,6 +339,7 @@ double MixedFlow<Dim>::length_of_step(const FlowInterval<Dim>& interval) const {
   const double left = until - interval.begin;
   double dt = next_dt_;
   if (!options_.step_given) {
+    if (jumps(interval.begin, left)) return left;
     dt = std::min(dt, interval.longest());
     // No sliver before an event: two halves are better than nine tenths and one.
     if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
@@ -278,18 +349,18 @@ double MixedFlow<Dim>::length_of_step(const FlowInterval<Dim>& interval) const {
 
 template <int Dim>
 double MixedFlow<Dim>::error_of(const MixedStep<Dim>& step, double dt) const {
-  const double flux_scale = std::max(flux_scale_, largest(step.face_flux));
+  const double flux_scale = std::max(flux_scale_, largest(step.flux_through));
   double flux_error = 0.0;
   double pressure_error = 0.0;
   const double ahead = before_ ? dt / before_dt_ : 0.0;
   for (int f = 0; f < this->grid().face_count(); ++f) {
-    double flux = now_.face_flux[f];
+    double flux = now_.flux_through[f];
     double pressure = now_.state.face_pressure[f];
     if (before_) {
-      flux += ahead * (flux - before_->face_flux[f]);
+      flux += ahead * (flux - before_->flux_through[f]);
       pressure += ahead * (pressure - before_->state.face_pressure[f]);
     }
-    flux_error = std::max(flux_error, std::abs(step.face_flux[f] - flux));
+    flux_error = std::max(flux_error, std::abs(step.flux_through[f] - flux));
     pressure_error = std::max(pressure_error, std::abs(step.end.face_pressure[f] - pressure));
   }
   double error = flux_scale > 0.0 ? flux_error / flux_scale : 0.0;
@@ -319,7 +390,7 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
       forcing.push_back(forcing_at(interval, interval.begin + share * dt));
       if (mismatch_.empty()) continue;
       // Shorter steps change it by less: else it would be a jump that no step is too short for.
-      forcing.back().source = between(source_, source_with(dt), std::min(1.0, dt / last_dt_));
+      forcing.back().source = between(source_, source_with(dt), std::min(1.0, dt / mending_));
     }
     std::vector<const FlowForcing<Dim>*> views;
     for (const FlowForcing<Dim>& f : forcing) views.push_back(&f);
@@ -327,11 +398,14 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
     ++solving_.calls;
     const auto accepted = [&] {
       if (!mismatch_.empty()) source_ = std::move(forcing.back().source);
+      used_ = std::move(forcing.back().coefficients);
+      if (follows_pores_) expected_ = coefficients_at(interval, interval.begin + dt);
       return std::move(step);
     };
     if (options_.step_given) return accepted();
-    const bool first = at_rest_ && last_dt_ == 0.0;
-    const double error = first ? 0.0 : error_of(step, dt);
+    // From rest, and where boundary values jump, what was before tells nothing.
+    const bool told = !(at_rest_ && last_dt_ == 0.0) && !jumps(interval.begin, dt);
+    const double error = told ? error_of(step, dt) : 0.0;
     const double order = before_ ? 2.0 : 1.0;
     const double wanted = error > 0.0 ? safety * std::pow(error, -1.0 / order) : most_growth;
     if (error <= 1.0) {
@@ -353,7 +427,7 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
 
 template <int Dim>
 MixedStep<Dim> MixedFlow<Dim>::kept(double dt) const {
-  MixedStep<Dim> step{now_.state, now_.face_flux, now_.face_flux};
+  MixedStep<Dim> step{now_.state, now_.face_flux, now_.face_flux, now_.face_flux};
   for (double& volume : step.face_volume) volume *= dt;
   return step;
 }
@@ -404,8 +478,8 @@ void MixedFlow<Dim>::show(const FlowInterval<Dim>& interval, const Point& begin,
 
 template <int Dim>
 void MixedFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
-  Point next{std::move(step.end), std::move(step.face_flux)};
-  flux_scale_ = std::max(flux_scale_, largest(next.face_flux));
+  Point next{std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
+  flux_scale_ = std::max(flux_scale_, largest(next.flux_through));
   const auto [low, high] =
       std::minmax_element(next.state.face_pressure.begin(), next.state.face_pressure.end());
   pressure_scale_ = std::max(pressure_scale_, *high - *low);
@@ -414,6 +488,9 @@ void MixedFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
   now_ = std::move(next);
   pressure_ = element_means(now_.state.face_pressure);
   last_dt_ = dt;
+  // Were it the last step, which may have become short because of what it has to join, shorter
+  // steps would follow for ever.
+  for (double* time : {&joining_, &mending_}) *time = std::max(dt, *time - 0.5 * dt);
 }
 
 template <int Dim>
@@ -450,6 +527,8 @@ FlowProgress<Dim> MixedFlow<Dim>::run(const FlowInterval<Dim>& interval) {
   if (at_event) {
     // A kink: what was before tells nothing of what comes.
     if (!keep_) before_.reset();
+    // Soil that begins to erode may resist at once (momentum_transfer).
+    if (follows_pores_) joining_ = std::min(joining_, event_share * dt);
     const auto& knots = this->boundary_values().events();
     const bool kink = std::any_of(knots.begin(), knots.end(),
                                   [&](double knot) { return is_same_time(knot, time); });
@@ -512,7 +591,8 @@ void MixedFlow<Dim>::keep_if_steady(double time) {
     return;
   }
   keep_ = true;
-  now_ = {std::move(steady.end), std::move(steady.face_flux)};
+  now_ = {std::move(steady.end), steady.face_flux, steady.flux_through};
+  used_ = this->coefficients_;
   pressure_ = element_means(now_.state.face_pressure);
   kept_coefficients_ = this->coefficients_;
 }
@@ -532,7 +612,7 @@ void MixedFlow<Dim>::mend_kept() {
     return;
   }
   source_ = std::move(source);
-  now_ = {std::move(steady.end), std::move(steady.face_flux)};
+  now_ = {std::move(steady.end), steady.face_flux, steady.flux_through};
 }
 
 template <int Dim>
@@ -558,12 +638,17 @@ void MixedFlow<Dim>::follow_masses(double time, const std::vector<double>& water
   }
   // Water without compressibility fits by construction; its round-off has nowhere to go.
   if (stiff) return;
-  // What the step made is what it would make again: let out as it comes. The rest later.
+  // What the step made is what it would make again: let out as it comes. The rest later. Over short
+  // steps round-off would be a large rate.
   if (outflow_rate_.empty()) outflow_rate_.assign(elements, 0.0);
   if (source_.empty()) source_.assign(elements, 0.0);
   if (last_dt_ > 0.0 && !mismatch_.empty()) {
     for (std::size_t e = 0; e < elements; ++e) {
-      outflow_rate_[e] = (mismatch[e] - mismatch_[e]) / last_dt_ + source_[e];
+      const double growth = mismatch[e] - mismatch_[e];
+      const double digits = 16.0 * std::numeric_limits<double>::epsilon() *
+                            (this->coefficients_.water_volume[e] + std::abs(mismatch[e]));
+      const double certain = std::copysign(std::max(0.0, std::abs(growth) - digits), growth);
+      outflow_rate_[e] = certain / mending_ + source_[e];
     }
   }
   mismatch_ = std::move(mismatch);

@@ -34,12 +34,24 @@ class MixedFlow final : public SceneFlow<Dim> {
   /// The flow at one end of a step.
   struct Point {
     MixedState<Dim> state;
-    std::vector<double> face_flux;  ///< m3/s
+    std::vector<double> face_flux;     ///< m3/s
+    std::vector<double> flux_through;  ///< see MixedStep: errors and scales are of this
   };
 
   [[nodiscard]] FlowForcing<Dim> forcing_at(const FlowInterval<Dim>& interval, double time) const;
+  /// Coefficients at a time within the interval, as erosion will have made them.
+  [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
+                                                      double time) const;
+  /// Boundary values jump within these `dt` seconds.
+  [[nodiscard]] bool jumps(double begin, double dt) const;
   /// Changes of the step `dt` that is tried next: events, the target, and slivers before them.
   [[nodiscard]] double length_of_step(const FlowInterval<Dim>& interval) const;
+  /// Makes the coefficients at `time` go on from those at the end of the last step: what transport
+  /// made of them meanwhile would be a jump of the flux that no step is too short for.
+  void join_to_last_step(double begin, double time, FlowCoefficients<Dim>& coefficients) const;
+  /// Compares the coefficients with what the last step took them to be: the next is shortened
+  /// where resistances were not, and knows how the density drifts.
+  void learn_from_expected();
   /// Estimated local error of a step over the tolerance.
   [[nodiscard]] double error_of(const MixedStep<Dim>& step, double dt) const;
   [[nodiscard]] MixedStep<Dim> accepted_step(const FlowInterval<Dim>& interval, double& dt);
@@ -74,9 +86,18 @@ class MixedFlow final : public SceneFlow<Dim> {
   std::vector<double> events_;  ///< ascending, s
   bool follows_pores_;          ///< coefficients change with porosity within a step
 
+  FlowCoefficients<Dim> used_;  ///< at the end of the last step that was solved
+  /// At the end of the last step that was solved as its begin let expect them.
+  std::optional<FlowCoefficients<Dim>> expected_;
+  /// Of the mixture, per element: how much faster it rose in the last step than expected (what
+  /// flowed there), kg/(m3 s).
+  std::vector<double> density_drift_;
+  double joining_ = 0.0;  ///< time in which steps join what transport changed, the last or more, s
+
   Point now_;
   std::vector<double> pressure_;  ///< per element, Pa
   double last_dt_ = 0.0;
+  double mending_ = 0.0;  ///< time in which steps change the source, the last or more, s
   double next_dt_ = 0.0;
   /// Flux and pressure at the begin of the last step, for the prediction of the next; empty when
   /// there is none.

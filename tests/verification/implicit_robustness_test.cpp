@@ -1,0 +1,172 @@
+/// Scenes that leave the implicit flow no smooth way to go: coefficients that transport changes
+/// between steps, soil that resists at once, pressures that jump. None may stop a run or ask for
+/// steps without end.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <limits>
+
+#include "model_run.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The paper's column half a metre wide, a pressure on top of it, eroding within 20 s.
+Scene column(Formulation formulation) {
+  Scene scene = model::paper_scene();
+  scene.formulation = formulation;
+  scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
+  scene.soils.front().erosion = {ErosionLaw::constant, 5e-3, 2.0, false};
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.inertia = false;
+  scene.time.end = 40.0;
+  scene.points.liquid_per_element = 6;
+  return scene;
+}
+
+Case<2> case_of(const Scene& scene) {
+  Mesh<2> mesh = model::column_mesh(2, 4, 0.5, 1.0);
+  return scene.formulation == Formulation::single_point
+             ? model::make_case(std::move(mesh), scene)
+             : model::make_double_point_case(std::move(mesh), scene);
+}
+
+struct HardScene {
+  const char* name;
+  std::function<void(Scene&)> change;
+  long most_steps;
+};
+
+std::ostream& operator<<(std::ostream& out, const HardScene& scene) {
+  return out << scene.name;
+}
+
+void jump(Scene& scene, double within) {
+  scene.boundaries[0].pressure = TimeFunction(
+      {{0.0, 0.0}, {10.0, 0.0}, {10.0 + within, 6000.0}, {20.0, 6000.0}, {20.0 + within, 1000.0}});
+}
+
+class HardScenes : public ::testing::TestWithParam<HardScene> {};
+INSTANTIATE_TEST_SUITE_P(
+    All, HardScenes,
+    ::testing::Values(HardScene{"JumpOfPressure", [](Scene& s) { jump(s, 1e-7); }, 400},
+                      HardScene{"JumpShorterThanTimeHasDigitsFor", [](Scene& s) { jump(s, 1e-10); },
+                                400},
+                      HardScene{"JumpInSoftWater",
+                                [](Scene& s) {
+                                  s.liquid.bulk_modulus = 2e5;
+                                  jump(s, 1e-7);
+                                },
+                                400},
+                      HardScene{"JumpInTightSoil",
+                                [](Scene& s) {
+                                  s.soils[0].conductivity = 1e-6;
+                                  jump(s, 1e-7);
+                                },
+                                400},
+                      HardScene{"FluxLawWithFeedback",
+                                [](Scene& s) {
+                                  s.soils[0].erosion = {ErosionLaw::flux, 5.0, 2.0, false};
+                                  s.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
+                                },
+                                300},
+                      HardScene{"MomentumOfAllFinesAtOnce",
+                                [](Scene& s) {
+                                  s.soils[0].erosion = {ErosionLaw::constant, 1e3, 2.0, true};
+                                },
+                                300},
+                      HardScene{"MomentumAndSmallTolerance",
+                                [](Scene& s) {
+                                  s.soils[0].erosion = {ErosionLaw::logarithmic, 1e-2, 2.0, true};
+                                  s.time.tolerance = 1e-6;
+                                },
+                                6000},
+                      HardScene{"HeavyLiquid",
+                                [](Scene& s) {
+                                  s.gravity = {0.0, -9.81};
+                                },
+                                2000},
+                      HardScene{"HeavyLiquidAndFeedback",
+                                [](Scene& s) {
+                                  s.gravity = {0.0, -9.81};
+                                  s.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
+                                },
+                                2000},
+                      HardScene{"HeavyLiquidAtRest",
+                                [](Scene& s) {
+                                  s.gravity = {0.0, -9.81};
+                                  s.boundaries[0].pressure = 0.0;
+                                  s.boundaries[1].pressure = 9810.0;
+                                },
+                                2000},
+                      HardScene{"HeavyStiffLiquid",
+                                [](Scene& s) {
+                                  s.gravity = {0.0, -9.81};
+                                  s.liquid.bulk_modulus = infinite;
+                                },
+                                2000}),
+    [](const auto& param_info) { return param_info.param.name; });
+
+template <class Run>
+void runs_to_its_end(Formulation formulation) {
+  const HardScene& hard = HardScenes::GetParam();
+  Scene scene = column(formulation);
+  hard.change(scene);
+  Run run(case_of(scene));
+  const auto moments = run.run({1.0, 5.0, 12.0, 21.0, scene.time.end});
+  for (const FlowMoment<2>& flow : moments.flows) {
+    for (const double q : flow.face_flux) ASSERT_TRUE(std::isfinite(q));
+  }
+  for (const double n : moments.states.back().porosity) EXPECT_LE(n, 0.4 + 1e-12);
+  std::cout << run.steps() << " steps\n";
+  EXPECT_LE(run.steps(), hard.most_steps);
+  EXPECT_LE(run.worst_residual(), 1e-12);
+}
+
+TEST_P(HardScenes, SinglePointRuns) {
+  runs_to_its_end<model::ModelRun>(Formulation::single_point);
+}
+
+TEST_P(HardScenes, DoublePointRuns) {
+  runs_to_its_end<model::DoublePointRun>(Formulation::double_point);
+}
+
+/// Stiff water in a column: the flux follows from the head and the weight of what is in it.
+TEST(HeavyLiquid, FlowsAsItsWeightTellsIt) {
+  for (const double tolerance : {1e-3, 1e-4}) {
+    Scene scene = column(Formulation::single_point);
+    scene.gravity = {0.0, -9.81};
+    scene.liquid.bulk_modulus = infinite;
+    scene.time.tolerance = tolerance;
+    model::ModelRun run(case_of(scene));
+    const Grid<2> grid(run.input().mesh);
+    const auto moments = run.run({3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0, 25.0, 35.0});
+    double worst = 0.0;
+    for (std::size_t k = 0; k < moments.flows.size(); ++k) {
+      const FinesState<2>& liquid = moments.states[k].liquid;
+      double weight = 0.0;  // per area
+      for (int e = 0; e < grid.mesh.element_count(); ++e) {
+        const double c =
+            element_sum<2>(liquid.fines_volume[e]) / element_sum<2>(liquid.pore_volume[e]);
+        weight += grid.volume[e] / 0.5 * (1000.0 + c * 1700.0) * 9.81;
+      }
+      const double flux = 2e-2 / 9810.0 * (6000.0 + weight);
+      double through = 0.0;
+      for (int f = 0; f < grid.face_count(); ++f) {
+        if (grid.is_outer(f)) through += 0.5 * std::abs(moments.flows[k].face_flux[f]) / 0.5;
+      }
+      worst = std::max(worst, std::abs(through / flux - 1.0));
+    }
+    std::cout << "tolerance " << tolerance << ": flux off by " << worst << " in " << run.steps()
+              << " steps\n";
+    EXPECT_LE(worst, 3.0 * tolerance);
+  }
+}
+
+}  // namespace
+}  // namespace suffuse
