@@ -300,9 +300,13 @@ template <int Dim>
 void MixedFlow<Dim>::learn_from_expected() {
   const FlowCoefficients<Dim>& now = this->coefficients_;
   double off = 0.0;
-  density_drift_ = now.mixture_density;
+  density_drift_.resize(now.drag.size(), 0.0);
+  // Points that cross from element to element make densities scatter: a drift is what lasts.
+  const bool scattered = this->scene().formulation == Formulation::double_point;
+  const double weight = scattered ? last_dt_ / (last_dt_ + time_through_an_element()) : 1.0;
   for (std::size_t e = 0; e < now.drag.size(); ++e) {
-    density_drift_[e] = (density_drift_[e] - expected_->mixture_density[e]) / last_dt_;
+    const double drift = (now.mixture_density[e] - expected_->mixture_density[e]) / last_dt_;
+    density_drift_[e] += weight * (drift - density_drift_[e]);
     const double resistance = expected_->drag[e] / expected_->porosity[e];
     off = std::max(off, std::abs(resistance * now.porosity[e] / now.drag[e] - 1.0));
   }
@@ -372,11 +376,15 @@ double MixedFlow<Dim>::error_of(const MixedStep<Dim>& step, double dt) const {
 }
 
 template <int Dim>
+double MixedFlow<Dim>::time_through_an_element() const {
+  const std::vector<double>& water = this->coefficients_.water_volume;
+  return *std::min_element(water.begin(), water.end()) / largest(now_.face_flux);
+}
+
+template <int Dim>
 std::vector<double> MixedFlow<Dim>::source_with(double dt) const {
   std::vector<double> source = outflow_rate_;
-  const double smallest = *std::min_element(this->coefficients_.water_volume.begin(),
-                                            this->coefficients_.water_volume.end());
-  const double rate = 1.0 / std::max(slow_release * dt, smallest / largest(now_.face_flux));
+  const double rate = 1.0 / std::max(slow_release * dt, time_through_an_element());
   for (std::size_t e = 0; e < mismatch_.size(); ++e) source[e] += rate * mismatch_[e];
   return source;
 }

@@ -66,6 +66,8 @@ class MixedFlow final : public SceneFlow<Dim> {
   /// The kept flow with what its mismatch of masses asks for by now; no longer kept when that is
   /// too much.
   void mend_kept();
+  /// Time in which the largest flux fills the pores of the smallest element, s; infinite at rest.
+  [[nodiscard]] double time_through_an_element() const;
   /// Outflow per element that keeps water and pores in step and makes up for the mismatch so far,
   /// for a step of `dt`, m3/s.
   [[nodiscard]] std::vector<double> source_with(double dt) const;
