@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/errors.hpp"
+#include "flux_ahead.hpp"
 #include "grid/face_flux.hpp"
 #include "meeting.hpp"
 #include "observation.hpp"
@@ -79,7 +80,7 @@ void DoublePoint<Dim>::initialise() {
                   std::vector<double>(grid_.face_count(), 0.0), 1.0};
   update_flow();
   flow_->start();
-  last_motion_.entered = flow_->moment(0.0).face_flux;
+  last_motion_.entered = end_rate_ = flow_->moment(0.0).face_flux;
   place_liquid();
   update_flow();
   initial_ = stored(state_);
@@ -172,8 +173,9 @@ PoreContent DoublePoint<Dim>::pores_at(double time) const {
   PoreContent content = pores(state_);
   if (plan_.erodes(state_.time, time)) {
     const std::vector<double> before = std::exchange(
-        content.porosity, element_porosity(skeleton_.porosity_after(
-                              state_.porosity, state_.time, time, point_flux(last_motion_))));
+        content.porosity,
+        element_porosity(skeleton_.porosity_after(state_.porosity, state_.time, time,
+                                                  point_flux(motion_ahead(time - state_.time)))));
     for (std::size_t e = 0; e < before.size(); ++e) {
       const double clean = (1.0 - content.concentration[e]) * before[e] / content.porosity[e];
       content.concentration[e] = 1.0 - clean;
@@ -186,6 +188,14 @@ template <int Dim>
 std::vector<double> DoublePoint<Dim>::point_flux(const LiquidMotion<Dim>& motion) const {
   if (!skeleton_.erodes_by_flux()) return {};
   return flux_magnitude_at(grid_, motion.entered, skeleton_.points(), 1.0 / motion.duration);
+}
+
+template <int Dim>
+LiquidMotion<Dim> DoublePoint<Dim>::motion_ahead(double ahead) const {
+  if (!skeleton_.erodes_by_flux()) return last_motion_;
+  std::vector<double> mean = last_motion_.entered;
+  for (double& rate : mean) rate /= last_motion_.duration;
+  return {{}, mean_rate_ahead(mean, end_rate_, last_motion_.duration, ahead), 1.0};
 }
 
 template <int Dim>
@@ -258,6 +268,7 @@ auto DoublePoint<Dim>::advance(
 
   last_motion_ = motion(progress.passed, progress.duration);
   state_ = advanced(std::move(state_), last_motion_, flow_->pressure(), timings_);
+  if (skeleton_.erodes_by_flux()) end_rate_ = flow_->moment(state_.time).face_flux;
   flow_->warn_of_unstated_inflow(state_.time, last_motion_.entered);
   {
     const PassTimer timer(timings_.coefficients);

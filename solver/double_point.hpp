@@ -95,6 +95,8 @@ class DoublePoint {
   [[nodiscard]] PoreContent pores_at(double time) const;
   /// |q| at solid points (empty when no soil erodes by it), m/s.
   [[nodiscard]] std::vector<double> point_flux(const LiquidMotion<Dim>& motion) const;
+  /// How the liquid will move over the next `ahead` seconds, for soils that erode by the flux.
+  [[nodiscard]] LiquidMotion<Dim> motion_ahead(double ahead) const;
   void update_flow();
   [[nodiscard]] LiquidMotion<Dim> motion(const Passed<Dim>& passed, double duration) const;
   /// What erosion and transport make of `begin` while the liquid moves so.
@@ -154,6 +156,7 @@ class DoublePoint {
   std::vector<double> bends_;          ///< see bends_of_porosity, ascending, s
   double last_dt_ = 0.0;
   LiquidMotion<Dim> last_motion_;
+  std::vector<double> end_rate_;  ///< per face at its end, where soil erodes by the flux, m3/s
   long last_steps_ = 1;
   long steps_ = 0;
 

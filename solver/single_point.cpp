@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "flux_ahead.hpp"
 #include "grid/face_flux.hpp"
 #include "meeting.hpp"
 #include "observation.hpp"
@@ -44,7 +45,7 @@ void SinglePoint<Dim>::initialise() {
   state_.liquid.fines_volume.assign(grid_.mesh.element_count(), ElementValues<Dim>{});
   update_flow();
   flow_->start();
-  last_volume_rate_ = flow_->moment(0.0).face_flux;
+  last_volume_rate_ = end_rate_ = flow_->moment(0.0).face_flux;
   state_.water_mass.resize(grid_.mesh.element_count());
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     state_.water_mass[e] = scene.liquid.density * flow_->coefficients().water_volume[e] *
@@ -76,8 +77,10 @@ template <int Dim>
 PoreContent SinglePoint<Dim>::pores_at(double time) const {
   PoreContent content = pores(state_);
   if (!plan_.erodes(state_.time, time)) return content;
-  const std::vector<double> porosity = skeleton_.porosity_after(state_.porosity, state_.time, time,
-                                                                point_flux(last_volume_rate_, 1.0));
+  const std::vector<double> flux = point_flux(
+      mean_rate_ahead(last_volume_rate_, end_rate_, last_duration_, time - state_.time), 1.0);
+  const std::vector<double> porosity =
+      skeleton_.porosity_after(state_.porosity, state_.time, time, flux);
   const MaterialPoints<Dim>& points = skeleton_.points();
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
@@ -151,6 +154,8 @@ auto SinglePoint<Dim>::advance(
   if (plan_.transport) flow_->warn_of_unstated_inflow(state_.time, volumes.liquid);
   last_volume_rate_ = volumes.liquid;
   for (double& rate : last_volume_rate_) rate /= progress.duration;
+  last_duration_ = progress.duration;
+  end_rate_ = skeleton_.erodes_by_flux() ? flow_->moment(state_.time).face_flux : last_volume_rate_;
   synchronise_flow();
   steps_ += progress.steps;
   last_steps_ = progress.steps;

@@ -105,6 +105,8 @@ class SinglePoint {
   double grain_density_ = unset;
   double last_dt_ = 0.0;
   std::vector<double> last_volume_rate_;  ///< per face over the last interval, m3/s
+  std::vector<double> end_rate_;          ///< at its end, where soil erodes by the flux
+  double last_duration_ = 1.0;            ///< of it, s
   long last_steps_ = 1;
   long steps_ = 0;
   PassTimings timings_;

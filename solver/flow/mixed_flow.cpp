@@ -219,6 +219,7 @@ void MixedFlow<Dim>::raise_scales_over_round_off() {
                      nothing * this->coefficients_.water_volume[e] / end_});
   }
   pressure_scale_ = std::max(pressure_scale_, pressure);
+  knows_flux_scale_ = flux_scale_ > flux;
   flux_scale_ = std::max(flux_scale_, flux);
 }
 
@@ -392,6 +393,7 @@ std::vector<double> MixedFlow<Dim>::source_with(double dt) const {
 template <int Dim>
 MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, double& dt) {
   const std::vector<double> shares = scheme_.stages();
+  bool cut_short = true;  // by an event or by transport, if at all
   for (;;) {
     std::vector<FlowForcing<Dim>> forcing;
     for (const double share : shares) {
@@ -417,12 +419,13 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
     const double order = before_ ? 2.0 : 1.0;
     const double wanted = error > 0.0 ? safety * std::pow(error, -1.0 / order) : most_growth;
     if (error <= 1.0) {
-      // A step cut short by an event says nothing against a longer one.
+      // That it was cut short by others says nothing against a longer one.
       const double next = dt * std::clamp(wanted, most_shrinkage, most_growth);
-      next_dt_ = wanted >= 1.0 ? std::max(next, next_dt_) : next;
+      next_dt_ = cut_short && wanted >= 1.0 ? std::max(next, next_dt_) : next;
       return accepted();
     }
     ++rejected_;
+    cut_short = false;
     dt *= std::clamp(wanted, most_shrinkage, 0.9);
     if (!(dt > 1e-14 * interval.begin) || dt < 1e-20 * end_) {
       std::ostringstream message;
@@ -487,7 +490,8 @@ void MixedFlow<Dim>::show(const FlowInterval<Dim>& interval, const Point& begin,
 template <int Dim>
 void MixedFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
   Point next{std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
-  flux_scale_ = std::max(flux_scale_, largest(next.flux_through));
+  // A passing peak, as at a start from rest, is no measure of what follows where one is known.
+  if (!knows_flux_scale_) flux_scale_ = std::max(flux_scale_, largest(next.flux_through));
   const auto [low, high] =
       std::minmax_element(next.state.face_pressure.begin(), next.state.face_pressure.end());
   pressure_scale_ = std::max(pressure_scale_, *high - *low);

@@ -107,6 +107,7 @@ class MixedFlow final : public SceneFlow<Dim> {
   double before_dt_ = 0.0;
   bool at_rest_ = true;  ///< fluxes at the start do not belong to the pressures yet
   double flux_scale_ = 0.0;
+  bool knows_flux_scale_ = false;  ///< from what the boundary conditions can drive
   double pressure_scale_ = 0.0;
   double lowest_bound_ = 0.0;  ///< pressures of boundaries and start, Pa
   double highest_bound_ = 0.0;

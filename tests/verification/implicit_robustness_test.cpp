@@ -136,6 +136,39 @@ TEST_P(HardScenes, DoublePointRuns) {
   runs_to_its_end<model::DoublePointRun>(Formulation::double_point);
 }
 
+/// Feedback that begins where the flow has come to rest from a start whose first fluxes are many
+/// times the later ones, and where the steps have grown long.
+TEST(FeedbackAfterAStart, KeepsTheToleranceAndDoesNotSeeSkips) {
+  const std::vector<double> times{3.0, 6.0, 9.0, 12.0, 15.0};
+  const auto flows = [&](double tolerance, bool no_skip) {
+    Scene scene = column(Formulation::single_point);
+    scene.soils[0].erosion = {ErosionLaw::flux, 5.0, 2.0, false};
+    scene.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
+    scene.time.tolerance = tolerance;
+    SolverOptions options;
+    options.no_skip = no_skip;
+    model::ModelRun run(case_of(scene), options);
+    return run.run(times).flows;
+  };
+  const auto difference = [&](const auto& a, const auto& b) {
+    double worst = 0.0;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      for (std::size_t f = 0; f < a[k].face_flux.size(); ++f) {
+        worst = std::max(worst, std::abs(a[k].face_flux[f] - b[k].face_flux[f]));
+        largest = std::max(largest, std::abs(b[k].face_flux[f]));
+      }
+    }
+    return worst / largest;
+  };
+  const auto usual = flows(1e-3, false);
+  const double error = difference(usual, flows(1e-5, false));
+  const double skipped = difference(usual, flows(1e-3, true));
+  std::cout << "flux off by " << error << " (tolerance), " << skipped << " (skips)\n";
+  EXPECT_LE(error, 1e-3);
+  EXPECT_LE(skipped, 1e-4);
+}
+
 /// Stiff water in a column: the flux follows from the head and the weight of what is in it.
 TEST(HeavyLiquid, FlowsAsItsWeightTellsIt) {
   for (const double tolerance : {1e-3, 1e-4}) {
