@@ -20,7 +20,7 @@ namespace {
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
 constexpr double most_porosity_growth = 1e-3;
 /// Steps of transport between two meetings with a flow that could go further: whoever looks in
-/// between has them done again.
+/// between has them done again, once.
 constexpr double most_transport_steps = 4.0;
 /// Liquid that needs more steps of transport than this between two meetings goes nowhere sensible.
 constexpr double most_substeps = 1e4;
@@ -240,6 +240,7 @@ auto DoublePoint<Dim>::advance(
     -> std::vector<Observation> {
   const double begin = state_.time;
   std::vector<Observation> seen;
+  Passed<Dim> when_seen;
   if (carried_flow_ != nullptr) gather();
   const bool carried = carried_flow_ != nullptr;
   const VectorField<Dim> velocity_before =
@@ -256,11 +257,17 @@ auto DoublePoint<Dim>::advance(
   interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
     PassTimings outputs_are_not_the_run;
     Observation observation;
-    observation.state = advanced(state_, motion(passed, moment.time - begin), moment.pressure,
-                                 outputs_are_not_the_run);
+    // On from the last look, aside: what was done for it is not done again.
+    const State& last = seen.empty() ? state_ : seen.back().state;
+    const double duration = moment.time - last.time;
+    observation.state = duration > no_time * (moment.time - begin)
+                            ? advanced(last, motion(since(when_seen, passed), duration),
+                                       moment.pressure, outputs_are_not_the_run)
+                            : last;
     observation.state.time = moment.time;
     observation.state.empty_total = state_.empty_total;
     observation.flow = std::move(moment);
+    when_seen = passed;
     seen.push_back(std::move(observation));
   };
   const FlowProgress<Dim> progress = flow_->run(interval);
@@ -268,6 +275,10 @@ auto DoublePoint<Dim>::advance(
 
   last_motion_ = motion(progress.passed, progress.duration);
   state_ = advanced(std::move(state_), last_motion_, flow_->pressure(), timings_);
+  if (!seen.empty() && is_end(seen.back().state.time, begin, progress.duration)) {
+    const double time = std::exchange(seen.back().state, state_).time;
+    seen.back().state.time = time;
+  }
   if (skeleton_.erodes_by_flux()) end_rate_ = flow_->moment(state_.time).face_flux;
   flow_->warn_of_unstated_inflow(state_.time, last_motion_.entered);
   {

@@ -12,6 +12,14 @@ namespace suffuse {
 /// Share of its limit that a transport step takes.
 inline constexpr double transport_safety = 0.9;
 
+/// Share of an interval in which nothing happens: looks closer together see the same.
+inline constexpr double no_time = 1e-12;
+
+/// A look there sees what the interval has come to, however often there were looks on the way.
+inline bool is_end(double time, double begin, double duration) {
+  return time - begin >= (1.0 - no_time) * duration;
+}
+
 /// Steps of transport over an interval of which one step may take the share `allowed` (safety
 /// included). Intervals are often cut to a whole number of them: a share that is off by little, as
 /// the flow may be, must not ask for one more. The safety has room for it.

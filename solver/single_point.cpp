@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "flux_ahead.hpp"
 #include "grid/face_flux.hpp"
@@ -18,7 +19,7 @@ namespace {
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
 constexpr double most_porosity_growth = 2e-3;
 /// Steps of transport between two meetings with a flow that could go further: whoever looks in
-/// between has them done again.
+/// between has them done again, once.
 constexpr double most_transport_steps = 4.0;
 
 }  // namespace
@@ -130,6 +131,7 @@ auto SinglePoint<Dim>::advance(
     -> std::vector<Observation> {
   const double begin = state_.time;
   std::vector<Observation> seen;
+  Passed<Dim> when_seen;
   FlowInterval<Dim> interval;
   interval.begin = begin;
   interval.target = target;
@@ -141,16 +143,26 @@ auto SinglePoint<Dim>::advance(
   interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
     PassTimings outputs_are_not_the_run;
     Observation observation;
+    // On from the last look, aside: what was done for it is not done again.
+    const SinglePointState<Dim>& last = seen.empty() ? state_ : seen.back().state;
+    const double duration = moment.time - last.time;
     observation.state =
-        advanced(state_, passed.volumes, moment.time - begin, outputs_are_not_the_run);
+        duration > no_time * (moment.time - begin)
+            ? advanced(last, since(when_seen, passed).volumes, duration, outputs_are_not_the_run)
+            : last;
     observation.state.time = moment.time;
     observation.flow = std::move(moment);
+    when_seen = passed;
     seen.push_back(std::move(observation));
   };
   const FlowProgress<Dim> progress = flow_->run(interval);
 
   const FaceVolumes& volumes = progress.passed.volumes;
   state_ = advanced(state_, volumes, progress.duration, timings_);
+  if (!seen.empty() && is_end(seen.back().state.time, begin, progress.duration)) {
+    const double time = std::exchange(seen.back().state, state_).time;
+    seen.back().state.time = time;
+  }
   if (plan_.transport) flow_->warn_of_unstated_inflow(state_.time, volumes.liquid);
   last_volume_rate_ = volumes.liquid;
   for (double& rate : last_volume_rate_) rate /= progress.duration;

@@ -201,5 +201,38 @@ TEST(HeavyLiquid, FlowsAsItsWeightTellsIt) {
   }
 }
 
+template <class Run>
+void looks_change_nothing(Formulation formulation) {
+  Scene scene = column(formulation);
+  scene.liquid.bulk_modulus = infinite;  // few steps, many looks in each
+  std::vector<double> often;
+  for (int k = 1; k <= 400; ++k) often.push_back(0.1 * k);
+  Run seldom_seen(case_of(scene));
+  Run often_seen(case_of(scene));
+  const LedgerRow seldom = seldom_seen.model().ledger(seldom_seen.run({40.0}).states.back());
+  const auto states = often_seen.run(often).states;
+  const LedgerRow last = often_seen.model().ledger(states.back());
+  EXPECT_EQ(seldom_seen.steps(), often_seen.steps());
+  EXPECT_EQ(seldom.fines, last.fines);
+  EXPECT_EQ(seldom.fines_out, last.fines_out);
+  EXPECT_EQ(seldom.water, last.water);
+  EXPECT_EQ(seldom.water_out, last.water_out);
+  // On the way, where looks go on from each other, nothing is lost either.
+  double worst = 0.0;
+  for (const auto& state : states) {
+    const LedgerRow row = often_seen.model().ledger(state);
+    worst = std::max({worst, std::abs(row.residual_water), std::abs(row.residual_grains)});
+  }
+  EXPECT_LE(worst, 1e-12);
+}
+
+TEST(Looks, ChangeNothingInSinglePoint) {
+  looks_change_nothing<model::ModelRun>(Formulation::single_point);
+}
+
+TEST(Looks, ChangeNothingInDoublePoint) {
+  looks_change_nothing<model::DoublePointRun>(Formulation::double_point);
+}
+
 }  // namespace
 }  // namespace suffuse
