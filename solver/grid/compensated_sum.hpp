@@ -14,7 +14,7 @@ class CompensatedSum {
     correction_ += sum_is_larger ? (sum_ - sum) + term : (term - sum) + sum_;
     sum_ = sum;
   }
-    [[nodiscard]] double value() const { return sum_ + correction_; }
+  [[nodiscard]] double value() const { return sum_ + correction_; }
   /// The difference of two sums, with the digits that each value alone is too long for.
   [[nodiscard]] double minus(const CompensatedSum& other) const {
     return (sum_ - other.sum_) + (correction_ - other.correction_);
