@@ -57,6 +57,8 @@ struct ElementFlow {
     constexpr double never = std::numeric_limits<double>::infinity();
     if (!(out[k] > 0.0)) return never;
     const double straight = std::max(0.0, coordinate) / out[k];
+    // A flux that has hardly arrived may be too small to divide by.
+    if (!std::isfinite(straight)) return never;
     const double bent = sum * straight;
     return bent < 1.0 ? straight * log_quotient(-bent) : never;
   }

@@ -326,6 +326,19 @@ TEST(FaceWalk, TheStreamFunctionIsConstantAlongAPath) {
   EXPECT_LE(worst, 1e-12);
 }
 
+/// Where pressure has hardly arrived fluxes go down to the smallest numbers there are.
+TEST(FaceWalk, FluxesTooSmallToDivideByMoveNothing) {
+  Field field(model::column_mesh(2, 2));
+  Random random(1);
+  PointPlace<2> place = random_place(field.mesh, random);
+  const Vector<2> start = place.position(field.mesh);
+  for (const double sink : {0.0, 3.0}) {
+    field.set_flux([&](const Vector<2>& x) { return Vector<2>(1e-310, -sink * 1e-310 * x[1]); });
+    EXPECT_EQ(field.walk(place), -1);
+    EXPECT_LE((place.position(field.mesh) - start).norm(), 1e-12);
+  }
+}
+
 TEST(FaceWalk, NothingIsLost) {
   // From edges, nodes and insides, in flows that turn around nodes, and with sources and sinks.
 #ifdef __SANITIZE_ADDRESS__
