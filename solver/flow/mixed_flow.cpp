@@ -403,6 +403,7 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
       forcing.back().source = between(source_, source_with(dt), std::min(1.0, dt / mending_));
     }
     std::vector<const FlowForcing<Dim>*> views;
+    views.reserve(forcing.size());
     for (const FlowForcing<Dim>& f : forcing) views.push_back(&f);
     MixedStep<Dim> step = scheme_.step(now_.state, dt, views);
     ++solving_.calls;
