@@ -22,6 +22,8 @@ constexpr double most_porosity_growth = 1e-3;
 /// Steps of transport between two meetings with a flow that could go further: whoever looks in
 /// between has them done again, once.
 constexpr double most_transport_steps = 4.0;
+/// Of the density of the liquid, between elements.
+constexpr int smoothing_rounds = 4;
 /// Liquid that needs more steps of transport than this between two meetings goes nowhere sensible.
 constexpr double most_substeps = 1e4;
 
@@ -160,12 +162,54 @@ PoreContent DoublePoint<Dim>::pores(const State& state) const {
     content.water_volume.push_back(content.porosity[e] * grid_.volume[e] *
                                    (1.0 - content.concentration[e]));
   }
+  const Scene& scene = case_.document.scene;
+  const bool heavy =
+      std::any_of(scene.gravity.begin(), scene.gravity.end(), [](double g) { return g != 0.0; });
+  if (heavy && scene.time.scheme == FlowScheme::implicit_mixed) {
+    content.concentration = weighed_concentration(content.concentration, volume);
+  }
   if (skeleton_.erodes_by_flux()) {
     for (const Vector<Dim>& q : element_flux(grid_, last_motion_.entered)) {
       content.flux.push_back(q.norm() / last_motion_.duration);
     }
   }
   return content;
+}
+
+template <int Dim>
+std::vector<double> DoublePoint<Dim>::weighed_concentration(
+    std::vector<double> concentration, const std::vector<double>& volume) const {
+  const auto& region = grid_.mesh.element_region;
+  std::vector<double> grains_of_region(grid_.mesh.region_names.size(), 0.0);
+  std::vector<double> volume_of_region(grains_of_region.size(), 0.0);
+  for (std::size_t e = 0; e < volume.size(); ++e) {
+    grains_of_region[region[e]] += volume[e] * concentration[e];
+    volume_of_region[region[e]] += volume[e];
+  }
+  for (int round = 0; round < smoothing_rounds; ++round) {
+    std::vector<double> grains(grid_.mesh.node_count(), 0.0);
+    std::vector<double> liquid(grains.size(), 0.0);
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      if (!skeleton_.is_soil(e)) continue;
+      for (const int i : grid_.mesh.elements[e]) {
+        grains[i] += volume[e] * concentration[e];
+        liquid[i] += volume[e];
+      }
+    }
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      double mean = 0.0;
+      for (const int i : grid_.mesh.elements[e]) {
+        mean += liquid[i] > 0.0 ? grains[i] / liquid[i] / (Dim + 1) : 0.0;
+      }
+      concentration[e] = mean;
+    }
+  }
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const int r = region[e];
+    if (skeleton_.is_soil(e) || volume_of_region[r] <= 0.0) continue;
+    concentration[e] = grains_of_region[r] / volume_of_region[r];
+  }
+  return concentration;
 }
 
 template <int Dim>

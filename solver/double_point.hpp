@@ -93,6 +93,12 @@ class DoublePoint {
   [[nodiscard]] PoreContent pores(const State& state) const;
   /// The pores at a time ahead, as erosion fills them, before points have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;
+  /// Concentrations as the weight of the liquid feels them, from those of the elements and their
+  /// liquid volumes: a point that crosses a face would be a jump of the buoyancy, and free water,
+  /// which next to nothing resists, would answer it with eddies of its own. In soil they are
+  /// smoothed over the elements around, free water is taken as well mixed.
+  [[nodiscard]] std::vector<double> weighed_concentration(std::vector<double> concentration,
+                                                          const std::vector<double>& volume) const;
   /// |q| at solid points (empty when no soil erodes by it), m/s.
   [[nodiscard]] std::vector<double> point_flux(const LiquidMotion<Dim>& motion) const;
   /// How the liquid will move over the next `ahead` seconds, for soils that erode by the flux.

@@ -20,7 +20,7 @@ namespace {
 constexpr double most_porosity_growth = 2e-3;
 /// Steps of transport between two meetings with a flow that could go further: whoever looks in
 /// between has them done again, once.
-constexpr double most_transport_steps = 4.0;
+constexpr double most_transport_steps = 16.0;
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "model_run.hpp"
+#include "scheme_case.hpp"
 
 namespace suffuse {
 namespace {
@@ -134,6 +135,28 @@ TEST_P(HardScenes, SinglePointRuns) {
 
 TEST_P(HardScenes, DoublePointRuns) {
   runs_to_its_end<model::DoublePointRun>(Formulation::double_point);
+}
+
+/// Free water over and under soil, as heavy as what it carries: it next to nothing resists, so that
+/// a point that crosses a face must not be a jump of its weight.
+TEST(HeavyLiquid, FlowsThroughFreeWaterInDoublePoint) {
+  LayerSettings layers;
+  layers.inflow = layers.above = layers.below = layers.outflow = 2;
+  Scene scene = model::double_point_scene(0.012, 5e-3);
+  scene.gravity = {0.0, -9.81};
+  model::implicit_scheme.apply(scene);
+  scene.time.end = 30.0;
+  model::DoublePointRun run(model::make_double_point_case(model::layered_mesh(4, layers), scene));
+  const auto moments = run.run({10.0, 20.0, 30.0});
+  std::cout << run.steps() << " steps\n";
+  EXPECT_LE(run.steps(), 3000);
+  EXPECT_LE(run.worst_residual(), 1e-12);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const HistoryRow row = run.model().history_row(moments.states[k], moments.flows[k]);
+    EXPECT_NEAR(row.flux_in, 0.012, 1e-12);
+    EXPECT_GE(row.concentration_min, 0.0);
+    EXPECT_LT(row.concentration_max, 1.0);
+  }
 }
 
 /// Feedback that begins where the flow has come to rest from a start whose first fluxes are many

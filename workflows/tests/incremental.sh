@@ -50,7 +50,7 @@ run_make paper
 tables=$(printf 'paper/%s.csv\n' runs paper)
 of_laws=$(printf 'paper/%s\n' {fig4-porosity,fig7-masses}.{png,svg})
 of_variants=$(printf 'paper/%s\n' {fig5-solid-mass,fig6-empty-elements,mass-scaling-flux}.{png,svg})
-others=$(printf 'paper/%s\n' fig2-model-sp.png fig3-model-dp.png sp-dp-comparison.{png,svg})
+others=$(printf 'paper/%s\n' fig2-model-sp.png fig3-model-dp.png {sp-dp-comparison,implicit-comparison}.{png,svg})
 made_by_variants=$(for name in "${variants[@]}"; do made_by_run "paper/$name"; done)
 expected=$({ echo "$tables"; echo "$of_laws"; echo "$of_variants"; echo "$others"; echo "$made_by_variants"
   for scene in "$work"/paper/*.toml; do made_from "paper/$(basename "$scene" .toml)"; done; } | sort)
