@@ -27,7 +27,7 @@ Scene under_head(double end) {
 TEST(Stiffness, AnySoilAndAnyWaterGetThroughADay) {
   for (const double conductivity : {1e-9, 1e-7, 1e-5, 1e-3, 1e-1}) {
     for (const double modulus : {2e5, 2e7, 2e9, stiff}) {
-      // 90 000 elements are crossed in such a day; one of them is enough.
+      // 70 000 elements are crossed in such a day; once is enough.
       if (conductivity == 1e-1 && modulus != 2e7) continue;
       Scene scene = under_head(86400.0);
       scene.liquid.bulk_modulus = modulus;
