@@ -236,6 +236,20 @@ void plan_implicit_step(const Scene& scene, Plan& plan) {
   plan.flow.inertia = scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
 }
 
+/// Free water has next to no drag: what is set in motion there goes on for hours.
+template <int Dim>
+void warn_of_free_water_with_inertia(const Case<Dim>& c, Plan& plan) {
+  const Scene& scene = c.document.scene;
+  const auto& regions = c.mesh.region_names;
+  const bool free_water =
+      std::any_of(regions.begin(), regions.end(),
+                  [&](const std::string& region) { return scene.is_free_water(region); });
+  if (!plan.flow.inertia || !free_water) return;
+  plan.warnings.push_back(
+      "with inertia free water, which has next to no drag, rings for long, and steps follow it; "
+      "take time.inertia = false unless that is what you look for");
+}
+
 /// The step of the explicit scheme, checked against its stability limit.
 template <int Dim>
 void plan_explicit_step(const Case<Dim>& c, const Grid<Dim>& grid,
@@ -283,6 +297,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
     plan_explicit_step(c, grid, skeleton, conditions, plan);
   } else {
     plan_implicit_step(scene, plan);
+    warn_of_free_water_with_inertia(c, plan);
   }
 
   if (options.no_skip && scene.flow.porosity_gradient_term) plan.erosion = plan.transport = true;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "case/errors.hpp"
-#include "solver/model_case.hpp"
+#include "solver/double_point_case.hpp"
 
 namespace suffuse {
 namespace {
@@ -55,6 +55,41 @@ TEST(Plan, WarnsOfMassScalingThatDistortsTheFlow) {
 TEST(Plan, TakesNineTenthsOfTheLimitWithoutAStep) {
   const Plan plan = make_plan(model::make_case(model::column_mesh(4, 4), fluxes(0.01, -0.01)), {});
   EXPECT_DOUBLE_EQ(plan.flow.step, 0.9 * plan.limit.step);
+}
+
+TEST(Plan, KeepsInertiaWhereItsTimeWouldBeNoticed) {
+  Scene scene = fluxes(0.01, -0.01);
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  const auto keeps = [&] {
+    return make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).flow.inertia;
+  };
+  // Drag stops the liquid within 7 to 9 ms.
+  scene.time.end = 120.0;
+  EXPECT_FALSE(keeps());
+  scene.time.end = 1.0;
+  EXPECT_TRUE(keeps());
+  scene.time.inertia = false;
+  EXPECT_FALSE(keeps());
+  scene.time.inertia.reset();
+  scene.time.step = 1.0;
+  EXPECT_FALSE(keeps());
+  scene.time.step = 0.1;
+  EXPECT_TRUE(keeps());
+}
+
+TEST(Plan, WarnsOfInertiaInFreeWater) {
+  LayerSettings layers;
+  layers.inflow = layers.outflow = 2;
+  Scene scene = model::double_point_scene(0.012, 5e-3);
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  const auto warnings = [&](const LayerSettings& rows) {
+    return make_plan(model::make_double_point_case(model::layered_mesh(4, rows), scene), {})
+        .warnings.size();
+  };
+  EXPECT_EQ(warnings(layers), 0U);
+  scene.time.inertia = true;
+  EXPECT_EQ(warnings(layers), 1U);
+  EXPECT_EQ(warnings({}), 0U);
 }
 
 }  // namespace
