@@ -1,10 +1,8 @@
 #include "grid/face_walk.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-
-#include "case/errors.hpp"
 
 namespace suffuse {
 namespace {
@@ -102,14 +100,6 @@ class Circling {
   int node_ = -1;
   int crossings_ = 0;
 };
-
-template <int Dim>
-[[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {
-  std::ostringstream message;
-  message << "liquid point " << id << " at (" << place.position(grid.mesh).transpose()
-          << ") in element " << place.element << " crosses faces without end; take a shorter step";
-  throw NumericalError(message.str());
-}
 
 }  // namespace
 

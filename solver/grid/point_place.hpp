@@ -3,7 +3,9 @@
 /// Where a point is in a mesh, and how it gets from one element into the next.
 
 #include <algorithm>
+#include <sstream>
 
+#include "case/errors.hpp"
 #include "case/mesh.hpp"
 #include "grid/grid.hpp"
 
@@ -49,6 +51,15 @@ PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int 
     }
   }
   return there;
+}
+
+/// Stops a walk that does not come to an end; `id` is the point's.
+template <int Dim>
+[[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {
+  std::ostringstream message;
+  message << "liquid point " << id << " at (" << place.position(grid.mesh).transpose()
+          << ") in element " << place.element << " crosses faces without end; take a shorter step";
+  throw NumericalError(message.str());
 }
 
 }  // namespace suffuse

@@ -1,9 +1,6 @@
 #include "grid/point_walk.hpp"
 
 #include <algorithm>
-#include <sstream>
-
-#include "case/errors.hpp"
 
 namespace suffuse {
 namespace {
@@ -81,14 +78,6 @@ Piece<Dim> first_exit(const Barycentric<Dim>& from, const Barycentric<Dim>& rate
     piece.time = exit;
   }
   return piece;
-}
-
-template <int Dim>
-[[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {
-  std::ostringstream message;
-  message << "liquid point " << id << " at (" << place.position(grid.mesh).transpose()
-          << ") in element " << place.element << " crosses faces without end; take a shorter step";
-  throw NumericalError(message.str());
 }
 
 }  // namespace
