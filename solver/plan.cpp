@@ -245,7 +245,7 @@ void warn_of_free_water_with_inertia(const Case<Dim>& c, Plan& plan) {
       std::any_of(regions.begin(), regions.end(),
                   [&](const std::string& region) { return scene.is_free_water(region); });
   if (!plan.flow.inertia || !free_water) return;
-  plan.warnings.push_back(
+  plan.warnings.emplace_back(
       "with inertia free water, which has next to no drag, rings for long, and steps follow it; "
       "take time.inertia = false unless that is what you look for");
 }
