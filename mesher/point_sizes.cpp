@@ -2,14 +2,13 @@
 
 #include <gmsh.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
 #include <string_view>
 
-#include "case/errors.hpp"
+#include "case/scratch_folder.hpp"
 
 namespace suffuse {
 
@@ -19,27 +18,6 @@ namespace {
 
 /// What Gmsh stores for a point without a size.
 constexpr double no_size = 1e22;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "suffuse-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw FileError(pattern + ": cannot be created; is there room for temporary files?");
-    }
-    path_ = pattern;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Reads `cl__1 = 1e+22;` and `Point(7) = {0, 0, 0, cl__1};`.
 gmsh::vectorpair points_without_size(std::istream& unrolled) {
@@ -65,7 +43,7 @@ gmsh::vectorpair points_without_size(std::istream& unrolled) {
 
 void set_default_point_size(double size) {
   // The API of Gmsh 4.8 sets sizes but does not tell them; its unrolled geometry does.
-  const TemporaryFolder folder;
+  const ScratchFolder folder("suffuse");
   const std::string path = (folder.path() / "model.geo_unrolled").string();
   gmsh::write(path);
   std::ifstream stream(path);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "case/scratch_folder.hpp"
 #include "double_point.hpp"
 #include "interrupt.hpp"
 #include "memory.hpp"
@@ -33,30 +33,6 @@ class Stopwatch {
  private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
-};
-
-/// A new folder for temporary files, removed with all in it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
-    std::string pattern = (parent / "suffuse-estimate-XXXXXX").string();
-    if (error || ::mkdtemp(pattern.data()) == nullptr) {
-      throw FileError(pattern + ": cannot be made");
-    }
-    path_ = pattern;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 /// Bytes and seconds of what a run writes.
@@ -137,7 +113,7 @@ class TrialWriter {
   inline static const Names all_series{layout::series("mesh"), layout::series("solid"),
                                        layout::series("liquid")};
   const Plan& plan_;
-  ScratchFolder folder_;
+  ScratchFolder folder_{"suffuse-estimate"};
   std::optional<ResultsWriter<Dim>> writer_;
   Writing writing_;
   int count_ = 0;

@@ -357,7 +357,7 @@ double MixedFlow<Dim>::error_of(const MixedStep<Dim>& step, double dt) const {
   const double flux_scale = std::max(flux_scale_, largest(step.flux_through));
   double flux_error = 0.0;
   double pressure_error = 0.0;
-  const double ahead = before_ ? dt / before_dt_ : 0.0;
+  const double ahead = before_ ? dt / last_dt_ : 0.0;
   for (int f = 0; f < this->grid().face_count(); ++f) {
     double flux = now_.flux_through[f];
     double pressure = now_.state.face_pressure[f];
@@ -497,7 +497,6 @@ void MixedFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
       std::minmax_element(next.state.face_pressure.begin(), next.state.face_pressure.end());
   pressure_scale_ = std::max(pressure_scale_, *high - *low);
   before_ = std::move(now_);
-  before_dt_ = dt;
   now_ = std::move(next);
   pressure_ = element_means(now_.state.face_pressure);
   last_dt_ = dt;

@@ -104,7 +104,6 @@ class MixedFlow final : public SceneFlow<Dim> {
   /// Flux and pressure at the begin of the last step, for the prediction of the next; empty when
   /// there is none.
   std::optional<Point> before_;
-  double before_dt_ = 0.0;
   bool at_rest_ = true;  ///< fluxes at the start do not belong to the pressures yet
   double flux_scale_ = 0.0;
   bool knows_flux_scale_ = false;  ///< from what the boundary conditions can drive
