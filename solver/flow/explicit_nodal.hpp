@@ -40,10 +40,19 @@ class ExplicitNodal {
     operator_.constrain(velocity_);
     previous_velocity_ = velocity_;
   }
+  /// The same in place, for whoever carries the flow from step to step: `write(velocity, pressure)`.
+  template <class Write>
+  void rewrite(const Write& write) {
+    write(velocity_, pressure_);
+    operator_.constrain(velocity_);
+    previous_velocity_ = velocity_;
+  }
 
   [[nodiscard]] const std::vector<double>& pressure() const { return pressure_; }
   /// At half a step before the time of the pressure.
   [[nodiscard]] const VectorField<Dim>& velocity() const { return velocity_; }
+  /// What the last step began with.
+  [[nodiscard]] const VectorField<Dim>& previous_velocity() const { return previous_velocity_; }
 
   /// Velocity `ahead` seconds after the middle of the last step, on the line through the last two.
   [[nodiscard]] VectorField<Dim> velocity_at(double ahead) const;
