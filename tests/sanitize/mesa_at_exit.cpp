@@ -1,5 +1,5 @@
-/// Linked into the sanitized programs that draw: what Mesa does at its end that the search for
-/// leaks cannot stand.
+/// Linked into the sanitized programs that draw: what Mesa does that the search for leaks cannot
+/// stand, and what it should not do under sanitizers.
 
 #include <cstdlib>
 
@@ -8,6 +8,10 @@ namespace {
 /// The thread that keeps compiled shaders on disk may still be at work when the program ends, and
 /// the search for leaks then crashes in it ("Tracer caught signal 11").
 [[maybe_unused]] const int no_shader_cache = setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+
+/// The driver that interprets shaders: compiling them under the sanitizers takes most of a test's
+/// time.
+[[maybe_unused]] const int no_compiler = setenv("GALLIUM_DRIVER", "softpipe", 0);
 
 }  // namespace
 
