@@ -52,6 +52,7 @@ class SinglePoint {
   [[nodiscard]] double longest_interval() const;
 
   [[nodiscard]] const SinglePointState<Dim>& state() const { return state_; }
+  [[nodiscard]] double time() const { return state_.time; }
   [[nodiscard]] FlowMoment<Dim> moment() const { return flow_->moment(state_.time); }
   [[nodiscard]] const SceneFlow<Dim>& flow() const { return *flow_; }
 
