@@ -113,11 +113,20 @@ Eigen::VectorXd HeldFactor::solve(const Matrix& matrix, const Eigen::VectorXd& r
                                   const Eigen::VectorXd& guess, const Eigen::VectorXd& tolerance) {
   ++counts_.solves;
   if (matrix.rows() == 0) return rhs;
-  if (!factored_values_.empty() && last_iterations_ <= tiring_iterations && !is_factored(matrix)) {
+  const bool again =
+      !iterated_values_.empty() &&
+      std::equal(iterated_values_.begin(), iterated_values_.end(), matrix.valuePtr());
+  if (!again) spent_ = 0;
+  if (!factored_values_.empty() && last_iterations_ <= tiring_iterations &&
+      spent_ < worth_a_factor && !is_factored(matrix)) {
     Eigen::VectorXd x = guess;
     const long before = counts_.iterations;
     const bool solved = iterate(matrix, rhs, tolerance, x);
     last_iterations_ = counts_.iterations - before;
+    spent_ += last_iterations_;
+    if (!again) {
+      iterated_values_.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
+    }
     if (solved) return x;
   }
   if (!is_factored(matrix)) factorise(matrix);

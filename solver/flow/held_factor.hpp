@@ -19,13 +19,17 @@ struct SolveCounts {
 /// Keeps the factor of one matrix and the values it belongs to. A matrix with the same values is
 /// solved with it directly; one that has changed, by conjugate gradients preconditioned with it;
 /// one that has changed so much that these need more than `most_iterations`, or would by their pace
-/// after a third of them, with a new factor.
+/// after a third of them, or one that comes again and again, with a new factor.
 class HeldFactor {
  public:
   static constexpr int most_iterations = 15;
   /// After a solution that took more than this many the next changed matrix is factored at once:
   /// a factorisation costs about ten iterations, and matrices that drift drift on.
   static constexpr int tiring_iterations = 7;
+
+  /// Iterations on one and the same matrix after which it is factored: by then that would have been
+  /// cheaper, and what came so often is likely to come again.
+  static constexpr int worth_a_factor = 10;
 
   /// Orders and analyses the pattern (approximate minimum degree), which every matrix given to
   /// `solve` must have. Both triangles are stored.
@@ -52,6 +56,8 @@ class HeldFactor {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   std::vector<double> factored_values_;
   long last_iterations_ = 0;
+  std::vector<double> iterated_values_;  ///< of the matrix last solved by iterations
+  long spent_ = 0;                       ///< iterations on it so far
   SolveCounts counts_;
 };
 

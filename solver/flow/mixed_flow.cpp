@@ -16,6 +16,8 @@ namespace {
 
 /// A step may be so much longer or shorter than the one before.
 constexpr double most_growth = 4.0;
+/// Where the length alone would change the matrix.
+constexpr double worth_a_matrix = 1.5;
 constexpr double most_shrinkage = 0.1;
 constexpr double safety = 0.85;
 /// Water that does not fit its pores is let out over so many steps at least, and no faster than the
@@ -421,7 +423,9 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
     const double wanted = error > 0.0 ? safety * std::pow(error, -1.0 / order) : most_growth;
     if (error <= 1.0) {
       // That it was cut short by others says nothing against a longer one.
-      const double next = dt * std::clamp(wanted, most_shrinkage, most_growth);
+      double next = dt * std::clamp(wanted, most_shrinkage, most_growth);
+      // A step of another length is another matrix, which is not worth a little of length.
+      if (!follows_pores_ && wanted >= 1.0 && wanted < worth_a_matrix) next = dt;
       next_dt_ = cut_short && wanted >= 1.0 ? std::max(next, next_dt_) : next;
       return accepted();
     }
