@@ -11,6 +11,7 @@
 #include <vtkTextProperty.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -71,40 +72,78 @@ void add_line(vtkChartXY& chart, const Curve& curve) {
 }
 
 void add_curve(vtkChartXY& chart, const Curve& curve) {
-  if (curve.has_line()) add_line(chart, curve);
+  // VTK calls a line through one point an error.
+  if (curve.has_line() && curve.x.size() > 1) add_line(chart, curve);
   if (!curve.markers) return;
   for (const auto& layer : marker_layers(curve)) add_markers(chart, curve, layer);
 }
 
-/// The axis reaches a little beyond its ticks, so that no marker is cut in half.
-void set_axis(vtkAxis& axis, const std::vector<double>& ticks) {
-  const double room = 0.025 * (ticks.back() - ticks.front());
+/// Where an axis ends, and its ticks: positions in the units of what is drawn, and their labels.
+struct AxisTicks {
+  double low;
+  double high;
+  std::vector<double> positions;
+  std::vector<std::string> labels;
+};
+
+AxisTicks even_axis(double low, double high) {
+  const auto ticks = round_ticks(low, high);
+  AxisTicks axis{ticks.front(), ticks.back(), ticks, {}};
+  for (const double tick : ticks) axis.labels.push_back(tick_text(tick));
+  return axis;
+}
+
+/// VTK draws the logarithms.
+AxisTicks logarithmic_axis(double low, double high) {
+  const LogarithmicTicks found = logarithmic_ticks(low, high);
+  AxisTicks axis{std::log10(found.low), std::log10(found.high), {}, {}};
+  for (const double tick : found.ticks) {
+    axis.positions.push_back(std::log10(tick));
+    axis.labels.push_back(logarithmic_tick_text(tick));
+  }
+  return axis;
+}
+
+/// The axis reaches a little beyond its ends, so that no marker is cut in half.
+void set_axis(vtkAxis& axis, const AxisTicks& ticks) {
+  const double room = 0.025 * (ticks.high - ticks.low);
   axis.SetTitle("");
   axis.GetLabelProperties()->SetFontSize(18);
   axis.GetGridPen()->SetColorF(0.88, 0.88, 0.88);
   axis.SetBehavior(vtkAxis::FIXED);
-  axis.SetRange(ticks.front() - room, ticks.back() + room);
+  axis.SetRange(ticks.low - room, ticks.high + room);
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
-  for (const double tick : ticks) {
-    positions->InsertNextValue(tick);
-    labels->InsertNextValue(tick_text(tick));
+  for (std::size_t i = 0; i < ticks.positions.size(); ++i) {
+    positions->InsertNextValue(ticks.positions[i]);
+    labels->InsertNextValue(ticks.labels[i]);
   }
   axis.SetCustomTickPositions(positions, labels);
 }
 
-std::vector<double> ticks_of(const std::vector<Curve>& curves,
-                             const std::vector<double> Curve::*values) {
+AxisTicks ticks_of(const Chart& chart, const std::vector<double> Curve::*values,
+                   const std::vector<double>& more) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const auto& curve : curves) {
-    for (const double value : curve.*values) {
+  const auto reach = [&](const std::vector<double>& all) {
+    for (const double value : all) {
       low = std::min(low, value);
       high = std::max(high, value);
     }
+  };
+  for (const auto& curve : chart.curves) reach(curve.*values);
+  reach(more);
+  if (chart.logarithmic) return low <= high ? logarithmic_axis(low, high) : logarithmic_axis(1, 10);
+  return low <= high ? even_axis(low, high) : even_axis(0.0, 1.0);
+}
+
+/// What VTK draws of a curve: the logarithms on logarithmic axes.
+Curve drawn_curve(const Chart& chart, Curve curve) {
+  if (!chart.logarithmic) return curve;
+  for (auto* values : {&curve.x, &curve.y}) {
+    for (double& value : *values) value = std::log10(value);
   }
-  if (!(low <= high)) return round_ticks(0.0, 1.0);
-  return round_ticks(low, high);
+  return curve;
 }
 
 /// Adds a chart whose cell has its lower left corner there. VTK's own titles run into the labels of
@@ -117,9 +156,9 @@ void add_chart(vtkContextScene& scene, const Chart& chart, float x, float y) {
   const float left = x + left_room;
   const float bottom = y + bottom_room;
   drawn->SetSize(vtkRectf(left, bottom, plot_width, plot_height));
-  for (const auto& curve : chart.curves) add_curve(*drawn, curve);
-  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), ticks_of(chart.curves, &Curve::x));
-  set_axis(*drawn->GetAxis(vtkAxis::LEFT), ticks_of(chart.curves, &Curve::y));
+  for (const auto& curve : chart.curves) add_curve(*drawn, drawn_curve(chart, curve));
+  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), ticks_of(chart, &Curve::x, chart.x_too));
+  set_axis(*drawn->GetAxis(vtkAxis::LEFT), ticks_of(chart, &Curve::y, chart.y_too));
   scene.AddItem(drawn);
   add_painted(scene, [chart, left, bottom](vtkContext2D& painter) {
     const float center = left + plot_width / 2.0F;
@@ -169,6 +208,36 @@ std::string tick_text(double tick) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", tick);
   return text;
+}
+
+LogarithmicTicks logarithmic_ticks(double low, double high) {
+  constexpr std::array<double, 3> factors{1.0, 2.0, 5.0};
+  // Rounding must not add a tick beyond an end that lies on one.
+  constexpr double slack = 1e-9;
+  constexpr double many_decades = 1000.0;
+  LogarithmicTicks found;
+  std::vector<double> all;
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  const int last = static_cast<int>(std::ceil(std::log10(high)));
+  for (int decade = first; decade <= last; ++decade) {
+    for (const double factor : factors) all.push_back(factor * std::pow(10.0, decade));
+  }
+  found.low = *std::prev(std::ranges::upper_bound(all, low * (1.0 + slack)));
+  const auto end = std::ranges::lower_bound(all, high * (1.0 - slack));
+  found.high = end == all.end() ? all.back() : *end;
+  if (found.high <= found.low) found.high = *std::ranges::upper_bound(all, found.low);
+  const bool powers_alone = found.high > many_decades * found.low * (1.0 + slack);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i] < found.low || all[i] > found.high) continue;
+    if (!powers_alone || i % factors.size() == 0) found.ticks.push_back(all[i]);
+  }
+  return found;
+}
+
+std::string logarithmic_tick_text(double tick) {
+  if (tick >= 0.999e-3 && tick < 1e4) return tick_text(tick);
+  const int power = static_cast<int>(std::floor(std::log10(tick) + 1e-9));
+  return tick_text(tick / std::pow(10.0, power)) + "e" + std::to_string(power);
 }
 
 void draw_charts(const std::vector<Chart>& charts, const std::string& path) {

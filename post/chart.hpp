@@ -35,6 +35,9 @@ struct Chart {
   std::string x_label;
   std::string y_label;
   std::vector<Curve> curves;  ///< later ones cover earlier ones
+  bool logarithmic = false;   ///< both axes; all values are positive then
+  std::vector<double> x_too{};  ///< what an axis reaches beside the values of the curves
+  std::vector<double> y_too{};
 };
 
 /// Draws charts beside one another, from three on in rows of two, with one legend for all. Throws
@@ -46,5 +49,19 @@ std::vector<double> round_ticks(double low, double high);
 
 /// A tick as text.
 std::string tick_text(double tick);
+
+/// A logarithmic axis: what it reaches, and its labelled ticks.
+struct LogarithmicTicks {
+  double low = 0.0;
+  double high = 0.0;
+  std::vector<double> ticks;
+};
+
+/// Ends at 1, 2 or 5 times a power of ten that enclose [low, high] > 0; ticks at all of these in
+/// between, beyond three decades at the powers alone.
+LogarithmicTicks logarithmic_ticks(double low, double high);
+
+/// A tick of a logarithmic axis as text.
+std::string logarithmic_tick_text(double tick);
 
 }  // namespace suffuse

@@ -7,12 +7,14 @@
 #include <iostream>
 #include <optional>
 
+#include "accuracy_chart.hpp"
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "export.hpp"
 #include "figures.hpp"
 #include "ledger_report.hpp"
 #include "picture.hpp"
+#include "reference_error.hpp"
 #include "render.hpp"
 #include "results/number_text.hpp"
 #include "results/reader.hpp"
@@ -34,6 +36,8 @@ struct Options {
   std::string field;
   std::string on;
   std::string range;
+  std::string reference;
+  std::string problem;
   bool all = false;
   std::optional<double> render_time;
   double tolerance = 1e-12;
@@ -84,6 +88,15 @@ void sample_line(const Options& options) {
   write_csv(results, options.csv, sample(results, options.time, line, options.count, fields));
 }
 
+void error(const Options& options) {
+  const auto reference = read_reference_table(options.reference);
+  const ResultsReader results(options.results);
+  if (!options.csv.empty()) keep_out(results, "--csv", options.csv);
+  const auto errors = reference_errors(results, reference);
+  std::cout << error_text(errors);
+  if (!options.csv.empty()) write_errors(options.csv, errors);
+}
+
 std::vector<ResultsReader> all_runs(const Options& options) {
   return {options.all_results.begin(), options.all_results.end()};
 }
@@ -93,6 +106,11 @@ void figure(const Options& options) {
   const auto runs = all_runs(options);
   for (const auto& run : runs) keep_out(run, "-o", options.output);
   draw_figure(options.figure, runs, options.output);
+}
+
+void accuracy(const Options& options) {
+  picture_format(options.output, "suffuse-post accuracy");
+  draw_charts(accuracy_charts(read_accuracy_runs(options.csv), options.problem), options.output);
 }
 
 void render_field(const Options& options) {
@@ -156,6 +174,15 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
       ->type_name("NAME,...");
   command->add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
 
+  command = add_command(app, chosen, "error", "Distance from values that are known", error);
+  one_folder(command);
+  command
+      ->add_option("--reference", o.reference,
+                   "known values: columns t, x and y or neither, and a column per quantity")
+      ->required()
+      ->type_name("FILE.csv");
+  command->add_option("--csv", o.csv, "write the errors here")->type_name("FILE");
+
   command = add_command(app, chosen, "render", "Pictures of a field on the model", render_field);
   one_folder(command);
   command->add_option("--field", o.field, "what to show")->required();
@@ -180,6 +207,15 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
   command = add_command(app, chosen, "table", "One row per run: settings, cost, errors", table);
   command->add_option("RESULTS", o.all_results, "results folders")->required()->type_name("FOLDER");
   command->add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
+
+  command = add_command(app, chosen, "accuracy", "Chart of wall time against error", accuracy);
+  command->add_option("TABLE", o.csv, "table that make -C workflows accuracy writes")
+      ->required()
+      ->type_name("FILE.csv");
+  command->add_option("--problem", o.problem, "the problem whose runs to draw")->required();
+  command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
+      ->required()
+      ->type_name("FILE");
 
   command =
       add_command(app, chosen, "export", ".pvd and .vtu files for other tools", export_results);

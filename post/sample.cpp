@@ -23,9 +23,9 @@ constexpr int most_points = 1'000'000;
 constexpr std::array<const char*, 3> places{"element_vertex", "node", "cell"};
 
 InputError wrong(const std::string& option, const std::string& found, const std::string& expected,
-                 const std::string& suggestion = {}) {
-  return InputError(
-      std::vector{InputProblem{"suffuse-post sample", option, found, expected, suggestion}});
+                 const std::string& suggestion = {},
+                 const std::string& command = SampleWords{}.command) {
+  return InputError(std::vector{InputProblem{command, option, found, expected, suggestion}});
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -60,7 +60,8 @@ std::array<double, 3> barycentric(const Mesh<2>& mesh, int element, const Vector
 }
 
 /// All elements that hold x; only those in the soil where there are any.
-std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, const Vector<2>& x) {
+std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, const Vector<2>& x,
+                          const SampleWords& words) {
   std::vector<Place> everywhere;
   std::vector<Place> in_soil;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -71,7 +72,8 @@ std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, con
     if (results.scene().scene.find_soil(region) != nullptr) in_soil.push_back({e, b});
   }
   if (everywhere.empty()) {
-    throw wrong("--line", "the point " + position_text(x), "points inside the model");
+    throw wrong(words.places, "the point " + position_text(x), "points inside the model", "",
+                words.command);
   }
   return in_soil.empty() ? everywhere : in_soil;
 }
@@ -83,14 +85,15 @@ struct Moment {
   double weight;
 };
 
-Moment find_moment(const ResultsReader& results, double time) {
+Moment find_moment(const ResultsReader& results, double time, const SampleWords& words) {
   const auto& times = results.times();
   if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
   const double slack = 1e-12 * std::max(std::abs(times.front()), std::abs(times.back()));
   if (!(time >= times.front() - slack && time <= times.back() + slack)) {
-    throw wrong("--time", number_text(time),
+    throw wrong(words.time, number_text(time),
                 "a time from " + number_text(times.front()) + " to " + number_text(times.back()) +
-                    " s, the first and last snapshot");
+                    " s, the first and last snapshot",
+                "", words.command);
   }
   const auto later = std::lower_bound(times.begin(), times.end(), time);
   if (later == times.begin()) return {0, 0, 0.0};
@@ -109,7 +112,8 @@ struct SampledField {
 };
 
 /// A field that only points carry has no value in between.
-void refuse_point_field(const ResultsReader& results, std::size_t index, const std::string& name) {
+void refuse_point_field(const ResultsReader& results, std::size_t index, const std::string& name,
+                        const SampleWords& words) {
   std::vector<std::string> kinds{"solid"};
   if (results.scene().scene.formulation == Formulation::double_point) kinds.emplace_back("liquid");
   for (const auto& kind : kinds) {
@@ -119,11 +123,12 @@ void refuse_point_field(const ResultsReader& results, std::size_t index, const s
     found += kind + " points";
     std::string expected = "a field " + fields_and_places(results, index, {"cell", "node"});
     expected += " (suffuse-post render --on " + kind + " shows it)";
-    throw wrong("--fields", found, expected);
+    throw wrong(words.fields, found, expected, "", words.command);
   }
 }
 
-SampledField read_at(const ResultsReader& results, const Moment& moment, const std::string& name) {
+SampledField read_at(const ResultsReader& results, const Moment& moment, const std::string& name,
+                     const SampleWords& words) {
   std::vector<std::string> known;
   for (const std::string where : places) {
     const auto names = results.field_names(moment.before, where);
@@ -140,10 +145,11 @@ SampledField read_at(const ResultsReader& results, const Moment& moment, const s
     }
     return {field, where};
   }
-  refuse_point_field(results, moment.before, name);
+  refuse_point_field(results, moment.before, name, words);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
-  throw wrong("--fields", "\"" + name + "\"", quoted_list(known), closest_name(name, known));
+  throw wrong(words.fields, "\"" + name + "\"", quoted_list(known), closest_name(name, known),
+              words.command);
 }
 
 double value_in(const Mesh<2>& mesh, const SampledField& field, const Place& place, int component) {
@@ -205,21 +211,29 @@ Table sample(const ResultsReader& results, double time, const SampleLine& line, 
   if (count > most_points) {
     throw wrong("--count", std::to_string(count), "at most " + std::to_string(most_points));
   }
-  const Moment moment = find_moment(results, time);
+  std::vector<Vector<2>> places;
+  for (int i = 0; i < count; ++i) {
+    const double along = static_cast<double>(i) / (count - 1);
+    places.emplace_back((1.0 - along) * line.from + along * line.to);
+  }
+  return sample_places(results, time, places, fields);
+}
+
+Table sample_places(const ResultsReader& results, double time, const std::vector<Vector<2>>& places,
+                    const std::vector<std::string>& fields, const SampleWords& words) {
+  const Moment moment = find_moment(results, time, words);
   std::vector<SampledField> sampled;
   Table table{{"x", "y"}, std::vector<std::vector<double>>(2)};
   for (const auto& name : fields) {
-    sampled.push_back(read_at(results, moment, name));
+    sampled.push_back(read_at(results, moment, name, words));
     for (int k = 0; k < sampled.back().width(); ++k) {
       table.names.push_back(column_name(sampled.back(), k));
       table.columns.emplace_back();
     }
   }
   const Mesh<2> mesh = results.mesh();
-  for (int i = 0; i < count; ++i) {
-    const double along = static_cast<double>(i) / (count - 1);
-    const Vector<2> x = (1.0 - along) * line.from + along * line.to;
-    const auto around = locate(results, mesh, x);
+  for (const auto& x : places) {
+    const auto around = locate(results, mesh, x, words);
     table.columns[0].push_back(x[0]);
     table.columns[1].push_back(x[1]);
     std::size_t column = 2;

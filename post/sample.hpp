@@ -32,4 +32,16 @@ std::vector<std::string> parse_field_names(const std::string& text);
 Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
              const std::vector<std::string>& fields);
 
+/// What messages call the command and its inputs.
+struct SampleWords {
+  std::string command = "suffuse-post sample";
+  std::string time = "--time";
+  std::string places = "--line";
+  std::string fields = "--fields";
+};
+
+/// The same at any places.
+Table sample_places(const ResultsReader& results, double time, const std::vector<Vector<2>>& places,
+                    const std::vector<std::string>& fields, const SampleWords& words = {});
+
 }  // namespace suffuse

@@ -1,0 +1,78 @@
+#!/bin/bash
+# The runs of a problem, one per line: SCHEME SIZE POINTS TOLERANCE KEY=VALUE..., coarse to fine within a
+# scheme. `variants.sh PROBLEM short` lists the few of SHORT=1.
+#
+# SCHEME is FORMULATION-WAY: sp, dp in its default mode, or dp in the paper's mode (paper); scaled (explicit,
+# mass scaling 1e4), explicit, drag (explicit, drag stepped implicitly) or implicit. POINTS are those per
+# element: solid ones for sp, else liquid ones at the start. TOLERANCE is - where there is none.
+set -eu -o pipefail
+problem=$1 form=${2:-full}
+
+# As in Figs. 5 and 6 of the paper: see ../paper/variants.mk.
+as_in_paper="points.seeding=gauss points.equal_volume=false soil.specimen.erosion.mass_transfer=element \
+soil.specimen.erosion.empty_elements=dry"
+# The pressure lives at points with the explicit scheme only.
+at_points="flow.integration=material-point"
+
+declare -A keys=(
+  [sp]="formulation=single-point" [dp]="formulation=double-point" [paper]="formulation=double-point"
+  [scaled]="time.scheme=explicit time.mass_scaling=1e4" [explicit]="time.scheme=explicit"
+  [drag]="time.scheme=explicit time.drag=implicit" [implicit]="time.scheme=implicit"
+)
+declare -A sizes=(
+  [fines-constant]="0.5 0.25 0.125 0.0625 0.03125 0.015625" [startup]="0.5 0.25 0.125 0.0625"
+  [feedback]="0.5 0.25 0.125 0.0625" [dam]="0.8 0.4 0.2 0.1 0.05"
+)
+sizes[fines-log]=${sizes[fines-constant]}
+sizes[porosity-gradient]=${sizes[fines-constant]}
+declare -A points=([sp]=3 [dp]="12 3 48" [paper]="12 3")
+tolerances="1e-3 1e-2 1e-4"
+case $problem in
+  startup) points=([sp]=3 [dp]=12 [paper]=12) tolerances="1e-3 1e-2 1e-4 1e-5" ;;
+  # Nothing there hangs on where the liquid's points are.
+  feedback) points=([sp]=3 [dp]="12 3" [paper]="12 3") ;;
+  dam) points=([sp]=3 [dp]="12 3" [paper]="12 3") ;;
+esac
+if [ "$form" == short ]; then
+  case $problem in
+    # Where times are judged there are runs long enough to be timed.
+    fines-constant) sizes[$problem]="0.5 0.25 0.125" sizes[sp]="0.0625 0.03125" ;;
+    dam) sizes[dam]="0.8 0.4" ;;
+    *) sizes[$problem]="0.5 0.25" ;;
+  esac
+  points=([sp]=3 [dp]=3 [paper]=3)
+  tolerances=1e-3
+fi
+
+# The error of the explicit schemes falls with the step here, and that with the size.
+[ "$problem-$form" != startup-full ] || sizes[explicit]="${sizes[startup]} 0.015625 0.0078125"
+
+run() { # FORMULATION WAY SIZE POINTS TOLERANCE
+  local more=
+  [ "$1" == sp ] || more+=" points.liquid_per_element=$4"
+  [ "$1" != paper ] || more+=" $as_in_paper"
+  [ "$1-$2" == paper-implicit ] || [ "$1" != paper ] || more+=" $at_points"
+  [ "$5" == - ] || more+=" time.tolerance=$5"
+  # A problem in which nothing erodes has no exchange of mass.
+  [ "$problem" != startup ] || more=$(tr ' ' '\n' <<< "$more" | grep -v erosion | tr '\n' ' ')
+  echo "$1-$2 $3 $4 $5 mesh.size=$3 ${keys[$1]} ${keys[$2]}$more"
+}
+
+for formulation in sp dp paper; do
+  for way in scaled explicit drag implicit; do
+    for count in ${points[$formulation]}; do
+      settings=-
+      # Other tolerances with the usual number of points alone.
+      [ $way != implicit ] || settings=${tolerances%% *}
+      [ $way != implicit ] || [ "$count" != "${points[$formulation]%% *}" ] || settings=$tolerances
+      for tolerance in $settings; do
+        all=${sizes[$problem]}
+        [ $way == implicit ] || all=${sizes[explicit]:-$all}
+        all=${sizes[$formulation]:-$all}
+        for size in $all; do
+          run $formulation $way "$size" "$count" "$tolerance"
+        done
+      done
+    done
+  done
+done
