@@ -9,10 +9,8 @@
 #include "flux_ahead.hpp"
 #include "grid/face_flux.hpp"
 #include "meeting.hpp"
-#include "observation.hpp"
 #include "pass_timer.hpp"
 #include "physics/liquid.hpp"
-#include "transport/concentration_fit.hpp"
 
 namespace suffuse {
 namespace {
@@ -26,9 +24,6 @@ constexpr double most_transport_steps = 4.0;
 constexpr int smoothing_rounds = 4;
 /// Liquid that needs more steps of transport than this between two meetings goes nowhere sensible.
 constexpr double most_substeps = 1e4;
-
-/// Codes of the field `saturation_state`.
-enum class Saturation { dry_soil, saturated_soil, free_liquid, empty };
 
 }  // namespace
 
@@ -84,8 +79,15 @@ void DoublePoint<Dim>::initialise() {
   flow_->start();
   last_motion_.entered = end_rate_ = flow_->moment(0.0).face_flux;
   place_liquid();
-  update_flow();
   initial_ = stored(state_);
+  if (carried_flow_ != nullptr) {
+    carried_ = std::make_unique<CarriedLiquid<Dim>>(grid_, *carried_flow_, transport_, densities_,
+                                                    plan_.flow.threads, state_.entering);
+    carried_->blocks().fill(state_.liquid, grid_.mesh.element_count());
+    carried_->on_start = [this](double duration) { start_carried(duration); };
+    carried_->on_moved = [this](const auto& crossings) { book_carried(crossings); };
+  }
+  update_flow();
 }
 
 template <int Dim>
@@ -145,20 +147,36 @@ std::vector<double> DoublePoint<Dim>::point_volumes(const LiquidPoints<Dim>& liq
 }
 
 template <int Dim>
-PoreContent DoublePoint<Dim>::pores(const State& state) const {
+auto DoublePoint<Dim>::liquid_content() const -> LiquidContent {
   const int elements = grid_.mesh.element_count();
-  PoreContent content;
-  content.porosity = element_porosity(state.porosity);
-  content.concentration.assign(elements, 0.0);
-  std::vector<double> volume(elements, 0.0);
-  const LiquidPoints<Dim>& liquid = state.liquid;
-  for (int p = 0; p < liquid.size(); ++p) {
-    const double grains = liquid.fines_mass[p] / densities_.grain;
-    content.concentration[liquid.element[p]] += grains;
-    volume[liquid.element[p]] += liquid.water_mass[p] / densities_.water + grains;
+  LiquidContent content{std::vector<double>(elements, 0.0), std::vector<double>(elements, 0.0)};
+  const auto add = [&](int e, double water_mass, double fines_mass) {
+    content.grains[e] += fines_mass / densities_.grain;
+    content.liquid[e] += liquid_volume(water_mass, fines_mass, densities_, 1.0);
+  };
+  if (carried_ != nullptr) {
+    const PointBlocks<Dim>& points = carried_->blocks();
+    for (int e = 0; e < elements; ++e) {
+      for (int slot = 0; slot < points.count(e); ++slot) {
+        add(e, points.water_mass(e, slot), points.fines_mass(e, slot));
+      }
+    }
+    return content;
   }
-  for (int e = 0; e < elements; ++e) {
-    if (volume[e] > 0.0) content.concentration[e] /= volume[e];
+  const LiquidPoints<Dim>& points = state_.liquid;
+  for (int p = 0; p < points.size(); ++p) {
+    add(points.element[p], points.water_mass[p], points.fines_mass[p]);
+  }
+  return content;
+}
+
+template <int Dim>
+PoreContent DoublePoint<Dim>::pores() const {
+  const auto [grains, volume] = liquid_content();
+  PoreContent content;
+  content.porosity = element_porosity(state_.porosity);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    content.concentration.push_back(volume[e] > 0.0 ? grains[e] / volume[e] : 0.0);
     content.water_volume.push_back(content.porosity[e] * grid_.volume[e] *
                                    (1.0 - content.concentration[e]));
   }
@@ -214,7 +232,7 @@ std::vector<double> DoublePoint<Dim>::weighed_concentration(
 
 template <int Dim>
 PoreContent DoublePoint<Dim>::pores_at(double time) const {
-  PoreContent content = pores(state_);
+  PoreContent content = pores();
   if (plan_.erodes(state_.time, time)) {
     const std::vector<double> before = std::exchange(
         content.porosity,
@@ -245,12 +263,11 @@ LiquidMotion<Dim> DoublePoint<Dim>::motion_ahead(double ahead) const {
 template <int Dim>
 void DoublePoint<Dim>::update_flow() {
   // The density of what crosses a face plays no part: points carry it.
-  flow_->update(state_.time, pores(state_), std::vector<double>(grid_.face_count(), 0.0));
+  flow_->update(state_.time, pores(), std::vector<double>(grid_.face_count(), 0.0));
 }
 
 template <int Dim>
 long DoublePoint<Dim>::steps_before_transport(double dt) const {
-  if (carried_flow_ != nullptr) return 1;
   LiquidMotion<Dim> one_step = last_motion_;
   for (double& volume : one_step.entered) volume *= dt / last_motion_.duration;
   one_step.duration = dt;
@@ -285,11 +302,6 @@ auto DoublePoint<Dim>::advance(
   const double begin = state_.time;
   std::vector<Observation> seen;
   Passed<Dim> when_seen;
-  if (carried_flow_ != nullptr) gather();
-  const bool carried = carried_flow_ != nullptr;
-  const VectorField<Dim> velocity_before =
-      carried ? carried_flow_->scheme().velocity() : VectorField<Dim>{};
-  const std::vector<double> pressure_before = flow_->pressure();
   FlowInterval<Dim> interval;
   interval.begin = begin;
   interval.target = target;
@@ -299,28 +311,29 @@ auto DoublePoint<Dim>::advance(
   interval.pores_at = [this](double time) { return pores_at(time); };
   interval.times_until = times_until;
   interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
-    PassTimings outputs_are_not_the_run;
     Observation observation;
-    // On from the last look, aside: what was done for it is not done again.
-    const State& last = seen.empty() ? state_ : seen.back().state;
-    const double duration = moment.time - last.time;
-    observation.state = duration > no_time * (moment.time - begin)
-                            ? advanced(last, motion(since(when_seen, passed), duration),
-                                       moment.pressure, outputs_are_not_the_run)
-                            : last;
+    if (carried_ != nullptr) {
+      observation.state = look_at_carried(moment, passed);
+    } else {
+      // On from the last look, aside: what was done for it is not done again.
+      const State& last = seen.empty() ? state_ : seen.back().state;
+      observation.state = look_at_followed(last, moment, since(when_seen, passed));
+      when_seen = passed;
+    }
     observation.state.time = moment.time;
     observation.state.empty_total = state_.empty_total;
     observation.flow = std::move(moment);
-    when_seen = passed;
     seen.push_back(std::move(observation));
   };
   const FlowProgress<Dim> progress = flow_->run(interval);
-  if (carried) scatter(velocity_before, pressure_before);
-
   last_motion_ = motion(progress.passed, progress.duration);
-  state_ = advanced(std::move(state_), last_motion_, flow_->pressure(), timings_);
+  if (carried_ != nullptr) {
+    finish_carried(begin + progress.duration);
+  } else {
+    state_ = advanced(std::move(state_), last_motion_, flow_->pressure(), timings_);
+  }
   if (!seen.empty() && is_end(seen.back().state.time, begin, progress.duration)) {
-    const double time = std::exchange(seen.back().state, state_).time;
+    const double time = std::exchange(seen.back().state, state()).time;
     seen.back().state.time = time;
   }
   if (skeleton_.erodes_by_flux()) end_rate_ = flow_->moment(state_.time).face_flux;
@@ -334,6 +347,83 @@ auto DoublePoint<Dim>::advance(
   last_steps_ = progress.steps;
   last_dt_ = progress.dt;
   return seen;
+}
+
+template <int Dim>
+auto DoublePoint<Dim>::look_at_followed(const State& last, const FlowMoment<Dim>& moment,
+                                        const Passed<Dim>& since_last) const -> State {
+  PassTimings outputs_are_not_the_run;
+  const double duration = moment.time - last.time;
+  if (duration <= no_time * (moment.time - state_.time)) return last;
+  return advanced(last, motion(since_last, duration), moment.pressure, outputs_are_not_the_run);
+}
+
+template <int Dim>
+auto DoublePoint<Dim>::state() const -> const State& {
+  if (carried_ != nullptr && state_.liquid.size() == 0) {
+    state_.liquid = carried_->blocks().points(false);
+  }
+  return state_;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::start_carried(double duration) {
+  state_.liquid = {};
+  const double begin = state_.time;
+  carried_interval_ = {begin, begin + 0.5 * duration, state_};
+  carried_->blocks().note_fines();
+  erode_carried(begin, carried_interval_.middle, point_flux(motion_ahead(duration)));
+  carried_->set_porosity(element_porosity(state_.porosity));
+}
+
+template <int Dim>
+void DoublePoint<Dim>::finish_carried(double end) {
+  erode_carried(carried_interval_.middle, end, point_flux(last_motion_));
+  state_.time = end;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::erode_carried(double from, double to, const std::vector<double>& flux) {
+  if (!has_to_erode(state_, from, to)) return;
+  const PassTimer timer(timings_.erosion);
+  ++timings_.erosion.calls;
+  PointBlocks<Dim>& points = carried_->blocks();
+  std::vector<double> porosity =
+      eroded_porosity(state_.porosity, from, to, flux, [&](int e) { return points.count(e) > 0; });
+  book(transfer_.transfer(state_.porosity, porosity, element_porosity(state_.porosity), densities_,
+                          points, state_.pending),
+       state_);
+  state_.porosity = std::move(porosity);
+}
+
+template <int Dim>
+void DoublePoint<Dim>::book_carried(const std::vector<CarriedCrossing>& crossings) {
+  for (const CarriedCrossing& point : crossings) {
+    book(PointCrossing{point.from, point.to, point.water_mass, point.fines_mass}, state_);
+    book(PointCrossing{point.from, point.to, point.water_mass, point.fines_noted},
+         carried_interval_.not_eroded);
+  }
+  const PointBlocks<Dim>& points = carried_->blocks();
+  state_.empty_total += empty_elements([&](int e) { return points.count(e) > 0; });
+}
+
+template <int Dim>
+auto DoublePoint<Dim>::look_at_carried(const FlowMoment<Dim>& moment,
+                                       const Passed<Dim>& passed) const -> State {
+  // What has eroded for the time after the look is taken back: it goes on from the begin.
+  const bool early = moment.time < carried_interval_.middle;
+  const double eroded_until = early ? carried_interval_.begin : carried_interval_.middle;
+  State result = early ? carried_interval_.not_eroded : state_;
+  result.entering = state_.entering;
+  for (const PointCrossing& crossing :
+       carried_->look(moment.time, early, result.liquid, result.entering)) {
+    book(crossing, result);
+  }
+  if (has_to_erode(result, eroded_until, moment.time)) {
+    const double duration = moment.time - carried_interval_.begin;
+    erode(result, eroded_until, moment.time, point_flux(motion(passed, duration)), moment.pressure);
+  }
+  return result;
 }
 
 template <int Dim>
@@ -434,7 +524,9 @@ void DoublePoint<Dim>::follow(State& state, const LiquidMotion<Dim>& part,
   const bool erodes = has_to_erode(state, state.time, end);
   if (erodes) {
     const PassTimer timer(timings.erosion);
-    porosity = eroded_porosity(state, state.time, end, flux);
+    const std::vector<int> begins = element_begins(state.liquid, grid_.mesh.element_count());
+    porosity = eroded_porosity(state.porosity, state.time, end, flux,
+                               [&](int e) { return begins[e + 1] > begins[e]; });
   }
   WalkedPoints<Dim> walked;
   {
@@ -452,7 +544,9 @@ void DoublePoint<Dim>::follow(State& state, const LiquidMotion<Dim>& part,
     ++timings.erosion.calls;
   }
   const PassTimer timer(timings.movement);
-  book(transport_.settle(state.liquid, state.entering, walked), state);
+  for (const PointCrossing& crossing : transport_.settle(state.liquid, state.entering, walked)) {
+    book(crossing, state);
+  }
   state.empty_total += empty_elements(element_begins(state.liquid, grid_.mesh.element_count()));
   state.porosity = std::move(porosity);
   state.time = end;
@@ -491,27 +585,29 @@ bool DoublePoint<Dim>::has_to_erode(const State& state, double from, double to) 
 }
 
 template <int Dim>
-std::vector<double> DoublePoint<Dim>::eroded_porosity(const State& state, double from, double to,
-                                                      const std::vector<double>& flux) const {
-  const std::vector<int> begins = element_begins(state.liquid, grid_.mesh.element_count());
-  std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to, flux);
+std::vector<double> DoublePoint<Dim>::eroded_porosity(const std::vector<double>& porosity,
+                                                      double from, double to,
+                                                      const std::vector<double>& flux,
+                                                      const HasLiquid& has_liquid) const {
+  std::vector<double> result = skeleton_.porosity_after(porosity, from, to, flux);
   const MaterialPoints<Dim>& solid = skeleton_.points();
   for (int s = 0; s < solid.size(); ++s) {
     const int e = solid.element[s];
-    const bool dry = begins[e] == begins[e + 1] &&
-                     skeleton_.soil_of_element(e).erosion.empty_elements == EmptyElements::dry;
-    if (dry) porosity[s] = state.porosity[s];
+    const bool waits =
+        skeleton_.soil_of_element(e).erosion.empty_elements == EmptyElements::dry && !has_liquid(e);
+    if (waits) result[s] = porosity[s];
   }
-  return porosity;
+  return result;
 }
 
 template <int Dim>
 void DoublePoint<Dim>::erode(State& state, double from, double to, const std::vector<double>& flux,
                              const std::vector<double>& pressure) const {
-  std::vector<double> porosity = eroded_porosity(state, from, to, flux);
+  const std::vector<int> begins = element_begins(state.liquid, grid_.mesh.element_count());
+  std::vector<double> porosity = eroded_porosity(state.porosity, from, to, flux,
+                                                 [&](int e) { return begins[e + 1] > begins[e]; });
   const auto exchanged =
-      transfer_.transfer(state.porosity, porosity, element_porosity(state.porosity),
-                         element_begins(state.liquid, grid_.mesh.element_count()),
+      transfer_.transfer(state.porosity, porosity, element_porosity(state.porosity), begins,
                          point_volumes(state.liquid, pressure), state.liquid, state.pending);
   state.porosity = std::move(porosity);
   book(exchanged, state);
@@ -531,267 +627,48 @@ void DoublePoint<Dim>::book(const typename GrainTransfer<Dim>::Result& exchanged
 template <int Dim>
 void DoublePoint<Dim>::move(State& state, const LiquidMotion<Dim>& motion,
                             const std::vector<double>& pressure) const {
-  book(transport_.move(
-           state.liquid, state.entering, motion, element_porosity(state.porosity), pressure,
-           carried_flow_ != nullptr ? carried_flow_->scheme().velocity() : VectorField<Dim>{}),
-       state);
+  for (const PointCrossing& crossing :
+       transport_.move(state.liquid, state.entering, motion, element_porosity(state.porosity),
+                       pressure, VectorField<Dim>{})) {
+    book(crossing, state);
+  }
   state.empty_total += empty_elements(element_begins(state.liquid, grid_.mesh.element_count()));
 }
 
 template <int Dim>
-void DoublePoint<Dim>::book(const std::vector<PointCrossing>& crossings, State& state) const {
-  const auto leave = [](CrossedSums& account, const PointCrossing& point) {
+void DoublePoint<Dim>::book(const PointCrossing& point, State& state) const {
+  const auto leave = [&](CrossedSums& account) {
     account.water_out.add(point.water_mass);
     account.fines_out.add(point.fines_mass);
     ++account.points_out;
   };
-  const auto enter = [](CrossedSums& account, const PointCrossing& point) {
+  const auto enter = [&](CrossedSums& account) {
     account.water_in.add(point.water_mass);
     account.fines_in.add(point.fines_mass);
     ++account.points_in;
   };
-  for (const PointCrossing& point : crossings) {
-    (point.from < 0 ? enter : leave)(state.crossed[point.from + 1], point);
-    (point.to < 0 ? leave : enter)(state.crossed[point.to + 1], point);
-  }
+  CrossedSums& from = state.crossed[point.from + 1];
+  CrossedSums& to = state.crossed[point.to + 1];
+  point.from < 0 ? enter(from) : leave(from);
+  point.to < 0 ? leave(to) : enter(to);
 }
 
 template <int Dim>
-int DoublePoint<Dim>::empty_elements(const std::vector<int>& begins) const {
+int DoublePoint<Dim>::empty_elements(const HasLiquid& has_liquid) const {
   int empty = 0;
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    if (skeleton_.is_soil(e) && begins[e] == begins[e + 1]) ++empty;
+    if (skeleton_.is_soil(e) && !has_liquid(e)) ++empty;
   }
   return empty;
 }
 
 template <int Dim>
-void DoublePoint<Dim>::gather() {
-  const PassTimer timer(timings_.exchange);
-  const LiquidPoints<Dim>& liquid = state_.liquid;
-  VectorField<Dim> velocity = carried_flow_->scheme().velocity();
-  std::vector<double> pressure = flow_->pressure();
-  VectorField<Dim> momentum(velocity.size(), Vector<Dim>::Zero());
-  std::vector<double> mass(velocity.size(), 0.0);
-  std::vector<double> work(pressure.size(), 0.0);
-  std::vector<double> volume(pressure.size(), 0.0);
-  const std::vector<double> point_volume = point_volumes(liquid, pressure);
-  for (int p = 0; p < liquid.size(); ++p) {
-    const int e = liquid.element[p];
-    work[e] += point_volume[p] * liquid.pressure[p];
-    volume[e] += point_volume[p];
-    for (int a = 0; a <= Dim; ++a) {
-      const int i = grid_.mesh.elements[e][a];
-      const double share = liquid.barycentric[p][a] * (liquid.water_mass[p] + liquid.fines_mass[p]);
-      mass[i] += share;
-      momentum[i] += share * liquid.velocity[p];
-    }
-  }
-  // Where no point is near, nodes and elements go on from what they had.
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (mass[i] > 0.0) velocity[i] = momentum[i] / mass[i];
-  }
-  for (std::size_t e = 0; e < volume.size(); ++e) {
-    if (volume[e] > 0.0) pressure[e] = work[e] / volume[e];
-  }
-  carried_flow_->scheme().set_velocity(std::move(velocity));
-  carried_flow_->scheme().set_pressure(std::move(pressure));
-  ++timings_.exchange.calls;
-}
-
-template <int Dim>
-void DoublePoint<Dim>::scatter(const VectorField<Dim>& velocity_before,
-                               const std::vector<double>& pressure_before) {
-  const PassTimer timer(timings_.exchange);
-  LiquidPoints<Dim>& liquid = state_.liquid;
-  const VectorField<Dim>& velocity = carried_flow_->scheme().velocity();
-  const std::vector<double>& pressure = flow_->pressure();
-  for (int p = 0; p < liquid.size(); ++p) {
-    const int e = liquid.element[p];
-    liquid.pressure[p] += pressure[e] - pressure_before[e];
-    for (int a = 0; a <= Dim; ++a) {
-      const int i = grid_.mesh.elements[e][a];
-      liquid.velocity[p] += liquid.barycentric[p][a] * (velocity[i] - velocity_before[i]);
-    }
-  }
-}
-
-template <int Dim>
-HistoryRow DoublePoint<Dim>::history_row(const State& state, const FlowMoment<Dim>& moment) const {
-  HistoryRow row;
-  row.t = state.time;
-  row.porosity_mean = mean_porosity(skeleton_, state.porosity);
-  flow_->describe(moment, row);
-  const LiquidPoints<Dim>& liquid = state.liquid;
-  const std::vector<int> begins = element_begins(liquid, grid_.mesh.element_count());
-  row.liquid_points = liquid.size();
-  row.empty_elements = empty_elements(begins);
-  row.empty_elements_total = state.empty_total;
-
-  const std::vector<double> volume = point_volumes(liquid, moment.pressure);
-  const std::vector<double> concentration = concentrations(liquid, volume);
-  if (!concentration.empty()) {
-    const auto [least, most] = std::minmax_element(concentration.begin(), concentration.end());
-    row.concentration_min = *least;
-    row.concentration_max = *most;
-  }
-  const ElementField<Dim> fit = concentration_fit(grid_, liquid, begins, volume, concentration);
-  CompensatedSum fines_out;
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    const double flux = moment.face_flux[f];
-    if (!grid_.is_outer(f) || flux <= 0.0) continue;
-    const int e = grid_.face_left[f];
-    const ElementValues<Dim> at_vertices = FieldNodes<Dim>::at_vertices(fit[e]);
-    for (int a = 0; a <= Dim; ++a) {
-      if (grid_.element_face[e][a] != f) fines_out.add(flux * at_vertices[a] / Dim);
-    }
-  }
-  row.concentration_out = row.flux_out > 0.0 ? fines_out.value() / row.flux_out : 0.0;
-
-  const std::vector<double> porosity = element_porosity(state.porosity);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    double filled = 0.0;
-    for (int p = begins[e]; p < begins[e + 1]; ++p) filled += volume[p];
-    row.volume_defect =
-        std::max(row.volume_defect, std::abs(filled / (porosity[e] * grid_.volume[e]) - 1.0));
-  }
-  if (carried_flow_ != nullptr) {
-    row.pressure_scatter = point_pressure_scatter(liquid, volume, moment.node_pressure);
-  }
-  return row;
-}
-
-template <int Dim>
-double DoublePoint<Dim>::point_pressure_scatter(const LiquidPoints<Dim>& liquid,
-                                                const std::vector<double>& volume,
-                                                const std::vector<double>& smooth) const {
-  double square = 0.0;
-  double sum = 0.0;
-  for (int p = 0; p < liquid.size(); ++p) {
-    const double off = liquid.pressure[p] - interpolated(liquid, p, smooth);
-    square += volume[p] * off * off;
-    sum += volume[p];
-  }
-  return std::sqrt(square / sum);
-}
-
-template <int Dim>
-std::vector<double> DoublePoint<Dim>::concentrations(const LiquidPoints<Dim>& liquid,
-                                                     const std::vector<double>& volume) const {
-  std::vector<double> result(liquid.size());
-  for (int p = 0; p < liquid.size(); ++p) {
-    result[p] = liquid.fines_mass[p] / (densities_.grain * volume[p]);
-  }
-  return result;
-}
-
-template <int Dim>
-double DoublePoint<Dim>::interpolated(const LiquidPoints<Dim>& liquid, int p,
-                                      const std::vector<double>& at_nodes) const {
-  double value = 0.0;
-  for (int a = 0; a <= Dim; ++a) {
-    value += liquid.barycentric[p][a] * at_nodes[grid_.mesh.elements[liquid.element[p]][a]];
-  }
-  return value;
-}
-
-template <int Dim>
-std::vector<Stored> DoublePoint<Dim>::stored(const State& state) const {
-  std::vector<StoredSums> sums(accounts_.count());
-  book_solid(skeleton_, grid_.mesh, densities_.grain, state.porosity, sums);
-  const LiquidPoints<Dim>& liquid = state.liquid;
-  for (int p = 0; p < liquid.size(); ++p) {
-    for (StoredSums* sum : {&sums[0], &sums[grid_.mesh.element_region[liquid.element[p]] + 1]}) {
-      sum->water.add(liquid.water_mass[p]);
-      sum->fines.add(liquid.fines_mass[p]);
-      ++sum->points;
-    }
-  }
-  for (const double volume : state.pending) sums[0].pending.add(densities_.grain * volume);
-  std::vector<Stored> result;
-  result.reserve(sums.size());
-  for (const StoredSums& s : sums) result.push_back(s.totals());
-  return result;
-}
-
-template <int Dim>
-LedgerRow DoublePoint<Dim>::ledger(const State& state) const {
-  return ledger_row(state.time, stored(state)[0], state.crossed[0].totals(), initial_[0]);
-}
-
-template <int Dim>
-std::vector<RegionRow> DoublePoint<Dim>::region_rows(const State& state) const {
-  return suffuse::region_rows(skeleton_, grid_, densities_.grain, state.time, stored(state),
-                              initial_, state.crossed);
-}
-
-template <int Dim>
-Snapshot DoublePoint<Dim>::snapshot(const State& state, const FlowMoment<Dim>& moment,
-                                    long step) const {
-  const LiquidPoints<Dim>& liquid = state.liquid;
-  const std::vector<int> begins = element_begins(liquid, grid_.mesh.element_count());
-  const std::vector<double> volume = point_volumes(liquid, moment.pressure);
-  const std::vector<double> concentration = concentrations(liquid, volume);
-
-  FinesState<Dim> between_points;
-  between_points.pore_volume = skeleton_.initial_pore_volume();
-  between_points.fines_volume = concentration_fit(grid_, liquid, begins, volume, concentration);
-  const ElementField<Dim> eroded =
-      skeleton_.eroded_volume(skeleton_.initial_porosity(), state.porosity);
-  for (std::size_t e = 0; e < eroded.size(); ++e) {
-    for (int j = 0; j <= Dim; ++j) {
-      between_points.pore_volume[e][j] += eroded[e][j];
-      between_points.fines_volume[e][j] *= between_points.pore_volume[e][j];
-    }
-  }
-  Snapshot result = make_snapshot(grid_, skeleton_, state.porosity, between_points, moment, step);
-
-  Field saturation{"saturation_state", "1", 1, {}};
-  Field count{"liquid_points", "1", 1, {}};
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const bool soil = skeleton_.is_soil(e);
-    const bool filled = begins[e + 1] > begins[e];
-    const Saturation s = soil ? (filled ? Saturation::saturated_soil : Saturation::dry_soil)
-                              : (filled ? Saturation::free_liquid : Saturation::empty);
-    saturation.values.push_back(static_cast<double>(s));
-    count.values.push_back(begins[e + 1] - begins[e]);
-  }
-  result.cell.push_back(std::move(saturation));
-  result.cell.push_back(std::move(count));
-
-  const std::vector<double>& smooth = moment.node_pressure;
-  const std::vector<double> porosity = element_porosity(state.porosity);
-  Field pressure{"pressure", "Pa", 1, {}};
-  Field velocity{"liquid_velocity", "m/s", Dim, {}};
-  Field element{"element", "1", 1, {}};
-  Field id{"id", "1", 1, {}};
-  for (int p = 0; p < liquid.size(); ++p) {
-    const int e = liquid.element[p];
-    const Vector<Dim> x = liquid.place(p).position(grid_.mesh);
-    for (int d = 0; d < 3; ++d) result.liquid_positions.push_back(d < Dim ? x[d] : 0.0);
-    pressure.values.push_back(carried_flow_ != nullptr ? liquid.pressure[p]
-                                                       : interpolated(liquid, p, smooth));
-    const Vector<Dim> flux = flux_at(grid_, moment.face_flux, e, x);
-    for (int d = 0; d < Dim; ++d) velocity.values.push_back(flux[d] / porosity[e]);
-    element.values.push_back(e);
-    id.values.push_back(static_cast<double>(liquid.id[p]));
-  }
-  result.liquid = {{"concentration", "1", 1, concentration},
-                   std::move(pressure),
-                   std::move(velocity),
-                   {"volume", Dim == 2 ? "m3/m" : "m3", 1, volume},
-                   {"water_mass", Dim == 2 ? "kg/m" : "kg", 1, liquid.water_mass},
-                   {"fines_mass", Dim == 2 ? "kg/m" : "kg", 1, liquid.fines_mass},
-                   std::move(element),
-                   std::move(id)};
-  return result;
-}
-
-template <int Dim>
 std::vector<PassTiming> DoublePoint<Dim>::passes() const {
   std::vector<PassTiming> result = flow_->passes();
-  if (carried_flow_ != nullptr) result.push_back(timings_.exchange);
-  result.insert(result.end(), {timings_.erosion, timings_.movement, timings_.coefficients});
+  if (carried_ != nullptr) result.push_back(carried_->exchange());
+  result.insert(result.end(),
+                {timings_.erosion, carried_ != nullptr ? carried_->movement() : timings_.movement,
+                 timings_.coefficients});
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "balance.hpp"
+#include "carried_liquid.hpp"
 #include "flow/nodal_flow.hpp"
 #include "flow/scene_flow.hpp"
 #include "plan.hpp"
@@ -34,9 +35,10 @@ struct DoublePointState {
 /// Mixed: nodes and elements keep velocity and pressure, as in the single-point formulation, and
 /// liquid points follow the flux; they move when transport asks for it, over many flow steps.
 ///
-/// Material-point, the paper's: liquid points keep velocity and pressure. Each step nodes take
+/// Material-point, the paper's: liquid points keep velocity and pressure. In each step nodes take
 /// their velocity from the points (mass-weighted), elements their pressure (volume-weighted),
-/// points take back the change of both (FLIP) and move.
+/// points take back the change of both (FLIP) and move. Erosion acts before and after as many steps
+/// as transport allows, half of its time each.
 template <int Dim>
 class DoublePoint {
  public:
@@ -60,7 +62,9 @@ class DoublePoint {
   /// Longest step, s, that erosion and transport leave to a flow that could take any.
   [[nodiscard]] double longest_interval() const;
 
-  [[nodiscard]] const State& state() const { return state_; }
+  /// Where liquid points carry the flow they are put together here, for those who ask.
+  [[nodiscard]] const State& state() const;
+  [[nodiscard]] double time() const { return state_.time; }
   [[nodiscard]] FlowMoment<Dim> moment() const { return flow_->moment(state_.time); }
   [[nodiscard]] const SceneFlow<Dim>& flow() const { return *flow_; }
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
@@ -70,7 +74,9 @@ class DoublePoint {
   [[nodiscard]] std::vector<RegionRow> region_rows(const State& state) const;
   [[nodiscard]] Snapshot snapshot(const State& state, const FlowMoment<Dim>& moment,
                                   long step) const;
-  [[nodiscard]] long liquid_points() const { return state_.liquid.size(); }
+  [[nodiscard]] long liquid_points() const {
+    return carried_ ? carried_->blocks().size() : state_.liquid.size();
+  }
 
   [[nodiscard]] std::vector<PassTiming> passes() const;
   /// Things to say once, newly found.
@@ -78,10 +84,15 @@ class DoublePoint {
 
  private:
   struct PassTimings {
-    PassTiming exchange{"exchange of points and nodes", 0, 0.0};
     PassTiming erosion{"erosion and transfer of grains", 0, 0.0};
     PassTiming movement{"movement of liquid points", 0, 0.0};
     PassTiming coefficients{"coefficients of the flow", 0, 0.0};
+  };
+  using HasLiquid = std::function<bool(int element)>;
+  /// Volume of grains and of all liquid at p = 0, per element, m3.
+  struct LiquidContent {
+    std::vector<double> grains;
+    std::vector<double> liquid;
   };
   void initialise();
   void place_liquid();
@@ -90,7 +101,9 @@ class DoublePoint {
   [[nodiscard]] std::vector<double> point_volumes(const LiquidPoints<Dim>& liquid,
                                                   const std::vector<double>& pressure) const;
   [[nodiscard]] long steps_before_transport(double dt) const;
-  [[nodiscard]] PoreContent pores(const State& state) const;
+  [[nodiscard]] LiquidContent liquid_content() const;
+  /// What the pores hold now.
+  [[nodiscard]] PoreContent pores() const;
   /// The pores at a time ahead, as erosion fills them, before points have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;
   /// Concentrations as the weight of the liquid feels them, from those of the elements and their
@@ -119,22 +132,30 @@ class DoublePoint {
               const std::vector<double>& pressure, PassTimings& timings) const;
   [[nodiscard]] double substeps(const LiquidMotion<Dim>& motion, double begin,
                                 const std::vector<double>& porosity) const;
+  /// An interval whose liquid is carried: half of its erosion before the steps, half after them.
+  void start_carried(double duration);
+  void finish_carried(double end);
+  void erode_carried(double from, double to, const std::vector<double>& flux);
+  void book_carried(const std::vector<CarriedCrossing>& crossings);
+  /// The state at a time within the interval, aside.
+  [[nodiscard]] State look_at_carried(const FlowMoment<Dim>& moment,
+                                      const Passed<Dim>& passed) const;
+  [[nodiscard]] State look_at_followed(const State& last, const FlowMoment<Dim>& moment,
+                                       const Passed<Dim>& since_last) const;
   /// Solid can erode meanwhile, or grains wait for liquid.
   [[nodiscard]] bool has_to_erode(const State& state, double from, double to) const;
   void erode(State& state, double from, double to, const std::vector<double>& flux,
              const std::vector<double>& pressure) const;
   void move(State& state, const LiquidMotion<Dim>& motion,
             const std::vector<double>& pressure) const;
-  [[nodiscard]] std::vector<double> eroded_porosity(const State& state, double from, double to,
-                                                    const std::vector<double>& flux) const;
+  [[nodiscard]] std::vector<double> eroded_porosity(const std::vector<double>& porosity,
+                                                    double from, double to,
+                                                    const std::vector<double>& flux,
+                                                    const HasLiquid& has_liquid) const;
   void book(const typename GrainTransfer<Dim>::Result& exchanged, State& state) const;
-  void book(const std::vector<PointCrossing>& crossings, State& state) const;
+  void book(const PointCrossing& point, State& state) const;
   /// When some soil begins to erode, or all of it at once has no fines left.
   [[nodiscard]] std::vector<double> bends_of_porosity() const;
-  /// Nodes and elements take velocity and pressure from the liquid points.
-  void gather();
-  /// Liquid points take what the step changed at nodes and elements.
-  void scatter(const VectorField<Dim>& velocity_before, const std::vector<double>& pressure_before);
   [[nodiscard]] std::vector<double> concentrations(const LiquidPoints<Dim>& liquid,
                                                    const std::vector<double>& volume) const;
   [[nodiscard]] double interpolated(const LiquidPoints<Dim>& liquid, int p,
@@ -142,7 +163,10 @@ class DoublePoint {
   [[nodiscard]] double point_pressure_scatter(const LiquidPoints<Dim>& liquid,
                                               const std::vector<double>& volume,
                                               const std::vector<double>& smooth) const;
-  [[nodiscard]] int empty_elements(const std::vector<int>& begins) const;
+  [[nodiscard]] int empty_elements(const HasLiquid& has_liquid) const;
+  [[nodiscard]] int empty_elements(const std::vector<int>& begins) const {
+    return empty_elements([&](int e) { return begins[e + 1] > begins[e]; });
+  }
   [[nodiscard]] std::vector<Stored> stored(const State& state) const;
 
   const Case<Dim>& case_;
@@ -156,7 +180,18 @@ class DoublePoint {
 
   LagrangianTransport<Dim> transport_;
   GrainTransfer<Dim> transfer_;
-  State state_;
+  /// Without liquid points while these carry the flow, but for those who ask.
+  mutable State state_;
+  std::unique_ptr<CarriedLiquid<Dim>>
+      carried_;  ///< the liquid where it carries the flow, else null
+  /// Where the interval of a carried liquid began and erosion stands meanwhile; the state as it
+  /// would be without that erosion, which is what a look before its time goes on from.
+  struct CarriedInterval {
+    double begin = 0.0;
+    double middle = 0.0;
+    State not_eroded;
+  };
+  CarriedInterval carried_interval_;
   std::vector<Stored> initial_;
   std::vector<double> initial_pores_;  ///< volume per element, m3
   std::vector<double> bends_;          ///< see bends_of_porosity, ascending, s

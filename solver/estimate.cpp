@@ -236,7 +236,7 @@ class Trial {
     result.whole = loop.finished();
     result.over_budget = intervals_.size() == 1 && !result.whole && budget_.share >= 1.0;
     result.trial_steps = model.steps();
-    result.trial_time = model.state().time;
+    result.trial_time = model.time();
     result.trial_seconds = watch.seconds();
     conclude(model, loop.schedule(), writing, result);
     return result;
@@ -308,10 +308,10 @@ class Trial {
       const long steps = model.steps();
       const long looks = loop.advance(look);
       (void)model.take_warnings();
-      intervals_.push_back({model.state().time, model.last_step(),
+      intervals_.push_back({model.time(), model.last_step(),
                             static_cast<double>(model.steps() - steps), static_cast<double>(looks),
                             watch.seconds() - looking});
-      if (all.seconds() >= budget_.seconds || model.state().time >= until) break;
+      if (all.seconds() >= budget_.seconds || model.time() >= until) break;
     }
   }
 

@@ -44,7 +44,7 @@ class FormulationRun {
     if (interrupted()) {
       write_info("interrupted", "");
       std::ostringstream line;
-      line << "interrupted at t = " << model_.state().time << " s; what is written is complete";
+      line << "interrupted at t = " << model_.time() << " s; what is written is complete";
       progress_.say(line.str());
       return ExitCode::interrupted;
     }
@@ -63,7 +63,7 @@ class FormulationRun {
     while (!loop_.finished() && !interrupted()) {
       loop_.advance(write);
       for (const std::string& warning : model_.take_warnings()) warn(warning);
-      progress_.report(model_.state().time, model_.last_step());
+      progress_.report(model_.time(), model_.last_step());
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "case/errors.hpp"
@@ -151,20 +152,25 @@ FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
   progress.dt = dt;
   progress.duration = static_cast<double>(steps) * dt;
 
-  const PassTimer timer(timing_);
   timing_.calls += steps;
   // Round-off must not push a time that a step ends on into the next interval.
   const double reached =
       interval.begin + static_cast<double>(steps) * dt * (1.0 + 1e-12) + 1e-12 * dt;
   const std::vector<double> times = interval.times_until(reached);
+  if (carrier_ != nullptr) carrier_->start(progress.duration);
   scheme_.reset_volumes();
+  // Steps too short to look at the clock before and after each, unless others come in between.
+  std::optional<PassTimer> all_steps;
+  if (carrier_ == nullptr) all_steps.emplace(timing_);
   auto next = times.begin();
   for (long s = 0; s < steps; ++s) {
     const double step_begin = interval.begin + static_cast<double>(s) * dt;
     const double step_end =
         s + 1 == steps ? std::numeric_limits<double>::infinity() : step_begin + dt;
+    if (carrier_ != nullptr) carrier_->give(step_begin, dt);
     if (next == times.end() || *next > step_end) {
       step(step_begin, dt);
+      carry(step_begin, dt);
       continue;
     }
     const std::vector<double> pressure = scheme_.pressure();
@@ -173,12 +179,13 @@ FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
     // Flux is constant within a step, so what has passed is linear.
     for (; next != times.end() && *next <= step_end; ++next) {
       const double share = (*next - step_begin) / dt;
-      this->take_boundary_values(interval.begin, *next);
+      this->take_boundary_values(carrier_ == nullptr ? interval.begin : step_begin, *next);
       FlowMoment<Dim> moment = moment_of(*next, between(pressure, scheme_.pressure(), share),
                                          scheme_.velocity_at((share - 0.5) * dt));
       moment.dt = dt;
       interval.see(std::move(moment), between(before, passed(), share));
     }
+    carry(step_begin, dt);
   }
   progress.passed = passed();
   this->take_boundary_values(interval.begin, interval.begin + progress.duration);
@@ -187,10 +194,28 @@ FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
 
 template <int Dim>
 void NodalFlow<Dim>::step(double begin, double dt) {
+  std::optional<PassTimer> timer;
+  if (carrier_ != nullptr) timer.emplace(timing_);
   if (this->boundary_values().vary()) {
     operator_.set_boundary_values(this->boundary_values(), begin, begin + 0.5 * dt);
   }
   scheme_.step(dt);
+}
+
+template <int Dim>
+void NodalFlow<Dim>::carry(double begin, double dt) {
+  if (carrier_ == nullptr) return;
+  this->take_boundary_values(begin, begin + dt);
+  carrier_->take();
+}
+
+template <int Dim>
+void NodalFlow<Dim>::node_flux(VectorField<Dim>& flux) const {
+  const VectorField<Dim>& velocity = scheme_.velocity();
+  flux.resize(velocity.size());
+  for (std::size_t i = 0; i < flux.size(); ++i) {
+    flux[i] = operator_.carried_porosity()[i] * velocity[i];
+  }
 }
 
 template <int Dim>

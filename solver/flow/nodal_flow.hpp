@@ -11,6 +11,23 @@
 
 namespace suffuse {
 
+/// Whoever carries velocity and pressure from one step of the flow to the next, in place of nodes
+/// and elements (material-point integration).
+class FlowCarrier {
+ public:
+  FlowCarrier() = default;
+  virtual ~FlowCarrier() = default;
+  FlowCarrier(const FlowCarrier&) = delete;
+  FlowCarrier& operator=(const FlowCarrier&) = delete;
+
+  /// Steps are about to begin that take `duration` seconds together.
+  virtual void start(double duration) = 0;
+  /// Before a step of `dt` that begins at `time`: hands velocity and pressure over to the scheme.
+  virtual void give(double time, double dt) = 0;
+  /// After it, when those who look have looked: takes back what it changed, and moves.
+  virtual void take() = 0;
+};
+
 template <int Dim>
 class NodalFlow final : public SceneFlow<Dim> {
  public:
@@ -18,6 +35,13 @@ class NodalFlow final : public SceneFlow<Dim> {
             const FlowOptions& options);
 
   [[nodiscard]] ExplicitNodal<Dim>& scheme() { return scheme_; }
+  /// From now on the flow is carried by this one, which outlives it.
+  void set_carrier(FlowCarrier& carrier) { carrier_ = &carrier; }
+  /// Fluxes of the last step: of each node, m/s, and through a face along its normal, m3/s.
+  void node_flux(VectorField<Dim>& flux) const;
+  [[nodiscard]] double face_flux(int face) const {
+    return operator_.face_flux(face, scheme_.velocity());
+  }
 
   void update(double time, const PoreContent& content,
               const std::vector<double>& face_concentration) override;
@@ -40,6 +64,8 @@ class NodalFlow final : public SceneFlow<Dim> {
   void check_step(double time);
   /// One step of the scheme under the boundary values of its time.
   void step(double begin, double dt);
+  /// What follows a step where the flow has a carrier.
+  void carry(double begin, double dt);
   [[nodiscard]] FlowMoment<Dim> moment_of(double time, std::vector<double> pressure,
                                           VectorField<Dim> velocity) const;
   [[nodiscard]] Passed<Dim> passed() const;
@@ -49,6 +75,7 @@ class NodalFlow final : public SceneFlow<Dim> {
   ExplicitNodal<Dim> scheme_;
   double step_;
   bool step_given_;
+  FlowCarrier* carrier_ = nullptr;
   PassTiming timing_{"flow", 0, 0.0};
   /// The two limits when the assembled one was last found; it follows the other until that has
   /// moved.

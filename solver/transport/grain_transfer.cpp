@@ -64,8 +64,7 @@ auto GrainTransfer<Dim>::collect(const std::vector<double>& before,
 template <int Dim>
 auto GrainTransfer<Dim>::compare(const std::vector<double>& at_node,
                                  const std::vector<double>& taken, int rounds,
-                                 const std::vector<double>& point_volume,
-                                 const LiquidPoints<Dim>& points,
+                                 const std::function<void(std::vector<double>& seen)>& see,
                                  std::vector<double>& pending) const -> Handout {
   const Mesh<Dim>& mesh = grid_.mesh;
   // Points are too few to fill every node's surroundings evenly: compared over a few elements.
@@ -94,11 +93,7 @@ auto GrainTransfer<Dim>::compare(const std::vector<double>& at_node,
   // No eroding element near has a point: to any point that the node sees, or to wait.
   handout.per_volume.assign(mesh.node_count(), 0.0);
   std::vector<double> seen(mesh.node_count(), 0.0);
-  for (int p = 0; p < points.size(); ++p) {
-    for (int a = 0; a <= Dim; ++a) {
-      seen[mesh.elements[points.element[p]][a]] += point_volume[p] * points.barycentric[p][a];
-    }
-  }
+  see(seen);
   for (int i = 0; i < mesh.node_count(); ++i) {
     if (seen[i] > 0.0) {
       handout.per_volume[i] = left_over[i] / seen[i];
@@ -110,18 +105,14 @@ auto GrainTransfer<Dim>::compare(const std::vector<double>& at_node,
 }
 
 template <int Dim>
-auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
-                                  const std::vector<double>& after,
-                                  const std::vector<double>& porosity,
-                                  const std::vector<int>& begins,
-                                  const std::vector<double>& point_volume,
-                                  LiquidPoints<Dim>& points, std::vector<double>& pending) const
-    -> Result {
+template <class Liquid>
+auto GrainTransfer<Dim>::hand_over(const std::vector<double>& before,
+                                   const std::vector<double>& after,
+                                   const std::vector<double>& porosity, const Liquid& liquid,
+                                   std::vector<double>& pending) const -> Result {
   const Mesh<Dim>& mesh = grid_.mesh;
   Result result;
-  const auto stays_in_element = [&](int e) {
-    return shares_by_element(e) && begins[e + 1] > begins[e];
-  };
+  const auto stays_in_element = [&](int e) { return shares_by_element(e) && liquid.count(e) > 0; };
   const auto [eroded, at_node] = collect(before, after, stays_in_element, pending, result);
   const auto erodes = [&in = eroded](int e) { return in[e] > 0.0; };
   // What each point would take by itself, per volume of liquid, at the nodes of eroding elements.
@@ -140,42 +131,88 @@ auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
     }
   }
   const auto takes_by_nodes = [&](int e) { return erodes(e) && !stays_in_element(e); };
-  const auto at_point = [&](int e, int p, const std::vector<double>& at_nodes) {
-    return at_place(e, points.barycentric[p], at_nodes);
-  };
   std::vector<double> taken(mesh.node_count(), 0.0);
   for (int e = 0; e < mesh.element_count(); ++e) {
     if (!takes_by_nodes(e)) continue;
-    for (int p = begins[e]; p < begins[e + 1]; ++p) {
-      const double share = point_volume[p] * at_point(e, p, gain);
-      for (int a = 0; a <= Dim; ++a) {
-        taken[mesh.elements[e][a]] += share * points.barycentric[p][a];
-      }
+    for (int k = 0; k < liquid.count(e); ++k) {
+      const auto at = liquid.barycentric(e, k);
+      const double share = liquid.volume(e, k) * at_place(e, at, gain);
+      for (int a = 0; a <= Dim; ++a) taken[mesh.elements[e][a]] += share * at[a];
     }
   }
-  const Handout handout = compare(at_node, taken, rounds_of_places, point_volume, points, pending);
+  const auto see = [&](std::vector<double>& seen) {
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      for (int k = 0; k < liquid.count(e); ++k) {
+        const auto at = liquid.barycentric(e, k);
+        for (int a = 0; a <= Dim; ++a) seen[mesh.elements[e][a]] += liquid.volume(e, k) * at[a];
+      }
+    }
+  };
+  const Handout handout = compare(at_node, taken, rounds_of_places, see, pending);
   const bool some_left = !handout.per_volume.empty();
 
   for (int e = 0; e < mesh.element_count(); ++e) {
-    if (begins[e + 1] == begins[e] || (!erodes(e) && !some_left)) continue;
+    if (liquid.count(e) == 0 || (!erodes(e) && !some_left)) continue;
     double own = 0.0;
     if (erodes(e) && stays_in_element(e)) {
       double volume = 0.0;
-      for (int p = begins[e]; p < begins[e + 1]; ++p) volume += point_volume[p];
+      for (int k = 0; k < liquid.count(e); ++k) volume += liquid.volume(e, k);
       own = eroded[e] / volume;
     }
     double received = 0.0;
-    for (int p = begins[e]; p < begins[e + 1]; ++p) {
+    for (int k = 0; k < liquid.count(e); ++k) {
+      const auto at = liquid.barycentric(e, k);
       double share = own;
-      if (takes_by_nodes(e)) share += at_point(e, p, gain) * at_point(e, p, handout.factor);
-      if (some_left) share += at_point(e, p, handout.per_volume);
-      const double mass = grain_density_ * point_volume[p] * share;
-      points.fines_mass[p] += mass;
+      if (takes_by_nodes(e)) share += at_place(e, at, gain) * at_place(e, at, handout.factor);
+      if (some_left) share += at_place(e, at, handout.per_volume);
+      const double mass = grain_density_ * liquid.volume(e, k) * share;
+      liquid.add_fines(e, k, mass);
       received += mass;
     }
     result.received[mesh.element_region[e]] += received;
   }
   return result;
+}
+
+template <int Dim>
+auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
+                                  const std::vector<double>& after,
+                                  const std::vector<double>& porosity,
+                                  const std::vector<int>& begins,
+                                  const std::vector<double>& point_volume,
+                                  LiquidPoints<Dim>& points, std::vector<double>& pending) const
+    -> Result {
+  struct Sorted {
+    const std::vector<int>& begins;
+    const std::vector<double>& volumes;
+    LiquidPoints<Dim>& points;
+    [[nodiscard]] int count(int e) const { return begins[e + 1] - begins[e]; }
+    [[nodiscard]] const auto& barycentric(int e, int k) const {
+      return points.barycentric[begins[e] + k];
+    }
+    [[nodiscard]] double volume(int e, int k) const { return volumes[begins[e] + k]; }
+    void add_fines(int e, int k, double mass) const { points.fines_mass[begins[e] + k] += mass; }
+  };
+  return hand_over(before, after, porosity, Sorted{begins, point_volume, points}, pending);
+}
+
+template <int Dim>
+auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
+                                  const std::vector<double>& after,
+                                  const std::vector<double>& porosity, LiquidDensities densities,
+                                  PointBlocks<Dim>& points, std::vector<double>& pending) const
+    -> Result {
+  struct Carried {
+    LiquidDensities densities;
+    PointBlocks<Dim>& points;
+    [[nodiscard]] int count(int e) const { return points.count(e); }
+    [[nodiscard]] auto barycentric(int e, int k) const { return points.barycentric(e, k); }
+    [[nodiscard]] double volume(int e, int k) const {
+      return liquid_volume(points.water_mass(e, k), points.fines_mass(e, k), densities, 1.0);
+    }
+    void add_fines(int e, int k, double mass) const { points.add_fines(e, k, mass); }
+  };
+  return hand_over(before, after, porosity, Carried{densities, points}, pending);
 }
 
 template <int Dim>
@@ -200,8 +237,14 @@ auto GrainTransfer<Dim>::transfer_on_the_way(const std::vector<double>& before,
       taken[mesh.elements[take.element][a]] += take.own_volume * take.barycentric[a];
     }
   }
-  const Handout handout =
-      compare(eroded.at_node, taken, rounds_of_ways, point_volume, points, pending);
+  const auto see = [&](std::vector<double>& seen) {
+    for (int p = 0; p < points.size(); ++p) {
+      for (int a = 0; a <= Dim; ++a) {
+        seen[mesh.elements[points.element[p]][a]] += point_volume[p] * points.barycentric[p][a];
+      }
+    }
+  };
+  const Handout handout = compare(eroded.at_node, taken, rounds_of_ways, see, pending);
 
   for (GrainTake<Dim>& take : takes) {
     const int e = take.element;

@@ -7,6 +7,7 @@
 #include "solid/rigid_skeleton.hpp"
 #include "transport/grain_take.hpp"
 #include "transport/liquid_points.hpp"
+#include "transport/point_blocks.hpp"
 
 namespace suffuse {
 
@@ -36,6 +37,11 @@ class GrainTransfer {
                   const std::vector<double>& porosity, const std::vector<int>& begins,
                   const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
                   std::vector<double>& pending) const;
+  /// The same to points that carry the flow. Their volumes are those at p = 0: what they take is
+  /// compared near by, where all are packed alike.
+  Result transfer(const std::vector<double>& before, const std::vector<double>& after,
+                  const std::vector<double>& porosity, LiquidDensities densities,
+                  PointBlocks<Dim>& points, std::vector<double>& pending) const;
 
   /// The same for points that went their way while porosity grew: instead of phi_e V_p / n_L each
   /// point by itself takes `own_volume` of each of its `takes`, and comparing gives each take its
@@ -47,6 +53,11 @@ class GrainTransfer {
                              std::vector<double>& pending) const;
 
  private:
+  /// `Liquid`: points of each element by their number in it.
+  template <class Liquid>
+  Result hand_over(const std::vector<double>& before, const std::vector<double>& after,
+                   const std::vector<double>& porosity, const Liquid& liquid,
+                   std::vector<double>& pending) const;
   /// Volume that eroded, m3: per element, and per node what goes by the nodes, with what waited.
   struct Eroded {
     std::vector<double> in_element;
@@ -62,11 +73,10 @@ class GrainTransfer {
     std::vector<double> per_volume;
   };
   /// `taken`: what points would take by themselves near each node, m3; compared after `rounds` of
-  /// passing on to neighbours.
+  /// passing on to neighbours. `see` adds to each node the volume of liquid that it sees, m3.
   [[nodiscard]] Handout compare(const std::vector<double>& at_node,
                                 const std::vector<double>& taken, int rounds,
-                                const std::vector<double>& point_volume,
-                                const LiquidPoints<Dim>& points,
+                                const std::function<void(std::vector<double>& seen)>& see,
                                 std::vector<double>& pending) const;
   [[nodiscard]] bool shares_by_element(int e) const {
     return skeleton_.soil_of_element(e).erosion.mass_transfer == MassTransfer::element;

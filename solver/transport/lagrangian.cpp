@@ -72,6 +72,7 @@ LagrangianTransport<Dim>::LagrangianTransport(const Grid<Dim>& grid,
       threads_(threads) {
   for (const FaceCondition& condition : conditions) {
     open_face_.push_back(condition.kind != FaceKind::interior && condition.kind != FaceKind::wall);
+    if (open_face_.back() != 0) open_faces_.push_back(static_cast<int>(open_face_.size()) - 1);
   }
 }
 
@@ -81,11 +82,8 @@ Entering LagrangianTransport<Dim>::nothing_entered(long next_id) const {
   entering.next_id = next_id;
   entering.born.assign(grid_.face_count(), 0);
   entering.volume.assign(grid_.face_count(), 0.0);
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    if (open_face_[f] != 0) {
-      entering.volume[f] =
-          births_.point_volume[f] * fraction(0.5 + golden * static_cast<double>(f));
-    }
+  for (const int f : open_faces_) {
+    entering.volume[f] = births_.point_volume[f] * fraction(0.5 + golden * static_cast<double>(f));
   }
   return entering;
 }
@@ -138,7 +136,9 @@ double LagrangianTransport<Dim>::volumes_at_birth(int face, long number) const {
   if (!births_.random) return static_cast<double>(number) + 1.0;
   const long batch = births_.points_per_element[face];
   const long first = number / batch * batch;
-  std::vector<double> at(batch);
+  // Asked at every open face in every step: no memory of its own each time.
+  thread_local std::vector<double> at;
+  at.resize(batch);
   for (long k = 0; k < batch; ++k) {
     at[k] = static_cast<double>(batch) * hashed(births_.seed, face, first + k, 0);
   }
@@ -147,11 +147,9 @@ double LagrangianTransport<Dim>::volumes_at_birth(int face, long number) const {
 }
 
 template <int Dim>
-auto LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim>& motion) const
-    -> std::vector<Newborn> {
-  std::vector<Newborn> born;
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    if (open_face_[f] == 0) continue;
+void LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim>& motion,
+                                      std::vector<Newborn<Dim>>& born) const {
+  for (const int f : open_faces_) {
     const double inflow = -motion.entered[f];
     const double before = entering.volume[f];
     entering.volume[f] += inflow;
@@ -169,21 +167,28 @@ auto LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim
       ++entering.born[f];
     }
   }
-  return born;
+}
+
+template <int Dim>
+auto LagrangianTransport<Dim>::content(const Newborn<Dim>& newborn, double element_pressure) const
+    -> Content {
+  const double concentration = conditions_[newborn.face].concentration;
+  const double volume = births_.point_volume[newborn.face];
+  const double ratio = density_ratio(element_pressure, bulk_modulus_);
+  return {(1.0 - concentration) * volume * densities_.water * ratio,
+          concentration * volume * densities_.grain};
 }
 
 template <int Dim>
 void LagrangianTransport<Dim>::admit(LiquidPoints<Dim>& points, Entering& entering,
-                                     const Newborn& newborn,
+                                     const Newborn<Dim>& newborn,
                                      const std::vector<double>& element_pressure) const {
   const int e = newborn.place.element;
-  const double concentration = conditions_[newborn.face].concentration;
-  const double volume = births_.point_volume[newborn.face];
-  const double ratio = density_ratio(element_pressure[e], bulk_modulus_);
+  const Content carried = content(newborn, element_pressure[e]);
   points.element.push_back(e);
   points.barycentric.push_back(newborn.place.barycentric);
-  points.water_mass.push_back((1.0 - concentration) * volume * densities_.water * ratio);
-  points.fines_mass.push_back(concentration * volume * densities_.grain);
+  points.water_mass.push_back(carried.water_mass);
+  points.fines_mass.push_back(carried.fines_mass);
   points.id.push_back(entering.next_id++);
 }
 
@@ -199,7 +204,9 @@ std::vector<PointCrossing> LagrangianTransport<Dim>::move(
   for (int p = 0; p < old_points; ++p) from[p] = region[points.element[p]];
   std::vector<double> walk_time(old_points, motion.duration);
 
-  for (const Newborn& newborn : births(entering, motion)) {
+  std::vector<Newborn<Dim>> born;
+  births(entering, motion, born);
+  for (const Newborn<Dim>& newborn : born) {
     admit(points, entering, newborn, element_pressure);
     if (!node_velocity.empty()) {
       const int e = newborn.place.element;
@@ -261,10 +268,11 @@ WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
   for (const int e : points.element) walked.from.push_back(region[e]);
   std::vector<double> begin(points.size(), 0.0);
   // In the order in which they come, so that a look at part of the interval numbers them the same.
-  std::vector<Newborn> born = births(entering, motion);
+  std::vector<Newborn<Dim>> born;
+  births(entering, motion, born);
   std::stable_sort(born.begin(), born.end(),
-                   [](const Newborn& a, const Newborn& b) { return a.share < b.share; });
-  for (const Newborn& newborn : born) {
+                   [](const Newborn<Dim>& a, const Newborn<Dim>& b) { return a.share < b.share; });
+  for (const Newborn<Dim>& newborn : born) {
     admit(points, entering, newborn, element_pressure);
     walked.from.push_back(-1);
     begin.push_back(newborn.share);

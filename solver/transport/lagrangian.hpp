@@ -48,6 +48,14 @@ struct WalkedPoints {
   std::vector<GrainTake<Dim>> takes;
 };
 
+/// A point that comes in.
+template <int Dim>
+struct Newborn {
+  PointPlace<Dim> place;
+  int face;
+  double share;  ///< of the interval that had passed
+};
+
 /// How new points are spread over the liquid that enters.
 struct BirthSettings {
   std::vector<double> point_volume;  ///< per face: liquid volume of one point, m3
@@ -67,6 +75,21 @@ class LagrangianTransport {
 
   /// The state of `entering` before anything came in. Faces take turns.
   [[nodiscard]] Entering nothing_entered(long next_id) const;
+
+  /// Outer faces that are not impervious, ascending: where points come in and leave.
+  [[nodiscard]] const std::vector<int>& open_faces() const { return open_faces_; }
+  [[nodiscard]] const std::vector<unsigned char>& is_open() const { return open_face_; }
+
+  /// Adds to `born` the points whose volume has come in, at the moments when it was complete.
+  void births(Entering& entering, const LiquidMotion<Dim>& motion,
+              std::vector<Newborn<Dim>>& born) const;
+  /// What a point brings along: the concentration of its boundary, and the water that its element's
+  /// pressure packs into its volume.
+  struct Content {
+    double water_mass;  ///< kg
+    double fines_mass;  ///< kg
+  };
+  [[nodiscard]] Content content(const Newborn<Dim>& newborn, double element_pressure) const;
 
   /// Share of the motion after which erosion and transport must take turns: when some point may
   /// have crossed a quarter of an element by node fluxes, a whole one by face volumes.
@@ -100,11 +123,6 @@ class LagrangianTransport {
                                     const WalkedPoints<Dim>& walked) const;
 
  private:
-  struct Newborn {
-    PointPlace<Dim> place;
-    int face;
-    double share;  ///< of the interval that had passed
-  };
   [[nodiscard]] WalkField<Dim> field(const LiquidMotion<Dim>& motion,
                                      const std::vector<double>& porosity) const {
     return {motion.node_flux, porosity, open_face_};
@@ -113,16 +131,14 @@ class LagrangianTransport {
   [[nodiscard]] double volumes_at_birth(int face, long number) const;
   [[nodiscard]] PointPlace<Dim> place_on_face(int face, long number,
                                               const LiquidMotion<Dim>& motion) const;
-  /// New points at the moments at which their volume has come in.
-  [[nodiscard]] std::vector<Newborn> births(Entering& entering,
-                                            const LiquidMotion<Dim>& motion) const;
-  void admit(LiquidPoints<Dim>& points, Entering& entering, const Newborn& newborn,
+  void admit(LiquidPoints<Dim>& points, Entering& entering, const Newborn<Dim>& newborn,
              const std::vector<double>& element_pressure) const;
 
   const Grid<Dim>& grid_;
   const std::vector<FaceCondition>& conditions_;
   BirthSettings births_;
   std::vector<unsigned char> open_face_;
+  std::vector<int> open_faces_;
   LiquidDensities densities_;
   double bulk_modulus_;
   int threads_;

@@ -36,6 +36,17 @@ std::vector<int> begins(const std::vector<int>& element, int element_count) {
 }  // namespace
 
 template <int Dim>
+void LiquidPoints<Dim>::reserve(int count) {
+  element.reserve(count);
+  barycentric.reserve(count);
+  water_mass.reserve(count);
+  fines_mass.reserve(count);
+  id.reserve(count);
+  pressure.reserve(count);
+  velocity.reserve(count);
+}
+
+template <int Dim>
 void sort_by_element(LiquidPoints<Dim>& points, int element_count) {
   if (std::is_sorted(points.element.begin(), points.element.end())) return;
   std::vector<int> next = begins(points.element, element_count);
@@ -58,6 +69,7 @@ void keep_points(LiquidPoints<Dim>& points, const std::vector<unsigned char>& ke
   if (order.size() < keep.size()) rearrange(points, order);
 }
 
+template void LiquidPoints<2>::reserve(int);
 template void sort_by_element(LiquidPoints<2>&, int);
 template std::vector<int> element_begins(const LiquidPoints<2>&, int);
 template void keep_points(LiquidPoints<2>&, const std::vector<unsigned char>&);

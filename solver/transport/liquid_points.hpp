@@ -23,6 +23,8 @@ struct LiquidPoints {
 
   [[nodiscard]] int size() const { return static_cast<int>(element.size()); }
   [[nodiscard]] PointPlace<Dim> place(int p) const { return {element[p], barycentric[p]}; }
+  /// Room for so many points that carry the flow.
+  void reserve(int count);
 };
 
 /// Sorts by element; points of one element keep their order.

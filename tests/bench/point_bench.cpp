@@ -1,0 +1,93 @@
+/// Liquid points that carry the flow: the passes of one step, each by itself and together, on the
+/// paper's column made fine, with 12 points per element. Water flows so fast that points cross
+/// faces in each step; `percent` says by how much of an element they move.
+
+#include <map>
+#include <memory>
+
+#include "bench/bench.hpp"
+#include "solver/carried_column.hpp"
+
+namespace suffuse::bench {
+namespace {
+
+/// A column of about so many points, kept from one benchmark to the next.
+model::Column& column_of(const benchmark::State& state) {
+  struct Kept {
+    Case<2> input;
+    std::unique_ptr<model::Column> column;
+  };
+  static std::map<std::array<long, 3>, Kept> all;
+  const std::array<long, 3> key{state.range(0), state.range(1), state.range(2)};
+  if (!all.contains(key)) {
+    all.clear();
+    Kept& kept = all[key];
+    const double columns = std::sqrt(static_cast<double>(key[0]) / 24.0);
+    kept.input = model::fast_column(static_cast<int>(columns), static_cast<double>(key[2]) / 14.0);
+    kept.column = std::make_unique<model::Column>(kept.input, static_cast<int>(key[1]));
+    // Blocks have grown to what they need.
+    for (int k = 0; k < 20; ++k) kept.column->move();
+  }
+  return *all.at(key).column;
+}
+
+double quad_bytes(const model::Column& column) {
+  double quads = 0.0;
+  const PointBlocks<2>& blocks = column.liquid().blocks();
+  for (int e = 0; e < blocks.element_count(); ++e) {
+    quads += static_cast<double>(blocks.quads(e).size());
+  }
+  return quads * sizeof(PointQuad<2>);
+}
+
+/// `bytes` of all points and elements in one call of `pass`.
+template <class Pass>
+void measure(benchmark::State& state, double quads, double per_element, const Pass& pass) {
+  model::Column& column = column_of(state);
+  const long ids = column.entering().next_id;
+  for ([[maybe_unused]] const auto step : state) pass(column);
+  const double points = column.liquid().blocks().size();
+  const auto elements = static_cast<double>(column.grid().mesh.element_count());
+  report(state, points, (quads * quad_bytes(column) + per_element * elements) / points,
+         static_cast<int>(state.range(1)));
+  state.counters["crossing"] = static_cast<double>(column.liquid().carried().travelled()) / points;
+  state.counters["births"] = static_cast<double>(column.entering().next_id - ids) /
+                             static_cast<double>(state.iterations());
+}
+
+/// Points to nodes and elements: every point read, sums of each corner written and read.
+void Gather(benchmark::State& state) {
+  measure(state, 1.0, 2 * 72 + 8 + 16, [](model::Column& column) { column.give(); });
+}
+
+/// What nodes and elements gained to points, which move: every point read and written; flux,
+/// velocities, pressures and gradients of each element read.
+void TakeAndMove(benchmark::State& state) {
+  measure(state, 2.0, 48 + 12 + 3 * 8 + 48, [](model::Column& column) { column.take(); });
+}
+
+/// The nodes' own part.
+void Flow(benchmark::State& state) {
+  measure(state, 0.0, 200, [](model::Column& column) { column.step(); });
+}
+
+void Step(benchmark::State& state) {
+  measure(state, 3.0, 500, [](model::Column& column) { column.move(); });
+}
+
+void sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"points", "threads", "percent"})->UseRealTime();
+  for (const int points : {10'000, 100'000, 1'000'000}) {
+    for (const int threads : {1, 2}) {
+      for (const int percent : {2, 14}) benchmark->Args({points, threads, percent});
+    }
+  }
+}
+BENCHMARK(Gather)->Apply(sizes);
+BENCHMARK(TakeAndMove)->Apply(sizes);
+BENCHMARK(Flow)->Apply(sizes);
+BENCHMARK(Step)->Apply(sizes);
+BENCHMARK(Step)->Name("QuickStep")->Args({2000, 1, 14})->UseRealTime();
+
+}  // namespace
+}  // namespace suffuse::bench
