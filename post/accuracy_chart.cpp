@@ -110,7 +110,7 @@ void add_scheme(Chart& chart, const std::vector<AccuracyRun>& runs, const Way& w
   std::ranges::copy_if(runs, std::back_inserter(own),
                        [&](const AccuracyRun& run) { return run.scheme == name; });
   if (own.empty()) return;
-  const bool hollow = std::string(formulation.more) != "";
+  const bool hollow = !std::string(formulation.more).empty();
   Curve all = markers(own, way, hollow);
   all.color = pale(way.color);
   Curve best = markers(best_runs(own), way, hollow);

@@ -211,16 +211,17 @@ Table sample(const ResultsReader& results, double time, const SampleLine& line, 
   if (count > most_points) {
     throw wrong("--count", std::to_string(count), "at most " + std::to_string(most_points));
   }
-  std::vector<Vector<2>> places;
+  std::vector<Vector<2>> positions;
   for (int i = 0; i < count; ++i) {
     const double along = static_cast<double>(i) / (count - 1);
-    places.emplace_back((1.0 - along) * line.from + along * line.to);
+    positions.emplace_back((1.0 - along) * line.from + along * line.to);
   }
-  return sample_places(results, time, places, fields);
+  return sample_places(results, time, positions, fields);
 }
 
-Table sample_places(const ResultsReader& results, double time, const std::vector<Vector<2>>& places,
-                    const std::vector<std::string>& fields, const SampleWords& words) {
+Table sample_places(const ResultsReader& results, double time,
+                    const std::vector<Vector<2>>& positions, const std::vector<std::string>& fields,
+                    const SampleWords& words) {
   const Moment moment = find_moment(results, time, words);
   std::vector<SampledField> sampled;
   Table table{{"x", "y"}, std::vector<std::vector<double>>(2)};
@@ -232,7 +233,7 @@ Table sample_places(const ResultsReader& results, double time, const std::vector
     }
   }
   const Mesh<2> mesh = results.mesh();
-  for (const auto& x : places) {
+  for (const auto& x : positions) {
     const auto around = locate(results, mesh, x, words);
     table.columns[0].push_back(x[0]);
     table.columns[1].push_back(x[1]);

@@ -41,7 +41,8 @@ struct SampleWords {
 };
 
 /// The same at any places.
-Table sample_places(const ResultsReader& results, double time, const std::vector<Vector<2>>& places,
-                    const std::vector<std::string>& fields, const SampleWords& words = {});
+Table sample_places(const ResultsReader& results, double time,
+                    const std::vector<Vector<2>>& positions, const std::vector<std::string>& fields,
+                    const SampleWords& words = {});
 
 }  // namespace suffuse

@@ -44,8 +44,8 @@ if [ "$form" == short ]; then
   tolerances=1e-3
 fi
 
-# The error of the explicit schemes falls with the step here, and that with the size.
-[ "$problem-$form" != startup-full ] || sizes[explicit]="${sizes[startup]} 0.0625 0.03125 0.015625"
+# The error of the explicit schemes falls with the step there, and that with the size.
+sizes[small-steps]="${sizes[startup]} 0.0625 0.03125 0.015625"
 
 run() { # FORMULATION WAY SIZE POINTS TOLERANCE
   local more=
@@ -58,6 +58,26 @@ run() { # FORMULATION WAY SIZE POINTS TOLERANCE
   echo "$1-$2 $3 $4 $5 mesh.size=$3 ${keys[$1]} ${keys[$2]}$more"
 }
 
+# sizes_of FORMULATION WAY COUNT TOLERANCE: all of the problem for the usual points and tolerance. The finest is
+# for sp, and other numbers of points do without the two finest, or the finest with the implicit scheme: they
+# are slow and show nothing more. So do other tolerances.
+sizes_of() {
+  local all=${sizes[$problem]} most=9 usual=${points[$1]%% *}
+  [ "$problem-$form-$2" == startup-full-implicit ] || [ "$problem-$form" != startup-full ] || all=${sizes[small-steps]}
+  if [ "$form" == short ]; then
+    echo "${sizes[$1]:-$all}"
+    return
+  fi
+  case $problem in
+    fines-* | porosity-gradient)
+      [ "$1" == sp ] || most=5
+      [ "$3" == "$usual" ] && [ "$4" == - -o "$4" == "${tolerances%% *}" ] || most=4
+      [ "$2" != implicit ] || [ "$3" == "$usual" ] || most=5
+      ;;
+  esac
+  cut -d' ' -f1-$most <<< "$all"
+}
+
 for formulation in sp dp paper; do
   for way in scaled explicit drag implicit; do
     for count in ${points[$formulation]}; do
@@ -66,10 +86,7 @@ for formulation in sp dp paper; do
       [ $way != implicit ] || settings=${tolerances%% *}
       [ $way != implicit ] || [ "$count" != "${points[$formulation]%% *}" ] || settings=$tolerances
       for tolerance in $settings; do
-        all=${sizes[$problem]}
-        [ $way == implicit ] || all=${sizes[explicit]:-$all}
-        all=${sizes[$formulation]:-$all}
-        for size in $all; do
+        for size in $(sizes_of $formulation $way "$count" "$tolerance"); do
           run $formulation $way "$size" "$count" "$tolerance"
         done
       done
