@@ -94,6 +94,7 @@ template <int Dim>
 void DoublePoint<Dim>::place_liquid() {
   const MaterialPoints<Dim>& points = case_.liquid_points;
   LiquidPoints<Dim>& liquid = state_.liquid;
+  liquid.reserve(points.size());
   liquid.element = points.element;
   liquid.barycentric = points.barycentric;
   liquid.fines_mass.assign(points.size(), 0.0);
@@ -333,7 +334,10 @@ auto DoublePoint<Dim>::advance(
     state_ = advanced(std::move(state_), last_motion_, flow_->pressure(), timings_);
   }
   if (!seen.empty() && is_end(seen.back().state.time, begin, progress.duration)) {
-    const double time = std::exchange(seen.back().state, state()).time;
+    const double time = seen.back().state.time;
+    seen.back().state = {};  // gone before its successor comes
+    seen.back().state = state_;
+    if (carried_ != nullptr) seen.back().state.liquid = carried_->blocks().points(false);
     seen.back().state.time = time;
   }
   if (skeleton_.erodes_by_flux()) end_rate_ = flow_->moment(state_.time).face_flux;

@@ -168,6 +168,8 @@ class DoublePoint {
     return empty_elements([&](int e) { return begins[e + 1] > begins[e]; });
   }
   [[nodiscard]] std::vector<Stored> stored(const State& state) const;
+  /// Where points are, with the pressure and the velocity there.
+  void add_places(const State& state, const FlowMoment<Dim>& moment, Snapshot& result) const;
 
   const Case<Dim>& case_;
   const Plan& plan_;

@@ -130,8 +130,8 @@ Snapshot DoublePoint<Dim>::snapshot(const State& state, const FlowMoment<Dim>& m
                                     long step) const {
   const LiquidPoints<Dim>& liquid = state.liquid;
   const std::vector<int> begins = element_begins(liquid, grid_.mesh.element_count());
-  const std::vector<double> volume = point_volumes(liquid, moment.pressure);
-  const std::vector<double> concentration = concentrations(liquid, volume);
+  std::vector<double> volume = point_volumes(liquid, moment.pressure);
+  std::vector<double> concentration = concentrations(liquid, volume);
 
   FinesState<Dim> between_points;
   between_points.pore_volume = skeleton_.initial_pore_volume();
@@ -159,32 +159,44 @@ Snapshot DoublePoint<Dim>::snapshot(const State& state, const FlowMoment<Dim>& m
   result.cell.push_back(std::move(saturation));
   result.cell.push_back(std::move(count));
 
-  const std::vector<double>& smooth = moment.node_pressure;
+  result.liquid.reserve(8);
+  // Moved, not copied: with many points this is most of the memory of a run.
+  const auto add = [&](const char* name, const char* unit, std::vector<double> values) {
+    result.liquid.push_back({name, unit, 1, std::move(values)});
+  };
+  add("concentration", "1", std::move(concentration));
+  add_places(state, moment, result);
+  add("volume", Dim == 2 ? "m3/m" : "m3", std::move(volume));
+  add("water_mass", Dim == 2 ? "kg/m" : "kg", liquid.water_mass);
+  add("fines_mass", Dim == 2 ? "kg/m" : "kg", liquid.fines_mass);
+  add("element", "1", {liquid.element.begin(), liquid.element.end()});
+  add("id", "1", {liquid.id.begin(), liquid.id.end()});
+  return result;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::add_places(const State& state, const FlowMoment<Dim>& moment,
+                                  Snapshot& result) const {
+  const LiquidPoints<Dim>& liquid = state.liquid;
   const std::vector<double> porosity = element_porosity(state.porosity);
   Field pressure{"pressure", "Pa", 1, {}};
   Field velocity{"liquid_velocity", "m/s", Dim, {}};
-  Field element{"element", "1", 1, {}};
-  Field id{"id", "1", 1, {}};
+  const auto points = static_cast<std::size_t>(liquid.size());
+  result.liquid_positions.reserve(3 * points);
+  pressure.values.reserve(points);
+  velocity.values.reserve(Dim * points);
   for (int p = 0; p < liquid.size(); ++p) {
     const int e = liquid.element[p];
     const Vector<Dim> x = liquid.place(p).position(grid_.mesh);
     for (int d = 0; d < 3; ++d) result.liquid_positions.push_back(d < Dim ? x[d] : 0.0);
-    pressure.values.push_back(carried_flow_ != nullptr ? liquid.pressure[p]
-                                                       : interpolated(liquid, p, smooth));
+    pressure.values.push_back(carried_flow_ != nullptr
+                                  ? liquid.pressure[p]
+                                  : interpolated(liquid, p, moment.node_pressure));
     const Vector<Dim> flux = flux_at(grid_, moment.face_flux, e, x);
     for (int d = 0; d < Dim; ++d) velocity.values.push_back(flux[d] / porosity[e]);
-    element.values.push_back(e);
-    id.values.push_back(static_cast<double>(liquid.id[p]));
   }
-  result.liquid = {{"concentration", "1", 1, concentration},
-                   std::move(pressure),
-                   std::move(velocity),
-                   {"volume", Dim == 2 ? "m3/m" : "m3", 1, volume},
-                   {"water_mass", Dim == 2 ? "kg/m" : "kg", 1, liquid.water_mass},
-                   {"fines_mass", Dim == 2 ? "kg/m" : "kg", 1, liquid.fines_mass},
-                   std::move(element),
-                   std::move(id)};
-  return result;
+  result.liquid.push_back(std::move(pressure));
+  result.liquid.push_back(std::move(velocity));
 }
 
 template HistoryRow DoublePoint<2>::history_row(const State&, const FlowMoment<2>&) const;

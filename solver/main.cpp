@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include "case/errors.hpp"
 #include "estimate.hpp"
 #include "interrupt.hpp"
+#include "memory.hpp"
 #include "run.hpp"
 
 namespace {
@@ -48,12 +50,13 @@ int solve(const Arguments& arguments) {
     throw InputError(arguments.case_path + ": got a case of dimension " +
                      std::to_string(dimension) + "; expected 2");
   }
-  const Case<2> c = read_case<2>(arguments.case_path);
+  give_memory_back();
+  Case<2> c = read_case<2>(arguments.case_path);
   const Plan plan = make_plan(c, arguments.solver);
   if (arguments.explain) return explain(c, plan, arguments.solver.threads);
   const std::string folder =
       arguments.folder.empty() ? default_folder(arguments.case_path) : arguments.folder;
-  const int code = run_case(c, plan, arguments.solver, folder, arguments.quiet);
+  const int code = run_case(std::move(c), plan, arguments.solver, folder, arguments.quiet);
   if (!arguments.quiet && code == 0) std::fprintf(stderr, "results in %s\n", folder.c_str());
   return code;
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "case/errors.hpp"
 #include "double_point.hpp"
@@ -20,16 +21,19 @@ namespace {
 template <template <int> class Model, int Dim>
 class FormulationRun {
  public:
-  FormulationRun(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
+  FormulationRun(Case<Dim> c, const Plan& plan, const SolverOptions& options,
                  const std::string& folder, bool quiet)
-      : case_(c),
+      : case_(std::move(c)),
         plan_(plan),
         options_(options),
         start_(std::chrono::steady_clock::now()),
-        writer_(folder, c),
-        model_(c, plan),
-        progress_(c.document.scene.time.end, quiet),
-        loop_(c.document.scene, model_) {}
+        writer_(folder, case_),
+        model_(case_, plan),
+        progress_(case_.document.scene.time.end, quiet),
+        loop_(case_.document.scene, model_) {
+    // The model has points of its own by now.
+    case_.liquid_points = {};
+  }
 
   ExitCode run() {
     for (const std::string& warning : plan_.warnings) warn(warning);
@@ -144,7 +148,7 @@ class FormulationRun {
     writer_.write_run_info(info);
   }
 
-  const Case<Dim>& case_;
+  Case<Dim> case_;
   const Plan& plan_;
   const SolverOptions& options_;
   std::chrono::steady_clock::time_point start_;
@@ -160,16 +164,17 @@ class FormulationRun {
 }  // namespace
 
 template <int Dim>
-int run_case(const Case<Dim>& c, const Plan& plan, const SolverOptions& options,
-             const std::string& folder, bool quiet) {
+int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
+             bool quiet) {
   catch_interrupts();
   const bool single_point = c.document.scene.formulation == Formulation::single_point;
   const ExitCode code =
-      single_point ? FormulationRun<SinglePoint, Dim>(c, plan, options, folder, quiet).run()
-                   : FormulationRun<DoublePoint, Dim>(c, plan, options, folder, quiet).run();
+      single_point
+          ? FormulationRun<SinglePoint, Dim>(std::move(c), plan, options, folder, quiet).run()
+          : FormulationRun<DoublePoint, Dim>(std::move(c), plan, options, folder, quiet).run();
   return static_cast<int>(code);
 }
 
-template int run_case(const Case<2>&, const Plan&, const SolverOptions&, const std::string&, bool);
+template int run_case(Case<2>, const Plan&, const SolverOptions&, const std::string&, bool);
 
 }  // namespace suffuse

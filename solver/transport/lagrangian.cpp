@@ -167,6 +167,8 @@ void LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim
       ++entering.born[f];
     }
   }
+  std::stable_sort(born.begin(), born.end(),
+                   [](const Newborn<Dim>& a, const Newborn<Dim>& b) { return a.share < b.share; });
 }
 
 template <int Dim>
@@ -265,13 +267,11 @@ WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
     const std::vector<double>& element_pressure) const {
   WalkedPoints<Dim> walked;
   const auto& region = grid_.mesh.element_region;
+  walked.from.reserve(points.element.size());
   for (const int e : points.element) walked.from.push_back(region[e]);
   std::vector<double> begin(points.size(), 0.0);
-  // In the order in which they come, so that a look at part of the interval numbers them the same.
   std::vector<Newborn<Dim>> born;
   births(entering, motion, born);
-  std::stable_sort(born.begin(), born.end(),
-                   [](const Newborn<Dim>& a, const Newborn<Dim>& b) { return a.share < b.share; });
   for (const Newborn<Dim>& newborn : born) {
     admit(points, entering, newborn, element_pressure);
     walked.from.push_back(-1);
@@ -316,8 +316,12 @@ WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
     }
   }
   if (failure) std::rethrow_exception(failure);
-  for (const auto& of_block : takes) {
+  std::size_t all = 0;
+  for (const auto& of_block : takes) all += of_block.size();
+  walked.takes.reserve(all);
+  for (auto& of_block : takes) {
     walked.takes.insert(walked.takes.end(), of_block.begin(), of_block.end());
+    of_block = {};  // or there would be twice as many
   }
   return walked;
 }

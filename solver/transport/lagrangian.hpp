@@ -80,7 +80,8 @@ class LagrangianTransport {
   [[nodiscard]] const std::vector<int>& open_faces() const { return open_faces_; }
   [[nodiscard]] const std::vector<unsigned char>& is_open() const { return open_face_; }
 
-  /// Adds to `born` the points whose volume has come in, at the moments when it was complete.
+  /// Puts into `born` the points whose volume has come in, in the order in which it was complete: a
+  /// look at part of the interval numbers them the same.
   void births(Entering& entering, const LiquidMotion<Dim>& motion,
               std::vector<Newborn<Dim>>& born) const;
   /// What a point brings along: the concentration of its boundary, and the water that its element's

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <map>
 
 #include "double_point_modes.hpp"
 #include "exact_fines.hpp"
@@ -168,6 +169,71 @@ TEST(DoublePointPressure, FallsInAStraightLineByEitherIntegration) {
               << 100.0 * scatter / slope << " %\n";
     EXPECT_LE(worst, 0.05 * slope);
   }
+}
+
+/// Water that carries the flow through soil that erodes, fast enough for a few steps per interval.
+Case<2> carried_case() {
+  Scene scene = model::double_point_scene(0.12, 5e-3);
+  scene.boundaries[0].concentration = 0.02;
+  scene.soils[0].erosion.start = 0.0;
+  scene.flow.integration = PressureIntegration::material_point;
+  scene.time.mass_scaling = 1e2;
+  scene.time.end = 3.0;
+  LayerSettings layers;
+  layers.inflow = layers.outflow = layers.above = layers.below = 1;
+  return model::make_double_point_case(model::layered_mesh(4, layers), scene);
+}
+
+TEST(DoublePointCarried, LookingChangesNothingAndBooksCloseWheneverOneLooks) {
+  model::DoublePointRun unseen(carried_case());
+  unseen.run({3.0});
+  model::DoublePointRun seen(carried_case());
+  const std::vector<double> times = model::times_up_to(3.0, 0.0043);
+  const auto moments = seen.run(times);
+  const LiquidPoints<2>& a = unseen.model().state().liquid;
+  const LiquidPoints<2>& b = seen.model().state().liquid;
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.barycentric, b.barycentric);
+  EXPECT_EQ(a.fines_mass, b.fines_mass);
+  EXPECT_EQ(a.velocity, b.velocity);
+  EXPECT_EQ(a.pressure, b.pressure);
+  EXPECT_EQ(unseen.model().state().porosity, seen.model().state().porosity);
+  EXPECT_GE(unseen.model().state().entering.next_id, unseen.input().liquid_points.size() + 400);
+
+  double model_off = 0.0;
+  double region_off = 0.0;
+  double porosity_off = 0.0;
+  double jump = 0.0;
+  for (std::size_t k = 0; k < moments.states.size(); ++k) {
+    const DoublePointState<2>& state = moments.states[k];
+    const auto worse = [](double& worst, const LedgerRow& row) {
+      worst = std::max({worst, std::abs(row.residual_water), std::abs(row.residual_grains)});
+    };
+    worse(model_off, seen.model().ledger(state));
+    for (const RegionRow& row : seen.model().region_rows(state)) worse(region_off, row.ledger);
+    const HistoryRow row = seen.model().history_row(state, moments.flows[k]);
+    porosity_off = std::max(porosity_off, std::abs(row.porosity_mean - 0.3 - 5e-3 * state.time));
+    // Where points are must not depend on whether their look came early or late in an interval.
+    if (k == 0) continue;
+    const DoublePointState<2>& before = moments.states[k - 1];
+    std::map<long, Vector<2>> places;
+    for (int p = 0; p < before.liquid.size(); ++p) {
+      places[before.liquid.id[p]] = before.liquid.place(p).position(seen.input().mesh);
+    }
+    for (int p = 0; p < state.liquid.size(); ++p) {
+      const auto found = places.find(state.liquid.id[p]);
+      if (found == places.end()) continue;
+      const Vector<2> x = state.liquid.place(p).position(seen.input().mesh);
+      jump = std::max(jump, (x - found->second).norm() / (state.time - before.time));
+    }
+  }
+  std::cout << times.size() << " looks in " << seen.steps() << " steps: residual " << model_off
+            << ", of regions " << region_off << ", porosity off by " << porosity_off
+            << ", fastest point " << jump << " m/s\n";
+  EXPECT_LE(model_off, 1e-12);
+  EXPECT_LE(region_off, 1e-12);
+  EXPECT_LE(porosity_off, 1e-13);
+  EXPECT_LE(jump, 2.0 * 0.12 / 0.3);
 }
 
 }  // namespace
