@@ -88,7 +88,8 @@ TEST_F(PostCommand, NothingIsWrittenIntoTheResults) {
 TEST_F(PostCommand, AMisspeltCommandIsNamed) {
   expect_refusal("ledgr " + run, 2,
                  "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"sample\", "
-                 "\"render\", \"figure\", \"table\" or \"export\"; did you mean ledger?");
+                 "\"error\", \"render\", \"figure\", "
+                 "\"table\", \"accuracy\" or \"export\"; did you mean ledger?");
 }
 
 TEST_F(PostCommand, LedgerRefusesAResidual) {
@@ -121,6 +122,38 @@ TEST_F(PostCommand, LedgerFindsALossThatTheRunDidNotReport) {
   expect_refusal("ledger " + scratch / "leak.results", 3,
                  "suffuse-post: error: model: water: residual 0.001 at t = 7 s is larger "
                  "than the tolerance 1e-12");
+}
+
+TEST_F(PostCommand, ErrorAgainstATable) {
+  const std::string known = scratch / "known.csv";
+  std::ofstream(known) << "t,porosity_mean\n10,0.616\n";
+  const Outcome outcome =
+      post("error " + run + " --reference " + known + " --csv " + scratch / "errors.csv");
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(outcome.out, "porosity_mean: L1 0.5, L2 0.5, largest 0.5 of 1 values\n");
+  EXPECT_TRUE(file_text(scratch / "errors.csv").starts_with("quantity,values,l1,l2,max\n"));
+  expect_refusal("error " + run + " --reference " + known + " --csv " + run + "/errors.csv", 2,
+                 "suffuse-post: --csv: got \"" + run + "/errors.csv\"; expected a place outside " +
+                     run + ", which belongs to suffuse-solver");
+  std::ofstream(known) << "t,porosity_mean\n130,0.616\n";
+  expect_refusal("error " + run + " --reference " + known, 2,
+                 "suffuse-post error: " + known +
+                     ": t: got 130; expected a time from 0 to 120 s, which the run has");
+  EXPECT_EQ(post("error " + run + " --reference " + scratch / "none.csv").code, 4);
+}
+
+TEST_F(PostCommand, AccuracyOfATable) {
+  const std::string table = scratch / "accuracy.csv";
+  std::ofstream(table) << "problem,scheme,quantity,error_l1,seconds\n"
+                       << "dam,sp-implicit,porosity,1e-3,0.5\n";
+  EXPECT_EQ(post("accuracy " + table + " --problem dam -o " + scratch / "dam.png").code, 0);
+  EXPECT_TRUE(fs::exists(scratch / "dam.png"));
+  expect_refusal(
+      "accuracy " + table + " --problem dm -o " + scratch / "dm.png", 2,
+      "suffuse-post accuracy: --problem: got \"dm\"; expected \"dam\"; did you mean dam?");
+  expect_refusal("accuracy " + table + " --problem dam -o dam.jpg", 2,
+                 "suffuse-post accuracy: -o: got \"dam.jpg\"; expected a name that ends in .png, "
+                 ".svg or .pdf");
 }
 
 TEST_F(PostCommand, LedgerRefusesNaN) {

@@ -74,6 +74,7 @@ sizes_of() {
       [ "$3" == "$usual" ] && [ "$4" == - -o "$4" == "${tolerances%% *}" ] || most=4
       [ "$2" != implicit ] || [ "$3" == "$usual" ] || most=5
       ;;
+    dam) [ "$3" == "$usual" ] && [ "$4" == - -o "$4" == "${tolerances%% *}" ] || most=4 ;;
   esac
   cut -d' ' -f1-$most <<< "$all"
 }
