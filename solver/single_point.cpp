@@ -10,6 +10,7 @@
 #include "grid/face_flux.hpp"
 #include "meeting.hpp"
 #include "observation.hpp"
+#include "parallel.hpp"
 #include "pass_timer.hpp"
 #include "physics/liquid.hpp"
 
@@ -29,9 +30,9 @@ SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const Plan& plan)
     : case_(c),
       plan_(plan),
       grid_(c.mesh),
-      skeleton_(c, grid_),
+      skeleton_(c, grid_, plan.flow.threads),
       flow_(make_flow(c, grid_, skeleton_, plan.flow)),
-      transport_(grid_, flow_->conditions()),
+      transport_(grid_, flow_->conditions(), plan.flow.threads),
       accounts_(grid_),
       grain_density_(c.document.scene.soils.front().grain_density),
       last_volume_rate_(grid_.face_count(), 0.0) {
@@ -46,7 +47,7 @@ void SinglePoint<Dim>::initialise() {
   state_.liquid.fines_volume.assign(grid_.mesh.element_count(), ElementValues<Dim>{});
   update_flow();
   flow_->start();
-  last_volume_rate_ = end_rate_ = flow_->moment(0.0).face_flux;
+  last_volume_rate_ = end_rate_ = flow_->face_flux(0.0);
   state_.water_mass.resize(grid_.mesh.element_count());
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     state_.water_mass[e] = scene.liquid.density * flow_->coefficients().water_volume[e] *
@@ -59,18 +60,18 @@ void SinglePoint<Dim>::initialise() {
 template <int Dim>
 PoreContent SinglePoint<Dim>::pores(const SinglePointState<Dim>& state) const {
   PoreContent content;
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+  const int elements = grid_.mesh.element_count();
+  content.porosity.resize(elements);
+  content.water_volume.resize(elements);
+  content.concentration.resize(elements);
+  for_each_index(elements, threads(), [&](int e) {
     const double pores = element_sum<Dim>(state.liquid.pore_volume[e]);
     const double fines = element_sum<Dim>(state.liquid.fines_volume[e]);
-    content.porosity.push_back(pores / grid_.volume[e]);
-    content.water_volume.push_back(pores - fines);
-    content.concentration.push_back(fines / pores);
-  }
-  if (skeleton_.erodes_by_flux()) {
-    for (const Vector<Dim>& q : element_flux(grid_, last_volume_rate_)) {
-      content.flux.push_back(q.norm());
-    }
-  }
+    content.porosity[e] = pores / grid_.volume[e];
+    content.water_volume[e] = pores - fines;
+    content.concentration[e] = fines / pores;
+  });
+  if (skeleton_.erodes_by_flux()) content.flux = element_flux_magnitude();
   return content;
 }
 
@@ -83,39 +84,57 @@ PoreContent SinglePoint<Dim>::pores_at(double time) const {
   const std::vector<double> porosity =
       skeleton_.porosity_after(state_.porosity, state_.time, time, flux);
   const MaterialPoints<Dim>& points = skeleton_.points();
-  for (int p = 0; p < points.size(); ++p) {
-    const int e = points.element[p];
-    const double growth = points.volume[p] * (porosity[p] - state_.porosity[p]) / grid_.volume[e];
-    content.porosity[e] += growth;
-    content.concentration[e] += (1.0 - content.concentration[e]) * growth / content.porosity[e];
-  }
+  for_each_index(grid_.mesh.element_count(), threads(), [&](int e) {
+    for (int p = skeleton_.points_begin(e); p < skeleton_.points_begin(e + 1); ++p) {
+      const double growth = points.volume[p] * (porosity[p] - state_.porosity[p]) / grid_.volume[e];
+      content.porosity[e] += growth;
+      content.concentration[e] += (1.0 - content.concentration[e]) * growth / content.porosity[e];
+    }
+  });
   return content;
+}
+
+template <int Dim>
+std::vector<double> SinglePoint<Dim>::element_flux_magnitude() const {
+  std::vector<double> result(grid_.mesh.element_count());
+  for_each_index(grid_.mesh.element_count(), threads(), [&](int e) {
+    result[e] = flux_at(grid_, last_volume_rate_, e, element_centroid(grid_.mesh, e)).norm();
+  });
+  return result;
 }
 
 template <int Dim>
 std::vector<double> SinglePoint<Dim>::point_flux(const std::vector<double>& face_volume,
                                                  double duration) const {
   if (!skeleton_.erodes_by_flux()) return {};
-  return flux_magnitude_at(grid_, face_volume, skeleton_.points(), 1.0 / duration);
+  const MaterialPoints<Dim>& points = skeleton_.points();
+  std::vector<double> result(points.size());
+  for_each_index(points.size(), threads(), [&](int p) {
+    const Vector<Dim> place = points.position(grid_.mesh, p);
+    result[p] = flux_at(grid_, face_volume, points.element[p], place).norm() / duration;
+  });
+  return result;
 }
 
 template <int Dim>
 void SinglePoint<Dim>::update_flow() {
-  flow_->update(state_.time, pores(state_),
-                plan_.carries(state_.time)
-                    ? transport_.face_concentration(state_.liquid, last_volume_rate_)
-                    : std::vector<double>(grid_.face_count(), 0.0));
+  std::vector<double>& concentration = scratch_.face_concentration;
+  if (plan_.carries(state_.time)) {
+    transport_.face_concentration(state_.liquid, last_volume_rate_, scratch_.transport,
+                                  concentration);
+  } else {
+    concentration.assign(grid_.face_count(), 0.0);
+  }
+  flow_->update(state_.time, pores(state_), concentration);
 }
 
 template <int Dim>
 long SinglePoint<Dim>::steps_before_transport(double dt) const {
   std::vector<double> per_step = last_volume_rate_;
   for (double& volume : per_step) volume *= dt;
-  std::vector<double> flux;
-  for (const Vector<Dim>& q : element_flux(grid_, last_volume_rate_)) flux.push_back(q.norm());
-  return steps_to_meeting(skeleton_, flow_->coefficients().porosity, flux, state_.time, dt,
-                          transport_.steps_allowed(state_.liquid, per_step), most_porosity_growth,
-                          last_steps_);
+  return steps_to_meeting(skeleton_, flow_->coefficients().porosity, element_flux_magnitude(),
+                          state_.time, dt, transport_.steps_allowed(state_.liquid, per_step),
+                          most_porosity_growth, last_steps_);
 }
 
 template <int Dim>
@@ -146,10 +165,11 @@ auto SinglePoint<Dim>::advance(
     // On from the last look, aside: what was done for it is not done again.
     const SinglePointState<Dim>& last = seen.empty() ? state_ : seen.back().state;
     const double duration = moment.time - last.time;
-    observation.state =
-        duration > no_time * (moment.time - begin)
-            ? advanced(last, since(when_seen, passed).volumes, duration, outputs_are_not_the_run)
-            : last;
+    observation.state = last;
+    if (duration > no_time * (moment.time - begin)) {
+      follow(observation.state, since(when_seen, passed).volumes, duration,
+             outputs_are_not_the_run);
+    }
     observation.state.time = moment.time;
     observation.flow = std::move(moment);
     when_seen = passed;
@@ -158,7 +178,7 @@ auto SinglePoint<Dim>::advance(
   const FlowProgress<Dim> progress = flow_->run(interval);
 
   const FaceVolumes& volumes = progress.passed.volumes;
-  state_ = advanced(state_, volumes, progress.duration, timings_);
+  follow(state_, volumes, progress.duration, timings_);
   if (!seen.empty() && is_end(seen.back().state.time, begin, progress.duration)) {
     const double time = std::exchange(seen.back().state, state_).time;
     seen.back().state.time = time;
@@ -167,7 +187,7 @@ auto SinglePoint<Dim>::advance(
   last_volume_rate_ = volumes.liquid;
   for (double& rate : last_volume_rate_) rate /= progress.duration;
   last_duration_ = progress.duration;
-  end_rate_ = skeleton_.erodes_by_flux() ? flow_->moment(state_.time).face_flux : last_volume_rate_;
+  end_rate_ = skeleton_.erodes_by_flux() ? flow_->face_flux(state_.time) : last_volume_rate_;
   synchronise_flow();
   steps_ += progress.steps;
   last_steps_ = progress.steps;
@@ -176,66 +196,68 @@ auto SinglePoint<Dim>::advance(
 }
 
 template <int Dim>
-SinglePointState<Dim> SinglePoint<Dim>::advanced(const SinglePointState<Dim>& begin,
-                                                 const FaceVolumes& volumes, double duration,
-                                                 PassTimings& timings) const {
-  SinglePointState<Dim> state = begin;
-  std::vector<double> grains_crossed(grid_.face_count(), 0.0);
+void SinglePoint<Dim>::follow(SinglePointState<Dim>& state, const FaceVolumes& volumes,
+                              double duration, PassTimings& timings) {
+  const double begin = state.time;
+  const bool carries = plan_.carries(begin + duration);
   const double allowed =
-      plan_.carries(begin.time + duration)
-          ? transport_safety * transport_.steps_allowed(state.liquid, volumes.liquid)
-          : 1.0;
+      carries ? transport_safety * transport_.steps_allowed(state.liquid, volumes.liquid) : 1.0;
   const double substeps = transport_substeps(allowed);
-  std::vector<double> part = volumes.liquid;
+  scratch_.step_volume = volumes.liquid;
   if (substeps > 1.0) {
-    for (double& v : part) v /= substeps;
+    for (double& v : scratch_.step_volume) v /= substeps;
   }
+  if (carries) transport_.start(state.liquid, scratch_.step_volume, scratch_.transport);
   const std::vector<double> flux = point_flux(volumes.liquid, duration);
   for (double s = 0.0; s < substeps; ++s) {
-    const double from = begin.time + duration * s / substeps;
-    const double to = begin.time + duration * (s + 1.0) / substeps;
-    ElementField<Dim> eroded(grid_.mesh.element_count(), ElementValues<Dim>{});
+    const double from = begin + duration * s / substeps;
+    const double to = begin + duration * (s + 1.0) / substeps;
+    scratch_.eroded.clear();
     if (plan_.erodes(from, to)) {
       const PassTimer timer(timings.erosion);
-      std::vector<double> porosity = skeleton_.porosity_after(state.porosity, from, to, flux);
-      eroded = skeleton_.eroded_volume(state.porosity, porosity);
-      state.porosity = std::move(porosity);
+      skeleton_.erode(state.porosity, from, to, flux, scratch_.eroded);
       ++timings.erosion.calls;
     }
     if (plan_.carries(to)) {
       const PassTimer timer(timings.transport);
-      const std::vector<double> crossed = transport_.advance(state.liquid, part, eroded);
-      for (std::size_t f = 0; f < crossed.size(); ++f) grains_crossed[f] += crossed[f];
+      transport_.advance(state.liquid, scratch_.eroded, scratch_.transport);
       ++timings.transport.calls;
     }
   }
-  state.time = begin.time + duration;
+  state.time = begin + duration;
   const PassTimer timer(timings.water);
   ++timings.water.calls;
-  move_water(state, volumes, grains_crossed);
-  return state;
+  if (carries) {
+    transport_.grains_crossed(scratch_.transport, scratch_.grains_crossed);
+  } else {
+    scratch_.grains_crossed.assign(grid_.face_count(), 0.0);
+  }
+  move_water(state, volumes);
 }
 
 template <int Dim>
-void SinglePoint<Dim>::move_water(SinglePointState<Dim>& state, const FaceVolumes& volumes,
-                                  const std::vector<double>& grains_crossed) const {
+void SinglePoint<Dim>::move_water(SinglePointState<Dim>& state, const FaceVolumes& volumes) {
   const double density = case_.document.scene.liquid.density;
   const bool conservative = case_.document.scene.flow.porosity_gradient_term;
-  std::vector<double> water(grid_.face_count());
-  std::vector<double> fines(grid_.face_count());
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    const double excess =
-        (1.0 - flow_->coefficients().face_concentration[f]) * volumes.density_excess[f];
-    water[f] = density * ((volumes.liquid[f] - grains_crossed[f]) + excess);
-    fines[f] = grain_density_ * grains_crossed[f];
-    if (!conservative) water[f] *= flow_->coefficients().porosity[grid_.face_left[f]];
-  }
-  for (int e = 0; e < grid_.mesh.element_count() && conservative; ++e) {
+  const FlowCoefficients<Dim>& coefficients = flow_->coefficients();
+  std::vector<double>& water = scratch_.water;
+  std::vector<double>& fines = scratch_.fines;
+  water.resize(grid_.face_count());
+  fines.resize(grid_.face_count());
+  for_each_index(grid_.face_count(), threads(), [&](int f) {
+    const double grains = scratch_.grains_crossed[f];
+    const double excess = (1.0 - coefficients.face_concentration[f]) * volumes.density_excess[f];
+    water[f] = density * ((volumes.liquid[f] - grains) + excess);
+    fines[f] = grain_density_ * grains;
+    if (!conservative) water[f] *= coefficients.porosity[grid_.face_left[f]];
+  });
+  accounts_.book(water, fines, state.crossed);
+  if (!conservative) return;
+  for_each_index(grid_.mesh.element_count(), threads(), [&](int e) {
     for (int k = 0; k <= Dim; ++k) {
       state.water_mass[e] -= grid_.element_face_sign[e][k] * water[grid_.element_face[e][k]];
     }
-  }
-  accounts_.book(water, fines, state.crossed);
+  });
 }
 
 template <int Dim>
@@ -264,7 +286,9 @@ HistoryRow SinglePoint<Dim>::history_row(const SinglePointState<Dim>& state,
   flow_->describe(moment, row);
 
   const std::vector<double>& flux = moment.face_flux;
-  const std::vector<double> concentration = transport_.face_concentration(state.liquid, flux);
+  std::vector<double> concentration;
+  TransportScratch<Dim> scratch;
+  transport_.face_concentration(state.liquid, flux, scratch, concentration);
   CompensatedSum fines_out;
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (grid_.is_outer(f) && flux[f] > 0.0) fines_out.add(flux[f] * concentration[f]);

@@ -78,18 +78,20 @@ class SinglePoint {
   /// |q| at solid points (empty when no soil erodes by it), m/s, from volumes over a duration.
   [[nodiscard]] std::vector<double> point_flux(const std::vector<double>& face_volume,
                                                double duration) const;
+  /// |q| per element, m/s, over the last interval.
+  [[nodiscard]] std::vector<double> element_flux_magnitude() const;
+  [[nodiscard]] int threads() const { return plan_.flow.threads; }
   void update_flow();
   struct PassTimings {
     PassTiming erosion{"erosion", 0, 0.0};
     PassTiming transport{"transport", 0, 0.0};
     PassTiming water{"water masses and coefficients", 0, 0.0};
   };
-  /// What erosion and transport make of `begin` while `volumes` cross the faces.
-  [[nodiscard]] SinglePointState<Dim> advanced(const SinglePointState<Dim>& begin,
-                                               const FaceVolumes& volumes, double duration,
-                                               PassTimings& timings) const;
-  void move_water(SinglePointState<Dim>& state, const FaceVolumes& volumes,
-                  const std::vector<double>& grains_crossed) const;
+  /// Erosion and transport over `duration` while `volumes` cross the faces.
+  void follow(SinglePointState<Dim>& state, const FaceVolumes& volumes, double duration,
+              PassTimings& timings);
+  /// Books water, and grains as `scratch_` has them, that crossed.
+  void move_water(SinglePointState<Dim>& state, const FaceVolumes& volumes);
   /// Pressure and water masses agree after this.
   void synchronise_flow();
   [[nodiscard]] std::vector<Stored> stored(const SinglePointState<Dim>& state) const;
@@ -111,6 +113,18 @@ class SinglePoint {
   long last_steps_ = 1;
   long steps_ = 0;
   PassTimings timings_;
+
+  /// What `follow` works with: of the interval, or of a look aside.
+  struct Scratch {
+    TransportScratch<Dim> transport;
+    ElementField<Dim> eroded;            ///< in a step of transport, m3
+    std::vector<double> step_volume;     ///< liquid per face in a step of transport, m3
+    std::vector<double> grains_crossed;  ///< per face, m3
+    std::vector<double> water;           ///< likewise, kg
+    std::vector<double> fines;           ///< likewise, kg
+    std::vector<double> face_concentration;
+  };
+  Scratch scratch_;
 };
 
 }  // namespace suffuse

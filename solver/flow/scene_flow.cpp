@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "grid/compensated_sum.hpp"
+#include "parallel.hpp"
 #include "physics/drag.hpp"
 #include "physics/liquid.hpp"
 
@@ -13,25 +14,29 @@ namespace suffuse {
 
 template <int Dim>
 SceneFlow<Dim>::SceneFlow(const Case<Dim>& c, const Grid<Dim>& grid,
-                          const RigidSkeleton<Dim>& skeleton)
+                          const RigidSkeleton<Dim>& skeleton, int threads)
     : conditions_(face_conditions(c, grid)),
       scene_(c.document.scene),
       grid_(grid),
       boundary_values_(c, grid),
       skeleton_(skeleton),
+      threads_(threads),
       grain_density_(scene_.soils.front().grain_density),
       inflow_warned_(scene_.boundaries.size(), false) {
+  initial_porosity_.reserve(grid.mesh.elements.size());
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    initial_porosity_.push_back(
+        skeleton.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
+  }
   const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
                                  [](const Soil& s) { return s.drag == SoilDrag::ergun; });
   if (!ergun) return;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const Soil& soil = skeleton.soil_of_element(e);
     const bool has_it = soil.drag == SoilDrag::ergun;
-    grain_size_.push_back(
-        has_it ? ergun_grain_size(soil.conductivity,
-                                  soil.initial_porosity(element_centroid(grid.mesh, e)),
-                                  scene_.liquid.density, scene_.liquid.viscosity)
-               : std::numeric_limits<double>::infinity());
+    grain_size_.push_back(has_it ? ergun_grain_size(soil.conductivity, initial_porosity_[e],
+                                                    scene_.liquid.density, scene_.liquid.viscosity)
+                                 : std::numeric_limits<double>::infinity());
   }
 }
 
@@ -60,15 +65,14 @@ FlowCoefficients<Dim> SceneFlow<Dim>::coefficients_of(
   result.quadratic_drag.resize(grain_size_.size());
   result.face_concentration = face_concentration;
   const double water_density = scene_.liquid.density;
-  for (int e = 0; e < elements; ++e) {
+  for_each_index(elements, threads_, [&](int e) {
     const double porosity = content.porosity[e];
     const Soil& soil = skeleton_.soil_of_element(e);
     result.mixture_density[e] =
         mixture_density(content.concentration[e], water_density, grain_density_);
     result.drag[e] = darcy_drag(
         porosity, water_density,
-        conductivity_at(soil.conductivity_law, soil.conductivity,
-                        soil.initial_porosity(element_centroid(grid_.mesh, e)), porosity));
+        conductivity_at(soil.conductivity_law, soil.conductivity, initial_porosity_[e], porosity));
     if (!grain_size_.empty()) {
       result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
     }
@@ -77,7 +81,7 @@ FlowCoefficients<Dim> SceneFlow<Dim>::coefficients_of(
                                        content.flux.empty() ? unset : content.flux[e]);
       result.drag[e] += grain_density_ * rate / porosity;
     }
-  }
+  });
   return result;
 }
 

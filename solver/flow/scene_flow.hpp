@@ -111,7 +111,8 @@ struct FlowOptions {
 template <int Dim>
 class SceneFlow {
  public:
-  SceneFlow(const Case<Dim>& c, const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton);
+  SceneFlow(const Case<Dim>& c, const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
+            int threads = 1);
   virtual ~SceneFlow() = default;
   SceneFlow(const SceneFlow&) = delete;
   SceneFlow& operator=(const SceneFlow&) = delete;
@@ -137,6 +138,10 @@ class SceneFlow {
 
   /// The flow as it stands.
   [[nodiscard]] virtual FlowMoment<Dim> moment(double time) const = 0;
+  /// Its fluxes through faces alone, m3/s.
+  [[nodiscard]] virtual std::vector<double> face_flux(double time) const {
+    return moment(time).face_flux;
+  }
   /// What this scheme did: passes with calls and seconds, for run.json.
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
 
@@ -159,6 +164,7 @@ class SceneFlow {
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] const RigidSkeleton<Dim>& skeleton() const { return skeleton_; }
+  [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;
   [[nodiscard]] const BoundaryValues<Dim>& boundary_values() const { return boundary_values_; }
@@ -178,6 +184,8 @@ class SceneFlow {
   const Grid<Dim>& grid_;
   BoundaryValues<Dim> boundary_values_;
   const RigidSkeleton<Dim>& skeleton_;
+  int threads_;
+  std::vector<double> initial_porosity_;  ///< per element, at its centroid
   std::vector<double> grain_size_;  ///< per element, of Ergun's drag; empty where no soil has it, m
   double grain_density_ = unset;
   std::vector<bool> inflow_warned_;

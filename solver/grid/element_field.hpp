@@ -42,8 +42,12 @@ struct FieldNodes {
     double sum = 0.0;
     for (const double v : at_nodes) sum += v;
     ElementValues<Dim> result;
-    for (int k = 0; k <= Dim; ++k) result[k] = (at_nodes[k] - far_vertex * sum) / spread;
+    for (int k = 0; k <= Dim; ++k) result[k] = at_vertex(at_nodes[k], sum);
     return result;
+  }
+  /// The value at one vertex, from that at its node and the sum over all nodes.
+  static constexpr double at_vertex(double at_node, double sum) {
+    return (at_node - far_vertex * sum) / spread;
   }
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "case/errors.hpp"
+#include "parallel.hpp"
 
 namespace suffuse {
 namespace {
@@ -27,10 +29,11 @@ Soil free_water(const Scene& scene) {
 }  // namespace
 
 template <int Dim>
-RigidSkeleton<Dim>::RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid)
+RigidSkeleton<Dim>::RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid, int threads)
     : mesh_(c.mesh),
       points_(c.solid_points),
       grid_(grid),
+      threads_(threads),
       free_water_(std::make_shared<const Soil>(free_water(c.document.scene))) {
   for (const std::string& region : mesh_.region_names) {
     const Soil* soil = c.document.scene.find_soil(region);
@@ -48,6 +51,41 @@ RigidSkeleton<Dim>::RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid)
     initial_porosity_.push_back(soil_of_point(p).initial_porosity(points_.position(mesh_, p)));
   }
   porosity_ = initial_porosity_;
+  points_begin_.assign(mesh_.element_count() + 1, 0);
+  for (const int e : points_.element) ++points_begin_[e + 1];
+  std::partial_sum(points_begin_.begin(), points_begin_.end(), points_begin_.begin());
+  find_basis();
+}
+
+template <int Dim>
+void RigidSkeleton<Dim>::find_basis() {
+  const auto& places = points_.barycentric;
+  if (places.empty()) return;
+  const int first = points_.element.front();
+  const int count = points_begin_[first + 1] - points_begin_[first];
+  for (int e = 0; e < mesh_.element_count() && points_lie_alike_; ++e) {
+    const int begin = points_begin_[e];
+    const int end = points_begin_[e + 1];
+    points_lie_alike_ =
+        begin == end || (end - begin == count &&
+                         std::equal(places.begin() + begin, places.begin() + end, places.begin()));
+  }
+  const std::size_t stored = points_lie_alike_ ? count : places.size();
+  basis_.resize(stored);
+  for (std::size_t p = 0; p < stored; ++p) {
+    for (int j = 0; j <= Dim; ++j) basis_[p][j] = FieldNodes<Dim>::basis(places[p][j]);
+  }
+}
+
+template <int Dim>
+template <class Visit>
+void RigidSkeleton<Dim>::follow_erosion(int element, const std::vector<double>& porosity,
+                                        double from, double to, const std::vector<double>& flux,
+                                        const Visit& visit) const {
+  const ErosionModel& model = erosion_of_element(element);
+  for (int p = points_begin_[element]; p < points_begin_[element + 1]; ++p) {
+    visit(p, suffuse::porosity_after(model, porosity[p], from, to, flux.empty() ? unset : flux[p]));
+  }
 }
 
 template <int Dim>
@@ -55,24 +93,43 @@ std::vector<double> RigidSkeleton<Dim>::porosity_after(const std::vector<double>
                                                        double from, double to,
                                                        const std::vector<double>& flux) const {
   std::vector<double> result(porosity.size());
-  for (int p = 0; p < points_.size(); ++p) {
-    result[p] = suffuse::porosity_after(erosion_of_element(points_.element[p]), porosity[p], from,
-                                        to, flux.empty() ? unset : flux[p]);
-  }
+  for_each_index(mesh_.element_count(), threads_, [&](int e) {
+    follow_erosion(e, porosity, from, to, flux, [&](int p, double after) { result[p] = after; });
+  });
   return result;
 }
 
 template <int Dim>
 ElementField<Dim> RigidSkeleton<Dim>::eroded_volume(const std::vector<double>& before,
                                                     const std::vector<double>& after) const {
-  ElementField<Dim> eroded(mesh_.element_count(), ElementValues<Dim>{});
-  for (int p = 0; p < points_.size(); ++p) {
-    const double volume = points_.volume[p] * (after[p] - before[p]);
-    for (int j = 0; j <= Dim; ++j) {
-      eroded[points_.element[p]][j] += volume * FieldNodes<Dim>::basis(points_.barycentric[p][j]);
+  ElementField<Dim> eroded(mesh_.element_count());
+  for_each_index(mesh_.element_count(), threads_, [&](int e) {
+    const ElementValues<Dim>* basis = basis_in(e);
+    ElementValues<Dim> sum{};
+    for (int p = points_begin_[e]; p < points_begin_[e + 1]; ++p, ++basis) {
+      const double volume = points_.volume[p] * (after[p] - before[p]);
+      for (int j = 0; j <= Dim; ++j) sum[j] += volume * (*basis)[j];
     }
-  }
+    eroded[e] = sum;
+  });
   return eroded;
+}
+
+template <int Dim>
+void RigidSkeleton<Dim>::erode(std::vector<double>& porosity, double from, double to,
+                               const std::vector<double>& flux, ElementField<Dim>& eroded) const {
+  eroded.resize(mesh_.element_count());
+  for_each_index(mesh_.element_count(), threads_, [&](int e) {
+    const ElementValues<Dim>* basis = basis_in(e);
+    ElementValues<Dim> sum{};
+    follow_erosion(e, porosity, from, to, flux, [&](int p, double after) {
+      const double volume = points_.volume[p] * (after - porosity[p]);
+      for (int j = 0; j <= Dim; ++j) sum[j] += volume * (*basis)[j];
+      porosity[p] = after;
+      ++basis;
+    });
+    eroded[e] = sum;
+  });
 }
 
 template <int Dim>

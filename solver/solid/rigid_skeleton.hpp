@@ -26,7 +26,7 @@ template <int Dim>
 class RigidSkeleton {
  public:
   /// Throws InputError when a soil does not fit its region (also checked by the mesher).
-  RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid);
+  RigidSkeleton(const Case<Dim>& c, const Grid<Dim>& grid, int threads = 1);
 
   /// n_L per solid point.
   [[nodiscard]] const std::vector<double>& porosity() const { return porosity_; }
@@ -42,6 +42,11 @@ class RigidSkeleton {
   /// its gain, shared by the basis functions at the point. Adds up to what the points lost exactly.
   [[nodiscard]] ElementField<Dim> eroded_volume(const std::vector<double>& before,
                                                 const std::vector<double>& after) const;
+
+  /// Both in one pass and in place: `porosity` as `porosity_after` has it, `eroded` between the
+  /// two.
+  void erode(std::vector<double>& porosity, double from, double to, const std::vector<double>& flux,
+             ElementField<Dim>& eroded) const;
 
   void set_porosity(std::vector<double> porosity) { porosity_ = std::move(porosity); }
 
@@ -70,11 +75,28 @@ class RigidSkeleton {
     return erosion_of_region_[mesh_.element_region[element]];
   }
   [[nodiscard]] const MaterialPoints<Dim>& points() const { return points_; }
+  /// Points of element e: from points_begin(e) to points_begin(e + 1).
+  [[nodiscard]] int points_begin(int element) const { return points_begin_[element]; }
 
  private:
+  void find_basis();
+  /// Values of the element's basis functions at its points, in their order.
+  [[nodiscard]] const ElementValues<Dim>* basis_in(int element) const {
+    return basis_.data() + (points_lie_alike_ ? 0 : points_begin_[element]);
+  }
+  /// Calls visit(point, porosity after) for the points of an element.
+  template <class Visit>
+  void follow_erosion(int element, const std::vector<double>& porosity, double from, double to,
+                      const std::vector<double>& flux, const Visit& visit) const;
+
   const Mesh<Dim>& mesh_;
   const MaterialPoints<Dim>& points_;
   const Grid<Dim>& grid_;
+  int threads_;
+  std::vector<int> points_begin_;
+  /// Of each point; only of the first element's where they lie alike in every element that has any.
+  std::vector<ElementValues<Dim>> basis_;
+  bool points_lie_alike_ = true;
   std::shared_ptr<const Soil> free_water_;
   std::vector<const Soil*> soil_of_region_;
   std::vector<ErosionModel> erosion_of_region_;

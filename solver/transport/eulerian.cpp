@@ -6,51 +6,143 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "parallel.hpp"
 
 namespace suffuse {
 namespace {
 
-/// Where each node of a face stands among the vertices of an element.
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Vertex `a` of side k.
 template <int Dim>
-std::array<int, Dim> local_nodes(const std::array<int, Dim>& face,
-                                 const std::array<int, Dim + 1>& element) {
-  std::array<int, Dim> result;
-  for (int a = 0; a < Dim; ++a) {
-    result[a] =
-        static_cast<int>(std::find(element.begin(), element.end(), face[a]) - element.begin());
+constexpr int side_vertex(int k, int a) {
+  return (k + 1 + a) % (Dim + 1);
+}
+
+/// Where a node stands among the vertices of an element.
+template <int Dim>
+std::uint8_t position_in(const std::array<int, Dim + 1>& vertices, int node) {
+  return static_cast<std::uint8_t>(std::find(vertices.begin(), vertices.end(), node) -
+                                   vertices.begin());
+}
+
+/// Concentration at the vertices of an element, written to `c`.
+template <int Dim>
+void find_concentration(const ElementValues<Dim>& fines, const ElementValues<Dim>& pores,
+                        double* c) {
+  double sum = 0.0;
+  ElementValues<Dim> at_nodes;
+  for (int j = 0; j <= Dim; ++j) sum += at_nodes[j] = fines[j] / pores[j];
+  for (int k = 0; k <= Dim; ++k) c[k] = FieldNodes<Dim>::at_vertex(at_nodes[k], sum);
+}
+
+/// What transport adds to the fines of an element, per field node, m3. `c` at its vertices,
+/// `crossing` at the nodes of its sides; `out`: what leaves through these is added, halved.
+template <int Dim>
+[[gnu::always_inline]] inline ElementValues<Dim> gain(
+    const double* c, const ElementValues<Dim>& outflow, const std::vector<double>& at_vertices,
+    const std::array<std::array<int, Dim>, Dim + 1>& upwind, ElementValues<Dim>& out) {
+  // Integrals with the element's linear functions, times Dim (Dim + 1). Through a side: of c q with
+  // those of its vertices. Inside: of c q with their gradients, where q is the field of Raviart and
+  // Thomas; the geometry cancels.
+  static_assert(Dim == 2, "both sides of a face must add up its nodes in the same order");
+  ElementValues<Dim> load{};
+  double net_outflow = 0.0;
+  double sum = 0.0;
+  for (int k = 0; k <= Dim; ++k) {
+    sum += c[k];
+    net_outflow += outflow[k];
   }
+  for (int k = 0; k <= Dim; ++k) {
+    const double first = at_vertices[upwind[k][0]];
+    const double second = at_vertices[upwind[k][1]];
+    const double both = first + second;
+    out[k] += 0.5 * (outflow[k] * (both / Dim));
+    load[side_vertex<Dim>(k, 0)] -= outflow[k] * (both + first);
+    load[side_vertex<Dim>(k, 1)] -= outflow[k] * (both + second);
+    load[k] += net_outflow * ((sum + c[k]) / (Dim + 2)) - outflow[k] * sum;
+  }
+  // The field nodes' functions are the vertices' made orthogonal: the same map as for values.
+  constexpr double scale = 1.0 / (Dim * (Dim + 1));
+  const double whole = element_sum<Dim>(load);
+  ElementValues<Dim> result;
+  for (int j = 0; j <= Dim; ++j) result[j] = scale * FieldNodes<Dim>::at_vertex(load[j], whole);
   return result;
 }
 
-template <int Dim>
-double mean_concentration(const FinesState<Dim>& state, int e) {
-  return element_sum<Dim>(state.fines_volume[e]) / element_sum<Dim>(state.pore_volume[e]);
+void include(ConcentrationRange& range, double value) {
+  range.low = std::min(range.low, value);
+  range.high = std::max(range.high, value);
 }
 
-/// Range of concentrations.
-struct Bounds {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
+/// Where the field is flat, round-off alone would decide whether an element is an extremum and must
+/// be flattened: a little room keeps the limiter continuous.
+ConcentrationRange with_slack(const ConcentrationRange& range) {
+  constexpr double slack = 1e-12;
+  return {std::max(std::min(range.low, 0.0), range.low - slack), range.high + slack};
+}
 
-  void include(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
+/// Whether the values at the vertices of an element are what they may be.
+template <int Dim>
+bool are_allowed(const double* at_vertices, const std::array<int, Dim + 1>& vertices,
+                 const std::vector<ConcentrationRange>& allowed) {
+  bool all = true;
+  for (int k = 0; k <= Dim; ++k) {
+    const ConcentrationRange& range = allowed[vertices[k]];
+    all &= (at_vertices[k] >= range.low) & (at_vertices[k] <= range.high);
   }
-};
+  return all;
+}
+
+/// Share of the deviations from the mean that stays within what the vertices allow.
+template <int Dim>
+double share_kept(const double* at_vertices, double mean, const std::array<int, Dim + 1>& vertices,
+                  const std::vector<ConcentrationRange>& allowed) {
+  double kept = 1.0;
+  for (int k = 0; k <= Dim; ++k) {
+    const ConcentrationRange& range = allowed[vertices[k]];
+    const double deviation = at_vertices[k] - mean;
+    const double room = deviation > 0.0 ? range.high - mean : mean - range.low;
+    if (std::abs(deviation) > room) {
+      kept = std::min(kept, std::max(room, 0.0) / std::abs(deviation));
+    }
+  }
+  return kept;
+}
 
 }  // namespace
 
 template <int Dim>
 EulerianTransport<Dim>::EulerianTransport(const Grid<Dim>& grid,
-                                          const std::vector<FaceCondition>& conditions)
-    : grid_(grid), conditions_(conditions) {
+                                          const std::vector<FaceCondition>& conditions, int threads)
+    : grid_(grid), conditions_(conditions), threads_(threads), sides_(grid.mesh.elements.size()) {
+  std::vector<int> outer(grid.face_count(), -1);
+  std::vector<int> place(grid.mesh.node_count(), -1);
   for (int f = 0; f < grid.face_count(); ++f) {
-    const auto& nodes = grid.face_nodes[f];
-    left_local_.push_back(local_nodes<Dim>(nodes, grid.mesh.elements[grid.face_left[f]]));
-    if (grid.is_outer(f)) {
-      right_local_.push_back({});
-    } else {
-      right_local_.push_back(local_nodes<Dim>(nodes, grid.mesh.elements[grid.face_right[f]]));
+    if (!grid.is_outer(f)) continue;
+    outer[f] = static_cast<int>(outer_faces_.size());
+    outer_faces_.push_back(f);
+    for (const int i : grid.face_nodes[f]) {
+      if (place[i] < 0) {
+        place[i] = static_cast<int>(outer_nodes_.size());
+        outer_nodes_.push_back({i, {}});
+      }
+      outer_nodes_[place[i]].faces.push_back(outer[f]);
+    }
+  }
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    Sides& sides = sides_[e];
+    for (int k = 0; k <= Dim; ++k) {
+      const int f = grid.element_face[e][k];
+      sides.neighbour[k] = grid.is_outer(f)         ? -1 - outer[f]
+                           : grid.face_left[f] == e ? grid.face_right[f]
+                                                    : grid.face_left[f];
+      sides.theirs[k] = {};
+      if (sides.neighbour[k] < 0) continue;
+      for (int a = 0; a < Dim; ++a) {
+        const int node = grid.mesh.elements[e][side_vertex<Dim>(k, a)];
+        sides.theirs[k][a] = position_in<Dim>(grid.mesh.elements[sides.neighbour[k]], node);
+      }
     }
   }
 }
@@ -60,200 +152,212 @@ double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
                                              const std::vector<double>& face_volume) const {
   // An element's mean is a sum of its face means with these weights; a face may take away no more
   // than its own share, or the mean could turn negative (Zhang & Shu 2010).
-  double allowed = std::numeric_limits<double>::infinity();
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const auto& pores = state.pore_volume[e];
+  return smallest_of(grid_.mesh.element_count(), threads_, infinity, [&](int e) {
+    const ElementValues<Dim>& pores = state.pore_volume[e];
     const double total = element_sum<Dim>(pores);
     const double smallest = *std::min_element(pores.begin(), pores.end());
+    double allowed = infinity;
     for (int k = 0; k <= Dim; ++k) {
-      const int f = grid_.element_face[e][k];
-      const double outflow = grid_.element_face_sign[e][k] * face_volume[f];
+      const double outflow = grid_.element_face_sign[e][k] * face_volume[grid_.element_face[e][k]];
       if (outflow <= 0.0) continue;
       const double share =
           total - Dim * (FieldNodes<Dim>::far_vertex * total + FieldNodes<Dim>::spread * pores[k]);
       allowed = std::min(allowed, std::max(share, 0.25 * smallest) / outflow);
     }
-  }
-  return allowed;
+    return allowed;
+  });
 }
 
 template <int Dim>
-ElementField<Dim> EulerianTransport<Dim>::vertex_concentration(const FinesState<Dim>& state) const {
-  ElementField<Dim> result(state.pore_volume.size());
-  for (std::size_t e = 0; e < result.size(); ++e) {
-    ElementValues<Dim> c;
-    for (int j = 0; j <= Dim; ++j) c[j] = state.fines_volume[e][j] / state.pore_volume[e][j];
-    result[e] = FieldNodes<Dim>::at_vertices(c);
+void EulerianTransport<Dim>::start(const FinesState<Dim>& state,
+                                   const std::vector<double>& face_volume,
+                                   TransportScratch<Dim>& scratch) const {
+  constexpr int vertices = Dim + 1;
+  const int elements = grid_.mesh.element_count();
+  const std::size_t values = vertices * static_cast<std::size_t>(elements) + outer_faces_.size();
+  scratch.at_vertices.resize(values);
+  scratch.next_at_vertices.resize(values);
+  scratch.outflow.resize(elements);
+  scratch.upwind.resize(elements);
+  scratch.stage_fines.resize(elements);
+  scratch.grains_out.resize(elements);
+  scratch.mean.resize(elements);
+  scratch.allowed.resize(grid_.mesh.node_count());
+  for (std::size_t o = 0; o < outer_faces_.size(); ++o) {
+    const std::size_t place = vertices * static_cast<std::size_t>(elements) + o;
+    scratch.at_vertices[place] = scratch.next_at_vertices[place] =
+        conditions_[outer_faces_[o]].concentration;
   }
-  return result;
-}
-
-template <int Dim>
-auto EulerianTransport<Dim>::upwind(int face, double volume,
-                                    const ElementField<Dim>& at_vertices) const -> FaceValues {
-  FaceValues result;
-  if (volume < 0.0 && grid_.is_outer(face)) {
-    result.fill(conditions_[face].concentration);
-    return result;
-  }
-  const int e = volume < 0.0 ? grid_.face_right[face] : grid_.face_left[face];
-  const auto& local = volume < 0.0 ? right_local_[face] : left_local_[face];
-  for (int a = 0; a < Dim; ++a) result[a] = at_vertices[e][local[a]];
-  return result;
-}
-
-template <int Dim>
-std::vector<double> EulerianTransport<Dim>::face_concentration(
-    const FinesState<Dim>& state, const std::vector<double>& face_volume) const {
-  const ElementField<Dim> at_vertices = vertex_concentration(state);
-  std::vector<double> result(grid_.face_count());
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    double sum = 0.0;
-    for (const double c : upwind(f, face_volume[f], at_vertices)) sum += c;
-    result[f] = sum / Dim;
-  }
-  return result;
-}
-
-template <int Dim>
-void EulerianTransport<Dim>::add_transport(const FinesState<Dim>& state,
-                                           const std::vector<double>& face_volume,
-                                           ElementField<Dim>& change,
-                                           std::vector<double>& crossed) const {
-  using Nodes = FieldNodes<Dim>;
-  const ElementField<Dim> at_vertices = vertex_concentration(state);
-
-  // Faces: integrals of c times the face's own linear functions, the same number for both sides.
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    const double volume = face_volume[f];
-    if (volume == 0.0) continue;
-    const FaceValues c = upwind(f, volume, at_vertices);
-    double sum = 0.0;
-    for (const double value : c) sum += value;
-    crossed[f] += volume * sum / Dim;
-    const auto give = [&](int e, const std::array<int, Dim>& local, double sign) {
+  for_each_index(elements, threads_, [&](int e) {
+    find_concentration<Dim>(state.fines_volume[e], state.pore_volume[e],
+                            &scratch.at_vertices[vertices * static_cast<std::size_t>(e)]);
+    scratch.grains_out[e] = {};
+    for (int k = 0; k <= Dim; ++k) {
+      const double outflow = grid_.element_face_sign[e][k] * face_volume[grid_.element_face[e][k]];
+      const int neighbour = sides_[e].neighbour[k];
+      scratch.outflow[e][k] = outflow;
       for (int a = 0; a < Dim; ++a) {
-        const double load = sign * volume * (sum + c[a]) / (Dim * (Dim + 1));
-        for (int j = 0; j <= Dim; ++j) {
-          change[e][j] += load * Nodes::basis(j == local[a] ? 1.0 : 0.0);
-        }
+        scratch.upwind[e][k][a] = outflow >= 0.0   ? vertices * e + side_vertex<Dim>(k, a)
+                                  : neighbour >= 0 ? vertices * neighbour + sides_[e].theirs[k][a]
+                                                   : vertices * elements - 1 - neighbour;
       }
-    };
-    give(grid_.face_left[f], left_local_[f], -1.0);
-    if (!grid_.is_outer(f)) give(grid_.face_right[f], right_local_[f], 1.0);
-  }
+    }
+  });
+}
 
-  // Elements: the flux inside is the Raviart-Thomas field of the face volumes. Its product with the
-  // basis gradients depends on the volumes alone; the geometry cancels.
-  const double scale = 1.0 / ((Dim + 1) * Dim * Nodes::spread);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    double outflow = 0.0;
-    double concentration_sum = 0.0;
-    ElementValues<Dim> c;
-    ElementValues<Dim> face_outflow;
-    for (int j = 0; j <= Dim; ++j) {
-      c[j] = state.fines_volume[e][j] / state.pore_volume[e][j];
-      face_outflow[j] = grid_.element_face_sign[e][j] * face_volume[grid_.element_face[e][j]];
-      concentration_sum += c[j];
-      outflow += face_outflow[j];
+template <int Dim>
+void EulerianTransport<Dim>::face_concentration(const FinesState<Dim>& state,
+                                                const std::vector<double>& face_volume,
+                                                TransportScratch<Dim>& scratch,
+                                                std::vector<double>& result) const {
+  start(state, face_volume, scratch);
+  result.resize(grid_.face_count());
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    for (int k = 0; k <= Dim; ++k) {
+      if (grid_.element_face_sign[e][k] < 0.0) continue;
+      double sum = 0.0;
+      for (const int place : scratch.upwind[e][k]) sum += scratch.at_vertices[place];
+      result[grid_.element_face[e][k]] = sum / Dim;
     }
-    for (int j = 0; j <= Dim; ++j) {
-      change[e][j] +=
-          scale * (outflow * (Nodes::far_vertex * concentration_sum + Nodes::spread * c[j]) -
-                   face_outflow[j] * concentration_sum);
+  });
+}
+
+template <int Dim>
+void EulerianTransport<Dim>::grains_crossed(const TransportScratch<Dim>& scratch,
+                                            std::vector<double>& result) const {
+  result.resize(grid_.face_count());
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    for (int k = 0; k <= Dim; ++k) {
+      if (grid_.element_face_sign[e][k] < 0.0) continue;
+      result[grid_.element_face[e][k]] = scratch.grains_out[e][k];
+    }
+  });
+}
+
+template <int Dim>
+ConcentrationRange EulerianTransport<Dim>::range_around(int node,
+                                                        const std::vector<double>& mean) const {
+  ConcentrationRange range{infinity, -infinity};
+  for (int k = grid_.node_element_begin[node]; k < grid_.node_element_begin[node + 1]; ++k) {
+    include(range, mean[grid_.node_element[k]]);
+  }
+  return range;
+}
+
+template <int Dim>
+ConcentrationRange EulerianTransport<Dim>::range_at_boundary(
+    const OuterNode& outer, const TransportScratch<Dim>& scratch) const {
+  const ConcentrationRange inside = range_around(outer.node, scratch.mean);
+  ConcentrationRange range = inside;
+  for (const int o : outer.faces) {
+    const int f = outer_faces_[o];
+    const int e = grid_.face_left[f];
+    const auto& faces = grid_.element_face[e];
+    const auto k = std::find(faces.begin(), faces.end(), f) - faces.begin();
+    if (scratch.outflow[e][k] < 0.0) include(range, conditions_[f].concentration);
+    if (scratch.outflow[e][k] > 0.0) {
+      // Nothing downstream bounds the vertices of an outlet: let the field go on as it comes.
+      const double width = inside.high - inside.low;
+      include(range, std::max(0.0, inside.low - width));
+      include(range, std::min(1.0, inside.high + width));
     }
   }
+  return range;
+}
+
+template <int Dim>
+void EulerianTransport<Dim>::find_allowed(TransportScratch<Dim>& scratch) const {
+  for_each_index(grid_.mesh.node_count(), threads_,
+                 [&](int i) { scratch.allowed[i] = with_slack(range_around(i, scratch.mean)); });
+  for (const OuterNode& outer : outer_nodes_) {
+    scratch.allowed[outer.node] = with_slack(range_at_boundary(outer, scratch));
+  }
+}
+
+template <int Dim>
+void EulerianTransport<Dim>::refuse_impossible(const std::vector<double>& mean) const {
+  // Round-off of an empty element is not a wrong value; anything beyond it is.
+  constexpr double round_off = 1e-13;
+  const auto possible = [](double c) { return c >= -round_off && c < 1.0; };
+  const double wrong = largest_of(static_cast<int>(mean.size()), threads_, 0.0,
+                                  [&](int e) { return possible(mean[e]) ? 0.0 : 1.0; });
+  if (wrong == 0.0) return;
+  const auto first = std::find_if_not(mean.begin(), mean.end(), possible);
+  const auto e = static_cast<int>(first - mean.begin());
+  std::ostringstream message;
+  const Vector<Dim> x = element_centroid(grid_.mesh, e);
+  message << "concentration of fluidised grains left [0, 1): " << *first << " in element " << e
+          << " at (" << x.transpose() << ")";
+  throw NumericalError(message.str());
+}
+
+template <int Dim>
+void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& pores, ElementField<Dim>& fines,
+                                         TransportScratch<Dim>& scratch) const {
+  refuse_impossible(scratch.mean);
+  find_allowed(scratch);
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    const std::array<int, Dim + 1>& nodes = grid_.mesh.elements[e];
+    double* at_vertices = &scratch.next_at_vertices[(Dim + 1) * static_cast<std::size_t>(e)];
+    if (are_allowed<Dim>(at_vertices, nodes, scratch.allowed)) return;
+    const double mean = scratch.mean[e];
+    const double kept = share_kept<Dim>(at_vertices, mean, nodes, scratch.allowed);
+    for (int j = 0; j <= Dim; ++j) {
+      fines[e][j] = pores[e][j] * (mean + kept * (fines[e][j] / pores[e][j] - mean));
+      at_vertices[j] = mean + kept * (at_vertices[j] - mean);
+    }
+  });
+  scratch.at_vertices.swap(scratch.next_at_vertices);
 }
 
 template <int Dim>
 void EulerianTransport<Dim>::limit(FinesState<Dim>& state,
                                    const std::vector<double>& face_volume) const {
-  const int elements = grid_.mesh.element_count();
-  std::vector<double> mean(elements);
-  for (int e = 0; e < elements; ++e) {
-    mean[e] = mean_concentration<Dim>(state, e);
-    // Round-off of an empty element is not a wrong value; anything beyond it is.
-    constexpr double round_off = 1e-13;
-    if (!(mean[e] >= -round_off && mean[e] < 1.0)) {
-      std::ostringstream message;
-      const Vector<Dim> x = element_centroid(grid_.mesh, e);
-      message << "concentration of fluidised grains left [0, 1): " << mean[e] << " in element " << e
-              << " at (" << x.transpose() << ")";
-      throw NumericalError(message.str());
-    }
+  TransportScratch<Dim> scratch;
+  start(state, face_volume, scratch);
+  scratch.next_at_vertices = scratch.at_vertices;
+  for (std::size_t e = 0; e < scratch.mean.size(); ++e) {
+    scratch.mean[e] =
+        element_sum<Dim>(state.fines_volume[e]) / element_sum<Dim>(state.pore_volume[e]);
   }
-  std::vector<Bounds> bounds(grid_.mesh.node_count());
-  for (int e = 0; e < elements; ++e) {
-    for (const int i : grid_.mesh.elements[e]) bounds[i].include(mean[e]);
-  }
-  std::vector<Bounds> widened = bounds;
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    if (!grid_.is_outer(f)) continue;
-    for (const int i : grid_.face_nodes[f]) {
-      if (face_volume[f] < 0.0) widened[i].include(conditions_[f].concentration);
-      if (face_volume[f] > 0.0) {
-        // Nothing downstream bounds the vertices of an outlet: let the field go on as it comes.
-        const double range = bounds[i].high - bounds[i].low;
-        widened[i].include(std::max(0.0, bounds[i].low - range));
-        widened[i].include(std::min(1.0, bounds[i].high + range));
-      }
-    }
-  }
-  bounds = std::move(widened);
-  // Where the field is flat, round-off alone would decide whether an element is an extremum and
-  // must be flattened: a little room keeps the limiter continuous.
-  constexpr double slack = 1e-12;
-  for (Bounds& b : bounds) {
-    b.low = std::max(std::min(b.low, 0.0), b.low - slack);
-    b.high += slack;
-  }
-
-  for (int e = 0; e < elements; ++e) {
-    ElementValues<Dim> c;
-    for (int j = 0; j <= Dim; ++j) c[j] = state.fines_volume[e][j] / state.pore_volume[e][j];
-    const ElementValues<Dim> at_vertices = FieldNodes<Dim>::at_vertices(c);
-    double kept = 1.0;
-    for (int k = 0; k <= Dim; ++k) {
-      const Bounds& allowed = bounds[grid_.mesh.elements[e][k]];
-      const double deviation = at_vertices[k] - mean[e];
-      const double room = deviation > 0.0 ? allowed.high - mean[e] : mean[e] - allowed.low;
-      if (std::abs(deviation) > room)
-        kept = std::min(kept, std::max(room, 0.0) / std::abs(deviation));
-    }
-    if (kept == 1.0) continue;
-    for (int j = 0; j <= Dim; ++j) {
-      state.fines_volume[e][j] = state.pore_volume[e][j] * (mean[e] + kept * (c[j] - mean[e]));
-    }
-  }
+  limit_stage(state.pore_volume, state.fines_volume, scratch);
 }
 
 template <int Dim>
-std::vector<double> EulerianTransport<Dim>::advance(FinesState<Dim>& state,
-                                                    const std::vector<double>& face_volume,
-                                                    const ElementField<Dim>& eroded) const {
-  const auto elements = state.pore_volume.size();
-  std::vector<double> crossed(grid_.face_count(), 0.0);
-  FinesState<Dim> stage = state;
-  add_transport(state, face_volume, stage.fines_volume, crossed);
-  for (std::size_t e = 0; e < elements; ++e) {
+void EulerianTransport<Dim>::advance(FinesState<Dim>& state, const ElementField<Dim>& eroded,
+                                     TransportScratch<Dim>& scratch) const {
+  const int elements = grid_.mesh.element_count();
+  ElementField<Dim>& pores = state.pore_volume;
+  ElementField<Dim>& fines = state.fines_volume;
+  ElementField<Dim>& stage = scratch.stage_fines;
+  const auto moved = [&](int e) {
+    const double* c = &scratch.at_vertices[(Dim + 1) * static_cast<std::size_t>(e)];
+    return gain<Dim>(c, scratch.outflow[e], scratch.at_vertices, scratch.upwind[e],
+                     scratch.grains_out[e]);
+  };
+  const auto look_at = [&](int e, const ElementValues<Dim>& volume) {
+    find_concentration<Dim>(volume, pores[e],
+                            &scratch.next_at_vertices[(Dim + 1) * static_cast<std::size_t>(e)]);
+    scratch.mean[e] = element_sum<Dim>(volume) / element_sum<Dim>(pores[e]);
+  };
+  for_each_index(elements, threads_, [&](int e) {
+    const ElementValues<Dim> change = moved(e);
     for (int j = 0; j <= Dim; ++j) {
-      stage.pore_volume[e][j] += eroded[e][j];
-      stage.fines_volume[e][j] += eroded[e][j];
+      if (!eroded.empty()) {
+        pores[e][j] += eroded[e][j];
+        fines[e][j] += eroded[e][j];
+      }
+      stage[e][j] = fines[e][j] + change[j];
     }
-  }
-  limit(stage, face_volume);
-  FinesState<Dim> end = stage;
-  add_transport(stage, face_volume, end.fines_volume, crossed);
-  for (std::size_t e = 0; e < elements; ++e) {
-    for (int j = 0; j <= Dim; ++j) {
-      end.fines_volume[e][j] =
-          0.5 * (state.fines_volume[e][j] + eroded[e][j] + end.fines_volume[e][j]);
-    }
-  }
-  limit(end, face_volume);
-  state = std::move(end);
-  for (double& volume : crossed) volume *= 0.5;
-  return crossed;
+    look_at(e, stage[e]);
+  });
+  limit_stage(pores, stage, scratch);
+  for_each_index(elements, threads_, [&](int e) {
+    const ElementValues<Dim> change = moved(e);
+    for (int j = 0; j <= Dim; ++j) fines[e][j] = 0.5 * (fines[e][j] + (stage[e][j] + change[j]));
+    look_at(e, fines[e]);
+  });
+  limit_stage(pores, fines, scratch);
 }
 
 template class EulerianTransport<2>;

@@ -4,6 +4,8 @@
 /// carried by the face volumes of the flow. Conserves grains to round-off (Eq. 3 of the paper,
 /// corrected, in conservative form).
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "flow/face_conditions.hpp"
@@ -19,24 +21,54 @@ struct FinesState {
   ElementField<Dim> fines_volume;
 };
 
+/// Range of concentrations.
+struct ConcentrationRange {
+  double low;
+  double high;
+};
+
+/// What steps of transport work with. Whoever takes them keeps it: steps allocate nothing then.
+template <int Dim>
+struct TransportScratch {
+  /// Outflow through the element's sides in one step, m3; side k lies opposite vertex k.
+  ElementField<Dim> outflow;
+  /// Where the concentration that crosses side k is, at its nodes, among `at_vertices`.
+  std::vector<std::array<std::array<int, Dim>, Dim + 1>> upwind;
+  /// Concentration at the vertices of each element, then what enters through each outer face.
+  std::vector<double> at_vertices;
+  std::vector<double> next_at_vertices;
+  ElementField<Dim> stage_fines;            ///< after the first stage, as in FinesState, m3
+  std::vector<double> mean;                 ///< concentration, per element
+  std::vector<ConcentrationRange> allowed;  ///< per mesh node
+  ElementField<Dim> grains_out;             ///< through the element's sides since `start`, m3
+};
+
 /// Two-stage strong-stability-preserving Runge-Kutta over upwind face fluxes, concentration limited
 /// after each stage (Kuzmin 2010, vertex-based: means of the elements around a vertex bound the
 /// value there; an element's fines are never changed, only how they lie in it).
+///
+/// Every loop gathers: an element finds what crosses its sides from the values on the side that it
+/// comes from, and the neighbour finds the same number from the same values.
 template <int Dim>
 class EulerianTransport {
  public:
-  EulerianTransport(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions);
+  EulerianTransport(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                    int threads = 1);
 
   /// Largest number of times that `face_volume` may cross in one step: a step that moves
   /// `face_volume` m3 through each face keeps concentrations within bounds while this is >= 1.
   [[nodiscard]] double steps_allowed(const FinesState<Dim>& state,
                                      const std::vector<double>& face_volume) const;
 
-  /// Moves the state over an interval in which `face_volume` m3 of liquid crossed each face and
-  /// `eroded` m3 of grains joined the liquid. Returns the volume of grains that crossed each face,
-  /// m3. Throws NumericalError where the element's mean concentration leaves [0, 1).
-  std::vector<double> advance(FinesState<Dim>& state, const std::vector<double>& face_volume,
-                              const ElementField<Dim>& eroded) const;
+  /// Begins an interval of steps with `face_volume` m3 of liquid through each face in each.
+  void start(const FinesState<Dim>& state, const std::vector<double>& face_volume,
+             TransportScratch<Dim>& scratch) const;
+  /// Moves the state by one step in which `eroded` m3 of grains join the liquid (empty: none).
+  /// Throws NumericalError where an element's mean concentration leaves [0, 1).
+  void advance(FinesState<Dim>& state, const ElementField<Dim>& eroded,
+               TransportScratch<Dim>& scratch) const;
+  /// Volume of grains that crossed each face since `start`, m3.
+  void grains_crossed(const TransportScratch<Dim>& scratch, std::vector<double>& result) const;
 
   /// Brings concentrations at the vertices within the means of the elements around them and, at an
   /// inlet, the concentration that enters; an element's mean does not change. `advance` leaves its
@@ -45,25 +77,42 @@ class EulerianTransport {
 
   /// Mean concentration, weighted with pore volume, of the liquid that crosses each face when it
   /// runs along `face_volume`.
-  [[nodiscard]] std::vector<double> face_concentration(
-      const FinesState<Dim>& state, const std::vector<double>& face_volume) const;
+  void face_concentration(const FinesState<Dim>& state, const std::vector<double>& face_volume,
+                          TransportScratch<Dim>& scratch, std::vector<double>& result) const;
 
  private:
-  using FaceValues = std::array<double, Dim>;
+  /// The faces of an element as its own loop needs them: side k lies opposite vertex k, and its
+  /// nodes are the vertices that follow k, in that order.
+  struct Sides {
+    /// Element across; at the outer boundary -1 less the number of the face among the outer ones.
+    std::array<int, Dim + 1> neighbour;
+    /// Where the side's nodes stand among the neighbour's vertices.
+    std::array<std::array<std::uint8_t, Dim>, Dim + 1> theirs;
+  };
+  /// A mesh node on the outer boundary and the faces there.
+  struct OuterNode {
+    int node;
+    std::vector<int> faces;
+  };
 
-  [[nodiscard]] ElementField<Dim> vertex_concentration(const FinesState<Dim>& state) const;
-  /// Upwind concentration at the nodes of a face.
-  [[nodiscard]] FaceValues upwind(int face, double volume,
-                                  const ElementField<Dim>& at_vertices) const;
-  /// One Euler stage: grains that move, added to `change`, and through faces, added to `crossed`.
-  void add_transport(const FinesState<Dim>& state, const std::vector<double>& face_volume,
-                     ElementField<Dim>& change, std::vector<double>& crossed) const;
+  /// Limits the fines of a stage whose means are known; leaves its values at the vertices.
+  void limit_stage(const ElementField<Dim>& pores, ElementField<Dim>& fines,
+                   TransportScratch<Dim>& scratch) const;
+  /// Throws NumericalError.
+  void refuse_impossible(const std::vector<double>& mean) const;
+  void find_allowed(TransportScratch<Dim>& scratch) const;
+  /// Range of the means of the elements around a node.
+  [[nodiscard]] ConcentrationRange range_around(int node, const std::vector<double>& mean) const;
+  /// The same with what enters there, or may go on as it comes where liquid leaves.
+  [[nodiscard]] ConcentrationRange range_at_boundary(const OuterNode& outer,
+                                                     const TransportScratch<Dim>& scratch) const;
 
   const Grid<Dim>& grid_;
   const std::vector<FaceCondition>& conditions_;
-  /// Position of each face node among the vertices of the left and the right element.
-  std::vector<std::array<int, Dim>> left_local_;
-  std::vector<std::array<int, Dim>> right_local_;
+  int threads_;
+  std::vector<Sides> sides_;  ///< per element
+  std::vector<int> outer_faces_;
+  std::vector<OuterNode> outer_nodes_;
 };
 
 }  // namespace suffuse

@@ -50,11 +50,10 @@ struct Column {
     const int steps = static_cast<int>(std::ceil(time / allowed));
     std::vector<double> part = volume;
     for (double& v : part) v *= time / steps;
+    TransportScratch<2> scratch;
+    transport.start(state, part, scratch);
     for (int s = 0; s < steps; ++s) {
-      const auto crossed = transport.advance(state, part, nothing_eroded);
-      for (int f = 0; f < grid.face_count(); ++f) {
-        if (grid.is_outer(f)) in -= crossed[f];
-      }
+      transport.advance(state, nothing_eroded, scratch);
       for (std::size_t e = 0; e < state.fines_volume.size(); ++e) {
         for (int j = 0; j < 3; ++j) {
           const double c_node = state.fines_volume[e][j] / state.pore_volume[e][j];
@@ -62,6 +61,11 @@ struct Column {
           highest = std::max(highest, c_node);
         }
       }
+    }
+    std::vector<double> crossed;
+    transport.grains_crossed(scratch, crossed);
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (grid.is_outer(f)) in -= crossed[f];
     }
     return in;
   }

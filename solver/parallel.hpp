@@ -1,0 +1,58 @@
+#pragma once
+
+/// Loops shared among threads. What runs at an index writes to places of its own, so results are
+/// the same, bit by bit, on any number of threads. For sources that compile with OpenMP.
+
+#include <omp.h>
+
+#include <algorithm>
+
+namespace suffuse {
+
+/// Below this many indices a loop is over before other threads are awake.
+inline constexpr int worth_threads = 4096;
+
+/// Calls `loop(begin, end)` for parts that together are [0, count). A loop that one thread runs
+/// does not enter OpenMP, which would call the operating system for nothing.
+template <class Loop>
+void share_among(int threads, int count, int worth, const Loop& loop) {
+  if (threads <= 1 || count < worth) {
+    loop(0, count);
+    return;
+  }
+#pragma omp parallel num_threads(threads)
+  {
+    const long part = omp_get_thread_num();
+    const long parts = omp_get_num_threads();
+    loop(static_cast<int>(count * part / parts), static_cast<int>(count * (part + 1) / parts));
+  }
+}
+
+/// Calls `body(i)` for each i in [0, count), alone where these are fewer than `worth`.
+template <class Body>
+void for_each_index(int count, int threads, const Body& body, int worth = worth_threads) {
+  share_among(threads, count, worth, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) body(i);
+  });
+}
+
+/// The largest `value(i)`, or `least` where none is larger: the same in any order.
+template <class Value>
+double largest_of(int count, int threads, double least, const Value& value) {
+  double largest = least;
+  share_among(threads, count, worth_threads, [&](int begin, int end) {
+    double of_part = least;
+    for (int i = begin; i < end; ++i) of_part = std::max(of_part, value(i));
+#pragma omp critical(suffuse_largest_of)
+    largest = std::max(largest, of_part);
+  });
+  return largest;
+}
+
+/// The smallest `value(i)`, or `most` where none is smaller.
+template <class Value>
+double smallest_of(int count, int threads, double most, const Value& value) {
+  return -largest_of(count, threads, -most, [&](int i) { return -value(i); });
+}
+
+}  // namespace suffuse
