@@ -3,42 +3,73 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "case/errors.hpp"
+#include "parallel.hpp"
 
 namespace suffuse {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// Residual per row that double precision cannot tell from nothing: a row's terms are as large as
-/// its diagonal times the largest unknown.
-Eigen::VectorXd with_round_off(const Matrix& matrix, const Eigen::VectorXd& rhs,
-                               const Eigen::VectorXd& x, const Eigen::VectorXd& tolerance) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  const double largest = x.lpNorm<Eigen::Infinity>();
-  return tolerance.array() +
-         4.0 * epsilon * (rhs.array().abs() + largest * matrix.diagonal().array());
-}
-
-/// Largest residual over what is allowed; infinite where nothing is and something is left.
-double excess(const Eigen::VectorXd& residual, const Eigen::VectorXd& allowed) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    if (residual[i] != 0.0) largest = std::max(largest, std::abs(residual[i]) / allowed[i]);
-    if (std::isnan(residual[i])) return residual[i];
+/// A row of a symmetric matrix, which is its column, times a vector.
+double row_times(const Matrix& matrix, int row, const Eigen::VectorXd& x) {
+  const int* columns = matrix.innerIndexPtr();
+  const double* values = matrix.valuePtr();
+  double sum = 0.0;
+  for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k) {
+    sum += values[k] * x[columns[k]];
   }
-  return largest;
+  return sum;
 }
 
-bool within(const Eigen::VectorXd& residual, const Eigen::VectorXd& allowed) {
-  return excess(residual, allowed) <= 1.0;
+/// Sum of products in blocks of fixed size: the same on any number of threads.
+double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b, int threads) {
+  constexpr int block = 4096;
+  const auto size = static_cast<int>(a.size());
+  const int blocks = (size + block - 1) / block;
+  std::vector<double> part(blocks);
+  const auto add_up = [&](int i) {
+    const int begin = i * block;
+    const int length = std::min(block, size - begin);
+    part[i] = a.segment(begin, length).dot(b.segment(begin, length));
+  };
+  for_each_index(blocks, size >= worth_threads ? threads : 1, add_up, 1);
+  return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
 }  // namespace
 
-HeldFactor::HeldFactor(const Matrix& pattern) {
+HeldFactor::HeldFactor(const Matrix& pattern, int threads) : threads_(threads), packed_(threads) {
   factor_.analyzePattern(pattern);
+}
+
+void HeldFactor::find_residual(const Matrix& matrix, const Eigen::VectorXd& rhs,
+                               const Eigen::VectorXd& x, Eigen::VectorXd& residual) const {
+  residual.resize(rhs.size());
+  for_each_index(static_cast<int>(rhs.size()), threads_,
+                 [&](int row) { residual[row] = rhs[row] - row_times(matrix, row, x); });
+}
+
+void HeldFactor::find_allowed(const Eigen::VectorXd& rhs, const Eigen::VectorXd& x,
+                              const Eigen::VectorXd& tolerance, Eigen::VectorXd& allowed) const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double largest = x.lpNorm<Eigen::Infinity>();
+  allowed.resize(rhs.size());
+  for_each_index(static_cast<int>(rhs.size()), threads_, [&](int row) {
+    allowed[row] = tolerance[row] + 4.0 * epsilon * (std::abs(rhs[row]) + largest * diagonal_[row]);
+  });
+}
+
+double HeldFactor::excess(const Eigen::VectorXd& residual, const Eigen::VectorXd& allowed,
+                          double share) const {
+  const double largest = largest_of(static_cast<int>(residual.size()), threads_, 0.0, [&](int row) {
+    // Comparisons with what is not a number are false: infinite is as bad.
+    if (std::isnan(residual[row])) return std::numeric_limits<double>::infinity();
+    return residual[row] == 0.0 ? 0.0 : std::abs(residual[row]) / (share * allowed[row]);
+  });
+  return largest;
 }
 
 void HeldFactor::factorise(const Matrix& matrix) {
@@ -50,6 +81,7 @@ void HeldFactor::factorise(const Matrix& matrix) {
     throw NumericalError(
         "the pressures could not be solved for: the matrix of the flow is not positive definite");
   }
+  packed_.take(factor_);
   factored_values_.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
 }
 
@@ -59,28 +91,33 @@ bool HeldFactor::is_factored(const Matrix& matrix) const {
 }
 
 Eigen::VectorXd HeldFactor::solve_directly(const Matrix& matrix, const Eigen::VectorXd& rhs,
-                                           const Eigen::VectorXd& tolerance) const {
-  Eigen::VectorXd x = factor_.solve(rhs);
-  const Eigen::VectorXd residual = rhs - matrix * x;
-  if (!within(residual, with_round_off(matrix, rhs, x, tolerance))) x += factor_.solve(residual);
+                                           const Eigen::VectorXd& tolerance) {
+  Eigen::VectorXd x;
+  packed_.solve(rhs, x);
+  find_residual(matrix, rhs, x, residual_);
+  find_allowed(rhs, x, tolerance, allowed_);
+  if (!(excess(residual_, allowed_, 1.0) <= 1.0)) {
+    packed_.solve(residual_, preconditioned_);
+    x += preconditioned_;
+  }
   return x;
 }
 
 bool HeldFactor::iterate(const Matrix& matrix, const Eigen::VectorXd& rhs,
                          const Eigen::VectorXd& tolerance, Eigen::VectorXd& x) {
-  Eigen::VectorXd residual = rhs - matrix * x;
+  const auto rows = static_cast<int>(rhs.size());
   int iterations = 0;
   double first_excess = 0.0;
   // Conjugate gradients update the residual rather than compute it, and the two drift apart: begin
   // again from the true one where they have.
   while (true) {
-    const Eigen::VectorXd enough = with_round_off(matrix, rhs, x, tolerance);
-    if (within(residual, enough)) return true;
+    find_residual(matrix, rhs, x, residual_);
+    find_allowed(rhs, x, tolerance, allowed_);
+    if (excess(residual_, allowed_, 1.0) <= 1.0) return true;
     if (iterations == most_iterations) return false;
-    Eigen::VectorXd direction;
     double last_product = 0.0;
     while (iterations < most_iterations) {
-      const double now = excess(residual, 0.5 * enough);
+      const double now = excess(residual_, allowed_, 0.5);
       if (now <= 1.0) break;
       if (iterations == 0) first_excess = now;
       // Less than half the progress that a third of the iterations should have made: hopeless.
@@ -88,24 +125,29 @@ bool HeldFactor::iterate(const Matrix& matrix, const Eigen::VectorXd& rhs,
           std::log(first_excess / now) < std::log(first_excess) / 6.0) {
         return false;
       }
-      const Eigen::VectorXd preconditioned = factor_.solve(residual);
-      const double product = residual.dot(preconditioned);
-      if (direction.size() == 0) {
-        direction = preconditioned;
+      packed_.solve(residual_, preconditioned_);
+      const double product = dot(residual_, preconditioned_, threads_);
+      if (last_product == 0.0) {
+        direction_ = preconditioned_;
       } else {
-        direction = preconditioned + (product / last_product) * direction;
+        const double share = product / last_product;
+        for_each_index(rows, threads_,
+                       [&](int i) { direction_[i] = preconditioned_[i] + share * direction_[i]; });
       }
       last_product = product;
-      const Eigen::VectorXd image = matrix * direction;
-      const double curvature = direction.dot(image);
+      image_.resize(rows);
+      for_each_index(rows, threads_,
+                     [&](int row) { image_[row] = row_times(matrix, row, direction_); });
+      const double curvature = dot(direction_, image_, threads_);
       if (!(product > 0.0 && curvature > 0.0)) return false;
       const double length = product / curvature;
-      x += length * direction;
-      residual -= length * image;
+      for_each_index(rows, threads_, [&](int i) {
+        x[i] += length * direction_[i];
+        residual_[i] -= length * image_[i];
+      });
       ++iterations;
       ++counts_.iterations;
     }
-    residual = rhs - matrix * x;
   }
 }
 
@@ -113,12 +155,14 @@ Eigen::VectorXd HeldFactor::solve(const Matrix& matrix, const Eigen::VectorXd& r
                                   const Eigen::VectorXd& guess, const Eigen::VectorXd& tolerance) {
   ++counts_.solves;
   if (matrix.rows() == 0) return rhs;
+  diagonal_ = matrix.diagonal();
   const bool again =
       !iterated_values_.empty() &&
       std::equal(iterated_values_.begin(), iterated_values_.end(), matrix.valuePtr());
   if (!again) spent_ = 0;
+  const bool held = is_factored(matrix);
   if (!factored_values_.empty() && last_iterations_ <= tiring_iterations &&
-      spent_ < worth_a_factor && !is_factored(matrix)) {
+      spent_ < worth_a_factor && !held) {
     Eigen::VectorXd x = guess;
     const long before = counts_.iterations;
     const bool solved = iterate(matrix, rhs, tolerance, x);
@@ -129,7 +173,7 @@ Eigen::VectorXd HeldFactor::solve(const Matrix& matrix, const Eigen::VectorXd& r
     }
     if (solved) return x;
   }
-  if (!is_factored(matrix)) factorise(matrix);
+  if (!held) factorise(matrix);
   Eigen::VectorXd x = solve_directly(matrix, rhs, tolerance);
   if (!x.allFinite()) {
     throw NumericalError("the pressures could not be solved for: they are not finite numbers");

@@ -7,6 +7,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "flow/packed_factor.hpp"
+
 namespace suffuse {
 
 /// What the linear systems of a run took.
@@ -33,7 +35,7 @@ class HeldFactor {
 
   /// Orders and analyses the pattern (approximate minimum degree), which every matrix given to
   /// `solve` must have. Both triangles are stored.
-  explicit HeldFactor(const Eigen::SparseMatrix<double>& pattern);
+  explicit HeldFactor(const Eigen::SparseMatrix<double>& pattern, int threads = 1);
 
   /// Solution of matrix x = rhs. Iterations begin at `guess` and end when each row's residual is
   /// within `tolerance` (per row, in the unit of `rhs`) or within the round-off of computing it.
@@ -45,15 +47,30 @@ class HeldFactor {
 
  private:
   void factorise(const Eigen::SparseMatrix<double>& matrix);
+  void find_residual(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+                     const Eigen::VectorXd& x, Eigen::VectorXd& residual) const;
+  /// Residual per row that is small enough: `tolerance`, or what double precision cannot tell from
+  /// nothing, as a row's terms are as large as its diagonal times the largest unknown.
+  void find_allowed(const Eigen::VectorXd& rhs, const Eigen::VectorXd& x,
+                    const Eigen::VectorXd& tolerance, Eigen::VectorXd& allowed) const;
+  /// Largest residual over `share` of what is allowed; infinite where a residual is no number, or
+  /// nothing is allowed and something left.
+  [[nodiscard]] double excess(const Eigen::VectorXd& residual, const Eigen::VectorXd& allowed,
+                              double share) const;
   [[nodiscard]] bool is_factored(const Eigen::SparseMatrix<double>& matrix) const;
   [[nodiscard]] Eigen::VectorXd solve_directly(const Eigen::SparseMatrix<double>& matrix,
                                                const Eigen::VectorXd& rhs,
-                                               const Eigen::VectorXd& tolerance) const;
+                                               const Eigen::VectorXd& tolerance);
   /// Improves `x`; whether it got there in time.
   bool iterate(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
                const Eigen::VectorXd& tolerance, Eigen::VectorXd& x);
 
+  int threads_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  PackedFactor packed_;       ///< the same to solve with
+  Eigen::VectorXd diagonal_;  ///< of the matrix being solved
+  // Of the iterations; kept, so that they allocate nothing.
+  Eigen::VectorXd residual_, allowed_, preconditioned_, direction_, image_;
   std::vector<double> factored_values_;
   long last_iterations_ = 0;
   std::vector<double> iterated_values_;  ///< of the matrix last solved by iterations

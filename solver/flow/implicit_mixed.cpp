@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "parallel.hpp"
 
 namespace suffuse {
 namespace {
@@ -16,10 +17,18 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double stage_share = 1.0 - 0.5 * std::numbers::sqrt2;
 
 template <int Dim>
-double norm_with_weights(const std::vector<Vector<Dim>>& field, const std::vector<double>& weight) {
-  double sum = 0.0;
-  for (std::size_t e = 0; e < field.size(); ++e) sum += weight[e] * field[e].squaredNorm();
-  return std::sqrt(sum);
+std::vector<Vector<Dim>> part_of_way(const std::vector<Vector<Dim>>& from,
+                                     const std::vector<Vector<Dim>>& to, double share) {
+  std::vector<Vector<Dim>> result(from.size());
+  for (std::size_t e = 0; e < from.size(); ++e) result[e] = from[e] + share * (to[e] - from[e]);
+  return result;
+}
+
+template <int Dim>
+double largest_norm(const std::vector<Vector<Dim>>& field) {
+  double largest = 0.0;
+  for (const Vector<Dim>& v : field) largest = std::max(largest, v.norm());
+  return largest;
 }
 
 }  // namespace
@@ -29,6 +38,7 @@ ImplicitMixed<Dim>::ImplicitMixed(const Grid<Dim>& grid, ImplicitSettings settin
                                   Vector<Dim> gravity)
     : grid_(grid), settings_(settings), gravity_(std::move(gravity)) {
   const int elements = grid.mesh.element_count();
+  for (const Vector<Dim>& normal : grid.face_normal) face_area_.push_back(normal.norm());
   normal_products_.resize(elements);
   for (int e = 0; e < elements; ++e) {
     // Rows add up to zero, as pressure alone moves nothing: better so than by round-off.
@@ -74,7 +84,6 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
     return;
   }
   const int faces = grid_.face_count();
-  const int elements = grid_.mesh.element_count();
   kinds_.clear();
   for (const FaceCondition& c : conditions) kinds_.push_back(c.kind);
   unknown_.assign(faces, -1);
@@ -83,6 +92,20 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
     if (kinds_[f] != FaceKind::pressure) unknown_[f] = unknowns_++;
   }
 
+  lay_out_matrix();
+  earlier_counts_ = counts();
+  factor_.emplace(matrix_, settings_.threads);
+  correction_.emplace(grid_, conditions);
+  rise_rate_.assign(faces, 0.0);
+  flux_scale_ = 0.0;
+  last_steady_.face_pressure.assign(faces, 0.0);
+  last_steady_.velocity.assign(grid_.mesh.element_count(), Vector<Dim>::Zero());
+  last_steady_flux_ = last_steady_.velocity;
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::lay_out_matrix() {
+  const int elements = grid_.mesh.element_count();
   std::vector<Eigen::Triplet<double>> entries;
   for (int e = 0; e < elements; ++e) {
     for (const int f : grid_.element_face[e]) {
@@ -113,15 +136,6 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
       }
     }
   }
-
-  earlier_counts_ = counts();
-  factor_.emplace(matrix_);
-  correction_.emplace(grid_, conditions);
-  rise_rate_.assign(faces, 0.0);
-  flux_scale_ = 0.0;
-  last_steady_.face_pressure.assign(faces, 0.0);
-  last_steady_.velocity.assign(elements, Vector<Dim>::Zero());
-  last_steady_flux_.assign(elements, Vector<Dim>::Zero());
 }
 
 template <int Dim>
@@ -132,7 +146,7 @@ double ImplicitMixed<Dim>::prescribed_inflow(const FlowForcing<Dim>& forcing, in
   if (condition.kind == FaceKind::velocity) {
     inward *= forcing.coefficients.porosity[grid_.face_left[face]];
   }
-  return inward * grid_.face_normal[face].norm();
+  return inward * face_area_[face];
 }
 
 template <int Dim>
@@ -150,26 +164,38 @@ Vector<Dim> ImplicitMixed<Dim>::pressure_gradient(int e, const std::vector<doubl
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::assemble(const MomentumLaw& law, const std::vector<double>& storage) {
+void ImplicitMixed<Dim>::assemble() {
+  // An entry beside the diagonal belongs to the one element that has both faces; to those on the
+  // diagonal both neighbours of the face add.
+  const MomentumLaw& law = work_.law;
   double* values = matrix_.valuePtr();
-  std::fill(values, values + matrix_.nonZeros(), 0.0);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    std::array<double, Dim + 1> along;
-    const bool directed = !law.direction.empty();
-    if (directed) {
-      for (int a = 0; a <= Dim; ++a) along[a] = law.direction[e].dot(outward_normal(e, a));
+  const auto entry = [&](int e, int a, int b) {
+    double product = normal_products_[e][a][b];
+    if (!law.direction.empty()) {
+      const Vector<Dim>& direction = law.direction[e];
+      product -= direction.dot(outward_normal(e, a)) * direction.dot(outward_normal(e, b)) /
+                 grid_.volume[e];
     }
+    return product * law.mobility[e];
+  };
+  for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
     for (int a = 0; a <= Dim; ++a) {
       for (int b = 0; b <= Dim; ++b) {
-        if (position_[e][a][b] < 0) continue;
-        double entry = normal_products_[e][a][b];
-        if (directed) entry -= along[a] * along[b] / grid_.volume[e];
-        entry *= law.mobility[e];
-        if (a == b) entry += storage[e];
-        values[position_[e][a][b]] += entry;
+        if (a != b && position_[e][a][b] >= 0) values[position_[e][a][b]] = entry(e, a, b);
       }
     }
-  }
+  });
+  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
+    if (unknown_[f] < 0) return;
+    const auto diagonal = [&](int e) {
+      const int k = side_of(e, f);
+      return entry(e, k, k) + work_.storage[e];
+    };
+    const int left = grid_.face_left[f];
+    const int k = side_of(left, f);
+    values[position_[left][k][k]] =
+        grid_.is_outer(f) ? diagonal(left) : diagonal(left) + diagonal(grid_.face_right[f]);
+  });
 }
 
 template <int Dim>
@@ -183,61 +209,378 @@ void ImplicitMixed<Dim>::FacePressure::move_reference(const std::vector<double>&
 }
 
 template <int Dim>
-double ImplicitMixed<Dim>::conductance_of(int e, double mobility) const {
+double ImplicitMixed<Dim>::conductance_of(int e) const {
   double largest = 0.0;
   for (int k = 0; k <= Dim; ++k) largest = std::max(largest, normal_products_[e][k][k]);
-  return mobility * largest;
+  return work_.law.mobility[e] * largest;
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::solve_pressure(const MomentumLaw& law, const std::vector<double>& storage,
-                                        const std::vector<double>& net_source,
-                                        const FlowForcing<Dim>& forcing, FacePressure& pressure) {
+void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
+  Work& w = work_;
   const int elements = grid_.mesh.element_count();
-  const int faces = grid_.face_count();
-  assemble(law, storage);
+  w.known_rise.resize(grid_.face_count());
+  w.face_push.resize(elements);
+  w.round_off.resize(elements);
+  w.load.resize(unknowns_);
+  w.guess.resize(unknowns_);
+  w.tolerance.resize(unknowns_);
+  for_each_index(grid_.face_count(), settings_.threads,
+                 [&](int f) { w.known_rise[f] = unknown_[f] < 0 ? w.pressure.rise[f] : 0.0; });
+  for_each_index(elements, settings_.threads, [&](int e) {
+    const Vector<Dim> gradient = pressure_gradient(e, w.pressure.reference, w.known_rise);
+    Vector<Dim> push = w.law.drive[e] - gradient;
+    if (!w.law.direction.empty()) {
+      push -= w.law.direction[e] * w.law.direction[e].dot(push);
+    }
+    w.face_push[e] = w.law.mobility[e] * push;
+    w.round_off[e] = 2.0 * epsilon * w.law.mobility[e] * (w.law.drive[e].norm() + gradient.norm());
+  });
+  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
+    const int row = unknown_[f];
+    if (row < 0) return;
+    w.guess[row] = w.pressure.rise[f];
+    w.load[row] = kinds_[f] != FaceKind::interior ? prescribed_inflow(forcing, f) : 0.0;
+    // Residuals need be no smaller than the round-off of the load, nor than this share of the flux.
+    w.tolerance[row] = 1e-13 * flux_scale_;
+    for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
+      if (e < 0) continue;
+      w.load[row] += w.face_push[e].dot(outward_normal(e, side_of(e, f))) +
+                     w.net_source[e] / (Dim + 1) - w.storage[e] * w.pressure.offset[f];
+      w.tolerance[row] += w.round_off[e] * face_area_[f];
+    }
+  });
+}
 
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns_);
-  Eigen::VectorXd guess = Eigen::VectorXd::Zero(unknowns_);
-  std::vector<double> known_rise(faces, 0.0);
-  for (int f = 0; f < faces; ++f) {
-    if (unknown_[f] < 0) {
-      known_rise[f] = pressure.rise[f];
-    } else {
-      guess[unknown_[f]] = pressure.rise[f];
-      if (kinds_[f] != FaceKind::interior) load[unknown_[f]] += prescribed_inflow(forcing, f);
-    }
-  }
-  // Residuals need be no smaller than the round-off of the load, nor than this share of the flux.
-  Eigen::VectorXd tolerance = Eigen::VectorXd::Constant(unknowns_, 1e-13 * flux_scale_);
-  for (int e = 0; e < elements; ++e) {
-    const Vector<Dim> gradient = pressure_gradient(e, pressure.reference, known_rise);
-    Vector<Dim> push = law.drive[e] - gradient;
-    if (!law.direction.empty()) push -= law.direction[e] * law.direction[e].dot(push);
-    push *= law.mobility[e];
-    const double round_off =
-        2.0 * epsilon * law.mobility[e] * (law.drive[e].norm() + gradient.norm());
-    for (int k = 0; k <= Dim; ++k) {
-      const int f = grid_.element_face[e][k];
-      const int row = unknown_[f];
-      if (row < 0) continue;
-      load[row] += push.dot(outward_normal(e, k)) + net_source[e] / (Dim + 1) -
-                   storage[e] * pressure.offset[f];
-      tolerance[row] += round_off * grid_.face_normal[f].norm();
-    }
-  }
+template <int Dim>
+void ImplicitMixed<Dim>::solve_pressure(const FlowForcing<Dim>& forcing) {
+  assemble();
+  find_load(forcing);
 
   // Where nothing holds the level, a pressure that is free to choose is chosen: with its diagonal
   // doubled the rise there is zero, as the rest of the system adds up to zero.
   for (const int e : correction_->sealed_root()) {
-    if (storage[e] > 0.0) continue;
+    if (work_.storage[e] > 0.0) continue;
     matrix_.valuePtr()[position_[e][0][0]] *= 2.0;
   }
 
-  const Eigen::VectorXd solution = factor_->solve(matrix_, load, guess, tolerance);
-  for (int f = 0; f < faces; ++f) {
-    if (unknown_[f] >= 0) pressure.rise[f] = solution[unknown_[f]];
+  const Eigen::VectorXd solution =
+      factor_->solve(matrix_, work_.load, work_.guess, work_.tolerance);
+  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
+    if (unknown_[f] >= 0) work_.pressure.rise[f] = solution[unknown_[f]];
+  });
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::find_resistance(const MixedState<Dim>& base, double duration,
+                                         const FlowForcing<Dim>& forcing) {
+  Work& w = work_;
+  const int elements = grid_.mesh.element_count();
+  const FlowCoefficients<Dim>& c = forcing.coefficients;
+  w.resistance.resize(elements);
+  w.drive.resize(elements);
+  w.storage.resize(elements);
+  for_each_index(elements, settings_.threads, [&](int e) {
+    const double inertia = settings_.inertia ? c.mixture_density[e] / duration : 0.0;
+    w.resistance[e] = (inertia + c.drag[e]) / c.porosity[e];
+    w.drive[e] = c.mixture_density[e] * gravity_;
+    if (inertia > 0.0) w.drive[e] += inertia * base.velocity[e];
+    w.storage[e] = c.water_volume[e] / (settings_.bulk_modulus * (Dim + 1) * duration);
+  });
+  const auto wrong = std::find_if_not(w.resistance.begin(), w.resistance.end(),
+                                      [](double r) { return r > 0.0 && std::isfinite(r); });
+  if (wrong == w.resistance.end()) return;
+  const auto e = static_cast<int>(wrong - w.resistance.begin());
+  std::ostringstream text;
+  const Vector<Dim> at = element_centroid(grid_.mesh, e);
+  text << "the liquid must meet resistance everywhere; element " << e << " at (" << at.transpose()
+       << ") has " << *wrong << " kg/(m3 s) per flux";
+  throw NumericalError(text.str());
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::balance_sealed_pieces(const FlowForcing<Dim>& forcing) {
+  Work& w = work_;
+  const int elements = grid_.mesh.element_count();
+  const auto pieces = static_cast<std::size_t>(correction_->sealed_piece_count());
+  if (forcing.source.empty()) {
+    w.net_source.assign(elements, 0.0);
+  } else {
+    w.net_source = forcing.source;
   }
+  w.surplus.assign(pieces, 0.0);
+  if (pieces == 0) return;
+
+  const std::vector<int>& piece = correction_->sealed_piece();
+  std::vector<double> gross(pieces, 0.0);
+  std::vector<double> volume(pieces, 0.0);
+  for (int e = 0; e < elements; ++e) {
+    if (piece[e] < 0) continue;
+    w.surplus[piece[e]] += w.net_source[e];
+    gross[piece[e]] += std::abs(w.net_source[e]);
+    volume[piece[e]] += grid_.volume[e];
+  }
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    const int p = piece[grid_.face_left[f]];
+    if (p < 0 || !grid_.is_outer(f)) continue;
+    w.surplus[p] += prescribed_inflow(forcing, f);
+    gross[p] += std::abs(prescribed_inflow(forcing, f));
+  }
+  for (std::size_t p = 0; p < pieces; ++p) {
+    if (w.storage[correction_->sealed_root()[p]] > 0.0) continue;
+    if (!(std::abs(w.surplus[p]) <= 1e-9 * gross[p])) {
+      std::ostringstream text;
+      text.precision(10);
+      text << "no boundary prescribes a pressure and water is not stored, so prescribed inflow "
+              "and sources must cancel; they add up to "
+           << w.surplus[p] << " m3/s, of " << gross[p] << " m3/s in all";
+      throw NumericalError(text.str());
+    }
+  }
+  // The round-off that remains is spread over the piece.
+  for (int e = 0; e < elements; ++e) {
+    if (piece[e] >= 0 && w.storage[correction_->sealed_root()[piece[e]]] == 0.0) {
+      w.net_source[e] -= w.surplus[piece[e]] * grid_.volume[e] / volume[piece[e]];
+    }
+  }
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::guess_pressure(const MixedState<Dim>& base, double duration,
+                                        const FlowForcing<Dim>& forcing) {
+  FacePressure& pressure = work_.pressure;
+  const int faces = grid_.face_count();
+  pressure.reference = base.face_pressure;
+  pressure.offset.assign(faces, 0.0);
+  pressure.rise.resize(faces);
+  for_each_index(faces, settings_.threads, [&](int f) {
+    if (kinds_[f] == FaceKind::pressure) {
+      pressure.rise[f] = forcing.conditions[f].value - base.face_pressure[f];
+    } else {
+      pressure.rise[f] = std::isfinite(duration) ? rise_rate_[f] * duration : 0.0;
+    }
+  });
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::find_flux(Field& flux, Field& push) const {
+  const MomentumLaw& law = work_.law;
+  const int elements = grid_.mesh.element_count();
+  flux.resize(elements);
+  push.resize(elements);
+  for_each_index(elements, settings_.threads, [&](int e) {
+    const Vector<Dim> gradient =
+        pressure_gradient(e, work_.pressure.reference, work_.pressure.rise);
+    push[e] = work_.drive[e] - gradient;
+    Vector<Dim> linear = law.drive[e] - gradient;
+    if (!law.direction.empty()) linear -= law.direction[e] * law.direction[e].dot(linear);
+    flux[e] = law.mobility[e] * linear;
+  });
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::solve_linear(const MixedState<Dim>& base,
+                                      const FlowForcing<Dim>& forcing) {
+  Work& w = work_;
+  const int elements = grid_.mesh.element_count();
+  w.law.mobility.resize(elements);
+  w.law.direction.clear();
+  w.law.drive = w.drive;
+  for_each_index(elements, settings_.threads,
+                 [&](int e) { w.law.mobility[e] = 1.0 / w.resistance[e]; });
+  solve_pressure(forcing);
+  find_flux(w.flux, w.push);
+
+  // Pressures that rise a lot leave the round-off of the rise times the largest conductance, which
+  // may be more than what flows through a tight soil: a second solution is rid of it.
+  const auto largest_face = [&](int e, const std::vector<double>& values) {
+    double largest = 0.0;
+    for (const int f : grid_.element_face[e]) largest = std::max(largest, std::abs(values[f]));
+    return largest;
+  };
+  const double through = largest_of(elements, settings_.threads, 0.0, [&](int e) {
+    return w.flux[e].norm() * largest_face(e, face_area_);
+  });
+  const double round_off = largest_of(elements, settings_.threads, 0.0, [&](int e) {
+    return epsilon * conductance_of(e) * largest_face(e, w.pressure.rise);
+  });
+  if (round_off <= 1e-12 * through) return;
+  w.pressure.move_reference(base.face_pressure);
+  solve_pressure(forcing);
+  find_flux(w.flux, w.push);
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::linearise_about(const Field& flux,
+                                         const std::vector<double>& quadratic_drag) {
+  Work& w = work_;
+  for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
+    const double speed = flux[e].norm();
+    const double secant = quadratic_drag[e] * speed;
+    w.law.mobility[e] = 1.0 / (w.resistance[e] + secant);
+    w.law.drive[e] = w.drive[e] + secant * flux[e];
+    w.law.direction[e] = Vector<Dim>::Zero();
+    if (secant > 0.0) {
+      w.law.direction[e] = std::sqrt(secant / (w.resistance[e] + 2.0 * secant)) / speed * flux[e];
+    }
+  });
+}
+
+template <int Dim>
+double ImplicitMixed<Dim>::momentum_error(const Field& flux, const Field& push,
+                                          const std::vector<double>& quadratic_drag) const {
+  double sum = 0.0;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const double resistance = work_.resistance[e] + quadratic_drag[e] * flux[e].norm();
+    const double weight = grid_.volume[e] * work_.law.mobility[e];
+    sum += weight * (resistance * flux[e] - push[e]).squaredNorm();
+  }
+  return std::sqrt(sum);
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::solve_quadratic(const MixedState<Dim>& base,
+                                         const FlowForcing<Dim>& forcing, const Field& flux_guess) {
+  // Continuity is linear, so after the first iteration only momentum is left to fulfil.
+  constexpr int most_iterations = 100;
+  Work& w = work_;
+  const int elements = grid_.mesh.element_count();
+  const std::vector<double>& quadratic_drag = forcing.coefficients.quadratic_drag;
+  w.law.mobility.resize(elements);
+  w.law.direction.resize(elements);
+  w.law.drive.resize(elements);
+  w.flux = flux_guess;
+  w.push = w.drive;
+  Field new_flux;
+  Field new_push;
+  double last_change = std::numeric_limits<double>::infinity();
+  for (int iteration = 0;; ++iteration) {
+    linearise_about(w.flux, quadratic_drag);
+    if (iteration > 0) w.pressure.move_reference(base.face_pressure);
+    solve_pressure(forcing);
+    find_flux(new_flux, new_push);
+
+    const double largest = largest_norm<Dim>(new_flux);
+    double change = 0.0;
+    bool converged = true;
+    for (int e = 0; e < elements; ++e) {
+      double rise = 0.0;
+      double area = 0.0;
+      for (const int f : grid_.element_face[e]) {
+        rise = std::max(rise, std::abs(w.pressure.rise[f]));
+        area = std::max(area, face_area_[f]);
+      }
+      const double round_off =
+          epsilon * (conductance_of(e) * rise / area +
+                     w.law.mobility[e] * (w.law.drive[e].norm() + new_push[e].norm()));
+      const double here = (new_flux[e] - w.flux[e]).norm();
+      if (here > 1e-12 * largest + 16.0 * round_off) converged = false;
+      change = std::max(change, here);
+    }
+    // A small change that no longer halves is round-off that spread through the mesh.
+    if (change <= 1e-6 * largest && change > 0.5 * last_change) converged = true;
+    if (converged) {
+      w.flux.swap(new_flux);
+      return;
+    }
+    if (iteration == most_iterations) {
+      std::ostringstream text;
+      text << "the flow with quadratic drag did not converge in " << most_iterations
+           << " iterations of Newton's method: the flux still changes by " << change << " m/s of "
+           << largest << " m/s";
+      throw NumericalError(text.str());
+    }
+
+    // The whole step, or the part of it that lessens the error of momentum. Not for the first: it
+    // is what fulfils continuity.
+    double share = 1.0;
+    if (iteration > 0) {
+      const double error = momentum_error(w.flux, w.push, quadratic_drag);
+      while (share > 1e-3) {
+        Field part_flux = part_of_way<Dim>(w.flux, new_flux, share);
+        Field part_push = part_of_way<Dim>(w.push, new_push, share);
+        if (momentum_error(part_flux, part_push, quadratic_drag) <= error) {
+          new_flux = std::move(part_flux);
+          new_push = std::move(part_push);
+          break;
+        }
+        share *= 0.5;
+      }
+    }
+    last_change = share == 1.0 ? change : std::numeric_limits<double>::infinity();
+    w.flux.swap(new_flux);
+    w.push.swap(new_push);
+  }
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::level_sealed_pieces(const MixedState<Dim>& base,
+                                             std::vector<double>& rise) const {
+  // To the last digit where next to no storage hardly holds the level.
+  const auto pieces = static_cast<std::size_t>(correction_->sealed_piece_count());
+  if (pieces == 0) return;
+  const std::vector<int>& piece = correction_->sealed_piece();
+  std::vector<double> stored(pieces, 0.0);
+  std::vector<double> capacity(pieces, 0.0);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (piece[e] < 0) continue;
+    for (const int f : grid_.element_face[e]) stored[piece[e]] += work_.storage[e] * rise[f];
+    capacity[piece[e]] += (Dim + 1) * work_.storage[e];
+  }
+  std::vector<double> shift(pieces);
+  for (std::size_t p = 0; p < pieces; ++p) {
+    if (capacity[p] > 0.0) {
+      shift[p] = (work_.surplus[p] - stored[p]) / capacity[p];
+    } else {
+      const int held = grid_.element_face[correction_->sealed_root()[p]][0];
+      shift[p] = -(base.face_pressure[held] + rise[held]);
+    }
+  }
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    const int p = piece[grid_.face_left[f]];
+    if (p >= 0) rise[f] += shift[p];
+  }
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::find_face_flux(const FlowForcing<Dim>& forcing, Stage& stage) {
+  Work& w = work_;
+  const int elements = grid_.mesh.element_count();
+  const int faces = grid_.face_count();
+  w.conductance.resize(elements);
+  w.net_outflow.resize(elements);
+  for_each_index(elements, settings_.threads, [&](int e) {
+    double trace = Dim;
+    if (!w.law.direction.empty()) trace -= w.law.direction[e].squaredNorm();
+    w.conductance[e] = w.law.mobility[e] * trace / grid_.volume[e];
+    w.net_outflow[e] = w.net_source[e];
+    for (const int f : grid_.element_face[e]) w.net_outflow[e] -= w.storage[e] * stage.rise[f];
+  });
+
+  // From the side that conducts less, where pressures give fluxes with more digits.
+  stage.face_flux.resize(faces);
+  stage.flux_through.resize(faces);
+  for_each_index(faces, settings_.threads, [&](int f) {
+    if (forcing.conditions[f].fixes_flux()) {
+      stage.face_flux[f] = -prescribed_inflow(forcing, f);
+      return;
+    }
+    const int left = grid_.face_left[f];
+    const int right = grid_.face_right[f];
+    const int e = right < 0 || w.conductance[left] <= w.conductance[right] ? left : right;
+    const int k = side_of(e, f);
+    stage.face_flux[f] = grid_.element_face_sign[e][k] *
+                         (w.flux[e].dot(outward_normal(e, k)) - w.storage[e] * stage.rise[f] +
+                          w.net_source[e] / (Dim + 1));
+  });
+  correction_->follow(w.conductance);
+  correction_->correct(stage.face_flux, w.net_outflow);
+  for_each_index(faces, settings_.threads, [&](int f) {
+    stage.flux_through[f] = stage.face_flux[f];
+    if (kinds_[f] == FaceKind::pressure) {
+      stage.flux_through[f] += w.storage[grid_.face_left[f]] * stage.rise[f];
+    }
+  });
 }
 
 template <int Dim>
@@ -247,271 +590,36 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
                                                                    const Field& flux_guess) {
   const int elements = grid_.mesh.element_count();
   const int faces = grid_.face_count();
-  const FlowCoefficients<Dim>& c = forcing.coefficients;
-  const auto pieces = static_cast<std::size_t>(correction_->sealed_piece_count());
-
-  // Linear resistance, drive and storage of each element.
-  std::vector<double> resistance(elements);
-  Field drive(elements);
-  std::vector<double> storage(elements);
-  for (int e = 0; e < elements; ++e) {
-    const double inertia = settings_.inertia ? c.mixture_density[e] / duration : 0.0;
-    resistance[e] = (inertia + c.drag[e]) / c.porosity[e];
-    drive[e] = c.mixture_density[e] * gravity_;
-    if (inertia > 0.0) drive[e] += inertia * base.velocity[e];
-    storage[e] = c.water_volume[e] / (settings_.bulk_modulus * (Dim + 1) * duration);
-    if (!(resistance[e] > 0.0) || !std::isfinite(resistance[e])) {
-      std::ostringstream text;
-      const Vector<Dim> at = element_centroid(grid_.mesh, e);
-      text << "the liquid must meet resistance everywhere; element " << e << " at ("
-           << at.transpose() << ") has " << resistance[e] << " kg/(m3 s) per flux";
-      throw NumericalError(text.str());
-    }
-  }
-
-  // What no pressure boundary can take up must cancel where no water is stored either.
-  std::vector<double> net_source(elements, 0.0);
-  if (!forcing.source.empty()) net_source = forcing.source;
-  std::vector<double> surplus(pieces, 0.0);
-  if (pieces > 0) {
-    const std::vector<int>& piece = correction_->sealed_piece();
-    std::vector<double> gross(pieces, 0.0);
-    std::vector<double> volume(pieces, 0.0);
-    for (int e = 0; e < elements; ++e) {
-      if (piece[e] < 0) continue;
-      surplus[piece[e]] += net_source[e];
-      gross[piece[e]] += std::abs(net_source[e]);
-      volume[piece[e]] += grid_.volume[e];
-    }
-    for (int f = 0; f < faces; ++f) {
-      const int p = piece[grid_.face_left[f]];
-      if (p < 0 || !grid_.is_outer(f)) continue;
-      surplus[p] += prescribed_inflow(forcing, f);
-      gross[p] += std::abs(prescribed_inflow(forcing, f));
-    }
-    for (std::size_t p = 0; p < pieces; ++p) {
-      if (storage[correction_->sealed_root()[p]] > 0.0) continue;
-      if (!(std::abs(surplus[p]) <= 1e-9 * gross[p])) {
-        std::ostringstream text;
-        text.precision(10);
-        text << "no boundary prescribes a pressure and water is not stored, so prescribed inflow "
-                "and sources must cancel; they add up to "
-             << surplus[p] << " m3/s, of " << gross[p] << " m3/s in all";
-        throw NumericalError(text.str());
-      }
-    }
-    // The round-off that remains is spread over the piece.
-    for (int e = 0; e < elements; ++e) {
-      if (piece[e] >= 0 && storage[correction_->sealed_root()[piece[e]]] == 0.0) {
-        net_source[e] -= surplus[piece[e]] * grid_.volume[e] / volume[piece[e]];
-      }
-    }
-  }
-
-  FacePressure pressure;
-  pressure.reference = base.face_pressure;
-  pressure.offset.assign(faces, 0.0);
-  pressure.rise.resize(faces);
-  for (int f = 0; f < faces; ++f) {
-    if (kinds_[f] == FaceKind::pressure) {
-      pressure.rise[f] = forcing.conditions[f].value - base.face_pressure[f];
-    } else {
-      pressure.rise[f] = std::isfinite(duration) ? rise_rate_[f] * duration : 0.0;
-    }
-  }
-
-  // Newton's method on flux and pressure together: continuity is linear, so after the first
-  // iteration only momentum is left to fulfil. Without quadratic drag there is one iteration, or a
-  // second one to be rid of round-off: pressures that rise a lot leave that of the rise times the
-  // largest conductance, which may be more than what flows through a tight soil.
-  const bool quadratic = !c.quadratic_drag.empty();
-  MomentumLaw law;
-  law.mobility.resize(elements);
-  law.drive = drive;
-  if (quadratic) law.direction.resize(elements);
-  Field flux = quadratic ? flux_guess : Field(elements, Vector<Dim>::Zero());
-  Field push = drive;  // drive less pressure gradient
-  double error = std::numeric_limits<double>::infinity();
-  double last_change = std::numeric_limits<double>::infinity();
-  for (int iteration = 0;; ++iteration) {
-    for (int e = 0; e < elements; ++e) {
-      law.mobility[e] = 1.0 / resistance[e];
-      if (!quadratic) continue;
-      const double speed = flux[e].norm();
-      const double secant = c.quadratic_drag[e] * speed;
-      law.mobility[e] = 1.0 / (resistance[e] + secant);
-      law.drive[e] = drive[e] + secant * flux[e];
-      law.direction[e] = Vector<Dim>::Zero();
-      if (secant > 0.0) {
-        law.direction[e] = std::sqrt(secant / (resistance[e] + 2.0 * secant)) / speed * flux[e];
-      }
-    }
-    if (iteration > 0) pressure.move_reference(base.face_pressure);
-    solve_pressure(law, storage, net_source, forcing, pressure);
-    Field new_flux(elements);
-    Field new_push(elements);
-    for (int e = 0; e < elements; ++e) {
-      const Vector<Dim> gradient = pressure_gradient(e, pressure.reference, pressure.rise);
-      new_push[e] = drive[e] - gradient;
-      Vector<Dim> linear = law.drive[e] - gradient;
-      if (quadratic) linear -= law.direction[e] * law.direction[e].dot(linear);
-      new_flux[e] = law.mobility[e] * linear;
-    }
-    double largest = 0.0;
-    double change = 0.0;
-    double most_through = 0.0;  // a face, m3/s
-    double most_round_off = 0.0;
-    bool converged = true;
-    for (int e = 0; e < elements; ++e) largest = std::max(largest, new_flux[e].norm());
-    for (int e = 0; e < elements; ++e) {
-      double rise = 0.0;
-      double area = 0.0;
-      for (const int f : grid_.element_face[e]) {
-        rise = std::max(rise, std::abs(pressure.rise[f]));
-        area = std::max(area, grid_.face_normal[f].norm());
-      }
-      const double round_off =
-          epsilon * (conductance_of(e, law.mobility[e]) * rise / area +
-                     law.mobility[e] * (law.drive[e].norm() + new_push[e].norm()));
-      const double here = (new_flux[e] - flux[e]).norm();
-      if (here > 1e-12 * largest + 16.0 * round_off) converged = false;
-      change = std::max(change, here);
-      most_through = std::max(most_through, new_flux[e].norm() * area);
-      most_round_off =
-          std::max(most_round_off, epsilon * conductance_of(e, law.mobility[e]) * rise);
-    }
-    if (!quadratic) converged = iteration > 0 || most_round_off <= 1e-12 * most_through;
-    // A small change that no longer halves is round-off that spread through the mesh.
-    if (change <= 1e-6 * largest && change > 0.5 * last_change) converged = true;
-    if (converged) {
-      flux = std::move(new_flux);
-      break;
-    }
-    if (!quadratic) continue;
-    if (iteration == 100) {
-      std::ostringstream text;
-      text << "the flow with quadratic drag did not converge in 100 iterations of Newton's method: "
-              "the flux still changes by "
-           << change << " m/s of " << largest << " m/s";
-      throw NumericalError(text.str());
-    }
-
-    const auto momentum_error = [&](const Field& at_flux, const Field& at_push) {
-      Field residual(elements);
-      std::vector<double> weight(elements);
-      for (int e = 0; e < elements; ++e) {
-        residual[e] =
-            (resistance[e] + c.quadratic_drag[e] * at_flux[e].norm()) * at_flux[e] - at_push[e];
-        weight[e] = grid_.volume[e] * law.mobility[e];
-      }
-      return norm_with_weights<Dim>(residual, weight);
-    };
-    // The whole step, or the part of it that lessens the error of momentum. Not for the first: it
-    // is what fulfils continuity.
-    double share = 1.0;
-    if (iteration > 0) {
-      error = momentum_error(flux, push);
-      while (share > 1e-3) {
-        Field part_flux(elements);
-        Field part_push(elements);
-        for (int e = 0; e < elements; ++e) {
-          part_flux[e] = flux[e] + share * (new_flux[e] - flux[e]);
-          part_push[e] = push[e] + share * (new_push[e] - push[e]);
-        }
-        if (momentum_error(part_flux, part_push) <= error) {
-          new_flux = std::move(part_flux);
-          new_push = std::move(part_push);
-          break;
-        }
-        share *= 0.5;
-      }
-    }
-    last_change = share == 1.0 ? change : std::numeric_limits<double>::infinity();
-    flux = std::move(new_flux);
-    push = std::move(new_push);
+  const bool quadratic = !forcing.coefficients.quadratic_drag.empty();
+  find_resistance(base, duration, forcing);
+  balance_sealed_pieces(forcing);
+  guess_pressure(base, duration, forcing);
+  if (quadratic) {
+    solve_quadratic(base, forcing, flux_guess);
+  } else {
+    solve_linear(base, forcing);
   }
 
   Stage stage;
   stage.rise.resize(faces);
-  for (int f = 0; f < faces; ++f) stage.rise[f] = pressure.offset[f] + pressure.rise[f];
+  for_each_index(faces, settings_.threads,
+                 [&](int f) { stage.rise[f] = work_.pressure.offset[f] + work_.pressure.rise[f]; });
+  level_sealed_pieces(base, stage.rise);
+  find_face_flux(forcing, stage);
 
-  // The water that a sealed piece stores takes up what enters it: to the last digit where next to
-  // no storage hardly holds the level.
-  if (pieces > 0) {
-    const std::vector<int>& piece = correction_->sealed_piece();
-    std::vector<double> stored(pieces, 0.0);
-    std::vector<double> capacity(pieces, 0.0);
-    for (int e = 0; e < elements; ++e) {
-      if (piece[e] < 0) continue;
-      for (const int f : grid_.element_face[e]) stored[piece[e]] += storage[e] * stage.rise[f];
-      capacity[piece[e]] += (Dim + 1) * storage[e];
-    }
-    std::vector<double> shift(pieces);
-    for (std::size_t p = 0; p < pieces; ++p) {
-      if (capacity[p] > 0.0) {
-        shift[p] = (surplus[p] - stored[p]) / capacity[p];
-      } else {
-        const int held = grid_.element_face[correction_->sealed_root()[p]][0];
-        shift[p] = -(base.face_pressure[held] + stage.rise[held]);
-      }
-    }
-    for (int f = 0; f < faces; ++f) {
-      const int p = piece[grid_.face_left[f]];
-      if (p >= 0) stage.rise[f] += shift[p];
-    }
-  }
-
-  // Fluxes, from the side that conducts less, where pressures give them with more digits.
-  std::vector<double> conductance(elements);
-  std::vector<double> net_outflow(elements);
-  for (int e = 0; e < elements; ++e) {
-    double trace = Dim;
-    if (quadratic) trace -= law.direction[e].squaredNorm();
-    conductance[e] = law.mobility[e] * trace / grid_.volume[e];
-  }
-  stage.face_flux.assign(faces, 0.0);
-  for (int e = 0; e < elements; ++e) {
-    net_outflow[e] = net_source[e];
-    for (int k = 0; k <= Dim; ++k) {
-      const int f = grid_.element_face[e][k];
-      const double storing = storage[e] * stage.rise[f];
-      net_outflow[e] -= storing;
-      if (grid_.is_outer(f)) {
-        if (kinds_[f] != FaceKind::pressure) continue;
-      } else {
-        const int other = grid_.face_left[f] == e ? grid_.face_right[f] : grid_.face_left[f];
-        if (conductance[e] > conductance[other]) continue;
-        if (conductance[e] == conductance[other] && grid_.face_left[f] != e) continue;
-      }
-      stage.face_flux[f] = grid_.element_face_sign[e][k] * (flux[e].dot(outward_normal(e, k)) -
-                                                            storing + net_source[e] / (Dim + 1));
-    }
-  }
-  for (int f = 0; f < faces; ++f) {
-    if (forcing.conditions[f].fixes_flux()) stage.face_flux[f] = -prescribed_inflow(forcing, f);
-  }
-  correction_->follow(conductance);
-  correction_->correct(stage.face_flux, net_outflow);
-
-  stage.flux_through = stage.face_flux;
-  for (int f = 0; f < faces; ++f) {
-    if (kinds_[f] != FaceKind::pressure) continue;
-    stage.flux_through[f] += storage[grid_.face_left[f]] * stage.rise[f];
-  }
-
-  flux_scale_ = 0.0;
-  for (const double value : stage.face_flux) flux_scale_ = std::max(flux_scale_, std::abs(value));
-  if (std::isfinite(duration)) {
-    for (int f = 0; f < faces; ++f) rise_rate_[f] = stage.rise[f] / duration;
-  }
+  flux_scale_ = largest_of(faces, settings_.threads, 0.0,
+                           [&](int f) { return std::abs(stage.face_flux[f]); });
   stage.state.face_pressure.resize(faces);
-  for (int f = 0; f < faces; ++f) {
+  for_each_index(faces, settings_.threads, [&](int f) {
+    if (std::isfinite(duration)) rise_rate_[f] = stage.rise[f] / duration;
     stage.state.face_pressure[f] = kinds_[f] == FaceKind::pressure
                                        ? forcing.conditions[f].value
                                        : base.face_pressure[f] + stage.rise[f];
-  }
+  });
   stage.state.velocity.resize(elements);
-  for (int e = 0; e < elements; ++e) stage.state.velocity[e] = flux[e] / c.porosity[e];
+  for_each_index(elements, settings_.threads, [&](int e) {
+    stage.state.velocity[e] = work_.flux[e] / forcing.coefficients.porosity[e];
+  });
   return stage;
 }
 

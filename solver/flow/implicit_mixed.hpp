@@ -8,6 +8,7 @@
 ///   rho_L dv/dt = -grad p + rho_L g - (drag / n) q - b |q| q
 ///   (water_volume / volume / K) dp/dt + div q = source
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -25,6 +26,7 @@ struct ImplicitSettings {
   double bulk_modulus = std::numeric_limits<double>::infinity();  ///< K, Pa; may be infinite
   bool inertia = false;                                           ///< keep rho_L dv/dt
   TimeStepping stepping = TimeStepping::second_order;
+  int threads = 1;
 };
 
 template <int Dim>
@@ -106,15 +108,57 @@ class ImplicitMixed {
     void move_reference(const std::vector<double>& base);
   };
   using Field = std::vector<Vector<Dim>>;
+  /// What one stage works with; kept, so that stages allocate only what they return.
+  struct Work {
+    std::vector<double> resistance;  ///< linear, per flux, kg/(m3 s)
+    Field drive;                     ///< without pressure, Pa/m
+    std::vector<double> storage;     ///< per face of the element, m3/(s Pa)
+    std::vector<double> net_source;  ///< outflow asked for, m3/s
+    std::vector<double> surplus;     ///< of inflow and sources of each sealed piece, m3/s
+    MomentumLaw law;
+    FacePressure pressure;
+    Field flux;  ///< per element, m/s
+    Field push;  ///< drive less pressure gradient, Pa/m
+    // Of the linear system.
+    Field face_push;                ///< what an element drives without the unknown rises, m/s
+    std::vector<double> round_off;  ///< of it, m/s
+    std::vector<double> known_rise;
+    Eigen::VectorXd load;
+    Eigen::VectorXd guess;
+    Eigen::VectorXd tolerance;
+    // Of the fluxes through faces.
+    std::vector<double> conductance;
+    std::vector<double> net_outflow;
+  };
 
   void set_up(const std::vector<FaceCondition>& conditions);
+  void lay_out_matrix();
   Stage solve_stage(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
                     const Field& flux_guess);
-  /// Solves for the pressures with the law given. At prescribed pressures `rise` is known.
-  void solve_pressure(const MomentumLaw& law, const std::vector<double>& storage,
-                      const std::vector<double>& net_source, const FlowForcing<Dim>& forcing,
-                      FacePressure& pressure);
-  void assemble(const MomentumLaw& law, const std::vector<double>& storage);
+  /// Linear resistance, drive and storage of each element. Throws NumericalError.
+  void find_resistance(const MixedState<Dim>& base, double duration,
+                       const FlowForcing<Dim>& forcing);
+  /// What no pressure boundary can take up must cancel where no water is stored either.
+  void balance_sealed_pieces(const FlowForcing<Dim>& forcing);
+  void guess_pressure(const MixedState<Dim>& base, double duration,
+                      const FlowForcing<Dim>& forcing);
+  void solve_linear(const MixedState<Dim>& base, const FlowForcing<Dim>& forcing);
+  /// Newton's method on flux and pressure together.
+  void solve_quadratic(const MixedState<Dim>& base, const FlowForcing<Dim>& forcing,
+                       const Field& flux_guess);
+  void linearise_about(const Field& flux, const std::vector<double>& quadratic_drag);
+  /// Flux and push of each element at the pressures found.
+  void find_flux(Field& flux, Field& push) const;
+  /// Size of the momentum that is missing at a flux and its push.
+  [[nodiscard]] double momentum_error(const Field& flux, const Field& push,
+                                      const std::vector<double>& quadratic_drag) const;
+  /// The water that a sealed piece stores takes up what enters it.
+  void level_sealed_pieces(const MixedState<Dim>& base, std::vector<double>& rise) const;
+  void find_face_flux(const FlowForcing<Dim>& forcing, Stage& stage);
+  /// Solves for the pressures with the law of the moment. At prescribed pressures `rise` is known.
+  void solve_pressure(const FlowForcing<Dim>& forcing);
+  void assemble();
+  void find_load(const FlowForcing<Dim>& forcing);
 
   [[nodiscard]] Vector<Dim> outward_normal(int e, int k) const {
     return grid_.element_face_sign[e][k] * grid_.face_normal[grid_.element_face[e][k]];
@@ -124,7 +168,11 @@ class ImplicitMixed {
   [[nodiscard]] Vector<Dim> pressure_gradient(int e, const std::vector<double>& reference,
                                               const std::vector<double>& rise) const;
   /// Flux per pressure, m3/(s Pa), of the element's largest face.
-  [[nodiscard]] double conductance_of(int e, double mobility) const;
+  [[nodiscard]] double conductance_of(int e) const;
+  [[nodiscard]] int side_of(int e, int face) const {
+    const auto& faces = grid_.element_face[e];
+    return static_cast<int>(std::find(faces.begin(), faces.end(), face) - faces.begin());
+  }
 
   const Grid<Dim>& grid_;
   ImplicitSettings settings_;
@@ -137,6 +185,7 @@ class ImplicitMixed {
   /// Per element, where entry (a, b) of its own matrix goes among the values; -1 for none.
   std::vector<std::array<std::array<int, Dim + 1>, Dim + 1>> position_;
   std::vector<std::array<std::array<double, Dim + 1>, Dim + 1>> normal_products_;  ///< N.N / volume
+  std::vector<double> face_area_;
   std::optional<HeldFactor> factor_;
   std::optional<FluxCorrection<Dim>> correction_;
   SolveCounts earlier_counts_;  ///< of factors given up
@@ -146,6 +195,8 @@ class ImplicitMixed {
   double flux_scale_ = 0.0;        ///< largest flux through a face then, m3/s
   MixedState<Dim> last_steady_;
   Field last_steady_flux_;
+
+  Work work_;
 };
 
 }  // namespace suffuse

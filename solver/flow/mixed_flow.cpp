@@ -7,6 +7,7 @@
 
 #include "case/errors.hpp"
 #include "grid/face_flux.hpp"
+#include "parallel.hpp"
 #include "pass_timer.hpp"
 #include "physics/drag.hpp"
 #include "physics/liquid.hpp"
@@ -41,6 +42,7 @@ ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options)
   settings.bulk_modulus = scene.liquid.bulk_modulus;
   settings.inertia = options.inertia;
   settings.stepping = scene.time.stepping;
+  settings.threads = options.threads;
   return settings;
 }
 
@@ -66,7 +68,7 @@ double largest(const std::vector<double>& values) {
 template <int Dim>
 MixedFlow<Dim>::MixedFlow(const Case<Dim>& c, const Grid<Dim>& grid,
                           const RigidSkeleton<Dim>& skeleton, const FlowOptions& options)
-    : SceneFlow<Dim>(c, grid, skeleton),
+    : SceneFlow<Dim>(c, grid, skeleton, options.threads),
       options_(options),
       tolerance_(this->scene().time.tolerance),
       end_(this->scene().time.end),
@@ -257,14 +259,16 @@ void MixedFlow<Dim>::warn_of_obtuse_angles() {
 }
 
 template <int Dim>
-FlowForcing<Dim> MixedFlow<Dim>::forcing_at(const FlowInterval<Dim>& interval, double time) const {
-  FlowForcing<Dim> forcing;
-  forcing.coefficients = this->coefficients_;
-  if (follows_pores_) forcing.coefficients = coefficients_at(interval, time);
+void MixedFlow<Dim>::find_forcing(const FlowInterval<Dim>& interval, double time,
+                                  FlowForcing<Dim>& forcing) const {
+  if (follows_pores_) {
+    forcing.coefficients = coefficients_at(interval, time);
+  } else {
+    forcing.coefficients = this->coefficients_;
+  }
   join_to_last_step(interval.begin, time, forcing.coefficients);
-  forcing.conditions = this->conditions_;
+  if (forcing.conditions.empty()) forcing.conditions = this->conditions_;
   this->boundary_values().update(time, forcing.conditions);
-  return forcing;
 }
 
 template <int Dim>
@@ -357,19 +361,19 @@ double MixedFlow<Dim>::length_of_step(const FlowInterval<Dim>& interval) const {
 template <int Dim>
 double MixedFlow<Dim>::error_of(const MixedStep<Dim>& step, double dt) const {
   const double flux_scale = std::max(flux_scale_, largest(step.flux_through));
-  double flux_error = 0.0;
-  double pressure_error = 0.0;
   const double ahead = before_ ? dt / last_dt_ : 0.0;
-  for (int f = 0; f < this->grid().face_count(); ++f) {
-    double flux = now_.flux_through[f];
-    double pressure = now_.state.face_pressure[f];
-    if (before_) {
-      flux += ahead * (flux - before_->flux_through[f]);
-      pressure += ahead * (pressure - before_->state.face_pressure[f]);
-    }
-    flux_error = std::max(flux_error, std::abs(step.flux_through[f] - flux));
-    pressure_error = std::max(pressure_error, std::abs(step.end.face_pressure[f] - pressure));
-  }
+  const auto farthest_from_predicted = [&](const auto& values, const auto& now,
+                                           const std::vector<double>* before) {
+    return largest_of(this->grid().face_count(), this->threads(), 0.0, [&](int f) {
+      const double predicted = before ? now[f] + ahead * (now[f] - (*before)[f]) : now[f];
+      return std::abs(values[f] - predicted);
+    });
+  };
+  const double flux_error = farthest_from_predicted(step.flux_through, now_.flux_through,
+                                                    before_ ? &before_->flux_through : nullptr);
+  const double pressure_error =
+      farthest_from_predicted(step.end.face_pressure, now_.state.face_pressure,
+                              before_ ? &before_->state.face_pressure : nullptr);
   double error = flux_scale > 0.0 ? flux_error / flux_scale : 0.0;
   if (pressure_scale_ > 0.0) {
     error = std::max(error, pressure_error / pressure_scale_);
@@ -397,21 +401,21 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
   const std::vector<double> shares = scheme_.stages();
   bool cut_short = true;  // by an event or by transport, if at all
   for (;;) {
-    std::vector<FlowForcing<Dim>> forcing;
-    for (const double share : shares) {
-      forcing.push_back(forcing_at(interval, interval.begin + share * dt));
+    forcing_.resize(shares.size());
+    std::vector<const FlowForcing<Dim>*> views;
+    for (std::size_t stage = 0; stage < shares.size(); ++stage) {
+      FlowForcing<Dim>& forcing = forcing_[stage];
+      find_forcing(interval, interval.begin + shares[stage] * dt, forcing);
+      views.push_back(&forcing);
       if (mismatch_.empty()) continue;
       // Shorter steps change it by less: else it would be a jump that no step is too short for.
-      forcing.back().source = between(source_, source_with(dt), std::min(1.0, dt / mending_));
+      forcing.source = between(source_, source_with(dt), std::min(1.0, dt / mending_));
     }
-    std::vector<const FlowForcing<Dim>*> views;
-    views.reserve(forcing.size());
-    for (const FlowForcing<Dim>& f : forcing) views.push_back(&f);
     MixedStep<Dim> step = scheme_.step(now_.state, dt, views);
     ++solving_.calls;
     const auto accepted = [&] {
-      if (!mismatch_.empty()) source_ = std::move(forcing.back().source);
-      used_ = std::move(forcing.back().coefficients);
+      if (!mismatch_.empty()) source_ = forcing_.back().source;
+      used_ = forcing_.back().coefficients;
       if (follows_pores_) expected_ = coefficients_at(interval, interval.begin + dt);
       return std::move(step);
     };
@@ -455,14 +459,14 @@ FaceVolumes MixedFlow<Dim>::volumes_of(const MixedStep<Dim>& step) const {
   FaceVolumes result{step.face_volume, std::vector<double>(grid.face_count(), 0.0)};
   if (std::isinf(modulus)) return result;
   const std::vector<double> end = element_means(step.end.face_pressure);
-  for (int f = 0; f < grid.face_count(); ++f) {
+  for_each_index(grid.face_count(), this->threads(), [&](int f) {
     const double volume = step.face_volume[f];
     const int from = volume < 0.0 ? grid.face_right[f] : grid.face_left[f];
     const double upwind = from >= 0
                               ? 0.5 * (pressure_[from] + end[from])
                               : 0.5 * (now_.state.face_pressure[f] + step.end.face_pressure[f]);
     result.density_excess[f] = volume * std::expm1(upwind / modulus);
-  }
+  });
   return result;
 }
 
@@ -675,9 +679,9 @@ template <int Dim>
 std::vector<double> MixedFlow<Dim>::element_means(const std::vector<double>& face_pressure) const {
   const Grid<Dim>& grid = this->grid();
   std::vector<double> result(grid.mesh.element_count(), 0.0);
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+  for_each_index(grid.mesh.element_count(), this->threads(), [&](int e) {
     for (const int f : grid.element_face[e]) result[e] += face_pressure[f] / (Dim + 1);
-  }
+  });
   return result;
 }
 

@@ -28,6 +28,9 @@ class MixedFlow final : public SceneFlow<Dim> {
   void follow_masses(double time, const std::vector<double>& water_mass) override;
 
   [[nodiscard]] FlowMoment<Dim> moment(double time) const override;
+  [[nodiscard]] std::vector<double> face_flux(double /*time*/) const override {
+    return now_.face_flux;
+  }
   [[nodiscard]] std::vector<PassTiming> passes() const override;
 
  private:
@@ -38,7 +41,8 @@ class MixedFlow final : public SceneFlow<Dim> {
     std::vector<double> flux_through;  ///< see MixedStep: errors and scales are of this
   };
 
-  [[nodiscard]] FlowForcing<Dim> forcing_at(const FlowInterval<Dim>& interval, double time) const;
+  void find_forcing(const FlowInterval<Dim>& interval, double time,
+                    FlowForcing<Dim>& forcing) const;
   /// Coefficients at a time within the interval, as erosion will have made them.
   [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
                                                       double time) const;
@@ -88,7 +92,8 @@ class MixedFlow final : public SceneFlow<Dim> {
   std::vector<double> events_;  ///< ascending, s
   bool follows_pores_;          ///< coefficients change with porosity within a step
 
-  FlowCoefficients<Dim> used_;  ///< at the end of the last step that was solved
+  std::vector<FlowForcing<Dim>> forcing_;  ///< per stage of the step that is tried
+  FlowCoefficients<Dim> used_;             ///< at the end of the last step that was solved
   /// At the end of the last step that was solved as its begin let expect them.
   std::optional<FlowCoefficients<Dim>> expected_;
   /// Of the mixture, per element: how much faster it rose in the last step than expected (what

@@ -126,5 +126,51 @@ TEST_F(HeldFactorTest, RefusesWhatIsNotPositiveDefiniteOrNotFinite) {
   EXPECT_NO_THROW(solve(flow_matrix(n, 0.0)));
 }
 
+/// Large enough to be solved in branches.
+constexpr int large = 110;
+
+TEST(PackedFactor, SolvesAsTheFactorItTook) {
+  for (const int side : {1, 7, large}) {
+    const Eigen::SparseMatrix<double> matrix = flow_matrix(side, 0.5);
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+    PackedFactor packed(1);
+    packed.take(factor);
+    const Eigen::VectorXd rhs = load(matrix.rows());
+    Eigen::VectorXd solution;
+    packed.solve(rhs, solution);
+    const Eigen::VectorXd expected = factor.solve(rhs);
+    EXPECT_LE((solution - expected).lpNorm<Eigen::Infinity>(),
+              1e-13 * expected.lpNorm<Eigen::Infinity>())
+        << side;
+  }
+}
+
+TEST(PackedFactor, TakesOtherValuesOfTheSamePattern) {
+  PackedFactor packed(1);
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+  factor.analyzePattern(flow_matrix(large, 0.0));
+  for (const double amount : {0.0, 0.9}) {
+    const Eigen::SparseMatrix<double> matrix = flow_matrix(large, amount);
+    factor.factorize(matrix);
+    packed.take(factor);
+    Eigen::VectorXd solution;
+    packed.solve(load(matrix.rows()), solution);
+    EXPECT_LE((matrix * solution - load(matrix.rows())).lpNorm<Eigen::Infinity>(), 1e-11) << amount;
+  }
+}
+
+TEST(PackedFactor, TwoThreadsGiveTheSameBits) {
+  const Eigen::SparseMatrix<double> matrix = flow_matrix(large, 0.5);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  const auto solution = [&](int threads) {
+    PackedFactor packed(threads);
+    packed.take(factor);
+    Eigen::VectorXd x;
+    packed.solve(load(matrix.rows()), x);
+    return x;
+  };
+  EXPECT_EQ(solution(1), solution(2));
+}
+
 }  // namespace
 }  // namespace suffuse
