@@ -24,10 +24,16 @@ std::string in_folder(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
-void write_stream(const std::string& path, const std::string& text, std::ios::openmode mode) {
-  std::ofstream out(path, std::ios::binary | mode);
+void append(std::ofstream& out, const std::string& path, const std::string& text) {
   out << text << std::flush;
   if (!out) throw FileError(path + ": cannot be written");
+}
+
+/// A file begun anew with `text`, open for more.
+std::ofstream begin_file(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  append(out, path, text);
+  return out;
 }
 
 void rename_over(const std::string& from, const std::string& to) {
@@ -38,7 +44,7 @@ void rename_over(const std::string& from, const std::string& to) {
 
 /// The file is either as it was or whole and new, whatever happens in between.
 void replace_file(const std::string& path, const std::string& text) {
-  write_stream(path + ".tmp", text, std::ios::trunc);
+  begin_file(path + ".tmp", text);
   rename_over(path + ".tmp", path);
 }
 
@@ -187,13 +193,6 @@ void write_hdf5_whole(const std::string& path, const Fill& fill) {
   }
 }
 
-template <class Series>
-std::string series_json(const Series& series) {
-  Json files = Json::array();
-  for (const auto& entry : series) files.push_back({{"name", entry.file}, {"time", entry.time}});
-  return dump({{"file-series-version", "1.0"}, {"files", files}});
-}
-
 }  // namespace
 
 template <int Dim>
@@ -202,58 +201,62 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c)
   prepare_folder(folder);
   write_run_info(RunInfo{});
   write_case(in_folder(folder, layout::case_copy), c);
-  write_stream(in_folder(folder, layout::history), header_line(history_columns) + "\n",
-               std::ios::trunc);
-  write_stream(in_folder(folder, layout::ledger), header_line(ledger_columns) + "\n",
-               std::ios::trunc);
-  write_stream(in_folder(folder, layout::regions), regions_header() + "\n", std::ios::trunc);
+  history_ = begin_file(in_folder(folder, layout::history), header_line(history_columns) + "\n");
+  ledger_ = begin_file(in_folder(folder, layout::ledger), header_line(ledger_columns) + "\n");
+  regions_ = begin_file(in_folder(folder, layout::regions), regions_header() + "\n");
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_history(const HistoryRow& row) {
-  write_stream(in_folder(folder_, layout::history), row_line(row, history_columns) + "\n",
-               std::ios::app);
+  append(history_, in_folder(folder_, layout::history), row_line(row, history_columns) + "\n");
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_ledger(const LedgerRow& row) {
-  write_stream(in_folder(folder_, layout::ledger), row_line(row, ledger_columns) + "\n",
-               std::ios::app);
+  append(ledger_, in_folder(folder_, layout::ledger), row_line(row, ledger_columns) + "\n");
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_regions(std::span<const RegionRow> rows) {
   std::string lines;
   for (const auto& row : rows) lines += region_line(row) + "\n";
-  write_stream(in_folder(folder_, layout::regions), lines, std::ios::app);
+  append(regions_, in_folder(folder_, layout::regions), lines);
+}
+
+template <int Dim>
+void ResultsWriter<Dim>::append_to(Series& series, const std::string& file, double time) const {
+  // Written piece by piece: to make it of all entries again takes longer with each of them.
+  if (series.count++ > 0) series.entries += ",";
+  series.entries += "\n    {\n      \"name\": " + Json(file).dump() +
+                    ",\n      \"time\": " + Json(time).dump() + "\n    }";
+  replace_file(
+      in_folder(folder_, layout::series(series.kind)),
+      "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [" + series.entries + "\n  ]\n}\n");
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::write_snapshot(const Snapshot& snapshot) {
-  const std::string mesh_name = snapshot_name("mesh", mesh_series_.size());
+  const std::string mesh_name = snapshot_name("mesh", mesh_series_.count);
   write_hdf5_whole(in_folder(folder_, mesh_name), [&](Hdf5File& file) {
     write_vtkhdf(file, vtk_grid(case_.mesh), snapshot.cell, snapshot.node);
     write_provenance(file, case_, snapshot);
     write_own_fields(file, snapshot, case_.mesh.elements.size(), Dim + 1);
   });
-  const std::string solid_name = snapshot_name("solid", solid_series_.size());
+  const std::string solid_name = snapshot_name("solid", solid_series_.count);
   write_hdf5_whole(in_folder(folder_, solid_name), [&](Hdf5File& file) {
     write_vtkhdf(file, vtk_grid(case_.mesh, case_.solid_points), {}, snapshot.solid);
     write_provenance(file, case_, snapshot);
   });
   if (case_.document.scene.formulation == Formulation::double_point) {
-    const std::string liquid_name = snapshot_name("liquid", liquid_series_.size());
+    const std::string liquid_name = snapshot_name("liquid", liquid_series_.count);
     write_hdf5_whole(in_folder(folder_, liquid_name), [&](Hdf5File& file) {
       write_vtkhdf(file, vtk_grid(snapshot.liquid_positions), {}, snapshot.liquid);
       write_provenance(file, case_, snapshot);
     });
-    liquid_series_.push_back({liquid_name, snapshot.time});
-    replace_file(in_folder(folder_, layout::series("liquid")), series_json(liquid_series_));
+    append_to(liquid_series_, liquid_name, snapshot.time);
   }
-  mesh_series_.push_back({mesh_name, snapshot.time});
-  solid_series_.push_back({solid_name, snapshot.time});
-  replace_file(in_folder(folder_, layout::series("mesh")), series_json(mesh_series_));
-  replace_file(in_folder(folder_, layout::series("solid")), series_json(solid_series_));
+  append_to(mesh_series_, mesh_name, snapshot.time);
+  append_to(solid_series_, solid_name, snapshot.time);
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 ///     NAME.results/mesh.hdf.series  solid.hdf.series  liquid.hdf.series
 ///     NAME.results/snapshots/mesh_000000.hdf  solid_000000.hdf  liquid_000000.hdf  ...
 
+#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,15 +79,22 @@ class ResultsWriter {
   void write_run_info(const RunInfo& info);
 
  private:
-  struct SeriesEntry {
-    std::string file;
-    double time;
+  /// A .series file, whose entries only become more.
+  struct Series {
+    std::string kind;
+    std::size_t count = 0;
+    std::string entries;  ///< as they stand in the file
   };
+  void append_to(Series& series, const std::string& file, double time) const;
+
   std::string folder_;
   const Case<Dim>& case_;
-  std::vector<SeriesEntry> mesh_series_;
-  std::vector<SeriesEntry> solid_series_;
-  std::vector<SeriesEntry> liquid_series_;
+  std::ofstream history_;
+  std::ofstream ledger_;
+  std::ofstream regions_;
+  Series mesh_series_{"mesh", 0, ""};
+  Series solid_series_{"solid", 0, ""};
+  Series liquid_series_{"liquid", 0, ""};
 };
 
 }  // namespace suffuse
