@@ -67,7 +67,8 @@ same() {
 # The table has velocities.
 expect 'flux that starts up' close "$(same startup 0.3 flow-startup.csv \
   '$at["case"] == "physical" && $at["quantity"] == "mean_v" && $at["k"] == 0.02' value)"
-expect 'flux that grows with porosity' close "$(same feedback 1 permeability-feedback.csv '$at["alpha"] == 0.005' q)"
+# The table is of a soil that conducts ten times as well.
+expect 'flux that grows with porosity' close "$(same feedback 0.1 permeability-feedback.csv '$at["alpha"] == 0.005' q)"
 
 before=$(cat "$workflows/../docs/accuracy.md" "$workflows"/../docs/images/*.png | cksum)
 status=0
