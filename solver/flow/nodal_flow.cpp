@@ -173,6 +173,7 @@ FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
       carry(step_begin, dt);
       continue;
     }
+    scheme_.remember_velocity();
     const std::vector<double> pressure = scheme_.pressure();
     const Passed<Dim> before = passed();
     step(step_begin, dt);

@@ -42,6 +42,7 @@ class NodalOperator {
 
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
+  [[nodiscard]] const Vector<Dim>& gravity() const { return gravity_; }
   /// Harmonic mean of the elements around a node: what is one on both sides of a jump is the flux,
   /// and its inertia per volume is rho / n.
   [[nodiscard]] const std::vector<double>& node_porosity() const { return node_porosity_; }
@@ -67,6 +68,10 @@ class NodalOperator {
     }
     return sum;
   }
+
+  [[nodiscard]] bool flux_is_fixed(int face) const { return flux_is_fixed_[face] != 0; }
+  /// Where it is, walls included: along the face's normal, m3/s.
+  [[nodiscard]] double fixed_flux(int face) const { return fixed_flux_[face]; }
 
   /// Liquid volume through a face per second, along its normal, m3/s.
   [[nodiscard]] double face_flux(int face, const VectorField<Dim>& velocity) const {

@@ -19,6 +19,11 @@ struct Grid {
   [[nodiscard]] Vector<Dim> face_centre(int face) const;
   [[nodiscard]] bool is_outer(int face) const { return face_right[face] < 0; }
   [[nodiscard]] int face_count() const { return static_cast<int>(face_left.size()); }
+  /// Element beyond local face `k` of an element, -1 at the outer boundary.
+  [[nodiscard]] int across(int element, int k) const {
+    const int f = element_face[element][k];
+    return face_left[f] == element ? face_right[f] : face_left[f];
+  }
 
   const Mesh<Dim>& mesh;
 

@@ -46,7 +46,10 @@ class FlowColumn {
   void run(double time, double longest) {
     const auto steps = static_cast<long>(std::ceil(time / longest));
     dt_ = time / static_cast<double>(steps);
-    for (long s = 0; s < steps; ++s) flow_.step(dt_);
+    for (long s = 0; s < steps; ++s) {
+      flow_.remember_velocity();
+      flow_.step(dt_);
+    }
   }
 
   /// Amplitude of sin(pi y) in the pressure.
