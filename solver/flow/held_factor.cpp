@@ -82,6 +82,7 @@ void HeldFactor::factorise(const Matrix& matrix) {
         "the pressures could not be solved for: the matrix of the flow is not positive definite");
   }
   packed_.take(factor_);
+  factor_.release();
   factored_values_.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
 }
 

@@ -3,7 +3,6 @@
 /// Solves a sequence of similar symmetric positive definite systems with as few factorisations as
 /// it takes.
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <vector>
 
@@ -66,8 +65,8 @@ class HeldFactor {
                const Eigen::VectorXd& tolerance, Eigen::VectorXd& x);
 
   int threads_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  PackedFactor packed_;       ///< the same to solve with
+  ReleasableLdlt factor_;
+  PackedFactor packed_;       ///< what it came to
   Eigen::VectorXd diagonal_;  ///< of the matrix being solved
   // Of the iterations; kept, so that they allocate nothing.
   Eigen::VectorXd residual_, allowed_, preconditioned_, direction_, image_;

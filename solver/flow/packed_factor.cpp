@@ -19,6 +19,17 @@ constexpr int part_rows = 256;
 
 }  // namespace
 
+void ReleasableLdlt::factorize(const Eigen::SparseMatrix<double>& matrix) {
+  // The places where columns begin stay; they say how many entries there are.
+  m_matrix.resizeNonZeros(m_matrix.outerIndexPtr()[m_matrix.cols()]);
+  SimplicialLDLT::factorize(matrix);
+}
+
+void ReleasableLdlt::release() {
+  m_matrix.data().clear();
+  m_matrix.data().squeeze();
+}
+
 void PackedFactor::find_supernodes(const Matrix& lower) {
   const int* begins = lower.outerIndexPtr();
   const int* rows = lower.innerIndexPtr();

@@ -8,6 +8,17 @@
 
 namespace suffuse {
 
+/// Eigen's, which can give back the memory of its factor once that is copied.
+class ReleasableLdlt : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> {
+ public:
+  using SimplicialLDLT::SimplicialLDLT;
+
+  /// As Eigen's, after a release too.
+  void factorize(const Eigen::SparseMatrix<double>& matrix);
+  /// Nothing but `factorize` may be asked for after this.
+  void release();
+};
+
 /// A factor L D L^T as dense panels: columns in a row with the same rows below them share one list
 /// of these (supernodes; Ng and Peyton, SIAM J. Sci. Comput. 14 (1993) 1034). Branches of the
 /// elimination tree are solved side by side; what each adds to the columns above is added up in a
