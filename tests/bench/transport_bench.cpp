@@ -1,0 +1,228 @@
+/// Passes of the single-point formulation: erosion, transport with its limiter, over three points
+/// per element; and the pieces of an implicit step.
+
+#include <cmath>
+
+#include "bench/bench.hpp"
+#include "flow/implicit_mixed.hpp"
+#include "flow/packed_factor.hpp"
+#include "solid/rigid_skeleton.hpp"
+#include "solver/model_case.hpp"
+#include "transport/eulerian.hpp"
+
+namespace suffuse::bench {
+namespace {
+
+/// A square of soil with a uniform flow from top to bottom and grains that vary in space.
+struct Column {
+  explicit Column(int cells, int threads)
+      : c(make(cells)),
+        grid(c.mesh),
+        conditions(face_conditions(c, grid)),
+        skeleton(c, grid, threads),
+        transport(grid, conditions, threads) {
+    state.pore_volume = skeleton.initial_pore_volume();
+    state.fines_volume = state.pore_volume;
+    for (int e = 0; e < grid.mesh.element_count(); ++e) {
+      const Vector<2> x = element_centroid(grid.mesh, e);
+      for (double& v : state.fines_volume[e]) v *= 0.2 + 0.1 * std::sin(7.0 * x[0] + 5.0 * x[1]);
+    }
+    for (int f = 0; f < grid.face_count(); ++f) {
+      const bool wall = conditions[f].kind == FaceKind::wall;
+      volume.push_back(wall ? 0.0 : grid.face_normal[f].dot(Vector<2>(0.0, -0.012)));
+    }
+    const double allowed = 0.9 * transport.steps_allowed(state, volume);
+    for (double& v : volume) v *= allowed;
+  }
+
+  static Case<2> make(int cells) {
+    Scene scene = model::paper_scene();
+    scene.soils[0].erosion = {ErosionLaw::constant, 1e-9, 0.0, false};
+    scene.boundaries = {model::flux_on("top", 0.012), model::pressure_on("bottom", 0.0)};
+    return model::make_case(model::column_mesh(cells, cells), scene);
+  }
+
+  [[nodiscard]] double points() const { return skeleton.points().size(); }
+
+  Case<2> c;
+  Grid<2> grid;
+  std::vector<FaceCondition> conditions;
+  RigidSkeleton<2> skeleton;
+  EulerianTransport<2> transport;
+  FinesState<2> state;
+  std::vector<double> volume;
+};
+
+/// Cells along a side for so many elements, about.
+int cells_for(double elements) {
+  return static_cast<int>(std::lround(std::sqrt(0.5 * elements)));
+}
+
+// Bytes: each array once per loop that reads or writes it, what neighbours share counted once.
+
+void Transport(benchmark::State& bench) {
+  const auto threads = static_cast<int>(bench.range(1));
+  Column column(cells_for(static_cast<double>(bench.range(0))), threads);
+  TransportScratch<2> scratch;
+  ElementField<2> eroded(column.grid.mesh.element_count(), ElementValues<2>{});
+  column.transport.start(column.state, column.volume, scratch);
+  for ([[maybe_unused]] const auto step : bench) {
+    column.transport.advance(column.state, eroded, scratch);
+  }
+  constexpr double gain = 24 + 24 + 24 + 48;          // vertices, outflow, upwind, grains out
+  constexpr double first = gain + 24 + 48 + 48 + 24;  // eroded, pores, fines, stage
+  constexpr double second = gain + 24 + 48 + 24;      // pores, fines, stage
+  constexpr double limiter = 2.0 * (24 + 8) + 8 + 12 + 8 + 12 + 16;  // found, then limited
+  report(bench, column.points(), (first + second + 2.0 * limiter) / 3.0, threads);
+}
+BENCHMARK(Transport)
+    ->ArgNames({"elements", "threads"})
+    ->ArgsProduct({{3'300, 33'000, 333'000}, {1, 2}})
+    ->UseRealTime();
+BENCHMARK(Transport)->Name("QuickTransport")->Args({3'300, 1})->UseRealTime();
+
+void Erosion(benchmark::State& bench) {
+  const auto threads = static_cast<int>(bench.range(1));
+  Column column(cells_for(static_cast<double>(bench.range(0))), threads);
+  std::vector<double> porosity = column.skeleton.initial_porosity();
+  ElementField<2> eroded;
+  double time = 0.0;
+  for ([[maybe_unused]] const auto step : bench) {
+    column.skeleton.erode(porosity, time, time + 1.0, {}, eroded);
+    time += 1.0;
+  }
+  report(bench, column.points(), 16.0 + 8.0 + 8.0 + 8.0 / 3.0, threads);
+}
+BENCHMARK(Erosion)
+    ->ArgNames({"elements", "threads"})
+    ->ArgsProduct({{3'300, 33'000, 333'000}, {1, 2}})
+    ->UseRealTime();
+
+/// What an implicit step of the column needs.
+struct ImplicitColumn : Column {
+  ImplicitColumn(int cells, int threads)
+      : Column(cells, threads),
+        scheme(grid, {2e7, false, TimeStepping::second_order, threads}, Vector<2>::Zero()),
+        forcing{model::flow_coefficients(grid, 2e-2), conditions, {}} {
+    begin.face_pressure.assign(grid.face_count(), 0.0);
+    begin.velocity.assign(grid.mesh.element_count(), Vector<2>::Zero());
+  }
+  /// The matrix of the pressures at faces, with the pattern and the like of its values.
+  [[nodiscard]] Eigen::SparseMatrix<double> matrix() const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int e = 0; e < grid.mesh.element_count(); ++e) {
+      for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+          const auto normal = [&](int k) {
+            return Vector<2>(grid.element_face_sign[e][k] *
+                             grid.face_normal[grid.element_face[e][k]]);
+          };
+          const double storage = a == b ? 1e-3 : 0.0;
+          entries.emplace_back(grid.element_face[e][a], grid.element_face[e][b],
+                               normal(a).dot(normal(b)) / grid.volume[e] + storage);
+        }
+      }
+    }
+    Eigen::SparseMatrix<double> result(grid.face_count(), grid.face_count());
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+  /// One step, of another length and so with another matrix if `longer` is not zero.
+  void step(double longer) {
+    benchmark::DoNotOptimize(scheme.step(begin, 1.0 + longer, {&forcing, &forcing}));
+  }
+
+  ImplicitMixed<2> scheme;
+  FlowForcing<2> forcing;
+  MixedState<2> begin;
+};
+
+void add_sizes(benchmark::internal::Benchmark* bench) {
+  bench->ArgNames({"elements", "threads"})
+      ->ArgsProduct({{3'000, 33'000, 333'000}, {1, 2}})
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+}
+
+/// Two stages with the matrix that is factored: assembly, one solution each, fluxes.
+void ImplicitStep(benchmark::State& bench) {
+  ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))),
+                        static_cast<int>(bench.range(1)));
+  column.step(0.0);
+  for ([[maybe_unused]] const auto step : bench) column.step(0.0);
+}
+BENCHMARK(ImplicitStep)->Apply(add_sizes);
+
+/// With a matrix that has changed by a thousandth or so, by conjugate gradients.
+void ImplicitStepWithIterations(benchmark::State& bench) {
+  ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))),
+                        static_cast<int>(bench.range(1)));
+  column.step(0.0);
+  double longer = 0.0;
+  for ([[maybe_unused]] const auto step : bench) column.step(longer += 1e-6);
+}
+BENCHMARK(ImplicitStepWithIterations)->Apply(add_sizes);
+
+void Order(benchmark::State& bench) {
+  const ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))), 1);
+  const Eigen::SparseMatrix<double> matrix = column.matrix();
+  for ([[maybe_unused]] const auto step : bench) {
+    PackedFactor::Ldlt factor;
+    factor.analyzePattern(matrix);
+  }
+}
+BENCHMARK(Order)
+    ->ArgName("elements")
+    ->Arg(3'000)
+    ->Arg(33'000)
+    ->Arg(333'000)
+    ->Unit(benchmark::kMillisecond);
+
+void Factor(benchmark::State& bench) {
+  const ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))), 1);
+  const Eigen::SparseMatrix<double> matrix = column.matrix();
+  PackedFactor::Ldlt factor;
+  factor.analyzePattern(matrix);
+  PackedFactor packed(1);
+  for ([[maybe_unused]] const auto step : bench) {
+    factor.factorize(matrix);
+    packed.take(factor);
+  }
+}
+BENCHMARK(Factor)
+    ->ArgName("elements")
+    ->Arg(3'000)
+    ->Arg(33'000)
+    ->Arg(333'000)
+    ->Unit(benchmark::kMillisecond);
+
+void Solve(benchmark::State& bench) {
+  const auto threads = static_cast<int>(bench.range(1));
+  const ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))), 1);
+  const PackedFactor::Ldlt factor(column.matrix());
+  PackedFactor packed(threads);
+  packed.take(factor);
+  const Eigen::VectorXd rhs = Eigen::VectorXd::Random(column.grid.face_count());
+  Eigen::VectorXd x;
+  for ([[maybe_unused]] const auto step : bench) packed.solve(rhs, x);
+  const auto entries = static_cast<double>(factor.matrixL().nestedExpression().nonZeros());
+  report(bench, entries, 2.0 * 8.0, threads);  // per entry of the factor, read twice
+}
+BENCHMARK(Solve)->Apply(add_sizes);
+
+void CorrectFluxes(benchmark::State& bench) {
+  ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))), 1);
+  FluxCorrection<2> correction(column.grid, column.conditions);
+  correction.follow(std::vector<double>(column.grid.mesh.element_count(), 1.0));
+  const std::vector<double> outflow(column.grid.mesh.element_count(), 0.0);
+  for ([[maybe_unused]] const auto step : bench) correction.correct(column.volume, outflow);
+}
+BENCHMARK(CorrectFluxes)
+    ->ArgName("elements")
+    ->Arg(3'000)
+    ->Arg(33'000)
+    ->Arg(333'000)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace suffuse::bench
