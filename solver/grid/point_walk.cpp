@@ -33,6 +33,7 @@ Barycentric<Dim> rates(const Grid<Dim>& grid, int element, const Vector<Dim>& ve
 template <int Dim>
 Vector<Dim> along_walls(const Grid<Dim>& grid, int element, Vector<Dim> velocity,
                         const std::array<bool, Dim + 1>& held) {
+  if (std::ranges::find(held, true) == held.end()) return velocity;
   // Two faces at an acute corner push into each other: a few rounds leave what both allow.
   for (int round = 0; round <= 2 * Dim; ++round) {
     for (int a = 0; a <= Dim; ++a) {

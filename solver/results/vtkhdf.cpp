@@ -64,6 +64,14 @@ void write_count(Hdf5File& file, const std::string& name, std::size_t count) {
   file.write("/VTKHDF/" + name, std::span(&value, 1), {1});
 }
 
+void write_offsets(Hdf5File& file, std::size_t cells, int nodes_per_cell) {
+  std::vector<std::int64_t> offsets(cells + 1);
+  for (std::size_t c = 0; c <= cells; ++c) {
+    offsets[c] = static_cast<std::int64_t>(c) * nodes_per_cell;
+  }
+  file.write("/VTKHDF/Offsets", std::span<const std::int64_t>(offsets), {cells + 1});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -96,7 +104,7 @@ VtkGrid vtk_grid(std::vector<double> points) {
   return grid;
 }
 
-void write_vtkhdf(Hdf5File& file, const VtkGrid& grid, const std::vector<Field>& cell_fields,
+void write_vtkhdf(Hdf5File& file, VtkGrid grid, const std::vector<Field>& cell_fields,
                   const std::vector<Field>& point_fields) {
   constexpr std::array<std::int64_t, 2> version{1, 0};
   file.create_group("/VTKHDF");
@@ -109,16 +117,15 @@ void write_vtkhdf(Hdf5File& file, const VtkGrid& grid, const std::vector<Field>&
   write_count(file, "NumberOfCells", cells);
   write_count(file, "NumberOfConnectivityIds", grid.connectivity.size());
 
-  std::vector<std::int64_t> offsets(cells + 1);
-  for (std::size_t c = 0; c <= cells; ++c) {
-    offsets[c] = static_cast<std::int64_t>(c) * grid.nodes_per_cell;
-  }
-  const std::vector<std::uint8_t> types(cells, grid.cell_type);
+  // Each array goes when it is written: of millions of points they would add up.
   file.write("/VTKHDF/Points", std::span<const double>(grid.points), {points, 3});
   file.attribute("/VTKHDF/Points", "unit", std::string("m"));
+  grid.points = {};
   file.write("/VTKHDF/Connectivity", std::span<const std::int64_t>(grid.connectivity),
              {grid.connectivity.size()});
-  file.write("/VTKHDF/Offsets", std::span<const std::int64_t>(offsets), {cells + 1});
+  grid.connectivity = {};
+  write_offsets(file, cells, grid.nodes_per_cell);
+  const std::vector<std::uint8_t> types(cells, grid.cell_type);
   file.write("/VTKHDF/Types", std::span<const std::uint8_t>(types), {cells});
 
   write_data(file, "/VTKHDF/CellData", cell_fields, cells);

@@ -35,7 +35,7 @@ VtkGrid vtk_grid(std::vector<double> points);
 
 /// Writes the group /VTKHDF. Fields that are vectors in the plane (2 components) get a zero third
 /// component, as VTK wants of a vector; their attribute `components` keeps what they had.
-void write_vtkhdf(Hdf5File& file, const VtkGrid& grid, const std::vector<Field>& cell_fields,
+void write_vtkhdf(Hdf5File& file, VtkGrid grid, const std::vector<Field>& cell_fields,
                   const std::vector<Field>& point_fields);
 
 /// Writes `field` to GROUP/NAME with its unit and components as attributes; `shape` ends before the

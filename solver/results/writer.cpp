@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <stdexcept>
+#include <utility>
 
 #include "case/errors.hpp"
 #include "case/hdf5_io.hpp"
@@ -235,7 +236,7 @@ void ResultsWriter<Dim>::append_to(Series& series, const std::string& file, doub
 }
 
 template <int Dim>
-void ResultsWriter<Dim>::write_snapshot(const Snapshot& snapshot) {
+void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
   const std::string mesh_name = snapshot_name("mesh", mesh_series_.count);
   write_hdf5_whole(in_folder(folder_, mesh_name), [&](Hdf5File& file) {
     write_vtkhdf(file, vtk_grid(case_.mesh), snapshot.cell, snapshot.node);
@@ -250,7 +251,7 @@ void ResultsWriter<Dim>::write_snapshot(const Snapshot& snapshot) {
   if (case_.document.scene.formulation == Formulation::double_point) {
     const std::string liquid_name = snapshot_name("liquid", liquid_series_.count);
     write_hdf5_whole(in_folder(folder_, liquid_name), [&](Hdf5File& file) {
-      write_vtkhdf(file, vtk_grid(snapshot.liquid_positions), {}, snapshot.liquid);
+      write_vtkhdf(file, vtk_grid(std::move(snapshot.liquid_positions)), {}, snapshot.liquid);
       write_provenance(file, case_, snapshot);
     });
     append_to(liquid_series_, liquid_name, snapshot.time);

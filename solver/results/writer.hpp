@@ -75,7 +75,8 @@ class ResultsWriter {
   void append_history(const HistoryRow& row);
   void append_ledger(const LedgerRow& row);
   void append_regions(std::span<const RegionRow> rows);
-  void write_snapshot(const Snapshot& snapshot);
+  /// Hand it over where there are many points.
+  void write_snapshot(Snapshot snapshot);
   void write_run_info(const RunInfo& info);
 
  private:
