@@ -17,6 +17,11 @@ constexpr int window = 1024;
 /// How far loops look ahead, for memory to have delivered by then.
 constexpr int blocks_ahead = 12;
 
+template <class Value>
+double bytes(const std::vector<Value>& values) {
+  return static_cast<double>(values.size() * sizeof(Value));
+}
+
 /// rho_w / rho_w0 - 1 at a pressure small against K; the exact value is restored with the masses.
 template <class Real>
 void density_excess(const Real& pressure_over_modulus, Real& excess) {
@@ -348,7 +353,6 @@ void ExplicitNodal<Dim>::compress(double dt) {
   } else {
     compress_blocks<true>(dt);
   }
-  for (EdgeElement& edge : edge_elements_) compress_edge(dt, edge);
   for (std::size_t b = 0; b < driven_faces_.size(); ++b) {
     driven_volume_[b] += dt * operator_.fixed_flux(driven_faces_[b]);
   }
@@ -358,50 +362,60 @@ void ExplicitNodal<Dim>::compress(double dt) {
 template <int Dim>
 template <bool convects>
 void ExplicitNodal<Dim>::compress_blocks(double dt) {
+  const int blocks = static_cast<int>(element_blocks_.size());
+  const int edge_elements = static_cast<int>(edge_elements_.size());
+#pragma omp parallel num_threads(settings_.threads) if (lane_count * blocks > worth_threads)
+  {
+#pragma omp for schedule(static)
+    for (int b = 0; b < blocks; ++b) compress_block<convects>(dt, b);
+      // What blocks made of these, as if all of their faces were inner ones, is written over.
+#pragma omp for schedule(static)
+    for (int k = 0; k < edge_elements; ++k) compress_edge(dt, edge_elements_[k]);
+  }
+}
+
+template <int Dim>
+template <bool convects>
+void ExplicitNodal<Dim>::compress_block(double dt, int b) {
   const double modulus = settings_.bulk_modulus;
   const double* const pressure = pressure_.data();
   const Vector<Dim>* const place = operator_.grid().mesh.nodes.data();
   const Vector<Dim>* const node_flux = flux_.data();
-  const int blocks = static_cast<int>(element_blocks_.size());
-#pragma omp parallel for schedule(static) \
-    num_threads(settings_.threads) if (lane_count * blocks > worth_threads)
-  for (int b = 0; b < blocks; ++b) {
-    const ElementBlock& block = element_blocks_[b];
-    const int soon = std::min(b + blocks_ahead, blocks - 1);
-    prefetch(element_blocks_[soon]);
-    prefetch(next_pressure_[lane_count * soon]);
-    OfFaces<Corner<Lanes>> corner;
-    for (int a = 0; a <= Dim; ++a) {
-      load_pairs([&](int l) { return place[block.node[a][l]].data(); }, corner[a][0], corner[a][1]);
-      load_pairs([&](int l) { return node_flux[block.node[a][l]].data(); }, corner[a][2],
-                 corner[a][3]);
-    }
-    OfFaces<Lanes> flux;
-    for (int k = 0; k <= Dim; ++k) {
-      edge_flux(corner[(k + 1) % (Dim + 1)], corner[(k + 2) % (Dim + 1)], flux[k]);
-    }
-    Lanes outflow = flux[0] + flux[1] + flux[2];
-    Lanes p;
-    load(pressure + lane_count * b, p);
-    if constexpr (convects) {
-      const ConvectionBlock& convection = convection_blocks_[b];
-      prefetch(convection_blocks_[soon]);
-      prefetch(excess_out_[soon]);
-      const Lanes zero{};
-      Lanes excess;
-      density_excess<Lanes>(p * (1.0 / modulus), excess);
-      excess *= dt;
-      for (int k = 0; k <= Dim; ++k) {
-        Lanes across;
-        gather(pressure, convection.neighbour[k], across);
-        const Lanes inflow = flux[k] < zero ? flux[k] : zero;
-        outflow += inflow * convection.carried[k] * (across - p);
-        excess_out_[b][k] += excess * (flux[k] - inflow);
-      }
-    }
-    expand<Lanes>(dt * outflow * block.weight, modulus, p);
-    store(p, next_pressure_.data() + lane_count * b);
+  const ElementBlock& block = element_blocks_[b];
+  const int soon = std::min(b + blocks_ahead, static_cast<int>(element_blocks_.size()) - 1);
+  prefetch(element_blocks_[soon]);
+  prefetch(next_pressure_[lane_count * soon]);
+  OfFaces<Corner<Lanes>> corner;
+  for (int a = 0; a <= Dim; ++a) {
+    load_pairs([&](int l) { return place[block.node[a][l]].data(); }, corner[a][0], corner[a][1]);
+    load_pairs([&](int l) { return node_flux[block.node[a][l]].data(); }, corner[a][2],
+               corner[a][3]);
   }
+  OfFaces<Lanes> flux;
+  for (int k = 0; k <= Dim; ++k) {
+    edge_flux(corner[(k + 1) % (Dim + 1)], corner[(k + 2) % (Dim + 1)], flux[k]);
+  }
+  Lanes outflow = flux[0] + flux[1] + flux[2];
+  Lanes p;
+  load(pressure + lane_count * b, p);
+  if constexpr (convects) {
+    const ConvectionBlock& convection = convection_blocks_[b];
+    prefetch(convection_blocks_[soon]);
+    prefetch(excess_out_[soon]);
+    const Lanes zero{};
+    Lanes excess;
+    density_excess<Lanes>(p * (1.0 / modulus), excess);
+    excess *= dt;
+    for (int k = 0; k <= Dim; ++k) {
+      Lanes across;
+      gather(pressure, convection.neighbour[k], across);
+      const Lanes inflow = flux[k] < zero ? flux[k] : zero;
+      outflow += inflow * convection.carried[k] * (across - p);
+      excess_out_[b][k] += excess * (flux[k] - inflow);
+    }
+  }
+  expand<Lanes>(dt * outflow * block.weight, modulus, p);
+  store(p, next_pressure_.data() + lane_count * b);
 }
 
 template <int Dim>
@@ -530,12 +544,14 @@ VectorField<Dim> ExplicitNodal<Dim>::velocity_at(double ahead) const {
 
 template <int Dim>
 double ExplicitNodal<Dim>::bytes_accelerating() const {
-  return 0;
+  return bytes(node_blocks_) + bytes(ring_steps_) + bytes(pressure_) +
+         bytes(operator_.grid().mesh.nodes) + 2.0 * (bytes(flux_) + bytes(way_));
 }
 
 template <int Dim>
 double ExplicitNodal<Dim>::bytes_compressing() const {
-  return 0;
+  return bytes(element_blocks_) + bytes(convection_blocks_) + bytes(operator_.grid().mesh.nodes) +
+         bytes(flux_) + bytes(pressure_) + bytes(next_pressure_) + 2.0 * bytes(excess_out_);
 }
 
 template class ExplicitNodal<2>;

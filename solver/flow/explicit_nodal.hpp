@@ -86,7 +86,8 @@ class ExplicitNodal {
   void accelerate(double spacing, double dt);
   void compress(double dt);
 
-  /// Bytes that the halves of a step read and write per step, each array once.
+  /// Bytes that the halves of a step read and write per step, each array once, what is
+  /// written over twice; without boundary conditions, and what fast flow and gravity add.
   [[nodiscard]] double bytes_accelerating() const;
   [[nodiscard]] double bytes_compressing() const;
 
@@ -146,6 +147,8 @@ class ExplicitNodal {
   void take_velocity();
   template <bool convects>
   void compress_blocks(double dt);
+  template <bool convects>
+  void compress_block(double dt, int b);
   void compress_edge(double dt, EdgeElement& edge);
   [[nodiscard]] double face_flux(int element, int k) const;
 

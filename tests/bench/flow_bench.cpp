@@ -1,6 +1,8 @@
 /// The explicit flow: its two passes and the whole step, and the plain loops it is tested against.
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "bench/bench.hpp"
@@ -53,23 +55,74 @@ struct FlowSquare {
   double dt = 0.0;
 };
 
-/// Squares of two triangles per cell, or Gmsh's, with about `elements` elements; made once.
-const FlowSquare& square(long elements, bool free) {
-  static std::map<std::pair<long, bool>, std::unique_ptr<FlowSquare>> made;
-  auto& result = made[{elements, free}];
-  if (result == nullptr) {
-    const double cells = std::sqrt(0.5 * static_cast<double>(elements));
-    const auto side = static_cast<int>(std::lround(cells));
-    result = std::make_unique<FlowSquare>(free ? model::free_mesh(1.07 / cells)
-                                               : model::column_mesh(side, side));
+/// Gmsh's triangles, and the same with nodes and elements along a curve through the square
+/// (Morton's) so that neighbours are near each other in memory.
+enum MeshKind { cells, gmsh, gmsh_in_order };
+
+/// Bits of both coordinates in turns, of a place in the unit square.
+unsigned long curve_position(const Vector<2>& place) {
+  unsigned long key = 0;
+  for (int bit = 15; bit >= 0; --bit) {
+    for (int d = 0; d < 2; ++d) {
+      key = 2 * key + ((static_cast<unsigned long>(place[d] * 65535.0) >> bit) & 1U);
+    }
   }
+  return key;
+}
+
+template <class PlaceOf>
+std::vector<int> along_curve(int count, const PlaceOf& place_of) {
+  std::vector<std::pair<unsigned long, int>> keys;
+  for (int i = 0; i < count; ++i) keys.emplace_back(curve_position(place_of(i)), i);
+  std::ranges::sort(keys);
+  std::vector<int> order;
+  for (const auto& [key, i] : keys) order.push_back(i);
+  return order;
+}
+
+Mesh<2> in_order(const Mesh<2>& mesh) {
+  Mesh<2> result = mesh;
+  const auto node_order = along_curve(mesh.node_count(), [&](int i) { return mesh.nodes[i]; });
+  std::vector<int> new_node(node_order.size());
+  for (std::size_t i = 0; i < node_order.size(); ++i) {
+    new_node[node_order[i]] = static_cast<int>(i);
+    result.nodes[i] = mesh.nodes[node_order[i]];
+  }
+  const auto element_order =
+      along_curve(mesh.element_count(), [&](int e) { return element_centroid(mesh, e); });
+  for (std::size_t e = 0; e < element_order.size(); ++e) {
+    result.elements[e] = mesh.elements[element_order[e]];
+    for (int& node : result.elements[e]) node = new_node[node];
+  }
+  for (auto& set : result.boundaries) {
+    for (auto& face : set.faces) {
+      for (int& node : face) node = new_node[node];
+    }
+  }
+  return result;
+}
+
+Mesh<2> mesh_of(long elements, MeshKind kind) {
+  const double side = std::sqrt(0.5 * static_cast<double>(elements));
+  if (kind == cells) {
+    return model::column_mesh(static_cast<int>(side), static_cast<int>(side));
+  }
+  const Mesh<2> mesh = model::free_mesh(1.07 / side);
+  return kind == gmsh ? mesh : in_order(mesh);
+}
+
+/// Squares with about `elements` elements; made once.
+const FlowSquare& square(long elements, MeshKind kind) {
+  static std::map<std::pair<long, MeshKind>, std::unique_ptr<FlowSquare>> made;
+  auto& result = made[{elements, kind}];
+  if (result == nullptr) result = std::make_unique<FlowSquare>(mesh_of(elements, kind));
   return *result;
 }
 
 enum Pass { nodes, elements, step };
 
-void Flow(benchmark::State& state, Pass pass, bool double_point, bool free) {
-  const FlowSquare& s = square(state.range(0), free);
+void Flow(benchmark::State& state, Pass pass, bool double_point, MeshKind kind) {
+  const FlowSquare& s = square(state.range(0), kind);
   const auto threads = static_cast<int>(state.range(1));
   ExplicitNodal<2> flow(s.op, s.settings(threads, double_point));
   s.start(flow);
@@ -85,8 +138,8 @@ void Flow(benchmark::State& state, Pass pass, bool double_point, bool free) {
   report(state, points, bytes / points, threads);
 }
 
-void Reference(benchmark::State& state, bool free) {
-  const FlowSquare& s = square(state.range(0), free);
+void Reference(benchmark::State& state, MeshKind kind) {
+  const FlowSquare& s = square(state.range(0), kind);
   model::NodalReference<2> flow(s.op, s.settings(1, false));
   s.start(flow);
   for ([[maybe_unused]] const auto iteration : state) flow.step(s.dt);
@@ -97,15 +150,21 @@ void sizes(benchmark::internal::Benchmark* b) {
   b->ArgNames({"elements", "threads"})->ArgsProduct({{3000, 30000, 333000}, {1, 2}})->UseRealTime();
 }
 
-BENCHMARK_CAPTURE(Flow, nodes, nodes, false, false)->Apply(sizes);
-BENCHMARK_CAPTURE(Flow, elements, elements, false, false)->Apply(sizes);
-BENCHMARK_CAPTURE(Flow, elements_double_point, elements, true, false)->Apply(sizes);
-BENCHMARK_CAPTURE(Flow, step, step, false, false)->Apply(sizes);
-BENCHMARK_CAPTURE(Flow, step_double_point, step, true, false)->Apply(sizes);
-BENCHMARK_CAPTURE(Flow, step_free_mesh, step, false, true)->Apply(sizes);
-BENCHMARK_CAPTURE(Reference, step, false)->Apply(sizes);
-BENCHMARK_CAPTURE(Reference, step_free_mesh, true)->Apply(sizes);
-BENCHMARK_CAPTURE(Flow, step, step, false, false)
+void reference_sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"elements", "threads"})->ArgsProduct({{3000, 30000, 333000}, {1}})->UseRealTime();
+}
+
+BENCHMARK_CAPTURE(Flow, nodes, nodes, false, cells)->Apply(sizes);
+BENCHMARK_CAPTURE(Flow, elements, elements, false, cells)->Apply(sizes);
+BENCHMARK_CAPTURE(Flow, elements_double_point, elements, true, cells)->Apply(sizes);
+BENCHMARK_CAPTURE(Flow, step, step, false, cells)->Apply(sizes);
+BENCHMARK_CAPTURE(Flow, step_double_point, step, true, cells)->Apply(sizes);
+BENCHMARK_CAPTURE(Flow, step_gmsh, step, false, gmsh)->Apply(sizes);
+BENCHMARK_CAPTURE(Flow, step_gmsh_in_order, step, false, gmsh_in_order)->Apply(sizes);
+BENCHMARK_CAPTURE(Reference, step, cells)->Apply(reference_sizes);
+BENCHMARK_CAPTURE(Reference, step_gmsh, gmsh)->Apply(reference_sizes);
+BENCHMARK_CAPTURE(Reference, step_gmsh_in_order, gmsh_in_order)->Apply(reference_sizes);
+BENCHMARK_CAPTURE(Flow, quick, step, false, cells)
     ->Name("QuickFlow")
     ->Args({3000, 1})
     ->UseRealTime();

@@ -233,5 +233,30 @@ TEST(ExplicitNodal, IsThePlainSchemeToRoundOff) {
   }
 }
 
+TEST(ExplicitNodal, IsTheSameOnTwoThreads) {
+  // More elements and nodes than a loop for one thread has.
+  const Mesh<2> mesh = model::column_mesh(130, 130, 1.0, 1.0, model::jittered(0.002, 8));
+  for (const Options& options : all_options()) {
+    Twins one(mesh, options);
+    Twins two(mesh, options, 2);
+    one.run(3);
+    two.run(3);
+    EXPECT_EQ(one.fast().pressure(), two.fast().pressure()) << options.name;
+    EXPECT_EQ(one.fast().velocity(), two.fast().velocity()) << options.name;
+    EXPECT_EQ(one.fast().volumes().liquid, two.fast().volumes().liquid) << options.name;
+    EXPECT_EQ(one.fast().volumes().density_excess, two.fast().volumes().density_excess)
+        << options.name;
+  }
+}
+
+TEST(ExplicitNodal, AVelocityThatNobodyRemembersIsRefused) {
+  Twins twins(model::column_mesh(3, 3), all_options()[0]);
+  twins.run(2);
+  EXPECT_NO_THROW(static_cast<void>(twins.fast().velocity_at(0.0)));
+  twins.fast().step(1e-6);
+  twins.fast().step(1e-6);
+  EXPECT_THROW(static_cast<void>(twins.fast().velocity_at(0.0)), std::logic_error);
+}
+
 }  // namespace
 }  // namespace suffuse
