@@ -213,7 +213,7 @@ void PackedFactor::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) {
   }
   for (const int n : top_) forward(nodes_[n]);
   for_each_index(columns, threads_, [&](int i) { vector_[i] /= diagonal_[i]; });
-  for (auto n = top_.rbegin(); n != top_.rend(); ++n) backward(nodes_[*n]);
+  for (std::size_t i = top_.size(); i-- > 0;) backward(nodes_[top_[i]]);
   for_each_branch([&](int b) {
     double* known = &vector_[place_of(b)];
     for (std::size_t i = 0; i < top; ++i) known[i] = vector_[top_columns_[i]];
