@@ -9,7 +9,7 @@ set -eu -o pipefail
 bin=$1 problem=$2 reference=$3 out=$4 form=${5:-full}
 here=$(cd "$(dirname "$0")" && pwd)
 # The longest run, in seconds, and how often each is repeated for the median.
-limit=${ACCURACY_LIMIT:-8} repetitions=${ACCURACY_REPETITIONS:-5}
+limit=${ACCURACY_LIMIT:-6} repetitions=${ACCURACY_REPETITIONS:-5}
 # Runs that take longer than this are made once in the short form.
 once=0
 if [ "$form" == short ]; then
