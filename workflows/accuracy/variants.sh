@@ -73,6 +73,8 @@ sizes_of() {
       [ "$1" == sp ] || most=5
       [ "$3" == "$usual" ] && [ "$4" == - -o "$4" == "${tolerances%% *}" ] || most=4
       [ "$2" != implicit ] || [ "$3" == "$usual" ] || most=5
+      # The tolerance to choose there.
+      [ "$1 $4" != "sp 1e-2" ] || most=9
       ;;
     dam) [ "$3" == "$usual" ] && [ "$4" == - -o "$4" == "${tolerances%% *}" ] || most=4 ;;
   esac
