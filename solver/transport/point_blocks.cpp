@@ -120,7 +120,7 @@ void PointBlocks<Dim>::note_fines() {
 
 template <int Dim>
 CarriedPoint<Dim> PointBlocks<Dim>::remove(int element, int slot) {
-  const CarriedPoint<Dim> removed = point(element, slot);
+  CarriedPoint<Dim> removed = point(element, slot);
   const int last = --blocks_[element].count;
   if (slot != last) put(element, slot, point(element, last));
   clear(element, last);
