@@ -273,6 +273,8 @@ void ExplicitNodal<Dim>::accelerate(double spacing, double dt) {
   }
 }
 
+/// dq_i/dt = n_i / (S m_i) force + n_i g / S - damping q_i of a few inner nodes: momentum times the
+/// porosity of the node, which does not change meanwhile.
 template <int Dim>
 void ExplicitNodal<Dim>::accelerate_block(double spacing, double dt, int b) {
   const NodeBlock& block = node_blocks_[b];
@@ -368,12 +370,13 @@ void ExplicitNodal<Dim>::compress_blocks(double dt) {
   {
 #pragma omp for schedule(static)
     for (int b = 0; b < blocks; ++b) compress_block<convects>(dt, b);
-      // What blocks made of these, as if all of their faces were inner ones, is written over.
 #pragma omp for schedule(static)
     for (int k = 0; k < edge_elements; ++k) compress_edge(dt, edge_elements_[k]);
   }
 }
 
+/// Pressure of a few elements from the liquid that leaves them. What enters brings the pressure of
+/// where it comes from; what leaves has their own.
 template <int Dim>
 template <bool convects>
 void ExplicitNodal<Dim>::compress_block(double dt, int b) {
@@ -382,9 +385,10 @@ void ExplicitNodal<Dim>::compress_block(double dt, int b) {
   const Vector<Dim>* const place = operator_.grid().mesh.nodes.data();
   const Vector<Dim>* const node_flux = flux_.data();
   const ElementBlock& block = element_blocks_[b];
+  const std::ptrdiff_t first = std::ptrdiff_t{lane_count} * b;
   const int soon = std::min(b + blocks_ahead, static_cast<int>(element_blocks_.size()) - 1);
   prefetch(element_blocks_[soon]);
-  prefetch(next_pressure_[lane_count * soon]);
+  prefetch(next_pressure_[std::size_t{lane_count} * soon]);
   OfFaces<Corner<Lanes>> corner;
   for (int a = 0; a <= Dim; ++a) {
     load_pairs([&](int l) { return place[block.node[a][l]].data(); }, corner[a][0], corner[a][1]);
@@ -397,7 +401,7 @@ void ExplicitNodal<Dim>::compress_block(double dt, int b) {
   }
   Lanes outflow = flux[0] + flux[1] + flux[2];
   Lanes p;
-  load(pressure + lane_count * b, p);
+  load(pressure + first, p);
   if constexpr (convects) {
     const ConvectionBlock& convection = convection_blocks_[b];
     prefetch(convection_blocks_[soon]);
@@ -415,7 +419,7 @@ void ExplicitNodal<Dim>::compress_block(double dt, int b) {
     }
   }
   expand<Lanes>(dt * outflow * block.weight, modulus, p);
-  store(p, next_pressure_.data() + lane_count * b);
+  store(p, next_pressure_.data() + first);
 }
 
 template <int Dim>
@@ -435,6 +439,7 @@ double ExplicitNodal<Dim>::face_flux(int element, int k) const {
   return flux;
 }
 
+/// Writes over what the block made of this element, as if all of its faces were inner ones.
 template <int Dim>
 void ExplicitNodal<Dim>::compress_edge(double dt, EdgeElement& edge) {
   const Grid<Dim>& grid = operator_.grid();

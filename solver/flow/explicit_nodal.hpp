@@ -27,13 +27,20 @@ struct ExplicitSettings {
 /// Symplectic Euler started with half a step of velocity, so that velocity lives between the times
 /// of pressure: second order without drag, first order with it (drag is evaluated at one end).
 ///
-/// A step is two loops, and both are bound by memory on large meshes, so each reads little and
-/// nothing twice: `accelerate` goes over nodes and gathers their force from the elements around
-/// them, `compress` goes over elements and forms the fluxes through their faces again for either
-/// side, which are the same to the last bit. Normals come from the places of nodes. Inner nodes and
-/// elements, almost all of a large mesh, need not ask for boundary conditions; those at the edge
-/// have loops of their own. What crossed the faces is not added up face by face: as long as
-/// coefficients stay, it follows from the way of each node.
+/// A step is two loops, four nodes or elements at a time. `accelerate` goes over nodes and gathers
+/// their force from the elements around them; it reads and writes 84 bytes per element of the mesh
+/// and is bound by its arithmetic, or nearly. `compress` goes over elements and forms the fluxes
+/// through their faces again for either side, the same to the last bit; it is bound by memory on
+/// meshes that no cache holds: 144 bytes per element, of which 96 belong to convection. For that
+/// reason normals come from the places of nodes, no face has an array, and the state at nodes is
+/// the flux q_i = n_i v_i alone.
+///
+/// Inner nodes and elements, almost all of a large mesh, need not ask for boundary conditions;
+/// those at the edge have loops of their own. The volume of liquid that crossed a face is not added
+/// up: as long as coefficients stay, it follows from the ways of its nodes.
+///
+/// Neighbours should be near each other in memory, as they are where nodes and elements are
+/// numbered along a curve that fills the model.
 template <int Dim>
 class ExplicitNodal {
   static_assert(Dim == 2, "faces are edges here: their normal is the edge, turned");

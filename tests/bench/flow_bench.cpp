@@ -73,9 +73,11 @@ unsigned long curve_position(const Vector<2>& place) {
 template <class PlaceOf>
 std::vector<int> along_curve(int count, const PlaceOf& place_of) {
   std::vector<std::pair<unsigned long, int>> keys;
+  keys.reserve(count);
   for (int i = 0; i < count; ++i) keys.emplace_back(curve_position(place_of(i)), i);
   std::ranges::sort(keys);
   std::vector<int> order;
+  order.reserve(keys.size());
   for (const auto& [key, i] : keys) order.push_back(i);
   return order;
 }
