@@ -34,8 +34,8 @@ struct Chart {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::vector<Curve> curves;  ///< later ones cover earlier ones
-  bool logarithmic = false;   ///< both axes; all values are positive then
+  std::vector<Curve> curves;    ///< later ones cover earlier ones
+  bool logarithmic = false;     ///< both axes; all values are positive then
   std::vector<double> x_too{};  ///< what an axis reaches beside the values of the curves
   std::vector<double> y_too{};
 };

@@ -36,7 +36,7 @@ esac
 if [ "$form" == short ]; then
   case $problem in
     # Where times are judged there are runs long enough to be timed.
-    fines-constant) sizes[$problem]="0.5 0.25 0.125" sizes[sp]="0.0625 0.03125" ;;
+    fines-constant) sizes[$problem]="0.25 0.125 0.0625" sizes[sp]="0.0625 0.03125" ;;
     dam) sizes[dam]="0.8 0.4" ;;
     *) sizes[$problem]="0.5 0.25" ;;
   esac
