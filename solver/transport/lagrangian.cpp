@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <limits>
+#include <tuple>
 
 #include "physics/liquid.hpp"
 
@@ -162,13 +163,14 @@ void LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim
       const double due = volumes_at_birth(f, number) - static_cast<double>(born_before);
       const double share = (due * volume - before) / inflow;
       if (share > 1.0) break;
-      born.push_back({place_on_face(f, number, motion), f, std::max(0.0, share)});
+      born.push_back({place_on_face(f, number, motion), f, number, std::max(0.0, share)});
       entering.volume[f] -= volume;
       ++entering.born[f];
     }
   }
-  std::stable_sort(born.begin(), born.end(),
-                   [](const Newborn<Dim>& a, const Newborn<Dim>& b) { return a.share < b.share; });
+  std::ranges::sort(born, {}, [](const Newborn<Dim>& newborn) {
+    return std::tuple(newborn.share, newborn.face, newborn.number);
+  });
 }
 
 template <int Dim>

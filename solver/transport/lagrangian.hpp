@@ -53,6 +53,7 @@ template <int Dim>
 struct Newborn {
   PointPlace<Dim> place;
   int face;
+  long number;   ///< among the points of its face
   double share;  ///< of the interval that had passed
 };
 
