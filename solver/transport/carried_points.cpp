@@ -18,8 +18,9 @@ double sum(const Lanes& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-Lanes smaller(const Lanes& a, const Lanes& b) {
-  return a < b ? a : b;
+/// Not returned: without registers that long, compilers would have it pass in different ways.
+void lower(Lanes& lowest, const Lanes& values) {
+  lowest = values < lowest ? values : lowest;
 }
 
 bool any_at_or_below_zero(const Lanes& lanes) {
@@ -163,7 +164,7 @@ void CarriedPoints<Dim>::pass_over(int element, const ElementStep& step,
     }
     quad.pressure += step.pressure_gain;
     Lanes lowest = coordinates<Dim>(quad.at)[Dim];
-    for (const Lanes& coordinate : quad.at) lowest = smaller(lowest, coordinate);
+    for (const Lanes& coordinate : quad.at) lower(lowest, coordinate);
     if (any_at_or_below_zero(lowest)) {
       for (int lane = 0; lane < lane_count; ++lane) {
         if (lowest[lane] <= 0.0) departures.leaving.push_back({slot + lane, before});
