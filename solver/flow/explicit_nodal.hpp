@@ -39,8 +39,8 @@ struct ExplicitSettings {
 /// those at the edge have loops of their own. The volume of liquid that crossed a face is not added
 /// up: as long as coefficients stay, it follows from the ways of its nodes.
 ///
-/// Neighbours should be near each other in memory, as they are where nodes and elements are
-/// numbered along a curve that fills the model.
+/// What comes next should be near in memory, as it is where nodes and elements are numbered in rows
+/// across the model; in the order that Gmsh numbers large meshes a step takes three times as long.
 template <int Dim>
 class ExplicitNodal {
   static_assert(Dim == 2, "faces are edges here: their normal is the edge, turned");
