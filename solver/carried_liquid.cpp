@@ -48,7 +48,7 @@ template <int Dim>
 void CarriedLiquid<Dim>::find_motion(LiquidMotion<Dim>& motion) const {
   motion.duration = dt_;
   flow_.node_flux(motion.node_flux);
-  for (const int f : transport_.open_faces()) motion.entered[f] = dt_ * flow_.face_flux(f);
+  for (const int f : transport_.open_faces()) motion.entered[f] = dt_ * flow_.flux_through(f);
 }
 
 template <int Dim>

@@ -39,7 +39,7 @@ class NodalFlow final : public SceneFlow<Dim> {
   void set_carrier(FlowCarrier& carrier) { carrier_ = &carrier; }
   /// Fluxes of the last step: of each node, m/s, and through a face along its normal, m3/s.
   void node_flux(VectorField<Dim>& flux) const;
-  [[nodiscard]] double face_flux(int face) const {
+  [[nodiscard]] double flux_through(int face) const {
     return operator_.face_flux(face, scheme_.velocity());
   }
 

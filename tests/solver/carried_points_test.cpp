@@ -64,7 +64,7 @@ class PlainLiquid {
     LiquidMotion<2> motion;
     column.flow().node_flux(motion.node_flux);
     for (int f = 0; f < grid.face_count(); ++f) {
-      motion.entered.push_back(column.dt * column.flow().face_flux(f));
+      motion.entered.push_back(column.dt * column.flow().flux_through(f));
     }
     motion.duration = column.dt;
     for (const PointCrossing& c : column.transport().move(points, entering_, motion,
