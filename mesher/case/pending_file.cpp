@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "case/errors.hpp"
@@ -25,13 +26,20 @@ void synchronise(const std::string& path) {
   if (failed) throw FileError(path + ": could not be written whole: " + reason);
 }
 
+bool is_special(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
 }  // namespace
 
-PendingFile::PendingFile(std::string path) : path_(std::move(path)) {
+PendingFile::PendingFile(std::string path)
+    : path_(std::move(path)), is_special_(is_special(path_)) {
   const fs::path final_path(path_);
   const fs::path folder = folder_of(final_path);
   std::error_code ignored;
@@ -43,7 +51,7 @@ PendingFile::PendingFile(std::string path) : path_(std::move(path)) {
   }
   const std::string name = "." + final_path.stem().string() + "." + std::to_string(::getpid()) +
                            ".part" + final_path.extension().string();
-  temporary_path_ = (folder / name).string();
+  temporary_path_ = ((is_special_ ? fs::temp_directory_path() : folder) / name).string();
 }
 
 PendingFile::~PendingFile() {
@@ -52,7 +60,18 @@ PendingFile::~PendingFile() {
   fs::remove(temporary_path_, ignored);
 }
 
+void PendingFile::pass_on() const {
+  std::ifstream contents(temporary_path_, std::ios::binary);
+  std::ofstream target(path_, std::ios::binary | std::ios::app);
+  target << contents.rdbuf() << std::flush;
+  if (!contents || !target) throw FileError(path_ + ": could not be written whole");
+}
+
 void PendingFile::commit() {
+  if (is_special_) {
+    pass_on();
+    return;  // the destructor removes the file
+  }
   synchronise(temporary_path_);
   std::error_code error;
   fs::rename(temporary_path_, path_, error);

@@ -2,7 +2,7 @@
 
 /// A file under construction: written under a temporary name in the folder of its final one, which
 /// it takes only when complete. An interrupted program leaves no half-written file that looks
-/// whole.
+/// whole. What is no file, such as a terminal or a pipe, gets the contents when they are complete.
 
 #include <filesystem>
 #include <string>
@@ -26,8 +26,11 @@ class PendingFile {
   void commit();
 
  private:
+  void pass_on() const;
+
   std::string path_;
   std::string temporary_path_;
+  bool is_special_;  ///< a terminal, a pipe: never to be replaced by a file
   bool committed_ = false;
 };
 

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <sys/stat.h>
 
 #include <functional>
 #include <limits>
+#include <thread>
 
 #include "case/errors.hpp"
 #include "case/hdf5_io.hpp"
+#include "case/pending_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace suffuse {
@@ -144,6 +147,26 @@ TEST(CaseFile, AnOldFileSurvivesAFailedWrite) {
   EXPECT_NE(failure([&] { write_case(path, bad); }).find("do not fill the shape"),
             std::string::npos);
   EXPECT_EQ(read_file(path), before);
+  EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(PendingFile, APipeGetsTheContentsAndStaysAPipe) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("pipe");
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  std::string received;
+  std::thread reader([&] { received = read_file(path); });
+  std::string temporary;
+  {
+    PendingFile file(path);
+    temporary = file.temporary_path();
+    std::ofstream(temporary) << "t,c\n";
+    file.commit();
+  }
+  reader.join();
+  EXPECT_EQ(received, "t,c\n");
+  EXPECT_TRUE(std::filesystem::is_fifo(path));
+  EXPECT_FALSE(std::filesystem::exists(temporary));
   EXPECT_EQ(folder.count(), 1);
 }
 
