@@ -25,6 +25,31 @@ function header(first, last,    s, text, rule) {
   print text; print rule
 }
 
+# What a table says of run i, "" if nothing; two is the same run on two threads, 0: none.
+function cell(what, i, two) {
+  if (what == "all") return 1e9 * passes[i] / (steps[i] * points_of(i))
+  if (what == "flow") return 1e9 * flow[i] / (steps[i] * points_of(i))
+  if (what == "memory") return memory[i] / points_of(i)
+  return two ? (passes[i] / steps[i]) / (passes[two] / steps[two]) : ""
+}
+
+# A row per mode, a column per size; costs get their exponent.
+function table(form, what,    m, s, i, value, line, costs) {
+  costs = what == "all" || what == "flow"
+  header("mode", costs ? "exponent" : "")
+  for (m = 1; m <= mode_count; ++m) {
+    line = "| " mode_at[m] " |"
+    for (s = 1; s <= sizes; ++s) {
+      i = run_of(mode_at[m], size_at[s], 1)
+      value = i ? cell(what, i, run_of(mode_at[m], size_at[s], 2)) : ""
+      line = line (value == "" ? " |" : sprintf(" " form " |", value))
+    }
+    if (what == "all") line = line " " exponent(mode_at[m], passes) " |"
+    if (what == "flow") line = line " " exponent(mode_at[m], flow) " |"
+    print line
+  }
+}
+
 FNR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
 
 {
@@ -46,45 +71,13 @@ END {
   for (i = 1; i <= sizes; ++i) for (j = i + 1; j <= sizes; ++j) if (size_at[j] < size_at[i]) { t = size_at[i]; size_at[i] = size_at[j]; size_at[j] = t }
 
   print "Nanoseconds per point and step of the flow, everything in the step loop, one thread; meshes of so many elements:\n"
-  header("mode", "exponent")
-  for (m = 1; m <= mode_count; ++m) {
-    line = "| " mode_at[m] " |"
-    for (s = 1; s <= sizes; ++s) {
-      i = run_of(mode_at[m], size_at[s], 1)
-      line = line (i ? sprintf(" %.1f |", 1e9 * passes[i] / (steps[i] * points_of(i))) : " |")
-    }
-    print line " " exponent(mode_at[m], passes) " |"
-  }
+  table("%.1f", "all")
   print "\nOf it, the flow (implicit: with its linear systems):\n"
-  header("mode", "exponent")
-  for (m = 1; m <= mode_count; ++m) {
-    line = "| " mode_at[m] " |"
-    for (s = 1; s <= sizes; ++s) {
-      i = run_of(mode_at[m], size_at[s], 1)
-      line = line (i ? sprintf(" %.1f |", 1e9 * flow[i] / (steps[i] * points_of(i))) : " |")
-    }
-    print line " " exponent(mode_at[m], flow) " |"
-  }
+  table("%.1f", "flow")
   print "\nHow many times faster two threads are (step loop):\n"
-  header("mode", "")
-  for (m = 1; m <= mode_count; ++m) {
-    line = "| " mode_at[m] " |"
-    for (s = 1; s <= sizes; ++s) {
-      i = run_of(mode_at[m], size_at[s], 1); j = run_of(mode_at[m], size_at[s], 2)
-      line = line (i && j ? sprintf(" %.2f |", (passes[i] / steps[i]) / (passes[j] / steps[j])) : " |")
-    }
-    print line
-  }
+  table("%.2f", "threads")
   print "\nPeak memory of the solver, bytes per point:\n"
-  header("mode", "")
-  for (m = 1; m <= mode_count; ++m) {
-    line = "| " mode_at[m] " |"
-    for (s = 1; s <= sizes; ++s) {
-      i = run_of(mode_at[m], size_at[s], 1)
-      line = line (i ? sprintf(" %.0f |", memory[i] / points_of(i)) : " |")
-    }
-    print line
-  }
+  table("%.0f", "memory")
   print "\nThe pipeline by stage, one thread, s of wall time:\n"
   print "| mode | elements | points | steps | mesher | solver | of it steps | ledger | picture | case, MB |"
   print "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
