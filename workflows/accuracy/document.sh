@@ -6,9 +6,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 for chart in "$out"/*.png; do
   cp "$chart" "$docs/images/accuracy-$(basename "$chart")"
 done
-RESULTS=$(awk -F, -v form=markdown -f "$here/report.awk" "$out/accuracy.csv" "$out/left-out.csv") awk '
-  /<!-- end of results -->/ { inside = 0 }
-  !inside { print }
-  /<!-- results: / { print "\n" ENVIRON["RESULTS"] "\n"; inside = 1 }
-' "$docs/accuracy.md" > "$docs/accuracy.md.tmp"
-mv "$docs/accuracy.md.tmp" "$docs/accuracy.md"
+{
+  echo
+  awk -F, -v form=markdown -f "$here/report.awk" "$out/accuracy.csv" "$out/left-out.csv"
+} | "$here/../between_marks.sh" results "$docs/accuracy.md"
