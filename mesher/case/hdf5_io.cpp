@@ -479,6 +479,18 @@ std::vector<std::int64_t> Hdf5File::read_integers(const std::string& dataset) co
   return read_array<std::int64_t>(*this, file_, dataset, H5T_INTEGER, "integers", H5T_NATIVE_INT64);
 }
 
+std::vector<std::uint8_t> Hdf5File::read_bytes(const std::string& dataset) const {
+  const Handle set = open_dataset(*this, file_, dataset);
+  const Handle type(H5Dget_type(set.id()), H5Tclose);
+  if (H5Tequal(type.id(), H5T_STD_U8LE) <= 0) fail(path_, dataset, "expected bytes");
+  std::vector<std::uint8_t> values(checked_count(path_, dataset, set, type));
+  if (!values.empty() &&
+      H5Dread(set.id(), H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    fail_reading(path_, dataset);
+  }
+  return values;
+}
+
 std::string Hdf5File::read_text(const std::string& dataset) const {
   std::vector<std::string> texts = read_text_list(*this, file_, dataset);
   if (texts.size() != 1) {

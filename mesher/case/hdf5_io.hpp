@@ -56,6 +56,7 @@ class Hdf5File {
   [[nodiscard]] std::vector<std::size_t> shape(const std::string& dataset) const;
   [[nodiscard]] std::vector<double> read_doubles(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::int64_t> read_integers(const std::string& dataset) const;
+  [[nodiscard]] std::vector<std::uint8_t> read_bytes(const std::string& dataset) const;
   [[nodiscard]] std::string read_text(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::string> read_texts(const std::string& dataset) const;
   [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
