@@ -48,6 +48,7 @@ struct StoredSums {
 
 /// Running sums behind one `Crossed`.
 struct CrossedSums {
+  static constexpr bool has_no_gaps = true;  ///< see StateArchive
   CompensatedSum water_in, fines_in, water_out, fines_out;
   double points_in = 0.0;
   double points_out = 0.0;

@@ -37,6 +37,9 @@ class CarriedLiquid final : public FlowCarrier {
   void give(double time, double dt) override;
   void take() override;
 
+  /// Between intervals of the flow.
+  void archive(auto& archive) { archive(blocks(), exchange_, movement_); }
+
   /// Exchange with nodes and elements, and movement.
   [[nodiscard]] const PassTiming& exchange() const { return exchange_; }
   [[nodiscard]] const PassTiming& movement() const { return movement_; }

@@ -91,6 +91,14 @@ void DoublePoint<Dim>::initialise() {
 }
 
 template <int Dim>
+void DoublePoint<Dim>::archive(StateArchive& archive) {
+  // Points that carry the flow are elsewhere; here they are a copy, if somebody asked.
+  if (carried_ != nullptr) state_.liquid = {};
+  archive(state_, *flow_, last_dt_, last_motion_, end_rate_, last_steps_, steps_, timings_);
+  if (carried_ != nullptr) archive(*carried_);
+}
+
+template <int Dim>
 void DoublePoint<Dim>::place_liquid() {
   const MaterialPoints<Dim>& points = case_.liquid_points;
   LiquidPoints<Dim>& liquid = state_.liquid;

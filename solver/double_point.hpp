@@ -28,6 +28,10 @@ struct DoublePointState {
   std::vector<double> pending;       ///< grains that wait at nodes for liquid, m3
   std::vector<CrossedSums> crossed;  ///< per account: model, then regions
   double empty_total = 0.0;          ///< empty elements, added up over the times points moved
+
+  void archive(auto& archive) {
+    archive(time, porosity, liquid, entering, pending, crossed, empty_total);
+  }
 };
 
 /// Two ways to integrate the flow (scene key `flow.integration`).
@@ -43,6 +47,7 @@ template <int Dim>
 class DoublePoint {
  public:
   using State = DoublePointState<Dim>;
+  using Moment = FlowMoment<Dim>;
 
   DoublePoint(const Case<Dim>& c, const Plan& plan);
 
@@ -78,6 +83,10 @@ class DoublePoint {
     return carried_ ? carried_->blocks().size() : state_.liquid.size();
   }
 
+  /// Everything that intervals to come depend on: what is restored goes on as if it had not been
+  /// interrupted, to the last bit.
+  void archive(StateArchive& archive);
+
   [[nodiscard]] std::vector<PassTiming> passes() const;
   /// Things to say once, newly found.
   [[nodiscard]] std::vector<std::string> take_warnings();
@@ -87,6 +96,8 @@ class DoublePoint {
     PassTiming erosion{"erosion and transfer of grains", 0, 0.0};
     PassTiming movement{"movement of liquid points", 0, 0.0};
     PassTiming coefficients{"coefficients of the flow", 0, 0.0};
+
+    void archive(auto& archive) { archive(erosion, movement, coefficients); }
   };
   using HasLiquid = std::function<bool(int element)>;
   /// Volume of grains and of all liquid at p = 0, per element, m3.

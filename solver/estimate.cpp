@@ -274,29 +274,36 @@ class Trial {
  private:
   using State = typename Model<Dim>::State;
 
-  static Output look_at(const Model<Dim>& model) {
+  static Output look_at(Model<Dim>& model) {
     const FlowMoment<Dim> moment = model.moment();
-    return {model.history_row(model.state(), moment), model.ledger(model.state()),
-            model.region_rows(model.state()), model.snapshot(model.state(), moment, model.steps())};
+    Output output{model.history_row(model.state(), moment), model.ledger(model.state()),
+                  model.region_rows(model.state()),
+                  model.snapshot(model.state(), moment, model.steps())};
+    StateArchive archive;
+    archive(model);
+    output.snapshot.restart = RestartPoint{};
+    output.snapshot.restart->state = archive.finish();
+    return output;
   }
 
   void go(Model<Dim>& model, StepLoop<Model<Dim>>& loop) {
     double looking = 0.0;
-    const auto look = [&](const State& state, const FlowMoment<Dim>& moment,
-                          OutputSchedule::Due due) {
-      if (due.row) {
-        const Stopwatch watch;
-        (void)model.history_row(state, moment);
-        (void)model.ledger(state);
-        (void)model.region_rows(state);
-        looking += watch.seconds();
-        row_seconds_ += watch.seconds();
-      }
-      if (due.snapshot) {
-        const Stopwatch watch;
-        (void)model.snapshot(state, moment, model.steps());
-        looking += watch.seconds();
-        snapshot_seconds_ += watch.seconds();
+    const auto look = [&](const auto& looks) {
+      for (const auto& [state, moment, due] : looks) {
+        if (due.row) {
+          const Stopwatch watch;
+          (void)model.history_row(state, moment);
+          (void)model.ledger(state);
+          (void)model.region_rows(state);
+          looking += watch.seconds();
+          row_seconds_ += watch.seconds();
+        }
+        if (due.snapshot) {
+          const Stopwatch watch;
+          (void)model.snapshot(state, moment, model.steps());
+          looking += watch.seconds();
+          snapshot_seconds_ += watch.seconds();
+        }
       }
     };
     const Stopwatch all;

@@ -18,7 +18,7 @@ struct Arguments {
   std::string folder;
   suffuse::SolverOptions solver;
   bool explain = false;
-  bool quiet = false;
+  suffuse::RunOptions run;
 };
 
 std::string default_folder(const std::string& case_path) {
@@ -56,8 +56,9 @@ int solve(const Arguments& arguments) {
   if (arguments.explain) return explain(c, plan, arguments.solver.threads);
   const std::string folder =
       arguments.folder.empty() ? default_folder(arguments.case_path) : arguments.folder;
-  const int code = run_case(std::move(c), plan, arguments.solver, folder, arguments.quiet);
-  if (!arguments.quiet && code == 0) std::fprintf(stderr, "results in %s\n", folder.c_str());
+  const int code =
+      run_case(std::move(c), plan, arguments.solver, folder, arguments.run, arguments.case_path);
+  if (!arguments.run.quiet && code == 0) std::fprintf(stderr, "results in %s\n", folder.c_str());
   return code;
 }
 
@@ -75,7 +76,14 @@ int run(int argc, char** argv) {
   app.add_flag("--explain", arguments.explain,
                "Print what would run, what is skipped and what it would take, and stop");
   app.add_flag("--no-skip", arguments.solver.no_skip, "Run every pass, needed or not");
-  app.add_flag("--quiet", arguments.quiet, "No progress, warnings only");
+  app.add_flag("--resume", arguments.run.resume,
+               "Go on with the run in the results folder; same results as if it had not stopped");
+  app.add_option("--checkpoint-every", arguments.run.checkpoint_every,
+                 "Seconds without a snapshot after which the run keeps a checkpoint (0: never)")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str()
+      ->type_name("SECONDS");
+  app.add_flag("--quiet", arguments.run.quiet, "No progress, warnings only");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

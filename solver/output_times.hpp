@@ -18,6 +18,7 @@ class OutputTimes {
   [[nodiscard]] bool finished() const { return finished_; }
   /// How many times are past.
   [[nodiscard]] long past() const { return index_; }
+  void archive(auto& archive) { archive(index_, finished_); }
   void advance() {
     finished_ = next() >= end_;
     ++index_;
@@ -54,6 +55,8 @@ class OutputSchedule {
   [[nodiscard]] bool finished() const { return rows_.finished() && snapshots_.finished(); }
   [[nodiscard]] const OutputTimes& rows() const { return rows_; }
   [[nodiscard]] const OutputTimes& snapshots() const { return snapshots_; }
+
+  void archive(auto& archive) { archive(rows_, snapshots_); }
 
   /// Not to be asked when finished.
   [[nodiscard]] double next() const {

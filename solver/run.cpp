@@ -1,9 +1,14 @@
 #include "run.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "case/errors.hpp"
@@ -17,72 +22,177 @@
 namespace suffuse {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// In words for a shell.
+std::string quoted(const std::string& word) {
+  const bool plain = std::ranges::all_of(word, [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("_-./+=:@%,").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain && !word.empty()) return word;
+  std::string result = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      result += "'\\''";
+    } else {
+      result += c;
+    }
+  }
+  return result + "'";
+}
+
+/// Where a run begins or goes on.
+struct Beginning {
+  std::string folder;
+  std::optional<RestartPoint> from;
+  FolderLock lock;  ///< held where it goes on
+};
+
 /// One run of a formulation, SinglePoint or DoublePoint.
 template <template <int> class Model, int Dim>
 class FormulationRun {
  public:
-  FormulationRun(Case<Dim> c, const Plan& plan, const SolverOptions& options,
-                 const std::string& folder, bool quiet)
+  FormulationRun(Case<Dim> c, const Plan& plan, const SolverOptions& options, Beginning beginning,
+                 const RunOptions& run, std::string how_to_go_on)
       : case_(std::move(c)),
         plan_(plan),
         options_(options),
-        start_(std::chrono::steady_clock::now()),
-        writer_(folder, case_),
+        run_(run),
+        how_to_go_on_(std::move(how_to_go_on)),
+        case_digest_(digest_of(case_)),
+        writer_(beginning.from ? ResultsWriter<Dim>(beginning.folder, case_,
+                                                    std::move(beginning.lock), *beginning.from)
+                               : ResultsWriter<Dim>(beginning.folder, case_)),
         model_(case_, plan),
-        progress_(case_.document.scene.time.end, quiet),
+        progress_(case_.document.scene.time.end, run.quiet),
         loop_(case_.document.scene, model_) {
     // The model has points of its own by now.
     case_.liquid_points = {};
+    for (const std::string& warning : plan_.warnings) warn(warning);
+    if (beginning.from) {
+      restore(std::move(beginning.from->state));
+      resumed_at_ = beginning.from->time;
+    }
   }
 
   ExitCode run() {
-    for (const std::string& warning : plan_.warnings) warn(warning);
     try {
       loop();
     } catch (const NumericalError& error) {
       progress_.finish();
       write_info("failed", error.what());
       throw;
+    } catch (const FileError& error) {
+      progress_.finish();
+      fail_to_write(error.what());
     }
     progress_.finish();
-    if (interrupted()) {
-      write_info("interrupted", "");
-      std::ostringstream line;
-      line << "interrupted at t = " << model_.time() << " s; what is written is complete";
-      progress_.say(line.str());
-      return ExitCode::interrupted;
-    }
+    if (!loop_.finished()) return stop();
     write_info("done", "");
+    writer_.remove_checkpoint();
     return ExitCode::done;
   }
 
  private:
   using State = typename Model<Dim>::State;
+  using Look = typename StepLoop<Model<Dim>>::Look;
 
   void loop() {
     write_info("running", "");
-    const auto write = [this](const State& state, const FlowMoment<Dim>& moment,
-                              OutputSchedule::Due due) { output(state, moment, due); };
-    loop_.start(write);
+    const auto write = [this](const std::vector<Look>& looks) { output(looks); };
+    if (!resumed_at_) loop_.start(write);
     while (!loop_.finished() && !interrupted()) {
       loop_.advance(write);
       for (const std::string& warning : model_.take_warnings()) warn(warning);
       progress_.report(model_.time(), model_.last_step());
+      if (run_.checkpoint_every > 0.0 && seconds_since(last_kept_) >= run_.checkpoint_every) {
+        keep_checkpoint();
+      }
     }
   }
 
-  void output(const State& state, const FlowMoment<Dim>& moment, OutputSchedule::Due due) {
-    if (due.row) {
-      const HistoryRow row = model_.history_row(state, moment);
-      check_finite(row);
-      check_compression(row);
-      warn_of_speed(row.speed_max);
-      writer_.append_history(row);
-      writer_.append_ledger(model_.ledger(state));
-      const std::vector<RegionRow> regions = model_.region_rows(state);
-      writer_.append_regions(regions);
+  ExitCode stop() {
+    keep_checkpoint();
+    write_info("interrupted", "");
+    std::ostringstream line;
+    line << "interrupted at t = " << model_.time()
+         << " s; what is written is complete. To go on:\n  " << how_to_go_on_;
+    progress_.say(line.str());
+    return ExitCode::interrupted;
+  }
+
+  [[noreturn]] void fail_to_write(const std::string& message) {
+    try {
+      write_info("failed", message);
+    } catch (const FileError&) {
+      // The disk that has no room for results may have none for this either.
     }
-    if (due.snapshot) writer_.write_snapshot(model_.snapshot(state, moment, model_.steps()));
+    throw FileError(message +
+                    "\nWhat was written before is complete. When this is mended, go on with:\n  " +
+                    how_to_go_on_);
+  }
+
+  /// Rows come first: the snapshot with the state of the run then finds all those before it.
+  void output(const std::vector<Look>& looks) {
+    std::size_t last = looks.size();
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      if (looks[i].due.row) write_row(looks[i]);
+      if (looks[i].due.snapshot) last = i;
+    }
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      const auto& [state, moment, due] = looks[i];
+      if (!due.snapshot) continue;
+      Snapshot snapshot = model_.snapshot(state, moment, model_.steps());
+      // The state is that of the end of the step, which the last one of several has reached.
+      if (i == last) snapshot.restart = restart_point();
+      writer_.write_snapshot(std::move(snapshot));
+      last_kept_ = Clock::now();
+    }
+  }
+
+  void write_row(const Look& look) {
+    const auto& [state, moment, due] = look;
+    const HistoryRow row = model_.history_row(state, moment);
+    check_finite(row);
+    check_compression(row);
+    warn_of_speed(row.speed_max);
+    writer_.append_history(row);
+    writer_.append_ledger(model_.ledger(state));
+    const std::vector<RegionRow> regions = model_.region_rows(state);
+    writer_.append_regions(regions);
+  }
+
+  void keep_checkpoint() {
+    writer_.write_checkpoint(restart_point());
+    last_kept_ = Clock::now();
+  }
+
+  RestartPoint restart_point() {
+    RestartPoint point;
+    point.time = model_.time();
+    point.rows = loop_.schedule().rows().past();
+    point.snapshots = loop_.schedule().snapshots().past();
+    point.no_skip = options_.no_skip;
+    point.case_digest = case_digest_;
+    StateArchive state;
+    archive(state);
+    point.state = state.finish();
+    return point;
+  }
+
+  void restore(std::vector<std::uint8_t> bytes) {
+    StateArchive state(std::move(bytes));
+    archive(state);
+    state.finish();
+  }
+
+  void archive(StateArchive& state) {
+    state(model_, loop_, speed_warned_, compression_warned_, warnings_);
   }
 
   static void check_finite(const HistoryRow& row) {
@@ -139,8 +249,8 @@ class FormulationRun {
     info.liquid_points = model_.liquid_points();
     info.elements = case_.mesh.element_count();
     info.threads = options_.threads;
-    info.wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    info.wall_seconds = seconds_since(start_);
+    info.resumed_at = resumed_at_;
     info.memory_bytes = peak_memory();
     info.passes = model_.passes();
     info.plan = plan_.sentences;
@@ -151,30 +261,87 @@ class FormulationRun {
   Case<Dim> case_;
   const Plan& plan_;
   const SolverOptions& options_;
-  std::chrono::steady_clock::time_point start_;
+  const RunOptions& run_;
+  std::string how_to_go_on_;
+  std::string case_digest_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_kept_ = start_;  ///< when a snapshot or a checkpoint was written
   ResultsWriter<Dim> writer_;
   Model<Dim> model_;
   Progress progress_;
   StepLoop<Model<Dim>> loop_;
+  std::optional<double> resumed_at_;  ///< s
   bool speed_warned_ = false;
   bool compression_warned_ = false;
   std::vector<std::string> warnings_;
 };
 
+/// Where the run in `folder` stands. Nothing where it is done.
+template <int Dim>
+std::optional<Beginning> find_beginning(const Case<Dim>& c, const std::string& folder,
+                                        const SolverOptions& options) {
+  Beginning beginning{folder, std::nullopt, {}};
+  check_results_folder(folder, c.document.scene.name);
+  if (!std::filesystem::exists(folder)) return beginning;
+  FolderLock lock(folder);
+  const bool has_liquid = c.document.scene.formulation == Formulation::double_point;
+  FoundRestart found = newest_restart_point(folder, has_liquid, c.mesh.region_names.size());
+  for (const std::string& damage : found.damage) {
+    std::fprintf(stderr, "suffuse-solver: warning: passed over: %s\n", damage.c_str());
+  }
+  if (!found.point) return beginning;
+  const auto refuse = [&](const std::string& what, const std::string& how) {
+    throw InputError(folder + ": cannot be resumed: it holds the results of " + what + "; " + how +
+                     ", choose another folder with -o, or run anew without --resume");
+  };
+  if (found.point->case_digest != digest_of(c)) {
+    refuse("another case (scene, mesh or points have changed since)",
+           "take the case it began with");
+  }
+  if (found.point->no_skip != options.no_skip) {
+    refuse(found.point->no_skip ? "a run with --no-skip" : "a run without --no-skip",
+           "take the same option");
+  }
+  const bool all_there =
+      found.point->snapshots == OutputSchedule(c.document.scene).snapshots().count();
+  if (all_there && is_finished(folder)) return std::nullopt;
+  beginning.from = std::move(found.point);
+  beginning.lock = std::move(lock);
+  return beginning;
+}
+
 }  // namespace
 
 template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
-             bool quiet) {
+             const RunOptions& run, const std::string& case_path) {
   catch_interrupts();
+  std::optional<Beginning> beginning = Beginning{folder, std::nullopt, {}};
+  if (run.resume) beginning = find_beginning(c, folder, options);
+  if (!beginning) {
+    if (!run.quiet) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());
+    return static_cast<int>(ExitCode::done);
+  }
+  if (run.resume && !run.quiet) {
+    if (beginning->from) {
+      std::fprintf(stderr, "going on from t = %g s\n", beginning->from->time);
+    } else {
+      std::fprintf(stderr, "%s has no snapshot to go on from: begins anew\n", folder.c_str());
+    }
+  }
+  const std::string how_to_go_on = "suffuse-solver " + quoted(case_path) + " -o " + quoted(folder) +
+                                   (options.no_skip ? " --no-skip" : "") + " --resume";
+  const auto run_model = [&]<template <int> class Model>() {
+    return FormulationRun<Model, Dim>(std::move(c), plan, options, std::move(*beginning), run,
+                                      how_to_go_on)
+        .run();
+  };
   const bool single_point = c.document.scene.formulation == Formulation::single_point;
-  const ExitCode code =
-      single_point
-          ? FormulationRun<SinglePoint, Dim>(std::move(c), plan, options, folder, quiet).run()
-          : FormulationRun<DoublePoint, Dim>(std::move(c), plan, options, folder, quiet).run();
-  return static_cast<int>(code);
+  return static_cast<int>(single_point ? run_model.template operator()<SinglePoint>()
+                                       : run_model.template operator()<DoublePoint>());
 }
 
-template int run_case(Case<2>, const Plan&, const SolverOptions&, const std::string&, bool);
+template int run_case(Case<2>, const Plan&, const SolverOptions&, const std::string&,
+                      const RunOptions&, const std::string&);
 
 }  // namespace suffuse

@@ -58,6 +58,12 @@ void SinglePoint<Dim>::initialise() {
 }
 
 template <int Dim>
+void SinglePoint<Dim>::archive(StateArchive& archive) {
+  archive(state_, *flow_, last_dt_, last_volume_rate_, end_rate_, last_duration_);
+  archive(last_steps_, steps_, timings_);
+}
+
+template <int Dim>
 PoreContent SinglePoint<Dim>::pores(const SinglePointState<Dim>& state) const {
   PoreContent content;
   const int elements = grid_.mesh.element_count();

@@ -26,12 +26,15 @@ struct SinglePointState {
   FinesState<Dim> liquid;            ///< pores and grains in them, per element and field node, m3
   std::vector<double> water_mass;    ///< per element, kg
   std::vector<CrossedSums> crossed;  ///< per account: model, then regions
+
+  void archive(auto& archive) { archive(time, porosity, liquid, water_mass, crossed); }
 };
 
 template <int Dim>
 class SinglePoint {
  public:
   using State = SinglePointState<Dim>;
+  using Moment = FlowMoment<Dim>;
 
   SinglePoint(const Case<Dim>& c, const Plan& plan);
 
@@ -65,6 +68,10 @@ class SinglePoint {
 
   [[nodiscard]] long liquid_points() const { return 0; }
 
+  /// Everything that intervals to come depend on: what is restored goes on as if it had not been
+  /// interrupted, to the last bit.
+  void archive(StateArchive& archive);
+
   [[nodiscard]] std::vector<PassTiming> passes() const;
   /// Things to say once, newly found.
   [[nodiscard]] std::vector<std::string> take_warnings();
@@ -86,6 +93,8 @@ class SinglePoint {
     PassTiming erosion{"erosion", 0, 0.0};
     PassTiming transport{"transport", 0, 0.0};
     PassTiming water{"water masses and coefficients", 0, 0.0};
+
+    void archive(auto& archive) { archive(erosion, transport, water); }
   };
   /// Erosion and transport over `duration` while `volumes` cross the faces.
   void follow(SinglePointState<Dim>& state, const FaceVolumes& volumes, double duration,

@@ -239,6 +239,12 @@ const VectorField<Dim>& ExplicitNodal<Dim>::velocity() const {
 }
 
 template <int Dim>
+void ExplicitNodal<Dim>::archive(StateArchive& archive) {
+  remember_velocity();
+  archive(pressure_, flux_, velocity_, last_dt_, velocity_spacing_);
+}
+
+template <int Dim>
 const VectorField<Dim>& ExplicitNodal<Dim>::previous_velocity() const {
   if (previous_velocity_.empty()) {
     throw std::logic_error("the velocity before the last step was not remembered");

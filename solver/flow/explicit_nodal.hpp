@@ -7,6 +7,7 @@
 
 #include "flow/lanes.hpp"
 #include "flow/nodal_operator.hpp"
+#include "state_archive.hpp"
 
 namespace suffuse {
 
@@ -80,6 +81,9 @@ class ExplicitNodal {
   [[nodiscard]] const VectorField<Dim>& previous_velocity() const;
   /// Velocity `ahead` seconds after the middle of the last step, on the line through the last two.
   [[nodiscard]] VectorField<Dim> velocity_at(double ahead) const;
+
+  /// Between steps, with the coefficients of the moment: pressures and velocities, not volumes.
+  void archive(StateArchive& archive);
 
   /// Volumes since the last `reset_volumes`. Without `density_excess` where the pressure moves with
   /// the liquid.

@@ -25,6 +25,8 @@ struct FaceCondition {
   bool concentration_given = false;  ///< else clean water enters, and the run says so
   int boundary = -1;                 ///< index of the scene's boundary entry
 
+  /// Its kind and place are the scene's.
+  void archive(auto& archive) { archive(value, concentration); }
   /// The flux through the face is prescribed, zero included.
   [[nodiscard]] bool fixes_flux() const {
     return kind == FaceKind::wall || kind == FaceKind::velocity || kind == FaceKind::flux;

@@ -21,6 +21,10 @@ struct FlowCoefficients {
   /// Of fast flow: b in the pressure gradient b |q| q, kg/m4 (Ergun). Empty where no soil has it.
   std::vector<double> quadratic_drag;
   std::vector<double> face_concentration;  ///< per face: c of the liquid that crosses it
+
+  void archive(auto& archive) {
+    archive(porosity, water_volume, mixture_density, drag, quadratic_drag, face_concentration);
+  }
 };
 
 /// What went through the faces of the grid over an interval of time, along each face's normal.

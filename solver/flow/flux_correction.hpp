@@ -31,6 +31,9 @@ class FluxCorrection {
   /// missing stays in the piece's first element. Call `follow` before.
   void correct(std::vector<double>& face_flux, const std::vector<double>& net_outflow) const;
 
+  /// The tree has a history.
+  void archive(auto& archive) { archive(followed_, from_root_, drain_); }
+
   /// Number of connected pieces of the mesh without a pressure face.
   [[nodiscard]] int sealed_piece_count() const { return static_cast<int>(sealed_root_.size()); }
   /// Per element: which of them it is in; -1 where a pressure face can be reached.

@@ -86,6 +86,21 @@ void HeldFactor::factorise(const Matrix& matrix) {
   factored_values_.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
 }
 
+void HeldFactor::archive(StateArchive& archive, const Matrix& pattern) {
+  std::vector<double> factored = factored_values_;
+  archive(factored, iterated_values_);
+  if (archive.restores()) {
+    factored_values_.clear();
+    if (!factored.empty()) {
+      Matrix matrix = pattern;
+      if (factored.size() != static_cast<std::size_t>(matrix.nonZeros())) StateArchive::misfit();
+      std::copy(factored.begin(), factored.end(), matrix.valuePtr());
+      factorise(matrix);
+    }
+  }
+  archive(last_iterations_, spent_, counts_);
+}
+
 bool HeldFactor::is_factored(const Matrix& matrix) const {
   return !factored_values_.empty() &&
          std::equal(factored_values_.begin(), factored_values_.end(), matrix.valuePtr());

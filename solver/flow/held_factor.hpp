@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "flow/packed_factor.hpp"
+#include "state_archive.hpp"
 
 namespace suffuse {
 
 /// What the linear systems of a run took.
 struct SolveCounts {
+  static constexpr bool has_no_gaps = true;  ///< see StateArchive
   long factorisations = 0;
   long solves = 0;
   long iterations = 0;  ///< of conjugate gradients
@@ -43,6 +45,10 @@ class HeldFactor {
                         const Eigen::VectorXd& guess, const Eigen::VectorXd& tolerance);
 
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
+
+  /// Which matrix is held decides how the next ones are solved. Its factor is made again, of the
+  /// same values and thus with the same bits; `pattern` is that of the constructor.
+  void archive(StateArchive& archive, const Eigen::SparseMatrix<double>& pattern);
 
  private:
   void factorise(const Eigen::SparseMatrix<double>& matrix);

@@ -78,6 +78,15 @@ SolveCounts ImplicitMixed<Dim>::counts() const {
 }
 
 template <int Dim>
+void ImplicitMixed<Dim>::archive(StateArchive& archive,
+                                 const std::vector<FaceCondition>& conditions) {
+  set_up(conditions);
+  factor_->archive(archive, matrix_);
+  correction_->archive(archive);
+  archive(earlier_counts_, rise_rate_, flux_scale_, last_steady_, last_steady_flux_);
+}
+
+template <int Dim>
 void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
   const auto same_kind = [](FaceKind kind, const FaceCondition& c) { return kind == c.kind; };
   if (std::equal(kinds_.begin(), kinds_.end(), conditions.begin(), conditions.end(), same_kind)) {

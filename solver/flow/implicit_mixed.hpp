@@ -33,6 +33,8 @@ template <int Dim>
 struct MixedState {
   std::vector<double> face_pressure;  ///< at face centres, Pa
   std::vector<Vector<Dim>> velocity;  ///< mean of each element, intrinsic, m/s
+
+  void archive(auto& archive) { archive(face_pressure, velocity); }
 };
 
 /// What drives the flow at one moment.
@@ -81,6 +83,9 @@ class ImplicitMixed {
 
   /// Of all calls so far.
   [[nodiscard]] SolveCounts counts() const;
+
+  /// What makes the next step start where this one would. `conditions` tell the kinds of faces.
+  void archive(StateArchive& archive, const std::vector<FaceCondition>& conditions);
 
  private:
   /// An implicit stage: from `base` over `duration` seconds (infinite: steady).

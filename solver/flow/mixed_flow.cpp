@@ -96,6 +96,18 @@ void MixedFlow<Dim>::update(double time, const PoreContent& content,
 }
 
 template <int Dim>
+void MixedFlow<Dim>::archive(StateArchive& archive) {
+  SceneFlow<Dim>::archive(archive);
+  scheme_.archive(archive, this->conditions_);
+  archive(used_, expected_, density_drift_, joining_);
+  archive(now_, pressure_, last_dt_, mending_, next_dt_, before_, at_rest_);
+  archive(flux_scale_, knows_flux_scale_, pressure_scale_, lowest_bound_, highest_bound_,
+          has_bounds_);
+  archive(keep_, kept_coefficients_, mismatch_, outflow_rate_, source_, eos_error_);
+  archive(solving_, keeping_, rejected_);
+}
+
+template <int Dim>
 void MixedFlow<Dim>::start() {
   const Grid<Dim>& grid = this->grid();
   const bool stiff = std::isinf(this->scene().liquid.bulk_modulus);

@@ -27,6 +27,8 @@ class MixedFlow final : public SceneFlow<Dim> {
   /// Where an element's water does not fit its pores at its pressure, the next step lets it out.
   void follow_masses(double time, const std::vector<double>& water_mass) override;
 
+  void archive(StateArchive& archive) override;
+
   [[nodiscard]] FlowMoment<Dim> moment(double time) const override;
   [[nodiscard]] std::vector<double> face_flux(double /*time*/) const override {
     return now_.face_flux;
@@ -39,6 +41,8 @@ class MixedFlow final : public SceneFlow<Dim> {
     MixedState<Dim> state;
     std::vector<double> face_flux;     ///< m3/s
     std::vector<double> flux_through;  ///< see MixedStep: errors and scales are of this
+
+    void archive(auto& archive) { archive(state, face_flux, flux_through); }
   };
 
   void find_forcing(const FlowInterval<Dim>& interval, double time,

@@ -55,6 +55,18 @@ void NodalFlow<Dim>::update(double time, const PoreContent& content,
 }
 
 template <int Dim>
+void NodalFlow<Dim>::archive(StateArchive& archive) {
+  SceneFlow<Dim>::archive(archive);
+  operator_.archive(archive);
+  if (archive.restores()) {
+    operator_.update(this->coefficients_);
+    scheme_.update(this->coefficients_);
+  }
+  scheme_.archive(archive);
+  archive(step_, timing_, assembled_limit_, element_limit_);
+}
+
+template <int Dim>
 void NodalFlow<Dim>::start() {
   if (this->scene().initial_flow == InitialFlow::rest) {
     if (this->grid().mesh.element_count() <= most_elements_checked) {

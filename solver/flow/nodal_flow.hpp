@@ -53,6 +53,8 @@ class NodalFlow final : public SceneFlow<Dim> {
   [[nodiscard]] const std::vector<double>& pressure() const override { return scheme_.pressure(); }
   void follow_masses(double time, const std::vector<double>& water_mass) override;
 
+  void archive(StateArchive& archive) override;
+
   [[nodiscard]] FlowMoment<Dim> moment(double time) const override;
   [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
 

@@ -65,6 +65,12 @@ void NodalOperator<Dim>::set_boundary_values(const BoundaryValues<Dim>& values,
 }
 
 template <int Dim>
+void NodalOperator<Dim>::archive(StateArchive& archive) {
+  archive(conditions_, boundary_force_);
+  if (archive.restores()) set_held_values();
+}
+
+template <int Dim>
 void NodalOperator<Dim>::make_constraint_normals() {
   // Faces that meet at less than this angle are pieces of one smooth wall: the node slides along
   // their mean plane. At a sharper corner each plane holds it.

@@ -12,6 +12,7 @@
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "grid/grid.hpp"
+#include "state_archive.hpp"
 
 namespace suffuse {
 
@@ -39,6 +40,9 @@ class NodalOperator {
   /// a step apart. Between updates, and touching nothing but the boundary.
   void set_boundary_values(const BoundaryValues<Dim>& values, double pressure_time,
                            double flux_time);
+
+  /// Boundary values that change in time; to be followed by an update where they are restored.
+  void archive(StateArchive& archive);
 
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }

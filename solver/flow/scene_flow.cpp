@@ -41,6 +41,11 @@ SceneFlow<Dim>::SceneFlow(const Case<Dim>& c, const Grid<Dim>& grid,
 }
 
 template <int Dim>
+void SceneFlow<Dim>::archive(StateArchive& archive) {
+  archive(conditions_, coefficients_, inflow_warned_, warnings_);
+}
+
+template <int Dim>
 Vector<Dim> SceneFlow<Dim>::gravity() const {
   Vector<Dim> g;
   for (int d = 0; d < Dim; ++d) g[d] = scene_.gravity[d];

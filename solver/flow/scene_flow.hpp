@@ -13,6 +13,7 @@
 #include "flow/flow.hpp"
 #include "results/writer.hpp"
 #include "solid/rigid_skeleton.hpp"
+#include "state_archive.hpp"
 
 namespace suffuse {
 
@@ -144,6 +145,9 @@ class SceneFlow {
   }
   /// What this scheme did: passes with calls and seconds, for run.json.
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
+
+  /// Everything that steps to come depend on, once started.
+  virtual void archive(StateArchive& archive);
 
   /// Fluxes through the outer boundary, pressures and speeds.
   void describe(const FlowMoment<Dim>& moment, HistoryRow& row) const;

@@ -8,6 +8,8 @@ namespace suffuse {
 /// because of it.
 class CompensatedSum {
  public:
+  static constexpr bool has_no_gaps = true;  ///< see StateArchive
+
   void add(double term) {
     const double sum = sum_ + term;
     const bool sum_is_larger = std::abs(sum_) >= std::abs(term);

@@ -16,15 +16,27 @@ inline constexpr const char* history = "history.csv";
 inline constexpr const char* ledger = "ledger.csv";
 inline constexpr const char* regions = "regions.csv";
 inline constexpr const char* snapshots = "snapshots";
+/// Of a run that was stopped between snapshots.
+inline constexpr const char* checkpoint = "checkpoint.hdf";
+/// Held by the solver that writes into the folder.
+inline constexpr const char* lock = ".lock";
 
 /// "mesh.hdf.series" and so on; `kind` is "mesh", "solid" or "liquid".
 inline std::string series(const std::string& kind) {
   return kind + ".hdf.series";
 }
 
+/// "snapshots/mesh_000012.hdf"
+inline std::string snapshot(const std::string& kind, std::size_t index) {
+  std::string digits = std::to_string(index);
+  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
+  return std::string(snapshots) + "/" + kind + "_" + digits + ".hdf";
+}
+
 /// Groups of a snapshot file beside /VTKHDF.
 inline constexpr const char* own_group = "/Suffuse";
 inline constexpr const char* element_vertex_group = "/Suffuse/element_vertex";
 inline constexpr const char* restart_group = "/Suffuse/restart";
+inline constexpr const char* restart_state = "/Suffuse/restart/state";
 
 }  // namespace suffuse::layout

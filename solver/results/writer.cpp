@@ -1,6 +1,9 @@
 #include "results/writer.hpp"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -25,16 +28,16 @@ std::string in_folder(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
-void append(std::ofstream& out, const std::string& path, const std::string& text) {
-  out << text << std::flush;
-  if (!out) throw FileError(path + ": cannot be written");
+[[noreturn]] void fail_writing(const std::string& path, int reason) {
+  throw FileError(path + ": cannot be written" +
+                  (reason != 0 ? std::string(": ") + std::strerror(reason) : ""));
 }
 
-/// A file begun anew with `text`, open for more.
-std::ofstream begin_file(const std::string& path, const std::string& text) {
+void write_file(const std::string& path, const std::string& text) {
+  errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  append(out, path, text);
-  return out;
+  out << text << std::flush;
+  if (!out) fail_writing(path, errno);
 }
 
 void rename_over(const std::string& from, const std::string& to) {
@@ -45,24 +48,31 @@ void rename_over(const std::string& from, const std::string& to) {
 
 /// The file is either as it was or whole and new, whatever happens in between.
 void replace_file(const std::string& path, const std::string& text) {
-  begin_file(path + ".tmp", text);
-  rename_over(path + ".tmp", path);
+  const std::string temporary = path + ".tmp";
+  try {
+    write_file(temporary, text);
+    rename_over(temporary, path);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
+  }
 }
 
 std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-bool is_results_folder(const std::string& folder) {
+Json run_info_in(const std::string& folder) {
   std::ifstream in(in_folder(folder, layout::run_info));
   const Json json = Json::parse(in, nullptr, false);
-  return json.is_object() && json.value("format", Json()) == layout::format;
+  return json.is_object() && json.value("format", Json()) == layout::format ? json : Json();
 }
 
-/// Files that a run writes beside run.json.
+/// Files that a run writes beside run.json and the lock.
 bool is_own_file(const std::string& name) {
   static const std::regex own(
-      R"((case\.h5|(history|ledger|regions)\.csv|(mesh|solid|liquid)\.hdf\.series)(\.tmp)?)");
+      R"((case\.h5|checkpoint\.hdf|(history|ledger|regions)\.csv|(mesh|solid|liquid)\.hdf\.series)(\.tmp)?)");
   return std::regex_match(name, own);
 }
 
@@ -71,37 +81,47 @@ bool is_own_snapshot(const std::string& name) {
   return std::regex_match(name, own);
 }
 
-void remove_files(const fs::path& folder, bool (*is_own)(const std::string&)) {
-  std::vector<fs::path> doomed;
+/// A solver had hardly begun when it was stopped, or nobody has.
+bool nothing_but_a_lock(const std::string& folder) {
+  return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name == layout::lock || name == std::string(layout::run_info) + ".tmp";
+  });
+}
+
+/// Those for which `doomed(name)`.
+template <class Doomed>
+void remove_files(const fs::path& folder, const Doomed& doomed) {
+  std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && is_own(entry.path().filename().string())) {
-      doomed.push_back(entry.path());
+    if (entry.is_regular_file() && doomed(entry.path().filename().string())) {
+      found.push_back(entry.path());
     }
   }
-  for (const auto& path : doomed) fs::remove(path);
+  for (const auto& path : found) fs::remove(path);
 }
 
 /// run.json stays until it is replaced, so that the folder can be recognised at every moment.
 void remove_earlier_run(const std::string& folder) {
-  remove_files(folder, is_own_file);
-  const fs::path snapshots = fs::path(folder) / layout::snapshots;
-  if (fs::is_directory(snapshots)) remove_files(snapshots, is_own_snapshot);
+  try {
+    remove_files(folder, is_own_file);
+    const fs::path snapshots = fs::path(folder) / layout::snapshots;
+    if (fs::is_directory(snapshots)) remove_files(snapshots, is_own_snapshot);
+    fs::create_directories(snapshots);
+  } catch (const fs::filesystem_error& error) {
+    throw FileError(folder + ": " + error.code().message());
+  }
 }
 
-void prepare_folder(const std::string& folder) {
+/// What a run that goes on behind its first `count` snapshots writes again.
+void remove_later_snapshots(const std::string& folder, long count) {
+  const auto is_later = [count](const std::string& name) {
+    if (!is_own_snapshot(name)) return false;
+    const std::string digits = name.substr(name.find('_') + 1);
+    return name.ends_with(".tmp") || std::stol(digits) >= count;
+  };
   try {
-    if (fs::exists(folder) && !fs::is_directory(folder)) {
-      throw FileError(folder + ": is a file; expected a folder for the results");
-    }
-    if (fs::exists(folder) && !fs::is_empty(folder)) {
-      if (!is_results_folder(folder)) {
-        throw FileError(folder +
-                        ": is not empty and holds no results of suffuse-solver; "
-                        "not touched: choose another folder or empty it");
-      }
-      remove_earlier_run(folder);
-    }
-    fs::create_directories(fs::path(folder) / layout::snapshots);
+    remove_files(fs::path(folder) / layout::snapshots, is_later);
   } catch (const fs::filesystem_error& error) {
     throw FileError(folder + ": " + error.code().message());
   }
@@ -138,13 +158,6 @@ std::string region_line(const RegionRow& row) {
          number_text(row.porosity_mean) + ledger.substr(comma);
 }
 
-/// "snapshots/mesh_000012.hdf"
-std::string snapshot_name(const std::string& kind, std::size_t index) {
-  std::string digits = std::to_string(index);
-  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
-  return std::string(layout::snapshots) + "/" + kind + "_" + digits + ".hdf";
-}
-
 template <int Dim>
 void write_provenance(Hdf5File& file, const Case<Dim>& c, const Snapshot& snapshot) {
   const std::string group = layout::own_group;
@@ -172,10 +185,7 @@ void write_own_fields(Hdf5File& file, const Snapshot& snapshot, std::size_t elem
     }
     write_field(file, layout::element_vertex_group, field, {elements});
   }
-  file.create_group(layout::restart_group);
-  for (const auto& field : snapshot.restart) {
-    write_field(file, layout::restart_group, field, {field.values.size() / field.components});
-  }
+  if (snapshot.restart) write_restart_point(file, *snapshot.restart);
 }
 
 /// Calls `fill` on a new file that takes the name `path` only once it is whole.
@@ -196,68 +206,175 @@ void write_hdf5_whole(const std::string& path, const Fill& fill) {
 
 }  // namespace
 
+GrowingTable::GrowingTable(std::string path, const std::string& names) : path_(std::move(path)) {
+  write_file(path_, names + "\n");
+  out_.open(path_, std::ios::binary | std::ios::app);
+}
+
+GrowingTable::GrowingTable(std::string path, long rows) : path_(std::move(path)) {
+  std::ifstream in(path_, std::ios::binary);
+  std::string line;
+  std::uintmax_t size = 0;
+  for (long count = 0; count <= rows && std::getline(in, line); ++count) size += line.size() + 1;
+  std::error_code error;
+  fs::resize_file(path_, size, error);
+  if (error) fail_writing(path_, error.value());
+  out_.open(path_, std::ios::binary | std::ios::app);
+}
+
+void GrowingTable::append(const std::string& lines) {
+  errno = 0;
+  const std::streamoff before = out_.seekp(0, std::ios::end).tellp();
+  out_ << lines << std::flush;
+  if (out_) return;
+  const int reason = errno;
+  out_.close();
+  std::error_code ignored;
+  if (before >= 0) fs::resize_file(path_, static_cast<std::uintmax_t>(before), ignored);
+  fail_writing(path_, reason);
+}
+
+void check_results_folder(const std::string& folder, const std::string& scene) {
+  try {
+    if (!fs::exists(folder)) return;
+    if (!fs::is_directory(folder)) {
+      throw FileError(folder + ": is a file; expected a folder for the results");
+    }
+    if (nothing_but_a_lock(folder)) return;
+    const Json info = run_info_in(folder);
+    if (info.is_null()) {
+      throw FileError(folder +
+                      ": is not empty and holds no results of suffuse-solver; "
+                      "not touched: choose another folder or empty it");
+    }
+    const Json there = info.value("scene", Json::object()).value("name", Json());
+    // A run that has just begun has not said yet whose it is.
+    if (!there.is_string() || there == scene) return;
+    throw InputError(folder + ": holds results of scene " + there.dump() + ", not of \"" + scene +
+                     "\"; not touched: choose another folder with -o, or remove this one");
+  } catch (const fs::filesystem_error& error) {
+    throw FileError(folder + ": " + error.code().message());
+  }
+}
+
 template <int Dim>
 ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c)
     : folder_(folder), case_(c) {
-  prepare_folder(folder);
+  check_results_folder(folder, c.document.scene.name);
+  lock_ = FolderLock(folder);
   write_run_info(RunInfo{});
+  remove_earlier_run(folder);
   write_case(in_folder(folder, layout::case_copy), c);
-  history_ = begin_file(in_folder(folder, layout::history), header_line(history_columns) + "\n");
-  ledger_ = begin_file(in_folder(folder, layout::ledger), header_line(ledger_columns) + "\n");
-  regions_ = begin_file(in_folder(folder, layout::regions), regions_header() + "\n");
+  history_ = {in_folder(folder, layout::history), header_line(history_columns)};
+  ledger_ = {in_folder(folder, layout::ledger), header_line(ledger_columns)};
+  regions_ = {in_folder(folder, layout::regions), regions_header()};
+}
+
+template <int Dim>
+ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock,
+                                  const RestartPoint& point)
+    : folder_(folder), case_(c), lock_(std::move(lock)) {
+  const auto regions = static_cast<long>(c.mesh.region_names.size());
+  const std::string case_copy = in_folder(folder, layout::case_copy);
+  if (!fs::exists(case_copy)) write_case(case_copy, c);
+  continue_series(mesh_series_, point.snapshots);
+  continue_series(solid_series_, point.snapshots);
+  if (c.document.scene.formulation == Formulation::double_point) {
+    continue_series(liquid_series_, point.snapshots);
+  }
+  remove_later_snapshots(folder, point.snapshots);
+  history_ = {in_folder(folder, layout::history), point.rows};
+  ledger_ = {in_folder(folder, layout::ledger), point.rows};
+  regions_ = {in_folder(folder, layout::regions), regions * point.rows};
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_history(const HistoryRow& row) {
-  append(history_, in_folder(folder_, layout::history), row_line(row, history_columns) + "\n");
+  history_.append(row_line(row, history_columns) + "\n");
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_ledger(const LedgerRow& row) {
-  append(ledger_, in_folder(folder_, layout::ledger), row_line(row, ledger_columns) + "\n");
+  ledger_.append(row_line(row, ledger_columns) + "\n");
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_regions(std::span<const RegionRow> rows) {
   std::string lines;
   for (const auto& row : rows) lines += region_line(row) + "\n";
-  append(regions_, in_folder(folder_, layout::regions), lines);
+  regions_.append(lines);
 }
 
 template <int Dim>
-void ResultsWriter<Dim>::append_to(Series& series, const std::string& file, double time) const {
+void ResultsWriter<Dim>::extend(Series& series, const std::string& file, double time) {
   // Written piece by piece: to make it of all entries again takes longer with each of them.
   if (series.count++ > 0) series.entries += ",";
   series.entries += "\n    {\n      \"name\": " + Json(file).dump() +
                     ",\n      \"time\": " + Json(time).dump() + "\n    }";
+}
+
+template <int Dim>
+void ResultsWriter<Dim>::write_series(const Series& series) const {
   replace_file(
       in_folder(folder_, layout::series(series.kind)),
       "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [" + series.entries + "\n  ]\n}\n");
 }
 
 template <int Dim>
+void ResultsWriter<Dim>::continue_series(Series& series, long snapshots) {
+  for (long index = 0; index < snapshots; ++index) {
+    const std::string name = layout::snapshot(series.kind, index);
+    const Hdf5File file(in_folder(folder_, name), Hdf5File::Mode::read);
+    extend(series, name, file.double_attribute(layout::own_group, "time"));
+  }
+  if (snapshots > 0) write_series(series);
+}
+
+template <int Dim>
 void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
-  const std::string mesh_name = snapshot_name("mesh", mesh_series_.count);
+  // The file with the state of the run comes last: where it is the others are.
+  const std::size_t index = mesh_series_.count;
+  const double time = snapshot.time;
+  const std::string solid_name = layout::snapshot("solid", index);
+  write_hdf5_whole(in_folder(folder_, solid_name), [&](Hdf5File& file) {
+    write_vtkhdf(file, vtk_grid(case_.mesh, case_.solid_points), {}, snapshot.solid);
+    write_provenance(file, case_, snapshot);
+  });
+  const bool has_liquid = case_.document.scene.formulation == Formulation::double_point;
+  const std::string liquid_name = layout::snapshot("liquid", index);
+  if (has_liquid) {
+    write_hdf5_whole(in_folder(folder_, liquid_name), [&](Hdf5File& file) {
+      write_vtkhdf(file, vtk_grid(std::move(snapshot.liquid_positions)), {}, snapshot.liquid);
+      write_provenance(file, case_, snapshot);
+    });
+    snapshot.liquid.clear();
+  }
+  const std::string mesh_name = layout::snapshot("mesh", index);
   write_hdf5_whole(in_folder(folder_, mesh_name), [&](Hdf5File& file) {
     write_vtkhdf(file, vtk_grid(case_.mesh), snapshot.cell, snapshot.node);
     write_provenance(file, case_, snapshot);
     write_own_fields(file, snapshot, case_.mesh.elements.size(), Dim + 1);
   });
-  const std::string solid_name = snapshot_name("solid", solid_series_.count);
-  write_hdf5_whole(in_folder(folder_, solid_name), [&](Hdf5File& file) {
-    write_vtkhdf(file, vtk_grid(case_.mesh, case_.solid_points), {}, snapshot.solid);
-    write_provenance(file, case_, snapshot);
-  });
-  if (case_.document.scene.formulation == Formulation::double_point) {
-    const std::string liquid_name = snapshot_name("liquid", liquid_series_.count);
-    write_hdf5_whole(in_folder(folder_, liquid_name), [&](Hdf5File& file) {
-      write_vtkhdf(file, vtk_grid(std::move(snapshot.liquid_positions)), {}, snapshot.liquid);
-      write_provenance(file, case_, snapshot);
-    });
-    append_to(liquid_series_, liquid_name, snapshot.time);
+  if (has_liquid) {
+    extend(liquid_series_, liquid_name, time);
+    write_series(liquid_series_);
   }
-  append_to(mesh_series_, mesh_name, snapshot.time);
-  append_to(solid_series_, solid_name, snapshot.time);
+  extend(mesh_series_, mesh_name, time);
+  write_series(mesh_series_);
+  extend(solid_series_, solid_name, time);
+  write_series(solid_series_);
+}
+
+template <int Dim>
+void ResultsWriter<Dim>::write_checkpoint(const RestartPoint& point) {
+  write_hdf5_whole(in_folder(folder_, layout::checkpoint),
+                   [&](Hdf5File& file) { write_restart_point(file, point); });
+}
+
+template <int Dim>
+void ResultsWriter<Dim>::remove_checkpoint() {
+  std::error_code ignored;
+  fs::remove(in_folder(folder_, layout::checkpoint), ignored);
 }
 
 template <int Dim>
@@ -278,6 +395,7 @@ void ResultsWriter<Dim>::write_run_info(const RunInfo& info) {
       {"elements", info.elements},
       {"threads", info.threads},
       {"wall_seconds", info.wall_seconds},
+      {"resumed_at", info.resumed_at ? Json(*info.resumed_at) : Json()},
       {"memory_bytes", static_cast<std::int64_t>(info.memory_bytes)},
       {"passes", passes},
       {"plan", info.plan},

@@ -5,13 +5,17 @@
 ///     NAME.results/run.json  history.csv  ledger.csv  regions.csv
 ///     NAME.results/mesh.hdf.series  solid.hdf.series  liquid.hdf.series
 ///     NAME.results/snapshots/mesh_000000.hdf  solid_000000.hdf  liquid_000000.hdf  ...
+///     NAME.results/checkpoint.hdf             where a run was stopped between snapshots
 
 #include <fstream>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "results/folder_lock.hpp"
+#include "results/restart_point.hpp"
 #include "results/tables.hpp"
 
 namespace suffuse {
@@ -36,8 +40,9 @@ struct Snapshot {
   /// The element's own linear scalar at its vertices: Dim + 1 components per element, in the order
   /// of its nodes. `sample` reads these.
   std::vector<Field> element_vertex;
-  /// What a resumed run needs, by name; shapes are the solver's business.
-  std::vector<Field> restart;
+  /// From where a run can go on that was stopped after this snapshot; nothing where that is kept
+  /// with a later one of the same step.
+  std::optional<RestartPoint> restart;
 };
 
 /// What one pass of the solver cost.
@@ -56,27 +61,58 @@ struct RunInfo {
   long liquid_points = 0;
   long elements = 0;
   int threads = 1;
-  double wall_seconds = 0.0;
+  double wall_seconds = 0.0;  ///< of this process, as those of the passes
+  /// s; nothing in a run that began at the start
+  std::optional<double> resumed_at;
   double memory_bytes = 0.0;  ///< largest resident set so far
   std::vector<PassTiming> passes;
   std::vector<std::string> plan;      ///< sentences: what runs, what is skipped and why
   std::vector<std::string> warnings;  ///< as printed
 };
 
-/// Owns the folder from construction on. Rows are flushed as they come; a snapshot is written under
-/// a temporary name, renamed, and only then named in the .series files. Throws FileError.
+/// A table that only grows. Rows are flushed as they come; one that does not fit on the disk leaves
+/// those before it as they are.
+class GrowingTable {
+ public:
+  GrowingTable() = default;
+  /// Begins anew with this line.
+  GrowingTable(std::string path, const std::string& names);
+  /// Goes on behind the first `rows` lines after the names; drops the others.
+  GrowingTable(std::string path, long rows);
+  /// Whole lines. Throws FileError.
+  void append(const std::string& lines);
+
+ private:
+  std::string path_;
+  std::ofstream out_;
+};
+
+/// Refuses with an InputError or a FileError where `folder` is no place for results of a scene of
+/// this name: it is a file, holds something else, or the results of another scene. Touches nothing.
+void check_results_folder(const std::string& folder, const std::string& scene);
+
+/// Owns the folder from construction on, and lets no other solver in. Rows are flushed as they
+/// come; a snapshot is written under a temporary name, renamed, and only then named in the .series
+/// files. Throws FileError.
 template <int Dim>
 class ResultsWriter {
  public:
-  /// Makes the folder, replacing the run that stood there before (only when it is a results folder:
-  /// anything else is refused), and copies what a reader needs of the case.
+  /// Makes the folder, replacing the run that stood there before, and copies what a reader needs of
+  /// the case. Throws as `check_results_folder` does.
   ResultsWriter(const std::string& folder, const Case<Dim>& c);
+  /// Goes on with the run that stands there: drops what came after `point`.
+  ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock,
+                const RestartPoint& point);
 
   void append_history(const HistoryRow& row);
   void append_ledger(const LedgerRow& row);
   void append_regions(std::span<const RegionRow> rows);
   /// Hand it over where there are many points.
   void write_snapshot(Snapshot snapshot);
+  /// Where a run stops between snapshots, or would lose much if it were stopped.
+  void write_checkpoint(const RestartPoint& point);
+  /// Once the run is done.
+  void remove_checkpoint();
   void write_run_info(const RunInfo& info);
 
  private:
@@ -86,13 +122,16 @@ class ResultsWriter {
     std::size_t count = 0;
     std::string entries;  ///< as they stand in the file
   };
-  void append_to(Series& series, const std::string& file, double time) const;
+  static void extend(Series& series, const std::string& file, double time);
+  void write_series(const Series& series) const;
+  void continue_series(Series& series, long snapshots);
 
   std::string folder_;
   const Case<Dim>& case_;
-  std::ofstream history_;
-  std::ofstream ledger_;
-  std::ofstream regions_;
+  FolderLock lock_;
+  GrowingTable history_;
+  GrowingTable ledger_;
+  GrowingTable regions_;
   Series mesh_series_{"mesh", 0, ""};
   Series solid_series_{"solid", 0, ""};
   Series liquid_series_{"liquid", 0, ""};

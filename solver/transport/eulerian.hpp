@@ -19,6 +19,8 @@ template <int Dim>
 struct FinesState {
   ElementField<Dim> pore_volume;
   ElementField<Dim> fines_volume;
+
+  void archive(auto& archive) { archive(pore_volume, fines_volume); }
 };
 
 /// Range of concentrations.

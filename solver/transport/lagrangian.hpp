@@ -17,6 +17,8 @@ struct Entering {
   std::vector<double> volume;
   std::vector<long> born;  ///< points so far, per face
   long next_id = 0;
+
+  void archive(auto& archive) { archive(volume, born, next_id); }
 };
 
 /// A point that changed its region; -1 is outside.
@@ -35,6 +37,7 @@ struct LiquidMotion {
   std::vector<double> entered;  ///< per face, liquid volume along its normal, m3
   double duration = 0.0;        ///< s
 
+  void archive(auto& archive) { archive(node_flux, entered, duration); }
   [[nodiscard]] bool along_faces() const { return node_flux.empty(); }
 };
 

@@ -23,6 +23,9 @@ struct LiquidPoints {
 
   [[nodiscard]] int size() const { return static_cast<int>(element.size()); }
   [[nodiscard]] PointPlace<Dim> place(int p) const { return {element[p], barycentric[p]}; }
+  void archive(auto& archive) {
+    archive(element, barycentric, water_mass, fines_mass, id, pressure, velocity);
+  }
   /// Room for so many points that carry the flow.
   void reserve(int count);
 };

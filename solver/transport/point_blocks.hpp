@@ -16,11 +16,12 @@ namespace suffuse {
 /// has no mass and lies in the middle of the element: it counts for nothing.
 template <int Dim>
 struct PointQuad {
-  std::array<Lanes, Dim> at;        ///< barycentric coordinates but for the last
-  std::array<Lanes, Dim> velocity;  ///< m/s
-  Lanes pressure;                   ///< Pa
-  Lanes water_mass;                 ///< kg
-  Lanes fines_mass;                 ///< kg
+  static constexpr bool has_no_gaps = true;  ///< see StateArchive
+  std::array<Lanes, Dim> at;                 ///< barycentric coordinates but for the last
+  std::array<Lanes, Dim> velocity;           ///< m/s
+  Lanes pressure;                            ///< Pa
+  Lanes water_mass;                          ///< kg
+  Lanes fines_mass;                          ///< kg
 };
 
 /// One point by itself.
@@ -102,14 +103,18 @@ class PointBlocks {
   /// Empty slots back to the middle of the element, from wherever the flow took them.
   void recentre_empty(int element);
 
+  void archive(auto& archive) { archive(quads_, notes_, blocks_, free_); }
+
  private:
   struct Block {
+    static constexpr bool has_no_gaps = true;
     std::size_t first;  ///< quad
     int count;          ///< points
     int capacity;       ///< quads
   };
   /// What no pass over the points looks at.
   struct Notes {
+    static constexpr bool has_no_gaps = true;
     std::array<double, lane_count> fines_noted;
     std::array<long, lane_count> id;
   };

@@ -124,7 +124,6 @@ inline Snapshot linear_snapshot(const Case<2>& c, double t, long step) {
   s.node = {velocity};
   s.solid = {point_porosity};
   s.element_vertex = {porosity, fines};
-  s.restart = {{"nodal_speed", "m/s", 1, {1.0, 2.0, 3.0}}};
   return s;
 }
 

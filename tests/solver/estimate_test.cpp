@@ -75,7 +75,7 @@ Actual run(const Case<2>& c) {
   const TemporaryFolder folder;
   const std::string results = folder.file("run.results");
   const SolverOptions options;
-  EXPECT_EQ(run_case(c, make_plan(c, options), options, results, true), 0);
+  EXPECT_EQ(run_case(c, make_plan(c, options), options, results, {.quiet = true}), 0);
   const auto info = nlohmann::json::parse(test::read_file(results + "/run.json"));
   Actual actual{info["steps"], info["memory_bytes"], 0.0, 0};
   for (const auto& entry : fs::recursive_directory_iterator(results)) {

@@ -31,7 +31,7 @@ class PaperRun {
     c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
     const SolverOptions options;
     const Plan plan = make_plan(c, options);
-    EXPECT_EQ(run_case(c, plan, options, folder_.string(), true), 0);
+    EXPECT_EQ(run_case(c, plan, options, folder_.string(), {.quiet = true}), 0);
     const ResultsReader reader(folder_.string());
     history_ = reader.history();
     ledger_ = reader.ledger();

@@ -1,0 +1,30 @@
+#pragma once
+
+/// One solver at a time writes into a results folder.
+
+#include <string>
+#include <utility>
+
+namespace suffuse {
+
+/// Holds the lock (flock) until destroyed or until the process ends, however that happens. Where
+/// the file system knows no locks nobody is kept out.
+class FolderLock {
+ public:
+  FolderLock() = default;
+  /// Makes the folder if need be. Throws FileError, which names the process that holds the lock.
+  explicit FolderLock(const std::string& folder);
+  FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  FolderLock& operator=(FolderLock&& other) noexcept {
+    std::swap(file_, other.file_);
+    return *this;
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock();
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,207 @@
+#include "results/restart_point.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "results/layout.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the bytes of a state: to be raised whenever an `archive` changes what it lists.
+constexpr std::int64_t state_layout = 1;
+
+/// FNV-1a (Fowler, Noll, Vo) on eight bytes at a time, with what that leaves out of the low bits
+/// mixed in.
+class Digest {
+ public:
+  void add(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    add_word(size);
+    for (; size >= 8; size -= 8, bytes += 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes, 8);
+      add_word(word);
+    }
+    std::uint64_t rest = 0;
+    if (size > 0) std::memcpy(&rest, bytes, size);
+    add_word(rest);
+  }
+  void add(const std::string& text) { add(text.data(), text.size()); }
+  template <class Value>
+  void add(const std::vector<Value>& values) {
+    add(values.data(), values.size() * sizeof(Value));
+  }
+  [[nodiscard]] std::string text() const {
+    std::ostringstream out;
+    out.fill('0');
+    out.width(16);
+    out << std::hex << hash_;
+    return out.str();
+  }
+
+ private:
+  void add_word(std::uint64_t word) {
+    hash_ = (hash_ ^ word) * 1099511628211ULL;
+    hash_ ^= hash_ >> 29;
+  }
+  std::uint64_t hash_ = 14695981039346656037ULL;
+};
+
+template <int Dim>
+void add(Digest& digest, const MaterialPoints<Dim>& points) {
+  digest.add(points.element);
+  digest.add(points.barycentric);
+  digest.add(points.volume);
+}
+
+std::string in_folder(const std::string& folder, const std::string& name) {
+  return (fs::path(folder) / name).string();
+}
+
+/// Whole lines behind the names.
+long rows_in(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  long lines = 0;
+  std::array<char, 65536> block;
+  while (in.read(block.data(), block.size()), in.gcount() > 0) {
+    lines += std::count(block.data(), block.data() + in.gcount(), '\n');
+  }
+  return lines - 1;
+}
+
+/// How many of the first snapshots have all their files, whole. Says which the first is that has
+/// not.
+long whole_snapshots(const std::string& folder, bool has_liquid_files,
+                     std::vector<std::string>& damage) {
+  for (long index = 0;; ++index) {
+    for (const std::string kind : {"mesh", "solid", "liquid"}) {
+      if (kind == "liquid" && !has_liquid_files) continue;
+      const std::string path = in_folder(folder, layout::snapshot(kind, index));
+      if (!fs::exists(path)) return index;
+      try {
+        const Hdf5File file(path, Hdf5File::Mode::read);
+      } catch (const FileError& error) {
+        damage.emplace_back(error.what());
+        return index;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string digest_of(const std::vector<std::uint8_t>& bytes) {
+  Digest digest;
+  digest.add(bytes);
+  return digest.text();
+}
+
+template <int Dim>
+std::string digest_of(const Case<Dim>& c) {
+  Digest digest;
+  digest.add(c.document.text);
+  for (const std::string& change : c.document.overrides) digest.add(change);
+  for (const Vector<Dim>& node : c.mesh.nodes) digest.add(node.data(), sizeof(double) * Dim);
+  digest.add(c.mesh.elements);
+  digest.add(c.mesh.element_region);
+  for (const std::string& name : c.mesh.region_names) digest.add(name);
+  for (const BoundarySet<Dim>& boundary : c.mesh.boundaries) {
+    digest.add(boundary.name);
+    digest.add(boundary.faces);
+  }
+  add(digest, c.solid_points);
+  add(digest, c.liquid_points);
+  return digest.text();
+}
+
+void write_restart_point(Hdf5File& file, const RestartPoint& point) {
+  const std::string group = layout::restart_group;
+  file.create_group(group);
+  const auto integer = [&](const std::string& name, std::int64_t value) {
+    file.attribute(group, name, std::span(&value, 1));
+  };
+  integer("layout", state_layout);
+  file.attribute(group, "time", point.time);
+  integer("rows", point.rows);
+  integer("snapshots", point.snapshots);
+  integer("no_skip", point.no_skip ? 1 : 0);
+  file.attribute(group, "case", point.case_digest);
+  file.attribute(group, "digest", digest_of(point.state));
+  file.write(layout::restart_state, std::span(point.state), {point.state.size()});
+}
+
+std::optional<RestartPoint> read_restart_point(const std::string& path) {
+  const Hdf5File file(path, Hdf5File::Mode::read);
+  const std::string group = layout::restart_group;
+  if (!file.exists(group) || !file.exists(layout::restart_state)) return std::nullopt;
+  if (const auto found = file.integer_attribute(group, "layout"); found != state_layout) {
+    throw FileError(path + ": keeps a state of layout " + std::to_string(found) +
+                    "; this version of suffuse-solver goes on from layout " +
+                    std::to_string(state_layout));
+  }
+  RestartPoint point;
+  point.time = file.double_attribute(group, "time");
+  point.rows = static_cast<long>(file.integer_attribute(group, "rows"));
+  point.snapshots = static_cast<long>(file.integer_attribute(group, "snapshots"));
+  point.no_skip = file.integer_attribute(group, "no_skip") != 0;
+  point.case_digest = file.text_attribute(group, "case");
+  point.state = file.read_bytes(layout::restart_state);
+  if (digest_of(point.state) != file.text_attribute(group, "digest")) {
+    throw FileError(path + ": " + layout::restart_state +
+                    ": is not what was written there; the file is damaged");
+  }
+  return point;
+}
+
+FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_files,
+                                  std::size_t regions) {
+  FoundRestart found;
+  const long whole = whole_snapshots(folder, has_liquid_files, found.damage);
+  const long rows = std::min(
+      {rows_in(in_folder(folder, layout::history)), rows_in(in_folder(folder, layout::ledger)),
+       rows_in(in_folder(folder, layout::regions)) / static_cast<long>(regions)});
+  const auto usable_point = [&](const std::string& path) -> std::optional<RestartPoint> {
+    if (!fs::exists(path)) return std::nullopt;
+    try {
+      std::optional<RestartPoint> point = read_restart_point(path);
+      if (!point || (point->snapshots <= whole && point->rows <= rows)) return point;
+      found.damage.push_back(path + ": what was written before it is not all there");
+    } catch (const FileError& error) {
+      found.damage.emplace_back(error.what());
+    }
+    return std::nullopt;
+  };
+  found.path = in_folder(folder, layout::checkpoint);
+  found.point = usable_point(found.path);
+  for (long index = whole; index-- > 0;) {
+    const std::string path = in_folder(folder, layout::snapshot("mesh", index));
+    std::optional<RestartPoint> point = usable_point(path);
+    if (!point) continue;
+    if (!found.point || point->time > found.point->time) {
+      found.point = std::move(point);
+      found.path = path;
+    }
+    break;  // those before it are older
+  }
+  return found;
+}
+
+bool is_finished(const std::string& folder) {
+  std::ifstream in(in_folder(folder, layout::run_info), std::ios::binary);
+  const nlohmann::json info = nlohmann::json::parse(in, nullptr, false);
+  return info.is_object() && info.value("status", nlohmann::json()) == "done";
+}
+
+template std::string digest_of(const Case<2>&);
+template std::string digest_of(const Case<3>&);
+
+}  // namespace suffuse

@@ -1,0 +1,53 @@
+#pragma once
+
+/// From where a run that was stopped can go on: the state that a snapshot, or the checkpoint of an
+/// interrupted run, keeps beside what it shows. Layout: docs/file-formats.md.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case_file.hpp"
+#include "case/hdf5_io.hpp"
+
+namespace suffuse {
+
+struct RestartPoint {
+  double time = 0.0;   ///< that the state is of, s; not before the snapshot's
+  long rows = 0;       ///< of history.csv by then; of ledger.csv likewise
+  long snapshots = 0;  ///< by then, the one that holds this included
+  bool no_skip = false;
+  std::string case_digest;          ///< see `digest_of`
+  std::vector<std::uint8_t> state;  ///< the solver's business; empty: not kept
+};
+
+/// 16 hexadecimal digits that tell what the bytes are.
+std::string digest_of(const std::vector<std::uint8_t>& bytes);
+
+/// The same of everything in a case that a run depends on.
+template <int Dim>
+std::string digest_of(const Case<Dim>& c);
+
+/// Into `/Suffuse/restart`, which must not be there yet.
+void write_restart_point(Hdf5File& file, const RestartPoint& point);
+
+/// Of one file; nothing where the file keeps no state. Throws FileError where what it keeps is
+/// damaged or was written by a version whose state this one does not know.
+std::optional<RestartPoint> read_restart_point(const std::string& path);
+
+/// What `newest_restart_point` found.
+struct FoundRestart {
+  std::optional<RestartPoint> point;
+  std::string path;                 ///< of the file that holds it
+  std::vector<std::string> damage;  ///< newer ones that could not be read, with the reason
+};
+
+/// The last point of the run in `folder` whose snapshots and tables are all there.
+FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_files,
+                                  std::size_t regions);
+
+/// Whether the folder holds the results of a finished run.
+bool is_finished(const std::string& folder);
+
+}  // namespace suffuse

@@ -1,0 +1,174 @@
+#pragma once
+
+/// The state of a run as bytes, for a later process to go on from. Each class that has a history
+/// lists it once, for both ways:
+///
+///     void archive(StateArchive& archive) { archive(pressure_, velocity_, last_dt_); }
+///
+/// Small structures of numbers without gaps between them may say `has_no_gaps` instead.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "case/errors.hpp"
+#include "results/writer.hpp"
+
+namespace suffuse {
+
+class StateArchive {
+ public:
+  /// Collects what it is given.
+  StateArchive() = default;
+  /// Gives back what another one collected, in the same order.
+  explicit StateArchive(std::vector<std::uint8_t> bytes)
+      : bytes_(std::move(bytes)), restores_(true) {}
+
+  /// Whether members are given their values; else they are asked for them.
+  [[nodiscard]] bool restores() const { return restores_; }
+
+  /// Throws FileError when what was collected does not fit what is asked for.
+  template <class... Members>
+  void operator()(Members&... members) {
+    (pass(members), ...);
+  }
+
+  /// To be called in the end: the bytes where they were collected, an error when some are left over
+  /// where they were to be given back.
+  std::vector<std::uint8_t> finish() {
+    if (restores_ && read_ != bytes_.size()) misfit();
+    return std::move(bytes_);
+  }
+
+  /// What is given back does not belong to who asks for it. Throws FileError.
+  [[noreturn]] static void misfit() {
+    throw FileError("the state of the run does not fit this program and case");
+  }
+
+ private:
+  template <class Value>
+  static constexpr bool is_plain = std::is_arithmetic_v<Value> || std::is_enum_v<Value>;
+
+  void raw(void* data, std::size_t size) {
+    if (size == 0) return;
+    if (restores_) {
+      if (size > bytes_.size() - read_) misfit();
+      std::memcpy(data, bytes_.data() + read_, size);
+      read_ += size;
+    } else {
+      const auto* begin = static_cast<const std::uint8_t*>(data);
+      bytes_.insert(bytes_.end(), begin, begin + size);
+    }
+  }
+
+  /// Number of entries to come; each takes a byte at least.
+  std::size_t pass_size(std::size_t size) {
+    std::uint64_t count = size;
+    raw(&count, sizeof count);
+    if (restores_ && count > bytes_.size() - read_) misfit();
+    return count;
+  }
+
+  template <class Value>
+  void pass(Value& value) {
+    if constexpr (requires { value.archive(*this); }) {
+      value.archive(*this);
+    } else {
+      static_assert(is_contiguous<Value>(), "has to say what its state is");
+      raw(&value, sizeof value);
+    }
+  }
+
+  template <class Value, std::size_t size>
+  void pass(std::array<Value, size>& values) {
+    pass_all(values.data(), size);
+  }
+
+  template <class Scalar, int rows, int columns>
+  void pass(Eigen::Matrix<Scalar, rows, columns>& matrix) {
+    if constexpr (rows == Eigen::Dynamic) matrix.resize(pass_size(matrix.size()));
+    raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(Scalar));
+  }
+
+  template <class Value>
+  void pass(std::vector<Value>& values) {
+    values.resize(pass_size(values.size()));
+    pass_all(values.data(), values.size());
+  }
+
+  void pass(std::vector<bool>& values) {
+    values.resize(pass_size(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      bool value = values[i];
+      pass(value);
+      values[i] = value;
+    }
+  }
+
+  void pass(std::string& text) {
+    text.resize(pass_size(text.size()));
+    raw(text.data(), text.size());
+  }
+
+  template <class Value>
+  void pass(std::optional<Value>& value) {
+    bool has_value = value.has_value();
+    pass(has_value);
+    if (!has_value) {
+      value.reset();
+      return;
+    }
+    if (!value) value.emplace();
+    pass(*value);
+  }
+
+  /// Seconds are those of a process: no two runs have the same.
+  void pass(PassTiming& timing) { pass(timing.calls); }
+
+  template <class Value>
+  void pass_all(Value* values, std::size_t count) {
+    if constexpr (is_contiguous<Value>()) {
+      if (restores_ && count > (bytes_.size() - read_) / sizeof(Value)) misfit();
+      raw(values, count * sizeof(Value));
+    } else {
+      for (std::size_t i = 0; i < count; ++i) pass(values[i]);
+    }
+  }
+
+  /// Values without gaps between or inside them.
+  template <class Value>
+  static constexpr bool is_contiguous() {
+    if constexpr (is_plain<Value>) {
+      return true;
+    } else if constexpr (requires { Value::has_no_gaps; }) {
+      static_assert(std::is_trivially_copyable_v<Value>);
+      return Value::has_no_gaps;
+    } else if constexpr (requires {
+                           typename Value::value_type;
+                           std::tuple_size<Value>::value;
+                         }) {
+      return is_contiguous<typename Value::value_type>() &&
+             sizeof(Value) == std::tuple_size_v<Value> * sizeof(typename Value::value_type);
+    } else if constexpr (requires {
+                           Value::SizeAtCompileTime;
+                           typename Value::Scalar;
+                         }) {
+      return Value::SizeAtCompileTime > 0 &&
+             sizeof(Value) == Value::SizeAtCompileTime * sizeof(typename Value::Scalar);
+    } else {
+      return false;
+    }
+  }
+
+  std::vector<std::uint8_t> bytes_;
+  std::size_t read_ = 0;
+  bool restores_ = false;
+};
+
+}  // namespace suffuse
