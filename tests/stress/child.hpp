@@ -1,0 +1,22 @@
+#pragma once
+
+/// Runs a program as a user would, with a limit of time.
+
+#include <string>
+#include <vector>
+
+namespace suffuse::stress {
+
+struct ChildEnd {
+  int exit_code = -1;  ///< -1: ended by a signal
+  int signal = 0;
+  bool timed_out = false;
+  double seconds = 0.0;
+  std::string output;  ///< what it wrote to standard output and error
+};
+
+/// `arguments` begins with the program; what it says goes through the file `log`.
+ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& log,
+                   double most_seconds);
+
+}  // namespace suffuse::stress

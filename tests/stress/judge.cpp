@@ -1,0 +1,444 @@
+#include "stress/judge.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "results/reader.hpp"
+#include "stress/stress_mesh.hpp"
+
+namespace suffuse::stress {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double round_off = 1e-12;
+/// Of the pressure where it is promised to stay within its bounds.
+constexpr double most_overshoot = 1e-10;
+/// Of a discharge that is known, with the default tolerance of 1e-3.
+constexpr double most_discharge_error = 3e-3;
+/// Of a mean porosity that is known.
+constexpr double most_porosity_error = 1e-9;
+
+std::string shown(double value) {
+  std::ostringstream text;
+  text.precision(4);
+  text << value;
+  return text.str();
+}
+
+/// Mean porosity of the one soil that erodes, where its law does not depend on the flow.
+class KnownPorosity {
+ public:
+  explicit KnownPorosity(const Scene& scene) {
+    for (const Soil& soil : scene.soils) {
+      if (soil.erosion.law == ErosionLaw::none) continue;
+      if (soil_ != nullptr || soil.porosity_gradient != std::array<double, 3>{} ||
+          soil.erosion.law == ErosionLaw::flux ||
+          soil.erosion.empty_elements == EmptyElements::dry) {
+        soil_ = nullptr;
+        return;
+      }
+      soil_ = &soil;
+    }
+  }
+  [[nodiscard]] bool known() const { return soil_ != nullptr; }
+
+  [[nodiscard]] double at(double t) const {
+    const double duration = std::max(0.0, t - soil_->erosion.start);
+    const double first = soil_->porosity;
+    const double most = soil_->porosity_max();
+    const double rate = soil_->erosion.rate;
+    if (soil_->erosion.law == ErosionLaw::constant) return std::min(most, first + rate * duration);
+    if (soil_->erosion.law == ErosionLaw::first_order) {
+      return most - (most - first) * std::exp(-rate * duration);
+    }
+    return logarithmic(first, most, rate * duration / most);
+  }
+
+ private:
+  /// By bisection of the time that porosity takes, int dn / -ln(n), n over its largest. With
+  /// n = exp(-exp(w)) that is the integral of exp(-exp(w)) dw: smooth, so Simpson's rule does.
+  static double logarithmic(double first, double most, double scaled_time) {
+    const double begin = std::log(-std::log(first / most));
+    const auto time_to = [&](double end) {
+      // Below, the integrand is 1 to the last digit.
+      constexpr double flat = -40.0;
+      constexpr int parts = 4000;
+      if (end < flat && begin > flat) return (flat - end) + between(flat, begin, parts);
+      return between(end, begin, parts);
+    };
+    double low = begin - scaled_time * most / first - 1.0;
+    double high = begin;
+    for (int i = 0; i < 80; ++i) {
+      const double middle = 0.5 * (low + high);
+      (time_to(middle) > scaled_time ? low : high) = middle;
+    }
+    return most * std::exp(-std::exp(high));
+  }
+
+  /// Simpson's rule for the integral of exp(-exp(w)).
+  static double between(double low, double high, int parts) {
+    const double h = (high - low) / parts;
+    double sum = 0.0;
+    for (int i = 0; i <= parts; ++i) {
+      const double weight = i == 0 || i == parts ? 1.0 : (i % 2 == 0 ? 2.0 : 4.0);
+      sum += weight * std::exp(-std::exp(low + h * i));
+    }
+    return sum * h / 3.0;
+  }
+
+  const Soil* soil_ = nullptr;
+};
+
+class Judge {
+ public:
+  Judge(const Scenario& scenario, const Case<2>& c, const std::string& folder, Judgement& judgement)
+      : scenario_(scenario), case_(c), scene_(c.document.scene), results_(folder), j_(judgement) {}
+
+  /// What does not hold, one after the other; empty where all does.
+  std::vector<std::string> complaints(bool ended_well) {
+    read_run_info(ended_well);
+    j_.bounded = promises_bounds();
+    check_history(ended_well);
+    check_ledger();
+    check_regions();
+    for (std::size_t i = 0; i < results_.times().size(); ++i) check_snapshot(i);
+    return std::move(complaints_);
+  }
+
+ private:
+  void complain(const std::string& what) {
+    if (complaints_.size() < 4) complaints_.push_back(what);
+  }
+  void expect(bool holds, const std::string& what) {
+    if (!holds) complain(what);
+  }
+
+  void read_run_info(bool ended_well) {
+    std::ifstream in(results_.folder() + "/run.json");
+    const Json info = Json::parse(in);
+    j_.warnings = static_cast<int>(info.at("warnings").size());
+    j_.steps = info.at("steps").get<double>();
+    for (const Json& sentence : info.at("plan")) {
+      keeps_inertia_ |= sentence.get<std::string>().starts_with("run: inertia");
+    }
+    const std::string status = info.at("status");
+    const std::string wanted = ended_well ? "done" : "failed";
+    expect(status == wanted, "run.json says " + status + "; expected " + wanted);
+    expect(ended_well || !info.at("message").get<std::string>().empty(),
+           "run.json does not say why the run failed");
+  }
+
+  /// Backward Euler on a mesh without obtuse angles, with a scalar mobility and nothing but
+  /// pressures that drive. Water masses that are let out later are a source, which single-point
+  /// models have and double-point models do not, and water that does not compress neither.
+  [[nodiscard]] bool promises_bounds() const {
+    const bool monotone =
+        scenario_.scheme == Scheme::sp_monotone || scenario_.scheme == Scheme::dp_monotone;
+    const bool no_source =
+        is_double_point(scenario_.scheme) || std::isinf(scene_.liquid.bulk_modulus);
+    const bool darcy =
+        std::ranges::all_of(scene_.soils, [](const Soil& s) { return s.drag == SoilDrag::darcy; });
+    return monotone && no_source && darcy && !keeps_inertia_ && obtuse_elements(case_.mesh) == 0;
+  }
+
+  void check_finite(const Table& table, const std::string& file) {
+    for (std::size_t k = 0; k < table.names.size(); ++k) {
+      for (const double value : table.columns[k]) {
+        if (std::isfinite(value)) continue;
+        complain(table.names[k] + " in " + file + " is not a number");
+        return;
+      }
+    }
+  }
+
+  void check_concentration(double low, double high, const std::string& where) {
+    expect(low >= 0.0, "c = " + shown(low) + " < 0 in " + where);
+    expect(high < 1.0, "c = " + shown(high) + " >= 1 in " + where);
+  }
+
+  void check_history(bool ended_well) {
+    const Table history = results_.history();
+    check_finite(history, "history.csv");
+    if (history.rows() == 0) return;
+    const auto largest = [&](const char* name) {
+      return *std::ranges::max_element(history.column(name));
+    };
+    const auto& lowest = history.column("concentration_min");
+    j_.concentration_min = *std::ranges::min_element(lowest);
+    j_.concentration_max = largest("concentration_max");
+    check_concentration(j_.concentration_min, j_.concentration_max, "history.csv");
+    j_.volume_defect = largest("volume_defect");
+    j_.overshoot = largest("pressure_overshoot");
+    expect(!j_.bounded || j_.overshoot <= most_overshoot,
+           "pressure_overshoot = " + shown(j_.overshoot) + " where pressures have bounds");
+    const std::vector<double>& t = history.column("t");
+    expect(!ended_well || std::abs(t.back() - scene_.time.end) <= round_off * scene_.time.end,
+           "history.csv ends at t = " + shown(t.back()));
+    check_mean_porosity(t, history.column("porosity_mean"));
+    if (scenario_.discharge && ended_well && !is_explicit(scenario_.scheme)) {
+      const double out = history.column("flux_out").back();
+      j_.discharge_error = std::abs(out / *scenario_.discharge - 1.0);
+      expect(j_.discharge_error <= most_discharge_error,
+             "the discharge is " + shown(out) + " m3/s; expected " + shown(*scenario_.discharge));
+    }
+  }
+
+  void check_mean_porosity(const std::vector<double>& t, const std::vector<double>& mean) {
+    const KnownPorosity exact(scene_);
+    if (!exact.known()) return;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      j_.porosity_error = std::max(j_.porosity_error, std::abs(mean[i] - exact.at(t[i])));
+    }
+    expect(j_.porosity_error <= most_porosity_error,
+           "mean porosity is off by " + shown(j_.porosity_error));
+  }
+
+  void check_ledger() {
+    const Table ledger = results_.ledger();
+    check_finite(ledger, "ledger.csv");
+    const auto at = [&](const char* name, std::size_t i) { return ledger.column(name)[i]; };
+    for (std::size_t i = 0; i < ledger.rows(); ++i) {
+      const double residual =
+          std::max(std::abs(at("residual_water", i)), std::abs(at("residual_grains", i)));
+      j_.residual = std::max(j_.residual, residual);
+      const double grains =
+          at("solid", 0) + at("fines", 0) + at("fines_in", i) + at("fines_out", i);
+      // What the solid lost, counted as it is stored, is what the liquid gained, has let out, or
+      // waits for.
+      const double lost = at("solid", 0) - at("solid", i);
+      const double gained = at("fines", i) - at("fines", 0) + at("fines_out", i) -
+                            at("fines_in", i) + at("pending", i);
+      expect(std::abs(lost - gained) <= round_off * grains,
+             "the solid lost " + shown(lost) + " kg and the liquid gained " + shown(gained));
+      expect(std::abs(lost - at("eroded", i)) <= round_off * grains,
+             "the solid lost " + shown(lost) + " kg; eroded are " + shown(at("eroded", i)));
+      for (const char* name : {"erodible", "pending", "fines", "fines_out", "fines_in"}) {
+        expect(at(name, i) >= -round_off * grains,
+               std::string(name) + " = " + shown(at(name, i)) + " kg");
+      }
+      expect(at("water", i) >= 0.0, "water = " + shown(at("water", i)) + " kg");
+    }
+    expect(j_.residual <= round_off, "residual of the ledger " + shown(j_.residual));
+  }
+
+  /// The regions add up to the model.
+  void check_regions() {
+    const Table ledger = results_.ledger();
+    const Table regions = results_.region_ledgers();
+    check_finite(regions, "regions.csv");
+    for (const char* name : {"solid", "water", "fines"}) {
+      std::vector<double> sums(ledger.rows(), 0.0);
+      const std::size_t of_each = case_.mesh.region_names.size();
+      for (std::size_t row = 0; row < regions.rows() && row / of_each < sums.size(); ++row) {
+        sums[row / of_each] += regions.column(name)[row];
+      }
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        const double whole = ledger.column(name)[i];
+        const double size = std::abs(whole) + ledger.column("solid")[i];
+        if (std::abs(sums[i] - whole) <= round_off * size) continue;
+        complain(std::string("regions hold ") + shown(sums[i]) + " kg of " + name + ", the model " +
+                 shown(whole));
+        return;
+      }
+    }
+  }
+
+  void check_snapshot(std::size_t index) {
+    const std::string where = "snapshot " + std::to_string(index);
+    std::vector<std::string> kinds{"cell", "node", "element_vertex", "solid"};
+    if (is_double_point(scenario_.scheme)) kinds.emplace_back("liquid");
+    for (const std::string& kind : kinds) {
+      for (const std::string& name : results_.field_names(index, kind)) {
+        const Field field = results_.field(index, kind, name);
+        for (const double value : field.values) {
+          if (std::isfinite(value)) continue;
+          complain(kind + " " + name + " of " + where + " is not a number");
+          break;
+        }
+      }
+    }
+    check_porosity(index, where);
+    const std::vector<double> fitted = results_.field(index, "cell", "concentration").values;
+    if (is_double_point(scenario_.scheme)) {
+      j_.fitted_min = std::min(j_.fitted_min, *std::ranges::min_element(fitted));
+      check_points(index, where);
+    } else {
+      check_concentration(*std::ranges::min_element(fitted), *std::ranges::max_element(fitted),
+                          where);
+    }
+  }
+
+  void check_porosity(std::size_t index, const std::string& where) {
+    const std::vector<double> porosity = results_.field(index, "solid", "porosity").values;
+    expect(porosity.size() == static_cast<std::size_t>(case_.solid_points.size()),
+           "solid points were lost in " + where);
+    const int count = std::min(static_cast<int>(porosity.size()), case_.solid_points.size());
+    for (int p = 0; p < count; ++p) {
+      const int e = case_.solid_points.element[p];
+      const Soil& soil = *scene_.find_soil(case_.mesh.region_names[case_.mesh.element_region[e]]);
+      const double first = soil.initial_porosity(case_.solid_points.position(case_.mesh, p));
+      const bool holds = porosity[p] >= first - round_off &&
+                         porosity[p] <= soil.porosity_max() + round_off &&
+                         (index == 0 || porosity[p] >= last_porosity_[p] - round_off);
+      if (holds) continue;
+      complain("porosity " + shown(porosity[p]) + " of a solid point in " + where + ", outside " +
+               shown(first) + " to " + shown(soil.porosity_max()));
+      break;
+    }
+    last_porosity_ = porosity;
+    // Means of elements lie between the extremes of their soils.
+    for (const double n : results_.field(index, "cell", "porosity").values) {
+      if (n > 0.0 && n <= 1.0 + round_off) continue;
+      complain("porosity " + shown(n) + " of an element in " + where);
+      return;
+    }
+  }
+
+  void check_points(std::size_t index, const std::string& where) {
+    const std::vector<double> c = results_.field(index, "liquid", "concentration").values;
+    if (!c.empty()) {
+      check_concentration(*std::ranges::min_element(c), *std::ranges::max_element(c), where);
+    }
+    for (const char* name : {"volume", "water_mass"}) {
+      for (const double value : results_.field(index, "liquid", name).values) {
+        if (value > 0.0) continue;
+        complain(std::string(name) + " of a liquid point is " + shown(value) + " in " + where);
+        return;
+      }
+    }
+    const std::vector<double> ids = results_.field(index, "liquid", "id").values;
+    expect(std::set<double>(ids.begin(), ids.end()).size() == ids.size(),
+           "liquid points share a number in " + where);
+    check_places(index, where);
+  }
+
+  /// Liquid points lie in the elements that they say.
+  void check_places(std::size_t index, const std::string& where) {
+    const std::vector<Vector<2>> places = results_.point_positions(index, "liquid");
+    const std::vector<double> element = results_.field(index, "liquid", "element").values;
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      const auto e = static_cast<int>(element[p]);
+      const auto& nodes = case_.mesh.elements[e];
+      const Vector<2>& origin = case_.mesh.nodes[nodes[0]];
+      Eigen::Matrix2d edges;
+      edges << case_.mesh.nodes[nodes[1]] - origin, case_.mesh.nodes[nodes[2]] - origin;
+      const Vector<2> local = edges.inverse() * (places[p] - origin);
+      const double least = std::min({local[0], local[1], 1.0 - local[0] - local[1]});
+      if (least >= -1e-9) continue;
+      complain("a liquid point lies outside its element in " + where);
+      return;
+    }
+  }
+
+  const Scenario& scenario_;
+  const Case<2>& case_;
+  const Scene& scene_;
+  ResultsReader results_;
+  Judgement& j_;
+  bool keeps_inertia_ = false;
+  std::vector<double> last_porosity_;
+  std::vector<std::string> complaints_;
+};
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string result;
+  for (const std::string& part : parts) result += (result.empty() ? "" : "; ") + part;
+  return result;
+}
+
+/// The line of what the program said that is its error.
+std::string error_line(const std::string& output) {
+  std::istringstream lines(output);
+  std::string found;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("warning: ") != std::string::npos || line.empty()) continue;
+    found += (found.empty() ? "" : " / ") + line;
+  }
+  return found;
+}
+
+/// A controlled refusal says something, and does not call itself a bug.
+Judgement refusal(const Scenario& scenario, int exit_code, const std::string& message) {
+  Judgement result;
+  result.exit_code = exit_code;
+  result.message = message;
+  const bool controlled = !message.empty() && message.find("a bug in Suffuse") == std::string::npos;
+  result.verdict = controlled && scenario.expected != Expected::done ? "refused" : "failed";
+  if (controlled && scenario.expected == Expected::done) {
+    result.message = "refused though the method covers it: " + message;
+  }
+  return result;
+}
+
+/// As a cell of a table without quotes.
+std::string cell(std::string text) {
+  std::ranges::replace(text, ',', ';');
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+Judgement judge_refusal(const Scenario& scenario, const std::string& message) {
+  return refusal(scenario, static_cast<int>(ExitCode::wrong_input), message);
+}
+
+Judgement judge_run(const Scenario& scenario, const Case<2>& c, const ChildEnd& end,
+                    const std::string& folder) {
+  Judgement result;
+  const bool wrong_input = end.exit_code == static_cast<int>(ExitCode::wrong_input);
+  const bool gave_up = end.exit_code == static_cast<int>(ExitCode::numerical_failure);
+  if (wrong_input) {
+    result = judge_refusal(scenario, error_line(end.output));
+  } else if (end.exit_code == 0 || gave_up) {
+    if (gave_up) result = refusal(scenario, end.exit_code, error_line(end.output));
+    if (!gave_up) result.verdict = scenario.expected == Expected::refused ? "failed" : "pass";
+    if (result.verdict == "failed" && !gave_up) result.message = "ran; expected a refusal";
+    std::vector<std::string> wrong;
+    try {
+      wrong = Judge(scenario, c, folder, result).complaints(!gave_up);
+    } catch (const std::exception& error) {
+      wrong.push_back(std::string("results cannot be read: ") + error.what());
+    }
+    if (!wrong.empty()) {
+      result.verdict = "failed";
+      result.message = joined(wrong);
+    }
+  } else {
+    result.verdict = "failed";
+    result.message =
+        end.timed_out ? "time limit"
+        : end.signal  ? "ended by signal " + std::to_string(end.signal)
+                     : "exit code " + std::to_string(end.exit_code) + ": " + error_line(end.output);
+  }
+  result.exit_code = end.exit_code;
+  result.seconds = end.seconds;
+  return result;
+}
+
+std::string table_head() {
+  return "sweep,scheme,parameters,seed,verdict,exit_code,seconds,steps,warnings,residual,bounded,"
+         "overshoot,concentration_min,concentration_max,fitted_min,volume_defect,porosity_error,"
+         "discharge_error,message";
+}
+
+std::string table_line(const std::string& sweep, const Scenario& scenario, const Judgement& j) {
+  std::ostringstream line;
+  line.precision(4);
+  line << sweep << ',' << name_of(scenario.scheme) << ',' << cell(scenario.parameters) << ','
+       << scenario.seed << ',' << j.verdict << ',' << j.exit_code << ',' << j.seconds << ','
+       << j.steps << ',' << j.warnings << ',' << j.residual << ',' << j.bounded << ','
+       << j.overshoot << ',' << j.concentration_min << ',' << j.concentration_max << ','
+       << j.fitted_min << ',' << j.volume_defect << ',' << j.porosity_error << ','
+       << j.discharge_error << ',' << cell(j.message);
+  return line.str();
+}
+
+}  // namespace suffuse::stress

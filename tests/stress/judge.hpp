@@ -1,0 +1,42 @@
+#pragma once
+
+/// What must hold of every result, whatever the scene.
+
+#include <string>
+
+#include "stress/child.hpp"
+#include "stress/scenario.hpp"
+
+namespace suffuse::stress {
+
+/// Of one run; a line of the table.
+struct Judgement {
+  std::string verdict;  ///< pass, refused or failed
+  std::string message;  ///< of the refusal, or what does not hold
+  int exit_code = 0;
+  int warnings = 0;
+  double residual = 0.0;   ///< largest of the ledger
+  double overshoot = 0.0;  ///< largest `pressure_overshoot`
+  bool bounded = false;    ///< pressures are promised to stay within their bounds
+  double concentration_min = 0.0;
+  double concentration_max = 0.0;
+  double fitted_min = 0.0;  ///< of the fitted field of double-point snapshots: not judged
+  double volume_defect = 0.0;
+  double discharge_error = 0.0;  ///< where it is known; relative
+  double porosity_error = 0.0;   ///< of the mean porosity, where it is known
+  double steps = 0.0;
+  double seconds = 0.0;
+};
+
+/// The mesher's part refused the scenario.
+Judgement judge_refusal(const Scenario& scenario, const std::string& message);
+/// The solver ran the case `c` into `folder` and ended as `end` says.
+Judgement judge_run(const Scenario& scenario, const Case<2>& c, const ChildEnd& end,
+                    const std::string& folder);
+
+/// One line of the table, and its first line.
+std::string table_line(const std::string& sweep, const Scenario& scenario,
+                       const Judgement& judgement);
+std::string table_head();
+
+}  // namespace suffuse::stress

@@ -1,0 +1,71 @@
+#pragma once
+
+/// One run of the stress study: a scene, its mesh, what is done to them, and what is expected.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case_file.hpp"
+
+namespace suffuse::stress {
+
+/// Every way to carry the liquid and to step its flow.
+enum class Scheme {
+  sp_explicit,
+  sp_implicit,
+  sp_monotone,
+  dp_mixed,
+  dp_material_point,
+  dp_implicit,
+  dp_monotone
+};
+inline constexpr std::array all_schemes{
+    Scheme::sp_explicit,       Scheme::sp_implicit, Scheme::sp_monotone, Scheme::dp_mixed,
+    Scheme::dp_material_point, Scheme::dp_implicit, Scheme::dp_monotone};
+std::string name_of(Scheme scheme);
+bool is_double_point(Scheme scheme);
+bool is_explicit(Scheme scheme);
+
+/// What the changes of a scene may depend on: how long it runs, and how long a step may be.
+struct Span {
+  double end = 0.0;    ///< s
+  double limit = 0.0;  ///< s, the explicit scheme's stability limit; 0 where it is not known yet
+};
+/// `--set` arguments, in order.
+using Changes = std::vector<std::string>;
+
+enum class Expected {
+  done,     ///< the method covers it: a refusal is a failure
+  refused,  ///< the method does not: a run is a failure
+  either
+};
+
+struct Scenario {
+  Scheme scheme = Scheme::sp_implicit;
+  std::string parameters;  ///< in words, for the table
+  unsigned seed = 0;       ///< 0: nothing is random
+  std::function<Mesh<2>()> mesh;
+  /// Of the base scene (`scene_text`).
+  std::function<Changes(const Span&)> changes = [](const Span&) { return Changes{}; };
+  /// Of mesh and points, after seeding.
+  std::function<void(Case<2>&)> disturb;
+  double end = 100.0;  ///< s; explicit runs end after `explicit_steps` steps if that is sooner
+  double explicit_steps = 10000.0;
+  Expected expected = Expected::done;
+  /// Volume per time that the implicit schemes must end with, m3/s per metre; known exactly.
+  std::optional<double> discharge;
+};
+
+struct Sweep {
+  std::string name;
+  std::string what;  ///< a line for the table
+  std::vector<Scenario> scenarios;
+};
+
+/// All sweeps that run the programs.
+std::vector<Sweep> all_sweeps();
+
+}  // namespace suffuse::stress
