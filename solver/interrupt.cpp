@@ -16,6 +16,10 @@ void catch_interrupts() {
   requested = 0;
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);
+  // Who ignores it, as nohup does, means it.
+  if (std::signal(SIGHUP, request) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  // Nobody reads the messages any more: no reason to end a run.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool interrupted() {

@@ -50,7 +50,7 @@ std::string quoted(const std::string& word) {
 struct Beginning {
   std::string folder;
   std::optional<RestartPoint> from;
-  FolderLock lock;  ///< held where it goes on
+  FolderLock lock;
 };
 
 /// One run of a formulation, SinglePoint or DoublePoint.
@@ -65,40 +65,45 @@ class FormulationRun {
         run_(run),
         how_to_go_on_(std::move(how_to_go_on)),
         case_digest_(digest_of(case_)),
-        writer_(beginning.from ? ResultsWriter<Dim>(beginning.folder, case_,
-                                                    std::move(beginning.lock), *beginning.from)
-                               : ResultsWriter<Dim>(beginning.folder, case_)),
+        folder_(beginning.folder),
         model_(case_, plan),
         progress_(case_.document.scene.time.end, run.quiet),
-        loop_(case_.document.scene, model_) {
+        loop_(case_.document.scene, model_),
+        writer_(open_results(std::move(beginning))) {
     // The model has points of its own by now.
     case_.liquid_points = {};
-    for (const std::string& warning : plan_.warnings) warn(warning);
-    if (beginning.from) {
-      restore(std::move(beginning.from->state));
-      resumed_at_ = beginning.from->time;
-    }
   }
 
   ExitCode run() {
     try {
       loop();
-    } catch (const NumericalError& error) {
       progress_.finish();
-      write_info("failed", error.what());
-      throw;
+      if (!loop_.finished()) return stop();
+      // Before it says that it is done: nobody looks for what is left over after that.
+      writer_.remove_checkpoint();
+      write_info("done", "");
+      return ExitCode::done;
     } catch (const FileError& error) {
       progress_.finish();
-      fail_to_write(error.what());
+      note_failure(error.what());
+      throw FileError(with_advice(error.what()));
+    } catch (const std::exception& error) {
+      progress_.finish();
+      note_failure(error.what());
+      throw;
     }
-    progress_.finish();
-    if (!loop_.finished()) return stop();
-    write_info("done", "");
-    writer_.remove_checkpoint();
-    return ExitCode::done;
   }
 
  private:
+  /// Comes after all that may fail for reasons of the case: an earlier run is still there then.
+  ResultsWriter<Dim> open_results(Beginning beginning) {
+    for (const std::string& warning : plan_.warnings) warn(warning);
+    if (!beginning.from) return {beginning.folder, case_, std::move(beginning.lock)};
+    restore(std::move(beginning.from->state));
+    resumed_at_ = beginning.from->time;
+    return {beginning.folder, case_, std::move(beginning.lock), *beginning.from};
+  }
+
   using State = typename Model<Dim>::State;
   using Look = typename StepLoop<Model<Dim>>::Look;
 
@@ -126,15 +131,21 @@ class FormulationRun {
     return ExitCode::interrupted;
   }
 
-  [[noreturn]] void fail_to_write(const std::string& message) {
+  void note_failure(const std::string& message) {
     try {
       write_info("failed", message);
     } catch (const FileError&) {
       // The disk that has no room for results may have none for this either.
     }
-    throw FileError(message +
-                    "\nWhat was written before is complete. When this is mended, go on with:\n  " +
-                    how_to_go_on_);
+  }
+
+  [[nodiscard]] std::string with_advice(const std::string& message) const {
+    if (!std::filesystem::exists(folder_)) {
+      return message + "\n" + folder_ +
+             " is no longer there: it was removed or renamed while the run wrote into it";
+    }
+    return message + "\nWhat was written before is complete. When this is mended, go on with:\n  " +
+           how_to_go_on_;
   }
 
   /// Rows come first: the snapshot with the state of the run then finds all those before it.
@@ -264,9 +275,9 @@ class FormulationRun {
   const RunOptions& run_;
   std::string how_to_go_on_;
   std::string case_digest_;
+  std::string folder_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_kept_ = start_;  ///< when a snapshot or a checkpoint was written
-  ResultsWriter<Dim> writer_;
   Model<Dim> model_;
   Progress progress_;
   StepLoop<Model<Dim>> loop_;
@@ -274,22 +285,16 @@ class FormulationRun {
   bool speed_warned_ = false;
   bool compression_warned_ = false;
   std::vector<std::string> warnings_;
+  ResultsWriter<Dim> writer_;
 };
 
-/// Where the run in `folder` stands. Nothing where it is done.
+/// What the run in `folder` can go on from. Throws InputError where it is a run of something else.
 template <int Dim>
-std::optional<Beginning> find_beginning(const Case<Dim>& c, const std::string& folder,
-                                        const SolverOptions& options) {
-  Beginning beginning{folder, std::nullopt, {}};
-  check_results_folder(folder, c.document.scene.name);
-  if (!std::filesystem::exists(folder)) return beginning;
-  FolderLock lock(folder);
+FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
+                          const SolverOptions& options) {
   const bool has_liquid = c.document.scene.formulation == Formulation::double_point;
   FoundRestart found = newest_restart_point(folder, has_liquid, c.mesh.region_names.size());
-  for (const std::string& damage : found.damage) {
-    std::fprintf(stderr, "suffuse-solver: warning: passed over: %s\n", damage.c_str());
-  }
-  if (!found.point) return beginning;
+  if (!found.point) return found;
   const auto refuse = [&](const std::string& what, const std::string& how) {
     throw InputError(folder + ": cannot be resumed: it holds the results of " + what + "; " + how +
                      ", choose another folder with -o, or run anew without --resume");
@@ -302,11 +307,31 @@ std::optional<Beginning> find_beginning(const Case<Dim>& c, const std::string& f
     refuse(found.point->no_skip ? "a run with --no-skip" : "a run without --no-skip",
            "take the same option");
   }
-  const bool all_there =
-      found.point->snapshots == OutputSchedule(c.document.scene).snapshots().count();
-  if (all_there && is_finished(folder)) return std::nullopt;
+  return found;
+}
+
+/// Where the run in `folder` stands. Nothing where it is done.
+template <int Dim>
+std::optional<Beginning> find_beginning(const Case<Dim>& c, const std::string& folder,
+                                        const SolverOptions& options) {
+  check_results_folder(folder, c.document.scene.name);
+  if (is_finished(folder)) {
+    // Looked at without the lock: it may be kept where nothing can be written.
+    const FoundRestart found = find_restart(c, folder, options);
+    const long all = OutputSchedule(c.document.scene).snapshots().count();
+    if (found.point && found.point->snapshots == all && found.damage.empty()) return std::nullopt;
+  }
+  Beginning beginning{folder, std::nullopt, FolderLock(folder)};
+  FoundRestart found = find_restart(c, folder, options);
+  for (const std::string& damage : found.damage) {
+    std::fprintf(stderr, "suffuse-solver: warning: passed over: %s\n", damage.c_str());
+  }
+  if (!found.point && found.holds_results) {
+    throw FileError(folder +
+                    ": cannot be resumed: no snapshot there has a state to go on from; choose "
+                    "another folder with -o, or run anew without --resume");
+  }
   beginning.from = std::move(found.point);
-  beginning.lock = std::move(lock);
   return beginning;
 }
 
@@ -316,8 +341,12 @@ template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path) {
   catch_interrupts();
-  std::optional<Beginning> beginning = Beginning{folder, std::nullopt, {}};
-  if (run.resume) beginning = find_beginning(c, folder, options);
+  std::optional<Beginning> beginning;
+  if (run.resume) {
+    beginning = find_beginning(c, folder, options);
+  } else {
+    beginning = Beginning{folder, std::nullopt, lock_for_results(folder, c.document.scene.name)};
+  }
   if (!beginning) {
     if (!run.quiet) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());
     return static_cast<int>(ExitCode::done);

@@ -17,11 +17,11 @@ struct RunOptions {
 };
 
 /// Runs a case to its end into `folder`. Returns ExitCode::done, or ExitCode::interrupted after
-/// SIGINT or SIGTERM (with a checkpoint, and a line that says how to go on). A run that is resumed
-/// gives the same bits as one that never stopped, on any number of threads. Throws NumericalError
-/// and FileError, after noting it in run.json, and InputError where the folder holds the results of
-/// another scene. Keeps of the case what it goes on needing: hand it over where there are many
-/// points. `case_path` is for messages.
+/// SIGINT, SIGTERM or SIGHUP (with a checkpoint, and a line that says how to go on). A run that is
+/// resumed gives the same bits as one that never stopped, on any number of threads. Throws
+/// NumericalError and FileError, after noting it in run.json, and InputError where the folder holds
+/// the results of another scene. Keeps of the case what it goes on needing: hand it over where
+/// there are many points. `case_path` is for messages.
 template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path = "NAME.case.h5");

@@ -1,5 +1,8 @@
 #include "case/errors.hpp"
 
+#include <fcntl.h>
+
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <utility>
@@ -48,6 +51,15 @@ InputError::InputError(std::vector<InputProblem> problems)
 InputError::InputError(const std::string& sentence)
     : InputError(std::vector{InputProblem{
           .where = {}, .key = sentence, .found = {}, .expected = {}, .suggestion = {}}}) {}
+
+void prepare_process() {
+  for (const int stream : {0, 1, 2}) {
+    if (::fcntl(stream, F_GETFD) != -1) continue;
+    // The lowest free number is this one.
+    static_cast<void>(::open("/dev/null", O_RDWR));
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 int report_current_exception(const std::string& program) {
   try {

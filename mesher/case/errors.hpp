@@ -54,6 +54,11 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Opens those of stdin, stdout and stderr that are closed, for nothing to be read or seen there:
+/// a file opened later would get the number of one of them, and the messages meant for it. Has a
+/// file that may not grow further (SIGXFSZ) fail the write instead of ending the program.
+void prepare_process();
+
 /// Runs `body`, prints what it throws to stderr as `PROGRAM: error: ...` (an InputError's problems
 /// one per line, as they are) and returns the exit code.
 int run_program(const std::string& program, const auto& body);
@@ -63,6 +68,7 @@ int report_current_exception(const std::string& program);
 
 int run_program(const std::string& program, const auto& body) {
   try {
+    prepare_process();
     return body();
   } catch (...) {
     return report_current_exception(program);

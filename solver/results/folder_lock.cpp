@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "case/errors.hpp"
 #include "results/layout.hpp"
@@ -24,6 +25,15 @@ std::string this_process() {
   return "process " + std::to_string(::getpid()) + " on " + host.data();
 }
 
+std::string lock_in(const std::string& folder) {
+  return (fs::path(folder) / layout::lock).string();
+}
+
+bool holds_one_file(const std::string& folder) {
+  std::error_code ignored;
+  return std::distance(fs::directory_iterator(folder, ignored), {}) == 1;
+}
+
 std::string holder(const std::string& path) {
   std::ifstream in(path);
   std::string name;
@@ -35,9 +45,10 @@ std::string holder(const std::string& path) {
 
 FolderLock::FolderLock(const std::string& folder) {
   std::error_code error;
-  fs::create_directories(folder, error);
+  made_folder_ = fs::create_directories(folder, error);
   if (error) throw FileError(folder + ": cannot be created: " + error.message());
-  const std::string path = (fs::path(folder) / layout::lock).string();
+  folder_ = folder;
+  const std::string path = lock_in(folder);
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw FileError(folder + ": cannot be written to: " + std::strerror(errno));
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
@@ -55,7 +66,15 @@ FolderLock::FolderLock(const std::string& folder) {
 }
 
 FolderLock::~FolderLock() {
-  if (file_ >= 0) ::close(file_);
+  if (file_ < 0) return;
+  // Of one that was killed the name stays, of this one it does not.
+  [[maybe_unused]] const int emptied = ::ftruncate(file_, 0);
+  std::error_code ignored;
+  if (made_folder_ && holds_one_file(folder_)) {
+    fs::remove(lock_in(folder_), ignored);
+    fs::remove(folder_, ignored);
+  }
+  ::close(file_);
 }
 
 }  // namespace suffuse

@@ -8,15 +8,18 @@
 namespace suffuse {
 
 /// Holds the lock (flock) until destroyed or until the process ends, however that happens. Where
-/// the file system knows no locks nobody is kept out.
+/// the file system knows no locks nobody is kept out. A folder that it made and that has got
+/// nothing else is removed again.
 class FolderLock {
  public:
   FolderLock() = default;
   /// Makes the folder if need be. Throws FileError, which names the process that holds the lock.
   explicit FolderLock(const std::string& folder);
-  FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  FolderLock(FolderLock&& other) noexcept { *this = std::move(other); }
   FolderLock& operator=(FolderLock&& other) noexcept {
     std::swap(file_, other.file_);
+    std::swap(folder_, other.folder_);
+    std::swap(made_folder_, other.made_folder_);
     return *this;
   }
   FolderLock(const FolderLock&) = delete;
@@ -25,6 +28,8 @@ class FolderLock {
 
  private:
   int file_ = -1;
+  std::string folder_;
+  bool made_folder_ = false;
 };
 
 }  // namespace suffuse

@@ -2,6 +2,7 @@
 
 /// Names within a results folder, shared by its writer and its reader.
 
+#include <filesystem>
 #include <string>
 
 namespace suffuse::layout {
@@ -20,6 +21,11 @@ inline constexpr const char* snapshots = "snapshots";
 inline constexpr const char* checkpoint = "checkpoint.hdf";
 /// Held by the solver that writes into the folder.
 inline constexpr const char* lock = ".lock";
+
+/// "FOLDER/NAME"
+inline std::string in_folder(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / name).string();
+}
 
 /// "mesh.hdf.series" and so on; `kind` is "mesh", "solid" or "liquid".
 inline std::string series(const std::string& kind) {

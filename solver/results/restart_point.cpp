@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the bytes of a state: to be raised whenever an `archive` changes what it lists.
-constexpr std::int64_t state_layout = 1;
+constexpr std::int64_t state_layout = 2;
 
 /// FNV-1a (Fowler, Noll, Vo) on eight bytes at a time, with what that leaves out of the low bits
 /// mixed in.
@@ -36,6 +36,9 @@ class Digest {
     add_word(rest);
   }
   void add(const std::string& text) { add(text.data(), text.size()); }
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void add(Number number) { add(&number, sizeof number); }
   template <class Value>
   void add(const std::vector<Value>& values) {
     add(values.data(), values.size() * sizeof(Value));
@@ -63,10 +66,6 @@ void add(Digest& digest, const MaterialPoints<Dim>& points) {
   digest.add(points.volume);
 }
 
-std::string in_folder(const std::string& folder, const std::string& name) {
-  return (fs::path(folder) / name).string();
-}
-
 /// Whole lines behind the names.
 long rows_in(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -85,7 +84,7 @@ long whole_snapshots(const std::string& folder, bool has_liquid_files,
   for (long index = 0;; ++index) {
     for (const std::string kind : {"mesh", "solid", "liquid"}) {
       if (kind == "liquid" && !has_liquid_files) continue;
-      const std::string path = in_folder(folder, layout::snapshot(kind, index));
+      const std::string path = layout::in_folder(folder, layout::snapshot(kind, index));
       if (!fs::exists(path)) return index;
       try {
         const Hdf5File file(path, Hdf5File::Mode::read);
@@ -99,9 +98,14 @@ long whole_snapshots(const std::string& folder, bool has_liquid_files,
 
 }  // namespace
 
-std::string digest_of(const std::vector<std::uint8_t>& bytes) {
+std::string digest_of(const RestartPoint& point) {
   Digest digest;
-  digest.add(bytes);
+  digest.add(point.time);
+  digest.add(point.rows);
+  digest.add(point.snapshots);
+  digest.add(point.no_skip);
+  digest.add(point.case_digest);
+  digest.add(point.state);
   return digest.text();
 }
 
@@ -135,7 +139,7 @@ void write_restart_point(Hdf5File& file, const RestartPoint& point) {
   integer("snapshots", point.snapshots);
   integer("no_skip", point.no_skip ? 1 : 0);
   file.attribute(group, "case", point.case_digest);
-  file.attribute(group, "digest", digest_of(point.state));
+  file.attribute(group, "digest", digest_of(point));
   file.write(layout::restart_state, std::span(point.state), {point.state.size()});
 }
 
@@ -155,9 +159,8 @@ std::optional<RestartPoint> read_restart_point(const std::string& path) {
   point.no_skip = file.integer_attribute(group, "no_skip") != 0;
   point.case_digest = file.text_attribute(group, "case");
   point.state = file.read_bytes(layout::restart_state);
-  if (digest_of(point.state) != file.text_attribute(group, "digest")) {
-    throw FileError(path + ": " + layout::restart_state +
-                    ": is not what was written there; the file is damaged");
+  if (digest_of(point) != file.text_attribute(group, "digest")) {
+    throw FileError(path + ": " + group + ": is not what was written there; the file is damaged");
   }
   return point;
 }
@@ -166,9 +169,11 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
                                   std::size_t regions) {
   FoundRestart found;
   const long whole = whole_snapshots(folder, has_liquid_files, found.damage);
-  const long rows = std::min(
-      {rows_in(in_folder(folder, layout::history)), rows_in(in_folder(folder, layout::ledger)),
-       rows_in(in_folder(folder, layout::regions)) / static_cast<long>(regions)});
+  const long rows =
+      std::min({rows_in(layout::in_folder(folder, layout::history)),
+                rows_in(layout::in_folder(folder, layout::ledger)),
+                rows_in(layout::in_folder(folder, layout::regions)) / static_cast<long>(regions)});
+  found.holds_results = whole > 0 || rows > 1 || !found.damage.empty();
   const auto usable_point = [&](const std::string& path) -> std::optional<RestartPoint> {
     if (!fs::exists(path)) return std::nullopt;
     try {
@@ -180,10 +185,10 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
     }
     return std::nullopt;
   };
-  found.path = in_folder(folder, layout::checkpoint);
+  found.path = layout::in_folder(folder, layout::checkpoint);
   found.point = usable_point(found.path);
   for (long index = whole; index-- > 0;) {
-    const std::string path = in_folder(folder, layout::snapshot("mesh", index));
+    const std::string path = layout::in_folder(folder, layout::snapshot("mesh", index));
     std::optional<RestartPoint> point = usable_point(path);
     if (!point) continue;
     if (!found.point || point->time > found.point->time) {
@@ -196,7 +201,7 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
 }
 
 bool is_finished(const std::string& folder) {
-  std::ifstream in(in_folder(folder, layout::run_info), std::ios::binary);
+  std::ifstream in(layout::in_folder(folder, layout::run_info), std::ios::binary);
   const nlohmann::json info = nlohmann::json::parse(in, nullptr, false);
   return info.is_object() && info.value("status", nlohmann::json()) == "done";
 }

@@ -22,8 +22,8 @@ struct RestartPoint {
   std::vector<std::uint8_t> state;  ///< the solver's business; empty: not kept
 };
 
-/// 16 hexadecimal digits that tell what the bytes are.
-std::string digest_of(const std::vector<std::uint8_t>& bytes);
+/// 16 hexadecimal digits that tell one from another.
+std::string digest_of(const RestartPoint& point);
 
 /// The same of everything in a case that a run depends on.
 template <int Dim>
@@ -41,6 +41,9 @@ struct FoundRestart {
   std::optional<RestartPoint> point;
   std::string path;                 ///< of the file that holds it
   std::vector<std::string> damage;  ///< newer ones that could not be read, with the reason
+  /// Whether the folder holds more than what a run has that was stopped before its first snapshot:
+  /// who begins anew does away with something.
+  bool holds_results = false;
 };
 
 /// The last point of the run in `folder` whose snapshots and tables are all there.

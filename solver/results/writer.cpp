@@ -22,11 +22,7 @@ namespace suffuse {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-std::string in_folder(const std::string& folder, const std::string& name) {
-  return (fs::path(folder) / name).string();
-}
+using OrderedJson = nlohmann::ordered_json;
 
 [[noreturn]] void fail_writing(const std::string& path, int reason) {
   throw FileError(path + ": cannot be written" +
@@ -59,25 +55,26 @@ void replace_file(const std::string& path, const std::string& text) {
   }
 }
 
-std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string dump(const OrderedJson& json) {
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
-Json run_info_in(const std::string& folder) {
-  std::ifstream in(in_folder(folder, layout::run_info));
-  const Json json = Json::parse(in, nullptr, false);
-  return json.is_object() && json.value("format", Json()) == layout::format ? json : Json();
+OrderedJson run_info_in(const std::string& folder) {
+  std::ifstream in(layout::in_folder(folder, layout::run_info));
+  const OrderedJson json = OrderedJson::parse(in, nullptr, false);
+  return json.is_object() && json.value("format", OrderedJson()) == layout::format ? json
+                                                                                   : OrderedJson();
 }
 
 /// Files that a run writes beside run.json and the lock.
 bool is_own_file(const std::string& name) {
   static const std::regex own(
-      R"((case\.h5|checkpoint\.hdf|(history|ledger|regions)\.csv|(mesh|solid|liquid)\.hdf\.series)(\.tmp)?)");
+      R"((case\.h5|checkpoint\.hdf|(history|ledger|regions)\.csv|(mesh|solid|liquid)\.hdf\.series)(\.tmp)?|\.case\.\d+\.part\.h5)");
   return std::regex_match(name, own);
 }
 
 bool is_own_snapshot(const std::string& name) {
-  static const std::regex own(R"((mesh|solid|liquid)_\d{6,}\.hdf(\.tmp)?)");
+  static const std::regex own(R"((mesh|solid|liquid)_\d{6,12}\.hdf(\.tmp)?)");
   return std::regex_match(name, own);
 }
 
@@ -113,6 +110,11 @@ void remove_earlier_run(const std::string& folder) {
   }
 }
 
+/// Files that a solver was writing when it was killed.
+bool is_unfinished(const std::string& name) {
+  return is_own_file(name) && (name.ends_with(".tmp") || name.ends_with(".part.h5"));
+}
+
 /// What a run that goes on behind its first `count` snapshots writes again.
 void remove_later_snapshots(const std::string& folder, long count) {
   const auto is_later = [count](const std::string& name) {
@@ -121,6 +123,7 @@ void remove_later_snapshots(const std::string& folder, long count) {
     return name.ends_with(".tmp") || std::stol(digits) >= count;
   };
   try {
+    remove_files(folder, is_unfinished);
     remove_files(fs::path(folder) / layout::snapshots, is_later);
   } catch (const fs::filesystem_error& error) {
     throw FileError(folder + ": " + error.code().message());
@@ -208,30 +211,34 @@ void write_hdf5_whole(const std::string& path, const Fill& fill) {
 
 GrowingTable::GrowingTable(std::string path, const std::string& names) : path_(std::move(path)) {
   write_file(path_, names + "\n");
+  size_ = names.size() + 1;
   out_.open(path_, std::ios::binary | std::ios::app);
 }
 
 GrowingTable::GrowingTable(std::string path, long rows) : path_(std::move(path)) {
   std::ifstream in(path_, std::ios::binary);
   std::string line;
-  std::uintmax_t size = 0;
-  for (long count = 0; count <= rows && std::getline(in, line); ++count) size += line.size() + 1;
+  for (long count = 0; count <= rows && std::getline(in, line); ++count) size_ += line.size() + 1;
   std::error_code error;
-  fs::resize_file(path_, size, error);
+  fs::resize_file(path_, size_, error);
   if (error) fail_writing(path_, error.value());
   out_.open(path_, std::ios::binary | std::ios::app);
 }
 
 void GrowingTable::append(const std::string& lines) {
   errno = 0;
-  const std::streamoff before = out_.seekp(0, std::ios::end).tellp();
   out_ << lines << std::flush;
-  if (out_) return;
   const int reason = errno;
-  out_.close();
-  std::error_code ignored;
-  if (before >= 0) fs::resize_file(path_, static_cast<std::uintmax_t>(before), ignored);
-  fail_writing(path_, reason);
+  std::error_code error;
+  if (!out_) {
+    out_.close();
+    fs::resize_file(path_, size_, error);
+    fail_writing(path_, reason);
+  }
+  size_ += lines.size();
+  // What is open may no longer be what has this name.
+  if (fs::file_size(path_, error) == size_ && !error) return;
+  throw FileError(path_ + ": was removed or changed by another program while the run wrote to it");
 }
 
 void check_results_folder(const std::string& folder, const std::string& scene) {
@@ -241,13 +248,14 @@ void check_results_folder(const std::string& folder, const std::string& scene) {
       throw FileError(folder + ": is a file; expected a folder for the results");
     }
     if (nothing_but_a_lock(folder)) return;
-    const Json info = run_info_in(folder);
+    const OrderedJson info = run_info_in(folder);
     if (info.is_null()) {
       throw FileError(folder +
                       ": is not empty and holds no results of suffuse-solver; "
                       "not touched: choose another folder or empty it");
     }
-    const Json there = info.value("scene", Json::object()).value("name", Json());
+    const OrderedJson there =
+        info.value("scene", OrderedJson::object()).value("name", OrderedJson());
     // A run that has just begun has not said yet whose it is.
     if (!there.is_string() || there == scene) return;
     throw InputError(folder + ": holds results of scene " + there.dump() + ", not of \"" + scene +
@@ -257,17 +265,24 @@ void check_results_folder(const std::string& folder, const std::string& scene) {
   }
 }
 
+FolderLock lock_for_results(const std::string& folder, const std::string& scene) {
+  check_results_folder(folder, scene);
+  return FolderLock(folder);
+}
+
 template <int Dim>
 ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c)
-    : folder_(folder), case_(c) {
-  check_results_folder(folder, c.document.scene.name);
-  lock_ = FolderLock(folder);
+    : ResultsWriter(folder, c, lock_for_results(folder, c.document.scene.name)) {}
+
+template <int Dim>
+ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock)
+    : folder_(folder), case_(c), lock_(std::move(lock)) {
   write_run_info(RunInfo{});
   remove_earlier_run(folder);
-  write_case(in_folder(folder, layout::case_copy), c);
-  history_ = {in_folder(folder, layout::history), header_line(history_columns)};
-  ledger_ = {in_folder(folder, layout::ledger), header_line(ledger_columns)};
-  regions_ = {in_folder(folder, layout::regions), regions_header()};
+  write_case(layout::in_folder(folder, layout::case_copy), c);
+  history_ = {layout::in_folder(folder, layout::history), header_line(history_columns)};
+  ledger_ = {layout::in_folder(folder, layout::ledger), header_line(ledger_columns)};
+  regions_ = {layout::in_folder(folder, layout::regions), regions_header()};
 }
 
 template <int Dim>
@@ -275,7 +290,7 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c,
                                   const RestartPoint& point)
     : folder_(folder), case_(c), lock_(std::move(lock)) {
   const auto regions = static_cast<long>(c.mesh.region_names.size());
-  const std::string case_copy = in_folder(folder, layout::case_copy);
+  const std::string case_copy = layout::in_folder(folder, layout::case_copy);
   if (!fs::exists(case_copy)) write_case(case_copy, c);
   continue_series(mesh_series_, point.snapshots);
   continue_series(solid_series_, point.snapshots);
@@ -283,9 +298,9 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c,
     continue_series(liquid_series_, point.snapshots);
   }
   remove_later_snapshots(folder, point.snapshots);
-  history_ = {in_folder(folder, layout::history), point.rows};
-  ledger_ = {in_folder(folder, layout::ledger), point.rows};
-  regions_ = {in_folder(folder, layout::regions), regions * point.rows};
+  history_ = {layout::in_folder(folder, layout::history), point.rows};
+  ledger_ = {layout::in_folder(folder, layout::ledger), point.rows};
+  regions_ = {layout::in_folder(folder, layout::regions), regions * point.rows};
 }
 
 template <int Dim>
@@ -309,14 +324,14 @@ template <int Dim>
 void ResultsWriter<Dim>::extend(Series& series, const std::string& file, double time) {
   // Written piece by piece: to make it of all entries again takes longer with each of them.
   if (series.count++ > 0) series.entries += ",";
-  series.entries += "\n    {\n      \"name\": " + Json(file).dump() +
-                    ",\n      \"time\": " + Json(time).dump() + "\n    }";
+  series.entries += "\n    {\n      \"name\": " + OrderedJson(file).dump() +
+                    ",\n      \"time\": " + OrderedJson(time).dump() + "\n    }";
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::write_series(const Series& series) const {
   replace_file(
-      in_folder(folder_, layout::series(series.kind)),
+      layout::in_folder(folder_, layout::series(series.kind)),
       "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [" + series.entries + "\n  ]\n}\n");
 }
 
@@ -324,7 +339,7 @@ template <int Dim>
 void ResultsWriter<Dim>::continue_series(Series& series, long snapshots) {
   for (long index = 0; index < snapshots; ++index) {
     const std::string name = layout::snapshot(series.kind, index);
-    const Hdf5File file(in_folder(folder_, name), Hdf5File::Mode::read);
+    const Hdf5File file(layout::in_folder(folder_, name), Hdf5File::Mode::read);
     extend(series, name, file.double_attribute(layout::own_group, "time"));
   }
   if (snapshots > 0) write_series(series);
@@ -336,21 +351,21 @@ void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
   const std::size_t index = mesh_series_.count;
   const double time = snapshot.time;
   const std::string solid_name = layout::snapshot("solid", index);
-  write_hdf5_whole(in_folder(folder_, solid_name), [&](Hdf5File& file) {
+  write_hdf5_whole(layout::in_folder(folder_, solid_name), [&](Hdf5File& file) {
     write_vtkhdf(file, vtk_grid(case_.mesh, case_.solid_points), {}, snapshot.solid);
     write_provenance(file, case_, snapshot);
   });
   const bool has_liquid = case_.document.scene.formulation == Formulation::double_point;
   const std::string liquid_name = layout::snapshot("liquid", index);
   if (has_liquid) {
-    write_hdf5_whole(in_folder(folder_, liquid_name), [&](Hdf5File& file) {
+    write_hdf5_whole(layout::in_folder(folder_, liquid_name), [&](Hdf5File& file) {
       write_vtkhdf(file, vtk_grid(std::move(snapshot.liquid_positions)), {}, snapshot.liquid);
       write_provenance(file, case_, snapshot);
     });
     snapshot.liquid.clear();
   }
   const std::string mesh_name = layout::snapshot("mesh", index);
-  write_hdf5_whole(in_folder(folder_, mesh_name), [&](Hdf5File& file) {
+  write_hdf5_whole(layout::in_folder(folder_, mesh_name), [&](Hdf5File& file) {
     write_vtkhdf(file, vtk_grid(case_.mesh), snapshot.cell, snapshot.node);
     write_provenance(file, case_, snapshot);
     write_own_fields(file, snapshot, case_.mesh.elements.size(), Dim + 1);
@@ -367,24 +382,24 @@ void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
 
 template <int Dim>
 void ResultsWriter<Dim>::write_checkpoint(const RestartPoint& point) {
-  write_hdf5_whole(in_folder(folder_, layout::checkpoint),
+  write_hdf5_whole(layout::in_folder(folder_, layout::checkpoint),
                    [&](Hdf5File& file) { write_restart_point(file, point); });
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::remove_checkpoint() {
   std::error_code ignored;
-  fs::remove(in_folder(folder_, layout::checkpoint), ignored);
+  fs::remove(layout::in_folder(folder_, layout::checkpoint), ignored);
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::write_run_info(const RunInfo& info) {
-  Json passes = Json::array();
+  OrderedJson passes = OrderedJson::array();
   for (const auto& pass : info.passes) {
     passes.push_back({{"name", pass.name}, {"calls", pass.calls}, {"seconds", pass.seconds}});
   }
   const auto& document = case_.document;
-  const Json json = {
+  const OrderedJson json = {
       {"format", layout::format},
       {"format_version", layout::format_version},
       {"status", info.status},
@@ -395,7 +410,7 @@ void ResultsWriter<Dim>::write_run_info(const RunInfo& info) {
       {"elements", info.elements},
       {"threads", info.threads},
       {"wall_seconds", info.wall_seconds},
-      {"resumed_at", info.resumed_at ? Json(*info.resumed_at) : Json()},
+      {"resumed_at", info.resumed_at ? OrderedJson(*info.resumed_at) : OrderedJson()},
       {"memory_bytes", static_cast<std::int64_t>(info.memory_bytes)},
       {"passes", passes},
       {"plan", info.plan},
@@ -409,7 +424,7 @@ void ResultsWriter<Dim>::write_run_info(const RunInfo& info) {
         {"text", document.text}}},
       {"versions", versions()},
   };
-  replace_file(in_folder(folder_, layout::run_info), dump(json));
+  replace_file(layout::in_folder(folder_, layout::run_info), dump(json));
 }
 
 template class ResultsWriter<2>;

@@ -79,17 +79,21 @@ class GrowingTable {
   GrowingTable(std::string path, const std::string& names);
   /// Goes on behind the first `rows` lines after the names; drops the others.
   GrowingTable(std::string path, long rows);
-  /// Whole lines. Throws FileError.
+  /// Whole lines. Throws FileError, also where the file is no longer the one that was written to.
   void append(const std::string& lines);
 
  private:
   std::string path_;
+  std::uintmax_t size_ = 0;  ///< of the file, bytes
   std::ofstream out_;
 };
 
 /// Refuses with an InputError or a FileError where `folder` is no place for results of a scene of
 /// this name: it is a file, holds something else, or the results of another scene. Touches nothing.
 void check_results_folder(const std::string& folder, const std::string& scene);
+
+/// The same, and then the lock of the folder, which is made if need be. Throws as FolderLock does.
+FolderLock lock_for_results(const std::string& folder, const std::string& scene);
 
 /// Owns the folder from construction on, and lets no other solver in. Rows are flushed as they
 /// come; a snapshot is written under a temporary name, renamed, and only then named in the .series
@@ -98,8 +102,10 @@ template <int Dim>
 class ResultsWriter {
  public:
   /// Makes the folder, replacing the run that stood there before, and copies what a reader needs of
-  /// the case. Throws as `check_results_folder` does.
+  /// the case. Throws as `lock_for_results` does.
   ResultsWriter(const std::string& folder, const Case<Dim>& c);
+  /// The same with the lock in hand.
+  ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock);
   /// Goes on with the run that stands there: drops what came after `point`.
   ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock,
                 const RestartPoint& point);
@@ -111,7 +117,7 @@ class ResultsWriter {
   void write_snapshot(Snapshot snapshot);
   /// Where a run stops between snapshots, or would lose much if it were stopped.
   void write_checkpoint(const RestartPoint& point);
-  /// Once the run is done.
+  /// When the run is about to be done.
   void remove_checkpoint();
   void write_run_info(const RunInfo& info);
 
