@@ -16,10 +16,10 @@ namespace suffuse {
 namespace {
 
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
-constexpr double most_porosity_growth = 1e-3;
+constexpr double most_growth_lagrangian = 1e-3;
 /// Steps of transport between two meetings with a flow that could go further: whoever looks in
 /// between has them done again, once.
-constexpr double most_transport_steps = 4.0;
+constexpr double most_lagrangian_steps = 4.0;
 /// Of the density of the liquid, between elements.
 constexpr int smoothing_rounds = 4;
 /// Liquid that needs more steps of transport than this between two meetings goes nowhere sensible.
@@ -286,13 +286,13 @@ long DoublePoint<Dim>::steps_before_transport(double dt) const {
     flux.push_back(q.norm() / last_motion_.duration);
   }
   return steps_to_meeting(skeleton_, porosity, flux, state_.time, dt,
-                          transport_.share_allowed(one_step, porosity), most_porosity_growth,
+                          transport_.share_allowed(one_step, porosity), most_growth_lagrangian,
                           last_steps_);
 }
 
 template <int Dim>
 double DoublePoint<Dim>::longest_interval() const {
-  return most_transport_steps * transport_safety * last_motion_.duration *
+  return most_lagrangian_steps * transport_safety * last_motion_.duration *
          transport_.share_allowed(last_motion_, flow_->coefficients().porosity);
 }
 

@@ -16,6 +16,7 @@
 #include "memory.hpp"
 #include "physics/drag.hpp"
 #include "results/layout.hpp"
+#include "results/number_text.hpp"
 #include "single_point.hpp"
 #include "step_loop.hpp"
 
@@ -463,13 +464,6 @@ std::string rounded(double value) {
   return text.str();
 }
 
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(4);
-  text << value;
-  return text.str();
-}
-
 std::string duration_text(double seconds) {
   if (seconds < 120.0) return rounded(seconds) + " s";
   if (seconds < 7200.0) return rounded(seconds / 60.0) + " min";
@@ -512,7 +506,7 @@ std::vector<std::string> sentences(const Estimate& e, int threads) {
   if (e.whole) {
     from << "whole run without writing";
   } else {
-    from << "first " << counted(e.trial_steps, "step") << " (t = " << number(e.trial_time)
+    from << "first " << counted(e.trial_steps, "step") << " (t = " << short_text(e.trial_time)
          << " s) ";
     if (e.steady_steps > 0) from << "and of " << e.steady_steps << " from the steady flow on, ";
     from << "in " << duration_text(e.trial_seconds);

@@ -9,17 +9,11 @@
 #include "flow/nodal_operator.hpp"
 #include "physics/drag.hpp"
 #include "physics/liquid.hpp"
+#include "results/number_text.hpp"
 #include "solid/rigid_skeleton.hpp"
 
 namespace suffuse {
 namespace {
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(4);
-  text << value;
-  return text.str();
-}
 
 double largest_inflow_concentration(const Scene& scene) {
   double largest = 0.0;
@@ -115,10 +109,10 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
     gross += std::abs(flux);
   }
   if (std::abs(net) <= 1e-6 * gross) return;
-  throw InputError(
-      {{c.document.locate("initial.flow"), "initial.flow",
-        "\"steady\" with boundaries that bring in " + number(net) + " m3/s more than they take out",
-        "prescribed fluxes that add up to zero, or a boundary with a pressure", ""}});
+  throw InputError({{c.document.locate("initial.flow"), "initial.flow",
+                     "\"steady\" with boundaries that bring in " + short_text(net) +
+                         " m3/s more than they take out",
+                     "prescribed fluxes that add up to zero, or a boundary with a pressure", ""}});
 }
 
 /// Longest time in which drag brings the flow of a soil to its end, k / (n g), s.
@@ -140,19 +134,19 @@ void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
   const double relaxation = longest_relaxation(scene);
   if (relaxation * scaling > 0.01 * scene.time.end) {
     plan.warnings.push_back(
-        "mass_scaling = " + number(scaling) +
-        " stretches the time in which the flow settles from " + number(relaxation) + " s to " +
-        number(relaxation * scaling) +
+        "mass_scaling = " + short_text(scaling) +
+        " stretches the time in which the flow settles from " + short_text(relaxation) + " s to " +
+        short_text(relaxation * scaling) +
         " s; fluxes and concentrations can be trusted only while that is below 1 % of the run (" +
-        number(0.01 * scene.time.end) + " s). Porosity is not touched by it.");
+        short_text(0.01 * scene.time.end) + " s). Porosity is not touched by it.");
   }
 }
 
 void describe_explicit_flow(const Scene& scene, Plan& plan) {
   const double steps = std::ceil(scene.time.end / plan.flow.step * (1.0 - 1e-12));
   plan.sentences.push_back(
-      "run: flow, explicit nodal scheme, about " + number(steps) + " steps of " +
-      number(plan.flow.step) + " s (stability limit " + number(plan.limit.step) + " s, " +
+      "run: flow, explicit nodal scheme, about " + short_text(steps) + " steps of " +
+      short_text(plan.flow.step) + " s (stability limit " + short_text(plan.limit.step) + " s, " +
       (plan.flow.step_given ? "step from the scene" : "0.9 of the limit") + ")");
 }
 
@@ -161,14 +155,14 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
   const bool monotone = scene.time.stepping == TimeStepping::monotone;
   say("run: flow, implicit mixed finite elements, " +
       std::string(monotone ? "monotone (first order)" : "second order") + " in time, steps " +
-      (plan.flow.step_given ? "of " + number(plan.flow.step) + " s as given"
-                            : "chosen for a local error of " + number(scene.time.tolerance)));
+      (plan.flow.step_given ? "of " + short_text(plan.flow.step) + " s as given"
+                            : "chosen for a local error of " + short_text(scene.time.tolerance)));
   const std::string why = scene.time.inertia  ? "as the scene says"
                           : plan.flow.inertia ? "too long to leave out"
                                               : "too short to be noticed";
   say((plan.flow.inertia ? "run" : "skip") +
       std::string(": inertia of the liquid; drag stops it within ") +
-      number(longest_relaxation(scene)) + " s, " + why);
+      short_text(longest_relaxation(scene)) + " s, " + why);
   say(options.no_skip ? "run: the flow in every step (--no-skip)"
                       : "skip: the flow while it is steady and nothing that drives it changes");
 }
@@ -178,9 +172,11 @@ void describe_spans(const Scene& scene, Plan& plan) {
   const bool late = plan.erosion && plan.erosion_span.begin > 0.0;
   const bool early = plan.erosion && plan.erosion_span.end < scene.time.end;
   std::string when;
-  if (late) when = "before t = " + number(std::min(plan.erosion_span.begin, scene.time.end)) + " s";
+  if (late)
+    when = "before t = " + short_text(std::min(plan.erosion_span.begin, scene.time.end)) + " s";
   if (early) {
-    when += std::string(late ? " and " : "") + "after t = " + number(plan.erosion_span.end) + " s";
+    when +=
+        std::string(late ? " and " : "") + "after t = " + short_text(plan.erosion_span.end) + " s";
   }
   if (late || early) plan.sentences.push_back("skip: erosion " + when + ", nothing can erode");
 }
@@ -211,7 +207,7 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
     say(plan.transport ? "run: transport of fluidised grains" + because
                        : "skip: transport, no soil erodes and no grains flow in");
     if (plan.transport && plan.grains_from > 0.0) {
-      say("skip: transport before t = " + number(std::min(plan.grains_from, scene.time.end)) +
+      say("skip: transport before t = " + short_text(std::min(plan.grains_from, scene.time.end)) +
           " s, no grains in the liquid");
     }
   }
@@ -220,7 +216,7 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
       std::any_of(scene.gravity.begin(), scene.gravity.end(), [](double g) { return g != 0.0; });
   say(gravity ? "run: gravity" : "skip: gravity, none is given");
   const auto outputs = [&](double every) {
-    return number(std::ceil(scene.time.end / every * (1.0 - 1e-12)) + 1.0);
+    return short_text(std::ceil(scene.time.end / every * (1.0 - 1e-12)) + 1.0);
   };
   say("skip: what only outputs need, but for " + outputs(scene.output.every) + " rows and " +
       outputs(scene.output.snapshot_every) + " snapshots");

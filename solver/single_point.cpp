@@ -18,10 +18,10 @@ namespace suffuse {
 namespace {
 
 /// Relative growth of porosity in which the flow may still use the porosity from before it.
-constexpr double most_porosity_growth = 2e-3;
+constexpr double most_growth_eulerian = 2e-3;
 /// Steps of transport between two meetings with a flow that could go further: whoever looks in
 /// between has them done again, once.
-constexpr double most_transport_steps = 16.0;
+constexpr double most_eulerian_steps = 16.0;
 
 }  // namespace
 
@@ -140,13 +140,13 @@ long SinglePoint<Dim>::steps_before_transport(double dt) const {
   for (double& volume : per_step) volume *= dt;
   return steps_to_meeting(skeleton_, flow_->coefficients().porosity, element_flux_magnitude(),
                           state_.time, dt, transport_.steps_allowed(state_.liquid, per_step),
-                          most_porosity_growth, last_steps_);
+                          most_growth_eulerian, last_steps_);
 }
 
 template <int Dim>
 double SinglePoint<Dim>::longest_interval() const {
   if (!plan_.transport) return std::numeric_limits<double>::infinity();
-  return most_transport_steps * transport_safety *
+  return most_eulerian_steps * transport_safety *
          transport_.steps_allowed(state_.liquid, last_volume_rate_);
 }
 

@@ -8,7 +8,7 @@ namespace suffuse {
 namespace {
 
 /// Below this many entities a loop is shorter than waking the threads.
-constexpr int worth_threads = 8192;
+constexpr int worth_threads_of_nodes = 8192;
 
 /// Inner nodes are taken by the number of their neighbours within windows of so many: loops around
 /// them then have lengths that the processor foresees, and windows stay in its fastest memory.
@@ -270,7 +270,8 @@ void ExplicitNodal<Dim>::accelerate(double spacing, double dt) {
   velocity_is_current_ = false;
   const int blocks = static_cast<int>(node_blocks_.size());
   const int edge_nodes = static_cast<int>(edge_nodes_.size());
-#pragma omp parallel num_threads(settings_.threads) if (lane_count * blocks > worth_threads)
+#pragma omp parallel num_threads(settings_.threads) if (lane_count * blocks > \
+                                                        worth_threads_of_nodes)
   {
 #pragma omp for schedule(static) nowait
     for (int b = 0; b < blocks; ++b) accelerate_block(spacing, dt, b);
@@ -372,7 +373,8 @@ template <bool convects>
 void ExplicitNodal<Dim>::compress_blocks(double dt) {
   const int blocks = static_cast<int>(element_blocks_.size());
   const int edge_elements = static_cast<int>(edge_elements_.size());
-#pragma omp parallel num_threads(settings_.threads) if (lane_count * blocks > worth_threads)
+#pragma omp parallel num_threads(settings_.threads) if (lane_count * blocks > \
+                                                        worth_threads_of_nodes)
   {
 #pragma omp for schedule(static)
     for (int b = 0; b < blocks; ++b) compress_block<convects>(dt, b);
@@ -515,7 +517,8 @@ FaceVolumes ExplicitNodal<Dim>::volumes() const {
   FaceVolumes result;
   result.liquid.assign(faces, 0.0);
   const VectorField<Dim> way = ways();
-#pragma omp parallel for schedule(static) num_threads(settings_.threads) if (faces > worth_threads)
+#pragma omp parallel for schedule(static) \
+    num_threads(settings_.threads) if (faces > worth_threads_of_nodes)
   for (int f = 0; f < faces; ++f) {
     if (operator_.flux_is_fixed(f)) continue;
     const auto [a, b] = grid.face_nodes[f];

@@ -7,8 +7,6 @@
 namespace suffuse {
 namespace {
 
-/// A walk that goes on for so long goes in a circle.
-constexpr int most_crossings = 10000;
 /// Circles no larger than this share of an element are as good as a point.
 constexpr double small_circle = 0.01;
 

@@ -53,6 +53,9 @@ PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int 
   return there;
 }
 
+/// A walk that crosses so many faces goes in a circle.
+inline constexpr int most_crossings = 10000;
+
 /// Stops a walk that does not come to an end; `id` is the point's.
 template <int Dim>
 [[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {

@@ -5,10 +5,6 @@
 namespace suffuse {
 namespace {
 
-/// A step moves a point through a few elements at most; one that goes on for so long goes in a
-/// circle.
-constexpr int most_crossings = 10000;
-
 template <int Dim>
 using Barycentric = std::array<double, Dim + 1>;
 

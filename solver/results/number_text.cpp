@@ -11,6 +11,14 @@ std::string number_text(double value) {
   return {buffer.data(), end};
 }
 
+std::string short_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::general, 4)
+                       .ptr;
+  return {buffer.data(), end};
+}
+
 std::optional<double> parse_number(std::string_view text) {
   double value = 0.0;
   const char* const end = text.data() + text.size();

@@ -12,7 +12,7 @@ constexpr int passed_together = 64;
 /// that moved are where no processor expects them.
 constexpr int looked_ahead = 4;
 /// Below this many elements a pass is over before other threads are awake.
-constexpr int worth_threads = 512;
+constexpr int worth_threads_of_points = 512;
 
 double sum(const Lanes& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
@@ -71,7 +71,7 @@ template <int Dim>
 void CarriedPoints<Dim>::gather(VectorField<Dim>& velocity, std::vector<double>& pressure) {
   const int elements = grid_.mesh.element_count();
   const int nodes = grid_.mesh.node_count();
-#pragma omp parallel num_threads(threads_) if (elements > worth_threads)
+#pragma omp parallel num_threads(threads_) if (elements > worth_threads_of_points)
   {
 #pragma omp for schedule(static)
     for (int e = 0; e < elements; ++e) {
@@ -206,7 +206,8 @@ void CarriedPoints<Dim>::take_and_move(const FlowChange<Dim>& change, const Walk
                                        std::vector<CarriedCrossing>& crossings) {
   const int elements = grid_.mesh.element_count();
   const auto together = static_cast<int>(departures_.size()) - 1;
-#pragma omp parallel for schedule(static) num_threads(threads_) if (elements > worth_threads)
+#pragma omp parallel for schedule(static) \
+    num_threads(threads_) if (elements > worth_threads_of_points)
   for (int k = 0; k < together; ++k) {
     Departures& departures = departures_[k];
     departures.travellers.clear();
@@ -239,7 +240,8 @@ template <int Dim>
 void CarriedPoints<Dim>::let_in() {
   // Each thread fills elements of its own, in the order of the lists.
   const long elements = grid_.mesh.element_count();
-#pragma omp parallel for schedule(static) num_threads(threads_) if (elements > worth_threads)
+#pragma omp parallel for schedule(static) \
+    num_threads(threads_) if (elements > worth_threads_of_points)
   for (int thread = 0; thread < threads_; ++thread) {
     const auto begin = static_cast<int>(elements * thread / threads_);
     const auto end = static_cast<int>(elements * (thread + 1) / threads_);
