@@ -1,12 +1,15 @@
 #include "case/hdf5_io.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "case/errors.hpp"
@@ -115,13 +118,31 @@ std::string padded(std::span<const std::string> values, const Handle& type) {
   return buffer;
 }
 
+/// How objects of one class are created: without times, so that equal contents give equal bytes.
+Handle creation_settings(hid_t property_class) {
+  Handle creation(H5Pcreate(property_class), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  return creation;
+}
+
+/// Creates those of the groups `/a`, `/a/b`, ... above `object` that do not exist.
+void create_groups_above(hid_t file, const std::string& path, const std::string& object) {
+  const Handle creation = creation_settings(H5P_GROUP_CREATE);
+  for (std::size_t end = object.find('/', 1); end != std::string::npos;
+       end = object.find('/', end + 1)) {
+    const std::string group = object.substr(0, end);
+    if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
+    const Handle handle(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+                        H5Gclose);
+    if (!handle.valid()) fail_writing(path, group);
+  }
+}
+
 void write_dataset(hid_t file, const std::string& path, const std::string& dataset, hid_t file_type,
                    hid_t memory_type, const Handle& space, const void* values) {
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.id(), 1);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation.id(), false);  // equal contents give equal bytes
-  const Handle set(H5Dcreate2(file, dataset.c_str(), file_type, space.id(), links.id(),
+  create_groups_above(file, path, dataset);
+  const Handle creation = creation_settings(H5P_DATASET_CREATE);
+  const Handle set(H5Dcreate2(file, dataset.c_str(), file_type, space.id(), H5P_DEFAULT,
                               creation.id(), H5P_DEFAULT),
                    H5Dclose);
   if (!set.valid()) fail_writing(path, dataset);
@@ -161,12 +182,26 @@ void write_attribute(hid_t file, const std::string& path, const std::string& obj
   }
 }
 
+/// Followed, a link can lead to any file that the user may read, or to a pipe on which one waits
+/// for ever. Suffuse writes none.
+void refuse_link(hid_t file, const std::string& path, const std::string& object) {
+  H5L_info_t link{};
+  if (H5Lget_info(file, object.c_str(), &link, H5P_DEFAULT) < 0) fail_reading(path, object);
+  if (link.type == H5L_TYPE_HARD) return;
+  fail(path, object, "is a link; expected the object itself, as Suffuse writes it");
+}
+
 Handle open_dataset(const Hdf5File& file, hid_t id, const std::string& dataset) {
   if (!file.exists(dataset)) {
     fail(file.path(), dataset, "is missing; was this file written by another program or version?");
   }
   Handle set(H5Dopen2(id, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set.valid()) fail(file.path(), dataset, "is not a dataset" + hdf5_reason());
+  // Before anything asks for its extents: those of a virtual dataset are read from other files.
+  const Handle creation(H5Dget_create_plist(set.id()), H5Pclose);
+  if (H5Pget_layout(creation.id()) == H5D_VIRTUAL || H5Pget_external_count(creation.id()) > 0) {
+    fail(file.path(), dataset, "has its values in another file; expected them in this one");
+  }
   return set;
 }
 
@@ -184,6 +219,7 @@ std::vector<std::size_t> shape_of(const std::string& path, const std::string& ob
 std::size_t checked_count(const std::string& path, const std::string& dataset, const Handle& set,
                           const Handle& type) {
   const Handle space(H5Dget_space(set.id()), H5Sclose);
+  if (H5Sget_simple_extent_type(space.id()) == H5S_NULL) return 0;
   const std::vector<std::size_t> shape = shape_of(path, dataset, space);
   const Handle creation(H5Dget_create_plist(set.id()), H5Pclose);
   constexpr long double highest_compression = 1100.0L;  // deflate cannot do better
@@ -299,6 +335,22 @@ Value number_attribute(const Hdf5File& file, hid_t id, const std::string& object
   return value;
 }
 
+/// From the second version of its superblock on (H5F_LIBVER_V18), HDF5 keeps checksums of all that
+/// says where things are and what they are, and compares them before it goes by it. Without them,
+/// damage leads HDF5 1.10 itself to read and write where it must not.
+void refuse_old_layout(const std::string& path) {
+  constexpr std::size_t place_of_version = 8;  // behind the signature
+  std::array<char, place_of_version + 1> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  const bool at_start = std::string_view(start.data(), place_of_version) == signature;
+  if (at_start && start[place_of_version] >= 2) return;
+  fail(
+      path, "",
+      "is in the first of HDF5's file layouts, which has no checksums; write it anew with Suffuse, "
+      "or convert it: h5repack --low=1 OLD NEW");
+}
+
 hid_t open_existing(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
@@ -313,6 +365,7 @@ hid_t open_existing(const std::string& path) {
     H5Eclear2(H5E_DEFAULT);
     fail(path, "", "is not an HDF5 file; expected one that Suffuse wrote");
   }
+  refuse_old_layout(path);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) {
     fail(path, "",
@@ -323,7 +376,11 @@ hid_t open_existing(const std::string& path) {
 }
 
 hid_t create_new(const std::string& path) {
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const Handle creation = creation_settings(H5P_FILE_CREATE);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  // With checksums (see refuse_old_layout); read by HDF5 1.8 and later.
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
   if (id < 0) {
     const std::string reason =
         errno == 0 ? hdf5_reason() : std::string(": ") + std::strerror(errno);
@@ -373,10 +430,12 @@ bool Hdf5File::exists(const std::string& object) const {
   if (object == "/") return true;
   // H5Lexists wants every parent to exist.
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
-    if (H5Lexists(file_, object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) {
+    const std::string parent = object.substr(0, end);
+    if (H5Lexists(file_, parent.c_str(), H5P_DEFAULT) <= 0) {
       H5Eclear2(H5E_DEFAULT);
       return false;
     }
+    refuse_link(file_, path_, parent);
     if (end == std::string::npos) break;
   }
   const bool resolves = H5Oexists_by_name(file_, object.c_str(), H5P_DEFAULT) > 0;
@@ -385,7 +444,7 @@ bool Hdf5File::exists(const std::string& object) const {
 }
 
 std::vector<std::string> Hdf5File::children(const std::string& group) const {
-  const Handle handle(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  const Handle handle(exists(group) ? H5Gopen2(file_, group.c_str(), H5P_DEFAULT) : -1, H5Gclose);
   if (!handle.valid()) {
     H5Eclear2(H5E_DEFAULT);
     fail(path_, group, "is missing or not a group");
@@ -403,9 +462,9 @@ std::vector<std::string> Hdf5File::children(const std::string& group) const {
 }
 
 void Hdf5File::create_group(const std::string& group) {
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.id(), 1);
-  const Handle handle(H5Gcreate2(file_, group.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT),
+  create_groups_above(file_, path_, group);
+  const Handle creation = creation_settings(H5P_GROUP_CREATE);
+  const Handle handle(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
                       H5Gclose);
   if (!handle.valid()) fail_writing(path_, group);
 }

@@ -4,6 +4,7 @@
 #include <hdf5.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -216,6 +217,48 @@ TEST(CaseFile, DamagedBytesNeverCrash) {
   }
 }
 
+TEST(CaseFile, DamageWhereThingsAreSaidIsNoticed) {
+  // Every byte of the first 48 is the superblock; then come headers of objects, each with a
+  // checksum.
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.h5");
+  write_case(path, small_case());
+  const std::string whole = read_file(path);
+  for (std::size_t at = 0; at < 48; ++at) {
+    for (const int bit : {0, 3, 7}) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
+      EXPECT_NE(reading_failure(folder.write("damaged.h5", damaged)), "no FileError") << at;
+    }
+  }
+  std::size_t headers = 0;
+  for (std::size_t at = whole.find("OHDR"); at != std::string::npos;
+       at = whole.find("OHDR", at + 1)) {
+    ++headers;
+    std::string damaged = whole;
+    damaged[at + 6] = static_cast<char>(~damaged[at + 6]);
+    EXPECT_NE(reading_failure(folder.write("damaged.h5", damaged)), "no FileError") << at;
+  }
+  EXPECT_GT(headers, 10U);
+}
+
+TEST(CaseFile, ALayoutWithoutChecksumsIsRefused) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("old.h5");
+  H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_NE(reading_failure(path).find("first of HDF5's file layouts, which has no checksums; "
+                                       "write it anew with Suffuse, or convert it: h5repack"),
+            std::string::npos);
+}
+
+TEST(CaseFile, EqualCasesAreEqualFilesAtAnyTime) {
+  const TemporaryFolder folder;
+  write_case(folder.file("a.h5"), small_case());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5 counts seconds
+  write_case(folder.file("b.h5"), small_case());
+  EXPECT_EQ(read_file(folder.file("a.h5")), read_file(folder.file("b.h5")));
+}
+
 /// Changes one value of a dataset in place.
 template <class Value>
 void overwrite(const std::string& path, const std::string& dataset, hid_t type, hsize_t index,
@@ -296,6 +339,54 @@ void create_group(const std::string& path, const std::string& group) {
   const hid_t made = H5Gcreate2(file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   ASSERT_GE(made, 0);
   H5Gclose(made);
+  H5Fclose(file);
+}
+
+/// What is called `object` is another name for something else, or for something in another file.
+void replace_by_link(const std::string& path, const std::string& object, const std::string& target,
+                     const std::string& other_file = "") {
+  remove_object(path, object);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const herr_t made =
+      other_file.empty()
+          ? H5Lcreate_soft(target.c_str(), file, object.c_str(), H5P_DEFAULT, H5P_DEFAULT)
+          : H5Lcreate_external(other_file.c_str(), target.c_str(), file, object.c_str(),
+                               H5P_DEFAULT, H5P_DEFAULT);
+  ASSERT_GE(made, 0);
+  H5Fclose(file);
+}
+
+/// A dataset of `rows` x 2 doubles whose values are in another file.
+void keep_elsewhere(const std::string& path, const std::string& dataset, hsize_t rows,
+                    bool is_virtual) {
+  remove_object(path, dataset);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const std::array<hsize_t, 2> extents{rows, 2};
+  const hid_t space = H5Screate_simple(2, extents.data(), nullptr);
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  if (is_virtual) {
+    H5Pset_virtual(creation, space, "/dev/zero", "/nodes", space);
+  } else {
+    H5Pset_external(creation, "/dev/zero", 0, rows * 16);
+  }
+  const hid_t set = H5Dcreate2(file, dataset.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
+                               creation, H5P_DEFAULT);
+  ASSERT_GE(set, 0);
+  H5Dclose(set);
+  H5Pclose(creation);
+  H5Sclose(space);
+  H5Fclose(file);
+}
+
+void make_null(const std::string& path, const std::string& dataset) {
+  remove_object(path, dataset);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t space = H5Screate(H5S_NULL);
+  const hid_t set = H5Dcreate2(file, dataset.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
+                               H5P_DEFAULT, H5P_DEFAULT);
+  ASSERT_GE(set, 0);
+  H5Dclose(set);
+  H5Sclose(space);
   H5Fclose(file);
 }
 
@@ -383,6 +474,17 @@ INSTANTIATE_TEST_SUITE_P(
                "/mesh/nodes: its shape [1125899906842624, 2] is larger than what the file holds"},
         Damage{"WrongType", [](auto& f) { replace_text(f, "/mesh/nodes", "text"); },
                "/mesh/nodes: holds text; expected floating-point numbers"},
+        Damage{"Link", [](auto& f) { replace_by_link(f, "/solid_points", "/mesh"); },
+               "/solid_points: is a link; expected the object itself"},
+        Damage{"LinkToAnotherFile",
+               [](auto& f) { replace_by_link(f, "/mesh/nodes", "/nodes", "/dev/zero"); },
+               "/mesh/nodes: is a link; expected the object itself"},
+        Damage{"ValuesElsewhere", [](auto& f) { keep_elsewhere(f, "/mesh/nodes", 4, false); },
+               "/mesh/nodes: has its values in another file"},
+        Damage{"VirtualValues", [](auto& f) { keep_elsewhere(f, "/mesh/nodes", 4, true); },
+               "/mesh/nodes: has its values in another file"},
+        Damage{"Null", [](auto& f) { make_null(f, "/mesh/nodes"); },
+               "/mesh/nodes: expected a table of 2 columns"},
         Damage{"BrokenScene", [](auto& f) { replace_text(f, "/scene/text", "formulation = 3"); },
                "/scene: the scene within is not valid"},
         Damage{
