@@ -46,6 +46,10 @@ bool is_step_file(const std::string& path) {
   return extension == ".step" || extension == ".stp";
 }
 
+bool is_mesh_file(const std::string& path) {
+  return extension_of(path) == ".msh";
+}
+
 [[noreturn]] void refuse(const SceneDocument& document, const std::string& key,
                          const std::string& found, const std::string& expected) {
   throw InputError(
@@ -94,6 +98,9 @@ void build_column(const SceneDocument& document, std::vector<std::string>& notes
   note_rounding(scene, notes);
 }
 
+constexpr const char* advice_on_mesh =
+    "a mesh that Gmsh can read: open it in Gmsh, look at it and save it anew";
+
 /// `'FILE', line N: MESSAGE` is how Gmsh places an error in a script.
 InputProblem gmsh_problem(const SceneDocument& document, const std::string& path,
                           const std::string& complaint) {
@@ -106,7 +113,8 @@ InputProblem gmsh_problem(const SceneDocument& document, const std::string& path
             complaint.substr(message + 2), "valid Gmsh text", ""};
   }
   return {document.locate("geometry.file"), "geometry.file",
-          '"' + path + "\", of which Gmsh says: " + complaint, "a geometry that Gmsh can mesh", ""};
+          '"' + path + "\", of which Gmsh says: " + complaint,
+          is_mesh_file(path) ? advice_on_mesh : "a geometry that Gmsh can mesh", ""};
 }
 
 void run_gmsh(const SceneDocument& document, const std::string& path,
@@ -178,12 +186,28 @@ void generate_mesh(const SceneDocument& document, const std::string& path) {
   });
 }
 
+/// Meshes alone: Gmsh reads them in next to no time.
+void refuse_what_ends_gmsh(const SceneDocument& document, const std::string& path) {
+  constexpr double seconds = 10.0;
+  constexpr double seconds_per_byte = 2e-6;  // a hundred times what it takes
+  constexpr double memory = 1e9;
+  constexpr double memory_per_byte = 100.0;
+  std::error_code ignored;
+  const auto bytes = static_cast<double>(fs::file_size(path, ignored));
+  const std::string crash =
+      gmsh_crash([&] { gmsh::open(path); }, seconds + seconds_per_byte * bytes,
+                 memory + memory_per_byte * bytes);
+  if (!crash.empty()) {
+    refuse(document, "geometry.file",
+           '"' + document.scene.geometry.file + "\", over which Gmsh " + crash, advice_on_mesh);
+  }
+}
+
 /// Whether the mesh is the user's own, to be taken as it is.
 bool build_from_file(const SceneDocument& document, std::vector<std::string>& notes) {
   const std::string path = geometry_path(document);
-  const std::string extension = extension_of(path);
   const bool is_step = is_step_file(path);
-  if (!is_step && extension != ".geo" && extension != ".msh") {
+  if (!is_step && !is_mesh_file(path) && extension_of(path) != ".geo") {
     refuse(document, "geometry.file", '"' + document.scene.geometry.file + '"',
            "a file ending in .geo, .msh, .step or .stp");
   }
@@ -194,8 +218,9 @@ bool build_from_file(const SceneDocument& document, std::vector<std::string>& no
   std::vector<InputProblem> dangers = scan_geometry_file(path);
   if (!dangers.empty()) throw InputError(std::move(dangers));
 
+  if (is_mesh_file(path)) refuse_what_ends_gmsh(document, path);
   run_gmsh(document, path, [&] { is_step ? open_step(path) : gmsh::open(path); });
-  if (extension == ".msh") return true;
+  if (is_mesh_file(path)) return true;
   if (has_surface_mesh()) {
     notes.emplace_back("the .geo file meshes itself, mesh.size does not apply");
     return true;

@@ -28,6 +28,10 @@ constexpr double smallest_area = 1e-12;
 /// Relative to the diagonal of the mesh.
 constexpr double out_of_plane = 1e-9;
 constexpr double same_place = 1e-9;
+/// Of a coordinate, m: areas are products of two, and their squares are still numbers.
+constexpr double most_distant = 1e50;
+/// Characters.
+constexpr std::size_t longest_name = 127;
 /// Of one kind, before "and N more".
 constexpr std::size_t most_examples = 5;
 
@@ -39,6 +43,24 @@ std::string number(double value) {
 
 std::string place(const Vector<2>& x) {
   return "(" + number(x[0]) + ", " + number(x[1]) + ")";
+}
+
+/// Names go into files, tables and messages: in UTF-8, and without what moves a terminal's cursor.
+bool is_plain_name(const std::string& name) {
+  std::size_t expected = 0;  // bytes that continue a character
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) return false;
+    const bool continues = (byte & 0xc0U) == 0x80U;
+    if (continues != (expected > 0)) return false;
+    if (continues) {
+      --expected;
+    } else if (byte >= 0x80U) {
+      if (byte < 0xc2U || byte > 0xf4U) return false;
+      expected = byte < 0xe0U ? 1 : byte < 0xf0U ? 2 : 3;
+    }
+  }
+  return expected == 0 && name.size() <= longest_name;
 }
 
 /// Problems of one kind: the first few one by one, the rest counted.
@@ -79,12 +101,14 @@ class Extraction {
     refuse_volumes();
     if (result_.problems.empty()) read_surfaces();
     if (triangle_tags_.empty()) return std::move(result_);
-    result_.comparable = true;
     number_nodes();
+    if (!has_coordinates()) return std::move(result_);
+    result_.comparable = true;
     check_plane();
     check_duplicate_nodes();
     orient_and_check_areas();
     check_overlaps();
+    check_hanging_nodes();
     read_boundaries();
     return std::move(result_);
   }
@@ -217,6 +241,11 @@ class Extraction {
         report("physical " + what + " " + std::to_string(tag) + " without a name",
                "a name, as in Physical " + std::string(dimension == 2 ? "Surface" : "Curve") +
                    "(\"name\") = {...};");
+      } else if (!is_plain_name(group.name)) {
+        report(
+            "physical " + what + " " + std::to_string(tag) + " with a name that is no plain text",
+            "a name in UTF-8 of at most " + std::to_string(longest_name) +
+                " bytes, without control characters");
       } else if (!names.insert(group.name).second) {
         report("two physical " + what + "s named \"" + group.name + "\"", "different names");
       } else {
@@ -324,6 +353,21 @@ class Extraction {
     diagonal_ = (high - low).norm();
   }
 
+  /// Whether all nodes are somewhere; those that are not are problems.
+  bool has_coordinates() {
+    Kind kind(result_.problems, "finite coordinates, in m, below " + number(most_distant));
+    bool all = true;
+    for (Tag tag : node_tags_) {
+      const auto& x = coordinates_.at(tag);
+      const auto is_near = [](double value) { return std::abs(value) <= most_distant; };
+      if (std::ranges::all_of(x, is_near)) continue;
+      all = false;
+      kind.add("node " + std::to_string(tag) + " at (" + number(x[0]) + ", " + number(x[1]) + ", " +
+               number(x[2]) + ")");
+    }
+    return all;
+  }
+
   void check_plane() {
     Kind kind(result_.problems, "a mesh in the plane z = 0");
     for (Tag tag : node_tags_) {
@@ -399,6 +443,52 @@ class Extraction {
                  std::to_string(triangle_tags_[e]) + ", on the same side of the edge from " +
                  place(mesh().nodes[edge[0]]) + " to " + place(mesh().nodes[edge[1]]));
         break;
+      }
+    }
+  }
+
+  /// Edges that one triangle alone has, with it.
+  [[nodiscard]] std::map<std::array<int, 2>, int> edges_of_one_triangle() const {
+    std::map<std::array<int, 2>, int> outer;
+    for (int e = 0; e < result_.mesh.element_count(); ++e) {
+      for (int corner = 0; corner < 3; ++corner) {
+        const auto edge = face_key<2>(face_opposite<2>(result_.mesh.elements[e], corner));
+        const auto [entry, is_new] = outer.emplace(edge, e);
+        if (!is_new) outer.erase(entry);
+      }
+    }
+    return outer;
+  }
+
+  /// A node in the middle of a neighbour's edge connects nothing: what looks like one body would be
+  /// two, with an impervious joint.
+  void check_hanging_nodes() {
+    Kind kind(result_.problems,
+              "neighbours that share whole edges (in Gmsh: Coherence, or BooleanFragments)");
+    const auto outer = edges_of_one_triangle();
+    std::set<int> nodes;
+    for (const auto& [edge, element] : outer) nodes.insert(edge.begin(), edge.end());
+    std::vector<int> by_x(nodes.begin(), nodes.end());
+    const auto& x = mesh().nodes;
+    std::ranges::sort(by_x, {}, [&](int n) { return x[n][0]; });
+    const double tolerance = same_place * diagonal_;
+    for (const auto& [edge, element] : outer) {
+      if (flat_.contains(element)) continue;
+      const Vector<2> start = x[edge[0]];
+      const Vector<2> along = (x[edge[1]] - start).normalized();
+      const double length = (x[edge[1]] - start).norm();
+      const auto [left, right] = std::minmax(start[0], x[edge[1]][0]);
+      for (auto n =
+               std::ranges::lower_bound(by_x, left - tolerance, {}, [&](int m) { return x[m][0]; });
+           n != by_x.end() && x[*n][0] <= right + tolerance; ++n) {
+        const Vector<2> offset = x[*n] - start;
+        const double from_start = offset.dot(along);
+        const double aside = std::abs(offset[0] * along[1] - offset[1] * along[0]);
+        const bool within = from_start > tolerance && from_start < length - tolerance;
+        if (!within || aside > tolerance) continue;
+        kind.add("node " + std::to_string(node_tags_[*n]) + " at " + place(x[*n]) +
+                 " on the edge of element " + std::to_string(triangle_tags_[element]) + " from " +
+                 place(start) + " to " + place(x[edge[1]]));
       }
     }
   }

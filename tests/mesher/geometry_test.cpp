@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <new>
 #include <set>
 
 #include "case/errors.hpp"
@@ -500,6 +504,191 @@ INSTANTIATE_TEST_SUITE_P(
       std::ranges::replace(name, '.', '_');
       return name;
     });
+
+/// A square of two triangles; `change` damages it.
+struct DamagedMesh {
+  std::string name;
+  std::string replace;
+  std::string by;
+  std::string message;  // behind `geometry.file: got `; empty: it is taken
+};
+
+void PrintTo(const DamagedMesh& damage, std::ostream* stream) {
+  *stream << damage.name;
+}
+
+const std::string mesh_22 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"specimen\"\n1 2 \"top\"\n"
+    "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+    "$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n3 1 2 2 3 3 4\n$EndElements\n";
+
+const std::string mesh_41 =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"specimen\"\n1 2 \"top\"\n"
+    "$EndPhysicalNames\n$Entities\n0 1 1 0\n3 0 1 0 1 1 0 1 2 0\n1 0 0 0 1 1 0 1 1 0\n"
+    "$EndEntities\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+    "$Elements\n2 3 1 3\n2 1 2 2\n1 1 2 3\n2 1 3 4\n1 3 1 1\n3 3 4\n$EndElements\n";
+
+std::string changed(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+class DamagedMeshFile : public UserFile, public testing::WithParamInterface<DamagedMesh> {
+ protected:
+  void expect(const std::string& mesh) {
+    const DamagedMesh& damage = GetParam();
+    folder_.write("damaged.msh", changed(mesh, damage.replace, damage.by));
+    if (damage.message.empty()) {
+      EXPECT_EQ(build_file("damaged.msh").mesh.element_count(), 2);
+      return;
+    }
+    const std::string message = refusal_of("damaged.msh");
+    const std::string expected = in_scene + "\"damaged.msh\"" + damage.message;
+    EXPECT_EQ(message.substr(0, expected.size()), expected) << message;
+    EXPECT_EQ(folder_.count(), files_ + 1);
+  }
+};
+
+const std::string gmsh_says = ", of which Gmsh says: ";
+const std::string gmsh_ends = ", over which Gmsh ";
+
+class DamagedMesh22 : public DamagedMeshFile {};
+
+TEST_P(DamagedMesh22, IsRefusedOrTaken) {
+  expect(mesh_22);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DamagedMesh22,
+    testing::Values(
+        DamagedMesh{"None", "2.2", "2.2", ""}, DamagedMesh{"Windows", "8\n$End", "8\r\n$End", ""},
+        DamagedMesh{"UnusedNode", "4\n1 0 0 0", "5\n9 7 7 0\n1 0 0 0", ""},
+        DamagedMesh{"TagsFarApart",
+                    "4 0 1 0\n$EndNodes\n$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 "
+                    "3 4\n3 1 2 2 3 3 4",
+                    "2000000000 0 1 0\n$EndNodes\n$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 "
+                    "2000000000\n3 1 2 2 3 3 2000000000",
+                    ""},
+        DamagedMesh{"NotANumber", "3 1 1 0", "3 nan 1 0",
+                    " with node 3 at (nan, 1, 0); expected finite coordinates, in m, below 1e+50"},
+        DamagedMesh{"Infinite", "3 1 1 0", "3 1 -inf 0", " with node 3 at (1, -inf, 0); expected"},
+        DamagedMesh{"FarAway", "3 1 1 0", "3 1e300 1 0",
+                    " with node 3 at (1e+300, 1, 0); expected"},
+        DamagedMesh{"NoNumber", "3 1 1 0", "3 x 1 0", gmsh_says + "Error loading"},
+        DamagedMesh{"NoSuchNode", "1 1 1 2 3", "1 1 1 2 9", gmsh_says + "Wrong node index 9"},
+        DamagedMesh{"NegativeNode", "1 1 1 2 3", "1 1 1 2 -3", gmsh_says + "Wrong node index -3"},
+        DamagedMesh{"SameNodeTwice", "1 1 1 2 3", "1 1 1 2 2", " with element 1, flat"},
+        DamagedMesh{"TwiceTheSame", "2 2 2 1 1 1 3 4", "2 2 2 1 1 1 2 3",
+                    " with elements 1 and 2, on the same side of the edge"},
+        DamagedMesh{"UnknownType", "1 2 2 1 1 1 2 3", "1 999 2 1 1 1 2 3",
+                    gmsh_says + "Unknown type of element 999"},
+        DamagedMesh{"ManyNodes", "$Nodes\n4", "$Nodes\n99999999999", gmsh_says},
+        DamagedMesh{"ManyElements", "$Elements\n3", "$Elements\n2000000000", gmsh_says},
+        DamagedMesh{"ManyTags", "1 2 2 1 1 1 2 3", "1 2 2000000000 1 1 1 2 3", gmsh_says},
+        DamagedMesh{"NoNodes", "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n", "0\n",
+                    gmsh_says + "Wrong node index 1"},
+        DamagedMesh{"NoNames", "2\n2 1 \"specimen\"\n1 2 \"top\"\n", "0\n",
+                    " with physical surface 1 without a name"},
+        DamagedMesh{"Nul", "top", std::string("t\0p", 3),
+                    " with physical curve 2 with a name that is no plain text; expected a name in "
+                    "UTF-8 of at most 127 bytes, without control characters"},
+        DamagedMesh{"Escape", "top", "t\x1b[2J", " with physical curve 2 with a name that is no"},
+        DamagedMesh{"Latin1", "top", "B\xf6schung",
+                    " with physical curve 2 with a name that is no"},
+        DamagedMesh{"LongName", "top", std::string(100000, 't'),
+                    " with physical curve 2 with a name that is no plain text"},
+        DamagedMesh{
+            "HangingNode", "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n3\n",
+            "7\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n7 1 .5 0\n"
+            "$EndNodes\n$Elements\n6\n4 2 2 1 1 2 5 7\n5 2 2 1 1 7 5 6\n6 2 2 1 1 7 6 3\n",
+            " with node 7 at (1, 0.5) on the edge of element 1 from (1, 0) to (1, 1); expected "
+            "neighbours that share whole edges"},
+        DamagedMesh{"Quadrangle",
+                    "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n3\n",
+                    "6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n$EndNodes\n"
+                    "$Elements\n4\n4 3 2 1 1 2 5 6 3\n",
+                    " with element 4 (Quadrilateral 4) at (1.5, 0.5); expected triangles"},
+        DamagedMesh{"NewVersion", "2.2 0 8", "9.9 0 8",
+                    gmsh_says + "Unknown MSH file version 9.9"}),
+    [](const auto& tested) { return tested.param.name; });
+
+class DamagedMesh41 : public DamagedMeshFile {};
+
+TEST_P(DamagedMesh41, IsRefusedOrTaken) {
+  expect(mesh_41);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DamagedMesh41,
+    testing::Values(
+        DamagedMesh{"None", "4.1", "4.1", ""},
+        DamagedMesh{"NoSuchNode", "\n1 1 2 3\n", "\n1 1 2 9\n", gmsh_says + "Unknown node 9"},
+        DamagedMesh{"ManyNodes", "$Nodes\n1 4", "$Nodes\n1 4000000000000", gmsh_ends},
+        DamagedMesh{"ManyInABlock", "2 1 0 4\n", "2 1 0 4000000000000\n", gmsh_ends},
+        DamagedMesh{"ManyElements", "$Elements\n2 3", "$Elements\n2 3000000000000", gmsh_ends},
+        DamagedMesh{"NoSuchDimension", "2 1 0 4\n", "7 1 0 4\n", gmsh_says},
+        DamagedMesh{"TwoGroups", "1 1 0 1 1 0\n$EndE", "1 1 0 2 1 5 0\n$EndE",
+                    " with physical surface 5 without a name"}),
+    [](const auto& tested) { return tested.param.name; });
+
+/// The same square in Gmsh's binary form.
+std::string binary_mesh() {
+  std::string text = "$MeshFormat\n2.2 1 8\n";
+  const auto add = [&text](const auto value) {
+    text.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  add(1);
+  text +=
+      "\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"specimen\"\n1 2 \"top\"\n$EndPhysicalNames\n"
+      "$Nodes\n4\n";
+  constexpr std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  for (int n = 0; n < 4; ++n) {
+    add(n + 1);
+    for (const double x : {nodes.at(n)[0], nodes.at(n)[1], 0.0}) add(x);
+  }
+  text += "\n$EndNodes\n$Elements\n3\n";
+  for (const int word : {2, 2, 2, 1, 1, 1, 1, 2, 3, 2, 1, 1, 1, 3, 4}) add(word);
+  for (const int word : {1, 1, 2, 3, 2, 3, 3, 4}) add(word);
+  return text + "\n$EndElements\n";
+}
+
+TEST_F(UserFile, ABinaryMeshIsReadToo) {
+  folder_.write("binary.msh", binary_mesh());
+  EXPECT_EQ(build_file("binary.msh").mesh.element_count(), 2);
+}
+
+TEST_F(UserFile, ATruncatedOrDamagedMeshIsRefusedOrWhole) {
+  for (const std::string& whole : {mesh_22, mesh_41, binary_mesh()}) {
+    // The last line may be missing.
+    for (std::size_t length = 15; length < whole.size() - 14; length += 41) {
+      folder_.write("cut.msh", whole.substr(0, length));
+      EXPECT_NE(refusal_of("cut.msh"), "nothing refused") << length;
+    }
+  }
+  const std::string whole = binary_mesh();
+  for (std::size_t at = 20; at < whole.size(); at += 29) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+    folder_.write("damaged.msh", damaged);
+    static_cast<void>(refusal_of("damaged.msh"));  // Gmsh 4.8 crashes over some
+  }
+}
+
+TEST(GmshSession, WhatEndsAProcessIsNoticedFromOutside) {
+  const GmshSession session;
+  EXPECT_EQ(gmsh_crash([] {}, 5.0, 1e9), "");
+  EXPECT_EQ(gmsh_crash([] { throw std::string("a complaint"); }, 5.0, 1e9), "");
+  EXPECT_EQ(gmsh_crash([] { std::abort(); }, 5.0, 1e9), "crashes");
+  const auto never_end = [] {
+    for (std::atomic<int> rounds = 0;; ++rounds) {
+    }
+  };
+  const std::string too_much = "takes more time or memory than its size explains";
+  EXPECT_EQ(gmsh_crash(never_end, 1.0, 1e9), too_much);
+  EXPECT_EQ(gmsh_crash([] { throw std::bad_alloc(); }, 5.0, 1e9), too_much);
+  EXPECT_EQ(gmsh_complaint([] { throw std::bad_alloc(); }), "not enough memory");
+}
 
 TEST_F(UserFile, AMissingFileIsAFileError) {
   try {
