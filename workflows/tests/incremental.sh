@@ -84,8 +84,9 @@ expect 'touching what the paper says makes the table of it, alone' paper/paper.c
 inventory > "$work/before"
 sed -i 's/"status": *"done"/"status": "running"/' "$work/out/paper/sp-constant-table.results/run.json"
 run_make paper
-expect 'a run that did not finish is run again' paper/sp-constant-table.results/run.json \
+expect 'a run that did not finish is taken up' paper/sp-constant-table.results/run.json \
   "$(redone "$work/before" | grep run.json)"
+expect 'and goes on from its last snapshot' 'going on from t = 4 s' "$(grep 'going on' "$work/make.log")"
 
 rm "$work/out/paper/sp-constant-figure.masses.svg"
 inventory > "$work/before"
