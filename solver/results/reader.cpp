@@ -18,14 +18,19 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+constexpr auto replace = Json::error_handler_t::replace;  // of what is not UTF-8, in messages
 
-std::string in_folder(const std::string& folder, const std::string& name) {
-  return (fs::path(folder) / name).string();
+/// Anything but a file is refused: to read a folder throws, of a pipe one could wait for ever.
+std::ifstream open_file(const std::string& path) {
+  std::error_code ignored;
+  std::ifstream in;
+  if (fs::is_regular_file(path, ignored)) in.open(path, std::ios::binary);
+  if (!in.is_open()) throw FileError(path + ": cannot be read");
+  return in;
 }
 
 Json read_json(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path + ": cannot be read");
+  std::ifstream in = open_file(path);
   Json json = Json::parse(in, nullptr, false);
   if (json.is_discarded()) throw FileError(path + ": is not JSON");
   return json;
@@ -33,7 +38,7 @@ Json read_json(const std::string& path) {
 
 Json read_run_info(const std::string& folder) {
   if (!fs::is_directory(folder)) throw FileError(folder + ": no such results folder");
-  const std::string path = in_folder(folder, layout::run_info);
+  const std::string path = layout::in_folder(folder, layout::run_info);
   if (!fs::exists(path)) {
     throw FileError(folder + ": is not a results folder: it has no " + layout::run_info);
   }
@@ -42,7 +47,8 @@ Json read_run_info(const std::string& folder) {
     throw FileError(path + ": was not written by suffuse-solver");
   }
   if (json.value("format_version", Json()) != layout::format_version) {
-    throw FileError(path + ": got format_version " + json.value("format_version", Json()).dump() +
+    throw FileError(path + ": got format_version " +
+                    json.value("format_version", Json()).dump(-1, ' ', true, replace) +
                     "; expected " + std::to_string(layout::format_version));
   }
   return json;
@@ -53,16 +59,40 @@ struct Series {
   std::vector<double> times;
 };
 
+/// Snapshots lie in a folder of the results, as the writer puts them.
+bool is_snapshot_name(const std::string& name) {
+  const fs::path path(name);
+  return name.find('\0') == std::string::npos && path.parent_path() == layout::snapshots &&
+         path.has_filename() && path.filename() != ".." && path.filename() != ".";
+}
+
+void check_snapshot(const std::string& place, const std::string& name, double time,
+                    const std::vector<double>& times) {
+  if (!is_snapshot_name(name)) {
+    throw FileError(place + ": got the file " + Json(name).dump(-1, ' ', true, replace) +
+                    "; expected one in " + layout::snapshots);
+  }
+  if (!times.empty() && !(time > times.back())) {
+    throw FileError(place + ": got t = " + number_text(time) +
+                    " s; expected a later time than the one before, " + number_text(times.back()) +
+                    " s");
+  }
+}
+
 /// Empty when there is no snapshot yet.
 Series read_series(const std::string& folder, const std::string& kind) {
-  const std::string path = in_folder(folder, layout::series(kind));
+  const std::string path = layout::in_folder(folder, layout::series(kind));
   Series series;
   if (!fs::exists(path)) return series;
   const Json json = read_json(path);
   try {
     for (const auto& entry : json.at("files")) {
-      series.files.push_back(in_folder(folder, entry.at("name").get<std::string>()));
-      series.times.push_back(entry.at("time").get<double>());
+      const auto name = entry.at("name").get<std::string>();
+      const auto time = entry.at("time").get<double>();
+      const std::string place = path + ": snapshot " + std::to_string(series.files.size());
+      check_snapshot(place, name, time, series.times);
+      series.files.push_back(layout::in_folder(folder, name));
+      series.times.push_back(time);
     }
   } catch (const Json::exception& error) {
     throw FileError(path + ": is not a file series: " + error.what());
@@ -82,6 +112,18 @@ std::vector<std::string> split(std::string line) {
   }
   cells.push_back(line.substr(begin));
   return cells;
+}
+
+constexpr const char* points_dataset = "/VTKHDF/Points";
+
+/// Rows of a table of so many columns.
+std::size_t row_count(const Hdf5File& file, const std::string& dataset, std::size_t columns) {
+  const std::vector<std::size_t> shape = file.shape(dataset);
+  if (shape.size() != 2 || shape[1] != columns) {
+    throw FileError(file.path() + ": " + dataset + ": expected a table of " +
+                    std::to_string(columns) + " columns");
+  }
+  return shape[0];
 }
 
 /// The group of a snapshot file that holds the fields of `where`.
@@ -105,8 +147,7 @@ const std::vector<double>& Table::column(const std::string& name) const {
 }
 
 Table read_table(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path + ": cannot be read");
+  std::ifstream in = open_file(path);
   std::string line;
   if (!std::getline(in, line)) throw FileError(path + ":1: got nothing; expected a line of names");
   Table table;
@@ -149,7 +190,7 @@ void write_table(const std::string& path, const Table& table) {
 
 ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
   const Json info = read_run_info(folder);
-  const std::string path = in_folder(folder, layout::run_info);
+  const std::string path = layout::in_folder(folder, layout::run_info);
   try {
     status_ = info.at("status").get<std::string>();
     dimension_ = info.at("dimension").get<int>();
@@ -159,6 +200,8 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
                          scene.at("overrides").get<std::vector<std::string>>());
   } catch (const Json::exception& error) {
     throw FileError(path + ": is incomplete: " + error.what());
+  } catch (const InputError& error) {
+    throw FileError(path + ": the scene within is not valid:\n" + error.what());
   }
   const Series mesh = read_series(folder, "mesh");
   times_ = mesh.times;
@@ -183,13 +226,13 @@ void ResultsReader::take_series(const std::string& kind, std::vector<std::string
 }
 
 Table ResultsReader::history() const {
-  return read_table(in_folder(folder_, layout::history));
+  return read_table(layout::in_folder(folder_, layout::history));
 }
 Table ResultsReader::ledger() const {
-  return read_table(in_folder(folder_, layout::ledger));
+  return read_table(layout::in_folder(folder_, layout::ledger));
 }
 Table ResultsReader::region_ledgers() const {
-  return read_table(in_folder(folder_, layout::regions));
+  return read_table(layout::in_folder(folder_, layout::regions));
 }
 
 std::string ResultsReader::snapshot_path(const std::string& kind, std::size_t index) const {
@@ -199,24 +242,38 @@ std::string ResultsReader::snapshot_path(const std::string& kind, std::size_t in
 }
 
 Mesh<2> ResultsReader::mesh() const {
-  return read_case<2>(in_folder(folder_, layout::case_copy)).mesh;
+  return read_case<2>(layout::in_folder(folder_, layout::case_copy)).mesh;
 }
 
 std::vector<Vector<2>> ResultsReader::point_positions(std::size_t index,
                                                       const std::string& kind) const {
   const Hdf5File file(snapshot_path(kind, index), Hdf5File::Mode::read);
-  const std::vector<double> coordinates = file.read_doubles("/VTKHDF/Points");
+  const std::vector<double> coordinates = file.read_doubles(points_dataset);
   std::vector<Vector<2>> positions;
-  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+  for (std::size_t i = 0; i < 3 * row_count(file, points_dataset, 3); i += 3) {
     positions.emplace_back(coordinates[i], coordinates[i + 1]);
   }
   return positions;
 }
 
+std::size_t ResultsReader::entity_count(const Hdf5File& snapshot, const std::string& where) const {
+  if (where == "solid" || where == "liquid") return row_count(snapshot, points_dataset, 3);
+  const Hdf5File file(layout::in_folder(folder_, layout::case_copy), Hdf5File::Mode::read);
+  return where == "node" ? row_count(file, "/mesh/nodes", 2) : row_count(file, "/mesh/elements", 3);
+}
+
 Field ResultsReader::field(std::size_t index, const std::string& where,
                            const std::string& name) const {
   const Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
-  return read_field(file, field_group(where), name);
+  Field field = read_field(file, field_group(where), name);
+  const std::size_t entities = entity_count(file, where);
+  const std::size_t found = field.values.size() / static_cast<std::size_t>(field.components);
+  if (found != entities) {
+    throw FileError(file.path() + ": " + field_group(where) + "/" + name + ": got values for " +
+                    std::to_string(found) + " of " + std::to_string(entities) +
+                    "; the snapshot is not of this run's mesh and points, or damaged");
+  }
+  return field;
 }
 
 std::vector<std::string> ResultsReader::field_names(std::size_t index,

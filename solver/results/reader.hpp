@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "case/hdf5_io.hpp"
 #include "case/mesh.hpp"
 #include "case/scene.hpp"
 #include "results/tables.hpp"
@@ -55,7 +56,8 @@ class ResultsReader {
   /// Positions of the "solid" or "liquid" points of a snapshot.
   [[nodiscard]] std::vector<Vector<2>> point_positions(std::size_t index,
                                                        const std::string& kind) const;
-  /// One field of a snapshot; `where` is "cell", "node", "solid", "liquid" or "element_vertex".
+  /// One field of a snapshot, with values for every element, node or point; `where` is "cell",
+  /// "node", "solid", "liquid" or "element_vertex".
   [[nodiscard]] Field field(std::size_t index, const std::string& where,
                             const std::string& name) const;
   [[nodiscard]] std::vector<std::string> field_names(std::size_t index,
@@ -64,6 +66,8 @@ class ResultsReader {
  private:
   /// Files of one kind; snapshots that it does not have yet are dropped.
   void take_series(const std::string& kind, std::vector<std::string>& files);
+  /// How many there are to have values in a snapshot.
+  [[nodiscard]] std::size_t entity_count(const Hdf5File& snapshot, const std::string& where) const;
 
   std::string folder_;
   SceneDocument scene_;

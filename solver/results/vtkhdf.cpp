@@ -4,6 +4,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "case/errors.hpp"
+
 namespace suffuse {
 namespace {
 
@@ -142,17 +144,26 @@ Field read_field(const Hdf5File& file, const std::string& group, const std::stri
   Field field;
   field.name = name;
   field.unit = file.text_attribute(dataset, "unit");
-  field.components = static_cast<int>(file.integer_attribute(dataset, "components"));
+  const std::int64_t components = file.integer_attribute(dataset, "components");
+  const bool padded =
+      components == 2 && (group == "/VTKHDF/CellData" || group == "/VTKHDF/PointData");
+  const std::int64_t width = padded ? 3 : components;
+  const std::vector<std::size_t> shape = file.shape(dataset);
+  const bool is_flat = shape.size() == 1 && width == 1;
+  const bool is_table =
+      shape.size() == 2 && width > 1 && shape[1] == static_cast<std::size_t>(width);
+  if (!is_flat && !is_table) {
+    throw FileError(file.path() + ": " + dataset + ": its shape is not that of " +
+                    std::to_string(components) + " components; it is damaged");
+  }
+  field.components = static_cast<int>(components);
   field.values = file.read_doubles(dataset);
-  if (group == "/VTKHDF/CellData" || group == "/VTKHDF/PointData") {
-    if (field.components == 2) {
-      const std::size_t entities = field.values.size() / 3;
-      for (std::size_t i = 0; i < entities; ++i) {
-        field.values[2 * i] = field.values[3 * i];
-        field.values[2 * i + 1] = field.values[3 * i + 1];
-      }
-      field.values.resize(2 * entities);
+  if (padded) {
+    for (std::size_t i = 0; i < shape[0]; ++i) {
+      field.values[2 * i] = field.values[3 * i];
+      field.values[2 * i + 1] = field.values[3 * i + 1];
     }
+    field.values.resize(2 * shape[0]);
   }
   return field;
 }

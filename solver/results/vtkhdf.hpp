@@ -43,7 +43,8 @@ void write_vtkhdf(Hdf5File& file, VtkGrid grid, const std::vector<Field>& cell_f
 void write_field(Hdf5File& file, const std::string& group, const Field& field,
                  std::vector<std::size_t> shape);
 
-/// Reads what write_field or write_vtkhdf wrote; padding is taken off again.
+/// Reads what write_field or write_vtkhdf wrote, at least one component wide; padding is taken off
+/// again. Throws FileError.
 Field read_field(const Hdf5File& file, const std::string& group, const std::string& name);
 
 }  // namespace suffuse
