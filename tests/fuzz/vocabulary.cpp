@@ -1,0 +1,146 @@
+#include "vocabulary.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bytes.hpp"
+#include "case/scene_schema.hpp"
+#include "case/scratch_folder.hpp"
+#include "seeds.hpp"
+
+namespace suffuse::fuzz {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
+std::vector<std::string> values_of(const SceneKey& key) {
+  std::vector<std::string> values{"0", "-1", "1", "true", "\"\"", "nan"};
+  for (const std::string& word : key.words) values.push_back('"' + word + '"');
+  for (const std::int64_t integer : key.integers) values.push_back(std::to_string(integer));
+  if (key.default_value) values.push_back(shown_value(*key.default_value));
+  switch (key.kind) {
+    case ValueKind::number:
+      values.insert(values.end(), {"0.3", "0.999999", "1e-3", "1e-12", "1e-300", "5e-324", "1e3",
+                                   "1e12", "1e300", "inf", "-inf", "10.0"});
+      break;
+    case ValueKind::integer:
+      values.insert(values.end(), {"2", "7", "12", "1000000", "2147483647", "2147483648",
+                                   "9223372036854775807", "-9223372036854775808"});
+      break;
+    case ValueKind::vector:
+      values.insert(values.end(), {"[0,-9.81]", "[1e300,1e300]", "[0.1,0]", "[0,0,1]", "[]",
+                                   "[nan,0]", "[1e-300,-1e-300]"});
+      break;
+    case ValueKind::time_function:
+      values.insert(values.end(),
+                    {"1e3", "-1e-3", "1e300", "[[0,0],[1,1]]", "[[0,1e3],[5,0],[5,1]]", "[[0,1]]",
+                     "[[1,0],[0,1]]", "[[0,0],[1e-300,1]]", "[[0,0],[1e300,1e300]]", "[]",
+                     "[[0],[1]]", "[[-1e300,-1e300],[1e300,1e300]]"});
+      break;
+    case ValueKind::text:
+    case ValueKind::word:
+    case ValueKind::boolean:
+      values.insert(values.end(), {"false", "\"specimen\"", "\"buffer\"", "\"top\"", "\"inflow\"",
+                                   "\"outflow\"", "\"left\"", "{}", "[]", "[{}]"});
+      break;
+  }
+  return values;
+}
+
+/// Objects and attributes of an HDF5 file.
+void add_names(const std::string& bytes, Vocabulary& words) {
+  const ScratchFolder scratch("suffuse-words");
+  const std::string path = (scratch.path() / "a.h5").string();
+  write_bytes(path, bytes);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  H5Ovisit(
+      file, H5_INDEX_NAME, H5_ITER_INC,
+      [](hid_t root, const char* name, const H5O_info_t*, void* out) -> herr_t {
+        auto& found = *static_cast<Vocabulary*>(out);
+        const std::string object = "/" + std::string(name == std::string(".") ? "" : name);
+        found.objects.push_back(object);
+        const hid_t opened = H5Oopen(root, object.c_str(), H5P_DEFAULT);
+        for (int i = 0; i < H5Aget_num_attrs(opened); ++i) {
+          std::string attribute(64, '\0');
+          const ssize_t length =
+              H5Aget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, static_cast<hsize_t>(i),
+                                 attribute.data(), attribute.size(), H5P_DEFAULT);
+          attribute.resize(static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
+          found.attributes.push_back(object + " " + attribute);
+        }
+        H5Oclose(opened);
+        return 0;
+      },
+      &words);
+  H5Fclose(file);
+}
+
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the file
+void add_pointers(const Json& json, const std::string& pointer, Vocabulary& words) {
+  words.pointers.push_back(pointer);
+  if (!json.is_structured() || words.pointers.size() > 200) return;
+  for (const auto& [key, value] : json.items()) add_pointers(value, pointer + "/" + key, words);
+}
+
+void make_unique(std::vector<std::string>& all) {
+  const std::set<std::string> sorted(all.begin(), all.end());
+  all.assign(sorted.begin(), sorted.end());
+}
+
+Vocabulary vocabulary(const std::map<std::string, Files>& seeds, bool has_files) {
+  Vocabulary words;
+  words.seeds = names(seeds);
+  words.settings = scene_settings();
+  for (const auto& [name, files] : seeds) {
+    for (const auto& [file, bytes] : files) {
+      if (has_files) words.files.push_back(file);
+      if (file.ends_with(".h5") || file.ends_with("_000000.hdf")) add_names(bytes, words);
+      if (file.ends_with(".json") || file.ends_with(".series")) {
+        add_pointers(Json::parse(bytes), "", words);
+      }
+    }
+  }
+  for (auto* all : {&words.files, &words.objects, &words.attributes, &words.pointers}) {
+    make_unique(*all);
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> scene_settings() {
+  std::vector<std::string> all;
+  for (const SceneKey& key : scene_keys()) {
+    std::vector<std::string> places;
+    for (const std::string soil : {"specimen", "buffer"}) {
+      for (const std::string entry : {"[0]", "[1]", "[2]"}) {
+        places.push_back(replaced(replaced(key.pattern, "*", soil), "[]", entry));
+      }
+    }
+    make_unique(places);
+    for (const std::string& place : places) {
+      for (const std::string& value : values_of(key)) all.push_back(place + "=" + value);
+    }
+  }
+  return all;
+}
+
+Vocabulary case_vocabulary() {
+  return vocabulary(case_seeds(), false);
+}
+
+Vocabulary results_vocabulary() {
+  return vocabulary(results_seeds(), true);
+}
+
+}  // namespace suffuse::fuzz

@@ -1,0 +1,25 @@
+#pragma once
+
+/// What edits can be about: names that occur in the valid files and in scenes.
+
+#include <string>
+#include <vector>
+
+namespace suffuse::fuzz {
+
+struct Vocabulary {
+  std::vector<std::string> seeds;
+  std::vector<std::string> files;       ///< of a results folder; none for cases
+  std::vector<std::string> objects;     ///< of the HDF5 files
+  std::vector<std::string> attributes;  ///< `OBJECT NAME`
+  std::vector<std::string> pointers;    ///< into the JSON files
+  std::vector<std::string> settings;    ///< `KEY=VALUE`, all of a scene's keys with many values
+};
+
+/// Every key of a scene with values that it may have, may just have, and may not.
+std::vector<std::string> scene_settings();
+
+Vocabulary case_vocabulary();
+Vocabulary results_vocabulary();
+
+}  // namespace suffuse::fuzz
