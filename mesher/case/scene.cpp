@@ -23,6 +23,8 @@ using Form = SceneNode::Form;
 using Places = std::map<std::string, Place>;
 
 constexpr const char* like = "like";
+/// Of soils, each like the next.
+constexpr std::size_t longest_chain = 100;
 
 /// The pattern of what is called `name` in a table, or nothing when there is no such key or table.
 std::optional<std::string> pattern_below(const std::string& table, const std::string& name) {
@@ -301,11 +303,15 @@ class SceneReader {
     }
     visiting.insert(soil.name);
     const bool cycle = visiting.contains(name);
+    const bool too_long = visiting.size() > longest_chain;
     if (cycle) {
       report(reference.place, key, reference.shown,
              "a soil that does not lead back to " + shown_name(soil.name));
+    } else if (too_long) {
+      report(reference.place, key, reference.shown,
+             "at most " + std::to_string(longest_chain) + " soils of which each is like the next");
     }
-    const bool complete = !cycle && inherit(*other, soils, visiting);
+    const bool complete = !cycle && !too_long && inherit(*other, soils, visiting);
     visiting.erase(soil.name);
     if (complete) add_missing(*other, soil);
     return complete;

@@ -116,6 +116,115 @@ SceneNode read_node(const toml::node& node, std::string name, const Place& place
       .where = where, .key = sentence, .found = {}, .expected = {}, .suggestion = {}}});
 }
 
+/// How deep tables lie in each other at most, by dotted keys, headings and braces. Tables are
+/// handled by functions that call themselves, as many times as they are deep.
+constexpr int deepest_table = 64;
+
+/// The number of the first line whose tables lie too deep, or 0. Goes by dots, brackets and braces
+/// outside of texts and comments; TOML that is wrong in other ways is for the parser to refuse.
+class DepthScan {
+ public:
+  explicit DepthScan(std::string_view text) : text_(text) {}
+
+  std::size_t run() {
+    while (at_ < text_.size()) {
+      take(text_[at_]);
+      ++at_;
+      if (heading_ + within_ + dots_ + static_cast<int>(outer_dots_.size()) > deepest_table) {
+        return line_;
+      }
+    }
+    return 0;
+  }
+
+ private:
+  void take(char c) {
+    switch (c) {
+      case '\n':
+        end_line();
+        break;
+      case '#':
+        at_ = std::min(text_.find('\n', at_), text_.size()) - 1;
+        break;
+      case '"':
+      case '\'':
+        skip_text(c);
+        break;
+      case '.':
+        ++dots_;
+        break;
+      case '{':
+        outer_dots_.push_back(dots_);
+        within_ += std::exchange(dots_, 0);
+        break;
+      case '}':
+        if (!outer_dots_.empty()) {
+          dots_ = outer_dots_.back();
+          within_ -= dots_;
+          outer_dots_.pop_back();
+        }
+        break;
+      case ',':
+        dots_ = 0;
+        break;
+      default:
+        if (begins_line_ && c == '[') {
+          is_heading_ = true;
+          heading_ = 0;
+        }
+    }
+    begins_line_ = c == '\n' || (begins_line_ && (c == ' ' || c == '\t'));
+  }
+
+  void end_line() {
+    ++line_;
+    if (is_heading_) heading_ = dots_;
+    is_heading_ = false;
+    dots_ = 0;
+  }
+
+  /// To the quote that ends the text which begins here.
+  void skip_text(char quote) {
+    const std::string three(3, quote);
+    const bool is_long = text_.substr(at_, 3) == three;
+    const std::string_view end =
+        is_long ? std::string_view(three) : std::string_view(three).substr(2);
+    at_ += end.size();
+    for (; at_ < text_.size() && text_.substr(at_, end.size()) != end; ++at_) {
+      if (text_[at_] == '\n' && !is_long) {
+        --at_;
+        return;
+      }
+      if (text_[at_] == '\n') ++line_;
+      if (text_[at_] == '\\' && quote == '"') ++at_;
+    }
+    at_ += end.size() - 1;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::size_t line_ = 1;
+  bool begins_line_ = true;
+  bool is_heading_ = false;
+  int heading_ = 0;              // dots of the heading above
+  int dots_ = 0;                 // of the key at hand
+  int within_ = 0;               // of the keys of all tables in braces around it
+  std::vector<int> outer_dots_;  // of each of those
+};
+
+/// \param place_of  a line
+template <class PlaceOf>
+void refuse_deep_tables(std::string_view text, const PlaceOf& place_of) {
+  const std::size_t line = DepthScan(text).run();
+  if (line == 0) return;
+  throw InputError(std::vector{InputProblem{
+      .where = place_of(line),
+      .key = {},
+      .found = "tables that lie more than " + std::to_string(deepest_table) + " deep in each other",
+      .expected = "a scene, whose tables lie three deep",
+      .suggestion = {}}});
+}
+
 /// Takes `"quoted"`, `'quoted'` or a bare name off the front of `rest`; empty when there is none.
 std::string take_name(std::string_view& rest) {
   std::string name;
@@ -181,6 +290,7 @@ std::size_t find_equals(const std::string& text) {
 
 SceneNode read_override_value(const std::string& text, const Place& place) {
   const Locator locate{.file = {}, .fixed = place};
+  refuse_deep_tables(text, [&](std::size_t) { return place.text; });
   try {
     const toml::table table = toml::parse(std::string_view("value = " + text));
     if (table.size() == 1) return read_node(*table.get("value"), "", place, locate);
@@ -213,6 +323,7 @@ std::string KeyStep::shown() const {
 
 SceneNode read_toml(const std::string& text, const std::string& path) {
   const Locator locate{.file = path, .fixed = {}};
+  refuse_deep_tables(text, [&](std::size_t line) { return path + ':' + std::to_string(line); });
   try {
     const toml::table table = toml::parse(std::string_view(text));
     SceneNode root = read_node(table, "", {.source = 0, .line = 0, .text = path}, locate);

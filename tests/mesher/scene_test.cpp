@@ -534,5 +534,62 @@ TEST(SceneReference, has_an_example_that_works) {
   EXPECT_EQ(problems_of(reference.substr(begin, reference.find("```\n", begin) - begin)), "");
 }
 
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+TEST(HostileScene, deep_tables_are_refused) {
+  const std::string deep =
+      "scene.toml:2: got tables that lie more than 64 deep in each other; expected a scene, whose "
+      "tables lie three deep\n";
+  EXPECT_EQ(problems_of("# " + repeated(".", 100) + "\n" + repeated("a.", 200000) + "a = 1\n"),
+            deep);
+  EXPECT_EQ(problems_of("\n[" + repeated("a.", 200000) + "a]\n"), deep);
+  EXPECT_EQ(problems_of("[" + repeated("a.", 40) + "a]\n" + repeated("b . ", 40) + "b = 1\n"),
+            deep);
+  EXPECT_EQ(problems_of("\na = " + repeated("{ b.c = ", 40)), deep);
+  EXPECT_EQ(problems_of("\n" + repeated("\"a\".", 70) + "a = 1\n"), deep);
+  const std::string argument = "gravity=" + repeated("{a.b=", 40);
+  EXPECT_EQ(problems_of(least, {argument}).substr(0, 6 + argument.size()), "--set " + argument);
+  EXPECT_NE(problems_of(least, {argument}).find("more than 64 deep"), std::string::npos);
+}
+
+TEST(HostileScene, dots_in_texts_comments_and_numbers_are_no_tables) {
+  const std::string dots = repeated(".", 200);
+  EXPECT_EQ(problems_of("name = \"\\\"" + dots + "\" # " + dots + "\n" + least), "");
+  EXPECT_EQ(problems_of("name = '" + dots + "'\n" + least), "");
+  EXPECT_EQ(problems_of("name = \"\"\"" + dots + "\n" + dots + "\"\"\"\n" + least), "");
+  EXPECT_EQ(problems_of(least + "[[boundary]]\non = \"top\"\npressure = [[0.0, 1.5]" +
+                        [] {
+                          std::string rows;
+                          for (int i = 1; i < 100; ++i)
+                            rows += ", [" + std::to_string(i) + ".5, 0.25]";
+                          return rows;
+                        }() +
+                        "]\n"),
+            "");
+}
+
+TEST(HostileScene, long_chains_of_soils_are_refused) {
+  std::string soils;
+  for (int i = 0; i < 5000; ++i) {
+    soils += "[soil.s" + std::to_string(i) + "]\nlike = \"s" + std::to_string(i + 1) + "\"\n";
+  }
+  EXPECT_NE(
+      problems_of(least + soils).find("expected at most 100 soils of which each is like the next"),
+      std::string::npos);
+}
+
+TEST(HostileScene, deep_values_and_odd_bytes_are_no_toml) {
+  for (const std::string& text :
+       {"name = " + repeated("[", 100000), "name = " + repeated("{a=", 100000),
+        std::string("name = \"a\0b\"\n", 13), std::string("name = \"\xff\"\n"),
+        std::string("\0\1\2", 3)}) {
+    EXPECT_EQ(problems_of(text).substr(0, 13), "scene.toml:1:");
+  }
+}
+
 }  // namespace
 }  // namespace suffuse
