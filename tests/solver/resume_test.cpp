@@ -1,0 +1,397 @@
+/// A run that was stopped and goes on gives the same files as one that never stopped.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "case/hdf5_io.hpp"
+#include "results/layout.hpp"
+#include "solver/solver_process.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::Process;
+
+/// A mode with an undisturbed run of it.
+class Resumed : public testing::TestWithParam<test::Mode> {
+ protected:
+  void SetUp() override { begin(GetParam()); }
+
+  void begin(const test::Mode& mode) {
+    case_ = place_.make_case(mode);
+    whole_ = place_.path("whole");
+    const Outcome outcome = place_.solve(case_, whole_);
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    ASSERT_GE(test::snapshots_in(whole_), 5);
+  }
+
+  /// What is left after snapshot `index`; rows go on behind it.
+  [[nodiscard]] std::string stopped_after(int index) const {
+    std::string folder = place_.copy(whole_, "stopped");
+    test::stop_after_snapshot(folder, index);
+    return folder;
+  }
+
+  void expect_same_when_resumed(const std::string& folder,
+                                const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> all{"--resume"};
+    all.insert(all.end(), options.begin(), options.end());
+    const Outcome outcome = place_.solve(case_, folder, all);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_EQ(test::difference(folder, whole_), "");
+  }
+
+  /// A run that gets `signal` once `rows` rows are there, or as soon after as it can be sent.
+  /// Whether it came before the end.
+  bool stop_by(int signal, long rows, const std::string& folder,
+               const std::vector<std::string>& options = {}) const {
+    Process process(test::solver_words(case_, folder, options), place_.path("stopped.txt"));
+    const std::string history = folder + "/" + layout::history;
+    test::wait_for(process, [&] { return test::lines_in(history) > rows; });
+    process.signal(signal);
+    const Outcome outcome = process.wait();
+    if (outcome.code == 0) return false;
+    EXPECT_EQ(outcome.code, 130) << outcome.error;
+    EXPECT_NE(outcome.error.find("what is written is complete. To go on:\n  suffuse-solver " +
+                                 case_ + " -o " + folder + " --resume\n"),
+              std::string::npos)
+        << outcome.error;
+    EXPECT_TRUE(fs::exists(folder + "/" + layout::checkpoint));
+    EXPECT_EQ(test::flaws(folder), "");
+    return true;
+  }
+
+  /// The same, however fast the machine is: earlier and earlier, until it comes in time.
+  void must_stop_by(int signal, const std::string& folder) const {
+    for (long rows = test::lines_in(whole_ + "/" + layout::history) / 2; rows > 0; rows /= 2) {
+      fs::remove_all(folder);
+      if (stop_by(signal, rows, folder)) return;
+    }
+    FAIL() << "the run ended each time before it could be interrupted";
+  }
+
+  [[nodiscard]] int last() const { return test::snapshots_in(whole_) - 1; }
+
+  test::Workplace place_;
+  std::string case_;
+  std::string whole_;
+};
+
+TEST_P(Resumed, FromTheFirstAMiddleAndTheLastButOneSnapshot) {
+  expect_same_when_resumed(stopped_after(0));
+  expect_same_when_resumed(stopped_after(last() / 2), {"--threads", "2"});
+  expect_same_when_resumed(stopped_after(last() - 1));
+}
+
+TEST_P(Resumed, AfterAnInterrupt) {
+  const std::string folder = place_.path("interrupted");
+  must_stop_by(SIGINT, folder);
+  expect_same_when_resumed(folder);
+}
+
+std::string name_of(const testing::TestParamInfo<test::Mode>& info) {
+  return info.param.name;
+}
+INSTANTIATE_TEST_SUITE_P(Modes, Resumed, testing::ValuesIn(test::five_modes()), name_of);
+
+std::vector<test::Mode> variants() {
+  const std::vector<test::Mode> modes = test::five_modes();
+  const test::Mode& single = modes[1];
+  const std::string tables =
+      R"(boundary[0]={on = "top", pressure = [[0.0, 0.0], [1.0, 6e3], [3.0, 6e3], [3.00001, 3e3]], )"
+      R"(concentration = [[0.0, 0.0], [4.0, 0.1]]})";
+  return {
+      test::with(
+          single, "inertia",
+          {"time.inertia=true", "time.end=1.0", "output={every = 0.02, snapshot_every = 0.1}"}),
+      test::with(single, "gravity", {"gravity=[0.0, -9.81]", "time.stepping=monotone"}),
+      test::with(single, "ergun", {"soil.specimen.drag=ergun"}),
+      test::with(single, "boundary_values_in_time", {tables}),
+      test::with(single, "exact_output", {"output.exact=true"}),
+      // The flow is solved once and kept; what erodes does not change it.
+      test::with(single, "kept_flow",
+                 {"soil.specimen.conductivity_law=constant", "liquid.bulk_modulus=inf",
+                  "soil.specimen.erosion={law = \"constant\", rate = 2e-2, start = 1.0}"}),
+      test::with(modes[0], "explicit_with_implicit_drag", {"time.drag=implicit"}),
+      test::with(modes[3], "boundary_values_in_time_with_points",
+                 {R"(boundary[0]={on = "inflow", darcy_flux = [[0.0, 0.0], [5.0, 0.02]]})"}),
+      test::with(modes[3], "dry_elements_and_random_points",
+                 {"points.seeding=random", "points.liquid_per_element=1",
+                  "soil.specimen.erosion.empty_elements=dry",
+                  "soil.specimen.erosion.mass_transfer=element"}),
+  };
+}
+
+class ResumedVariant : public Resumed {};
+
+TEST_P(ResumedVariant, FromAMiddleSnapshotAndAfterAnInterrupt) {
+  expect_same_when_resumed(stopped_after(last() / 2));
+  const std::string folder = place_.path("interrupted");
+  must_stop_by(SIGTERM, folder);
+  expect_same_when_resumed(folder);
+}
+INSTANTIATE_TEST_SUITE_P(Modes, ResumedVariant, testing::ValuesIn(variants()), name_of);
+
+/// With one mode; the others go the same way through the same code.
+class ResumedRun : public Resumed {
+ protected:
+  /// Steps shorter than what lies between snapshots: each has the state.
+  static test::Mode mode() {
+    return test::with(test::five_modes()[3], "double_point", {"time.step=0.2"});
+  }
+  void SetUp() override { begin(mode()); }
+
+  void expect_refused(const std::string& folder, const std::string& case_path,
+                      const std::vector<std::string>& options, int code,
+                      const std::string& message) const {
+    const std::string before = test::contents(folder);
+    const Outcome outcome = place_.solve(case_path, folder, options);
+    EXPECT_EQ(outcome.code, code) << outcome.error;
+    EXPECT_NE(outcome.error.find(message), std::string::npos) << outcome.error;
+    EXPECT_TRUE(before == test::contents(folder)) << "something was touched";
+  }
+};
+
+TEST_F(ResumedRun, AcrossSeveralSnapshotsWithinAStep) {
+  begin(test::with(test::five_modes()[3], "long_steps",
+                   {"time.step=2.0", "output={every = 0.25, snapshot_every = 0.25}"}));
+  // Steps end at 2, 4, ... s: the state is kept with snapshots 8, 16, ... alone.
+  for (const int index : {7, 8, 9}) expect_same_when_resumed(stopped_after(index));
+}
+
+TEST_F(ResumedRun, ManyTimesInARow) {
+  const std::string folder = place_.path("interrupted");
+  const std::string history = folder + "/" + layout::history;
+  int stops = 0;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    // One goes on for at least three rows each time.
+    const long rows = test::lines_in(history) + 3;
+    const std::string threads = attempt % 2 == 0 ? "1" : "2";
+    if (stop_by(SIGTERM, rows, folder, {"--resume", "--threads", threads})) ++stops;
+  }
+  EXPECT_GE(stops, 2);
+  expect_same_when_resumed(folder);
+}
+
+TEST_F(ResumedRun, AfterALostTerminal) {
+  const std::string folder = place_.path("interrupted");
+  must_stop_by(SIGHUP, folder);
+  expect_same_when_resumed(folder);
+}
+
+TEST_F(ResumedRun, CheckpointsByTheClockChangeNothing) {
+  const std::string folder = place_.path("kept");
+  const Outcome outcome = place_.solve(case_, folder, {"--checkpoint-every", "1e-9"});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(test::difference(folder, whole_), "");
+  // And they are what a killed run goes on from: no snapshot has its time.
+  fs::remove_all(folder);
+  Process process(test::solver_words(case_, folder, {"--checkpoint-every", "1e-9"}),
+                  place_.path("killed.txt"));
+  const bool came = test::wait_for(process, [&] {
+    return fs::exists(folder + "/" + layout::checkpoint) && test::snapshots_in(folder) > 1;
+  });
+  process.signal(SIGKILL);
+  const int code = process.wait().code;
+  if (came && code != 0) {
+    EXPECT_TRUE(fs::exists(folder + "/" + layout::checkpoint));
+  }
+  expect_same_when_resumed(folder, {"--checkpoint-every", "0"});
+  const auto info = nlohmann::json::parse(test::read_file(folder + "/run.json"));
+  if (came && code != 0) {
+    EXPECT_TRUE(info.at("resumed_at").is_number());
+  }
+}
+
+TEST_F(ResumedRun, AFinishedRunIsLeftAlone) {
+  const std::string before = test::contents(whole_);
+  const Outcome outcome =
+      Process({SUFFUSE_BIN "/suffuse-solver", case_, "-o", whole_, "--resume"}, place_.path("e"))
+          .wait();
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.error.substr(0, outcome.error.find('\n')),
+            whole_ + " is complete: nothing to resume");
+  EXPECT_TRUE(before == test::contents(whole_));
+}
+
+TEST_F(ResumedRun, WithoutAnythingThereItBeginsAnew) {
+  const std::string missing = place_.path("missing");
+  expect_same_when_resumed(missing);
+  const std::string empty = place_.path("empty");
+  fs::create_directory(empty);
+  expect_same_when_resumed(empty);
+  // Killed before the first snapshot was complete.
+  std::string folder = stopped_after(-1);
+  for (const char* table : {layout::history, layout::ledger, layout::regions}) {
+    fs::resize_file(folder + "/" + table, test::read_file(folder + "/" + table).find('\n') + 1);
+  }
+  for (const char* kind : {"mesh", "solid", "liquid"}) {
+    fs::remove(folder + "/" + layout::series(kind));
+  }
+  std::ofstream(folder + "/snapshots/solid_000000.hdf.tmp") << "half";
+  std::ofstream(folder + "/.case.4711.part.h5") << "half";
+  expect_same_when_resumed(folder);
+}
+
+TEST_F(ResumedRun, FromTheCopyOfTheCaseInTheResults) {
+  const std::string folder = stopped_after(2);
+  fs::remove(case_);
+  const Outcome outcome = place_.solve(folder + "/" + layout::case_copy, folder, {"--resume"});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(test::difference(folder, whole_), "");
+}
+
+TEST_F(ResumedRun, WhatIsLeftOfAKillIsRemoved) {
+  const std::string folder = stopped_after(3);
+  for (const char* name :
+       {"snapshots/mesh_000004.hdf.tmp", "snapshots/solid_000009.hdf", "checkpoint.hdf.tmp",
+        "mesh.hdf.series.tmp", "run.json.tmp", ".case.99.part.h5"}) {
+    std::ofstream(folder + "/" + name) << "half";
+  }
+  expect_same_when_resumed(folder);
+}
+
+TEST_F(ResumedRun, AnotherRunIsRefused) {
+  const std::string folder = stopped_after(3);
+  const std::string another = folder + ": cannot be resumed: it holds the results of another case";
+  const std::string set =
+      place_.make_case(test::with(mode(), "set", {"soil.specimen.erosion.rate=6e-2"}));
+  expect_refused(folder, set, {"--resume"}, 2, another);
+  const std::string mesh = place_.make_case(test::with(mode(), "mesh", {"mesh.size=0.0625"}));
+  expect_refused(folder, mesh, {"--resume"}, 2, another);
+  expect_refused(folder, case_, {"--resume", "--no-skip"}, 2,
+                 folder + ": cannot be resumed: it holds the results of a run without --no-skip");
+  const std::string scene = place_.make_case(test::with(mode(), "scene", {"name=other"}));
+  const std::string other = folder + ": holds results of scene \"double\", not of \"other\"";
+  expect_refused(folder, scene, {"--resume"}, 2, other);
+  expect_refused(folder, scene, {}, 2, other);
+  // And finished ones.
+  expect_refused(whole_, mesh, {"--resume"}, 2,
+                 whole_ + ": cannot be resumed: it holds the results of another case");
+  expect_same_when_resumed(folder);
+}
+
+/// Something wrong with the newest snapshot, number 5, or with what it needs.
+struct Damage {
+  std::string name;
+  std::function<void(const std::string&)> act;
+};
+
+void flip_byte(const std::string& path, std::size_t at) {
+  std::string bytes = test::read_file(path);
+  bytes.at(at) = static_cast<char>(bytes[at] ^ 1);
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+void flip_a_byte_of_the_state(const std::string& folder) {
+  const std::string path = folder + "/snapshots/mesh_000005.hdf";
+  std::vector<std::uint8_t> state =
+      Hdf5File(path, Hdf5File::Mode::read).read_bytes(layout::restart_state);
+  const std::string bytes = test::read_file(path);
+  const auto at = bytes.find(std::string(state.begin(), state.end()));
+  ASSERT_NE(at, std::string::npos);
+  flip_byte(path, at + state.size() / 2);
+}
+
+void cut_rows(const std::string& path, long rows) {
+  std::istringstream in(test::read_file(path));
+  std::string kept;
+  std::string line;
+  for (long count = 0; count <= rows && std::getline(in, line); ++count) kept += line + "\n";
+  std::ofstream(path, std::ios::binary) << kept;
+}
+
+const std::vector<Damage>& damages() {
+  const auto in_mesh = [](const std::string& folder) {
+    return folder + "/snapshots/mesh_000005.hdf";
+  };
+  static const std::vector<Damage> list{
+      {"cut_short",
+       [=](const std::string& folder) {
+         fs::resize_file(in_mesh(folder), fs::file_size(in_mesh(folder)) - 100);
+       }},
+      {"empty", [=](const std::string& folder) { fs::resize_file(in_mesh(folder), 0); }},
+      {"not_hdf5", [=](const std::string& folder) { std::ofstream(in_mesh(folder)) << "text\n"; }},
+      {"of_another_program",
+       [=](const std::string& folder) {
+         Hdf5File file(in_mesh(folder), Hdf5File::Mode::create);
+         file.create_group("/VTKHDF");
+       }},
+      {"a_bit_of_the_state", flip_a_byte_of_the_state},
+      {"solid_cut_short",
+       [](const std::string& folder) {
+         fs::resize_file(folder + "/snapshots/solid_000005.hdf", 1000);
+       }},
+      {"liquid_missing",
+       [](const std::string& folder) { fs::remove(folder + "/snapshots/liquid_000005.hdf"); }},
+      {"liquid_empty",
+       [](const std::string& folder) {
+         fs::resize_file(folder + "/snapshots/liquid_000005.hdf", 0);
+       }},
+      {"history_too_short",
+       [](const std::string& folder) { cut_rows(folder + "/history.csv", 24); }},
+      {"regions_too_short",
+       [](const std::string& folder) { cut_rows(folder + "/regions.csv", 24 * 4 + 1); }},
+      {"row_not_ended",
+       [](const std::string& folder) {
+         const std::string path = folder + "/ledger.csv";
+         cut_rows(path, 26);
+         fs::resize_file(path, fs::file_size(path) - 1);
+       }},
+  };
+  return list;
+}
+
+TEST_F(ResumedRun, FromTheSnapshotBeforeADamagedOne) {
+  for (const Damage& damage : damages()) {
+    SCOPED_TRACE(damage.name);
+    const std::string folder = stopped_after(5);
+    damage.act(folder);
+    const Outcome outcome = place_.solve(case_, folder, {"--resume"});
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_EQ(test::difference(folder, whole_), "");
+    const auto info = nlohmann::json::parse(test::read_file(folder + "/run.json"));
+    EXPECT_LT(info.at("resumed_at"), 2.5);
+    EXPECT_GE(info.at("resumed_at"), 2.0) << "went further back than it had to";
+    // A file that is missing is no damage: so does a kill leave it.
+    if (damage.name == "liquid_missing" || damage.name == "of_another_program") continue;
+    EXPECT_NE(outcome.error.find("suffuse-solver: warning: passed over: " + folder),
+              std::string::npos)
+        << outcome.error;
+  }
+}
+
+TEST_F(ResumedRun, ADamagedCheckpointIsPassedOver) {
+  for (const std::string bytes : {"", "text"}) {
+    const std::string folder = stopped_after(5);
+    std::ofstream(folder + "/checkpoint.hdf", std::ios::binary) << bytes;
+    expect_same_when_resumed(folder);
+  }
+  const std::string folder = stopped_after(5);
+  fs::copy_file(folder + "/snapshots/solid_000003.hdf", folder + "/checkpoint.hdf");
+  expect_same_when_resumed(folder);
+}
+
+TEST_F(ResumedRun, NothingIsDoneAwayWithWhereNoSnapshotWillDo) {
+  const std::string message =
+      "cannot be resumed: no snapshot there has a state to go on from; "
+      "choose another folder with -o, or run anew without --resume";
+  std::string folder = stopped_after(3);
+  fs::remove(folder + "/history.csv");
+  expect_refused(folder, case_, {"--resume"}, 4, message);
+  folder = stopped_after(3);
+  fs::resize_file(folder + "/snapshots/mesh_000000.hdf", 1000);
+  expect_refused(folder, case_, {"--resume"}, 4, message);
+  folder = stopped_after(3);
+  fs::remove_all(folder + "/snapshots");
+  expect_refused(folder, case_, {"--resume"}, 4, message);
+  EXPECT_EQ(place_.solve(case_, folder).code, 0);
+  EXPECT_EQ(test::difference(folder, whole_), "");
+}
+
+}  // namespace
+}  // namespace suffuse

@@ -1,0 +1,109 @@
+#pragma once
+
+/// The programs, run as a user would, and what they leave behind.
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "mesher/temporary_folder.hpp"
+
+namespace suffuse::test {
+
+/// How a program ended.
+struct Outcome {
+  int code = 0;       ///< exit code; 128 + signal where it was killed
+  std::string error;  ///< what it said on stderr
+};
+
+/// A program that runs.
+class Process {
+ public:
+  /// `words.front()` is the program; stderr goes to the file `error`. `prepare` is called in the
+  /// new process before it becomes the program.
+  Process(
+      const std::vector<std::string>& words, std::string error,
+      const std::function<void()>& prepare = [] {});
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  /// Kills it if need be.
+  ~Process();
+
+  [[nodiscard]] pid_t id() const { return id_; }
+  [[nodiscard]] bool running();
+  void signal(int number) const;
+  /// Waits until it ends; kills it after two minutes.
+  Outcome wait();
+
+ private:
+  pid_t id_ = -1;
+  std::string error_;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+/// Waits for `condition` as long as `process` runs. Whether it came about.
+bool wait_for(Process& process, const std::function<bool()>& condition);
+
+/// A mode of the solver, with what is special about a run of it.
+struct Mode {
+  std::string name;
+  std::string scene;              ///< the whole text
+  std::vector<std::string> sets;  ///< arguments of --set
+};
+std::ostream& operator<<(std::ostream& out, const Mode& mode);
+
+/// Single-point explicit and implicit; double-point mixed explicit, implicit, at material points.
+/// Runs of a tenth of a second with fifty rows and ten snapshots, in which everything moves.
+std::vector<Mode> five_modes();
+/// The same mode with more --set.
+Mode with(Mode mode, const std::string& name, const std::vector<std::string>& sets);
+
+/// The words of a solver's command line; quiet.
+std::vector<std::string> solver_words(const std::string& case_path, const std::string& results,
+                                      const std::vector<std::string>& options = {});
+
+/// A folder in which a scene is meshed and run.
+class Workplace {
+ public:
+  /// Meshes the scene into "NAME.case.h5". Throws when that fails.
+  std::string make_case(const Mode& mode) const;
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
+  /// Runs the solver to its end into the folder `results`.
+  [[nodiscard]] Outcome solve(
+      const std::string& case_path, const std::string& results,
+      const std::vector<std::string>& options = {},
+      const std::function<void()>& prepare = [] {}) const;
+  /// A copy of a results folder. Returns its path.
+  [[nodiscard]] std::string copy(const std::string& results, const std::string& name) const;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/// Makes of a finished run's folder what a kill leaves after snapshot `index` was written and
+/// before the next was: later snapshots and the end are missing, rows go on.
+void stop_after_snapshot(const std::string& results, int index);
+
+/// Number of whole lines of a file; 0 where there is none.
+long lines_in(const std::string& path);
+int snapshots_in(const std::string& results);
+
+/// Everything that differs between two results folders: files byte for byte, but for the lock and
+/// run.json, of which all is compared but durations, threads, memory and from where it was resumed.
+/// Empty where nothing does.
+std::string difference(const std::string& results, const std::string& others);
+
+/// All bytes of all files of a folder, those of the lock too; with their names.
+std::string contents(const std::string& folder);
+
+/// Everything wrong with a folder that a run has left at whatever moment: every snapshot that a
+/// series names is read whole, every table has whole rows, run.json says whose it is. Empty where
+/// nothing is wrong.
+std::string flaws(const std::string& results);
+
+}  // namespace suffuse::test

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Do runs that are killed end as if nothing had happened? A few of them; `make kill` does more. KILLS=N: how many.
+# Arguments go to make (BIN=FOLDER).
+set -euo pipefail
+
+workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+before=$(cksum < "$workflows/../docs/stability.md")
+make -C "$workflows" "$@" kill KILLS="${KILLS:-10}" OUT="$work/out"
+[ "$before" == "$(cksum < "$workflows/../docs/stability.md")" ] ||
+  { echo "FAILED: a few kills have changed docs/stability.md"; exit 1; }
