@@ -118,17 +118,23 @@ void make_case(const Arguments& arguments) {
   if (!warning.empty()) std::cerr << program << ": warning: " << warning << '\n';
 }
 
+std::string refuse_empty(const std::string& name) {
+  return name.empty() ? "got an empty name; expected that of a file" : "";
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Makes a case file, mesh and material points, from a scene.", program};
   Arguments arguments;
   app.add_option("SCENE", arguments.scene, "scene file (TOML)")->type_name("FILE");
   app.add_option("-o,--output", arguments.output, "case file to write [SCENE's name .case.h5]")
+      ->check(refuse_empty)
       ->type_name("FILE");
   app.add_option("--set", arguments.overrides, "change a key of the scene, repeatable")
       ->type_name("KEY=VALUE")
       ->type_size(1)
       ->allow_extra_args(false);
   app.add_option("--msh", arguments.msh, "also write the mesh for the Gmsh program")
+      ->check(refuse_empty)
       ->type_name("FILE.msh");
   app.add_flag("--version", arguments.version, "print the version");
   app.add_flag("--scene-reference", arguments.scene_reference,

@@ -62,6 +62,10 @@ int solve(const Arguments& arguments) {
   return code;
 }
 
+std::string refuse_empty(const std::string& name) {
+  return name.empty() ? "got an empty name; expected that of a folder" : "";
+}
+
 int run(int argc, char** argv) {
   Arguments arguments;
   CLI::App app{"suffuse-solver: suffusion by the material point method"};
@@ -70,6 +74,7 @@ int run(int argc, char** argv) {
       ->required()
       ->type_name("NAME.case.h5");
   app.add_option("-o,--output", arguments.folder, "Results folder (default: NAME.results)")
+      ->check(refuse_empty)
       ->type_name("FOLDER");
   app.add_option("--threads", arguments.solver.threads, "Threads; results do not depend on them")
       ->check(CLI::Range(1, 1024));
@@ -87,8 +92,8 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : static_cast<int>(suffuse::ExitCode::wrong_input);
+    if (error.get_exit_code() == 0) return app.exit(error);
+    throw suffuse::InputError(std::string(error.what()) + " (see --help)");
   }
   return solve(arguments);
 }

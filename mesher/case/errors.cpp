@@ -3,6 +3,7 @@
 #include <fcntl.h>
 
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <utility>
@@ -73,6 +74,9 @@ int report_current_exception(const std::string& program) {
     return report(program, error.what(), ExitCode::numerical_failure);
   } catch (const FileError& error) {
     return report(program, error.what(), ExitCode::file_failure);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return report(program, error.path1().string() + ": " + error.code().message(),
+                  ExitCode::file_failure);
   } catch (const std::bad_alloc&) {
     return report(program, "out of memory; use a coarser mesh or fewer points",
                   ExitCode::numerical_failure);

@@ -22,6 +22,8 @@ namespace {
 using Form = SceneNode::Form;
 using Places = std::map<std::string, Place>;
 
+/// Bytes. What is not a file can be without end.
+constexpr std::size_t largest_scene = 100'000'000;
 constexpr const char* like = "like";
 /// Of soils, each like the next.
 constexpr std::size_t longest_chain = 100;
@@ -458,7 +460,14 @@ SceneDocument read_scene(const std::string& path, const std::vector<std::string>
   if (!file || std::filesystem::is_directory(path)) {
     throw FileError("cannot read the scene " + path);
   }
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  std::vector<char> block(1U << 16U);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.size() > largest_scene) {
+      throw FileError(path + ": is larger than 100 MB; is it a scene?");
+    }
+  }
   if (file.bad()) throw FileError("cannot read the scene " + path);
   return parse_scene(text, path, overrides);
 }

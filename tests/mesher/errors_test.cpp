@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 namespace suffuse {
 namespace {
@@ -58,6 +60,10 @@ TEST(RunProgram, has_an_exit_code_for_each_kind_of_failure) {
   const Outcome file = outcome_of_throwing(FileError("no room"));
   EXPECT_EQ(file.code, 4);
   EXPECT_EQ(file.printed, "program: error: no room\n");
+  const Outcome system = outcome_of_throwing(std::filesystem::filesystem_error(
+      "status", "a/b", std::make_error_code(std::errc::filename_too_long)));
+  EXPECT_EQ(system.code, 4);
+  EXPECT_EQ(system.printed, "program: error: a/b: File name too long\n");
   const Outcome memory = outcome_of_throwing(std::bad_alloc());
   EXPECT_EQ(memory.code, 3);
   EXPECT_NE(memory.printed.find("out of memory"), std::string::npos);
