@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <sstream>
 
 #include "case/consistency.hpp"
 #include "case/errors.hpp"
@@ -22,6 +23,8 @@ constexpr const char* liquid_group = "/liquid_points";
 constexpr std::int64_t schema_version = 2;
 /// Barycentric coordinates are sums and products of a few doubles.
 constexpr double barycentric_tolerance = 1e-12;
+/// Of what the volumes of an element's points add up to: sums of up to a thousand doubles.
+constexpr double volume_tolerance = 1e-9;
 
 void integer_attribute(Hdf5File& file, const std::string& object, const std::string& name,
                        std::int64_t value) {
@@ -108,6 +111,10 @@ class CaseReader {
       fail(std::string(solid_group) + "/element",
            "point " + std::to_string(p) + " lies in \"" + region + "\", which is free water");
     }
+    check_volumes(solid_group, mesh, points, [&](int e) {
+      const bool free = scene.is_free_water(mesh.region_names[mesh.element_region[e]]);
+      return free ? 0.0 : element_volume(mesh, e);
+    });
     return points;
   }
 
@@ -116,7 +123,15 @@ class CaseReader {
     if (!expected && file_.exists(liquid_group)) {
       fail(liquid_group, "the scene is single-point; expected no liquid points");
     }
-    return expected ? read_points(liquid_group, mesh) : MaterialPoints<Dim>{};
+    if (!expected) return {};
+    MaterialPoints<Dim> points = read_points(liquid_group, mesh);
+    check_volumes(liquid_group, mesh, points, [&](int e) {
+      const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
+      // n_0 is linear: its mean is its value at the centroid.
+      const double porosity = soil ? soil->initial_porosity(element_centroid(mesh, e)) : 1.0;
+      return porosity * element_volume(mesh, e);
+    });
+    return points;
   }
 
   /// The scene text is checked again: another version of the schema may have written it.
@@ -269,6 +284,24 @@ class CaseReader {
     if (!(std::isfinite(points.volume[p]) && points.volume[p] > 0.0)) {
       fail(group + "/volume",
            "the volume of point " + std::to_string(p) + " is not positive and finite");
+    }
+  }
+
+  /// Points fill their element: what the model counts by elements it counts by points too.
+  template <class VolumeOf>
+  void check_volumes(const std::string& group, const Mesh<Dim>& mesh,
+                     const MaterialPoints<Dim>& points, const VolumeOf& volume_of) const {
+    std::vector<double> sum(mesh.elements.size(), 0.0);
+    for (int p = 0; p < points.size(); ++p) sum[points.element[p]] += points.volume[p];
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      const double expected = volume_of(e);
+      if (std::abs(sum[e] - expected) <= volume_tolerance * expected) continue;
+      std::ostringstream message;
+      message.precision(10);
+      message << "the volumes of the points in element " << e << " at ("
+              << element_centroid(mesh, e).transpose() << ") add up to " << sum[e]
+              << " m3; expected " << expected;
+      fail(group + "/volume", message.str());
     }
   }
 

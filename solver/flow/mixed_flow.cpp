@@ -175,7 +175,10 @@ void MixedFlow<Dim>::find_scales() {
   // kinks: errors are relative to the largest.
   const BoundaryValues<Dim>& values = this->boundary_values();
   std::vector<double> times{0.0};
-  if (values.vary()) times.insert(times.end(), values.events().begin(), values.events().end());
+  if (values.vary()) {
+    times.insert(times.end(), values.events().begin(), values.events().end());
+    times.push_back(end_);
+  }
   bool prescribes = false;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -286,8 +289,12 @@ void MixedFlow<Dim>::find_forcing(const FlowInterval<Dim>& interval, double time
 template <int Dim>
 void MixedFlow<Dim>::join_to_last_step(double begin, double time,
                                        FlowCoefficients<Dim>& coefficients) const {
+  // What drifts is liquid all the same, no lighter and no heavier than what it consists of.
+  const auto [lightest, heaviest] =
+      std::minmax(this->scene().liquid.density, this->scene().soils.front().grain_density);
   for (std::size_t e = 0; e < density_drift_.size(); ++e) {
-    coefficients.mixture_density[e] += density_drift_[e] * (time - begin);
+    double& density = coefficients.mixture_density[e];
+    density = std::clamp(density + density_drift_[e] * (time - begin), lightest, heaviest);
   }
   const double share = 1.0 - (time - begin) / joining_;
   if (options_.step_given || used_.porosity.empty() || !(share > 0.0)) return;
@@ -451,7 +458,9 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
     if (!(dt > 1e-14 * interval.begin) || dt < 1e-20 * end_) {
       std::ostringstream message;
       message << "no step is short enough for time.tolerance = " << tolerance_
-              << " at t = " << interval.begin << " s";
+              << " at t = " << interval.begin
+              << " s: something that drives or resists the flow changes at once; take a larger "
+                 "tolerance or give time.step";
       throw NumericalError(message.str());
     }
   }

@@ -113,20 +113,24 @@ StabilityLimit NodalFlow<Dim>::current_limit(double step) const {
   if (this->has_ergun()) {
     for (const Vector<Dim>& v : scheme_.velocity()) speed.push_back(v.norm());
   }
-  constexpr double moved = 1e-3;
+  constexpr double moved = 1.0 - sure_of_assembled;
   const LiquidProperties& liquid = this->scene().liquid;
   const TimeSettings& time = this->scene().time;
   StabilityLimit limit =
       stability_limit(this->grid(), this->coefficients_, operator_.node_porosity(),
                       liquid.bulk_modulus, time.mass_scaling, time.drag, speed);
-  if (step <= limit.step || !uses_assembled_limit(this->scene())) return limit;
+  // Where points carry the flow the bound by elements does not hold.
+  const PressureIntegration integration = this->scene().flow.integration;
+  const bool carried = integration == PressureIntegration::material_point;
+  if (!carried && (step <= limit.step || !uses_assembled_limit(this->scene()))) return limit;
   // Not a number at first, which is far from everything.
   if (!(std::abs(limit.step - element_limit_) <= moved * limit.step)) {
     element_limit_ = limit.step;
     assembled_limit_ = assembled_limit(operator_, this->coefficients_, liquid.bulk_modulus,
-                                       time.mass_scaling, time.drag, speed);
+                                       time.mass_scaling, time.drag, speed, integration);
   }
-  limit.step = std::max(limit.step, (1.0 - moved) * assembled_limit_);
+  const double assembled = sure_of_assembled * assembled_limit_;
+  limit.step = carried ? assembled : std::max(limit.step, assembled);
   return limit;
 }
 

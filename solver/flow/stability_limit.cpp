@@ -151,9 +151,13 @@ StabilityLimit stability_limit(const Grid<Dim>& grid, const FlowCoefficients<Dim
 template <int Dim>
 double assembled_limit(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& coefficients,
                        double bulk_modulus, double mass_scaling, DragIntegration drag,
-                       const std::vector<double>& node_speed) {
-  const double omega =
+                       const std::vector<double>& node_speed, PressureIntegration integration) {
+  double omega =
       std::sqrt(largest_eigenvalue(Compression<Dim>(op, coefficients, bulk_modulus, mass_scaling)));
+  constexpr double least_passed_on = 1.0 / (2.0 * Dim);  // theta
+  if (integration == PressureIntegration::material_point) {
+    omega *= std::sqrt(2.0 - least_passed_on);
+  }
   const bool explicit_drag = drag == DragIntegration::explicit_drag;
   double damping = explicit_drag ? 0.0 : std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < op.node_drag().size(); ++i) {
@@ -168,7 +172,7 @@ double assembled_limit(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>
 }
 
 template double assembled_limit(const NodalOperator<2>&, const FlowCoefficients<2>&, double, double,
-                                DragIntegration, const std::vector<double>&);
+                                DragIntegration, const std::vector<double>&, PressureIntegration);
 template StabilityLimit stability_limit(const Grid<2>&, const FlowCoefficients<2>&,
                                         const std::vector<double>&, double, double, DragIntegration,
                                         const std::vector<double>&);

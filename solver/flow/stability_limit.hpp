@@ -39,13 +39,25 @@ inline bool uses_assembled_limit(const Scene& scene) {
   return scene.formulation == Formulation::double_point;
 }
 
+/// Share of the assembled limit that is taken for the limit: it is not found again for changes
+/// smaller than what is left out.
+inline constexpr double sure_of_assembled = 1.0 - 1e-3;
+
 /// The limit of the assembled scheme: its highest frequency by Lanczos' method, with the error that
 /// the method admits added, and the worst drag of any node. Higher than the limit element by
 /// element where porosity jumps or a few elements are small; it costs some hundred steps. `op` has
 /// taken `coefficients`.
+///
+/// Where points carry the flow (`integration`) nodes have from the last step not the change of
+/// their velocity but what points around them say of it: a share theta of it, the eigenvalue of
+/// lumped^-1 consistent mass, for a mode of frequency omega. A step is then
+/// p'' - (2 - a) p' + (1 - (1 - theta) a) p = 0 with a = (omega dt)^2, stable for
+/// a <= 4 / (2 - theta). On linear triangles theta is at least 1/4 (A. J. Wathen, IMA J. Numer.
+/// Anal. 7 (1987) 449) where points sample the mass well: omega counts sqrt(7/4) times.
 template <int Dim>
 double assembled_limit(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& coefficients,
                        double bulk_modulus, double mass_scaling, DragIntegration drag,
-                       const std::vector<double>& node_speed = {});
+                       const std::vector<double>& node_speed = {},
+                       PressureIntegration integration = PressureIntegration::mixed);
 
 }  // namespace suffuse

@@ -56,7 +56,7 @@ Case<2> double_point_case() {
   c.liquid_points.element = {0, 0, 1, 1};
   c.liquid_points.barycentric = {
       {0.25, 0.25, 0.5}, {0.5, 0.125, 0.375}, {0.125, 0.75, 0.125}, {0.1, 0.2, 0.7}};
-  c.liquid_points.volume = {0.05, 0.1, 0.1, 1.0 / 30.0};
+  c.liquid_points.volume = {0.05, 0.1, 0.1, 1.0 / 60.0};
   return c;
 }
 
@@ -464,6 +464,8 @@ INSTANTIATE_TEST_SUITE_P(
                  set_double(f, "/solid_points/volume", 2, std::numeric_limits<double>::infinity());
                },
                "the volume of point 2 is not positive and finite"},
+        Damage{"VolumesDoNotFill", [](auto& f) { set_double(f, "/solid_points/volume", 2, 1e-3); },
+               "/solid_points/volume: the volumes of the points in element 0 at ("},
         Damage{"Missing", [](auto& f) { remove_object(f, "/solid_points/volume"); },
                "/solid_points/volume: is missing"},
         Damage{"NoBoundaries", [](auto& f) { remove_object(f, "/boundaries"); },
@@ -522,6 +524,15 @@ INSTANTIATE_TEST_SUITE_P(
                "/liquid_points/volume: the volume of point 2 is not positive"},
         Damage{"VolumeNan", [](auto& f) { set_double(f, "/liquid_points/volume", 2, nan); },
                "/liquid_points/volume: the volume of point 2 is not positive and finite"},
+        Damage{"ElementWithoutPoints",
+               [](auto& f) {
+                 set_integer(f, "/liquid_points/element", 2, 0);
+                 set_integer(f, "/liquid_points/element", 3, 0);
+               },
+               "/liquid_points/volume: the volumes of the points in element 0 at ("},
+        Damage{"VolumesDoNotFill",
+               [](auto& f) { set_double(f, "/liquid_points/volume", 2, 0.1 * (1.0 + 1e-6)); },
+               "/liquid_points/volume: the volumes of the points in element 1 at ("},
         Damage{"WrongType", [](auto& f) { replace_text(f, "/liquid_points/volume", "text"); },
                "/liquid_points/volume: holds text; expected floating-point numbers"},
         Damage{"SolidInFreeWater", [](auto& f) { set_integer(f, "/solid_points/element", 2, 1); },

@@ -30,6 +30,53 @@ TEST(Plan, SteadyFlowNeedsFluxesThatAddUp) {
   }
 }
 
+/// Water that does not compress has no other flow: refused before anything runs, at any time.
+TEST(Plan, StiffWaterNeedsFluxesThatAddUpAtAllTimes) {
+  Scene scene = fluxes(0.01, -0.01);
+  scene.initial_flow = InitialFlow::rest;
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  const auto refusal = [&]() -> std::string {
+    try {
+      make_plan(model::make_case(model::column_mesh(4, 4), scene), {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(refusal(), "none");
+  scene.boundaries[0].darcy_flux = TimeFunction({{0.0, 0.01}, {10.0, 0.01}, {20.0, 0.03}});
+  EXPECT_NE(refusal().find("liquid.bulk_modulus: got inf with boundaries that bring in 0.02 m3/s "
+                           "more than they take out at t = 20 s"),
+            std::string::npos)
+      << refusal();
+  scene.boundaries[1] = model::pressure_on("bottom", 0.0);
+  EXPECT_EQ(refusal(), "none");
+}
+
+/// A point on a corner takes from the other two corners what it gives to its own, and more.
+TEST(Plan, PointsOnCornersMustLeavePoresElsewhere) {
+  Scene scene = fluxes(0.01, -0.01);
+  scene.points.solid_per_element = 1;
+  scene.soils[0].erosion = {ErosionLaw::constant, 1e-3, 0.0, false};
+  Case<2> c = model::make_case(model::column_mesh(4, 4), scene);
+  c.solid_points.barycentric[7] = {0.0, 0.0, 1.0};
+  EXPECT_NO_THROW(make_plan(c, {})) << "of 0.3 it takes a third of 0.1";
+  Soil& soil = c.document.scene.soils[0];
+  soil.porosity = 0.05;
+  soil.skeleton_fraction = 0.1;
+  try {
+    make_plan(c, {});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("solid points so near the corners of element 7 at ("), std::string::npos)
+        << message;
+  }
+  c.document.scene.formulation = Formulation::double_point;
+  EXPECT_NO_THROW(make_plan(c, {})) << "no fields there";
+}
+
 TEST(Plan, SkipsWhatTheSceneDoesNotNeed) {
   Scene scene = fluxes(0.01, -0.01);
   const auto plan_of = [&](const SolverOptions& options) {

@@ -37,6 +37,21 @@ double mean_velocity(const Case<2>& c, const FlowMoment<2>& flow) {
   return sum;
 }
 
+/// A pressure that changes until the end of the run: what it comes to bounds pressures too.
+TEST(BoundaryPressure, BoundsPressuresUntilTheEnd) {
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.stepping = TimeStepping::monotone;
+  scene.time.inertia = false;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.time.end = 10.0;
+  scene.boundaries = {model::pressure_on("top", 0.0), model::pressure_on("bottom", 0.0)};
+  scene.boundaries[0].pressure = TimeFunction(Knots{{0.0, 6000.0}, {10.0, -6000.0}});
+  model::ModelRun run(model::make_case(model::column_mesh(2, 4), scene));
+  const auto moments = run.run({5.0, 7.5, 10.0});
+  for (const FlowMoment<2>& flow : moments.flows) EXPECT_LE(flow.pressure_overshoot, 1e-10);
+}
+
 /// Rest, a ramp within three times the time in which the flow settles, a jump down, and on.
 TEST(BoundaryPressure, MovesTheColumnAsItChanges) {
   const Knots pressure{{0.0, 0.0},     {0.01, 0.0},       {0.03, 6000.0},
