@@ -2,10 +2,12 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -14,13 +16,20 @@
 namespace suffuse::stress {
 namespace {
 
-[[noreturn]] void become(std::vector<char*> words, const std::string& log) {
+/// A program that waits for what never comes takes no time: it is ended after so many times its
+/// share.
+constexpr double most_waiting = 30.0;
+
+[[noreturn]] void become(std::vector<char*> words, const std::string& log, double most_seconds) {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   if (file >= 0) {
     dup2(file, STDOUT_FILENO);
     dup2(file, STDERR_FILENO);
     close(file);
   }
+  const auto whole_seconds = static_cast<rlim_t>(std::ceil(most_seconds));
+  const rlimit limit{whole_seconds, whole_seconds + 1};
+  setrlimit(RLIMIT_CPU, &limit);
   words.push_back(nullptr);
   execv(words.front(), words.data());
   _exit(127);
@@ -39,20 +48,25 @@ ChildEnd run_child(const std::vector<std::string>& arguments, const std::string&
   };
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no child process could be made");
-  if (child == 0) become(words, log);
+  if (child == 0) become(words, log, most_seconds);
 
   ChildEnd end;
   int status = 0;
-  while (waitpid(child, &status, WNOHANG) == 0) {
-    if (!end.timed_out && seconds() > most_seconds) {
+  rusage used{};
+  while (wait4(child, &status, WNOHANG, &used) == 0) {
+    if (!end.timed_out && seconds() > most_waiting * most_seconds) {
       end.timed_out = true;
       kill(child, SIGKILL);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  end.seconds = seconds();
+  const auto seconds_of = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  end.seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  end.timed_out |= end.signal == SIGXCPU;
   std::ostringstream text;
   text << std::ifstream(log, std::ios::binary).rdbuf();
   end.output = text.str();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Runs a program as a user would, with a limit of time.
+/// Runs a program as a user would, with a limit of processor time.
 
 #include <string>
 #include <vector>
@@ -11,8 +11,8 @@ struct ChildEnd {
   int exit_code = -1;  ///< -1: ended by a signal
   int signal = 0;
   bool timed_out = false;
-  double seconds = 0.0;
-  std::string output;  ///< what it wrote to standard output and error
+  double seconds = 0.0;  ///< of processor time
+  std::string output;    ///< what it wrote to standard output and error
 };
 
 /// `arguments` begins with the program; what it says goes through the file `log`.

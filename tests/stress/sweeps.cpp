@@ -213,8 +213,13 @@ Sweep scaling() {
     sweep.add(explicit_ones, s, {set("time.mass_scaling", scaling)});
     sweep.add(explicit_ones, s + " drag stepped implicitly",
               {set("time.mass_scaling", scaling), "time.drag=implicit"});
-    sweep.add(explicit_ones, s + " imposed flux",
-              {set("time.mass_scaling", scaling), top_flux + "0.012, concentration=0.1}"});
+    // A million times as heavy, the liquid that is set in motion at once presses harder than K.
+    sweep.add(explicit_ones, s + " imposed flux", [&](Scenario& scenario) {
+      scenario.changes = [scaling](const Span&) {
+        return Changes{set("time.mass_scaling", scaling), top_flux + "0.012, concentration=0.1}"};
+      };
+      if (scaling > 1e5) scenario.expected = Expected::either;
+    });
     sweep.add(explicit_ones, s + " steady start",
               {set("time.mass_scaling", scaling), "initial.flow=steady"});
   }
@@ -393,6 +398,7 @@ Sweep thin_layer() {
                 });
                 return mesh;
               };
+              if (thickness < 1e-3) s.end = 2.0;  // a step per thickness
               s.changes = [=](const Span& span) {
                 return Changes{"soil.layer={like=\"specimen\", conductivity=" + number(k) +
                                ", erosion={law=\"" + law + "\"" +
@@ -420,7 +426,13 @@ Sweep slivers() {
     for (const std::string start : {"rest", "steady"}) {
       sweep.add(every, shape.name + std::string(" from ") + start, [&](Scenario& s) {
         s.mesh = shape.mesh;
-        s.changes = [start](const Span&) { return Changes{"initial.flow=" + start}; };
+        // The same gradient however low the column.
+        double height = 0.0;
+        for (const Vector<2>& node : shape.mesh().nodes) height = std::max(height, node[1]);
+        s.changes = [=](const Span&) {
+          return Changes{"initial.flow=" + start, set("boundary[0].pressure", 6000.0 * height)};
+        };
+        s.end = std::min(100.0, 100.0 * height);
       });
     }
   }
@@ -502,6 +514,19 @@ Sweep points() {
           seed);
     }
   }
+  // The fields of single-point models would run out of pores there.
+  const auto on_corners = [](Scenario& s) {
+    s.disturb = [](Case<2>& c) {
+      join(c.solid_points);
+      place(c.solid_points, Placement::on_nodes, 1);
+    };
+    s.changes = [](const Span& span) {
+      return Changes{specimen + "porosity=0.05", specimen + "skeleton_fraction=0.01",
+                     set(specimen + "erosion.rate", 0.94 / (0.6 * span.end))};
+    };
+    s.expected = is_double_point(s.scheme) ? Expected::done : Expected::refused;
+  };
+  sweep.add(every, "one solid point on a node; all but 1e-2 erodes", on_corners);
   sweep.add(every, "all points twice", [](Scenario& s) {
     s.disturb = [](Case<2>& c) {
       duplicate(c.solid_points);
@@ -556,8 +581,12 @@ Sweep density() {
                         (heavy ? "; gravity" : "") + (momentum ? "; momentum" : ""),
                     [&](Scenario& s) {
                       s.explicit_steps = 4000.0;
+                      // What so heavy grains do when they set in motion, no step may be short
+                      // enough for.
+                      if (ratio > 50.0 && (momentum || heavy)) s.expected = Expected::either;
                       s.changes = [=](const Span&) {
                         Changes result{set("liquid.density", water),
+                                       set("boundary[0].pressure", 6.0 * water),
                                        set(specimen + "grain_density", ratio * water)};
                         if (heavy) result.emplace_back("gravity=[0, -9.81]");
                         if (momentum) {
@@ -712,7 +741,8 @@ Sweep throughput() {
   const std::vector<std::string> open{specimen + "conductivity=1", "initial.flow=steady"};
   for (const double c : {0.0, 0.2, 0.9}) {
     sweep.add(every, "c = " + shown(c) + " enters", [&](Scenario& s) {
-      s.explicit_steps = 20000.0;
+      s.end = 8.0;
+      s.explicit_steps = 2e5;
       s.changes = [=](const Span& span) {
         return joined(open,
                       {top_flux + number(forty(span)) + ", concentration=" + number(c) + "}"});
@@ -721,14 +751,16 @@ Sweep throughput() {
   }
   for (const std::string seeding : {"gauss", "random"}) {
     sweep.add(double_point_ones, "points seeded " + seeding, [&](Scenario& s) {
-      s.explicit_steps = 20000.0;
+      s.end = 8.0;
+      s.explicit_steps = 2e5;
       s.changes = [=](const Span& span) {
         return joined(open, {top_flux + number(forty(span)) + "}", "points.seeding=" + seeding});
       };
     });
   }
   sweep.add(double_point_ones, "free water above and below", [&](Scenario& s) {
-    s.explicit_steps = 20000.0;
+    s.end = 8.0;
+    s.explicit_steps = 2e5;
     s.mesh = [] {
       LayerSettings layers;
       layers.inflow = layers.outflow = layers.above = layers.below = 1;
@@ -744,6 +776,8 @@ Sweep throughput() {
     sweep.add(
         every, "jittered mesh",
         [&](Scenario& s) {
+          s.end = 8.0;
+          s.explicit_steps = 2e5;
           s.mesh = [seed] {
             Mesh<2> mesh = plain_column();
             jitter_nodes(mesh, 0.45 * 0.125, seed);
@@ -820,6 +854,7 @@ Sweep anything() {
     sweep.add(
         every, "at random",
         [&](Scenario& s) {
+          s.end = 20.0;
           s.explicit_steps = 4000.0;
           s.expected = Expected::either;
           s.mesh = [seed] {
