@@ -27,7 +27,7 @@ bool is_place(const std::string& column) {
   return column == "x" || column == "y";
 }
 
-std::vector<std::string> quantities(const Table& table) {
+std::vector<std::string> quantity_names(const Table& table) {
   std::vector<std::string> names;
   for (const auto& name : table.names) {
     if (name != "t" && !is_place(name)) names.push_back(name);
@@ -183,8 +183,8 @@ Curve curve_of(const ResultsReader& run, const std::string& quantity, const std:
   if (quantity.starts_with(mean_prefix)) {
     if (const auto found = mean_curve(run, quantity.substr(mean_prefix.size()))) return *found;
   }
-  std::vector<std::string> known = quantities(history);
-  const auto more = quantities(ledger);
+  std::vector<std::string> known = quantity_names(history);
+  const auto more = quantity_names(ledger);
   known.insert(known.end(), more.begin(), more.end());
   throw wrong(path, '"' + quantity + '"',
               "a column of history.csv or ledger.csv, \"mean_\" and a field of the elements (a "
@@ -209,7 +209,7 @@ std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTabl
 
 void check(const ReferenceTable& reference) {
   const Table& table = reference.values;
-  const auto names = quantities(table);
+  const auto names = quantity_names(table);
   if (!table.has("t")) throw wrong(reference.path, "no column \"t\"", "times in s");
   if (table.has("x") != table.has("y")) {
     throw wrong(reference.path, "one column of places", "both \"x\" and \"y\", or neither");
@@ -241,7 +241,7 @@ ReferenceTable read_reference_table(const std::string& path) {
 
 std::vector<ReferenceError> reference_errors(const ResultsReader& run,
                                              const ReferenceTable& reference) {
-  const auto names = quantities(reference.values);
+  const auto names = quantity_names(reference.values);
   const auto sums = reference.values.has("x") ? field_errors(run, reference, names)
                                               : curve_errors(run, reference, names);
   std::vector<ReferenceError> errors;

@@ -73,7 +73,7 @@ std::string hdf5_reason() {
   fail(path, object, "could not be read" + hdf5_reason() + "; the file is damaged, write it anew");
 }
 
-std::string joined(const std::vector<std::size_t>& shape) {
+std::string extents_text(const std::vector<std::size_t>& shape) {
   std::string text;
   for (std::size_t extent : shape) text += (text.empty() ? "" : ", ") + std::to_string(extent);
   return "[" + text + "]";
@@ -158,7 +158,7 @@ void write_array(hid_t file, const std::string& path, const std::string& dataset
                  const std::vector<std::size_t>& shape) {
   if (shape.empty() || product(shape) != values.size()) {
     fail(path, dataset,
-         std::to_string(values.size()) + " values do not fill the shape " + joined(shape));
+         std::to_string(values.size()) + " values do not fill the shape " + extents_text(shape));
   }
   write_dataset(file, path, dataset, file_type, memory_type, array_space(shape), values.data());
 }
@@ -231,7 +231,7 @@ std::size_t checked_count(const std::string& path, const std::string& dataset, c
   const auto file_size = static_cast<long double>(std::filesystem::file_size(path, ignored));
   if (bytes > gain * stored || stored > file_size) {
     fail(path, dataset,
-         "its shape " + joined(shape) + " is larger than what the file holds; it is damaged");
+         "its shape " + extents_text(shape) + " is larger than what the file holds; it is damaged");
   }
   return product(shape);
 }
