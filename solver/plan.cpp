@@ -175,6 +175,21 @@ double longest_relaxation(const Scene& scene) {
   return relaxation;
 }
 
+/// Scaled masses have a bound of their own.
+template <int Dim>
+void find_speed_that_drag_follows(const Case<Dim>& c, Plan& plan) {
+  const Scene& scene = c.document.scene;
+  const bool inertia = scene.time.scheme == FlowScheme::explicit_nodal || plan.flow.inertia;
+  if (!inertia || scene.time.mass_scaling > 1.0) return;
+  Vector<Dim> low = c.mesh.nodes.front();
+  Vector<Dim> high = low;
+  for (const Vector<Dim>& x : c.mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  plan.speed_that_drag_follows = (high - low).norm() / longest_relaxation(scene);
+}
+
 void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
   const double scaling = scene.time.mass_scaling;
   if (scaling <= 1.0) return;
@@ -350,6 +365,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
 
   if (options.no_skip && scene.flow.porosity_gradient_term) plan.erosion = plan.transport = true;
   warn_of_mass_scaling(scene, plan);
+  find_speed_that_drag_follows(c, plan);
   describe(scene, options, plan);
   return plan;
 }

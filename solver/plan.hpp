@@ -19,7 +19,10 @@ struct SolverOptions {
 
 struct Plan {
   FlowOptions flow;
-  StabilityLimit limit;   ///< explicit: the smallest the run is expected to meet
+  StabilityLimit limit;  ///< explicit: the smallest the run is expected to meet
+  /// Where inertia counts: liquid that is faster passes the model before drag would have brought it
+  /// to its speed, m/s. The momentum that it carries along is not in the equations.
+  double speed_that_drag_follows = std::numeric_limits<double>::infinity();
   bool transport = true;  ///< fluidised grains move
   bool erosion = true;
   /// Times, s, within which the skeleton can change and from which on the liquid can hold grains.

@@ -172,6 +172,7 @@ class FormulationRun {
     check_finite(row);
     check_compression(row);
     warn_of_speed(row.speed_max);
+    warn_of_carried_momentum(row.speed_max);
     writer_.append_history(row);
     writer_.append_ledger(model_.ledger(state));
     const std::vector<RegionRow> regions = model_.region_rows(state);
@@ -203,7 +204,7 @@ class FormulationRun {
   }
 
   void archive(StateArchive& state) {
-    state(model_, loop_, speed_warned_, compression_warned_, warnings_);
+    state(model_, loop_, speed_warned_, momentum_warned_, compression_warned_, warnings_);
   }
 
   static void check_finite(const HistoryRow& row) {
@@ -249,6 +250,19 @@ class FormulationRun {
     warn(message.str());
   }
 
+  /// Pressure is convected and momentum is not, so that waves between an inlet and an outlet grow
+  /// by 1 + v / c with every way back unless drag takes as much.
+  void warn_of_carried_momentum(double speed) {
+    if (momentum_warned_ || !(speed > plan_.speed_that_drag_follows)) return;
+    momentum_warned_ = true;
+    std::ostringstream message;
+    message << "the liquid reaches " << speed << " m/s; above " << plan_.speed_that_drag_follows
+            << " m/s it passes the model before drag brings it to its speed, and the momentum that "
+               "it carries along is not in the equations: pressures and fluxes are not to be "
+               "trusted";
+    warn(message.str());
+  }
+
   void warn(const std::string& text) {
     warnings_.push_back(text);
     progress_.say("suffuse-solver: warning: " + text);
@@ -286,6 +300,7 @@ class FormulationRun {
   StepLoop<Model<Dim>> loop_;
   std::optional<double> resumed_at_;  ///< s
   bool speed_warned_ = false;
+  bool momentum_warned_ = false;
   bool compression_warned_ = false;
   std::vector<std::string> warnings_;
   ResultsWriter<Dim> writer_;

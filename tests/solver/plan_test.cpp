@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "case/errors.hpp"
 #include "solver/double_point_case.hpp"
 
@@ -97,6 +99,19 @@ TEST(Plan, WarnsOfMassScalingThatDistortsTheFlow) {
   EXPECT_EQ(make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).warnings.size(), 1U);
   scene.time.mass_scaling = 100.0;  // 0.68 s
   EXPECT_TRUE(make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).warnings.empty());
+}
+
+TEST(Plan, KnowsTheSpeedThatDragFollows) {
+  Scene scene = fluxes(0.01, -0.01);
+  const auto speed = [&] {
+    return make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).speed_that_drag_follows;
+  };
+  // sqrt(2) m in 2e-2 / (0.3 * 9.81) s
+  EXPECT_NEAR(speed(), std::sqrt(2.0) * 0.3 * 9.81 / 2e-2, 1e-9);
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  EXPECT_TRUE(std::isinf(speed())) << "inertia is left out";
+  scene.time.inertia = true;
+  EXPECT_FALSE(std::isinf(speed()));
 }
 
 TEST(Plan, TakesNineTenthsOfTheLimitWithoutAStep) {
