@@ -11,7 +11,10 @@
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
+#include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "case/errors.hpp"
 #include "case/pending_file.hpp"
@@ -55,6 +58,18 @@ void write_vector(vtkRenderWindow& window, const std::string& title, const std::
   exporter->SetSortToOff();  // what is drawn later lies on top
   exporter->TextAsPathOff();
   exporter->Write();
+}
+
+/// The exporter does not say when the disk is full.
+void expect_end(const std::string& file, const std::string& end, const std::string& path) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) {
+    text.pop_back();
+  }
+  if (!text.ends_with(end)) {
+    throw FileError(path + ": could not be written whole; is the disk full?");
+  }
 }
 
 /// White below everything, so that pictures stay readable on dark pages.
@@ -131,6 +146,7 @@ void draw_picture(int width, int height, const std::string& title, const std::st
     write_png(*window, file.temporary_path());
   } else {
     write_vector(*window, title, file.temporary_path());
+    expect_end(file.temporary_path(), format == ".svg" ? "</svg>" : "%%EOF", path);
   }
   messages.throw_errors(path);
   file.commit();

@@ -9,6 +9,7 @@
 #include "case/case_file.hpp"
 #include "case/errors.hpp"
 #include "case/hdf5_io.hpp"
+#include "case/pending_file.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/vtkhdf.hpp"
@@ -183,9 +184,13 @@ void write_table(const std::string& path, const Table& table) {
     }
     text << "\n";
   }
-  std::ofstream out(path, std::ios::binary);
-  out << text.str() << std::flush;
-  if (!out) throw FileError(path + ": cannot be written");
+  PendingFile file(path);
+  {
+    std::ofstream out(file.temporary_path(), std::ios::binary);
+    out << text.str() << std::flush;
+    if (!out) throw FileError(path + ": cannot be written; is the disk full?");
+  }
+  file.commit();
 }
 
 ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
