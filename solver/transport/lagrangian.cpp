@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <exception>
 #include <limits>
+#include <sstream>
 #include <tuple>
 
+#include "case/errors.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {
@@ -20,6 +22,8 @@ constexpr double most_of_an_element = 0.25;
 /// the answer does not depend on the step, beyond two elements either; but where the flow changes,
 /// points follow its mean over the step.
 constexpr double most_elements_along_faces = 1.0;
+/// Points born at one face in one step. A flow that asks for more has lost its numbers.
+constexpr double most_born = 1e7;
 /// Points that one thread walks at a time.
 constexpr int walked_together = 1024;
 
@@ -156,6 +160,15 @@ void LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim
     entering.volume[f] += inflow;
     if (inflow <= 0.0) continue;
     const double volume = births_.point_volume[f];
+    if (!(inflow <= most_born * volume)) {
+      const Vector<Dim> at = grid_.face_centre(f);
+      std::ostringstream message;
+      message << inflow << " m3 enter in one step at (" << at[0];
+      for (int d = 1; d < Dim; ++d) message << ", " << at[d];
+      message << "), more than " << most_born
+              << " liquid points hold; look at the boundary conditions and at gravity";
+      throw NumericalError(message.str());
+    }
     const long born_before = entering.born[f];
     for (;;) {
       const long number = entering.born[f];

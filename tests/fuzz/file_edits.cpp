@@ -449,6 +449,7 @@ void apply(const RawEdit& raw) {
     if (raw.edit == "folder") fs::create_directory(raw.path);
     return;
   }
+  if (!fs::is_regular_file(raw.path)) return;
   std::string bytes = file_bytes(raw.path);
   if (bytes.empty()) return;
   if (raw.edit == "byte") bytes[raw.at % bytes.size()] = static_cast<char>(raw.value);
@@ -482,7 +483,7 @@ class Editor {
     } else if (edit == "json" || edit == "line") {
       if (!fs::is_regular_file(path_) || is_hdf5()) return;
       edit == "json" ? edit_json(path_, words) : edit_line(path_, words);
-    } else if (open()) {
+    } else if (open() && !is_copy_of_elsewhere(edit, line)) {
       edit_hdf5(file_, edit, words);
     }
   }
@@ -495,6 +496,14 @@ class Editor {
   }
 
  private:
+  /// HDF5 1.10.8 crashes when it ends (H5F__close_cb), after it failed to copy values that are in
+  /// another file. Only editors copy: the sources never do.
+  bool is_copy_of_elsewhere(const std::string& edit, const std::string& line) {
+    elsewhere_ = elsewhere_ || line.find(" external") != std::string::npos ||
+                 line.find(" virtual") != std::string::npos;
+    return elsewhere_ && edit == "copy";
+  }
+
   [[nodiscard]] bool is_hdf5() const { return path_.ends_with(".h5") || path_.ends_with(".hdf"); }
   bool open() {
     if (file_ >= 0) return true;
@@ -511,6 +520,7 @@ class Editor {
   std::string folder_;
   std::string path_;
   hid_t file_ = -1;
+  bool elsewhere_ = false;
   std::vector<RawEdit> raw_;
 };
 
