@@ -15,7 +15,7 @@ namespace {
 
 constexpr float largest_row_height = 30.0F;
 constexpr float symbol_width = 64.0F;
-constexpr float gap = 12.0F;
+constexpr float symbol_gap = 12.0F;
 constexpr int font_size = 18;
 /// The widest of the fonts a viewer may put in place of Helvetica.
 constexpr float letter_width = 0.56F * font_size;
@@ -77,7 +77,7 @@ void ChartLegend::place(float left, float top, float height, const std::vector<C
 float ChartLegend::width(const std::vector<Curve>& curves) {
   std::size_t letters = 0;
   for (const auto& curve : curves) letters = std::max(letters, curve.label.size());
-  return symbol_width + gap + letter_width * static_cast<float>(letters);
+  return symbol_width + symbol_gap + letter_width * static_cast<float>(letters);
 }
 
 bool ChartLegend::Paint(vtkContext2D* painter) {
@@ -91,7 +91,7 @@ bool ChartLegend::Paint(vtkContext2D* painter) {
     }
     if (curve.markers) paint_marker(painter, curve, left_ + symbol_width / 2.0F, y);
     paint_text(*painter, curve.label, std::min(font_size, static_cast<int>(0.8F * row_height_)),
-               left_ + symbol_width + gap, y, Anchor::left);
+               left_ + symbol_width + symbol_gap, y, Anchor::left);
     y -= row_height_;
   }
   painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);

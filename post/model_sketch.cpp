@@ -30,8 +30,8 @@ constexpr Color water_tint{0.86, 0.94, 1.0};
 constexpr float boundary_width = 6.0F;
 constexpr float largest_width = 900.0F;
 constexpr float largest_height = 1100.0F;
-constexpr float top_room = 80.0F;
-constexpr float gap = 50.0F;
+constexpr float title_room = 80.0F;
+constexpr float legend_gap = 50.0F;
 constexpr float legend_row = 30.0F;
 
 /// "6000", or from the least to the most of what changes in time: "0 to 6000".
@@ -188,11 +188,11 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   for (const auto& tint : tints) rows.push_back(marker_row(tint.label, tint.color, Marker::square));
 
   const ModelView view(mesh, axes_left, axes_bottom, largest_width, largest_height);
-  const float legend_left = view.left() + view.width() + gap;
+  const float legend_left = view.left() + view.width() + legend_gap;
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const float shown_height = std::max(view.height(), legend_height);
-  const auto width = static_cast<int>(legend_left + ChartLegend::width(rows) + gap);
-  const auto height = static_cast<int>(view.bottom() + shown_height + top_room);
+  const auto width = static_cast<int>(legend_left + ChartLegend::width(rows) + legend_gap);
+  const auto height = static_cast<int>(view.bottom() + shown_height + title_room);
   const std::string title =
       run.scene().scene.name + (double_point ? ", double-point model" : ", single-point model");
   draw_picture(width, height, title, path, [&](vtkContextScene& scene) {

@@ -125,12 +125,12 @@ std::vector<ErrorSum> field_errors(const ResultsReader& run, const ReferenceTabl
 }
 
 /// A quantity against time.
-struct Curve {
+struct TimeSeries {
   std::vector<double> t;
   std::vector<double> values;
 };
 
-double at(const Curve& curve, double t, const std::string& path) {
+double at(const TimeSeries& curve, double t, const std::string& path) {
   const double slack = 1e-12 * std::max(std::abs(curve.t.front()), std::abs(curve.t.back()));
   if (!(t >= curve.t.front() - slack && t <= curve.t.back() + slack)) {
     throw wrong(path + ": t", number_text(t),
@@ -147,10 +147,10 @@ double at(const Curve& curve, double t, const std::string& path) {
 
 /// Volume mean of a component of an element field in every snapshot; nothing when there is no such
 /// field.
-std::optional<Curve> mean_curve(const ResultsReader& run, const std::string& quantity) {
+std::optional<TimeSeries> mean_series(const ResultsReader& run, const std::string& quantity) {
   const std::string field = field_of(quantity);
   const Mesh<2> mesh = run.mesh();
-  Curve curve;
+  TimeSeries curve;
   for (std::size_t index = 0; index < run.times().size(); ++index) {
     const auto names = run.field_names(index, "cell");
     if (std::ranges::find(names, field) == names.end()) return std::nullopt;
@@ -172,7 +172,8 @@ std::optional<Curve> mean_curve(const ResultsReader& run, const std::string& qua
   return curve;
 }
 
-Curve curve_of(const ResultsReader& run, const std::string& quantity, const std::string& path) {
+TimeSeries curve_of(const ResultsReader& run, const std::string& quantity,
+                    const std::string& path) {
   const Table history = run.history();
   const Table ledger = run.ledger();
   for (const Table* table : {&history, &ledger}) {
@@ -181,7 +182,7 @@ Curve curve_of(const ResultsReader& run, const std::string& quantity, const std:
     }
   }
   if (quantity.starts_with(mean_prefix)) {
-    if (const auto found = mean_curve(run, quantity.substr(mean_prefix.size()))) return *found;
+    if (const auto found = mean_series(run, quantity.substr(mean_prefix.size()))) return *found;
   }
   std::vector<std::string> known = quantity_names(history);
   const auto more = quantity_names(ledger);
@@ -196,7 +197,7 @@ std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTabl
                                    const std::vector<std::string>& names) {
   std::vector<ErrorSum> sums;
   for (const auto& name : names) {
-    const Curve curve = curve_of(run, name, reference.path);
+    const TimeSeries curve = curve_of(run, name, reference.path);
     ErrorSum sum;
     for (std::size_t row = 0; row < reference.values.rows(); ++row) {
       sum.add(at(curve, reference.values.column("t")[row], reference.path),
