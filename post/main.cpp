@@ -21,6 +21,7 @@
 #include "run_curves.hpp"
 #include "run_table.hpp"
 #include "sample.hpp"
+#include "stress_chart.hpp"
 
 namespace suffuse {
 namespace {
@@ -111,6 +112,11 @@ void figure(const Options& options) {
 void accuracy(const Options& options) {
   picture_format(options.output, "suffuse-post accuracy");
   draw_charts(accuracy_charts(read_accuracy_runs(options.csv), options.problem), options.output);
+}
+
+void stress(const Options& options) {
+  picture_format(options.output, "suffuse-post stress");
+  draw_stress_chart(read_sweep_counts(options.csv), options.output);
 }
 
 void render_field(const Options& options) {
@@ -213,6 +219,14 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
       ->required()
       ->type_name("FILE.csv");
   command->add_option("--problem", o.problem, "the problem whose runs to draw")->required();
+  command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
+      ->required()
+      ->type_name("FILE");
+
+  command = add_command(app, chosen, "stress", "Chart of the stress study", stress);
+  command->add_option("TABLE", o.csv, "table that make -C workflows stress writes")
+      ->required()
+      ->type_name("FILE.csv");
   command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");
