@@ -105,6 +105,20 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"FolderForSnapshot", mesh_1 + "folder", "snapshots/mesh_000001.hdf: is not a file"}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(DamagedResults, DeepJsonIsRefused) {
+  const std::string folder = lay_out_results("");
+  for (const std::string begin : {"[", "{\"a\":"}) {
+    std::string deep;
+    for (int i = 0; i < 300000; ++i) deep += begin;
+    write_bytes(folder + "/run.json", deep);
+    EXPECT_EQ(failure([&] { const ResultsReader results(folder); }),
+              folder + "/run.json: is not JSON");
+    write_bytes(folder + "/run.json", std::string(300000, '[') + std::string(300000, ']'));
+    EXPECT_EQ(failure([&] { const ResultsReader results(folder); }),
+              folder + "/run.json: was not written by suffuse-solver");
+  }
+}
+
 TEST(DamagedResults, APipeIsNotWaitedFor) {
   const std::string folder = lay_out_results("in history.csv\ndelete");
   ASSERT_EQ(::mkfifo((folder + "/history.csv").c_str(), 0600), 0);
