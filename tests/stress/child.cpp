@@ -1,13 +1,13 @@
 #include "stress/child.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -41,6 +41,7 @@ ChildEnd run_child(const std::vector<std::string>& arguments, const std::string&
                    double most_seconds) {
   std::vector<std::string> copies = arguments;
   std::vector<char*> words;
+  words.reserve(copies.size() + 1);
   for (std::string& word : copies) words.push_back(word.data());
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {

@@ -741,7 +741,7 @@ Sweep throughput() {
   const std::vector<std::string> open{specimen + "conductivity=1", "initial.flow=steady"};
   for (const double c : {0.0, 0.2, 0.9}) {
     sweep.add(every, "c = " + shown(c) + " enters", [&](Scenario& s) {
-      s.end = 8.0;
+      if (is_explicit(s.scheme)) s.end = 20.0;
       s.explicit_steps = 2e5;
       s.changes = [=](const Span& span) {
         return joined(open,
@@ -751,7 +751,7 @@ Sweep throughput() {
   }
   for (const std::string seeding : {"gauss", "random"}) {
     sweep.add(double_point_ones, "points seeded " + seeding, [&](Scenario& s) {
-      s.end = 8.0;
+      if (is_explicit(s.scheme)) s.end = 20.0;
       s.explicit_steps = 2e5;
       s.changes = [=](const Span& span) {
         return joined(open, {top_flux + number(forty(span)) + "}", "points.seeding=" + seeding});
@@ -759,7 +759,7 @@ Sweep throughput() {
     });
   }
   sweep.add(double_point_ones, "free water above and below", [&](Scenario& s) {
-    s.end = 8.0;
+    if (is_explicit(s.scheme)) s.end = 20.0;
     s.explicit_steps = 2e5;
     s.mesh = [] {
       LayerSettings layers;
@@ -776,7 +776,7 @@ Sweep throughput() {
     sweep.add(
         every, "jittered mesh",
         [&](Scenario& s) {
-          s.end = 8.0;
+          if (is_explicit(s.scheme)) s.end = 20.0;
           s.explicit_steps = 2e5;
           s.mesh = [seed] {
             Mesh<2> mesh = plain_column();
