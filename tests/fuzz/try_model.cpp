@@ -13,7 +13,7 @@ namespace {
 /// Runs that take long are no finding: they say how long beforehand (--explain).
 constexpr double most_steps = 2e4;
 constexpr double most_rows = 1e3;
-constexpr int most_intervals = 4;
+constexpr int most_intervals = 2;
 
 bool is_long(const Scene& scene, const Plan& plan) {
   const bool many_steps =
