@@ -104,10 +104,10 @@ class StateArchive {
 
   void pass(std::vector<bool>& values) {
     values.resize(pass_size(values.size()));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      bool value = values[i];
+    for (auto&& bit : values) {
+      bool value = bit;
       pass(value);
-      values[i] = value;
+      bit = value;
     }
   }
 

@@ -39,6 +39,7 @@ class StepLoop {
     const auto observations =
         model_.advance(target, [this](double reached) { return schedule_.times_until(reached); });
     std::vector<Look> looks;
+    looks.reserve(observations.size());
     for (const auto& [state, flow] : observations) {
       looks.push_back({state, flow, schedule_.take(flow.time)});
     }
