@@ -314,7 +314,7 @@ Sweep porosity() {
 Sweep porosity_jump() {
   SweepMaker sweep(
       "porosity-jump",
-      "porosity 0.05 | 0.95 across, along, in a checkerboard; gradients; regions at random");
+      "porosity 0.05 and 0.95 across, along, in a checkerboard; gradients; regions at random");
   const auto soils = [](double one, double other) {
     return Changes{set(specimen + "porosity", one),
                    set(specimen + "skeleton_fraction", 0.8 * (1.0 - one)),

@@ -26,6 +26,7 @@ FNR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
   }
   if ($at["verdict"] == "refused") {
     message = $NF
+    sub(/^--set [^\n]*}: /, "", message)
     sub(/^.*--set [^ ]*: /, "", message); sub(/^stress.toml(:[0-9]+)?: /, "", message)
     sub(/^suffuse-solver: error: /, "", message); sub(/^[^ ]*\.case\.h5: /, "", message)
     gsub(/;/, ",", message)
