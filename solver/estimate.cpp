@@ -42,6 +42,7 @@ struct Writing {
   double row = 0.0;               ///< bytes of one row of every table
   double snapshot = 0.0;          ///< bytes of the files of one snapshot but for liquid points
   double liquid = 0.0;            ///< bytes of its file of liquid points
+  double state = 0.0;             ///< bytes of what a run can go on from
   double series = 0.0;            ///< bytes that it adds to the .series files
   double fixed_seconds = 0.0;     ///< wall time
   double row_seconds = 0.0;       ///< of one row of every table
@@ -83,7 +84,11 @@ class TrialWriter {
     const std::string last = "000000";
     const std::string index = std::to_string(count_ - 1);
     const std::string number = last.substr(0, last.size() - index.size()) + index + ".hdf";
-    writing_.snapshot = sizes(layout::snapshots, {"mesh_" + number, "solid_" + number});
+    // By itself it is about as large as in the file of a snapshot.
+    writer_->write_checkpoint(*output.snapshot.restart);
+    writing_.state = sizes(fs::path(), {layout::checkpoint});
+    writing_.snapshot =
+        sizes(layout::snapshots, {"mesh_" + number, "solid_" + number}) - writing_.state;
     writing_.liquid = sizes(layout::snapshots, {"liquid_" + number});
   }
 
@@ -290,6 +295,7 @@ class Trial {
   void go(Model<Dim>& model, StepLoop<Model<Dim>>& loop) {
     double looking = 0.0;
     const auto look = [&](const auto& looks) {
+      const long before = snapshots_;
       for (const auto& [state, moment, due] : looks) {
         if (due.row) {
           const Stopwatch watch;
@@ -302,10 +308,13 @@ class Trial {
         if (due.snapshot) {
           const Stopwatch watch;
           (void)model.snapshot(state, moment, model.steps());
+          ++snapshots_;
           looking += watch.seconds();
           snapshot_seconds_ += watch.seconds();
         }
       }
+      // Of several in an interval the last keeps the state.
+      if (snapshots_ > before) ++states_;
     };
     const Stopwatch all;
     const double until = budget_.share * case_.document.scene.time.end;
@@ -367,7 +376,10 @@ class Trial {
     const auto rows = static_cast<double>(result.rows);
     const auto snapshots = static_cast<double>(result.snapshots);
     const double liquid = writing->liquid * (1.0 + 0.5 * more_points);
-    result.disk = writing->fixed + rows * writing->row +
+    const double states =
+        snapshots_ > 0 ? snapshots * static_cast<double>(states_) / static_cast<double>(snapshots_)
+                       : snapshots;
+    result.disk = writing->fixed + rows * writing->row + states * writing->state +
                   snapshots * (writing->snapshot + liquid + writing->series);
     result.seconds += writing->fixed_seconds + rows * writing->row_seconds +
                       snapshots * writing->snapshot_seconds;
@@ -392,6 +404,8 @@ class Trial {
   double setup_seconds_ = 0.0;
   double row_seconds_ = 0.0;
   double snapshot_seconds_ = 0.0;
+  long snapshots_ = 0;
+  long states_ = 0;  ///< how many of them keep the state of the run
   std::vector<Interval> intervals_;
 };
 
