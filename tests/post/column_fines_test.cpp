@@ -92,8 +92,9 @@ std::optional<ColumnFlow> flow_of(const ScratchFolder& scratch, Case<2> c, const
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
   c.document = parse_scene(text, "changed.toml");
-  { const ResultsWriter<2> writer(scratch / "run.results", c); }
-  return column_flow(ResultsReader(scratch / "run.results"));
+  const std::string folder = scratch / (c.document.scene.name + ".results");
+  { const ResultsWriter<2> writer(folder, c); }
+  return column_flow(ResultsReader(folder));
 }
 
 TEST(ColumnFlow, ComesFromTheHeadsAtBothEnds) {

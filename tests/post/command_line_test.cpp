@@ -89,7 +89,7 @@ TEST_F(PostCommand, AMisspeltCommandIsNamed) {
   expect_refusal("ledgr " + run, 2,
                  "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"sample\", "
                  "\"error\", \"render\", \"figure\", "
-                 "\"table\", \"accuracy\" or \"export\"; did you mean ledger?");
+                 "\"table\", \"accuracy\", \"stress\" or \"export\"; did you mean ledger?");
 }
 
 TEST_F(PostCommand, LedgerRefusesAResidual) {
