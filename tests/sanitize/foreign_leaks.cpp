@@ -1,6 +1,6 @@
 /// Linked into sanitized programs and tests: memory that libraries lose, which the search for leaks
-/// is not to count against them. HDF5 does so over damaged files, libpng's writer and VTK's when the
-/// disk is full and an error takes them out of their work.
+/// is not to count against them. HDF5 does so over damaged files, libpng's writer and VTK's when
+/// the disk is full and an error takes them out of their work.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT: the name is the sanitizer's
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libhdf5\nleak:libpng\nleak:libvtkIOImage\n";
