@@ -38,7 +38,9 @@ Target find_target(const std::string& name) {
   }
   if (name == "case") return {name, try_case, case_vocabulary(), drawn_edit};
   if (name == "results") return {name, try_results, results_vocabulary(), drawn_edit};
+#ifndef SUFFUSE_FUZZ_READERS
   if (name == "model") return {name, try_model, case_vocabulary(), drawn_edit};
+#endif
   std::fprintf(stderr, "fuzz: got '%s'; expected --target=scene, case, results or model\n",
                name.c_str());
   std::exit(2);
