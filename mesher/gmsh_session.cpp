@@ -17,14 +17,6 @@
 
 #include "case/errors.hpp"
 
-/// Read by the leak sanitizer alone: Gmsh and Open CASCADE keep memory until the program ends.
-// NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-identifier-naming)
-extern "C" const char* __lsan_default_suppressions();
-// NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-identifier-naming)
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libgmsh\nleak:libTK\n";
-}
-
 namespace suffuse {
 
 namespace {
