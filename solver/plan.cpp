@@ -292,6 +292,8 @@ void plan_implicit_step(const Scene& scene, Plan& plan) {
   const double unnoticed =
       scene.time.step ? short_of_a_step * *scene.time.step : scene.time.tolerance * scene.time.end;
   plan.flow.inertia = scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
+  // Inertia is kept for the start-up that drag brings to its end, not for the waves in it.
+  if (plan.flow.inertia && !scene.time.inertia) plan.flow.unnoticed = unnoticed;
 }
 
 /// Free water has next to no drag: what is set in motion there goes on for hours.

@@ -449,7 +449,8 @@ std::vector<SceneKey> declare_keys() {
       key("time.inertia", at(&Scene::time, &TimeSettings::inertia),
           "Keep the liquid's inertia. Implicit only.")
           .otherwise_as("decided from the scene: left out where the time in which flow settles, "
-                        "k/(n g), is below 1 % of a given step, or below `tolerance` times `end`"),
+                        "k/(n g), is below 1 % of a given step, or below `tolerance` times `end`; "
+                        "where it is kept, waves shorter than that are not followed one by one"),
       key("time.tolerance", at(&Scene::time, &TimeSettings::tolerance),
           "Bound of the local error of a step, relative: of fluxes, of pressures, of what erodes. "
           "Implicit only, and not with `step`.")

@@ -397,8 +397,10 @@ double MixedFlow<Dim>::error_of(const MixedStep<Dim>& step, double dt) const {
   if (pressure_scale_ > 0.0) {
     error = std::max(error, pressure_error / pressure_scale_);
   }
+  // What swings to and fro within the time that nobody notices moves next to nothing.
+  const double weight = dt / (dt + options_.unnoticed);
   // The prediction's own error, of one order less than the step's, is what this measures.
-  return 0.5 * error / tolerance_;
+  return 0.5 * weight * error / tolerance_;
 }
 
 template <int Dim>
@@ -442,7 +444,7 @@ MixedStep<Dim> MixedFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, 
     // From rest, and where boundary values jump, what was before tells nothing.
     const bool told = !(at_rest_ && last_dt_ == 0.0) && !jumps(interval.begin, dt);
     const double error = told ? error_of(step, dt) : 0.0;
-    const double order = before_ ? 2.0 : 1.0;
+    const double order = (before_ ? 2.0 : 1.0) + options_.unnoticed / (dt + options_.unnoticed);
     const double wanted = error > 0.0 ? safety * std::pow(error, -1.0 / order) : most_growth;
     if (error <= 1.0) {
       // That it was cut short by others says nothing against a longer one.

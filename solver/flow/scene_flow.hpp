@@ -53,18 +53,6 @@ Passed<Dim> between(const Passed<Dim>& a, const Passed<Dim>& b, double share) {
           between(a.node_shift, b.node_shift, share)};
 }
 
-/// What has passed from an earlier moment to a later one.
-template <int Dim>
-Passed<Dim> since(const Passed<Dim>& earlier, Passed<Dim> later) {
-  const auto subtract = [](const auto& from, auto& values) {
-    for (std::size_t i = 0; i < from.size(); ++i) values[i] -= from[i];
-  };
-  subtract(earlier.volumes.liquid, later.volumes.liquid);
-  subtract(earlier.volumes.density_excess, later.volumes.density_excess);
-  subtract(earlier.node_shift, later.node_shift);
-  return later;
-}
-
 /// What the pores hold, per element, as the flow needs to know it.
 struct PoreContent {
   std::vector<double> porosity;       ///< n_L
@@ -105,7 +93,10 @@ struct FlowOptions {
   double step = unset;      ///< s
   bool step_given = false;  ///< by the scene; else the scheme may change it
   bool inertia = false;     ///< implicit only
-  bool freeze = true;       ///< implicit only: a steady flow is not solved again
+  /// Implicit only: errors of steps much shorter than this count by the volume that they misplace,
+  /// not by the flux, s. Waves whose periods are shorter need not be followed.
+  double unnoticed = 0.0;
+  bool freeze = true;  ///< implicit only: a steady flow is not solved again
   int threads = 1;
 };
 
