@@ -310,7 +310,6 @@ auto DoublePoint<Dim>::advance(
     -> std::vector<Observation> {
   const double begin = state_.time;
   std::vector<Observation> seen;
-  Passed<Dim> when_seen;
   FlowInterval<Dim> interval;
   interval.begin = begin;
   interval.target = target;
@@ -324,10 +323,7 @@ auto DoublePoint<Dim>::advance(
     if (carried_ != nullptr) {
       observation.state = look_at_carried(moment, passed);
     } else {
-      // On from the last look, aside: what was done for it is not done again.
-      const State& last = seen.empty() ? state_ : seen.back().state;
-      observation.state = look_at_followed(last, moment, since(when_seen, passed));
-      when_seen = passed;
+      observation.state = look_at_followed(moment, passed);
     }
     observation.state.time = moment.time;
     observation.state.empty_total = state_.empty_total;
@@ -362,12 +358,14 @@ auto DoublePoint<Dim>::advance(
 }
 
 template <int Dim>
-auto DoublePoint<Dim>::look_at_followed(const State& last, const FlowMoment<Dim>& moment,
-                                        const Passed<Dim>& since_last) const -> State {
+auto DoublePoint<Dim>::look_at_followed(const FlowMoment<Dim>& moment,
+                                        const Passed<Dim>& passed) const -> State {
+  // From the begin of the interval, aside, and not from the last look: whoever looks more often
+  // sees the same.
   PassTimings outputs_are_not_the_run;
-  const double duration = moment.time - last.time;
-  if (duration <= no_time * (moment.time - state_.time)) return last;
-  return advanced(last, motion(since_last, duration), moment.pressure, outputs_are_not_the_run);
+  const double duration = moment.time - state_.time;
+  if (!(duration > 0.0)) return state_;
+  return advanced(state_, motion(passed, duration), moment.pressure, outputs_are_not_the_run);
 }
 
 template <int Dim>

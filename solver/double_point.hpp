@@ -151,8 +151,8 @@ class DoublePoint {
   /// The state at a time within the interval, aside.
   [[nodiscard]] State look_at_carried(const FlowMoment<Dim>& moment,
                                       const Passed<Dim>& passed) const;
-  [[nodiscard]] State look_at_followed(const State& last, const FlowMoment<Dim>& moment,
-                                       const Passed<Dim>& since_last) const;
+  [[nodiscard]] State look_at_followed(const FlowMoment<Dim>& moment,
+                                       const Passed<Dim>& passed) const;
   /// Solid can erode meanwhile, or grains wait for liquid.
   [[nodiscard]] bool has_to_erode(const State& state, double from, double to) const;
   void erode(State& state, double from, double to, const std::vector<double>& flux,

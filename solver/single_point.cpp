@@ -156,7 +156,6 @@ auto SinglePoint<Dim>::advance(
     -> std::vector<Observation> {
   const double begin = state_.time;
   std::vector<Observation> seen;
-  Passed<Dim> when_seen;
   FlowInterval<Dim> interval;
   interval.begin = begin;
   interval.target = target;
@@ -168,17 +167,14 @@ auto SinglePoint<Dim>::advance(
   interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
     PassTimings outputs_are_not_the_run;
     Observation observation;
-    // On from the last look, aside: what was done for it is not done again.
-    const SinglePointState<Dim>& last = seen.empty() ? state_ : seen.back().state;
-    const double duration = moment.time - last.time;
-    observation.state = last;
-    if (duration > no_time * (moment.time - begin)) {
-      follow(observation.state, since(when_seen, passed).volumes, duration,
-             outputs_are_not_the_run);
+    // From the begin of the interval, aside, and not from the last look: whoever looks more often
+    // sees the same.
+    observation.state = state_;
+    if (moment.time > begin) {
+      follow(observation.state, passed.volumes, moment.time - begin, outputs_are_not_the_run);
     }
     observation.state.time = moment.time;
     observation.flow = std::move(moment);
-    when_seen = passed;
     seen.push_back(std::move(observation));
   };
   const FlowProgress<Dim> progress = flow_->run(interval);
