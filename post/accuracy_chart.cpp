@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <map>
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "results/number_text.hpp"
+#include "text_table.hpp"
 
 namespace suffuse {
 namespace {
@@ -49,18 +48,6 @@ std::vector<std::string> schemes() {
     for (const auto& way : ways) names.push_back(std::string(f.name) + "-" + way.name);
   }
   return names;
-}
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> found(1);
-  for (const char c : line) {
-    if (c == ',') {
-      found.emplace_back();
-    } else if (c != '\r') {
-      found.back() += c;
-    }
-  }
-  return found;
 }
 
 InputError wrong(const std::string& where, const std::string& key, const std::string& found,
@@ -124,29 +111,20 @@ void add_scheme(Chart& chart, const std::vector<AccuracyRun>& runs, const Way& w
 }  // namespace
 
 std::vector<AccuracyRun> read_accuracy_runs(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw FileError(path + ": cannot be read");
-  std::string line;
-  std::getline(in, line);
-  const auto names = cells(line);
-  std::map<std::string, std::size_t> at;
-  for (const auto* name : {"problem", "scheme", "quantity", "error_l1", "seconds"}) {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) throw FileError(path + ":1: no column \"" + name + '"');
-    at[name] = static_cast<std::size_t>(found - names.begin());
-  }
+  const TextTable table = read_text_table(path);
+  const std::size_t problem = table.column("problem");
+  const std::size_t scheme = table.column("scheme");
+  const std::size_t quantity = table.column("quantity");
+  const std::size_t error = table.column("error_l1");
+  const std::size_t seconds = table.column("seconds");
   const auto known = schemes();
   std::vector<AccuracyRun> runs;
-  for (int number = 2; std::getline(in, line); ++number) {
-    const std::string where = path + ":" + std::to_string(number);
-    const auto row = cells(line);
-    if (row.size() != names.size()) {
-      throw FileError(where + ": " + std::to_string(row.size()) + " values in " +
-                      std::to_string(names.size()) + " columns");
-    }
-    AccuracyRun run{row[at["problem"]], row[at["scheme"]], row[at["quantity"]],
-                    positive(where, "error_l1", row[at["error_l1"]]),
-                    positive(where, "seconds", row[at["seconds"]])};
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto& row = table.rows[i];
+    const std::string where = table.place(i);
+    AccuracyRun run{row[problem], row[scheme], row[quantity],
+                    positive(where, "error_l1", row[error]),
+                    positive(where, "seconds", row[seconds])};
     if (std::ranges::find(known, run.scheme) == known.end()) {
       throw wrong(where, "scheme", '"' + run.scheme + '"', quoted_list(known),
                   closest_name(run.scheme, known));

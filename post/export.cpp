@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "case/errors.hpp"
+#include "case/pending_file.hpp"
 #include "results/number_text.hpp"
 #include "vtk_messages.hpp"
 
@@ -17,15 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 
 void convert(const std::string& from, const std::string& to) {
+  PendingFile file(to);
   const VtkMessages messages;
   vtkNew<vtkHDFReader> reader;
   reader->SetFileName(from.c_str());
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputConnection(reader->GetOutputPort());
-  writer->SetFileName(to.c_str());
+  writer->SetFileName(file.temporary_path().c_str());
   const bool written = writer->Write() == 1;
   messages.throw_errors(to);
   if (!written) throw FileError(to + ": cannot be written");
+  file.commit();
 }
 
 std::vector<std::string> kinds_of(const ResultsReader& results) {
@@ -54,11 +57,13 @@ void export_kind(const ResultsReader& results, const std::string& kind, const fs
                "\" part=\"0\" file=\"" + name + "\"/>\n";
   }
   const std::string path = (folder / (kind + ".pvd")).string();
-  std::ofstream out(path);
+  PendingFile file(path);
+  std::ofstream out(file.temporary_path());
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n"
       << entries << "  </Collection>\n</VTKFile>\n"
       << std::flush;
   if (!out) throw FileError(path + ": cannot be written");
+  file.commit();
 }
 
 }  // namespace

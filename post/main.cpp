@@ -239,6 +239,17 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
       ->type_name("FOLDER");
 }
 
+/// An empty argument comes of a script's variable that is not set: never what was meant.
+void refuse_empty_values(CLI::App& app) {
+  const CLI::Validator not_empty(
+      [](const std::string& value) { return value.empty() ? "expected a value" : ""; }, "");
+  for (CLI::App* command : app.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_items_expected_max() > 0) option->check(not_empty);
+    }
+  }
+}
+
 /// CLI11 calls a misspelt subcommand a missing one.
 void refuse_unknown_command(const CLI::App& app, const std::string& first) {
   std::vector<std::string> known;
@@ -256,6 +267,7 @@ int run(int argc, char** argv) {
   Options options;
   Action chosen;
   declare(app, options, chosen);
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

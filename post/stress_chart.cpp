@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <sstream>
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "chart.hpp"
 #include "picture.hpp"
+#include "text_table.hpp"
 
 namespace suffuse {
 namespace {
@@ -35,20 +34,6 @@ constexpr float bar_height = 26.0F;
 constexpr float bottom_room = 90.0F;
 constexpr float top_room = 70.0F;
 constexpr int text_size = 18;
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> result;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) result.push_back(cell);
-  return result;
-}
-
-std::size_t column(const std::vector<std::string>& names, const std::string& name,
-                   const std::string& path) {
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw FileError(path + ":1: no column \"" + name + '"');
-  return static_cast<std::size_t>(found - names.begin());
-}
 
 void paint_box(vtkContext2D& painter, unsigned char grey, float x, float y, float width,
                float height) {
@@ -89,27 +74,18 @@ void paint_legend(vtkContext2D& painter, float y) {
 }  // namespace
 
 std::vector<SweepCount> read_sweep_counts(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw FileError(path + ": cannot be read");
-  std::string line;
-  std::getline(in, line);
-  const auto names = cells(line);
-  const std::size_t sweep = column(names, "sweep", path);
-  const std::size_t verdict = column(names, "verdict", path);
+  const TextTable table = read_text_table(path);
+  const std::size_t sweep = table.column("sweep");
+  const std::size_t verdict = table.column("verdict");
   std::vector<SweepCount> result;
-  for (int number = 2; std::getline(in, line); ++number) {
-    const std::string where = path + ":" + std::to_string(number);
-    const auto row = cells(line);
-    if (row.size() <= std::max(sweep, verdict)) {
-      throw FileError(where + ": " + std::to_string(row.size()) + " values in " +
-                      std::to_string(names.size()) + " columns");
-    }
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto& row = table.rows[i];
     const auto known = std::ranges::find(verdicts, row[verdict], &Verdict::name);
     if (known == verdicts.end()) {
       const std::vector<std::string> all{"pass", "refused", "failed"};
       throw InputError(
-          std::vector<InputProblem>{{where, "verdict", '"' + row[verdict] + '"', quoted_list(all),
-                                     closest_name(row[verdict], all)}});
+          std::vector<InputProblem>{{table.place(i), "verdict", '"' + row[verdict] + '"',
+                                     quoted_list(all), closest_name(row[verdict], all)}});
     }
     auto own = std::ranges::find(result, row[sweep], &SweepCount::sweep);
     if (own == result.end()) own = result.insert(result.end(), SweepCount{row[sweep]});

@@ -53,6 +53,17 @@ class PostCommand : public ::testing::Test {
   const std::string sample_start = "sample " + run + " --csv " + scratch / "s.csv" + " ";
 };
 
+TEST_F(PostCommand, AnEmptyArgumentIsNotTakenForNone) {
+  const std::vector<std::string> commands{"ledger " + run + " --csv ''",
+                                          "render " + run + " --field porosity -o ''", "history ''",
+                                          "figure porosity " + run + " -o ''"};
+  for (const std::string& command : commands) {
+    const Outcome outcome = post(command);
+    EXPECT_EQ(outcome.code, 2) << command;
+    EXPECT_NE(outcome.error.find("expected a value"), std::string::npos) << outcome.error;
+  }
+}
+
 TEST_F(PostCommand, LedgerPrintsTheBalance) {
   const Outcome outcome = post("ledger " + run + " --csv " + scratch / "ledger.csv");
   EXPECT_EQ(outcome.code, 0) << outcome.error;

@@ -411,5 +411,31 @@ TEST_F(Fault, WhatPostWritesIsWholeOrAsItWas) {
   }
 }
 
+TEST_F(Fault, ExportLeavesWholeFilesAlone) {
+  const auto export_to = [&](const std::string& folder) {
+    Process process({SUFFUSE_BIN "/suffuse-post", "export", whole_, "-o", folder},
+                    place_.path("error.txt"));
+    return process.wait();
+  };
+  const std::string complete = place_.path("complete");
+  ASSERT_EQ(export_to(complete).code, 0);
+  for (const double share : {0.1, 0.5, 0.9}) {
+    SCOPED_TRACE(share);
+    const test::SmallDisk disk(
+        place_.path("disk"),
+        static_cast<std::uintmax_t>(share * static_cast<double>(size_of(complete))));
+    if (!disk.mounted()) GTEST_SKIP() << "nothing can be mounted here";
+    const std::string folder = place_.path("disk/made");
+    expect_error(export_to(folder), 4, folder);
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      ++files;
+      const std::string whole = complete + "/" + entry.path().filename().string();
+      EXPECT_EQ(test::read_file(entry.path().string()), test::read_file(whole));
+    }
+    EXPECT_TRUE(files > 0 || share < 0.4);
+  }
+}
+
 }  // namespace
 }  // namespace suffuse
