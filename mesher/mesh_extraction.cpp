@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <unordered_map>
@@ -108,12 +109,17 @@ class Extraction {
     check_duplicate_nodes();
     orient_and_check_areas();
     check_overlaps();
-    check_hanging_nodes();
+    const OuterEdges outer = edges_of_one_triangle();
+    check_hanging_nodes(outer);
+    check_parts(outer);
     read_boundaries();
     return std::move(result_);
   }
 
  private:
+  /// Edges that one triangle alone has, with it.
+  using OuterEdges = std::map<std::array<int, 2>, int>;
+
   Mesh<2>& mesh() { return result_.mesh; }
 
   void report(const std::string& found, const std::string& expected) {
@@ -447,9 +453,8 @@ class Extraction {
     }
   }
 
-  /// Edges that one triangle alone has, with it.
-  [[nodiscard]] std::map<std::array<int, 2>, int> edges_of_one_triangle() const {
-    std::map<std::array<int, 2>, int> outer;
+  [[nodiscard]] OuterEdges edges_of_one_triangle() const {
+    OuterEdges outer;
     for (int e = 0; e < result_.mesh.element_count(); ++e) {
       for (int corner = 0; corner < 3; ++corner) {
         const auto edge = face_key<2>(face_opposite<2>(result_.mesh.elements[e], corner));
@@ -462,10 +467,9 @@ class Extraction {
 
   /// A node in the middle of a neighbour's edge connects nothing: what looks like one body would be
   /// two, with an impervious joint.
-  void check_hanging_nodes() {
+  void check_hanging_nodes(const OuterEdges& outer) {
     Kind kind(result_.problems,
               "neighbours that share whole edges (in Gmsh: Coherence, or BooleanFragments)");
-    const auto outer = edges_of_one_triangle();
     std::set<int> nodes;
     for (const auto& [edge, element] : outer) nodes.insert(edge.begin(), edge.end());
     std::vector<int> by_x(nodes.begin(), nodes.end());
@@ -491,6 +495,105 @@ class Extraction {
                  place(start) + " to " + place(x[edge[1]]));
       }
     }
+  }
+
+  /// Parts that share no edge and yet lie on each other: their outer edges cross, or one lies
+  /// within an element of the other.
+  void check_parts(const OuterEdges& outer) {
+    Kind kind(result_.problems,
+              "parts that do not lie on each other (in Gmsh: Coherence, or BooleanFragments)");
+    check_crossings(outer, kind);
+    const std::vector<int> part = parts();
+    std::map<int, int> corner_of_part;
+    for (const auto& [edge, element] : outer) corner_of_part.emplace(part[element], edge[0]);
+    if (corner_of_part.size() < 2) return;
+    const auto& x = mesh().nodes;
+    std::vector<std::pair<int, int>> by_x(corner_of_part.begin(), corner_of_part.end());
+    const auto abscissa = [&](const std::pair<int, int>& corner) { return x[corner.second][0]; };
+    std::ranges::sort(by_x, {}, abscissa);
+    for (int e = 0; e < mesh().element_count(); ++e) {
+      if (flat_.contains(e)) continue;
+      const auto& [a, b, c] = mesh().elements[e];
+      const auto [left, right] = std::minmax({x[a][0], x[b][0], x[c][0]});
+      for (auto corner = std::ranges::lower_bound(by_x, left, {}, abscissa);
+           corner != by_x.end() && abscissa(*corner) <= right; ++corner) {
+        const auto [own, node] = *corner;
+        if (part[e] == own || !lies_within(x[node], e)) continue;
+        kind.add("node " + std::to_string(node_tags_[node]) + " at " + place(x[node]) +
+                 " within element " + std::to_string(triangle_tags_[e]) + " of another part");
+      }
+    }
+  }
+
+  void check_crossings(const OuterEdges& outer, Kind& kind) {
+    struct Edge {
+      Vector<2> from;
+      Vector<2> to;
+      int element;
+    };
+    const auto left = [](const Edge& edge) { return std::min(edge.from[0], edge.to[0]); };
+    const auto right = [](const Edge& edge) { return std::max(edge.from[0], edge.to[0]); };
+    std::vector<Edge> edges;
+    for (const auto& [nodes, element] : outer) {
+      if (!flat_.contains(element)) {
+        edges.push_back({mesh().nodes[nodes[0]], mesh().nodes[nodes[1]], element});
+      }
+    }
+    std::ranges::sort(edges, {}, left);
+    const double tolerance = same_place * diagonal_;
+    // Both ends of each on different sides of the other, by more than round-off.
+    const auto parts_ends_of = [&](const Edge& line, const Edge& other) {
+      const Vector<2> along = (line.to - line.from).normalized();
+      const auto aside = [&](const Vector<2>& x) {
+        const Vector<2> offset = x - line.from;
+        return along[0] * offset[1] - along[1] * offset[0];
+      };
+      const double a = aside(other.from);
+      const double b = aside(other.to);
+      return std::min(a, b) < -tolerance && std::max(a, b) > tolerance;
+    };
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (std::size_t j = i + 1; j < edges.size() && left(edges[j]) < right(edges[i]); ++j) {
+        if (!parts_ends_of(edges[i], edges[j]) || !parts_ends_of(edges[j], edges[i])) continue;
+        kind.add("elements " + std::to_string(triangle_tags_[edges[i].element]) + " and " +
+                 std::to_string(triangle_tags_[edges[j].element]) + ", whose edges from " +
+                 place(edges[i].from) + " to " + place(edges[i].to) + " and from " +
+                 place(edges[j].from) + " to " + place(edges[j].to) + " cross");
+      }
+    }
+  }
+
+  /// Per element, the number of the part that it belongs to: those that share an edge are of one.
+  [[nodiscard]] std::vector<int> parts() const {
+    std::vector<int> part(result_.mesh.element_count());
+    std::iota(part.begin(), part.end(), 0);
+    const auto root = [&](int e) {
+      while (part[e] != e) e = part[e] = part[part[e]];
+      return e;
+    };
+    std::map<std::array<int, 2>, int> owner;
+    for (int e = 0; e < result_.mesh.element_count(); ++e) {
+      for (int corner = 0; corner < 3; ++corner) {
+        const auto edge = face_key<2>(face_opposite<2>(result_.mesh.elements[e], corner));
+        const auto [entry, is_new] = owner.emplace(edge, e);
+        if (!is_new) part[root(e)] = root(entry->second);
+      }
+    }
+    for (int e = 0; e < result_.mesh.element_count(); ++e) part[e] = root(e);
+    return part;
+  }
+
+  /// Farther from each of its edges than the tolerance.
+  [[nodiscard]] bool lies_within(const Vector<2>& x, int element) const {
+    const double tolerance = same_place * diagonal_;
+    const auto& corners = result_.mesh.elements[element];
+    for (int a = 0; a < 3; ++a) {
+      const Vector<2>& start = result_.mesh.nodes[corners[a]];
+      const Vector<2> along = (result_.mesh.nodes[corners[(a + 1) % 3]] - start).normalized();
+      const Vector<2> offset = x - start;
+      if (!(along[0] * offset[1] - along[1] * offset[0] > tolerance)) return false;
+    }
+    return true;
   }
 
   void read_boundaries() {

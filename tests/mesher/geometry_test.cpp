@@ -604,6 +604,18 @@ INSTANTIATE_TEST_SUITE_P(
             "$EndNodes\n$Elements\n6\n4 2 2 1 1 2 5 7\n5 2 2 1 1 7 5 6\n6 2 2 1 1 7 6 3\n",
             " with node 7 at (1, 0.5) on the edge of element 1 from (1, 0) to (1, 1); expected "
             "neighbours that share whole edges"},
+        DamagedMesh{
+            "PartsThatCross", "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n3\n",
+            "7\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 .2 -1 0\n6 .4 -1 0\n7 .3 2 0\n"
+            "$EndNodes\n$Elements\n4\n4 2 2 1 1 5 6 7\n",
+            " with elements 1 and 4, whose edges from (0, 0) to (1, 0) and from (0.2, -1) to "
+            "(0.3, 2) cross; expected parts that do not lie on each other"},
+        DamagedMesh{"APartWithin",
+                    "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n3\n",
+                    "7\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 .5 .1 0\n6 .7 .1 0\n7 .6 .2 0\n"
+                    "$EndNodes\n$Elements\n4\n4 2 2 1 1 5 6 7\n",
+                    " with node 5 at (0.5, 0.1) within element 1 of another part; expected parts "
+                    "that do not lie on each other"},
         DamagedMesh{"Quadrangle",
                     "4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n3\n",
                     "6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n$EndNodes\n"
