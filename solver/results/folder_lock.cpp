@@ -12,6 +12,7 @@
 #include <iterator>
 
 #include "case/errors.hpp"
+#include "case/regular_file.hpp"
 #include "results/layout.hpp"
 
 namespace suffuse {
@@ -35,7 +36,7 @@ bool holds_one_file(const std::string& folder) {
 }
 
 std::string holder(const std::string& path) {
-  std::ifstream in(path);
+  std::ifstream in = open_regular_file(path);
   std::string name;
   std::getline(in, name);
   return name.empty() ? "" : " (" + name + ")";

@@ -10,6 +10,7 @@
 #include "case/errors.hpp"
 #include "case/hdf5_io.hpp"
 #include "case/pending_file.hpp"
+#include "case/regular_file.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/vtkhdf.hpp"
@@ -21,11 +22,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 constexpr auto replace = Json::error_handler_t::replace;  // of what is not UTF-8, in messages
 
-/// Anything but a file is refused: to read a folder throws, of a pipe one could wait for ever.
 std::ifstream open_file(const std::string& path) {
-  std::error_code ignored;
-  std::ifstream in;
-  if (fs::is_regular_file(path, ignored)) in.open(path, std::ios::binary);
+  std::ifstream in = open_regular_file(path);
   if (!in.is_open()) throw FileError(path + ": cannot be read");
   return in;
 }

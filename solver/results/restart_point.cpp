@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "case/regular_file.hpp"
 #include "results/layout.hpp"
 
 namespace suffuse {
@@ -68,7 +69,7 @@ void add(Digest& digest, const MaterialPoints<Dim>& points) {
 
 /// Whole lines behind the names.
 long rows_in(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = open_regular_file(path);
   long lines = 0;
   std::array<char, 65536> block;
   while (in.read(block.data(), block.size()), in.gcount() > 0) {
@@ -201,7 +202,7 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
 }
 
 bool is_finished(const std::string& folder) {
-  std::ifstream in(layout::in_folder(folder, layout::run_info), std::ios::binary);
+  std::ifstream in = open_regular_file(layout::in_folder(folder, layout::run_info));
   const nlohmann::json info = nlohmann::json::parse(in, nullptr, false);
   return info.is_object() && info.value("status", nlohmann::json()) == "done";
 }

@@ -13,6 +13,7 @@
 
 #include "case/errors.hpp"
 #include "case/hdf5_io.hpp"
+#include "case/regular_file.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/versions.hpp"
@@ -60,7 +61,7 @@ std::string dump(const OrderedJson& json) {
 }
 
 OrderedJson run_info_in(const std::string& folder) {
-  std::ifstream in(layout::in_folder(folder, layout::run_info));
+  std::ifstream in = open_regular_file(layout::in_folder(folder, layout::run_info));
   const OrderedJson json = OrderedJson::parse(in, nullptr, false);
   return json.is_object() && json.value("format", OrderedJson()) == layout::format ? json
                                                                                    : OrderedJson();
@@ -216,7 +217,8 @@ GrowingTable::GrowingTable(std::string path, const std::string& names) : path_(s
 }
 
 GrowingTable::GrowingTable(std::string path, long rows) : path_(std::move(path)) {
-  std::ifstream in(path_, std::ios::binary);
+  std::ifstream in = open_regular_file(path_);
+  if (!in) throw FileError(path_ + ": cannot be read");
   std::string line;
   for (long count = 0; count <= rows && std::getline(in, line); ++count) size_ += line.size() + 1;
   std::error_code error;

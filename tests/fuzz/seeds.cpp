@@ -35,6 +35,28 @@ Files results_files(const Write& write) {
   return contents(scratch.path() / "r");
 }
 
+/// Two snapshots and a checkpoint, each with a state to go on from.
+void write_stopped_run(const std::string& folder) {
+  constexpr double end = 10.0;
+  const Case<2> c = testing::unit_square_case();
+  ResultsWriter<2> writer(folder, c);
+  testing::write_rows(writer, end, [](double) { return 0.3; });
+  const auto point = [&](double time, long snapshots) {
+    const auto rows = static_cast<long>(time) + 1;
+    return RestartPoint{time,         rows,
+                        snapshots,    false,
+                        digest_of(c), std::vector<std::uint8_t>(64, std::uint8_t(snapshots))};
+  };
+  for (const long index : {0L, 1L}) {
+    const double time = 5.0 * static_cast<double>(index);
+    Snapshot snapshot = testing::linear_snapshot(c, time, index);
+    snapshot.restart = point(time, index + 1);
+    writer.write_snapshot(std::move(snapshot));
+  }
+  writer.write_checkpoint(point(end, 2));
+  writer.write_run_info({});
+}
+
 }  // namespace
 
 const std::map<std::string, Files>& case_seeds() {
@@ -58,7 +80,8 @@ const std::map<std::string, Files>& results_seeds() {
       {"double-point",
        results_files([](const std::string& f) { testing::double_point::write_results(f); })},
       {"single-point",
-       results_files([](const std::string& f) { testing::write_synthetic_results(f); })}};
+       results_files([](const std::string& f) { testing::write_synthetic_results(f); })},
+      {"stopped", results_files(write_stopped_run)}};
   return seeds;
 }
 

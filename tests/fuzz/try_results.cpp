@@ -3,7 +3,10 @@
 
 #include "edited_files.hpp"
 #include "refusal.hpp"
+#include "results/layout.hpp"
 #include "results/reader.hpp"
+#include "results/restart_point.hpp"
+#include "results/writer.hpp"
 #include "targets.hpp"
 
 namespace suffuse::fuzz {
@@ -54,11 +57,29 @@ void look_at(const ResultsReader& results) {
   }
 }
 
+/// What the solver does with a folder whose run it is to go on with, but for the state itself,
+/// which is nobody's who did not write its digest.
+void go_on(const std::string& folder) {
+  const Case<2> c = read_case<2>(layout::in_folder(folder, layout::case_copy));
+  const Scene& scene = c.document.scene;
+  check_results_folder(folder, scene.name);
+  static_cast<void>(is_finished(folder));
+  FolderLock lock = lock_for_results(folder, scene.name);
+  const FoundRestart found = newest_restart_point(
+      folder, scene.formulation == Formulation::double_point, c.mesh.region_names.size());
+  if (!found.point) return;
+  ResultsWriter<2> writer(folder, c, std::move(lock), *found.point);
+  writer.append_history({});
+  writer.append_ledger({});
+  writer.write_run_info({});
+}
+
 }  // namespace
 
 void try_results(const std::string& input) {
   const std::string folder = lay_out_results(input);
   static_cast<void>(is_taken(folder, [&] { look_at(ResultsReader(folder)); }));
+  static_cast<void>(is_taken([&] { go_on(folder); }));
   forget_files();
 }
 

@@ -24,7 +24,7 @@ struct Arguments {
   std::string sweep;
   std::vector<int> only;  ///< runs by number
   int every = 1;
-  double limit = 20.0;  ///< s
+  double limit = 60.0;  ///< s
   bool list = false;
   bool keep = false;
 };
