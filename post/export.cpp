@@ -1,5 +1,6 @@
 #include "export.hpp"
 
+#include <vtkErrorCode.h>
 #include <vtkHDFReader.h>
 #include <vtkNew.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -26,6 +27,9 @@ void convert(const std::string& from, const std::string& to) {
   writer->SetInputConnection(reader->GetOutputPort());
   writer->SetFileName(file.temporary_path().c_str());
   const bool written = writer->Write() == 1;
+  if (writer->GetErrorCode() != vtkErrorCode::NoError) {
+    throw FileError(to + ": could not be written whole; is the disk full?");
+  }
   messages.throw_errors(to);
   if (!written) throw FileError(to + ": cannot be written");
   file.commit();

@@ -336,8 +336,8 @@ TEST(StartUp, WavesThatMoveNothingAreNotFollowed) {
     const auto moments = run.run(times);
     for (std::size_t k = 0; k < times.size(); ++k) {
       const double time = times[k];
-      const double exact = 0.3 * width_of(mesh) * head / 1000.0 * tau *
-                           (time - tau * (1.0 - std::exp(-time / tau)));
+      const double exact =
+          0.3 * width_of(mesh) * head / 1000.0 * tau * (time - tau * (1.0 - std::exp(-time / tau)));
       const double flowed = run.model().ledger(moments.states[k]).water_out / 1000.0;
       worst = std::max(worst, std::abs(flowed - exact) / (exact / time * end));
     }
