@@ -256,11 +256,13 @@ void check_results_folder(const std::string& folder, const std::string& scene) {
                       ": is not empty and holds no results of suffuse-solver; "
                       "not touched: choose another folder or empty it");
     }
-    const OrderedJson there =
-        info.value("scene", OrderedJson::object()).value("name", OrderedJson());
     // A run that has just begun has not said yet whose it is.
+    const OrderedJson about = info.value("scene", OrderedJson());
+    const OrderedJson there = about.is_object() ? about.value("name", OrderedJson()) : about;
     if (!there.is_string() || there == scene) return;
-    throw InputError(folder + ": holds results of scene " + there.dump() + ", not of \"" + scene +
+    throw InputError(folder + ": holds results of scene " +
+                     there.dump(-1, ' ', true, OrderedJson::error_handler_t::replace) +
+                     ", not of \"" + scene +
                      "\"; not touched: choose another folder with -o, or remove this one");
   } catch (const fs::filesystem_error& error) {
     throw FileError(folder + ": " + error.code().message());
