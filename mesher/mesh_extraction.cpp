@@ -542,7 +542,7 @@ class Extraction {
     std::ranges::sort(edges, {}, left);
     const double tolerance = same_place * diagonal_;
     // Both ends of each on different sides of the other, by more than round-off.
-    const auto parts_ends_of = [&](const Edge& line, const Edge& other) {
+    const auto separates_ends_of = [&](const Edge& line, const Edge& other) {
       const Vector<2> along = (line.to - line.from).normalized();
       const auto aside = [&](const Vector<2>& x) {
         const Vector<2> offset = x - line.from;
@@ -554,7 +554,8 @@ class Extraction {
     };
     for (std::size_t i = 0; i < edges.size(); ++i) {
       for (std::size_t j = i + 1; j < edges.size() && left(edges[j]) < right(edges[i]); ++j) {
-        if (!parts_ends_of(edges[i], edges[j]) || !parts_ends_of(edges[j], edges[i])) continue;
+        if (!separates_ends_of(edges[i], edges[j]) || !separates_ends_of(edges[j], edges[i]))
+          continue;
         kind.add("elements " + std::to_string(triangle_tags_[edges[i].element]) + " and " +
                  std::to_string(triangle_tags_[edges[j].element]) + ", whose edges from " +
                  place(edges[i].from) + " to " + place(edges[i].to) + " and from " +
