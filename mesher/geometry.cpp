@@ -8,11 +8,11 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <string_view>
 
 #include "case/consistency.hpp"
 #include "case/errors.hpp"
+#include "case/short_number.hpp"
 #include "column.hpp"
 #include "geometry_scan.hpp"
 #include "gmsh_session.hpp"
@@ -27,12 +27,6 @@ namespace {
 
 /// Beyond this a misplaced decimal point is likelier than intent.
 constexpr double most_triangles = 5e6;
-
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 std::string extension_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
@@ -63,8 +57,8 @@ void refuse_too_many(const SceneDocument& document, double area, double strip = 
   const double smallest =
       (strip + std::sqrt(strip * strip + 2.0 * area * most_triangles)) / most_triangles;
   if (!(size < smallest)) return;
-  refuse(document, "mesh.size", number(size),
-         "at least " + number(smallest) + ", which makes 5 million triangles here");
+  refuse(document, "mesh.size", short_number(size),
+         "at least " + short_number(smallest) + ", which makes 5 million triangles here");
 }
 
 bool divides(double size, double length) {
@@ -80,9 +74,9 @@ void note_rounding(const Scene& scene, std::vector<std::string>& notes) {
   for (const auto& [side, length] : sides) {
     if (divides(size, length)) continue;
     const int rows = element_rows(length, size);
-    notes.push_back("mesh.size " + number(size) + " does not divide the " + side + " " +
-                    number(length) + ": it has " + std::to_string(rows) + " elements of " +
-                    number(length / rows));
+    notes.push_back("mesh.size " + short_number(size) + " does not divide the " + side + " " +
+                    short_number(length) + ": it has " + std::to_string(rows) + " elements of " +
+                    short_number(length / rows));
   }
 }
 

@@ -9,13 +9,11 @@
 #include "case/errors.hpp"
 #include "case/pending_file.hpp"
 #include "gmsh_session.hpp"
+#include "gmsh_types.hpp"
 
 namespace suffuse {
 
 namespace {
-
-constexpr int line_type = 1;
-constexpr int triangle_type = 2;
 
 /// Okabe and Ito's colours, told apart by the colour-blind too.
 constexpr std::array<std::array<int, 3>, 7> palette{{{230, 159, 0},
@@ -54,7 +52,7 @@ void add_regions(const Mesh<2>& mesh) {
   for (int r = 0; r < count; ++r) gmsh::model::addDiscreteEntity(2, r + 1);
   add_nodes(mesh);
   for (int r = 0; r < count; ++r) {
-    gmsh::model::mesh::addElementsByType(r + 1, triangle_type, tags[r], nodes[r]);
+    gmsh::model::mesh::addElementsByType(r + 1, gmsh_type::triangle, tags[r], nodes[r]);
     name_group(2, r + 1, mesh.region_names[r]);
   }
 }
@@ -70,7 +68,7 @@ void add_boundaries(const Mesh<2>& mesh) {
       tags.push_back(next_tag++);
       for (int node : face) nodes.push_back(static_cast<std::size_t>(node) + 1);
     }
-    gmsh::model::mesh::addElementsByType(entity, line_type, tags, nodes);
+    gmsh::model::mesh::addElementsByType(entity, gmsh_type::line, tags, nodes);
     name_group(1, entity, set.name);
   }
 }

@@ -8,11 +8,12 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <sstream>
 #include <unordered_map>
 
 #include "case/closest_name.hpp"
 #include "case/faces.hpp"
+#include "case/short_number.hpp"
+#include "gmsh_types.hpp"
 
 namespace suffuse {
 
@@ -20,10 +21,6 @@ namespace {
 
 using Tag = std::size_t;
 
-constexpr int no_type = 0;
-constexpr int line_type = 1;
-constexpr int triangle_type = 2;
-constexpr int quadrangle_type = 3;
 /// Relative to the square of the longest edge; an angle of about 1e-10 degrees.
 constexpr double smallest_area = 1e-12;
 /// Relative to the diagonal of the mesh.
@@ -36,14 +33,8 @@ constexpr std::size_t longest_name = 127;
 /// Of one kind, before "and N more".
 constexpr std::size_t most_examples = 5;
 
-std::string number(double value) {
-  std::ostringstream text;
-  text << (value == 0.0 ? 0.0 : value);  // no "-0"
-  return text.str();
-}
-
 std::string place(const Vector<2>& x) {
-  return "(" + number(x[0]) + ", " + number(x[1]) + ")";
+  return "(" + short_number(x[0]) + ", " + short_number(x[1]) + ")";
 }
 
 /// Names go into files, tables and messages: in UTF-8, and without what moves a terminal's cursor.
@@ -159,7 +150,7 @@ class Extraction {
       for (std::size_t i = 0; i < tags[t].size(); ++i) {
         const auto first = nodes[t].begin() + static_cast<std::ptrdiff_t>(i * per_element);
         std::vector<Tag> corners(first, first + static_cast<std::ptrdiff_t>(per_element));
-        if (types[t] == quadrangle_type && wanted == triangle_type &&
+        if (types[t] == gmsh_type::quadrangle && wanted == gmsh_type::triangle &&
             quadrangles_ == Quadrangles::cut_along_diagonals) {
           cut(tags[t][i], corners, result);
           continue;
@@ -290,13 +281,13 @@ class Extraction {
     if (volumes.empty()) return;
     Kind kind(result_.problems, "a plane model: only triangles are supported so far");
     for (int volume : volumes) {
-      read_entity(3, volume, no_type, kind);
+      read_entity(3, volume, gmsh_type::none, kind);
       if (!has_elements(3, volume)) kind.add("volume " + std::to_string(volume));
     }
   }
 
   void add_surface(int entity, const std::vector<int>& regions, Kind& wrong_types) {
-    Elements triangles = read_entity(2, entity, triangle_type, wrong_types);
+    Elements triangles = read_entity(2, entity, gmsh_type::triangle, wrong_types);
     for (int region : regions) {
       region_has_elements_[region] = region_has_elements_[region] || has_elements(2, entity);
     }
@@ -328,7 +319,9 @@ class Extraction {
         std::array<double, 6> box{};
         gmsh::model::getBoundingBox(dimension, entity, box[0], box[1], box[2], box[3], box[4],
                                     box[5]);
-        const auto rounded = [](double value) { return number(std::round(value * 1e6) / 1e6); };
+        const auto rounded = [](double value) {
+          return short_number(std::round(value * 1e6) / 1e6);
+        };
         text += "\n    " + std::string(dimension == 2 ? "surface " : "curve ") +
                 std::to_string(entity) + ": x " + rounded(box[0]) + " to " + rounded(box[3]) +
                 ", y " + rounded(box[1]) + " to " + rounded(box[4]);
@@ -361,15 +354,15 @@ class Extraction {
 
   /// Whether all nodes are somewhere; those that are not are problems.
   bool has_coordinates() {
-    Kind kind(result_.problems, "finite coordinates, in m, below " + number(most_distant));
+    Kind kind(result_.problems, "finite coordinates, in m, below " + short_number(most_distant));
     bool all = true;
     for (Tag tag : node_tags_) {
       const auto& x = coordinates_.at(tag);
       const auto is_near = [](double value) { return std::abs(value) <= most_distant; };
       if (std::ranges::all_of(x, is_near)) continue;
       all = false;
-      kind.add("node " + std::to_string(tag) + " at (" + number(x[0]) + ", " + number(x[1]) + ", " +
-               number(x[2]) + ")");
+      kind.add("node " + std::to_string(tag) + " at (" + short_number(x[0]) + ", " +
+               short_number(x[1]) + ", " + short_number(x[2]) + ")");
     }
     return all;
   }
@@ -379,8 +372,8 @@ class Extraction {
     for (Tag tag : node_tags_) {
       const auto& x = coordinates_.at(tag);
       if (std::abs(x[2]) <= out_of_plane * diagonal_) continue;
-      kind.add("node " + std::to_string(tag) + " at (" + number(x[0]) + ", " + number(x[1]) + ", " +
-               number(x[2]) + ")");
+      kind.add("node " + std::to_string(tag) + " at (" + short_number(x[0]) + ", " +
+               short_number(x[1]) + ", " + short_number(x[2]) + ")");
     }
   }
 
@@ -603,7 +596,7 @@ class Extraction {
     for (const Group& group : groups(1, "curve")) {
       Elements edges;
       for (int entity : group.entities) {
-        Elements more = read_entity(1, entity, line_type, wrong_types);
+        Elements more = read_entity(1, entity, gmsh_type::line, wrong_types);
         edges.tags.insert(edges.tags.end(), more.tags.begin(), more.tags.end());
         edges.nodes.insert(edges.nodes.end(), more.nodes.begin(), more.nodes.end());
       }

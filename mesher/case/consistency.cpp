@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 #include "case/closest_name.hpp"
 #include "case/faces.hpp"
+#include "case/short_number.hpp"
 
 namespace suffuse {
 
@@ -14,20 +14,14 @@ namespace {
 /// Round-off of n_0 + gradient . (x - origin), so that a gradient may end exactly on a bound.
 constexpr double porosity_round_off = 1e-12;
 
-std::string quoted(const std::string& name) {
+std::string in_quotes(const std::string& name) {
   return '"' + name + '"';
-}
-
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 template <int Dim>
 std::string place(const Vector<Dim>& x) {
-  std::string text = "(" + number(x[0]);
-  for (int d = 1; d < Dim; ++d) text += ", " + number(x[d]);
+  std::string text = "(" + short_number(x[0]);
+  for (int d = 1; d < Dim; ++d) text += ", " + short_number(x[d]);
   return text + ")";
 }
 
@@ -53,13 +47,13 @@ class SceneCheck {
 
   static std::string suggest(const std::string& name, const std::vector<std::string>& names) {
     const std::string closest = closest_name(name, names);
-    return closest.empty() ? "" : quoted(closest);
+    return closest.empty() ? "" : in_quotes(closest);
   }
 
   /// A third component, gravity's for one, would silently be dropped in two dimensions.
   void check_two_dimensional(const std::string& key, const std::array<double, 3>& value) {
     if (Dim == 2 && value[2] != 0.0) {
-      report(key, "a third number, " + number(value[2]),
+      report(key, "a third number, " + short_number(value[2]),
              "two numbers: the mesh is two-dimensional");
     }
   }
@@ -76,7 +70,7 @@ class SceneCheck {
     for (const Soil& soil : document_.scene.soils) {
       const auto region = std::ranges::find(mesh_.region_names, soil.region);
       if (region == mesh_.region_names.end()) {
-        report("soil." + soil.region, quoted(soil.region),
+        report("soil." + soil.region, in_quotes(soil.region),
                "a region of the mesh: " + quoted_list(mesh_.region_names),
                suggest(soil.region, mesh_.region_names));
       } else {
@@ -121,9 +115,10 @@ class SceneCheck {
 
   void report_porosity(const Soil& soil, int node) {
     const Vector<Dim>& x = mesh_.nodes[node];
-    report("soil." + soil.region + ".porosity_gradient",
-           "n_0 = " + number(soil.initial_porosity(x)) + " at " + place<Dim>(x),
-           "0 < n_0 <= 1 - n_C = " + number(soil.porosity_max()) + " everywhere in the region");
+    report(
+        "soil." + soil.region + ".porosity_gradient",
+        "n_0 = " + short_number(soil.initial_porosity(x)) + " at " + place<Dim>(x),
+        "0 < n_0 <= 1 - n_C = " + short_number(soil.porosity_max()) + " everywhere in the region");
   }
 
   void check_boundaries() {
@@ -135,7 +130,7 @@ class SceneCheck {
       const std::string key = "boundary[" + std::to_string(i) + "].on";
       const auto found = std::ranges::find(names, conditions[i].on);
       if (found == names.end()) {
-        report(key, quoted(conditions[i].on), "a boundary of the mesh: " + quoted_list(names),
+        report(key, in_quotes(conditions[i].on), "a boundary of the mesh: " + quoted_list(names),
                suggest(conditions[i].on, names));
       } else {
         cover(covered, key, mesh_.boundaries[static_cast<std::size_t>(found - names.begin())]);
@@ -150,8 +145,8 @@ class SceneCheck {
       if (is_new) continue;
       Vector<Dim> centre = Vector<Dim>::Zero();
       for (int node : face) centre += mesh_.nodes[node] / Dim;
-      report(key, quoted(set.name),
-             "a boundary that shares no face with " + quoted(entry->second) +
+      report(key, in_quotes(set.name),
+             "a boundary that shares no face with " + in_quotes(entry->second) +
                  "; both have the one at " + place<Dim>(centre));
       return;
     }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <sstream>
+#include <string>
+
+namespace suffuse {
+
+/// For messages: six digits, and no sign of a zero.
+inline std::string short_number(double value) {
+  std::ostringstream text;
+  text << (value == 0.0 ? 0.0 : value);
+  return text.str();
+}
+
+}  // namespace suffuse

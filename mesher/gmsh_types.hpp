@@ -1,0 +1,12 @@
+#pragma once
+
+/// Gmsh's numbers of the elements that are read and written (its manual, "MSH file format").
+
+namespace suffuse::gmsh_type {
+
+inline constexpr int none = 0;
+inline constexpr int line = 1;
+inline constexpr int triangle = 2;
+inline constexpr int quadrangle = 3;
+
+}  // namespace suffuse::gmsh_type
