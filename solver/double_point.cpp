@@ -262,6 +262,17 @@ std::vector<double> DoublePoint<Dim>::point_flux(const LiquidMotion<Dim>& motion
 }
 
 template <int Dim>
+std::vector<double> DoublePoint<Dim>::point_flux(const FluxInTime& flux) const {
+  if (!skeleton_.erodes_by_flux()) return {};
+  const MaterialPoints<Dim>& points = skeleton_.points();
+  std::vector<double> result(points.size());
+  for (int p = 0; p < points.size(); ++p) {
+    result[p] = mean_magnitude_at(grid_, flux, points.element[p], points.position(grid_.mesh, p));
+  }
+  return result;
+}
+
+template <int Dim>
 LiquidMotion<Dim> DoublePoint<Dim>::motion_ahead(double ahead) const {
   if (!skeleton_.erodes_by_flux()) return last_motion_;
   std::vector<double> mean = last_motion_.entered;
@@ -321,7 +332,7 @@ auto DoublePoint<Dim>::advance(
   interval.see = [&](FlowMoment<Dim> moment, const Passed<Dim>& passed) {
     Observation observation;
     if (carried_ != nullptr) {
-      observation.state = look_at_carried(moment, passed);
+      observation.state = look_at_carried(moment);
     } else {
       observation.state = look_at_followed(moment, passed);
     }
@@ -335,7 +346,8 @@ auto DoublePoint<Dim>::advance(
   if (carried_ != nullptr) {
     finish_carried(begin + progress.duration);
   } else {
-    state_ = advanced(std::move(state_), last_motion_, flow_->pressure(), timings_);
+    state_ = advanced(std::move(state_), last_motion_, point_flux(last_motion_), flow_->pressure(),
+                      timings_);
   }
   if (!seen.empty() && is_end(seen.back().state.time, begin, progress.duration)) {
     const double time = seen.back().state.time;
@@ -365,7 +377,8 @@ auto DoublePoint<Dim>::look_at_followed(const FlowMoment<Dim>& moment,
   PassTimings outputs_are_not_the_run;
   const double duration = moment.time - state_.time;
   if (!(duration > 0.0)) return state_;
-  return advanced(state_, motion(passed, duration), moment.pressure, outputs_are_not_the_run);
+  return advanced(state_, motion(passed, duration), point_flux(moment.flux_in_time),
+                  moment.pressure, outputs_are_not_the_run);
 }
 
 template <int Dim>
@@ -418,8 +431,7 @@ void DoublePoint<Dim>::book_carried(const std::vector<CarriedCrossing>& crossing
 }
 
 template <int Dim>
-auto DoublePoint<Dim>::look_at_carried(const FlowMoment<Dim>& moment,
-                                       const Passed<Dim>& passed) const -> State {
+auto DoublePoint<Dim>::look_at_carried(const FlowMoment<Dim>& moment) const -> State {
   // What has eroded for the time after the look is taken back: it goes on from the begin.
   const bool early = moment.time < carried_interval_.middle;
   const double eroded_until = early ? carried_interval_.begin : carried_interval_.middle;
@@ -430,17 +442,17 @@ auto DoublePoint<Dim>::look_at_carried(const FlowMoment<Dim>& moment,
     book(crossing, result);
   }
   if (has_to_erode(result, eroded_until, moment.time)) {
-    const double duration = moment.time - carried_interval_.begin;
-    erode(result, eroded_until, moment.time, point_flux(motion(passed, duration)), moment.pressure);
+    erode(result, eroded_until, moment.time, point_flux(moment.flux_in_time), moment.pressure);
   }
   return result;
 }
 
 template <int Dim>
 auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
+                                const std::vector<double>& flux,
                                 const std::vector<double>& pressure, PassTimings& timings) const
     -> State {
-  if (motion.along_faces()) return followed(std::move(state), motion, pressure, timings);
+  if (motion.along_faces()) return followed(std::move(state), motion, flux, pressure, timings);
   const double begin = state.time;
   const double substeps = this->substeps(motion, begin, element_porosity(state.porosity));
   LiquidMotion<Dim> part = motion;
@@ -449,7 +461,6 @@ auto DoublePoint<Dim>::advanced(State state, const LiquidMotion<Dim>& motion,
   // Half a step of erosion, a step of movement, half a step of erosion: second order. Halves that
   // meet are one.
   const auto time_at = [&](double step) { return begin + motion.duration * step / substeps; };
-  const std::vector<double> flux = point_flux(motion);
   double eroded_until = begin;
   for (double s = 0.0; s < substeps; ++s) {
     if (has_to_erode(state, eroded_until, time_at(s + 0.5))) {
@@ -486,11 +497,11 @@ double DoublePoint<Dim>::substeps(const LiquidMotion<Dim>& motion, double begin,
 
 template <int Dim>
 auto DoublePoint<Dim>::followed(State state, const LiquidMotion<Dim>& motion,
+                                const std::vector<double>& flux,
                                 const std::vector<double>& pressure, PassTimings& timings) const
     -> State {
   if (!(motion.duration > 0.0)) return state;
   const double begin = state.time;
-  const std::vector<double> flux = point_flux(motion);
   double done = 0.0;
   for (const double end : pieces(state, motion)) {
     LiquidMotion<Dim> part = motion;

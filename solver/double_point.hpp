@@ -124,17 +124,21 @@ class DoublePoint {
   [[nodiscard]] std::vector<double> weighed_concentration(std::vector<double> concentration,
                                                           const std::vector<double>& volume) const;
   /// |q| at solid points (empty when no soil erodes by it), m/s.
+  /// |q| at solid points (empty when no soil erodes by it), m/s.
   [[nodiscard]] std::vector<double> point_flux(const LiquidMotion<Dim>& motion) const;
+  [[nodiscard]] std::vector<double> point_flux(const FluxInTime& flux) const;
   /// How the liquid will move over the next `ahead` seconds, for soils that erode by the flux.
   [[nodiscard]] LiquidMotion<Dim> motion_ahead(double ahead) const;
   void update_flow();
   [[nodiscard]] LiquidMotion<Dim> motion(const Passed<Dim>& passed, double duration) const;
   /// What erosion and transport make of `begin` while the liquid moves so.
   [[nodiscard]] State advanced(State state, const LiquidMotion<Dim>& motion,
-                               const std::vector<double>& pressure, PassTimings& timings) const;
+                               const std::vector<double>& flux, const std::vector<double>& pressure,
+                               PassTimings& timings) const;
   /// The same where points follow the volumes through faces and take up grains on their way.
   [[nodiscard]] State followed(State state, const LiquidMotion<Dim>& motion,
-                               const std::vector<double>& pressure, PassTimings& timings) const;
+                               const std::vector<double>& flux, const std::vector<double>& pressure,
+                               PassTimings& timings) const;
   /// Ends of the pieces, as shares of the motion, in each of which porosity goes smoothly and no
   /// point goes too far.
   [[nodiscard]] std::vector<double> pieces(const State& state,
@@ -149,8 +153,7 @@ class DoublePoint {
   void erode_carried(double from, double to, const std::vector<double>& flux);
   void book_carried(const std::vector<CarriedCrossing>& crossings);
   /// The state at a time within the interval, aside.
-  [[nodiscard]] State look_at_carried(const FlowMoment<Dim>& moment,
-                                      const Passed<Dim>& passed) const;
+  [[nodiscard]] State look_at_carried(const FlowMoment<Dim>& moment) const;
   [[nodiscard]] State look_at_followed(const FlowMoment<Dim>& moment,
                                        const Passed<Dim>& passed) const;
   /// Solid can erode meanwhile, or grains wait for liquid.

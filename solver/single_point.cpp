@@ -86,7 +86,7 @@ PoreContent SinglePoint<Dim>::pores_at(double time) const {
   PoreContent content = pores(state_);
   if (!plan_.erodes(state_.time, time)) return content;
   const std::vector<double> flux = point_flux(
-      mean_rate_ahead(last_volume_rate_, end_rate_, last_duration_, time - state_.time), 1.0);
+      {mean_rate_ahead(last_volume_rate_, end_rate_, last_duration_, time - state_.time), {}, 1.0});
   const std::vector<double> porosity =
       skeleton_.porosity_after(state_.porosity, state_.time, time, flux);
   const MaterialPoints<Dim>& points = skeleton_.points();
@@ -110,14 +110,12 @@ std::vector<double> SinglePoint<Dim>::element_flux_magnitude() const {
 }
 
 template <int Dim>
-std::vector<double> SinglePoint<Dim>::point_flux(const std::vector<double>& face_volume,
-                                                 double duration) const {
+std::vector<double> SinglePoint<Dim>::point_flux(const FluxInTime& flux) const {
   if (!skeleton_.erodes_by_flux()) return {};
   const MaterialPoints<Dim>& points = skeleton_.points();
   std::vector<double> result(points.size());
   for_each_index(points.size(), threads(), [&](int p) {
-    const Vector<Dim> place = points.position(grid_.mesh, p);
-    result[p] = flux_at(grid_, face_volume, points.element[p], place).norm() / duration;
+    result[p] = mean_magnitude_at(grid_, flux, points.element[p], points.position(grid_.mesh, p));
   });
   return result;
 }
@@ -171,7 +169,8 @@ auto SinglePoint<Dim>::advance(
     // sees the same.
     observation.state = state_;
     if (moment.time > begin) {
-      follow(observation.state, passed.volumes, moment.time - begin, outputs_are_not_the_run);
+      follow(observation.state, passed.volumes, moment.time - begin, moment.flux_in_time,
+             outputs_are_not_the_run);
     }
     observation.state.time = moment.time;
     observation.flow = std::move(moment);
@@ -180,14 +179,13 @@ auto SinglePoint<Dim>::advance(
   const FlowProgress<Dim> progress = flow_->run(interval);
 
   const FaceVolumes& volumes = progress.passed.volumes;
-  follow(state_, volumes, progress.duration, timings_);
+  last_volume_rate_ = per_time(volumes.liquid, progress.duration);
+  follow(state_, volumes, progress.duration, {last_volume_rate_, {}, 1.0}, timings_);
   if (!seen.empty() && is_end(seen.back().state.time, begin, progress.duration)) {
     const double time = std::exchange(seen.back().state, state_).time;
     seen.back().state.time = time;
   }
   if (plan_.transport) flow_->warn_of_unstated_inflow(state_.time, volumes.liquid);
-  last_volume_rate_ = volumes.liquid;
-  for (double& rate : last_volume_rate_) rate /= progress.duration;
   last_duration_ = progress.duration;
   end_rate_ = skeleton_.erodes_by_flux() ? flow_->face_flux(state_.time) : last_volume_rate_;
   synchronise_flow();
@@ -199,7 +197,8 @@ auto SinglePoint<Dim>::advance(
 
 template <int Dim>
 void SinglePoint<Dim>::follow(SinglePointState<Dim>& state, const FaceVolumes& volumes,
-                              double duration, PassTimings& timings) {
+                              double duration, const FluxInTime& flux_in_time,
+                              PassTimings& timings) {
   const double begin = state.time;
   const bool carries = plan_.carries(begin + duration);
   const double allowed =
@@ -210,7 +209,7 @@ void SinglePoint<Dim>::follow(SinglePointState<Dim>& state, const FaceVolumes& v
     for (double& v : scratch_.step_volume) v /= substeps;
   }
   if (carries) transport_.start(state.liquid, scratch_.step_volume, scratch_.transport);
-  const std::vector<double> flux = point_flux(volumes.liquid, duration);
+  const std::vector<double> flux = point_flux(flux_in_time);
   for (double s = 0.0; s < substeps; ++s) {
     const double from = begin + duration * s / substeps;
     const double to = begin + duration * (s + 1.0) / substeps;

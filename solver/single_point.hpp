@@ -82,9 +82,8 @@ class SinglePoint {
   [[nodiscard]] PoreContent pores(const SinglePointState<Dim>& state) const;
   /// The pores at a time ahead, as erosion fills them, before grains have moved.
   [[nodiscard]] PoreContent pores_at(double time) const;
-  /// |q| at solid points (empty when no soil erodes by it), m/s, from volumes over a duration.
-  [[nodiscard]] std::vector<double> point_flux(const std::vector<double>& face_volume,
-                                               double duration) const;
+  /// |q| at solid points (empty when no soil erodes by it), m/s.
+  [[nodiscard]] std::vector<double> point_flux(const FluxInTime& flux) const;
   /// |q| per element, m/s, over the last interval.
   [[nodiscard]] std::vector<double> element_flux_magnitude() const;
   [[nodiscard]] int threads() const { return plan_.flow.threads; }
@@ -98,7 +97,7 @@ class SinglePoint {
   };
   /// Erosion and transport over `duration` while `volumes` cross the faces.
   void follow(SinglePointState<Dim>& state, const FaceVolumes& volumes, double duration,
-              PassTimings& timings);
+              const FluxInTime& flux_in_time, PassTimings& timings);
   /// Books water, and grains as `scratch_` has them, that crossed.
   void move_water(SinglePointState<Dim>& state, const FaceVolumes& volumes);
   /// Pressure and water masses agree after this.

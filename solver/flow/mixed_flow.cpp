@@ -515,7 +515,13 @@ void MixedFlow<Dim>::show(const FlowInterval<Dim>& interval, const Point& begin,
           volumes.liquid[f] != 0.0 ? curved / volumes.liquid[f] : share;
     }
     this->take_boundary_values(interval.begin, time);
-    interval.see(moment_of(time, dt, flow, interval.pores_at(time).porosity), passed);
+    FlowMoment<Dim> moment = moment_of(time, dt, flow, interval.pores_at(time).porosity);
+    moment.flux_in_time = {per_time(volumes.liquid, dt), {}, share};
+    moment.flux_in_time.change = begin.face_flux;
+    for (std::size_t f = 0; f < volumes.liquid.size(); ++f) {
+      moment.flux_in_time.change[f] = now_.face_flux[f] - begin.face_flux[f];
+    }
+    interval.see(std::move(moment), passed);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "case/errors.hpp"
 #include "flow/locking.hpp"
 #include "flow/steady_nodal.hpp"
+#include "grid/face_flux.hpp"
 #include "pass_timer.hpp"
 #include "physics/liquid.hpp"
 
@@ -200,7 +201,9 @@ FlowProgress<Dim> NodalFlow<Dim>::run(const FlowInterval<Dim>& interval) {
       FlowMoment<Dim> moment = moment_of(*next, between(pressure, scheme_.pressure(), share),
                                          scheme_.velocity_at((share - 0.5) * dt));
       moment.dt = dt;
-      interval.see(std::move(moment), between(before, passed(), share));
+      const Passed<Dim> so_far = between(before, passed(), share);
+      moment.flux_in_time.mean = per_time(so_far.volumes.liquid, *next - interval.begin);
+      interval.see(std::move(moment), so_far);
     }
     carry(step_begin, dt);
   }

@@ -11,6 +11,7 @@
 
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
+#include "grid/face_flux.hpp"
 #include "results/writer.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "state_archive.hpp"
@@ -34,6 +35,7 @@ struct FlowMoment {
   std::vector<double> node_pressure;  ///< Pa
   VectorField<Dim> velocity;          ///< per node, intrinsic, m/s
   std::vector<double> face_flux;      ///< along each face's normal, m3/s
+  FluxInTime flux_in_time;            ///< since the interval began: what erosion goes by
   double eos_error = 0.0;             ///< see HistoryRow
   double pressure_overshoot = 0.0;    ///< see HistoryRow
 };

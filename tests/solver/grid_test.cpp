@@ -6,6 +6,7 @@
 
 #include "grid/compensated_sum.hpp"
 #include "grid/element_field.hpp"
+#include "grid/face_flux.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {
@@ -61,6 +62,44 @@ TEST(FieldNodes, BasisIsOneAtItsNodeAndAddsUpToOne) {
   EXPECT_NEAR(2.0 / 3.0 * vertices[0] + (vertices[1] + vertices[2]) / 6.0, values[0], 1e-14);
   EXPECT_NEAR(Nodes::value(values, {0.2, 0.3, 0.5}),
               0.2 * vertices[0] + 0.3 * vertices[1] + 0.5 * vertices[2], 1e-14);
+}
+
+/// Fluxes through faces of a field that is the same everywhere.
+std::vector<double> uniform_flux(const Grid<2>& grid, const Vector<2>& q) {
+  std::vector<double> flux;
+  for (const Vector<2>& normal : grid.face_normal) flux.push_back(q.dot(normal));
+  return flux;
+}
+
+TEST(FluxInTime, IsExactWhereTheFluxDoesNotTurn) {
+  const Grid<2> grid(mesh);
+  const Vector<2> direction(0.6, -0.8);
+  for (const double share : {0.1, 0.5, 0.77, 1.0}) {
+    // From 1 to 3 m/s.
+    const FluxInTime flux{uniform_flux(grid, 2.0 * direction), uniform_flux(grid, 2.0 * direction),
+                          share};
+    const double mean = mean_magnitude_at(grid, flux, 3, element_centroid(mesh, 3));
+    EXPECT_NEAR(mean, 1.0 + share, 1e-14);
+  }
+}
+
+TEST(FluxInTime, WhatItComesToGrowsWhereTheFluxTurns) {
+  const Grid<2> grid(mesh);
+  // Through zero, turned about, and aside.
+  for (const auto& [begin, end] : {std::pair{Vector<2>(1.0, 0.0), Vector<2>(-0.5, 0.0)},
+                                   std::pair{Vector<2>(1.0, 0.0), Vector<2>(-2.0, 0.0)},
+                                   std::pair{Vector<2>(1.0, 0.0), Vector<2>(0.0, 1.0)}}) {
+    const Vector<2> mean = 0.5 * (begin + end);
+    double last = 0.0;
+    for (int k = 1; k <= 20; ++k) {
+      const double share = k / 20.0;
+      const FluxInTime flux{uniform_flux(grid, mean), uniform_flux(grid, end - begin), share};
+      const double all = share * mean_magnitude_at(grid, flux, 7, element_centroid(mesh, 7));
+      EXPECT_GE(all, last);
+      last = all;
+    }
+    EXPECT_NEAR(last, mean.norm(), 1e-14);
+  }
 }
 
 TEST(CompensatedSum, KeepsWhatAPlainSumLoses) {
