@@ -33,6 +33,7 @@ constexpr float row_height = 36.0F;
 constexpr float bar_height = 26.0F;
 constexpr float bottom_room = 90.0F;
 constexpr float top_room = 70.0F;
+/// With 16 digits fill their textures, and VTK shows a row of their tops below them.
 constexpr int text_size = 18;
 
 void paint_box(vtkContext2D& painter, unsigned char grey, float x, float y, float width,
@@ -48,8 +49,8 @@ void paint_part(vtkContext2D& painter, const Verdict& verdict, int count, float 
                 float width) {
   paint_box(painter, verdict.grey, x, y, width, bar_height);
   const std::string text = std::to_string(count);
-  if (verdict.white_text || width < 11.0F * static_cast<float>(text.size()) + 6.0F) return;
-  paint_text(painter, text, text_size - 2, x + 0.5F * width, y + 0.5F * bar_height);
+  if (verdict.white_text || width < 12.0F * static_cast<float>(text.size()) + 6.0F) return;
+  paint_text(painter, text, text_size, x + 0.5F * width, y + 0.5F * bar_height);
 }
 
 void paint_axis(vtkContext2D& painter, const std::vector<double>& ticks, float scale, float top) {
@@ -116,7 +117,7 @@ void draw_stress_chart(const std::vector<SweepCount>& sweeps, const std::string&
         x += width;
       }
       if (sweep.failed > 0) {
-        paint_text(painter, std::to_string(sweep.failed) + " failed", text_size - 2, x + 8.0F,
+        paint_text(painter, std::to_string(sweep.failed) + " failed", text_size, x + 8.0F,
                    y + 0.5F * bar_height, Anchor::left);
       }
       y -= row_height;
