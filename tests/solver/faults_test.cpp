@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <memory>
@@ -209,6 +210,18 @@ TEST_F(Fault, ResultsOfAnotherSceneAreNotTouched) {
   expect_error(place_.solve(other, whole_), 2,
                whole_ + ": holds results of scene \"double\", not of \"other\"; not touched");
   EXPECT_TRUE(before == test::contents(whole_));
+}
+
+TEST_F(Fault, APipeInThePlaceOfAFileIsNotWaitedFor) {
+  for (const char* name : {layout::run_info, layout::history, layout::ledger, layout::regions}) {
+    SCOPED_TRACE(name);
+    const std::string folder = place_.path("piped");
+    fs::remove_all(folder);
+    fs::copy(whole_, folder, fs::copy_options::recursive);
+    fs::remove(layout::in_folder(folder, name));
+    ASSERT_EQ(::mkfifo(layout::in_folder(folder, name).c_str(), 0666), 0);
+    expect_error(place_.solve(case_, folder, {"--resume"}), 4, folder);
+  }
 }
 
 TEST_F(Fault, TwoSolversOnOneFolder) {
