@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "case/errors.hpp"
-#include "estimate.hpp"
-#include "interrupt.hpp"
-#include "memory.hpp"
-#include "run.hpp"
+#include "driver/estimate.hpp"
+#include "driver/interrupt.hpp"
+#include "driver/memory.hpp"
+#include "driver/run.hpp"
 
 namespace {
 

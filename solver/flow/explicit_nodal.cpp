@@ -94,7 +94,7 @@ void ExplicitNodal<Dim>::make_node_blocks() {
   std::vector<int> inner;
   std::vector<int> edge;
   for (int i = 0; i < grid.mesh.node_count(); ++i) (at_edge(i) ? edge : inner).push_back(i);
-  for (; inner.size() % lane_count != 0; inner.pop_back()) edge.push_back(inner.back());
+  for (; inner.size() % simd_width != 0; inner.pop_back()) edge.push_back(inner.back());
   std::ranges::sort(edge);
   for (const int i : edge) edge_nodes_.push_back({i, -1, 0.0, 0.0, 0.0, Vector<Dim>::Zero()});
 
@@ -106,13 +106,13 @@ void ExplicitNodal<Dim>::make_node_blocks() {
     std::stable_sort(first, last, [&](int a, int b) { return neighbours(a) < neighbours(b); });
     first = last;
   }
-  for (std::size_t k = 0; k < inner.size(); k += lane_count) {
+  for (std::size_t k = 0; k < inner.size(); k += simd_width) {
     NodeBlock& block = node_blocks_.emplace_back();
-    std::copy_n(&inner[k], lane_count, block.node.begin());
+    std::copy_n(&inner[k], simd_width, block.node.begin());
     block.first_step = static_cast<int>(ring_steps_.size());
     block.last_step = block.first_step + neighbours(block.node.back());
     ring_steps_.resize(block.last_step);
-    for (int l = 0; l < lane_count; ++l) {
+    for (int l = 0; l < simd_width; ++l) {
       const int i = block.node[l];
       int e = grid.node_element[grid.node_element_begin[i]];
       for (int step = 0; step < block.last_step - block.first_step; ++step) {
@@ -137,13 +137,13 @@ template <int Dim>
 void ExplicitNodal<Dim>::make_element_blocks() {
   const Grid<Dim>& grid = operator_.grid();
   const int elements = grid.mesh.element_count();
-  element_blocks_.resize(elements / lane_count);
+  element_blocks_.resize(elements / simd_width);
   if (!settings_.pressure_moves_with_liquid) convection_blocks_.resize(element_blocks_.size());
-  const int in_blocks = lane_count * static_cast<int>(element_blocks_.size());
+  const int in_blocks = simd_width * static_cast<int>(element_blocks_.size());
   for (int e = 0; e < elements; ++e) {
     bool at_edge = e >= in_blocks;
-    const int b = e / lane_count;
-    const int l = e % lane_count;
+    const int b = e / simd_width;
+    const int l = e % simd_width;
     for (int k = 0; k <= Dim; ++k) {
       const int neighbour = grid.across(e, k);
       at_edge = at_edge || neighbour < 0 || operator_.flux_is_fixed(grid.element_face[e][k]);
@@ -179,7 +179,7 @@ void ExplicitNodal<Dim>::set_node_coefficients() {
   quadratic_damping_.resize(quadratic.empty() ? 0 : node_blocks_.size());
   for (std::size_t b = 0; b < node_blocks_.size(); ++b) {
     NodeBlock& block = node_blocks_[b];
-    for (int l = 0; l < lane_count; ++l) {
+    for (int l = 0; l < simd_width; ++l) {
       block.mobility[l] = mobility(block.node[l]);
       block.damping[l] = damping(block.node[l]);
       if (!quadratic.empty()) quadratic_damping_[b][l] = quadratic_damping(block.node[l]);
@@ -187,7 +187,7 @@ void ExplicitNodal<Dim>::set_node_coefficients() {
   }
   const auto& constraints = operator_.constraints();
   auto constraint = constraints.begin();
-  for (EdgeNode& edge : edge_nodes_) {
+  for (BoundaryNode& edge : edge_nodes_) {
     const int i = edge.node;
     edge.mobility = mobility(i);
     edge.damping = damping(i);
@@ -210,14 +210,14 @@ void ExplicitNodal<Dim>::set_element_coefficients(const FlowCoefficients<Dim>& c
     return (1.0 - c) / settings_.bulk_modulus;
   };
   for (std::size_t b = 0; b < element_blocks_.size(); ++b) {
-    for (int l = 0; l < lane_count; ++l) {
-      const int e = lane_count * static_cast<int>(b) + l;
+    for (int l = 0; l < simd_width; ++l) {
+      const int e = simd_width * static_cast<int>(b) + l;
       element_blocks_[b].weight[l] = weight(e);
       if (convection_blocks_.empty()) continue;
       for (int k = 0; k <= Dim; ++k) convection_blocks_[b].carried[k][l] = carried(e, k);
     }
   }
-  for (EdgeElement& edge : edge_elements_) {
+  for (BoundaryElement& edge : edge_elements_) {
     edge.weight = weight(edge.element);
     for (int k = 0; k <= Dim; ++k) edge.carried[k] = carried(edge.element, k);
   }
@@ -270,7 +270,7 @@ void ExplicitNodal<Dim>::accelerate(double spacing, double dt) {
   velocity_is_current_ = false;
   const int blocks = static_cast<int>(node_blocks_.size());
   const int edge_nodes = static_cast<int>(edge_nodes_.size());
-#pragma omp parallel num_threads(settings_.threads) if (lane_count * blocks > \
+#pragma omp parallel num_threads(settings_.threads) if (simd_width * blocks > \
                                                         worth_threads_of_nodes)
   {
 #pragma omp for schedule(static) nowait
@@ -298,19 +298,19 @@ void ExplicitNodal<Dim>::accelerate_block(double spacing, double dt, int b) {
 
   // Each face at the node pushes with the difference of the pressures on its sides, on half its
   // normal: the transpose of the flux.
-  Lanes x;
-  Lanes y;
+  SimdDouble4 x;
+  SimdDouble4 y;
   load_pairs([&](int l) { return place[node[l]].data(); }, x, y);
-  Lanes push_x{};
-  Lanes push_y{};
-  Lanes before;
+  SimdDouble4 push_x{};
+  SimdDouble4 push_y{};
+  SimdDouble4 before;
   gather(pressure, ring_steps_[block.last_step - 1].element, before);
   for (int s = block.first_step; s < block.last_step; ++s) {
     const RingStep& step = ring_steps_[s];
-    Lanes to_x;
-    Lanes to_y;
+    SimdDouble4 to_x;
+    SimdDouble4 to_y;
     load_pairs([&](int l) { return place[step.node[l]].data(); }, to_x, to_y);
-    Lanes after;
+    SimdDouble4 after;
     gather(pressure, step.element, after);
     push_x -= (to_y - y) * (before - after);
     push_y += (to_x - x) * (before - after);
@@ -318,17 +318,17 @@ void ExplicitNodal<Dim>::accelerate_block(double spacing, double dt, int b) {
   }
 
   Vector<Dim>* const flux = flux_.data();
-  std::array<Lanes, Dim> q;
+  std::array<SimdDouble4, Dim> q;
   load_pairs([&](int l) { return flux[node[l]].data(); }, q[0], q[1]);
-  Lanes damping = block.damping;
+  SimdDouble4 damping = block.damping;
   if (!quadratic_damping_.empty()) {
-    Lanes speed;
+    SimdDouble4 speed;
     square_root(q[0] * q[0] + q[1] * q[1], speed);
     damping += quadratic_damping_[b] * speed;
   }
-  std::array<Lanes, Dim> rate{0.5 * block.mobility * push_x, 0.5 * block.mobility * push_y};
+  std::array<SimdDouble4, Dim> rate{0.5 * block.mobility * push_x, 0.5 * block.mobility * push_y};
   if (has_gravity_) {
-    Lanes porosity;
+    SimdDouble4 porosity;
     gather(porosity_.data(), node, porosity);
     for (int d = 0; d < Dim; ++d) {
       rate[d] += porosity * (operator_.gravity()[d] / settings_.mass_scaling);
@@ -340,7 +340,7 @@ void ExplicitNodal<Dim>::accelerate_block(double spacing, double dt, int b) {
 }
 
 template <int Dim>
-void ExplicitNodal<Dim>::accelerate_edge(double spacing, double dt, EdgeNode& edge) {
+void ExplicitNodal<Dim>::accelerate_edge(double spacing, double dt, BoundaryNode& edge) {
   const int i = edge.node;
   const Vector<Dim> rate = edge.mobility * operator_.force(i, pressure_);
   const double damping = edge.damping + edge.quadratic_damping * flux_[i].norm();
@@ -373,7 +373,7 @@ template <bool convects>
 void ExplicitNodal<Dim>::compress_blocks(double dt) {
   const int blocks = static_cast<int>(element_blocks_.size());
   const int edge_elements = static_cast<int>(edge_elements_.size());
-#pragma omp parallel num_threads(settings_.threads) if (lane_count * blocks > \
+#pragma omp parallel num_threads(settings_.threads) if (simd_width * blocks > \
                                                         worth_threads_of_nodes)
   {
 #pragma omp for schedule(static)
@@ -393,40 +393,40 @@ void ExplicitNodal<Dim>::compress_block(double dt, int b) {
   const Vector<Dim>* const place = operator_.grid().mesh.nodes.data();
   const Vector<Dim>* const node_flux = flux_.data();
   const ElementBlock& block = element_blocks_[b];
-  const std::ptrdiff_t first = std::ptrdiff_t{lane_count} * b;
+  const std::ptrdiff_t first = std::ptrdiff_t{simd_width} * b;
   const int soon = std::min(b + blocks_ahead, static_cast<int>(element_blocks_.size()) - 1);
   prefetch(element_blocks_[soon]);
-  prefetch(next_pressure_[std::size_t{lane_count} * soon]);
-  OfFaces<Corner<Lanes>> corner;
+  prefetch(next_pressure_[std::size_t{simd_width} * soon]);
+  OfFaces<Corner<SimdDouble4>> corner;
   for (int a = 0; a <= Dim; ++a) {
     load_pairs([&](int l) { return place[block.node[a][l]].data(); }, corner[a][0], corner[a][1]);
     load_pairs([&](int l) { return node_flux[block.node[a][l]].data(); }, corner[a][2],
                corner[a][3]);
   }
-  OfFaces<Lanes> flux;
+  OfFaces<SimdDouble4> flux;
   for (int k = 0; k <= Dim; ++k) {
     edge_flux(corner[(k + 1) % (Dim + 1)], corner[(k + 2) % (Dim + 1)], flux[k]);
   }
-  Lanes outflow = flux[0] + flux[1] + flux[2];
-  Lanes p;
+  SimdDouble4 outflow = flux[0] + flux[1] + flux[2];
+  SimdDouble4 p;
   load(pressure + first, p);
   if constexpr (convects) {
     const ConvectionBlock& convection = convection_blocks_[b];
     prefetch(convection_blocks_[soon]);
     prefetch(excess_out_[soon]);
-    const Lanes zero{};
-    Lanes excess;
-    density_excess<Lanes>(p * (1.0 / modulus), excess);
+    const SimdDouble4 zero{};
+    SimdDouble4 excess;
+    density_excess<SimdDouble4>(p * (1.0 / modulus), excess);
     excess *= dt;
     for (int k = 0; k <= Dim; ++k) {
-      Lanes across;
+      SimdDouble4 across;
       gather(pressure, convection.neighbour[k], across);
-      const Lanes inflow = flux[k] < zero ? flux[k] : zero;
+      const SimdDouble4 inflow = flux[k] < zero ? flux[k] : zero;
       outflow += inflow * convection.carried[k] * (across - p);
       excess_out_[b][k] += excess * (flux[k] - inflow);
     }
   }
-  expand<Lanes>(dt * outflow * block.weight, modulus, p);
+  expand<SimdDouble4>(dt * outflow * block.weight, modulus, p);
   store(p, next_pressure_.data() + first);
 }
 
@@ -449,7 +449,7 @@ double ExplicitNodal<Dim>::face_flux(int element, int k) const {
 
 /// Writes over what the block made of this element, as if all of its faces were inner ones.
 template <int Dim>
-void ExplicitNodal<Dim>::compress_edge(double dt, EdgeElement& edge) {
+void ExplicitNodal<Dim>::compress_edge(double dt, BoundaryElement& edge) {
   const Grid<Dim>& grid = operator_.grid();
   const double modulus = settings_.bulk_modulus;
   const int e = edge.element;
@@ -484,9 +484,9 @@ void ExplicitNodal<Dim>::compress_edge(double dt, EdgeElement& edge) {
 template <int Dim>
 void ExplicitNodal<Dim>::reset_volumes() {
   way_.assign(node_blocks_.size(), {});
-  for (EdgeNode& edge : edge_nodes_) edge.way.setZero();
+  for (BoundaryNode& edge : edge_nodes_) edge.way.setZero();
   excess_out_.assign(convection_blocks_.size(), {});
-  for (EdgeElement& edge : edge_elements_) edge.excess_out = {};
+  for (BoundaryElement& edge : edge_elements_) edge.excess_out = {};
   driven_volume_.assign(driven_faces_.size(), 0.0);
 }
 
@@ -494,11 +494,11 @@ template <int Dim>
 VectorField<Dim> ExplicitNodal<Dim>::ways() const {
   VectorField<Dim> result(flux_.size());
   for (std::size_t b = 0; b < node_blocks_.size(); ++b) {
-    for (int l = 0; l < lane_count; ++l) {
+    for (int l = 0; l < simd_width; ++l) {
       for (int d = 0; d < Dim; ++d) result[node_blocks_[b].node[l]][d] = way_[b][d][l];
     }
   }
-  for (const EdgeNode& edge : edge_nodes_) result[edge.node] = edge.way;
+  for (const BoundaryNode& edge : edge_nodes_) result[edge.node] = edge.way;
   return result;
 }
 
@@ -538,7 +538,7 @@ FaceVolumes ExplicitNodal<Dim>::volumes() const {
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const bool at_edge = edge != edge_elements_.end() && edge->element == e;
     for (int k = 0; k <= Dim; ++k) {
-      add(e, k, at_edge ? edge->excess_out[k] : excess_out_[e / lane_count][k][e % lane_count]);
+      add(e, k, at_edge ? edge->excess_out[k] : excess_out_[e / simd_width][k][e % simd_width]);
     }
     if (at_edge) ++edge;
   }

@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "flow/lanes.hpp"
 #include "flow/nodal_operator.hpp"
-#include "state_archive.hpp"
+#include "grid/simd.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -105,20 +105,20 @@ class ExplicitNodal {
  private:
   /// A few inner nodes. What steps write lies apart: memory takes back whole lines.
   struct NodeBlock {
-    Lanes mobility;  ///< n_i / (S m_i), 1/kg
-    Lanes damping;   ///< d_i / (S m_i), 1/s
-    std::array<int, lane_count> node;
+    SimdDouble4 mobility;  ///< n_i / (S m_i), 1/kg
+    SimdDouble4 damping;   ///< d_i / (S m_i), 1/s
+    std::array<int, simd_width> node;
     int first_step;  ///< where the ways around them are in `ring_steps_`
     int last_step;
   };
   /// One step further around each node of a block, counterclockwise: its neighbour, and the element
   /// that follows. Those with fewer neighbours stay where they are in the end.
   struct RingStep {
-    std::array<int, lane_count> node;
-    std::array<int, lane_count> element;
+    std::array<int, simd_width> node;
+    std::array<int, simd_width> element;
   };
   /// A node with a face at the boundary, or that fills no block.
-  struct EdgeNode {
+  struct BoundaryNode {
     int node;
     int constraint;  ///< of the operator's, -1: none
     double mobility;
@@ -130,16 +130,16 @@ class ExplicitNodal {
   using OfFaces = std::array<Quantity, Dim + 1>;
   /// A few elements.
   struct ElementBlock {
-    Lanes weight;  ///< 1 / water volume (times n_e without the third term), 1/m3
-    OfFaces<std::array<int, lane_count>> node;
+    SimdDouble4 weight;  ///< 1 / water volume (times n_e without the third term), 1/m3
+    OfFaces<std::array<int, simd_width>> node;
   };
   /// What convection asks of the same.
   struct ConvectionBlock {
-    OfFaces<Lanes> carried;  ///< (1 - c) / K of each face, 1/Pa
-    OfFaces<std::array<int, lane_count>> neighbour;
+    OfFaces<SimdDouble4> carried;  ///< (1 - c) / K of each face, 1/Pa
+    OfFaces<std::array<int, simd_width>> neighbour;
   };
   /// An element with a face at the boundary, or that fills no block.
-  struct EdgeElement {
+  struct BoundaryElement {
     int element;
     double weight;
     OfFaces<double> carried;
@@ -151,7 +151,7 @@ class ExplicitNodal {
   void set_node_coefficients();
   void set_element_coefficients(const FlowCoefficients<Dim>& coefficients);
   void accelerate_block(double spacing, double dt, int b);
-  void accelerate_edge(double spacing, double dt, EdgeNode& edge);
+  void accelerate_edge(double spacing, double dt, BoundaryNode& edge);
   /// Integral of each node's flux since `reset_volumes`, m.
   [[nodiscard]] VectorField<Dim> ways() const;
   /// Fluxes from velocities.
@@ -160,7 +160,7 @@ class ExplicitNodal {
   void compress_blocks(double dt);
   template <bool convects>
   void compress_block(double dt, int b);
-  void compress_edge(double dt, EdgeElement& edge);
+  void compress_edge(double dt, BoundaryElement& edge);
   [[nodiscard]] double face_flux(int element, int k) const;
 
   const NodalOperator<Dim>& operator_;
@@ -177,14 +177,15 @@ class ExplicitNodal {
 
   bool has_gravity_;
   std::vector<NodeBlock> node_blocks_;
-  std::vector<std::array<Lanes, Dim>> way_;  ///< integral of the flux, as `node_blocks_`, m
-  std::vector<Lanes> quadratic_damping_;     ///< what fast flow adds per |q_i|, 1/m; may be empty
+  std::vector<std::array<SimdDouble4, Dim>> way_;  ///< integral of the flux, as `node_blocks_`, m
+  std::vector<SimdDouble4>
+      quadratic_damping_;  ///< what fast flow adds per |q_i|, 1/m; may be empty
   std::vector<RingStep> ring_steps_;
-  std::vector<EdgeNode> edge_nodes_;
+  std::vector<BoundaryNode> edge_nodes_;
   std::vector<ElementBlock> element_blocks_;
   std::vector<ConvectionBlock> convection_blocks_;  ///< as `element_blocks_`; may be empty
-  std::vector<OfFaces<Lanes>> excess_out_;
-  std::vector<EdgeElement> edge_elements_;
+  std::vector<OfFaces<SimdDouble4>> excess_out_;
+  std::vector<BoundaryElement> edge_elements_;
   std::vector<int> driven_faces_;  ///< with a prescribed flux
   std::vector<double> driven_volume_;
 };

@@ -17,8 +17,8 @@
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "flow/flux_correction.hpp"
-#include "flow/held_factor.hpp"
 #include "grid/grid.hpp"
+#include "linear/lagged_preconditioner.hpp"
 
 namespace suffuse {
 
@@ -191,7 +191,7 @@ class ImplicitMixed {
   std::vector<std::array<std::array<int, Dim + 1>, Dim + 1>> position_;
   std::vector<std::array<std::array<double, Dim + 1>, Dim + 1>> normal_products_;  ///< N.N / volume
   std::vector<double> face_area_;
-  std::optional<HeldFactor> factor_;
+  std::optional<LaggedPreconditioner> factor_;
   std::optional<FluxCorrection<Dim>> correction_;
   SolveCounts earlier_counts_;  ///< of factors given up
 

@@ -12,7 +12,7 @@
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "grid/grid.hpp"
-#include "state_archive.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 

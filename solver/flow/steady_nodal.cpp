@@ -77,8 +77,8 @@ Eigen::SparseMatrix<double> pressure_matrix(const NodalOperator<Dim>& op,
 
 /// Steady flow against a linear drag per node.
 template <int Dim>
-NodalFlowState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
-                                       const std::vector<double>& drag) {
+NodalSteadyState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
+                                         const std::vector<double>& drag) {
   constexpr double storage_share = 1e-7;  // of the matrix' own diagonal
   constexpr int most_solves = 60;
   constexpr double goal = 1e-14;
@@ -100,7 +100,7 @@ NodalFlowState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
     for (const double p : pressure) largest = std::max(largest, std::abs(p));
     return largest * diagonal.maxCoeff();
   };
-  NodalFlowState<Dim> state;
+  NodalSteadyState<Dim> state;
   state.pressure.assign(matrix.rows(), 0.0);
   double previous = std::numeric_limits<double>::infinity();
   for (int solve = 0; solve < most_solves; ++solve) {
@@ -121,11 +121,11 @@ NodalFlowState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
 }  // namespace
 
 template <int Dim>
-NodalFlowState<Dim> steady_flow(const NodalOperator<Dim>& op) {
+NodalSteadyState<Dim> steady_flow(const NodalOperator<Dim>& op) {
   constexpr int most_iterations = 200;
   constexpr double goal = 1e-12;
   const std::vector<double>& quadratic = op.node_quadratic_drag();
-  NodalFlowState<Dim> state = linear_steady_flow(op, op.node_drag());
+  NodalSteadyState<Dim> state = linear_steady_flow(op, op.node_drag());
   if (quadratic.empty()) return state;
   // The secant drag of the last iterate and the one before, in equal parts: alone each overshoots.
   std::vector<double> drag = op.node_drag();
@@ -143,6 +143,6 @@ NodalFlowState<Dim> steady_flow(const NodalOperator<Dim>& op) {
       "the steady initial flow with Ergun's drag was not found: its drag still changes");
 }
 
-template NodalFlowState<2> steady_flow(const NodalOperator<2>&);
+template NodalSteadyState<2> steady_flow(const NodalOperator<2>&);
 
 }  // namespace suffuse

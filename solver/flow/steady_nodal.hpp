@@ -7,7 +7,7 @@
 namespace suffuse {
 
 template <int Dim>
-struct NodalFlowState {
+struct NodalSteadyState {
   std::vector<double> pressure;  ///< per element, Pa
   VectorField<Dim> velocity;     ///< per node, m/s
   double imbalance = 0.0;        ///< largest net outflow of an element over the largest face flux
@@ -18,6 +18,6 @@ struct NodalFlowState {
 /// so do meshes on which element pressures have modes without a gradient. Throws NumericalError
 /// when the factorisation fails.
 template <int Dim>
-NodalFlowState<Dim> steady_flow(const NodalOperator<Dim>& op);
+NodalSteadyState<Dim> steady_flow(const NodalOperator<Dim>& op);
 
 }  // namespace suffuse

@@ -14,24 +14,24 @@ constexpr int looked_ahead = 4;
 /// Below this many elements a pass is over before other threads are awake.
 constexpr int worth_threads_of_points = 512;
 
-double sum(const Lanes& lanes) {
+double sum(const SimdDouble4& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
 /// Not returned: without registers that long, compilers would have it pass in different ways.
-void lower(Lanes& lowest, const Lanes& values) {
+void lower(SimdDouble4& lowest, const SimdDouble4& values) {
   lowest = values < lowest ? values : lowest;
 }
 
-bool any_at_or_below_zero(const Lanes& lanes) {
+bool any_at_or_below_zero(const SimdDouble4& lanes) {
   return std::min(std::min(lanes[0], lanes[1]), std::min(lanes[2], lanes[3])) <= 0.0;
 }
 
 /// All Dim + 1 barycentric coordinates of four points.
 template <int Dim>
-std::array<Lanes, Dim + 1> coordinates(const std::array<Lanes, Dim>& at) {
-  std::array<Lanes, Dim + 1> result;
-  result[Dim] = Lanes{} + 1.0;
+std::array<SimdDouble4, Dim + 1> coordinates(const std::array<SimdDouble4, Dim>& at) {
+  std::array<SimdDouble4, Dim + 1> result;
+  result[Dim] = SimdDouble4{} + 1.0;
   for (int a = 0; a < Dim; ++a) {
     result[a] = at[a];
     result[Dim] -= at[a];
@@ -95,20 +95,20 @@ void CarriedPoints<Dim>::gather(VectorField<Dim>& velocity, std::vector<double>&
 
 template <int Dim>
 void CarriedPoints<Dim>::gather_element(int element, double& pressure) {
-  std::array<Lanes, Dim + 1> mass{};
-  std::array<std::array<Lanes, Dim>, Dim + 1> momentum{};
-  Lanes volume{};
-  Lanes work{};
+  std::array<SimdDouble4, Dim + 1> mass{};
+  std::array<std::array<SimdDouble4, Dim>, Dim + 1> momentum{};
+  SimdDouble4 volume{};
+  SimdDouble4 work{};
   const double water_volume = 1.0 / densities_.water;
   const double grain_volume = 1.0 / densities_.grain;
   for (const PointQuad<Dim>& quad : std::as_const(blocks_).quads(element)) {
-    const std::array<Lanes, Dim + 1> at = coordinates<Dim>(quad.at);
+    const std::array<SimdDouble4, Dim + 1> at = coordinates<Dim>(quad.at);
     for (int a = 0; a <= Dim; ++a) {
-      const Lanes share = at[a] * (quad.water_mass + quad.fines_mass);
+      const SimdDouble4 share = at[a] * (quad.water_mass + quad.fines_mass);
       mass[a] += share;
       for (int d = 0; d < Dim; ++d) momentum[a][d] += share * quad.velocity[d];
     }
-    const Lanes v = quad.water_mass * water_volume + quad.fines_mass * grain_volume;
+    const SimdDouble4 v = quad.water_mass * water_volume + quad.fines_mass * grain_volume;
     volume += v;
     work += v * quad.pressure;
   }
@@ -154,8 +154,8 @@ void CarriedPoints<Dim>::pass_over(int element, const ElementStep& step,
   departures.leaving.clear();
   int slot = 0;
   for (PointQuad<Dim>& quad : blocks_.quads(element)) {
-    const std::array<Lanes, Dim> before = quad.at;
-    const std::array<Lanes, Dim + 1> at = coordinates<Dim>(before);
+    const std::array<SimdDouble4, Dim> before = quad.at;
+    const std::array<SimdDouble4, Dim + 1> at = coordinates<Dim>(before);
     for (int b = 0; b <= Dim; ++b) {
       for (int d = 0; d < Dim; ++d) {
         quad.velocity[d] += at[b] * step.gain[b][d];
@@ -163,20 +163,20 @@ void CarriedPoints<Dim>::pass_over(int element, const ElementStep& step,
       }
     }
     quad.pressure += step.pressure_gain;
-    Lanes lowest = coordinates<Dim>(quad.at)[Dim];
-    for (const Lanes& coordinate : quad.at) lower(lowest, coordinate);
+    SimdDouble4 lowest = coordinates<Dim>(quad.at)[Dim];
+    for (const SimdDouble4& coordinate : quad.at) lower(lowest, coordinate);
     if (any_at_or_below_zero(lowest)) {
-      for (int lane = 0; lane < lane_count; ++lane) {
+      for (int lane = 0; lane < simd_width; ++lane) {
         if (lowest[lane] <= 0.0) departures.leaving.push_back({slot + lane, before});
       }
     }
-    slot += lane_count;
+    slot += simd_width;
   }
   // From the last on: no point that stays takes the slot of one that is still to leave.
   for (auto gone = departures.leaving.rbegin(); gone != departures.leaving.rend(); ++gone) {
     if (gone->slot >= blocks_.count(element)) continue;
     CarriedPoint<Dim> point = blocks_.remove(element, gone->slot);
-    for (int a = 0; a < Dim; ++a) point.at[a] = gone->before[a][gone->slot % lane_count];
+    for (int a = 0; a < Dim; ++a) point.at[a] = gone->before[a][gone->slot % simd_width];
     send({element, all_coordinates<Dim>(point.at)}, point, grid_.mesh.element_region[element],
          field, duration, departures);
   }

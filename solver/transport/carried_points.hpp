@@ -76,7 +76,7 @@ class CarriedPoints {
   /// A point that leaves its element, and where the points beside it were before.
   struct Leaving {
     int slot;
-    std::array<Lanes, Dim> before;
+    std::array<SimdDouble4, Dim> before;
   };
   /// Who leaves the elements that one thread looks at together.
   struct Departures {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
-#include "parallel.hpp"
+#include "grid/parallel.hpp"
 
 namespace suffuse {
 namespace {

@@ -220,18 +220,18 @@ auto GrainTransfer<Dim>::transfer_on_the_way(const std::vector<double>& before,
                                              const std::vector<double>& after,
                                              const std::vector<double>& point_volume,
                                              LiquidPoints<Dim>& points,
-                                             std::vector<GrainTake<Dim>>& takes,
+                                             std::vector<FinesUptake<Dim>>& takes,
                                              std::vector<double>& pending) const -> Result {
   const Mesh<Dim>& mesh = grid_.mesh;
   std::vector<double> taken_in_element(mesh.element_count(), 0.0);
-  for (const GrainTake<Dim>& take : takes) taken_in_element[take.element] += take.own_volume;
+  for (const FinesUptake<Dim>& take : takes) taken_in_element[take.element] += take.own_volume;
   const auto stays_in_element = [&](int e) {
     return shares_by_element(e) && taken_in_element[e] > 0.0;
   };
   Result result;
   const Eroded eroded = collect(before, after, stays_in_element, pending, result);
   std::vector<double> taken(mesh.node_count(), 0.0);
-  for (const GrainTake<Dim>& take : takes) {
+  for (const FinesUptake<Dim>& take : takes) {
     if (stays_in_element(take.element)) continue;
     for (int a = 0; a <= Dim; ++a) {
       taken[mesh.elements[take.element][a]] += take.own_volume * take.barycentric[a];
@@ -246,7 +246,7 @@ auto GrainTransfer<Dim>::transfer_on_the_way(const std::vector<double>& before,
   };
   const Handout handout = compare(eroded.at_node, taken, rounds_of_ways, see, pending);
 
-  for (GrainTake<Dim>& take : takes) {
+  for (FinesUptake<Dim>& take : takes) {
     const int e = take.element;
     const double ratio = stays_in_element(e) ? eroded.in_element[e] / taken_in_element[e]
                                              : at_place(e, take.barycentric, handout.factor);

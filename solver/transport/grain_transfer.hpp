@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "solid/rigid_skeleton.hpp"
-#include "transport/grain_take.hpp"
+#include "transport/fines_uptake.hpp"
 #include "transport/liquid_points.hpp"
 #include "transport/point_blocks.hpp"
 
@@ -49,7 +49,7 @@ class GrainTransfer {
   /// `points`, in any order, are where they ended.
   Result transfer_on_the_way(const std::vector<double>& before, const std::vector<double>& after,
                              const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
-                             std::vector<GrainTake<Dim>>& takes,
+                             std::vector<FinesUptake<Dim>>& takes,
                              std::vector<double>& pending) const;
 
  private:

@@ -67,7 +67,7 @@ double share_along(double at_begin, double at_end, double u) {
 template <int Dim>
 LagrangianTransport<Dim>::LagrangianTransport(const Grid<Dim>& grid,
                                               const std::vector<FaceCondition>& conditions,
-                                              BirthSettings births, LiquidDensities densities,
+                                              InjectionSettings births, LiquidDensities densities,
                                               double bulk_modulus, int threads)
     : grid_(grid),
       conditions_(conditions),
@@ -82,8 +82,8 @@ LagrangianTransport<Dim>::LagrangianTransport(const Grid<Dim>& grid,
 }
 
 template <int Dim>
-Entering LagrangianTransport<Dim>::nothing_entered(long next_id) const {
-  Entering entering;
+InflowAccount LagrangianTransport<Dim>::nothing_entered(long next_id) const {
+  InflowAccount entering;
   entering.next_id = next_id;
   entering.born.assign(grid_.face_count(), 0);
   entering.volume.assign(grid_.face_count(), 0.0);
@@ -152,8 +152,8 @@ double LagrangianTransport<Dim>::volumes_at_birth(int face, long number) const {
 }
 
 template <int Dim>
-void LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim>& motion,
-                                      std::vector<Newborn<Dim>>& born) const {
+void LagrangianTransport<Dim>::births(InflowAccount& entering, const LiquidMotion<Dim>& motion,
+                                      std::vector<InjectedPoint<Dim>>& born) const {
   for (const int f : open_faces_) {
     const double inflow = -motion.entered[f];
     const double before = entering.volume[f];
@@ -181,14 +181,14 @@ void LagrangianTransport<Dim>::births(Entering& entering, const LiquidMotion<Dim
       ++entering.born[f];
     }
   }
-  std::ranges::sort(born, {}, [](const Newborn<Dim>& newborn) {
+  std::ranges::sort(born, {}, [](const InjectedPoint<Dim>& newborn) {
     return std::tuple(newborn.share, newborn.face, newborn.number);
   });
 }
 
 template <int Dim>
-auto LagrangianTransport<Dim>::content(const Newborn<Dim>& newborn, double element_pressure) const
-    -> Content {
+auto LagrangianTransport<Dim>::content(const InjectedPoint<Dim>& newborn,
+                                       double element_pressure) const -> Content {
   const double concentration = conditions_[newborn.face].concentration;
   const double volume = births_.point_volume[newborn.face];
   const double ratio = density_ratio(element_pressure, bulk_modulus_);
@@ -197,8 +197,8 @@ auto LagrangianTransport<Dim>::content(const Newborn<Dim>& newborn, double eleme
 }
 
 template <int Dim>
-void LagrangianTransport<Dim>::admit(LiquidPoints<Dim>& points, Entering& entering,
-                                     const Newborn<Dim>& newborn,
+void LagrangianTransport<Dim>::admit(LiquidPoints<Dim>& points, InflowAccount& entering,
+                                     const InjectedPoint<Dim>& newborn,
                                      const std::vector<double>& element_pressure) const {
   const int e = newborn.place.element;
   const Content carried = content(newborn, element_pressure[e]);
@@ -211,7 +211,7 @@ void LagrangianTransport<Dim>::admit(LiquidPoints<Dim>& points, Entering& enteri
 
 template <int Dim>
 std::vector<PointCrossing> LagrangianTransport<Dim>::move(
-    LiquidPoints<Dim>& points, Entering& entering, const LiquidMotion<Dim>& motion,
+    LiquidPoints<Dim>& points, InflowAccount& entering, const LiquidMotion<Dim>& motion,
     const std::vector<double>& porosity, const std::vector<double>& element_pressure,
     const std::vector<Vector<Dim>>& node_velocity) const {
   std::vector<PointCrossing> crossings;
@@ -221,9 +221,9 @@ std::vector<PointCrossing> LagrangianTransport<Dim>::move(
   for (int p = 0; p < old_points; ++p) from[p] = region[points.element[p]];
   std::vector<double> walk_time(old_points, motion.duration);
 
-  std::vector<Newborn<Dim>> born;
+  std::vector<InjectedPoint<Dim>> born;
   births(entering, motion, born);
-  for (const Newborn<Dim>& newborn : born) {
+  for (const InjectedPoint<Dim>& newborn : born) {
     admit(points, entering, newborn, element_pressure);
     if (!node_velocity.empty()) {
       const int e = newborn.place.element;
@@ -277,7 +277,7 @@ std::vector<PointCrossing> LagrangianTransport<Dim>::move(
 
 template <int Dim>
 WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
-    LiquidPoints<Dim>& points, Entering& entering, const LiquidMotion<Dim>& motion,
+    LiquidPoints<Dim>& points, InflowAccount& entering, const LiquidMotion<Dim>& motion,
     const std::vector<double>& porosity_begin, const std::vector<double>& porosity_end,
     const std::vector<double>& element_pressure) const {
   WalkedPoints<Dim> walked;
@@ -285,9 +285,9 @@ WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
   walked.from.reserve(points.element.size());
   for (const int e : points.element) walked.from.push_back(region[e]);
   std::vector<double> begin(points.size(), 0.0);
-  std::vector<Newborn<Dim>> born;
+  std::vector<InjectedPoint<Dim>> born;
   births(entering, motion, born);
-  for (const Newborn<Dim>& newborn : born) {
+  for (const InjectedPoint<Dim>& newborn : born) {
     admit(points, entering, newborn, element_pressure);
     walked.from.push_back(-1);
     begin.push_back(newborn.share);
@@ -299,7 +299,7 @@ WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
   walked.left_by.assign(count, -1);
   // One list for each block of points: their order does not depend on the threads.
   const int blocks = (count + walked_together - 1) / walked_together;
-  std::vector<std::vector<GrainTake<Dim>>> takes(blocks);
+  std::vector<std::vector<FinesUptake<Dim>>> takes(blocks);
   std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic) num_threads(threads_) if (blocks > 4)
   for (int block = 0; block < blocks; ++block) {
@@ -343,12 +343,12 @@ WalkedPoints<Dim> LagrangianTransport<Dim>::follow(
 
 template <int Dim>
 std::vector<PointCrossing> LagrangianTransport<Dim>::settle(LiquidPoints<Dim>& points,
-                                                            Entering& entering,
+                                                            InflowAccount& entering,
                                                             const WalkedPoints<Dim>& walked) const {
   const auto& region = grid_.mesh.element_region;
   const int count = points.size();
   std::vector<double> carried = walked.grains;
-  for (const GrainTake<Dim>& take : walked.takes) {
+  for (const FinesUptake<Dim>& take : walked.takes) {
     if (take.region == walked.from[take.point]) carried[take.point] += take.mass;
   }
   std::vector<PointCrossing> crossings;

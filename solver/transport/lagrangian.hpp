@@ -5,13 +5,13 @@
 
 #include "flow/face_conditions.hpp"
 #include "grid/face_walk.hpp"
-#include "transport/grain_take.hpp"
+#include "transport/fines_uptake.hpp"
 #include "transport/liquid_points.hpp"
 
 namespace suffuse {
 
 /// Liquid at the outer boundary, between volumes that flow and points that are whole.
-struct Entering {
+struct InflowAccount {
   /// Per face: what flowed in, less the points born of it, plus the points that left, m3. Once it
   /// is a point's volume and the flow is inward, a point is born.
   std::vector<double> volume;
@@ -48,12 +48,12 @@ struct WalkedPoints {
   std::vector<int> from;       ///< region at the beginning, -1: outside
   std::vector<int> left_by;    ///< outer face, -1: none
   std::vector<double> grains;  ///< of each point before it took any, kg
-  std::vector<GrainTake<Dim>> takes;
+  std::vector<FinesUptake<Dim>> takes;
 };
 
 /// A point that comes in.
 template <int Dim>
-struct Newborn {
+struct InjectedPoint {
   PointPlace<Dim> place;
   int face;
   long number;   ///< among the points of its face
@@ -61,7 +61,7 @@ struct Newborn {
 };
 
 /// How new points are spread over the liquid that enters.
-struct BirthSettings {
+struct InjectionSettings {
   std::vector<double> point_volume;  ///< per face: liquid volume of one point, m3
   /// Per face: points that fill the element behind it.
   std::vector<int> points_per_element;
@@ -74,11 +74,11 @@ template <int Dim>
 class LagrangianTransport {
  public:
   LagrangianTransport(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
-                      BirthSettings births, LiquidDensities densities, double bulk_modulus,
+                      InjectionSettings births, LiquidDensities densities, double bulk_modulus,
                       int threads);
 
   /// The state of `entering` before anything came in. Faces take turns.
-  [[nodiscard]] Entering nothing_entered(long next_id) const;
+  [[nodiscard]] InflowAccount nothing_entered(long next_id) const;
 
   /// Outer faces that are not impervious, ascending: where points come in and leave.
   [[nodiscard]] const std::vector<int>& open_faces() const { return open_faces_; }
@@ -86,15 +86,15 @@ class LagrangianTransport {
 
   /// Puts into `born` the points whose volume has come in, in the order in which it was complete: a
   /// look at part of the interval numbers them the same.
-  void births(Entering& entering, const LiquidMotion<Dim>& motion,
-              std::vector<Newborn<Dim>>& born) const;
+  void births(InflowAccount& entering, const LiquidMotion<Dim>& motion,
+              std::vector<InjectedPoint<Dim>>& born) const;
   /// What a point brings along: the concentration of its boundary, and the water that its element's
   /// pressure packs into its volume.
   struct Content {
     double water_mass;  ///< kg
     double fines_mass;  ///< kg
   };
-  [[nodiscard]] Content content(const Newborn<Dim>& newborn, double element_pressure) const;
+  [[nodiscard]] Content content(const InjectedPoint<Dim>& newborn, double element_pressure) const;
 
   /// Share of the motion after which erosion and transport must take turns: when some point may
   /// have crossed a quarter of an element by node fluxes, a whole one by face volumes.
@@ -105,7 +105,7 @@ class LagrangianTransport {
   /// points carry the concentration of their boundary, the water that
   /// their element's pressure packs into their volume, and, where points carry the flow, the
   /// pressure of their element and the velocity of its nodes. Returns who changed region.
-  std::vector<PointCrossing> move(LiquidPoints<Dim>& points, Entering& entering,
+  std::vector<PointCrossing> move(LiquidPoints<Dim>& points, InflowAccount& entering,
                                   const LiquidMotion<Dim>& motion,
                                   const std::vector<double>& porosity,
                                   const std::vector<double>& element_pressure,
@@ -114,7 +114,7 @@ class LagrangianTransport {
   /// Moves every point along the face volumes, new ones from the moment at which they come in, and
   /// those that leave until then, while porosity goes from `porosity_begin` to `porosity_end`
   /// (per element). Tells what each takes up on its way; nothing is handed out yet.
-  WalkedPoints<Dim> follow(LiquidPoints<Dim>& points, Entering& entering,
+  WalkedPoints<Dim> follow(LiquidPoints<Dim>& points, InflowAccount& entering,
                            const LiquidMotion<Dim>& motion,
                            const std::vector<double>& porosity_begin,
                            const std::vector<double>& porosity_end,
@@ -124,7 +124,7 @@ class LagrangianTransport {
   /// Returns who changed region. What a point took in the region that it came from it carries
   /// across, the rest it receives where it goes; one that leaves the model first crosses into its
   /// last region.
-  std::vector<PointCrossing> settle(LiquidPoints<Dim>& points, Entering& entering,
+  std::vector<PointCrossing> settle(LiquidPoints<Dim>& points, InflowAccount& entering,
                                     const WalkedPoints<Dim>& walked) const;
 
  private:
@@ -136,12 +136,12 @@ class LagrangianTransport {
   [[nodiscard]] double volumes_at_birth(int face, long number) const;
   [[nodiscard]] PointPlace<Dim> place_on_face(int face, long number,
                                               const LiquidMotion<Dim>& motion) const;
-  void admit(LiquidPoints<Dim>& points, Entering& entering, const Newborn<Dim>& newborn,
+  void admit(LiquidPoints<Dim>& points, InflowAccount& entering, const InjectedPoint<Dim>& newborn,
              const std::vector<double>& element_pressure) const;
 
   const Grid<Dim>& grid_;
   const std::vector<FaceCondition>& conditions_;
-  BirthSettings births_;
+  InjectionSettings births_;
   std::vector<unsigned char> open_face_;
   std::vector<int> open_faces_;
   LiquidDensities densities_;

@@ -25,7 +25,7 @@ void PointBlocks<Dim>::fill(const LiquidPoints<Dim>& points, int element_count) 
   quads_.resize(quads);
   notes_.resize(quads);
   for (int e = 0; e < element_count; ++e) {
-    for (int slot = 0; slot < lane_count * blocks_[e].capacity; ++slot) clear(e, slot);
+    for (int slot = 0; slot < simd_width * blocks_[e].capacity; ++slot) clear(e, slot);
   }
   for (int p = 0; p < points.size(); ++p) {
     CarriedPoint<Dim> point;
@@ -67,8 +67,8 @@ int PointBlocks<Dim>::size() const {
 
 template <int Dim>
 CarriedPoint<Dim> PointBlocks<Dim>::point(int element, int slot) const {
-  const std::size_t q = blocks_[element].first + slot / lane_count;
-  const int lane = slot % lane_count;
+  const std::size_t q = blocks_[element].first + slot / simd_width;
+  const int lane = slot % simd_width;
   const PointQuad<Dim>& quad = quads_[q];
   CarriedPoint<Dim> point;
   for (int d = 0; d < Dim; ++d) {
@@ -85,8 +85,8 @@ CarriedPoint<Dim> PointBlocks<Dim>::point(int element, int slot) const {
 
 template <int Dim>
 void PointBlocks<Dim>::put(int element, int slot, const CarriedPoint<Dim>& point) {
-  const std::size_t q = blocks_[element].first + slot / lane_count;
-  const int lane = slot % lane_count;
+  const std::size_t q = blocks_[element].first + slot / simd_width;
+  const int lane = slot % simd_width;
   PointQuad<Dim>& quad = quads_[q];
   for (int d = 0; d < Dim; ++d) {
     quad.at[d][lane] = point.at[d];
@@ -112,7 +112,7 @@ void PointBlocks<Dim>::clear(int element, int slot) {
 template <int Dim>
 void PointBlocks<Dim>::note_fines() {
   for (std::size_t q = 0; q < quads_.size(); ++q) {
-    for (int lane = 0; lane < lane_count; ++lane) {
+    for (int lane = 0; lane < simd_width; ++lane) {
       notes_[q].fines_noted[lane] = quads_[q].fines_mass[lane];
     }
   }
@@ -130,7 +130,7 @@ CarriedPoint<Dim> PointBlocks<Dim>::remove(int element, int slot) {
 template <int Dim>
 bool PointBlocks<Dim>::add(int element, const CarriedPoint<Dim>& point) {
   Block& block = blocks_[element];
-  if (block.count == lane_count * block.capacity) return false;
+  if (block.count == simd_width * block.capacity) return false;
   put(element, block.count++, point);
   return true;
 }
@@ -138,7 +138,7 @@ bool PointBlocks<Dim>::add(int element, const CarriedPoint<Dim>& point) {
 template <int Dim>
 void PointBlocks<Dim>::add_growing(int element, const CarriedPoint<Dim>& point) {
   Block& block = blocks_[element];
-  if (block.count == lane_count * block.capacity) grow(block);
+  if (block.count == simd_width * block.capacity) grow(block);
   put(element, block.count++, point);
 }
 
@@ -152,7 +152,7 @@ void PointBlocks<Dim>::grow(Block& block) {
   block.first = first;
   ++block.capacity;
   const auto element = static_cast<int>(&block - blocks_.data());
-  for (int slot = block.count; slot < lane_count * block.capacity; ++slot) clear(element, slot);
+  for (int slot = block.count; slot < simd_width * block.capacity; ++slot) clear(element, slot);
 }
 
 template <int Dim>
@@ -171,9 +171,9 @@ std::size_t PointBlocks<Dim>::allocate(int capacity) {
 template <int Dim>
 void PointBlocks<Dim>::recentre_empty(int element) {
   const Block& block = blocks_[element];
-  for (int slot = block.count; slot % lane_count != 0; ++slot) {
-    for (Lanes& at : quads_[block.first + slot / lane_count].at) {
-      at[slot % lane_count] = 1.0 / (Dim + 1);
+  for (int slot = block.count; slot % simd_width != 0; ++slot) {
+    for (SimdDouble4& at : quads_[block.first + slot / simd_width].at) {
+      at[slot % simd_width] = 1.0 / (Dim + 1);
     }
   }
 }

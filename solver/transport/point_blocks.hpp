@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "flow/lanes.hpp"
+#include "grid/simd.hpp"
 #include "transport/liquid_points.hpp"
 
 namespace suffuse {
@@ -17,11 +17,11 @@ namespace suffuse {
 template <int Dim>
 struct PointQuad {
   static constexpr bool has_no_gaps = true;  ///< see StateArchive
-  std::array<Lanes, Dim> at;                 ///< barycentric coordinates but for the last
-  std::array<Lanes, Dim> velocity;           ///< m/s
-  Lanes pressure;                            ///< Pa
-  Lanes water_mass;                          ///< kg
-  Lanes fines_mass;                          ///< kg
+  std::array<SimdDouble4, Dim> at;           ///< barycentric coordinates but for the last
+  std::array<SimdDouble4, Dim> velocity;     ///< m/s
+  SimdDouble4 pressure;                      ///< Pa
+  SimdDouble4 water_mass;                    ///< kg
+  SimdDouble4 fines_mass;                    ///< kg
 };
 
 /// One point by itself.
@@ -77,18 +77,18 @@ class PointBlocks {
   [[nodiscard]] CarriedPoint<Dim> point(int element, int slot) const;
 
   [[nodiscard]] double water_mass(int element, int slot) const {
-    return quad(element, slot).water_mass[slot % lane_count];
+    return quad(element, slot).water_mass[slot % simd_width];
   }
   [[nodiscard]] double fines_mass(int element, int slot) const {
-    return quad(element, slot).fines_mass[slot % lane_count];
+    return quad(element, slot).fines_mass[slot % simd_width];
   }
   [[nodiscard]] std::array<double, Dim + 1> barycentric(int element, int slot) const {
     std::array<double, Dim> at;
-    for (int a = 0; a < Dim; ++a) at[a] = quad(element, slot).at[a][slot % lane_count];
+    for (int a = 0; a < Dim; ++a) at[a] = quad(element, slot).at[a][slot % simd_width];
     return all_coordinates<Dim>(at);
   }
   void add_fines(int element, int slot, double mass) {
-    quads_[blocks_[element].first + slot / lane_count].fines_mass[slot % lane_count] += mass;
+    quads_[blocks_[element].first + slot / simd_width].fines_mass[slot % simd_width] += mass;
   }
 
   /// Keeps the fines of each point as they are now beside those that change.
@@ -115,14 +115,14 @@ class PointBlocks {
   /// What no pass over the points looks at.
   struct Notes {
     static constexpr bool has_no_gaps = true;
-    std::array<double, lane_count> fines_noted;
-    std::array<long, lane_count> id;
+    std::array<double, simd_width> fines_noted;
+    std::array<long, simd_width> id;
   };
   [[nodiscard]] const PointQuad<Dim>& quad(int element, int slot) const {
-    return quads_[blocks_[element].first + slot / lane_count];
+    return quads_[blocks_[element].first + slot / simd_width];
   }
   static std::size_t quads_of(int count) {
-    return static_cast<std::size_t>((count + lane_count - 1) / lane_count);
+    return static_cast<std::size_t>((count + simd_width - 1) / simd_width);
   }
   void put(int element, int slot, const CarriedPoint<Dim>& point);
   void clear(int element, int slot);

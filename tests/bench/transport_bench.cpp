@@ -5,7 +5,7 @@
 
 #include "bench/bench.hpp"
 #include "flow/implicit_mixed.hpp"
-#include "flow/packed_factor.hpp"
+#include "linear/supernodal_factor.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
 #include "transport/eulerian.hpp"
@@ -167,7 +167,7 @@ void Order(benchmark::State& bench) {
   const ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))), 1);
   const Eigen::SparseMatrix<double> matrix = column.matrix();
   for ([[maybe_unused]] const auto step : bench) {
-    PackedFactor::Ldlt factor;
+    SupernodalFactor::Ldlt factor;
     factor.analyzePattern(matrix);
   }
 }
@@ -181,9 +181,9 @@ BENCHMARK(Order)
 void Factor(benchmark::State& bench) {
   const ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))), 1);
   const Eigen::SparseMatrix<double> matrix = column.matrix();
-  PackedFactor::Ldlt factor;
+  SupernodalFactor::Ldlt factor;
   factor.analyzePattern(matrix);
-  PackedFactor packed(1);
+  SupernodalFactor packed(1);
   for ([[maybe_unused]] const auto step : bench) {
     factor.factorize(matrix);
     packed.take(factor);
@@ -199,8 +199,8 @@ BENCHMARK(Factor)
 void Solve(benchmark::State& bench) {
   const auto threads = static_cast<int>(bench.range(1));
   const ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))), 1);
-  const PackedFactor::Ldlt factor(column.matrix());
-  PackedFactor packed(threads);
+  const SupernodalFactor::Ldlt factor(column.matrix());
+  SupernodalFactor packed(threads);
   packed.take(factor);
   const Eigen::VectorXd rhs = Eigen::VectorXd::Random(column.grid.face_count());
   Eigen::VectorXd x;

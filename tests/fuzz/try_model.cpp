@@ -1,10 +1,10 @@
 #include "case/case_file.hpp"
-#include "double_point.hpp"
+#include "driver/plan.hpp"
+#include "driver/step_loop.hpp"
 #include "edited_files.hpp"
-#include "plan.hpp"
+#include "formulation/double_point.hpp"
+#include "formulation/single_point.hpp"
 #include "refusal.hpp"
-#include "single_point.hpp"
-#include "step_loop.hpp"
 #include "targets.hpp"
 
 namespace suffuse::fuzz {

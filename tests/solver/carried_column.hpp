@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "carried_liquid.hpp"
+#include "driver/plan.hpp"
 #include "grid/compensated_sum.hpp"
-#include "plan.hpp"
 #include "solver/double_point_case.hpp"
+#include "transport/carried_liquid.hpp"
 
 namespace suffuse::model {
 
@@ -51,7 +51,7 @@ class Column {
                    c.document.scene.liquid.bulk_modulus, threads),
         entering_(transport_.nothing_entered(c.liquid_points.size())),
         liquid_(grid_, flow_, transport_, densities_, threads, entering_) {
-    PoreContent pores;
+    PoreState pores;
     for (const auto& volume : skeleton_.initial_pore_volume()) {
       pores.water_volume.push_back(element_sum<2>(volume));
     }
@@ -104,10 +104,10 @@ class Column {
 
   [[nodiscard]] LiquidPoints<2> points() const { return liquid_.blocks().points(false); }
   [[nodiscard]] const Grid<2>& grid() const { return grid_; }
-  [[nodiscard]] NodalFlow<2>& flow() { return flow_; }
+  [[nodiscard]] ExplicitFlow<2>& flow() { return flow_; }
   [[nodiscard]] const LagrangianTransport<2>& transport() const { return transport_; }
   [[nodiscard]] const std::vector<double>& porosity() const { return porosity_; }
-  [[nodiscard]] const Entering& entering() const { return entering_; }
+  [[nodiscard]] const InflowAccount& entering() const { return entering_; }
   [[nodiscard]] const CarriedLiquid<2>& liquid() const { return liquid_; }
 
   static constexpr LiquidDensities densities_{1000.0, 2700.0};
@@ -117,14 +117,14 @@ class Column {
   long count = 0;
 
  private:
-  [[nodiscard]] BirthSettings births() const {
+  [[nodiscard]] InjectionSettings births() const {
     std::vector<double> volume(grid_.mesh.element_count(), 0.0);
     std::vector<int> points(grid_.mesh.element_count(), 0);
     for (int p = 0; p < case_.liquid_points.size(); ++p) {
       volume[case_.liquid_points.element[p]] += case_.liquid_points.volume[p];
       ++points[case_.liquid_points.element[p]];
     }
-    BirthSettings result;
+    InjectionSettings result;
     for (const int e : grid_.face_left) {
       result.point_volume.push_back(volume[e] / points[e]);
       result.points_per_element.push_back(points[e]);
@@ -136,9 +136,9 @@ class Column {
   Plan plan_;
   Grid<2> grid_;
   RigidSkeleton<2> skeleton_;
-  NodalFlow<2> flow_;
+  ExplicitFlow<2> flow_;
   LagrangianTransport<2> transport_;
-  Entering entering_;
+  InflowAccount entering_;
   CarriedLiquid<2> liquid_;
   std::vector<double> porosity_;
 };

@@ -77,7 +77,7 @@ class PlainLiquid {
   std::map<std::pair<int, int>, double> crossed;
 
  private:
-  Entering entering_;
+  InflowAccount entering_;
 };
 
 /// Index of each point by its id.
@@ -263,7 +263,7 @@ TEST(PointBlocks, ALastPointTakesTheSlotOfOneThatLeaves) {
   EXPECT_EQ(gone.velocity, Vector<2>(0.4, 0.5));
   EXPECT_EQ(blocks.points(false).id, (std::vector<long>{102, 101, 103}));
   for (const PointQuad<2>& quad : blocks.quads(0)) {
-    for (int lane = 2; lane < lane_count; ++lane) {
+    for (int lane = 2; lane < simd_width; ++lane) {
       EXPECT_EQ(quad.water_mass[lane], 0.0);
       EXPECT_EQ(quad.fines_mass[lane], 0.0);
     }

@@ -1,4 +1,4 @@
-#include "estimate.hpp"
+#include "driver/estimate.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
+#include "driver/output_schedule.hpp"
+#include "driver/run.hpp"
 #include "mesher/temporary_folder.hpp"
-#include "output_times.hpp"
-#include "run.hpp"
 #include "solver/double_point_case.hpp"
 
 namespace suffuse {

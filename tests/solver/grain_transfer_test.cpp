@@ -197,8 +197,8 @@ TEST(GrainTransfer, AnEmptyElementGivesToItsNeighbours) {
 }
 
 /// Takes of points that stayed where they are.
-std::vector<GrainTake<2>> takes_in_place(const TransferCase& c, double growth) {
-  std::vector<GrainTake<2>> takes;
+std::vector<FinesUptake<2>> takes_in_place(const TransferCase& c, double growth) {
+  std::vector<FinesUptake<2>> takes;
   const std::vector<double> volume = c.volumes();
   takes.reserve(volume.size());
   for (int p = 0; p < c.points.size(); ++p) {
@@ -215,7 +215,7 @@ TEST(GrainTransfer, OnTheWayEachTakeGetsItsOwnTimesACommonFactor) {
   for (double& n : after) n += 1e-3;
   const auto result =
       c.transfer.transfer_on_the_way(c.before, after, c.volumes(), c.points, takes, c.pending);
-  for (const GrainTake<2>& take : takes) {
+  for (const FinesUptake<2>& take : takes) {
     EXPECT_NEAR(take.mass / (grain_density * take.own_volume), 2.0, 1e-12);
     EXPECT_EQ(c.points.fines_mass[take.point], take.mass);
   }
@@ -234,7 +234,7 @@ TEST(GrainTransfer, OnTheWayNothingIsLost) {
     }
     // Only some points took anything, and by far not what eroded.
     auto takes = takes_in_place(c, 1e-4);
-    std::erase_if(takes, [&](const GrainTake<2>& take) {
+    std::erase_if(takes, [&](const FinesUptake<2>& take) {
       return take.point % 2 == 0 || growth(take.element) == 0.0;
     });
     const auto result =
@@ -244,8 +244,8 @@ TEST(GrainTransfer, OnTheWayNothingIsLost) {
     if (way == MassTransfer::nodal) continue;
     // By element: what it eroded, as long as anyone took grains there.
     std::vector<double> of_element(c.input.mesh.element_count(), 0.0);
-    for (const GrainTake<2>& take : takes) of_element[take.element] += take.mass;
-    for (const GrainTake<2>& take : takes) {
+    for (const FinesUptake<2>& take : takes) of_element[take.element] += take.mass;
+    for (const FinesUptake<2>& take : takes) {
       const int e = take.element;
       EXPECT_NEAR(of_element[e], grain_density * c.volume_of(e) * growth(e), 1e-14);
     }
@@ -256,7 +256,7 @@ TEST(GrainTransfer, OnTheWayGrainsThatNobodyTookGoToPointsNear) {
   TransferCase c(MassTransfer::nodal, Seeding::low_discrepancy, 3, 0.0);
   std::vector<double> after = c.before;
   for (double& n : after) n += 1e-3;
-  std::vector<GrainTake<2>> none;
+  std::vector<FinesUptake<2>> none;
   c.transfer.transfer_on_the_way(c.before, after, c.volumes(), c.points, none, c.pending);
   EXPECT_NEAR(c.fines(), grain_density * 1e-3, 1e-13);
   EXPECT_EQ(c.pending_mass(), 0.0);

@@ -49,14 +49,14 @@ struct Column {
   Column& operator=(const Column&) = delete;
   ~Column() = default;
 
-  [[nodiscard]] BirthSettings births() const {
+  [[nodiscard]] InjectionSettings births() const {
     std::vector<double> volume(input.mesh.element_count(), 0.0);
     std::vector<int> count(input.mesh.element_count(), 0);
     for (int p = 0; p < input.liquid_points.size(); ++p) {
       volume[input.liquid_points.element[p]] += input.liquid_points.volume[p];
       ++count[input.liquid_points.element[p]];
     }
-    BirthSettings result;
+    InjectionSettings result;
     for (const int e : grid.face_left) {
       result.point_volume.push_back(volume[e] / count[e]);
       result.points_per_element.push_back(count[e]);
@@ -178,7 +178,7 @@ struct Column {
   std::vector<double> porosity;
   std::vector<double> pending;
   LiquidPoints<2> liquid;
-  Entering entering;
+  InflowAccount entering;
   double time = 0.0;
   double eroded = 0.0;
   double fines_in = 0.0;

@@ -1,4 +1,4 @@
-#include "plan.hpp"
+#include "driver/plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "mesher/temporary_folder.hpp"
 #include "results/layout.hpp"
-#include "state_archive.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 namespace {

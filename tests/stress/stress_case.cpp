@@ -5,7 +5,7 @@
 
 #include "case/consistency.hpp"
 #include "case/errors.hpp"
-#include "plan.hpp"
+#include "driver/plan.hpp"
 #include "seeding.hpp"
 
 namespace suffuse::stress {

@@ -28,7 +28,7 @@ double exact_mean_velocity(const Knots& pressure, double tau, double t) {
   return u;
 }
 
-double mean_velocity(const Case<2>& c, const FlowMoment<2>& flow) {
+double mean_velocity(const Case<2>& c, const FlowState<2>& flow) {
   const Grid<2> grid(c.mesh);
   double sum = 0.0;
   for (std::size_t i = 0; i < flow.velocity.size(); ++i) {
@@ -49,7 +49,7 @@ TEST(BoundaryPressure, BoundsPressuresUntilTheEnd) {
   scene.boundaries[0].pressure = TimeFunction(Knots{{0.0, 6000.0}, {10.0, -6000.0}});
   model::ModelRun run(model::make_case(model::column_mesh(2, 4), scene));
   const auto moments = run.run({5.0, 7.5, 10.0});
-  for (const FlowMoment<2>& flow : moments.flows) EXPECT_LE(flow.pressure_overshoot, 1e-10);
+  for (const FlowState<2>& flow : moments.flows) EXPECT_LE(flow.pressure_overshoot, 1e-10);
 }
 
 /// Rest, a ramp within three times the time in which the flow settles, a jump down, and on.

@@ -27,7 +27,7 @@ double fastest(Mesh<2> mesh, const Scene& scene) {
   model::DoublePointRun run(model::make_double_point_case(std::move(mesh), scene));
   const auto moments = run.run({0.25, 0.5, 0.75, 1.0});
   double speed = 0.0;
-  for (const FlowMoment<2>& flow : moments.flows) {
+  for (const FlowState<2>& flow : moments.flows) {
     for (const Vector<2>& v : flow.velocity) speed = std::max(speed, v.norm());
   }
   return speed;

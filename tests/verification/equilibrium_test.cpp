@@ -82,7 +82,7 @@ TEST_P(HydrostaticRest, StaysAtRestOnAnUnstructuredMeshWithTwoPorosities) {
   GetParam().apply(scene);
   model::ModelRun run(model::make_case(two_soils_free_mesh(0.12), scene));
   const Mesh<2>& mesh = run.input().mesh;
-  const FlowMoment<2> begin = run.model().moment();
+  const FlowState<2> begin = run.model().moment();
   for (int e = 0; e < mesh.element_count(); ++e) {
     const double depth = 1.0 - element_centroid(mesh, e)[1];
     EXPECT_NEAR(begin.pressure[e], 9810.0 * depth, 1e-6) << "the steady state is hydrostatic";

@@ -22,7 +22,7 @@ struct Fluxes {
 template <class Run>
 Fluxes fluxes_of(Case<2> c) {
   Run run(std::move(c));
-  const auto flux = [&](const auto& state, const FlowMoment<2>& moment) {
+  const auto flux = [&](const auto& state, const FlowState<2>& moment) {
     return run.model().history_row(state, moment);
   };
   Fluxes result;

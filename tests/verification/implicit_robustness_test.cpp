@@ -120,7 +120,7 @@ void runs_to_its_end(Formulation formulation) {
   hard.change(scene);
   Run run(case_of(scene));
   const auto moments = run.run({1.0, 5.0, 12.0, 21.0, scene.time.end});
-  for (const FlowMoment<2>& flow : moments.flows) {
+  for (const FlowState<2>& flow : moments.flows) {
     for (const double q : flow.face_flux) ASSERT_TRUE(std::isfinite(q));
   }
   for (const double n : moments.states.back().porosity) EXPECT_LE(n, 0.4 + 1e-12);

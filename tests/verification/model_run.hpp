@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "double_point.hpp"
-#include "single_point.hpp"
+#include "formulation/double_point.hpp"
+#include "formulation/single_point.hpp"
 #include "solver/double_point_case.hpp"
 
 namespace suffuse::model {
@@ -22,7 +22,7 @@ class FormulationRun {
   /// State and flow at each of `times` (ascending).
   struct Moments {
     std::vector<typename Model<2>::State> states;
-    std::vector<FlowMoment<2>> flows;
+    std::vector<FlowState<2>> flows;
   };
   Moments run(const std::vector<double>& times) {
     Moments result;

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "driver/run.hpp"
 #include "geometry.hpp"
 #include "model_run.hpp"
 #include "reference_table.hpp"
 #include "results/reader.hpp"
-#include "run.hpp"
 
 namespace suffuse {
 namespace {

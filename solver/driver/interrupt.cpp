@@ -1,0 +1,29 @@
+#include "driver/interrupt.hpp"
+
+#include <csignal>
+
+namespace suffuse {
+namespace {
+
+volatile std::sig_atomic_t requested = 0;
+void request(int) {
+  requested = 1;
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  requested = 0;
+  std::signal(SIGINT, request);
+  std::signal(SIGTERM, request);
+  // Who ignores it, as nohup does, means it.
+  if (std::signal(SIGHUP, request) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  // Nobody reads the messages any more: no reason to end a run.
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool interrupted() {
+  return requested != 0;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,35 @@
+#include "driver/memory.hpp"
+
+#include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <fstream>
+#include <string>
+
+namespace suffuse {
+
+double peak_memory() {
+  constexpr double kilobyte = 1024.0;
+  // getrusage also counts what the process was before it became this program, a large shell or
+  // test runner for instance; the kernel's own note of this program's memory does not.
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double kilobytes = 0.0;
+    if (word == "VmHWM:" && status >> kilobytes) return kilobyte * kilobytes;
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return kilobyte * static_cast<double>(usage.ru_maxrss);
+}
+
+void give_memory_back() {
+#ifdef __GLIBC__
+  constexpr int large = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, large);
+  mallopt(M_TRIM_THRESHOLD, 4 * large);
+#endif
+}
+
+}  // namespace suffuse

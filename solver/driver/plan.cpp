@@ -1,0 +1,377 @@
+#include "driver/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "flow/nodal_operator.hpp"
+#include "physics/drag.hpp"
+#include "physics/liquid.hpp"
+#include "results/number_text.hpp"
+#include "solid/rigid_skeleton.hpp"
+
+namespace suffuse {
+namespace {
+
+double largest_inflow_concentration(const Scene& scene) {
+  double largest = 0.0;
+  for (const BoundaryCondition& b : scene.boundaries) {
+    if (b.concentration) largest = std::max(largest, b.concentration->largest());
+  }
+  return largest;
+}
+
+/// Coefficients at which the stability limit is smallest: porosity as it will be at the end, water
+/// fraction at its least. Erosion swaps solid for grains in the liquid, so where a soil erodes n_w
+/// stays at its initial value; a soil that does not erode can fill with the richest liquid there
+/// is, but need not: `with_richest_liquid` says whether it counts.
+template <int Dim>
+FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& grid,
+                                         const RigidSkeleton<Dim>& skeleton,
+                                         bool with_richest_liquid) {
+  const Scene& scene = c.document.scene;
+  const int elements = grid.mesh.element_count();
+  const std::vector<double> final_porosity = skeleton.porosity_after(
+      skeleton.initial_porosity(), 0.0, scene.time.end,
+      std::vector<double>(skeleton.points().size(), std::numeric_limits<double>::infinity()));
+  std::vector<double> first(elements, 0.0);
+  std::vector<double> last(elements, 0.0);
+  const MaterialPoints<Dim>& points = skeleton.points();
+  for (int p = 0; p < points.size(); ++p) {
+    const double share = points.volume[p] / grid.volume[points.element[p]];
+    first[points.element[p]] += share * skeleton.initial_porosity()[p];
+    last[points.element[p]] += share * final_porosity[p];
+  }
+  const double clean = 1.0 - largest_inflow_concentration(scene);
+  double dilution = 1.0;  // of water by eroded grains, at worst
+  for (int e = 0; e < elements; ++e) {
+    if (!skeleton.is_soil(e)) first[e] = last[e] = 1.0;
+    dilution = std::min(dilution, first[e] / last[e]);
+  }
+
+  FlowCoefficients<Dim> worst;
+  for (int e = 0; e < elements; ++e) {
+    const bool erodes = last[e] > first[e];
+    const Soil& soil = skeleton.soil_of_element(e);
+    const auto drag_at = [&](double porosity) {
+      return darcy_drag(
+          porosity, scene.liquid.density,
+          conductivity_at(soil.conductivity_law, soil.conductivity, first[e], porosity));
+    };
+    // Stepped explicitly drag takes from the limit, implicitly it adds to it. With Kozeny-Carman it
+    // falls as pores open, else it grows.
+    const auto [least, most] = std::minmax({drag_at(first[e]), drag_at(last[e])});
+    worst.porosity.push_back(last[e]);
+    worst.water_volume.push_back(grid.volume[e] * first[e] * clean *
+                                 (erodes || !with_richest_liquid ? 1.0 : dilution));
+    worst.mixture_density.push_back(scene.liquid.density);
+    worst.drag.push_back(scene.time.drag == DragIntegration::explicit_drag ? most : least);
+  }
+  worst.face_concentration.assign(grid.face_count(), 0.0);
+  return worst;
+}
+
+template <int Dim>
+void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
+  if (!plan.flow.step_given || plan.flow.step <= plan.limit.step) return;
+  const Vector<Dim> place = element_centroid(c.mesh, plan.limit.element);
+  std::ostringstream expected;
+  expected.precision(6);
+  expected << "at most " << plan.limit.step << " s, the stability limit, set by element "
+           << plan.limit.element << " at (" << place[0];
+  for (int d = 1; d < Dim; ++d) expected << ", " << place[d];
+  expected << ")";
+  std::ostringstream found;
+  found.precision(6);
+  found << plan.flow.step << " s";
+  throw InputError(
+      {{c.document.locate("time.step"), "time.step", found.str(), expected.str(), ""}});
+}
+
+/// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero,
+/// and water that does not compress has no other: at all times then.
+template <int Dim>
+void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
+                                 const RigidSkeleton<Dim>& skeleton,
+                                 const BoundaryValues<Dim>& values) {
+  const Scene& scene = c.document.scene;
+  const bool stiff = std::isinf(scene.liquid.bulk_modulus);
+  // What the scheme itself asks of water that does not compress.
+  const double round_off = stiff ? 1e-9 : 1e-6;
+  const bool steady = scene.initial_flow == InitialFlow::steady;
+  std::vector<double> times;
+  if (stiff || steady) times.push_back(0.0);
+  if (stiff) {
+    times.insert(times.end(), values.events().begin(), values.events().end());
+    times.push_back(scene.time.end);
+  }
+  for (const double time : times) {
+    const std::vector<FaceCondition> conditions = values.at(time);
+    double net = 0.0;
+    double gross = 0.0;
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (conditions[f].kind == FaceKind::pressure) return;
+      double flux = grid.face_normal[f].norm() * conditions[f].value;
+      if (conditions[f].kind == FaceKind::velocity) {
+        if (time > 0.0 || !steady) return;  // what enters depends on how erosion goes on
+        flux *= skeleton.soil_of_element(grid.face_left[f]).initial_porosity(grid.face_centre(f));
+      }
+      net += flux;
+      gross += std::abs(flux);
+    }
+    if (std::abs(net) <= round_off * gross) continue;
+    const std::string key = stiff ? "liquid.bulk_modulus" : "initial.flow";
+    throw InputError(
+        {{c.document.locate(key), key,
+          std::string(stiff ? "inf" : "\"steady\"") + " with boundaries that bring in " +
+              short_text(net) + " m3/s more than they take out" +
+              (time > 0.0 ? " at t = " + short_text(time) + " s" : ""),
+          "prescribed fluxes that add up to zero, or a boundary with a pressure", ""}});
+  }
+}
+
+/// What a point erodes is shared among the field nodes of its element, of which those far from it
+/// get less than nothing. That is right on the whole, as long as pores are left there.
+template <int Dim>
+void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
+                                const RigidSkeleton<Dim>& skeleton) {
+  if (c.document.scene.formulation != Formulation::single_point) return;
+  const MaterialPoints<Dim>& points = skeleton.points();
+  const ElementField<Dim> pores = skeleton.initial_pore_volume();
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const ErosionModel& model = skeleton.erosion_of_element(e);
+    if (model.law == ErosionLaw::none || !(model.rate > 0.0)) continue;
+    ElementValues<Dim> least = pores[e];
+    for (int p = skeleton.points_begin(e); p < skeleton.points_begin(e + 1); ++p) {
+      const double erodible =
+          points.volume[p] * (model.porosity_max - skeleton.initial_porosity()[p]);
+      for (int j = 0; j <= Dim; ++j) {
+        least[j] += erodible * std::min(0.0, FieldNodes<Dim>::basis(points.barycentric[p][j]));
+      }
+    }
+    if (*std::ranges::min_element(least) > 0.0) continue;
+    std::ostringstream found;
+    found << "solid points so near the corners of element " << e << " at ("
+          << element_centroid(grid.mesh, e).transpose()
+          << ") that what they erode leaves no pores elsewhere in it";
+    throw InputError(
+        {{c.document.locate("points.jitter"), "points", found.str(),
+          "points nearer to their Gauss positions, with less jitter, or more of them", ""}});
+  }
+}
+
+/// Longest time in which drag brings the flow of a soil to its end, k / (n g), s.
+double longest_relaxation(const Scene& scene) {
+  double relaxation = 0.0;
+  for (const Soil& soil : scene.soils) {
+    for (const double n : {soil.porosity, soil.porosity_max()}) {
+      if (n > soil.porosity && soil.erosion.law == ErosionLaw::none) continue;
+      const double k = conductivity_at(soil.conductivity_law, soil.conductivity, soil.porosity, n);
+      relaxation = std::max(relaxation, k / (n * conductivity_gravity));
+    }
+  }
+  return relaxation;
+}
+
+/// Scaled masses have a bound of their own.
+template <int Dim>
+void find_speed_that_drag_follows(const Case<Dim>& c, Plan& plan) {
+  const Scene& scene = c.document.scene;
+  const bool inertia = scene.time.scheme == FlowScheme::explicit_nodal || plan.flow.inertia;
+  if (!inertia || scene.time.mass_scaling > 1.0) return;
+  Vector<Dim> low = c.mesh.nodes.front();
+  Vector<Dim> high = low;
+  for (const Vector<Dim>& x : c.mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  plan.speed_that_drag_follows = (high - low).norm() / longest_relaxation(scene);
+}
+
+void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
+  const double scaling = scene.time.mass_scaling;
+  if (scaling <= 1.0) return;
+  const double relaxation = longest_relaxation(scene);
+  if (relaxation * scaling > 0.01 * scene.time.end) {
+    plan.warnings.push_back(
+        "mass_scaling = " + short_text(scaling) +
+        " stretches the time in which the flow settles from " + short_text(relaxation) + " s to " +
+        short_text(relaxation * scaling) +
+        " s; fluxes and concentrations can be trusted only while that is below 1 % of the run (" +
+        short_text(0.01 * scene.time.end) + " s). Porosity is not touched by it.");
+  }
+}
+
+void describe_explicit_flow(const Scene& scene, Plan& plan) {
+  const double steps = std::ceil(scene.time.end / plan.flow.step * (1.0 - 1e-12));
+  plan.sentences.push_back(
+      "run: flow, explicit nodal scheme, about " + short_text(steps) + " steps of " +
+      short_text(plan.flow.step) + " s (stability limit " + short_text(plan.limit.step) + " s, " +
+      (plan.flow.step_given ? "step from the scene" : "0.9 of the limit") + ")");
+}
+
+void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Plan& plan) {
+  const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
+  const bool monotone = scene.time.stepping == TimeStepping::monotone;
+  say("run: flow, implicit mixed finite elements, " +
+      std::string(monotone ? "monotone (first order)" : "second order") + " in time, steps " +
+      (plan.flow.step_given ? "of " + short_text(plan.flow.step) + " s as given"
+                            : "chosen for a local error of " + short_text(scene.time.tolerance)));
+  const std::string why = scene.time.inertia  ? "as the scene says"
+                          : plan.flow.inertia ? "too long to leave out"
+                                              : "too short to be noticed";
+  say((plan.flow.inertia ? "run" : "skip") +
+      std::string(": inertia of the liquid; drag stops it within ") +
+      short_text(longest_relaxation(scene)) + " s, " + why);
+  say(options.no_skip ? "run: the flow in every step (--no-skip)"
+                      : "skip: the flow while it is steady and nothing that drives it changes");
+}
+
+/// When nothing erodes, and whether grains are in the liquid until then.
+void describe_spans(const Scene& scene, Plan& plan) {
+  const bool late = plan.erosion && plan.erosion_span.begin > 0.0;
+  const bool early = plan.erosion && plan.erosion_span.end < scene.time.end;
+  std::string when;
+  if (late)
+    when = "before t = " + short_text(std::min(plan.erosion_span.begin, scene.time.end)) + " s";
+  if (early) {
+    when +=
+        std::string(late ? " and " : "") + "after t = " + short_text(plan.erosion_span.end) + " s";
+  }
+  if (late || early) plan.sentences.push_back("skip: erosion " + when + ", nothing can erode");
+}
+
+void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
+  const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
+  if (scene.time.scheme == FlowScheme::explicit_nodal) {
+    describe_explicit_flow(scene, plan);
+  } else {
+    describe_implicit_flow(scene, options, plan);
+  }
+  const std::string because = options.no_skip ? " (--no-skip)" : "";
+  say(plan.erosion ? "run: erosion" + because : "skip: erosion, no soil erodes");
+  describe_spans(scene, plan);
+  if (scene.formulation == Formulation::double_point) {
+    const bool carried = scene.flow.integration == PressureIntegration::material_point;
+    if (scene.time.scheme == FlowScheme::implicit_mixed) {
+      say("run: movement of liquid points along the volumes that cross the faces, by an element at "
+          "most at a time");
+    } else {
+      say(carried
+              ? "run: movement of liquid points with every step of the flow; they carry velocity "
+                "and pressure (material-point integration)"
+              : "run: movement of liquid points whenever the flow has brought them a quarter of an "
+                "element on; nodes and elements keep velocity and pressure (mixed integration)");
+    }
+  } else {
+    say(plan.transport ? "run: transport of fluidised grains" + because
+                       : "skip: transport, no soil erodes and no grains flow in");
+    if (plan.transport && plan.grains_from > 0.0) {
+      say("skip: transport before t = " + short_text(std::min(plan.grains_from, scene.time.end)) +
+          " s, no grains in the liquid");
+    }
+  }
+  say("skip: motion of the solid, the skeleton is rigid");
+  const bool gravity =
+      std::any_of(scene.gravity.begin(), scene.gravity.end(), [](double g) { return g != 0.0; });
+  say(gravity ? "run: gravity" : "skip: gravity, none is given");
+  const auto outputs = [&](double every) {
+    return short_text(std::ceil(scene.time.end / every * (1.0 - 1e-12)) + 1.0);
+  };
+  say("skip: what only outputs need, but for " + outputs(scene.output.every) + " rows and " +
+      outputs(scene.output.snapshot_every) + " snapshots");
+}
+
+/// Inertia delays the flow by its relaxation time: kept unless that is short against the step, or
+/// what it keeps from flowing is within the tolerance of what flows in the whole run.
+void plan_implicit_step(const Scene& scene, Plan& plan) {
+  constexpr double short_of_a_step = 0.01;
+  plan.flow.step = scene.time.step.value_or(unset);
+  const double unnoticed =
+      scene.time.step ? short_of_a_step * *scene.time.step : scene.time.tolerance * scene.time.end;
+  plan.flow.inertia = scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
+  // Inertia is kept for the start-up that drag brings to its end, not for the waves in it.
+  if (plan.flow.inertia && !scene.time.inertia) plan.flow.unnoticed = unnoticed;
+}
+
+/// Free water has next to no drag: what is set in motion there goes on for hours.
+template <int Dim>
+void warn_of_free_water_with_inertia(const Case<Dim>& c, Plan& plan) {
+  const Scene& scene = c.document.scene;
+  const auto& regions = c.mesh.region_names;
+  const bool free_water =
+      std::any_of(regions.begin(), regions.end(),
+                  [&](const std::string& region) { return scene.is_free_water(region); });
+  if (!plan.flow.inertia || !free_water) return;
+  plan.warnings.emplace_back(
+      "with inertia free water, which has next to no drag, rings for long, and steps follow it; "
+      "take time.inertia = false unless that is what you look for");
+}
+
+/// The step of the explicit scheme, checked against its stability limit.
+template <int Dim>
+void plan_explicit_step(const Case<Dim>& c, const Grid<Dim>& grid,
+                        const RigidSkeleton<Dim>& skeleton,
+                        const std::vector<FaceCondition>& conditions, Plan& plan) {
+  const Scene& scene = c.document.scene;
+  // A step that the scene gives is refused for what is certain to come; while the run goes on it is
+  // checked against what came.
+  const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton, !plan.flow.step_given);
+  NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
+  op.update(worst);
+  plan.limit = stability_limit(grid, worst, op.node_porosity(), scene.liquid.bulk_modulus,
+                               scene.time.mass_scaling, scene.time.drag);
+  const bool carried = scene.flow.integration == PressureIntegration::material_point;
+  const bool too_long = plan.flow.step_given && *scene.time.step > plan.limit.step;
+  if (carried || (uses_assembled_limit(scene) && too_long)) {
+    const double assembled =
+        sure_of_assembled * assembled_limit(op, worst, scene.liquid.bulk_modulus,
+                                            scene.time.mass_scaling, scene.time.drag, {},
+                                            scene.flow.integration);
+    plan.limit.step = carried ? assembled : std::max(plan.limit.step, assembled);
+  }
+  plan.flow.step = scene.time.step.value_or(0.9 * plan.limit.step);
+  refuse_unstable_step(c, plan);
+}
+
+}  // namespace
+
+template <int Dim>
+Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
+  const Scene& scene = c.document.scene;
+  const Grid<Dim> grid(c.mesh);
+  const RigidSkeleton<Dim> skeleton(c, grid);
+  Plan plan;
+  plan.erosion = skeleton.erodes();
+  plan.transport = plan.erosion || largest_inflow_concentration(scene) > 0.0;
+
+  if (!options.no_skip) {
+    plan.erosion_span = skeleton.erosion_span();
+    if (largest_inflow_concentration(scene) == 0.0) plan.grains_from = plan.erosion_span.begin;
+  }
+
+  plan.flow.threads = options.threads;
+  plan.flow.freeze = !options.no_skip;
+  plan.flow.step_given = scene.time.step.has_value();
+  const std::vector<FaceCondition> conditions = face_conditions(c, grid);
+  refuse_contradictory_fluxes(c, grid, skeleton, BoundaryValues<Dim>(c, grid));
+  refuse_points_near_corners(c, grid, skeleton);
+  if (scene.time.scheme == FlowScheme::explicit_nodal) {
+    plan_explicit_step(c, grid, skeleton, conditions, plan);
+  } else {
+    plan_implicit_step(scene, plan);
+    warn_of_free_water_with_inertia(c, plan);
+  }
+
+  if (options.no_skip && scene.flow.porosity_gradient_term) plan.erosion = plan.transport = true;
+  warn_of_mass_scaling(scene, plan);
+  find_speed_that_drag_follows(c, plan);
+  describe(scene, options, plan);
+  return plan;
+}
+
+template Plan make_plan(const Case<2>&, const SolverOptions&);
+
+}  // namespace suffuse

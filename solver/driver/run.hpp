@@ -1,0 +1,29 @@
+#pragma once
+
+/// The step loop: follows the plan, writes the results.
+
+#include <string>
+
+#include "case/case_file.hpp"
+#include "driver/plan.hpp"
+
+namespace suffuse {
+
+struct RunOptions {
+  bool quiet = false;   ///< no progress
+  bool resume = false;  ///< goes on with the run in the folder, if there is one
+  /// Wall time, s, after which a run that has written no snapshot keeps a checkpoint; 0: never.
+  double checkpoint_every = 600.0;
+};
+
+/// Runs a case to its end into `folder`. Returns ExitCode::done, or ExitCode::interrupted after
+/// SIGINT, SIGTERM or SIGHUP (with a checkpoint, and a line that says how to go on). A run that is
+/// resumed gives the same bits as one that never stopped, on any number of threads. Throws
+/// NumericalError and FileError, after noting it in run.json, and InputError where the folder holds
+/// the results of another scene. Keeps of the case what it goes on needing: hand it over where
+/// there are many points. `case_path` is for messages.
+template <int Dim>
+int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
+             const RunOptions& run, const std::string& case_path = "NAME.case.h5");
+
+}  // namespace suffuse

@@ -1,0 +1,176 @@
+#include "flow/flow_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "grid/compensated_sum.hpp"
+#include "grid/parallel.hpp"
+#include "physics/drag.hpp"
+#include "physics/liquid.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid,
+                            const RigidSkeleton<Dim>& skeleton, int threads)
+    : conditions_(face_conditions(c, grid)),
+      scene_(c.document.scene),
+      grid_(grid),
+      boundary_values_(c, grid),
+      skeleton_(skeleton),
+      threads_(threads),
+      grain_density_(scene_.soils.front().grain_density),
+      inflow_warned_(scene_.boundaries.size(), false) {
+  initial_porosity_.reserve(grid.mesh.elements.size());
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    initial_porosity_.push_back(
+        skeleton.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
+  }
+  const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
+                                 [](const Soil& s) { return s.drag == SoilDrag::ergun; });
+  if (!ergun) return;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const Soil& soil = skeleton.soil_of_element(e);
+    const bool has_it = soil.drag == SoilDrag::ergun;
+    grain_size_.push_back(has_it ? ergun_grain_size(soil.conductivity, initial_porosity_[e],
+                                                    scene_.liquid.density, scene_.liquid.viscosity)
+                                 : std::numeric_limits<double>::infinity());
+  }
+}
+
+template <int Dim>
+void FlowSolver<Dim>::archive(StateArchive& archive) {
+  archive(conditions_, coefficients_, inflow_warned_, warnings_);
+}
+
+template <int Dim>
+Vector<Dim> FlowSolver<Dim>::gravity() const {
+  Vector<Dim> g;
+  for (int d = 0; d < Dim; ++d) g[d] = scene_.gravity[d];
+  return g;
+}
+
+template <int Dim>
+void FlowSolver<Dim>::update(double time, const PoreState& content,
+                             const std::vector<double>& face_concentration) {
+  coefficients_ = coefficients_of(time, content, face_concentration);
+}
+
+template <int Dim>
+FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
+    double time, const PoreState& content, const std::vector<double>& face_concentration) const {
+  FlowCoefficients<Dim> result;
+  const int elements = grid_.mesh.element_count();
+  result.porosity = content.porosity;
+  result.water_volume = content.water_volume;
+  result.mixture_density.resize(elements);
+  result.drag.resize(elements);
+  result.quadratic_drag.resize(grain_size_.size());
+  result.face_concentration = face_concentration;
+  const double water_density = scene_.liquid.density;
+  for_each_index(elements, threads_, [&](int e) {
+    const double porosity = content.porosity[e];
+    const Soil& soil = skeleton_.soil_of_element(e);
+    result.mixture_density[e] =
+        mixture_density(content.concentration[e], water_density, grain_density_);
+    result.drag[e] = darcy_drag(
+        porosity, water_density,
+        conductivity_at(soil.conductivity_law, soil.conductivity, initial_porosity_[e], porosity));
+    if (!grain_size_.empty()) {
+      result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
+    }
+    if (soil.erosion.momentum_transfer) {
+      const double rate = erosion_rate(skeleton_.erosion_of_element(e), porosity, time,
+                                       content.flux.empty() ? unset : content.flux[e]);
+      result.drag[e] += grain_density_ * rate / porosity;
+    }
+  });
+  return result;
+}
+
+template <int Dim>
+std::vector<double> FlowSolver<Dim>::node_means(const std::vector<double>& pressure) const {
+  std::vector<double> result(grid_.mesh.node_count(), 0.0);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    for (const int i : grid_.mesh.elements[e]) {
+      result[i] += grid_.volume[e] / (Dim + 1) / grid_.node_volume[i] * pressure[e];
+    }
+  }
+  prescribe_at_nodes(result);
+  return result;
+}
+
+template <int Dim>
+void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) const {
+  std::vector<double> prescribed(node_pressure.size(), 0.0);
+  std::vector<int> faces(node_pressure.size(), 0);
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (conditions_[f].kind != FaceKind::pressure) continue;
+    for (const int i : grid_.face_nodes[f]) {
+      prescribed[i] += conditions_[f].value;
+      ++faces[i];
+    }
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i] > 0) node_pressure[i] = prescribed[i] / faces[i];
+  }
+}
+
+template <int Dim>
+void FlowSolver<Dim>::describe(const FlowState<Dim>& moment, HistoryRow& row) const {
+  row.dt = moment.dt;
+  row.eos_error = moment.eos_error;
+  row.pressure_overshoot = moment.pressure_overshoot;
+  CompensatedSum in;
+  CompensatedSum out;
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (!grid_.is_outer(f)) continue;
+    const double flux = moment.face_flux[f];
+    if (flux < 0.0) in.add(-flux);
+    if (flux > 0.0) out.add(flux);
+  }
+  row.flux_in = in.value();
+  row.flux_out = out.value();
+  // At the nodes: single elements carry patterns that push nothing.
+  const std::vector<double>& pressure = moment.node_pressure;
+  const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
+  row.pressure_min = *low;
+  row.pressure_max = *high;
+  double square = 0.0;
+  double volume = 0.0;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    double smooth = 0.0;
+    for (const int i : grid_.mesh.elements[e]) smooth += pressure[i] / (Dim + 1);
+    const double off = moment.pressure[e] - smooth;
+    square += grid_.volume[e] * off * off;
+    volume += grid_.volume[e];
+  }
+  row.pressure_scatter = std::sqrt(square / volume);
+  for (const Vector<Dim>& v : moment.velocity) row.speed_max = std::max(row.speed_max, v.norm());
+}
+
+template <int Dim>
+void FlowSolver<Dim>::warn_of_unstated_inflow(double time, const std::vector<double>& entered) {
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    const FaceCondition& condition = conditions_[f];
+    if (condition.boundary < 0 || condition.concentration_given ||
+        inflow_warned_[condition.boundary]) {
+      continue;
+    }
+    // Round-off of a flow at rest is no inflow.
+    const int e = grid_.face_left[f];
+    if (entered[f] >= -1e-12 * coefficients_.porosity[e] * grid_.volume[e]) continue;
+    inflow_warned_[condition.boundary] = true;
+    std::ostringstream message;
+    message << "liquid enters through boundary \"" << scene_.boundaries[condition.boundary].on
+            << "\" at t = " << time
+            << " s and the scene gives it no concentration: clean water is taken (concentration 0)";
+    warn(message.str());
+  }
+}
+
+template class FlowSolver<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,21 @@
+#pragma once
+
+/// Grains that liquid points take up on their way.
+
+#include <array>
+
+namespace suffuse {
+
+/// What a point takes up in one element that it passes.
+template <int Dim>
+struct FinesUptake {
+  int point;
+  int element;
+  std::array<double, Dim + 1> barycentric;  ///< half-way through the element
+  /// What keeps (1 - c) n_L of the point as it is, m3.
+  double own_volume;
+  int region;         ///< whose liquid receives it
+  double mass = 0.0;  ///< what it came to, kg
+};
+
+}  // namespace suffuse
