@@ -74,17 +74,6 @@ class OutputSchedule {
     return due;
   }
 
-  /// Times still to come, ascending, up to `reached`.
-  [[nodiscard]] std::vector<double> times_until(double reached) const {
-    std::vector<double> times;
-    OutputSchedule ahead = *this;
-    while (!ahead.finished() && ahead.next() <= reached) {
-      times.push_back(ahead.next());
-      ahead.take(times.back());
-    }
-    return times;
-  }
-
  private:
   OutputTimes rows_;
   OutputTimes snapshots_;

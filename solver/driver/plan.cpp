@@ -10,7 +10,7 @@
 #include "physics/drag.hpp"
 #include "physics/liquid.hpp"
 #include "results/number_text.hpp"
-#include "solid/rigid_skeleton.hpp"
+#include "solid/pores.hpp"
 
 namespace suffuse {
 namespace {
@@ -29,32 +29,31 @@ double largest_inflow_concentration(const Scene& scene) {
 /// is, but need not: `with_richest_liquid` says whether it counts.
 template <int Dim>
 FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& grid,
-                                         const RigidSkeleton<Dim>& skeleton,
-                                         bool with_richest_liquid) {
+                                         const SoilMap<Dim>& soils, bool with_richest_liquid) {
   const Scene& scene = c.document.scene;
   const int elements = grid.mesh.element_count();
-  const std::vector<double> final_porosity = skeleton.porosity_after(
-      skeleton.initial_porosity(), 0.0, scene.time.end,
-      std::vector<double>(skeleton.points().size(), std::numeric_limits<double>::infinity()));
   std::vector<double> first(elements, 0.0);
   std::vector<double> last(elements, 0.0);
-  const MaterialPoints<Dim>& points = skeleton.points();
+  const MaterialPoints<Dim>& points = soils.points();
   for (int p = 0; p < points.size(); ++p) {
     const double share = points.volume[p] / grid.volume[points.element[p]];
-    first[points.element[p]] += share * skeleton.initial_porosity()[p];
-    last[points.element[p]] += share * final_porosity[p];
+    const double porosity = soils.initial_porosity(p);
+    first[points.element[p]] += share * porosity;
+    last[points.element[p]] +=
+        share * porosity_after(soils.erosion_of_element(points.element[p]), porosity, 0.0,
+                               scene.time.end, std::numeric_limits<double>::infinity());
   }
   const double clean = 1.0 - largest_inflow_concentration(scene);
   double dilution = 1.0;  // of water by eroded grains, at worst
   for (int e = 0; e < elements; ++e) {
-    if (!skeleton.is_soil(e)) first[e] = last[e] = 1.0;
+    if (!soils.is_soil(e)) first[e] = last[e] = 1.0;
     dilution = std::min(dilution, first[e] / last[e]);
   }
 
   FlowCoefficients<Dim> worst;
   for (int e = 0; e < elements; ++e) {
     const bool erodes = last[e] > first[e];
-    const Soil& soil = skeleton.soil_of_element(e);
+    const Soil& soil = soils.soil_of_element(e);
     const auto drag_at = [&](double porosity) {
       return darcy_drag(
           porosity, scene.liquid.density,
@@ -94,8 +93,7 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
 /// and water that does not compress has no other: at all times then.
 template <int Dim>
 void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
-                                 const RigidSkeleton<Dim>& skeleton,
-                                 const BoundaryValues<Dim>& values) {
+                                 const SoilMap<Dim>& soils, const BoundaryValues<Dim>& values) {
   const Scene& scene = c.document.scene;
   const bool stiff = std::isinf(scene.liquid.bulk_modulus);
   // What the scheme itself asks of water that does not compress.
@@ -116,7 +114,7 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
       double flux = grid.face_normal[f].norm() * conditions[f].value;
       if (conditions[f].kind == FaceKind::velocity) {
         if (time > 0.0 || !steady) return;  // what enters depends on how erosion goes on
-        flux *= skeleton.soil_of_element(grid.face_left[f]).initial_porosity(grid.face_centre(f));
+        flux *= soils.soil_of_element(grid.face_left[f]).initial_porosity(grid.face_centre(f));
       }
       net += flux;
       gross += std::abs(flux);
@@ -136,17 +134,16 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
 /// get less than nothing. That is right on the whole, as long as pores are left there.
 template <int Dim>
 void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
-                                const RigidSkeleton<Dim>& skeleton) {
+                                const SoilMap<Dim>& soils) {
   if (c.document.scene.formulation != Formulation::single_point) return;
-  const MaterialPoints<Dim>& points = skeleton.points();
-  const ElementField<Dim> pores = skeleton.initial_pore_volume();
+  const MaterialPoints<Dim>& points = soils.points();
+  const ElementField<Dim> pores = initial_pore_volume(grid, soils);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const ErosionModel& model = skeleton.erosion_of_element(e);
+    const ErosionModel& model = soils.erosion_of_element(e);
     if (model.law == ErosionLaw::none || !(model.rate > 0.0)) continue;
     ElementValues<Dim> least = pores[e];
-    for (int p = skeleton.points_begin(e); p < skeleton.points_begin(e + 1); ++p) {
-      const double erodible =
-          points.volume[p] * (model.porosity_max - skeleton.initial_porosity()[p]);
+    for (int p = soils.points_begin(e); p < soils.points_begin(e + 1); ++p) {
+      const double erodible = points.volume[p] * (model.porosity_max - soils.initial_porosity(p));
       for (int j = 0; j <= Dim; ++j) {
         least[j] += erodible * std::min(0.0, FieldNodes<Dim>::basis(points.barycentric[p][j]));
       }
@@ -254,22 +251,17 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   say(plan.erosion ? "run: erosion" + because : "skip: erosion, no soil erodes");
   describe_spans(scene, plan);
   if (scene.formulation == Formulation::double_point) {
-    const bool carried = scene.flow.integration == PressureIntegration::material_point;
-    if (scene.time.scheme == FlowScheme::implicit_mixed) {
-      say("run: movement of liquid points along the volumes that cross the faces, by an element at "
-          "most at a time");
-    } else {
-      say(carried
-              ? "run: movement of liquid points with every step of the flow; they carry velocity "
-                "and pressure (material-point integration)"
-              : "run: movement of liquid points whenever the flow has brought them a quarter of an "
-                "element on; nodes and elements keep velocity and pressure (mixed integration)");
-    }
+    say(scene.flow.integration == PressureIntegration::material_point
+            ? "run: movement of liquid points with every step of the flow; they carry velocity and "
+              "pressure (material-point integration)"
+            : "run: movement of liquid points along the volumes that cross the faces, by an "
+              "element "
+              "at most at a time");
   } else {
     say(plan.transport ? "run: transport of fluidised grains" + because
                        : "skip: transport, no soil erodes and no grains flow in");
-    if (plan.transport && plan.grains_from > 0.0) {
-      say("skip: transport before t = " + short_text(std::min(plan.grains_from, scene.time.end)) +
+    if (plan.transport && plan.fines_from > 0.0) {
+      say("skip: transport before t = " + short_text(std::min(plan.fines_from, scene.time.end)) +
           " s, no grains in the liquid");
     }
   }
@@ -281,7 +273,7 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
     return short_text(std::ceil(scene.time.end / every * (1.0 - 1e-12)) + 1.0);
   };
   say("skip: what only outputs need, but for " + outputs(scene.output.every) + " rows and " +
-      outputs(scene.output.snapshot_every) + " snapshots");
+      outputs(scene.output.snapshot_every) + " snapshots; steps end on them");
 }
 
 /// Inertia delays the flow by its relaxation time: kept unless that is short against the step, or
@@ -312,13 +304,12 @@ void warn_of_free_water_with_inertia(const Case<Dim>& c, Plan& plan) {
 
 /// The step of the explicit scheme, checked against its stability limit.
 template <int Dim>
-void plan_explicit_step(const Case<Dim>& c, const Grid<Dim>& grid,
-                        const RigidSkeleton<Dim>& skeleton,
+void plan_explicit_step(const Case<Dim>& c, const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                         const std::vector<FaceCondition>& conditions, Plan& plan) {
   const Scene& scene = c.document.scene;
   // A step that the scene gives is refused for what is certain to come; while the run goes on it is
   // checked against what came.
-  const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, skeleton, !plan.flow.step_given);
+  const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, soils, !plan.flow.step_given);
   NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
   op.update(worst);
   plan.limit = stability_limit(grid, worst, op.node_porosity(), scene.liquid.bulk_modulus,
@@ -342,24 +333,24 @@ template <int Dim>
 Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   const Scene& scene = c.document.scene;
   const Grid<Dim> grid(c.mesh);
-  const RigidSkeleton<Dim> skeleton(c, grid);
+  const SoilMap<Dim> soils(c);
   Plan plan;
-  plan.erosion = skeleton.erodes();
+  plan.erosion = soils.erodes();
   plan.transport = plan.erosion || largest_inflow_concentration(scene) > 0.0;
 
   if (!options.no_skip) {
-    plan.erosion_span = skeleton.erosion_span();
-    if (largest_inflow_concentration(scene) == 0.0) plan.grains_from = plan.erosion_span.begin;
+    plan.erosion_span = soils.erosion_span();
+    if (largest_inflow_concentration(scene) == 0.0) plan.fines_from = plan.erosion_span.begin;
   }
 
   plan.flow.threads = options.threads;
-  plan.flow.freeze = !options.no_skip;
+  plan.flow.reuse_steady = !options.no_skip;
   plan.flow.step_given = scene.time.step.has_value();
   const std::vector<FaceCondition> conditions = face_conditions(c, grid);
-  refuse_contradictory_fluxes(c, grid, skeleton, BoundaryValues<Dim>(c, grid));
-  refuse_points_near_corners(c, grid, skeleton);
+  refuse_contradictory_fluxes(c, grid, soils, BoundaryValues<Dim>(c, grid));
+  refuse_points_near_corners(c, grid, soils);
   if (scene.time.scheme == FlowScheme::explicit_nodal) {
-    plan_explicit_step(c, grid, skeleton, conditions, plan);
+    plan_explicit_step(c, grid, soils, conditions, plan);
   } else {
     plan_implicit_step(scene, plan);
     warn_of_free_water_with_inertia(c, plan);

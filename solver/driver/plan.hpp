@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "case/case_file.hpp"
-#include "flow/flow_solver.hpp"
 #include "flow/stability_limit.hpp"
+#include "formulation/two_phase_model.hpp"
 
 namespace suffuse {
 
@@ -17,26 +17,13 @@ struct SolverOptions {
   bool no_skip = false;
 };
 
-struct Plan {
-  FlowOptions flow;
+struct Plan : ModelOptions {
   StabilityLimit limit;  ///< explicit: the smallest the run is expected to meet
   /// Where inertia counts: liquid that is faster passes the model before drag would have brought it
   /// to its speed, m/s. The momentum that it carries along is not in the equations.
   double speed_that_drag_follows = std::numeric_limits<double>::infinity();
-  bool transport = true;  ///< fluidised grains move
-  bool erosion = true;
-  /// Times, s, within which the skeleton can change and from which on the liquid can hold grains.
-  TimeSpan erosion_span;
-  double grains_from = -std::numeric_limits<double>::infinity();
   std::vector<std::string> sentences;  ///< what runs, what is skipped, and why
   std::vector<std::string> warnings;
-
-  /// Erosion has something to do within an interval.
-  [[nodiscard]] bool erodes(double from, double to) const {
-    return erosion && to > erosion_span.begin && from < erosion_span.end;
-  }
-  /// Grains may have got into the liquid by then.
-  [[nodiscard]] bool carries(double time) const { return transport && time > grains_from; }
 };
 
 /// Throws InputError for a step above the stability limit and for what the scheme cannot do.

@@ -14,10 +14,8 @@
 #include "case/errors.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
+#include "driver/output_schedule.hpp"
 #include "driver/progress.hpp"
-#include "driver/step_loop.hpp"
-#include "formulation/double_point.hpp"
-#include "formulation/single_point.hpp"
 
 namespace suffuse {
 namespace {
@@ -46,30 +44,29 @@ std::string quoted(const std::string& word) {
   return result + "'";
 }
 
-/// Where a run begins or goes on.
-struct Beginning {
+/// Where a run starts or goes on.
+struct StartingPoint {
   std::string folder;
   std::optional<RestartPoint> from;
   FolderLock lock;
 };
 
-/// One run of a formulation, SinglePoint or DoublePoint.
-template <template <int> class Model, int Dim>
-class FormulationRun {
+template <int Dim>
+class Run {
  public:
-  FormulationRun(Case<Dim> c, const Plan& plan, const SolverOptions& options, Beginning beginning,
-                 const RunOptions& run, std::string how_to_go_on)
+  Run(Case<Dim> c, const Plan& plan, const SolverOptions& options, StartingPoint starting_point,
+      const RunOptions& run, std::string how_to_go_on)
       : case_(std::move(c)),
         plan_(plan),
         options_(options),
         run_(run),
         how_to_go_on_(std::move(how_to_go_on)),
         case_digest_(digest_of(case_)),
-        folder_(beginning.folder),
-        model_(case_, plan),
+        folder_(starting_point.folder),
+        model_(make_model(case_, plan)),
         progress_(case_.document.scene.time.end, run.quiet),
-        loop_(case_.document.scene, model_),
-        writer_(open_results(std::move(beginning))) {
+        schedule_(case_.document.scene),
+        writer_(open_results(std::move(starting_point))) {
     // The model has points of its own by now.
     case_.liquid_points = {};
   }
@@ -78,7 +75,7 @@ class FormulationRun {
     try {
       loop();
       progress_.finish();
-      if (!loop_.finished()) return stop();
+      if (!schedule_.finished()) return stop();
       // Before it says that it is done: nobody looks for what is left over after that.
       writer_.remove_checkpoint();
       write_info("done", "");
@@ -96,25 +93,22 @@ class FormulationRun {
 
  private:
   /// Comes after all that may fail for reasons of the case: an earlier run is still there then.
-  ResultsWriter<Dim> open_results(Beginning beginning) {
+  ResultsWriter<Dim> open_results(StartingPoint starting_point) {
     for (const std::string& warning : plan_.warnings) warn(warning);
-    if (!beginning.from) return {beginning.folder, case_, std::move(beginning.lock)};
-    restore(std::move(beginning.from->state));
-    resumed_at_ = beginning.from->time;
-    return {beginning.folder, case_, std::move(beginning.lock), *beginning.from};
+    if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
+    restore(std::move(starting_point.from->state));
+    resumed_at_ = starting_point.from->time;
+    return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
   }
-
-  using State = typename Model<Dim>::State;
-  using Look = typename StepLoop<Model<Dim>>::Look;
 
   void loop() {
     write_info("running", "");
-    const auto write = [this](const std::vector<Look>& looks) { output(looks); };
-    if (!resumed_at_) loop_.start(write);
-    while (!loop_.finished() && !interrupted()) {
-      loop_.advance(write);
-      for (const std::string& warning : model_.take_warnings()) warn(warning);
-      progress_.report(model_.time(), model_.last_step());
+    if (!resumed_at_) output();
+    while (!schedule_.finished() && !interrupted()) {
+      model_->advance(schedule_.next());
+      for (const std::string& warning : model_->take_warnings()) warn(warning);
+      output();
+      progress_.report(model_->time(), model_->last_step());
       if (run_.checkpoint_every > 0.0 && seconds_since(last_kept_) >= run_.checkpoint_every) {
         keep_checkpoint();
       }
@@ -125,7 +119,7 @@ class FormulationRun {
     keep_checkpoint();
     write_info("interrupted", "");
     std::ostringstream line;
-    line << "interrupted at t = " << model_.time()
+    line << "interrupted at t = " << model_->time()
          << " s; what is written is complete. To go on:\n  " << how_to_go_on_;
     progress_.say(line.str());
     return ExitCode::interrupted;
@@ -148,34 +142,29 @@ class FormulationRun {
            how_to_go_on_;
   }
 
-  /// Rows come first: the snapshot with the state of the run then finds all those before it.
-  void output(const std::vector<Look>& looks) {
-    std::size_t last = looks.size();
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-      if (looks[i].due.row) write_row(looks[i]);
-      if (looks[i].due.snapshot) last = i;
-    }
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-      const auto& [state, moment, due] = looks[i];
-      if (!due.snapshot) continue;
-      Snapshot snapshot = model_.snapshot(state, moment, model_.steps());
-      // The state is that of the end of the step, which the last one of several has reached.
-      if (i == last) snapshot.restart = restart_point();
-      writer_.write_snapshot(std::move(snapshot));
-      last_kept_ = Clock::now();
-    }
+  /// What is due now. The row comes first: the snapshot with the state of the run then finds all
+  /// those before it.
+  void output() {
+    const OutputSchedule::Due due = schedule_.take(model_->time());
+    if (!due.row && !due.snapshot) return;
+    const FlowState<Dim> flow = model_->flow_state();
+    if (due.row) write_row(flow);
+    if (!due.snapshot) return;
+    Snapshot snapshot = model_->snapshot(flow);
+    snapshot.restart = restart_point();
+    writer_.write_snapshot(std::move(snapshot));
+    last_kept_ = Clock::now();
   }
 
-  void write_row(const Look& look) {
-    const auto& [state, moment, due] = look;
-    const HistoryRow row = model_.history_row(state, moment);
+  void write_row(const FlowState<Dim>& flow) {
+    const HistoryRow row = model_->history_row(flow);
     check_finite(row);
     check_compression(row);
     warn_of_speed(row.speed_max);
     warn_of_carried_momentum(row.speed_max);
     writer_.append_history(row);
-    writer_.append_ledger(model_.ledger(state));
-    const std::vector<RegionRow> regions = model_.region_rows(state);
+    writer_.append_ledger(model_->ledger());
+    const std::vector<RegionRow> regions = model_->region_rows();
     writer_.append_regions(regions);
   }
 
@@ -186,9 +175,9 @@ class FormulationRun {
 
   RestartPoint restart_point() {
     RestartPoint point;
-    point.time = model_.time();
-    point.rows = loop_.schedule().rows().past();
-    point.snapshots = loop_.schedule().snapshots().past();
+    point.time = model_->time();
+    point.rows = schedule_.rows().past();
+    point.snapshots = schedule_.snapshots().past();
     point.no_skip = options_.no_skip;
     point.case_digest = case_digest_;
     StateArchive state;
@@ -204,7 +193,7 @@ class FormulationRun {
   }
 
   void archive(StateArchive& state) {
-    state(model_, loop_, speed_warned_, momentum_warned_, compression_warned_, warnings_);
+    state(*model_, schedule_, speed_warned_, momentum_warned_, compression_warned_, warnings_);
   }
 
   static void check_finite(const HistoryRow& row) {
@@ -272,15 +261,15 @@ class FormulationRun {
     RunInfo info;
     info.status = status;
     info.message = message;
-    info.steps = model_.steps();
+    info.steps = model_->steps();
     info.solid_points = case_.solid_points.size();
-    info.liquid_points = model_.liquid_points();
+    info.liquid_points = model_->liquid_points();
     info.elements = case_.mesh.element_count();
     info.threads = options_.threads;
     info.wall_seconds = seconds_since(start_);
     info.resumed_at = resumed_at_;
     info.memory_bytes = peak_memory();
-    info.passes = model_.passes();
+    info.passes = model_->passes();
     info.plan = plan_.sentences;
     info.warnings = warnings_;
     writer_.write_run_info(info);
@@ -295,9 +284,9 @@ class FormulationRun {
   std::string folder_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_kept_ = start_;  ///< when a snapshot or a checkpoint was written
-  Model<Dim> model_;
+  std::unique_ptr<TwoPhaseModel<Dim>> model_;
   Progress progress_;
-  StepLoop<Model<Dim>> loop_;
+  OutputSchedule schedule_;
   std::optional<double> resumed_at_;  ///< s
   bool speed_warned_ = false;
   bool momentum_warned_ = false;
@@ -330,8 +319,8 @@ FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
 
 /// Where the run in `folder` stands. Nothing where it is done.
 template <int Dim>
-std::optional<Beginning> find_beginning(const Case<Dim>& c, const std::string& folder,
-                                        const SolverOptions& options) {
+std::optional<StartingPoint> find_starting_point(const Case<Dim>& c, const std::string& folder,
+                                                 const SolverOptions& options) {
   check_results_folder(folder, c.document.scene.name);
   if (is_finished(folder)) {
     // Looked at without the lock: it may be kept where nothing can be written.
@@ -339,7 +328,7 @@ std::optional<Beginning> find_beginning(const Case<Dim>& c, const std::string& f
     const long all = OutputSchedule(c.document.scene).snapshots().count();
     if (found.point && found.point->snapshots == all && found.damage.empty()) return std::nullopt;
   }
-  Beginning beginning{folder, std::nullopt, FolderLock(folder)};
+  StartingPoint starting_point{folder, std::nullopt, FolderLock(folder)};
   FoundRestart found = find_restart(c, folder, options);
   for (const std::string& damage : found.damage) {
     std::fprintf(stderr, "suffuse-solver: warning: passed over: %s\n", damage.c_str());
@@ -349,8 +338,8 @@ std::optional<Beginning> find_beginning(const Case<Dim>& c, const std::string& f
                     ": cannot be resumed: no snapshot there has a state to go on from; choose "
                     "another folder with -o, or run anew without --resume");
   }
-  beginning.from = std::move(found.point);
-  return beginning;
+  starting_point.from = std::move(found.point);
+  return starting_point;
 }
 
 }  // namespace
@@ -359,33 +348,28 @@ template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path) {
   catch_interrupts();
-  std::optional<Beginning> beginning;
+  std::optional<StartingPoint> starting_point;
   if (run.resume) {
-    beginning = find_beginning(c, folder, options);
+    starting_point = find_starting_point(c, folder, options);
   } else {
-    beginning = Beginning{folder, std::nullopt, lock_for_results(folder, c.document.scene.name)};
+    starting_point =
+        StartingPoint{folder, std::nullopt, lock_for_results(folder, c.document.scene.name)};
   }
-  if (!beginning) {
+  if (!starting_point) {
     if (!run.quiet) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());
     return static_cast<int>(ExitCode::done);
   }
   if (run.resume && !run.quiet) {
-    if (beginning->from) {
-      std::fprintf(stderr, "going on from t = %g s\n", beginning->from->time);
+    if (starting_point->from) {
+      std::fprintf(stderr, "going on from t = %g s\n", starting_point->from->time);
     } else {
       std::fprintf(stderr, "%s has no snapshot to go on from: begins anew\n", folder.c_str());
     }
   }
   const std::string how_to_go_on = "suffuse-solver " + quoted(case_path) + " -o " + quoted(folder) +
                                    (options.no_skip ? " --no-skip" : "") + " --resume";
-  const auto run_model = [&]<template <int> class Model>() {
-    return FormulationRun<Model, Dim>(std::move(c), plan, options, std::move(*beginning), run,
-                                      how_to_go_on)
-        .run();
-  };
-  const bool single_point = c.document.scene.formulation == Formulation::single_point;
-  return static_cast<int>(single_point ? run_model.template operator()<SinglePoint>()
-                                       : run_model.template operator()<DoublePoint>());
+  return static_cast<int>(
+      Run<Dim>(std::move(c), plan, options, std::move(*starting_point), run, how_to_go_on).run());
 }
 
 template int run_case(Case<2>, const Plan&, const SolverOptions&, const std::string&,

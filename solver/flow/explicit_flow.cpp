@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <sstream>
 
 #include "case/errors.hpp"
@@ -20,6 +18,11 @@ namespace {
 /// worth.
 constexpr int most_elements_checked = 100000;
 
+/// Steps between two couplings.
+constexpr long max_steps = 1000;
+/// Share of a step by which sums of steps may be off.
+constexpr double round_off = 1e-12;
+
 ExplicitSettings scheme_settings(const Scene& scene, int threads) {
   ExplicitSettings settings;
   settings.bulk_modulus = scene.liquid.bulk_modulus;
@@ -30,7 +33,6 @@ ExplicitSettings scheme_settings(const Scene& scene, int threads) {
   // Double-point masses move with the points. In mixed integration the term would convect element
   // pressures upwind, explicitly; under heavy mass scaling, where p nears K, that does not hold.
   settings.pressure_moves_with_liquid = double_point;
-  settings.sum_displacements = double_point;
   settings.threads = threads;
   return settings;
 }
@@ -39,8 +41,8 @@ ExplicitSettings scheme_settings(const Scene& scene, int threads) {
 
 template <int Dim>
 ExplicitFlow<Dim>::ExplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
-                                const RigidSkeleton<Dim>& skeleton, const FlowOptions& options)
-    : FlowSolver<Dim>(c, grid, skeleton),
+                                const Skeleton<Dim>& solid, const FlowOptions& options)
+    : FlowSolver<Dim>(c, grid, solid),
       operator_(grid, this->conditions_, this->gravity(),
                 this->scene().flow.porosity_gradient_term),
       scheme_(operator_, scheme_settings(this->scene(), options.threads)),
@@ -48,9 +50,9 @@ ExplicitFlow<Dim>::ExplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
       step_given_(options.step_given) {}
 
 template <int Dim>
-void ExplicitFlow<Dim>::update(double time, const PoreState& content,
+void ExplicitFlow<Dim>::update(double time, const PoreState& pores,
                                const std::vector<double>& face_concentration) {
-  FlowSolver<Dim>::update(time, content, face_concentration);
+  FlowSolver<Dim>::update(time, pores, face_concentration);
   operator_.update(this->coefficients_);
   scheme_.update(this->coefficients_);
 }
@@ -64,7 +66,7 @@ void ExplicitFlow<Dim>::archive(StateArchive& archive) {
     scheme_.update(this->coefficients_);
   }
   scheme_.archive(archive);
-  archive(step_, timing_, assembled_limit_, element_limit_);
+  archive(step_, last_steps_, last_dt_, timing_, assembled_limit_, element_limit_);
 }
 
 template <int Dim>
@@ -153,80 +155,47 @@ void ExplicitFlow<Dim>::check_step(double time) {
 }
 
 template <int Dim>
-FlowProgress<Dim> ExplicitFlow<Dim>::run(const FlowInterval<Dim>& interval) {
+auto ExplicitFlow<Dim>::plan_steps(const FlowInterval<Dim>& interval) -> Steps {
   check_step(interval.begin);
-  FlowProgress<Dim> progress;
-  // A boundary value that turns or jumps begins another interval.
-  const std::vector<double>& events = this->boundary_values().events();
-  const auto event = std::ranges::upper_bound(events, interval.begin + 1e-9 * step_);
-  const double target = event == events.end() ? interval.target : std::min(interval.target, *event);
-  const double remaining = target - interval.begin;
-  const long to_target =
-      std::max(1L, static_cast<long>(std::ceil(remaining / step_ * (1.0 - 1e-12))));
-  const double dt = interval.end_on_target ? remaining / static_cast<double>(to_target) : step_;
-  const long steps = std::clamp(interval.steps_allowed(dt), 1L, to_target);
-  progress.steps = steps;
-  progress.dt = dt;
-  progress.duration = static_cast<double>(steps) * dt;
-
-  timing_.calls += steps;
-  // Round-off must not push a time that a step ends on into the next interval.
-  const double reached =
-      interval.begin + static_cast<double>(steps) * dt * (1.0 + 1e-12) + 1e-12 * dt;
-  const std::vector<double> times = interval.times_until(reached);
-  if (carrier_ != nullptr) carrier_->start(progress.duration);
+  const double until = this->next_breakpoint(interval.begin, interval.latest);
+  const double left = until - interval.begin;
+  const long to_the_end =
+      std::max(1L, static_cast<long>(std::ceil(left / step_ * (1.0 - round_off))));
+  const double dt = left / static_cast<double>(to_the_end);
+  // The flow may have grown since the last interval: no more than twice its steps.
+  const long most = std::min({max_steps, 2 * last_steps_, to_the_end});
+  const double allowed = interval.longest / dt;
+  const long count =
+      allowed < static_cast<double>(most) ? std::max(1L, static_cast<long>(allowed)) : most;
+  last_steps_ = count;
+  last_dt_ = dt;
+  Steps steps{interval.begin, count, dt, until};
+  if (count < to_the_end) steps.end = steps.start_of(count);
   scheme_.reset_volumes();
-  // Steps too short to look at the clock before and after each, unless others come in between.
-  std::optional<PassTimer> all_steps;
-  if (carrier_ == nullptr) all_steps.emplace(timing_);
-  auto next = times.begin();
-  for (long s = 0; s < steps; ++s) {
-    const double step_begin = interval.begin + static_cast<double>(s) * dt;
-    const double step_end =
-        s + 1 == steps ? std::numeric_limits<double>::infinity() : step_begin + dt;
-    if (carrier_ != nullptr) carrier_->give(step_begin, dt);
-    if (next == times.end() || *next > step_end) {
-      step(step_begin, dt);
-      carry(step_begin, dt);
-      continue;
-    }
-    scheme_.remember_velocity();
-    const std::vector<double> pressure = scheme_.pressure();
-    const Passed<Dim> before = passed();
-    step(step_begin, dt);
-    // Flux is constant within a step, so what has passed is linear.
-    for (; next != times.end() && *next <= step_end; ++next) {
-      const double share = (*next - step_begin) / dt;
-      this->take_boundary_values(carrier_ == nullptr ? interval.begin : step_begin, *next);
-      FlowState<Dim> moment = moment_of(*next, between(pressure, scheme_.pressure(), share),
-                                        scheme_.velocity_at((share - 0.5) * dt));
-      moment.dt = dt;
-      const Passed<Dim> so_far = between(before, passed(), share);
-      moment.flux_in_time.mean = per_time(so_far.volumes.liquid, *next - interval.begin);
-      interval.see(std::move(moment), so_far);
-    }
-    carry(step_begin, dt);
-  }
-  progress.passed = passed();
-  this->take_boundary_values(interval.begin, interval.begin + progress.duration);
-  return progress;
+  return steps;
+}
+
+template <int Dim>
+FlowProgress ExplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
+  const PassTimer timer(timing_);
+  const Steps steps = plan_steps(interval);
+  for (long s = 0; s < steps.count; ++s) step(steps.start_of(s), steps.dt);
+  return finish(steps);
+}
+
+template <int Dim>
+FlowProgress ExplicitFlow<Dim>::finish(const Steps& steps) {
+  timing_.calls += steps.count;
+  this->take_boundary_values(steps.begin, steps.end);
+  return {steps.count, steps.dt, steps.end, scheme_.volumes()};
 }
 
 template <int Dim>
 void ExplicitFlow<Dim>::step(double begin, double dt) {
-  std::optional<PassTimer> timer;
-  if (carrier_ != nullptr) timer.emplace(timing_);
   if (this->boundary_values().vary()) {
     operator_.set_boundary_values(this->boundary_values(), begin, begin + 0.5 * dt);
   }
   scheme_.step(dt);
-}
-
-template <int Dim>
-void ExplicitFlow<Dim>::carry(double begin, double dt) {
-  if (carrier_ == nullptr) return;
-  this->take_boundary_values(begin, begin + dt);
-  carrier_->take();
 }
 
 template <int Dim>
@@ -239,37 +208,22 @@ void ExplicitFlow<Dim>::node_flux(VectorField<Dim>& flux) const {
 }
 
 template <int Dim>
-Passed<Dim> ExplicitFlow<Dim>::passed() const {
-  Passed<Dim> result{scheme_.volumes(), scheme_.displacements()};
-  for (std::size_t i = 0; i < result.node_shift.size(); ++i) {
-    result.node_shift[i] *= operator_.carried_porosity()[i];
-  }
-  return result;
-}
-
-template <int Dim>
-FlowState<Dim> ExplicitFlow<Dim>::moment_of(double time, std::vector<double> pressure,
-                                            VectorField<Dim> velocity) const {
+FlowState<Dim> ExplicitFlow<Dim>::state(double time) const {
   FlowState<Dim> result;
   result.time = time;
-  result.dt = step_;
-  result.node_pressure = this->node_means(pressure);
+  result.dt = last_dt_ > 0.0 ? last_dt_ : step_;
+  result.pressure = scheme_.pressure();
+  result.velocity = scheme_.velocity();
+  result.node_pressure = this->node_means(result.pressure);
   result.face_flux.resize(this->grid().face_count());
   for (int f = 0; f < this->grid().face_count(); ++f) {
-    result.face_flux[f] = operator_.face_flux(f, velocity);
+    result.face_flux[f] = operator_.face_flux(f, result.velocity);
   }
-  result.pressure = std::move(pressure);
-  result.velocity = std::move(velocity);
   return result;
 }
 
 template <int Dim>
-FlowState<Dim> ExplicitFlow<Dim>::moment(double time) const {
-  return moment_of(time, scheme_.pressure(), scheme_.velocity());
-}
-
-template <int Dim>
-void ExplicitFlow<Dim>::follow_masses(double time, const std::vector<double>& water_mass) {
+void ExplicitFlow<Dim>::match_masses(double time, const std::vector<double>& water_mass) {
   const LiquidProperties& liquid = this->scene().liquid;
   std::vector<double> pressure(water_mass.size());
   for (std::size_t e = 0; e < pressure.size(); ++e) {

@@ -11,51 +11,55 @@
 
 namespace suffuse {
 
-/// Whoever carries velocity and pressure from one step of the flow to the next, in place of nodes
-/// and elements (material-point integration).
-class FlowCarrier {
- public:
-  FlowCarrier() = default;
-  virtual ~FlowCarrier() = default;
-  FlowCarrier(const FlowCarrier&) = delete;
-  FlowCarrier& operator=(const FlowCarrier&) = delete;
-
-  /// Steps are about to begin that take `duration` seconds together.
-  virtual void start(double duration) = 0;
-  /// Before a step of `dt` that begins at `time`: hands velocity and pressure over to the scheme.
-  virtual void give(double time, double dt) = 0;
-  /// After it, when those who look have looked: takes back what it changed, and moves.
-  virtual void take() = 0;
-};
-
 template <int Dim>
 class ExplicitFlow final : public FlowSolver<Dim> {
  public:
-  ExplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
+  ExplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                const FlowOptions& options);
 
   [[nodiscard]] ExplicitNodal<Dim>& scheme() { return scheme_; }
-  /// From now on the flow is carried by this one, which outlives it.
-  void set_carrier(FlowCarrier& carrier) { carrier_ = &carrier; }
   /// Fluxes of the last step: of each node, m/s, and through a face along its normal, m3/s.
   void node_flux(VectorField<Dim>& flux) const;
   [[nodiscard]] double flux_through(int face) const {
     return operator_.face_flux(face, scheme_.velocity());
   }
 
-  void update(double time, const PoreState& content,
+  void update(double time, const PoreState& pores,
               const std::vector<double>& face_concentration) override;
   void start() override;
-  /// Steps of one length, as many as the interval allows. Shortens the step when the stability
-  /// limit falls below it, or throws NumericalError when the scene gave it.
-  FlowProgress<Dim> run(const FlowInterval<Dim>& interval) override;
+  [[nodiscard]] typename FlowSolver<Dim>::CouplingLimits coupling_limits() const override {
+    return {.one_transport_step = true, .follows_pores = false};
+  }
+
+  /// Steps of one length for an interval.
+  struct Steps {
+    double begin;  ///< s
+    long count;
+    double dt;   ///< s
+    double end;  ///< s
+
+    [[nodiscard]] double start_of(long step) const {
+      return begin + static_cast<double>(step) * dt;
+    }
+  };
+  /// As many as the interval allows; what is left up to its latest end is divided evenly. Shortens
+  /// the step when the stability limit falls below it, or throws NumericalError when the scene gave
+  /// it.
+  [[nodiscard]] Steps plan_steps(const FlowInterval<Dim>& interval);
+  /// One of them, under the boundary values of its time.
+  void step(double begin, double dt);
+  /// Boundary values at `now`, with the concentrations of what entered `since`.
+  using FlowSolver<Dim>::take_boundary_values;
+  /// What the steps came to.
+  FlowProgress finish(const Steps& steps);
+  FlowProgress advance(const FlowInterval<Dim>& interval) override;
 
   [[nodiscard]] const std::vector<double>& pressure() const override { return scheme_.pressure(); }
-  void follow_masses(double time, const std::vector<double>& water_mass) override;
+  void match_masses(double time, const std::vector<double>& water_mass) override;
 
   void archive(StateArchive& archive) override;
 
-  [[nodiscard]] FlowState<Dim> moment(double time) const override;
+  [[nodiscard]] FlowState<Dim> state(double time) const override;
   [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
 
   /// Stability limit with the coefficients and speeds of this moment: element by element, and in
@@ -64,20 +68,14 @@ class ExplicitFlow final : public FlowSolver<Dim> {
 
  private:
   void check_step(double time);
-  /// One step of the scheme under the boundary values of its time.
-  void step(double begin, double dt);
-  /// What follows a step where the flow has a carrier.
-  void carry(double begin, double dt);
-  [[nodiscard]] FlowState<Dim> moment_of(double time, std::vector<double> pressure,
-                                         VectorField<Dim> velocity) const;
-  [[nodiscard]] Passed<Dim> passed() const;
   void warn_of_locking(const VectorField<Dim>& steady_velocity);
 
   NodalOperator<Dim> operator_;
   ExplicitNodal<Dim> scheme_;
   double step_;
   bool step_given_;
-  FlowCarrier* carrier_ = nullptr;
+  long last_steps_ = 1;   ///< of the last interval
+  double last_dt_ = 0.0;  ///< of its steps, s
   PassTiming timing_{"flow", 0, 0.0};
   /// The two limits when the assembled one was last found; it follows the other until that has
   /// moved.

@@ -13,26 +13,30 @@
 namespace suffuse {
 
 template <int Dim>
-FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid,
-                            const RigidSkeleton<Dim>& skeleton, int threads)
+FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                            int threads)
     : conditions_(face_conditions(c, grid)),
       scene_(c.document.scene),
       grid_(grid),
       boundary_values_(c, grid),
-      skeleton_(skeleton),
+      soils_(solid.soils()),
       threads_(threads),
       grain_density_(scene_.soils.front().grain_density),
       inflow_warned_(scene_.boundaries.size(), false) {
   initial_porosity_.reserve(grid.mesh.elements.size());
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     initial_porosity_.push_back(
-        skeleton.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
+        soils_.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
   }
+  breakpoints_ = soils_.erosion_breakpoints();
+  const std::vector<double>& knots = boundary_values_.events();
+  breakpoints_.insert(breakpoints_.end(), knots.begin(), knots.end());
+  std::ranges::sort(breakpoints_);
   const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
                                  [](const Soil& s) { return s.drag == SoilDrag::ergun; });
   if (!ergun) return;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const Soil& soil = skeleton.soil_of_element(e);
+    const Soil& soil = soils_.soil_of_element(e);
     const bool has_it = soil.drag == SoilDrag::ergun;
     grain_size_.push_back(has_it ? ergun_grain_size(soil.conductivity, initial_porosity_[e],
                                                     scene_.liquid.density, scene_.liquid.viscosity)
@@ -46,6 +50,14 @@ void FlowSolver<Dim>::archive(StateArchive& archive) {
 }
 
 template <int Dim>
+double FlowSolver<Dim>::next_breakpoint(double begin, double latest) const {
+  for (const double time : breakpoints_) {
+    if (time > begin && !is_same_time(time, begin)) return std::min(time, latest);
+  }
+  return latest;
+}
+
+template <int Dim>
 Vector<Dim> FlowSolver<Dim>::gravity() const {
   Vector<Dim> g;
   for (int d = 0; d < Dim; ++d) g[d] = scene_.gravity[d];
@@ -53,28 +65,28 @@ Vector<Dim> FlowSolver<Dim>::gravity() const {
 }
 
 template <int Dim>
-void FlowSolver<Dim>::update(double time, const PoreState& content,
+void FlowSolver<Dim>::update(double time, const PoreState& pores,
                              const std::vector<double>& face_concentration) {
-  coefficients_ = coefficients_of(time, content, face_concentration);
+  coefficients_ = coefficients_of(time, pores, face_concentration);
 }
 
 template <int Dim>
 FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
-    double time, const PoreState& content, const std::vector<double>& face_concentration) const {
+    double time, const PoreState& pores, const std::vector<double>& face_concentration) const {
   FlowCoefficients<Dim> result;
   const int elements = grid_.mesh.element_count();
-  result.porosity = content.porosity;
-  result.water_volume = content.water_volume;
+  result.porosity = pores.porosity;
+  result.water_volume = pores.water_volume;
   result.mixture_density.resize(elements);
   result.drag.resize(elements);
   result.quadratic_drag.resize(grain_size_.size());
   result.face_concentration = face_concentration;
   const double water_density = scene_.liquid.density;
   for_each_index(elements, threads_, [&](int e) {
-    const double porosity = content.porosity[e];
-    const Soil& soil = skeleton_.soil_of_element(e);
+    const double porosity = pores.porosity[e];
+    const Soil& soil = soils_.soil_of_element(e);
     result.mixture_density[e] =
-        mixture_density(content.concentration[e], water_density, grain_density_);
+        mixture_density(pores.concentration[e], water_density, grain_density_);
     result.drag[e] = darcy_drag(
         porosity, water_density,
         conductivity_at(soil.conductivity_law, soil.conductivity, initial_porosity_[e], porosity));
@@ -82,8 +94,8 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
       result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
     }
     if (soil.erosion.momentum_transfer) {
-      const double rate = erosion_rate(skeleton_.erosion_of_element(e), porosity, time,
-                                       content.flux.empty() ? unset : content.flux[e]);
+      const double rate = erosion_rate(soils_.erosion_of_element(e), porosity, time,
+                                       pores.flux.empty() ? unset : pores.flux[e]);
       result.drag[e] += grain_density_ * rate / porosity;
     }
   });
@@ -119,22 +131,22 @@ void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) con
 }
 
 template <int Dim>
-void FlowSolver<Dim>::describe(const FlowState<Dim>& moment, HistoryRow& row) const {
-  row.dt = moment.dt;
-  row.eos_error = moment.eos_error;
-  row.pressure_overshoot = moment.pressure_overshoot;
+void FlowSolver<Dim>::describe(const FlowState<Dim>& state, HistoryRow& row) const {
+  row.dt = state.dt;
+  row.eos_error = state.eos_error;
+  row.pressure_overshoot = state.pressure_overshoot;
   CompensatedSum in;
   CompensatedSum out;
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (!grid_.is_outer(f)) continue;
-    const double flux = moment.face_flux[f];
+    const double flux = state.face_flux[f];
     if (flux < 0.0) in.add(-flux);
     if (flux > 0.0) out.add(flux);
   }
   row.flux_in = in.value();
   row.flux_out = out.value();
   // At the nodes: single elements carry patterns that push nothing.
-  const std::vector<double>& pressure = moment.node_pressure;
+  const std::vector<double>& pressure = state.node_pressure;
   const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
   row.pressure_min = *low;
   row.pressure_max = *high;
@@ -143,12 +155,12 @@ void FlowSolver<Dim>::describe(const FlowState<Dim>& moment, HistoryRow& row) co
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     double smooth = 0.0;
     for (const int i : grid_.mesh.elements[e]) smooth += pressure[i] / (Dim + 1);
-    const double off = moment.pressure[e] - smooth;
+    const double off = state.pressure[e] - smooth;
     square += grid_.volume[e] * off * off;
     volume += grid_.volume[e];
   }
   row.pressure_scatter = std::sqrt(square / volume);
-  for (const Vector<Dim>& v : moment.velocity) row.speed_max = std::max(row.speed_max, v.norm());
+  for (const Vector<Dim>& v : state.velocity) row.speed_max = std::max(row.speed_max, v.norm());
 }
 
 template <int Dim>

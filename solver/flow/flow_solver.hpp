@@ -1,9 +1,10 @@
 #pragma once
 
-/// The flow of a scene, whichever scheme steps it and whichever way its liquid is carried: boundary
-/// conditions, coefficients and state, and what the results say of it.
+/// The flow of a scene as the formulations see it, whichever scheme steps it: boundary conditions,
+/// coefficients and state, and what the results say of it.
 
-#include <functional>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,11 +13,17 @@
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "grid/face_flux.hpp"
+#include "results/pass_timer.hpp"
 #include "results/state_archive.hpp"
-#include "results/writer.hpp"
-#include "solid/rigid_skeleton.hpp"
+#include "results/tables.hpp"
+#include "solid/pores.hpp"
 
 namespace suffuse {
+
+/// The same time, but for the rounding of sums of steps.
+inline bool is_same_time(double a, double b) {
+  return std::abs(a - b) <= 1e-14 * std::max(std::abs(a), std::abs(b));
+}
 
 /// Share of the way from `a` to `b`.
 template <class Value>
@@ -35,59 +42,25 @@ struct FlowState {
   std::vector<double> node_pressure;  ///< Pa
   VectorField<Dim> velocity;          ///< per node, intrinsic, m/s
   std::vector<double> face_flux;      ///< along each face's normal, m3/s
-  FluxInTime flux_in_time;            ///< since the interval began: what erosion goes by
   double eos_error = 0.0;             ///< see HistoryRow
   double pressure_overshoot = 0.0;    ///< see HistoryRow
 };
 
-/// What has passed since the last meeting of flow and transport, up to some moment.
-template <int Dim>
-struct Passed {
-  FaceVolumes volumes;
-  /// Flux of each node added up over the time, m. Empty where liquid follows the face volumes.
-  VectorField<Dim> node_shift;
-};
-
-template <int Dim>
-Passed<Dim> between(const Passed<Dim>& a, const Passed<Dim>& b, double share) {
-  return {{between(a.volumes.liquid, b.volumes.liquid, share),
-           between(a.volumes.density_excess, b.volumes.density_excess, share)},
-          between(a.node_shift, b.node_shift, share)};
-}
-
-/// What the pores hold, per element, as the flow needs to know it.
-struct PoreState {
-  std::vector<double> porosity;       ///< n_L
-  std::vector<double> water_volume;   ///< pore volume less fluidised grains, m3
-  std::vector<double> concentration;  ///< c
-  std::vector<double> flux;           ///< |q|, m/s; may be empty where no soil erodes by it
-};
-
-/// An interval of the flow, from one meeting with erosion and transport to the next, and those who
-/// have a say in it.
+/// An interval that the flow crosses by itself, until erosion and transport must follow.
 template <int Dim>
 struct FlowInterval {
-  double begin = 0.0;
-  double target = 0.0;  ///< the interval ends there at the latest, s
-  bool end_on_target = false;
-  /// Steps of a length that erosion and transport let pass before they must follow.
-  std::function<long(double dt)> steps_allowed;
-  /// Longest interval, s, that erosion and transport may follow in a few steps of their own.
-  std::function<double()> longest;
-  /// The pores at a time within the interval, as erosion will have made them.
-  std::function<PoreState(double time)> pores_at;
-  /// Times at which somebody looks, ascending, given the time that the interval ends at.
-  std::function<std::vector<double>(double reached)> times_until;
-  std::function<void(FlowState<Dim> moment, const Passed<Dim>& passed)> see;
+  double begin = 0.0;    ///< s
+  double latest = 0.0;   ///< next output, or the end: the interval ends there at the latest, s
+  double longest = 0.0;  ///< that erosion and transport can follow, s
+  const PoreForecast<Dim>& pores;  ///< as erosion will make them
 };
 
-/// What an interval of the flow came to.
-template <int Dim>
+/// What the flow made of an interval.
 struct FlowProgress {
   long steps = 0;
-  double dt = 0.0;        ///< of one step, s
-  double duration = 0.0;  ///< of all, s
-  Passed<Dim> passed;
+  double dt = 0.0;      ///< of the last step, s
+  double end = 0.0;     ///< s; before the interval's latest end where the flow chose so
+  FaceVolumes volumes;  ///< that crossed the faces
 };
 
 /// How a plan wants the flow stepped.
@@ -98,14 +71,14 @@ struct FlowOptions {
   /// Implicit only: errors of steps much shorter than this count by the volume that they misplace,
   /// not by the flux, s. Waves whose periods are shorter need not be followed.
   double unnoticed = 0.0;
-  bool freeze = true;  ///< implicit only: a steady flow is not solved again
+  bool reuse_steady = true;  ///< implicit only: a steady flow is not solved again
   int threads = 1;
 };
 
 template <int Dim>
 class FlowSolver {
  public:
-  FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
+  FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Skeleton<Dim>& solid,
              int threads = 1);
   virtual ~FlowSolver() = default;
   FlowSolver(const FlowSolver&) = delete;
@@ -114,27 +87,35 @@ class FlowSolver {
   [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
   [[nodiscard]] const FlowCoefficients<Dim>& coefficients() const { return coefficients_; }
 
+  /// How far the flow may go by itself before erosion and transport follow.
+  struct CouplingLimits {
+    bool one_transport_step = false;  ///< no more than one of them
+    bool follows_pores = false;       ///< it forecasts them; else they may grow by little only
+  };
+  [[nodiscard]] virtual CouplingLimits coupling_limits() const = 0;
+
   /// Takes what the pores hold at `time`, and the concentration of what crosses each face.
-  virtual void update(double time, const PoreState& content,
+  virtual void update(double time, const PoreState& pores,
                       const std::vector<double>& face_concentration);
 
   /// At rest or steady, as the scene says. Warns where this mesh cannot follow the flow.
   virtual void start() = 0;
 
-  /// Runs from a meeting to the next. Throws NumericalError.
-  virtual FlowProgress<Dim> run(const FlowInterval<Dim>& interval) = 0;
+  /// Takes one step or many, within the interval; ends on its latest end or on a breakpoint exactly
+  /// where it reaches one. Throws NumericalError.
+  virtual FlowProgress advance(const FlowInterval<Dim>& interval) = 0;
 
   /// Pressure per element, Pa.
   [[nodiscard]] virtual const std::vector<double>& pressure() const = 0;
   /// The masses of water are what is conserved (single-point): pressures follow from them, at once
   /// or with the next step. `water_mass` per element, kg.
-  virtual void follow_masses(double time, const std::vector<double>& water_mass) = 0;
+  virtual void match_masses(double time, const std::vector<double>& water_mass) = 0;
 
   /// The flow as it stands.
-  [[nodiscard]] virtual FlowState<Dim> moment(double time) const = 0;
+  [[nodiscard]] virtual FlowState<Dim> state(double time) const = 0;
   /// Its fluxes through faces alone, m3/s.
   [[nodiscard]] virtual std::vector<double> face_flux(double time) const {
-    return moment(time).face_flux;
+    return state(time).face_flux;
   }
   /// What this scheme did: passes with calls and seconds, for run.json.
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
@@ -143,7 +124,7 @@ class FlowSolver {
   virtual void archive(StateArchive& archive);
 
   /// Fluxes through the outer boundary, pressures and speeds.
-  void describe(const FlowState<Dim>& moment, HistoryRow& row) const;
+  void describe(const FlowState<Dim>& state, HistoryRow& row) const;
 
   /// Names each boundary that liquid entered through, once, where the scene gives it no
   /// concentration. `entered`: volume along each face's normal, m3.
@@ -153,14 +134,18 @@ class FlowSolver {
 
  protected:
   [[nodiscard]] FlowCoefficients<Dim> coefficients_of(
-      double time, const PoreState& content, const std::vector<double>& face_concentration) const;
+      double time, const PoreState& pores, const std::vector<double>& face_concentration) const;
+  /// Times at which erosion starts or ends or a boundary value has a kink, ascending, s.
+  [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
+  /// The first breakpoint after `begin`, or `latest` where that comes first.
+  [[nodiscard]] double next_breakpoint(double begin, double latest) const;
   /// Mean of the elements around each node, Pa; where a pressure is prescribed, that is it.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
   /// A warning for the next `take_warnings`.
   void warn(std::string text) { warnings_.push_back(std::move(text)); }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
-  [[nodiscard]] const RigidSkeleton<Dim>& skeleton() const { return skeleton_; }
+  [[nodiscard]] const SoilMap<Dim>& soils() const { return soils_; }
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;
@@ -180,8 +165,9 @@ class FlowSolver {
   const Scene& scene_;
   const Grid<Dim>& grid_;
   BoundaryValues<Dim> boundary_values_;
-  const RigidSkeleton<Dim>& skeleton_;
+  const SoilMap<Dim>& soils_;
   int threads_;
+  std::vector<double> breakpoints_;
   std::vector<double> initial_porosity_;  ///< per element, at its centroid
   std::vector<double> grain_size_;  ///< per element, of Ergun's drag; empty where no soil has it, m
   double grain_density_ = unset;
@@ -192,7 +178,6 @@ class FlowSolver {
 /// The scheme that the scene asks for.
 template <int Dim>
 std::unique_ptr<FlowSolver<Dim>> make_flow(const Case<Dim>& c, const Grid<Dim>& grid,
-                                           const RigidSkeleton<Dim>& skeleton,
-                                           const FlowOptions& options);
+                                           const Skeleton<Dim>& solid, const FlowOptions& options);
 
 }  // namespace suffuse

@@ -52,11 +52,6 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-/// The same time, but for the rounding of sums of steps.
-bool is_same_time(double a, double b) {
-  return std::abs(a - b) <= 1e-14 * std::max(std::abs(a), std::abs(b));
-}
-
 double largest(const std::vector<double>& values) {
   double result = 0.0;
   for (const double v : values) result = std::max(result, std::abs(v));
@@ -67,8 +62,8 @@ double largest(const std::vector<double>& values) {
 
 template <int Dim>
 ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
-                                const RigidSkeleton<Dim>& skeleton, const FlowOptions& options)
-    : FlowSolver<Dim>(c, grid, skeleton, options.threads),
+                                const Skeleton<Dim>& solid, const FlowOptions& options)
+    : FlowSolver<Dim>(c, grid, solid, options.threads),
       options_(options),
       tolerance_(this->scene().time.tolerance),
       end_(this->scene().time.end),
@@ -81,16 +76,12 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
   for (const FaceCondition& condition : this->conditions_) {
     follows_pores_ |= condition.kind == FaceKind::velocity;
   }
-  events_ = skeleton.erosion_events();
-  const std::vector<double>& knots = this->boundary_values().events();
-  events_.insert(events_.end(), knots.begin(), knots.end());
-  std::sort(events_.begin(), events_.end());
 }
 
 template <int Dim>
-void ImplicitFlow<Dim>::update(double time, const PoreState& content,
+void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
                                const std::vector<double>& face_concentration) {
-  FlowSolver<Dim>::update(time, content, face_concentration);
+  FlowSolver<Dim>::update(time, pores, face_concentration);
   if (expected_) learn_from_expected();
   if (keep_ && !same_resistance(this->coefficients_, kept_coefficients_)) keep_ = false;
 }
@@ -318,7 +309,7 @@ FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>
                                                          double time) const {
   // What an event at the end of a step begins or ends is not yet to be seen.
   const double before = time - sliver * (time - interval.begin);
-  return this->coefficients_of(before, interval.pores_at(before),
+  return this->coefficients_of(before, interval.pores.at(before),
                                this->coefficients_.face_concentration);
 }
 
@@ -358,22 +349,16 @@ bool ImplicitFlow<Dim>::jumps(double begin, double dt) const {
 }
 
 template <int Dim>
-double ImplicitFlow<Dim>::length_of_step(const FlowInterval<Dim>& interval) const {
-  double until = interval.end_on_target ? interval.target : end_;
-  for (const double event : events_) {
-    if (event > interval.begin && !is_same_time(event, interval.begin)) {
-      until = std::min(until, event);
-      break;
-    }
+double ImplicitFlow<Dim>::length_of_step(double begin, double until, double longest) const {
+  const double left = until - begin;
+  if (options_.step_given) {
+    // The given step is the longest one: what is left is divided evenly.
+    return left / std::max(1.0, std::ceil(left / options_.step * (1.0 - sliver)));
   }
-  const double left = until - interval.begin;
-  double dt = next_dt_;
-  if (!options_.step_given) {
-    if (jumps(interval.begin, left)) return left;
-    dt = std::min(dt, interval.longest());
-    // No sliver before an event: two halves are better than nine tenths and one.
-    if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
-  }
+  if (jumps(begin, left)) return left;
+  double dt = std::min(next_dt_, longest);
+  // No sliver before the end: two halves are better than nine tenths and one.
+  if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
   return dt * (1.0 + sliver) >= left ? left : dt;
 }
 
@@ -494,38 +479,6 @@ FaceVolumes ImplicitFlow<Dim>::volumes_of(const MixedStep<Dim>& step) const {
 }
 
 template <int Dim>
-void ImplicitFlow<Dim>::show(const FlowInterval<Dim>& interval, const Point& begin, double dt,
-                             const FaceVolumes& volumes) {
-  const double reached = (interval.begin + dt) * (1.0 + 1e-14) + 1e-12 * dt;
-  for (const double time : interval.times_until(reached)) {
-    const double share = std::min(1.0, (time - interval.begin) / dt);
-    Point flow;
-    flow.state.face_pressure = between(begin.state.face_pressure, now_.state.face_pressure, share);
-    flow.state.velocity = between(begin.state.velocity, now_.state.velocity, share);
-    flow.face_flux = between(begin.face_flux, now_.face_flux, share);
-    // The flux is taken as linear over the step, and its integral made to end at the step's volume.
-    Passed<Dim> passed;
-    passed.volumes = volumes;
-    for (std::size_t f = 0; f < volumes.liquid.size(); ++f) {
-      const double curved =
-          volumes.liquid[f] * share +
-          0.5 * dt * share * (1.0 - share) * (begin.face_flux[f] - now_.face_flux[f]);
-      passed.volumes.liquid[f] = curved;
-      passed.volumes.density_excess[f] *=
-          volumes.liquid[f] != 0.0 ? curved / volumes.liquid[f] : share;
-    }
-    this->take_boundary_values(interval.begin, time);
-    FlowState<Dim> moment = moment_of(time, dt, flow, interval.pores_at(time).porosity);
-    moment.flux_in_time = {per_time(volumes.liquid, dt), {}, share};
-    moment.flux_in_time.change = begin.face_flux;
-    for (std::size_t f = 0; f < volumes.liquid.size(); ++f) {
-      moment.flux_in_time.change[f] = now_.face_flux[f] - begin.face_flux[f];
-    }
-    interval.see(std::move(moment), passed);
-  }
-}
-
-template <int Dim>
 void ImplicitFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
   Point next{std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
   // A passing peak, as at a start from rest, is no measure of what follows where one is known.
@@ -543,8 +496,10 @@ void ImplicitFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
 }
 
 template <int Dim>
-FlowProgress<Dim> ImplicitFlow<Dim>::run(const FlowInterval<Dim>& interval) {
-  double dt = length_of_step(interval);
+FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
+  const double until = this->next_breakpoint(interval.begin, interval.latest);
+  const double left = until - interval.begin;
+  double dt = length_of_step(interval.begin, until, interval.longest);
   // The first step from rest gives the flow right after the start: what was before tells nothing.
   const bool leaves_rest = at_rest_;
   MixedStep<Dim> step;
@@ -557,37 +512,32 @@ FlowProgress<Dim> ImplicitFlow<Dim>::run(const FlowInterval<Dim>& interval) {
     const PassTimer timer(solving_);
     step = accepted_step(interval, dt);
   }
-  FlowProgress<Dim> progress;
-  progress.steps = 1;
-  progress.dt = progress.duration = dt;
-  progress.passed.volumes = volumes_of(step);
+  FlowProgress progress{1, dt, dt < left ? interval.begin + dt : until, volumes_of(step)};
 
   remember(std::move(step), dt);
-  Point begin = *before_;
-  if (leaves_rest) begin.face_flux = now_.face_flux;
-  show(interval, begin, dt, progress.passed.volumes);
   if (leaves_rest) before_.reset();
   at_rest_ = false;
+  this->take_boundary_values(interval.begin, progress.end);
+  meet_breakpoint(progress.end, dt);
+  return progress;
+}
 
-  const double time = interval.begin + dt;
-  this->take_boundary_values(interval.begin, time);
-  const bool at_event = std::any_of(events_.begin(), events_.end(),
-                                    [&](double event) { return is_same_time(event, time); });
-  if (at_event) {
-    // A kink: what was before tells nothing of what comes.
-    if (!keep_) before_.reset();
-    // Soil that begins to erode may resist at once (momentum_transfer).
-    if (follows_pores_) joining_ = std::min(joining_, event_share * dt);
-    const auto& knots = this->boundary_values().events();
-    const bool kink = std::any_of(knots.begin(), knots.end(),
-                                  [&](double knot) { return is_same_time(knot, time); });
-    // Where erosion starts the kept flow still looks right, and is not.
-    if (kink || follows_pores_ || this->gravity().norm() > 0.0) keep_ = false;
-  } else if (!keep_) {
+template <int Dim>
+void ImplicitFlow<Dim>::meet_breakpoint(double time, double dt) {
+  const auto is_now = [time](double other) { return is_same_time(other, time); };
+  if (std::ranges::none_of(this->breakpoints(), is_now)) {
+    if (keep_) return;
     const PassTimer timer(solving_);
     keep_if_steady(time);
+    return;
   }
-  return progress;
+  // A kink: what was before tells nothing of what comes.
+  if (!keep_) before_.reset();
+  // Soil that begins to erode may resist at once (momentum_transfer).
+  if (follows_pores_) joining_ = std::min(joining_, event_share * dt);
+  const bool boundary_kink = std::ranges::any_of(this->boundary_values().events(), is_now);
+  // Where erosion starts the kept flow still looks right, and is not.
+  if (boundary_kink || follows_pores_ || this->gravity().norm() > 0.0) keep_ = false;
 }
 
 template <int Dim>
@@ -610,7 +560,7 @@ bool ImplicitFlow<Dim>::same_resistance(const FlowCoefficients<Dim>& a,
 
 template <int Dim>
 void ImplicitFlow<Dim>::keep_if_steady(double time) {
-  if (!options_.freeze || !before_) return;
+  if (!options_.reuse_steady || !before_) return;
   // Sealed water is steady only while nothing disturbs it, its own round-off included.
   const bool open = std::any_of(this->conditions_.begin(), this->conditions_.end(),
                                 [](const auto& c) { return c.kind == FaceKind::pressure; });
@@ -665,7 +615,7 @@ void ImplicitFlow<Dim>::mend_kept() {
 }
 
 template <int Dim>
-void ImplicitFlow<Dim>::follow_masses(double time, const std::vector<double>& water_mass) {
+void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& water_mass) {
   const LiquidProperties& liquid = this->scene().liquid;
   const std::size_t elements = water_mass.size();
   const bool stiff = std::isinf(liquid.bulk_modulus);
@@ -723,37 +673,31 @@ double ImplicitFlow<Dim>::overshoot(const std::vector<double>& face_pressure) co
 }
 
 template <int Dim>
-FlowState<Dim> ImplicitFlow<Dim>::moment_of(double time, double dt, const Point& flow,
-                                            const std::vector<double>& porosity) const {
+FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
   const Grid<Dim>& grid = this->grid();
   FlowState<Dim> result;
   result.time = time;
-  result.dt = dt;
-  result.pressure = element_means(flow.state.face_pressure);
-  result.face_flux = flow.face_flux;
+  result.dt = last_dt_ > 0.0 ? last_dt_ : next_dt_;
+  result.pressure = pressure_;
+  result.face_flux = now_.face_flux;
   result.eos_error = eos_error_;
-  result.pressure_overshoot = overshoot(flow.state.face_pressure);
+  result.pressure_overshoot = overshoot(now_.state.face_pressure);
   // Nodes: what the linear fields of the elements around have there, on the mean.
   result.node_pressure.assign(grid.mesh.node_count(), 0.0);
   result.velocity.assign(grid.mesh.node_count(), Vector<Dim>::Zero());
-  const std::vector<Vector<Dim>> flux = element_flux(grid, flow.face_flux);
+  const std::vector<Vector<Dim>> flux = element_flux(grid, now_.face_flux);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     for (int k = 0; k <= Dim; ++k) {
       const int i = grid.mesh.elements[e][k];
       const double weight = grid.volume[e] / (Dim + 1) / grid.node_volume[i];
       const double at_vertex =
-          (Dim + 1) * result.pressure[e] - Dim * flow.state.face_pressure[grid.element_face[e][k]];
+          (Dim + 1) * pressure_[e] - Dim * now_.state.face_pressure[grid.element_face[e][k]];
       result.node_pressure[i] += weight * at_vertex;
-      result.velocity[i] += weight / porosity[e] * flux[e];
+      result.velocity[i] += weight / this->coefficients_.porosity[e] * flux[e];
     }
   }
   this->prescribe_at_nodes(result.node_pressure);
   return result;
-}
-
-template <int Dim>
-FlowState<Dim> ImplicitFlow<Dim>::moment(double time) const {
-  return moment_of(time, last_dt_ > 0.0 ? last_dt_ : next_dt_, now_, this->coefficients_.porosity);
 }
 
 template <int Dim>

@@ -14,22 +14,25 @@ namespace suffuse {
 template <int Dim>
 class ImplicitFlow final : public FlowSolver<Dim> {
  public:
-  ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
+  ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                const FlowOptions& options);
 
-  void update(double time, const PoreState& content,
+  void update(double time, const PoreState& pores,
               const std::vector<double>& face_concentration) override;
   void start() override;
   /// One step. Throws NumericalError when no step is short enough for the tolerance.
-  FlowProgress<Dim> run(const FlowInterval<Dim>& interval) override;
+  FlowProgress advance(const FlowInterval<Dim>& interval) override;
+  [[nodiscard]] typename FlowSolver<Dim>::CouplingLimits coupling_limits() const override {
+    return {.one_transport_step = false, .follows_pores = true};
+  }
 
   [[nodiscard]] const std::vector<double>& pressure() const override { return pressure_; }
   /// Where an element's water does not fit its pores at its pressure, the next step lets it out.
-  void follow_masses(double time, const std::vector<double>& water_mass) override;
+  void match_masses(double time, const std::vector<double>& water_mass) override;
 
   void archive(StateArchive& archive) override;
 
-  [[nodiscard]] FlowState<Dim> moment(double time) const override;
+  [[nodiscard]] FlowState<Dim> state(double time) const override;
   [[nodiscard]] std::vector<double> face_flux(double /*time*/) const override {
     return now_.face_flux;
   }
@@ -52,8 +55,11 @@ class ImplicitFlow final : public FlowSolver<Dim> {
                                                       double time) const;
   /// Boundary values jump within these `dt` seconds.
   [[nodiscard]] bool jumps(double begin, double dt) const;
-  /// Changes of the step `dt` that is tried next: events, the target, and slivers before them.
-  [[nodiscard]] double length_of_step(const FlowInterval<Dim>& interval) const;
+  /// Length of the step that is tried next, s.
+  [[nodiscard]] double length_of_step(double begin, double until, double longest) const;
+  /// After a step of `dt` that ended at `time`: what a breakpoint there ends, or a steady flow
+  /// starts.
+  void meet_breakpoint(double time, double dt);
   /// Makes the coefficients at `time` go on from those at the end of the last step: what transport
   /// made of them meanwhile would be a jump of the flux that no step is too short for.
   void join_to_last_step(double begin, double time, FlowCoefficients<Dim>& coefficients) const;
@@ -65,8 +71,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] MixedStep<Dim> accepted_step(const FlowInterval<Dim>& interval, double& dt);
   /// The same flow again, over `dt`.
   [[nodiscard]] MixedStep<Dim> kept(double dt) const;
-  void show(const FlowInterval<Dim>& interval, const Point& begin, double dt,
-            const FaceVolumes& volumes);
   [[nodiscard]] FaceVolumes volumes_of(const MixedStep<Dim>& step) const;
   void remember(MixedStep<Dim> step, double dt);
   /// Keeps the flow when it has become steady and nothing that drives it will change by itself.
@@ -93,8 +97,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   double tolerance_;
   double end_;
   ImplicitMixed<Dim> scheme_;
-  std::vector<double> events_;  ///< ascending, s
-  bool follows_pores_;          ///< coefficients change with porosity within a step
+  bool follows_pores_;  ///< coefficients change with porosity within a step
 
   std::vector<FlowForcing<Dim>> forcing_;  ///< per stage of the step that is tried
   FlowCoefficients<Dim> used_;             ///< at the end of the last step that was solved

@@ -24,6 +24,16 @@ struct PointPlace {
   }
 };
 
+/// Value at a place of a field that is linear between nodes.
+template <int Dim, class Value>
+Value interpolate(const Grid<Dim>& grid, const PointPlace<Dim>& place,
+                  const std::vector<Value>& at_nodes) {
+  const auto& nodes = grid.mesh.elements[place.element];
+  Value value = place.barycentric[0] * at_nodes[nodes[0]];
+  for (int a = 1; a <= Dim; ++a) value += place.barycentric[a] * at_nodes[nodes[a]];
+  return value;
+}
+
 /// Onto the face opposite local vertex `vertex`, and exactly so; the coordinates add up to one.
 template <std::size_t Count>
 void put_on_face(std::array<double, Count>& at, int vertex) {

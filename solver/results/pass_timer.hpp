@@ -3,10 +3,16 @@
 /// What a pass of the solver costs.
 
 #include <chrono>
-
-#include "results/writer.hpp"
+#include <string>
 
 namespace suffuse {
+
+/// What one pass of the solver cost.
+struct PassTiming {
+  std::string name;
+  long calls = 0;
+  double seconds = 0.0;
+};
 
 /// Adds the time it lives to a pass.
 class PassTimer {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "case/errors.hpp"
-#include "results/writer.hpp"
+#include "results/pass_timer.hpp"
 
 namespace suffuse {
 

@@ -15,6 +15,7 @@
 
 #include "case/case_file.hpp"
 #include "results/folder_lock.hpp"
+#include "results/pass_timer.hpp"
 #include "results/restart_point.hpp"
 #include "results/tables.hpp"
 
@@ -43,13 +44,6 @@ struct Snapshot {
   /// From where a run can go on that was stopped after this snapshot; nothing where that is kept
   /// with a later one of the same step.
   std::optional<RestartPoint> restart;
-};
-
-/// What one pass of the solver cost.
-struct PassTiming {
-  std::string name;
-  long calls = 0;
-  double seconds = 0.0;
 };
 
 /// run.json, but for the scene and the versions, which the writer adds.

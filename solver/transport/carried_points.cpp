@@ -68,7 +68,7 @@ long CarriedPoints<Dim>::travelled() const {
 }
 
 template <int Dim>
-void CarriedPoints<Dim>::gather(VectorField<Dim>& velocity, std::vector<double>& pressure) {
+void CarriedPoints<Dim>::points_to_grid(VectorField<Dim>& velocity, std::vector<double>& pressure) {
   const int elements = grid_.mesh.element_count();
   const int nodes = grid_.mesh.node_count();
 #pragma omp parallel num_threads(threads_) if (elements > worth_threads_of_points)
@@ -76,7 +76,7 @@ void CarriedPoints<Dim>::gather(VectorField<Dim>& velocity, std::vector<double>&
 #pragma omp for schedule(static)
     for (int e = 0; e < elements; ++e) {
       blocks_.prefetch(e + looked_ahead);
-      gather_element(e, pressure[e]);
+      element_to_corners(e, pressure[e]);
     }
     // Each node adds up its corners in their order, whichever thread made them.
 #pragma omp for schedule(static)
@@ -94,7 +94,7 @@ void CarriedPoints<Dim>::gather(VectorField<Dim>& velocity, std::vector<double>&
 }
 
 template <int Dim>
-void CarriedPoints<Dim>::gather_element(int element, double& pressure) {
+void CarriedPoints<Dim>::element_to_corners(int element, double& pressure) {
   std::array<SimdDouble4, Dim + 1> mass{};
   std::array<std::array<SimdDouble4, Dim>, Dim + 1> momentum{};
   SimdDouble4 volume{};
@@ -148,9 +148,9 @@ auto CarriedPoints<Dim>::element_step(int element, const FlowChange<Dim>& change
 }
 
 template <int Dim>
-void CarriedPoints<Dim>::pass_over(int element, const ElementStep& step,
-                                   const WalkField<Dim>& field, double duration,
-                                   Departures& departures) {
+void CarriedPoints<Dim>::move_element(int element, const ElementStep& step,
+                                      const WalkField<Dim>& field, double duration,
+                                      Departures& departures) {
   departures.leaving.clear();
   int slot = 0;
   for (PointQuad<Dim>& quad : blocks_.quads(element)) {
@@ -192,7 +192,7 @@ void CarriedPoints<Dim>::send(PointPlace<Dim> place, CarriedPoint<Dim> point, in
   if (from_region != to_region || left_by >= 0) {
     // A point that enters and leaves at once counts in both directions.
     departures.crossings.push_back(
-        {from_region, to_region, left_by, point.water_mass, point.fines_mass, point.fines_noted});
+        {from_region, to_region, left_by, point.water_mass, point.fines_mass});
   }
   if (left_by >= 0) return;
   std::copy_n(place.barycentric.begin(), Dim, point.at.begin());
@@ -200,10 +200,10 @@ void CarriedPoints<Dim>::send(PointPlace<Dim> place, CarriedPoint<Dim> point, in
 }
 
 template <int Dim>
-void CarriedPoints<Dim>::take_and_move(const FlowChange<Dim>& change, const WalkField<Dim>& field,
-                                       double duration,
-                                       const std::vector<ArrivingPoint<Dim>>& arriving,
-                                       std::vector<CarriedCrossing>& crossings) {
+void CarriedPoints<Dim>::grid_to_points(const FlowChange<Dim>& change, const WalkField<Dim>& field,
+                                        double duration,
+                                        const std::vector<ArrivingPoint<Dim>>& arriving,
+                                        std::vector<CarriedCrossing>& crossings) {
   const int elements = grid_.mesh.element_count();
   const auto together = static_cast<int>(departures_.size()) - 1;
 #pragma omp parallel for schedule(static) \
@@ -217,7 +217,7 @@ void CarriedPoints<Dim>::take_and_move(const FlowChange<Dim>& change, const Walk
       for (int e = k * passed_together; e < end; ++e) {
         blocks_.prefetch(e + looked_ahead);
         if (blocks_.count(e) == 0) continue;
-        pass_over(e, element_step(e, change, field, duration), field, duration, departures);
+        move_element(e, element_step(e, change, field, duration), field, duration, departures);
       }
     } catch (...) {
       departures.failure = std::current_exception();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flow/flow.hpp"
+#include "grid/point_walk.hpp"
 #include "transport/point_blocks.hpp"
 
 namespace suffuse {
@@ -37,7 +38,6 @@ struct CarriedCrossing {
   int left_by;  ///< outer face, -1 for none
   double water_mass;
   double fines_mass;
-  double fines_noted;
 };
 
 template <int Dim>
@@ -52,15 +52,15 @@ class CarriedPoints {
 
   /// Nodes take the points' velocity, weighted with mass, elements their pressure, weighted with
   /// the volume that the point has at p = 0. Where no point is near they keep what they have.
-  void gather(VectorField<Dim>& velocity, std::vector<double>& pressure);
+  void points_to_grid(VectorField<Dim>& velocity, std::vector<double>& pressure);
 
   /// Points take the change and move with the flux of the step for `duration` seconds, each point
   /// as `walk` would move it; those that arrive take nothing and move for their own time. Appends
   /// who changed region to `crossings`, in an order that does not depend on the threads. Throws
   /// NumericalError as `walk` does.
-  void take_and_move(const FlowChange<Dim>& change, const WalkField<Dim>& field, double duration,
-                     const std::vector<ArrivingPoint<Dim>>& arriving,
-                     std::vector<CarriedCrossing>& crossings);
+  void grid_to_points(const FlowChange<Dim>& change, const WalkField<Dim>& field, double duration,
+                      const std::vector<ArrivingPoint<Dim>>& arriving,
+                      std::vector<CarriedCrossing>& crossings);
 
  private:
   /// What the points of an element give to one of its nodes.
@@ -94,9 +94,9 @@ class CarriedPoints {
   };
   [[nodiscard]] ElementStep element_step(int element, const FlowChange<Dim>& change,
                                          const WalkField<Dim>& field, double duration) const;
-  void gather_element(int element, double& pressure);
-  void pass_over(int element, const ElementStep& step, const WalkField<Dim>& field, double duration,
-                 Departures& departures);
+  void element_to_corners(int element, double& pressure);
+  void move_element(int element, const ElementStep& step, const WalkField<Dim>& field,
+                    double duration, Departures& departures);
   void send(PointPlace<Dim> place, CarriedPoint<Dim> point, int from_region,
             const WalkField<Dim>& field, double time, Departures& departures) const;
   void let_in();

@@ -1,12 +1,12 @@
 #pragma once
 
-/// Grains that liquid points take up on their way.
+/// Fines that liquid points take up along their paths.
 
 #include <array>
 
 namespace suffuse {
 
-/// What a point takes up in one element that it passes.
+/// The fines that a point takes up in one element that it passes.
 template <int Dim>
 struct FinesUptake {
   int point;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "physics/liquid.hpp"
+
 namespace suffuse {
 namespace {
 
@@ -69,6 +71,27 @@ void keep_points(LiquidPoints<Dim>& points, const std::vector<unsigned char>& ke
   if (order.size() < keep.size()) rearrange(points, order);
 }
 
+template <int Dim>
+LiquidPoints<Dim> clean_liquid(const MaterialPoints<Dim>& places,
+                               const std::vector<double>& pressure,
+                               const LiquidDensities& densities, double bulk_modulus) {
+  LiquidPoints<Dim> result;
+  result.element = places.element;
+  result.barycentric = places.barycentric;
+  result.fines_mass.assign(places.size(), 0.0);
+  result.water_mass.reserve(places.size());
+  result.id.resize(places.size());
+  std::iota(result.id.begin(), result.id.end(), 0L);
+  for (int p = 0; p < places.size(); ++p) {
+    result.water_mass.push_back(densities.water *
+                                density_ratio(pressure[places.element[p]], bulk_modulus) *
+                                places.volume[p]);
+  }
+  return result;
+}
+
+template LiquidPoints<2> clean_liquid(const MaterialPoints<2>&, const std::vector<double>&,
+                                      const LiquidDensities&, double);
 template void LiquidPoints<2>::reserve(int);
 template void sort_by_element(LiquidPoints<2>&, int);
 template std::vector<int> element_begins(const LiquidPoints<2>&, int);

@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "grid/point_walk.hpp"
+#include "case/material_points.hpp"
+#include "grid/point_place.hpp"
 
 namespace suffuse {
 
@@ -53,5 +54,12 @@ inline double liquid_volume(double water_mass, double fines_mass, const LiquidDe
                             double ratio) {
   return water_mass / (densities.water * ratio) + fines_mass / densities.grain;
 }
+
+/// Points in their places, sorted by element, filled with clean water that the pressure of their
+/// elements (Pa) has packed.
+template <int Dim>
+LiquidPoints<Dim> clean_liquid(const MaterialPoints<Dim>& places,
+                               const std::vector<double>& pressure,
+                               const LiquidDensities& densities, double bulk_modulus);
 
 }  // namespace suffuse

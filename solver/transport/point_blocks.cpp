@@ -7,7 +7,7 @@ namespace suffuse {
 template <int Dim>
 void PointBlocks<Dim>::fill(const LiquidPoints<Dim>& points, int element_count) {
   quads_.clear();
-  notes_.clear();
+  ids_.clear();
   free_.clear();
   blocks_.assign(element_count, Block{0, 0, 0});
   for (const int e : points.element) ++blocks_[e].count;
@@ -21,9 +21,9 @@ void PointBlocks<Dim>::fill(const LiquidPoints<Dim>& points, int element_count) 
   }
   // What is reserved and never touched costs no memory; what grows shall not move the rest.
   quads_.reserve(quads + quads / 2);
-  notes_.reserve(quads + quads / 2);
+  ids_.reserve(quads + quads / 2);
   quads_.resize(quads);
-  notes_.resize(quads);
+  ids_.resize(quads);
   for (int e = 0; e < element_count; ++e) {
     for (int slot = 0; slot < simd_width * blocks_[e].capacity; ++slot) clear(e, slot);
   }
@@ -33,14 +33,14 @@ void PointBlocks<Dim>::fill(const LiquidPoints<Dim>& points, int element_count) 
     point.velocity = points.velocity[p];
     point.pressure = points.pressure[p];
     point.water_mass = points.water_mass[p];
-    point.fines_mass = point.fines_noted = points.fines_mass[p];
+    point.fines_mass = points.fines_mass[p];
     point.id = points.id[p];
     add_growing(points.element[p], point);
   }
 }
 
 template <int Dim>
-LiquidPoints<Dim> PointBlocks<Dim>::points(bool fines_as_noted) const {
+LiquidPoints<Dim> PointBlocks<Dim>::points() const {
   LiquidPoints<Dim> result;
   result.reserve(size());
   for (int e = 0; e < element_count(); ++e) {
@@ -49,7 +49,7 @@ LiquidPoints<Dim> PointBlocks<Dim>::points(bool fines_as_noted) const {
       result.element.push_back(e);
       result.barycentric.push_back(all_coordinates<Dim>(carried.at));
       result.water_mass.push_back(carried.water_mass);
-      result.fines_mass.push_back(fines_as_noted ? carried.fines_noted : carried.fines_mass);
+      result.fines_mass.push_back(carried.fines_mass);
       result.id.push_back(carried.id);
       result.pressure.push_back(carried.pressure);
       result.velocity.push_back(carried.velocity);
@@ -78,8 +78,7 @@ CarriedPoint<Dim> PointBlocks<Dim>::point(int element, int slot) const {
   point.pressure = quad.pressure[lane];
   point.water_mass = quad.water_mass[lane];
   point.fines_mass = quad.fines_mass[lane];
-  point.fines_noted = notes_[q].fines_noted[lane];
-  point.id = notes_[q].id[lane];
+  point.id = ids_[q][lane];
   return point;
 }
 
@@ -95,8 +94,7 @@ void PointBlocks<Dim>::put(int element, int slot, const CarriedPoint<Dim>& point
   quad.pressure[lane] = point.pressure;
   quad.water_mass[lane] = point.water_mass;
   quad.fines_mass[lane] = point.fines_mass;
-  notes_[q].fines_noted[lane] = point.fines_noted;
-  notes_[q].id[lane] = point.id;
+  ids_[q][lane] = point.id;
 }
 
 template <int Dim>
@@ -104,18 +102,9 @@ void PointBlocks<Dim>::clear(int element, int slot) {
   CarriedPoint<Dim> nothing;
   nothing.at.fill(1.0 / (Dim + 1));
   nothing.velocity.setZero();
-  nothing.pressure = nothing.water_mass = nothing.fines_mass = nothing.fines_noted = 0.0;
+  nothing.pressure = nothing.water_mass = nothing.fines_mass = 0.0;
   nothing.id = -1;
   put(element, slot, nothing);
-}
-
-template <int Dim>
-void PointBlocks<Dim>::note_fines() {
-  for (std::size_t q = 0; q < quads_.size(); ++q) {
-    for (int lane = 0; lane < simd_width; ++lane) {
-      notes_[q].fines_noted[lane] = quads_[q].fines_mass[lane];
-    }
-  }
 }
 
 template <int Dim>
@@ -146,7 +135,7 @@ template <int Dim>
 void PointBlocks<Dim>::grow(Block& block) {
   const std::size_t first = allocate(block.capacity + 1);
   std::copy_n(quads_.begin() + block.first, block.capacity, quads_.begin() + first);
-  std::copy_n(notes_.begin() + block.first, block.capacity, notes_.begin() + first);
+  std::copy_n(ids_.begin() + block.first, block.capacity, ids_.begin() + first);
   if (free_.size() <= static_cast<std::size_t>(block.capacity)) free_.resize(block.capacity + 1);
   if (block.capacity > 0) free_[block.capacity].push_back(block.first);
   block.first = first;
@@ -164,7 +153,7 @@ std::size_t PointBlocks<Dim>::allocate(int capacity) {
   }
   const std::size_t first = quads_.size();
   quads_.resize(first + capacity);
-  notes_.resize(first + capacity);
+  ids_.resize(first + capacity);
   return first;
 }
 

@@ -32,7 +32,6 @@ struct CarriedPoint {
   double pressure;
   double water_mass;
   double fines_mass;
-  double fines_noted;  ///< see PointBlocks::note_fines
   long id;
 };
 
@@ -53,8 +52,8 @@ class PointBlocks {
  public:
   /// Takes the points, sorted by element, in their order. Those must carry the flow.
   void fill(const LiquidPoints<Dim>& points, int element_count);
-  /// Sorted by element, with their fines of now or as noted.
-  [[nodiscard]] LiquidPoints<Dim> points(bool fines_as_noted) const;
+  /// Sorted by element.
+  [[nodiscard]] LiquidPoints<Dim> points() const;
 
   [[nodiscard]] int size() const;
   [[nodiscard]] int element_count() const { return static_cast<int>(blocks_.size()); }
@@ -91,9 +90,6 @@ class PointBlocks {
     quads_[blocks_[element].first + slot / simd_width].fines_mass[slot % simd_width] += mass;
   }
 
-  /// Keeps the fines of each point as they are now beside those that change.
-  void note_fines();
-
   /// Takes a point out; the element's last one takes its slot.
   CarriedPoint<Dim> remove(int element, int slot);
   /// Puts a point behind the others. False, and nothing happens, when the block is full.
@@ -103,7 +99,7 @@ class PointBlocks {
   /// Empty slots back to the middle of the element, from wherever the flow took them.
   void recentre_empty(int element);
 
-  void archive(auto& archive) { archive(quads_, notes_, blocks_, free_); }
+  void archive(auto& archive) { archive(quads_, ids_, blocks_, free_); }
 
  private:
   struct Block {
@@ -111,12 +107,6 @@ class PointBlocks {
     std::size_t first;  ///< quad
     int count;          ///< points
     int capacity;       ///< quads
-  };
-  /// What no pass over the points looks at.
-  struct Notes {
-    static constexpr bool has_no_gaps = true;
-    std::array<double, simd_width> fines_noted;
-    std::array<long, simd_width> id;
   };
   [[nodiscard]] const PointQuad<Dim>& quad(int element, int slot) const {
     return quads_[blocks_[element].first + slot / simd_width];
@@ -130,7 +120,7 @@ class PointBlocks {
   std::size_t allocate(int capacity);
 
   std::vector<PointQuad<Dim>> quads_;
-  std::vector<Notes> notes_;  ///< as `quads_`
+  std::vector<std::array<long, simd_width>> ids_;  ///< as `quads_`
   std::vector<Block> blocks_;
   /// First quads of blocks that were given up, by capacity.
   std::vector<std::vector<std::size_t>> free_;

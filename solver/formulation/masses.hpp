@@ -1,7 +1,7 @@
 #pragma once
 
-/// Where water and grains are and what crossed which boundary: for the whole model and for each
-/// region.
+/// The masses of water and fines: what is stored and what crossed which boundary, for the whole
+/// model (account 0) and for each region r (account r + 1). The ledger of the results is made here.
 
 #include <array>
 #include <vector>
@@ -9,6 +9,7 @@
 #include "grid/compensated_sum.hpp"
 #include "grid/grid.hpp"
 #include "results/tables.hpp"
+#include "transport/point_transport.hpp"
 
 namespace suffuse {
 
@@ -46,6 +47,8 @@ struct StoredSums {
   }
 };
 
+std::vector<Stored> totals(const std::vector<StoredSums>& sums);
+
 /// Running sums behind one `Crossed`.
 struct CrossedSums {
   static constexpr bool has_no_gaps = true;  ///< see StateArchive
@@ -60,28 +63,39 @@ struct CrossedSums {
   }
 };
 
-/// Which faces bound the model (account 0) and region r (account r + 1).
 template <int Dim>
-class BoundaryAccounts {
+class MassAccounts {
  public:
-  explicit BoundaryAccounts(const Grid<Dim>& grid);
+  explicit MassAccounts(const Grid<Dim>& grid);
 
   [[nodiscard]] std::size_t count() const { return faces_.size(); }
+  /// What is stored at the start, per account.
+  void open(std::vector<Stored> initial) { initial_ = std::move(initial); }
 
-  /// Books what crossed each face along its normal, kg, to `sums`, one per account.
-  void book(const std::vector<double>& water, const std::vector<double>& fines,
-            std::vector<CrossedSums>& sums) const;
+  /// Books what crossed each face along its normal, kg.
+  void book(const std::vector<double>& water, const std::vector<double>& fines);
+  /// Books points that changed their region, and fines that did.
+  void book(const RegionCrossings& crossings);
+
+  /// `stored` per account.
+  [[nodiscard]] LedgerRow ledger(double time, const std::vector<Stored>& stored) const;
+  [[nodiscard]] std::vector<RegionRow> region_rows(double time, const std::vector<Stored>& stored,
+                                                   const SoilMap<Dim>& soils,
+                                                   double grain_density) const;
+
+  void archive(auto& archive) { archive(crossed_); }
 
  private:
   struct OutwardFace {
     int face;
     double sign;  ///< +1 where the face's normal points out of the account
   };
-  std::vector<std::vector<OutwardFace>> faces_;  ///< per account
-};
+  void book(const PointCrossing& point);
 
-/// A row of the ledger from what is stored, what crossed and what was stored at the start.
-LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
-                     const Stored& initial);
+  const Grid<Dim>& grid_;
+  std::vector<std::vector<OutwardFace>> faces_;  ///< that bound each account
+  std::vector<CrossedSums> crossed_;             ///< per account
+  std::vector<Stored> initial_;
+};
 
 }  // namespace suffuse

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "solid/rigid_skeleton.hpp"
+#include "solid/soil_map.hpp"
 #include "transport/fines_uptake.hpp"
 #include "transport/liquid_points.hpp"
 #include "transport/point_blocks.hpp"
@@ -20,50 +20,38 @@ namespace suffuse {
 /// element without points takes this way in either case. Where no eroding element near a node has a
 /// point, grains go to any point that the node sees; where it sees none they stay pending.
 template <int Dim>
-class GrainTransfer {
+class FinesTransfer {
  public:
-  GrainTransfer(const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton, double grain_density);
+  FinesTransfer(const Grid<Dim>& grid, const SoilMap<Dim>& soils, double grain_density);
 
   struct Result {
-    std::vector<double> received;  ///< per region: grains its liquid took up, kg
-    std::vector<double> eroded;    ///< per region: grains its solid lost, kg
+    std::vector<double> received;  ///< per region: fines its liquid took up, kg
+    std::vector<double> eroded;    ///< per region: fines its solid lost, kg
   };
 
-  /// Solid points went from porosity `before` to `after`; `porosity` is that of the elements
-  /// before; `begins` are the points of each element, `point_volume` their liquid volumes, m3.
-  /// `pending` is the volume of grains per node that waits for liquid, m3; its content is handed
-  /// out first.
-  Result transfer(const std::vector<double>& before, const std::vector<double>& after,
-                  const std::vector<double>& porosity, const std::vector<int>& begins,
-                  const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
+  /// `exchange`: what each solid point gave, m3; `porosity`: of the elements before. `pending` is
+  /// the volume of fines per node that waits for liquid, m3; its content is handed out first. The
+  /// points' volumes are those at p = 0: uptakes are compared near by, where all are packed alike.
+  Result transfer(const std::vector<double>& exchange, const std::vector<double>& porosity,
+                  LiquidDensities densities, PointBlocks<Dim>& points,
                   std::vector<double>& pending) const;
-  /// The same to points that carry the flow. Their volumes are those at p = 0: what they take is
-  /// compared near by, where all are packed alike.
-  Result transfer(const std::vector<double>& before, const std::vector<double>& after,
-                  const std::vector<double>& porosity, LiquidDensities densities,
-                  PointBlocks<Dim>& points, std::vector<double>& pending) const;
 
   /// The same for points that went their way while porosity grew: instead of phi_e V_p / n_L each
-  /// point by itself takes `own_volume` of each of its `takes`, and comparing gives each take its
-  /// mass. By `element`, what an element eroded is shared in proportion to what was taken there.
-  /// `points`, in any order, are where they ended.
-  Result transfer_on_the_way(const std::vector<double>& before, const std::vector<double>& after,
-                             const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
-                             std::vector<FinesUptake<Dim>>& takes,
-                             std::vector<double>& pending) const;
+  /// point by itself takes `own_volume` of each of its `uptakes`, and comparing gives each uptake
+  /// its mass. By `element`, what an element eroded is shared in proportion to what was taken
+  /// there. `points`, in any order, are where they ended; `point_volume`: their liquid volumes, m3.
+  Result transfer_along_paths(const std::vector<double>& exchange,
+                              const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
+                              std::vector<FinesUptake<Dim>>& uptakes,
+                              std::vector<double>& pending) const;
 
  private:
-  /// `Liquid`: points of each element by their number in it.
-  template <class Liquid>
-  Result hand_over(const std::vector<double>& before, const std::vector<double>& after,
-                   const std::vector<double>& porosity, const Liquid& liquid,
-                   std::vector<double>& pending) const;
   /// Volume that eroded, m3: per element, and per node what goes by the nodes, with what waited.
   struct Eroded {
     std::vector<double> in_element;
     std::vector<double> at_node;
   };
-  [[nodiscard]] Eroded collect(const std::vector<double>& before, const std::vector<double>& after,
+  [[nodiscard]] Eroded collect(const std::vector<double>& exchange,
                                const std::function<bool(int)>& stays_in_element,
                                std::vector<double>& pending, Result& result) const;
   /// How nodes hand out: `factor` times what points would take by themselves; to every point that
@@ -73,13 +61,13 @@ class GrainTransfer {
     std::vector<double> per_volume;
   };
   /// `taken`: what points would take by themselves near each node, m3; compared after `rounds` of
-  /// passing on to neighbours. `see` adds to each node the volume of liquid that it sees, m3.
+  /// passing on to neighbours. `see` adds to each node the volume of liquid around it, m3.
   [[nodiscard]] Handout compare(const std::vector<double>& at_node,
                                 const std::vector<double>& taken, int rounds,
                                 const std::function<void(std::vector<double>& seen)>& see,
                                 std::vector<double>& pending) const;
   [[nodiscard]] bool shares_by_element(int e) const {
-    return skeleton_.soil_of_element(e).erosion.mass_transfer == MassTransfer::element;
+    return soils_.soil_of_element(e).erosion.mass_transfer == MassTransfer::element;
   }
   [[nodiscard]] double at_place(int e, const std::array<double, Dim + 1>& barycentric,
                                 const std::vector<double>& at_nodes) const {
@@ -89,7 +77,7 @@ class GrainTransfer {
   }
 
   const Grid<Dim>& grid_;
-  const RigidSkeleton<Dim>& skeleton_;
+  const SoilMap<Dim>& soils_;
   double grain_density_;
 };
 

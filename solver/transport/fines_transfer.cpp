@@ -1,4 +1,4 @@
-#include "transport/grain_transfer.hpp"
+#include "transport/fines_transfer.hpp"
 
 #include <algorithm>
 
@@ -8,9 +8,9 @@ namespace suffuse {
 namespace {
 
 /// How many times what nodes hold is passed on to their neighbours before it is compared. What
-/// points take on their way is right by itself, so the wider it is compared the better.
-constexpr int rounds_of_places = 4;
-constexpr int rounds_of_ways = 8;
+/// points take up along their paths is right by itself, so a wider comparison is better.
+constexpr int rounds_at_places = 4;
+constexpr int rounds_along_paths = 8;
 
 /// Each node gives what it holds to its elements in equal parts, each element to its nodes.
 template <int Dim>
@@ -32,13 +32,12 @@ std::vector<double> smoothed(const Grid<Dim>& grid, std::vector<double> at_nodes
 }  // namespace
 
 template <int Dim>
-GrainTransfer<Dim>::GrainTransfer(const Grid<Dim>& grid, const RigidSkeleton<Dim>& skeleton,
+FinesTransfer<Dim>::FinesTransfer(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                   double grain_density)
-    : grid_(grid), skeleton_(skeleton), grain_density_(grain_density) {}
+    : grid_(grid), soils_(soils), grain_density_(grain_density) {}
 
 template <int Dim>
-auto GrainTransfer<Dim>::collect(const std::vector<double>& before,
-                                 const std::vector<double>& after,
+auto FinesTransfer<Dim>::collect(const std::vector<double>& exchange,
                                  const std::function<bool(int)>& stays_in_element,
                                  std::vector<double>& pending, Result& result) const -> Eroded {
   const Mesh<Dim>& mesh = grid_.mesh;
@@ -46,9 +45,9 @@ auto GrainTransfer<Dim>::collect(const std::vector<double>& before,
   result.eroded.assign(mesh.region_names.size(), 0.0);
   Eroded eroded{std::vector<double>(mesh.element_count(), 0.0),
                 std::exchange(pending, std::vector<double>(pending.size(), 0.0))};
-  const MaterialPoints<Dim>& solid = skeleton_.points();
+  const MaterialPoints<Dim>& solid = soils_.points();
   for (int s = 0; s < solid.size(); ++s) {
-    const double volume = solid.volume[s] * (after[s] - before[s]);
+    const double volume = exchange[s];
     if (volume == 0.0) continue;
     const int e = solid.element[s];
     eroded.in_element[e] += volume;
@@ -62,7 +61,7 @@ auto GrainTransfer<Dim>::collect(const std::vector<double>& before,
 }
 
 template <int Dim>
-auto GrainTransfer<Dim>::compare(const std::vector<double>& at_node,
+auto FinesTransfer<Dim>::compare(const std::vector<double>& at_node,
                                  const std::vector<double>& taken, int rounds,
                                  const std::function<void(std::vector<double>& seen)>& see,
                                  std::vector<double>& pending) const -> Handout {
@@ -105,15 +104,17 @@ auto GrainTransfer<Dim>::compare(const std::vector<double>& at_node,
 }
 
 template <int Dim>
-template <class Liquid>
-auto GrainTransfer<Dim>::hand_over(const std::vector<double>& before,
-                                   const std::vector<double>& after,
-                                   const std::vector<double>& porosity, const Liquid& liquid,
-                                   std::vector<double>& pending) const -> Result {
+auto FinesTransfer<Dim>::transfer(const std::vector<double>& exchange,
+                                  const std::vector<double>& porosity, LiquidDensities densities,
+                                  PointBlocks<Dim>& liquid, std::vector<double>& pending) const
+    -> Result {
   const Mesh<Dim>& mesh = grid_.mesh;
+  const auto volume_of = [&](int e, int k) {
+    return liquid_volume(liquid.water_mass(e, k), liquid.fines_mass(e, k), densities, 1.0);
+  };
   Result result;
   const auto stays_in_element = [&](int e) { return shares_by_element(e) && liquid.count(e) > 0; };
-  const auto [eroded, at_node] = collect(before, after, stays_in_element, pending, result);
+  const auto [eroded, at_node] = collect(exchange, stays_in_element, pending, result);
   const auto erodes = [&in = eroded](int e) { return in[e] > 0.0; };
   // What each point would take by itself, per volume of liquid, at the nodes of eroding elements.
   std::vector<double> gain(mesh.node_count(), 0.0);
@@ -136,7 +137,7 @@ auto GrainTransfer<Dim>::hand_over(const std::vector<double>& before,
     if (!takes_by_nodes(e)) continue;
     for (int k = 0; k < liquid.count(e); ++k) {
       const auto at = liquid.barycentric(e, k);
-      const double share = liquid.volume(e, k) * at_place(e, at, gain);
+      const double share = volume_of(e, k) * at_place(e, at, gain);
       for (int a = 0; a <= Dim; ++a) taken[mesh.elements[e][a]] += share * at[a];
     }
   }
@@ -144,11 +145,11 @@ auto GrainTransfer<Dim>::hand_over(const std::vector<double>& before,
     for (int e = 0; e < mesh.element_count(); ++e) {
       for (int k = 0; k < liquid.count(e); ++k) {
         const auto at = liquid.barycentric(e, k);
-        for (int a = 0; a <= Dim; ++a) seen[mesh.elements[e][a]] += liquid.volume(e, k) * at[a];
+        for (int a = 0; a <= Dim; ++a) seen[mesh.elements[e][a]] += volume_of(e, k) * at[a];
       }
     }
   };
-  const Handout handout = compare(at_node, taken, rounds_of_places, see, pending);
+  const Handout handout = compare(at_node, taken, rounds_at_places, see, pending);
   const bool some_left = !handout.per_volume.empty();
 
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -156,7 +157,7 @@ auto GrainTransfer<Dim>::hand_over(const std::vector<double>& before,
     double own = 0.0;
     if (erodes(e) && stays_in_element(e)) {
       double volume = 0.0;
-      for (int k = 0; k < liquid.count(e); ++k) volume += liquid.volume(e, k);
+      for (int k = 0; k < liquid.count(e); ++k) volume += volume_of(e, k);
       own = eroded[e] / volume;
     }
     double received = 0.0;
@@ -165,7 +166,7 @@ auto GrainTransfer<Dim>::hand_over(const std::vector<double>& before,
       double share = own;
       if (takes_by_nodes(e)) share += at_place(e, at, gain) * at_place(e, at, handout.factor);
       if (some_left) share += at_place(e, at, handout.per_volume);
-      const double mass = grain_density_ * liquid.volume(e, k) * share;
+      const double mass = grain_density_ * volume_of(e, k) * share;
       liquid.add_fines(e, k, mass);
       received += mass;
     }
@@ -175,66 +176,25 @@ auto GrainTransfer<Dim>::hand_over(const std::vector<double>& before,
 }
 
 template <int Dim>
-auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
-                                  const std::vector<double>& after,
-                                  const std::vector<double>& porosity,
-                                  const std::vector<int>& begins,
-                                  const std::vector<double>& point_volume,
-                                  LiquidPoints<Dim>& points, std::vector<double>& pending) const
-    -> Result {
-  struct Sorted {
-    const std::vector<int>& begins;
-    const std::vector<double>& volumes;
-    LiquidPoints<Dim>& points;
-    [[nodiscard]] int count(int e) const { return begins[e + 1] - begins[e]; }
-    [[nodiscard]] const auto& barycentric(int e, int k) const {
-      return points.barycentric[begins[e] + k];
-    }
-    [[nodiscard]] double volume(int e, int k) const { return volumes[begins[e] + k]; }
-    void add_fines(int e, int k, double mass) const { points.fines_mass[begins[e] + k] += mass; }
-  };
-  return hand_over(before, after, porosity, Sorted{begins, point_volume, points}, pending);
-}
-
-template <int Dim>
-auto GrainTransfer<Dim>::transfer(const std::vector<double>& before,
-                                  const std::vector<double>& after,
-                                  const std::vector<double>& porosity, LiquidDensities densities,
-                                  PointBlocks<Dim>& points, std::vector<double>& pending) const
-    -> Result {
-  struct Carried {
-    LiquidDensities densities;
-    PointBlocks<Dim>& points;
-    [[nodiscard]] int count(int e) const { return points.count(e); }
-    [[nodiscard]] auto barycentric(int e, int k) const { return points.barycentric(e, k); }
-    [[nodiscard]] double volume(int e, int k) const {
-      return liquid_volume(points.water_mass(e, k), points.fines_mass(e, k), densities, 1.0);
-    }
-    void add_fines(int e, int k, double mass) const { points.add_fines(e, k, mass); }
-  };
-  return hand_over(before, after, porosity, Carried{densities, points}, pending);
-}
-
-template <int Dim>
-auto GrainTransfer<Dim>::transfer_on_the_way(const std::vector<double>& before,
-                                             const std::vector<double>& after,
-                                             const std::vector<double>& point_volume,
-                                             LiquidPoints<Dim>& points,
-                                             std::vector<FinesUptake<Dim>>& takes,
-                                             std::vector<double>& pending) const -> Result {
+auto FinesTransfer<Dim>::transfer_along_paths(const std::vector<double>& exchange,
+                                              const std::vector<double>& point_volume,
+                                              LiquidPoints<Dim>& points,
+                                              std::vector<FinesUptake<Dim>>& uptakes,
+                                              std::vector<double>& pending) const -> Result {
   const Mesh<Dim>& mesh = grid_.mesh;
   std::vector<double> taken_in_element(mesh.element_count(), 0.0);
-  for (const FinesUptake<Dim>& take : takes) taken_in_element[take.element] += take.own_volume;
+  for (const FinesUptake<Dim>& uptake : uptakes)
+    taken_in_element[uptake.element] += uptake.own_volume;
   const auto stays_in_element = [&](int e) {
     return shares_by_element(e) && taken_in_element[e] > 0.0;
   };
   Result result;
-  const Eroded eroded = collect(before, after, stays_in_element, pending, result);
+  const Eroded eroded = collect(exchange, stays_in_element, pending, result);
   std::vector<double> taken(mesh.node_count(), 0.0);
-  for (const FinesUptake<Dim>& take : takes) {
-    if (stays_in_element(take.element)) continue;
+  for (const FinesUptake<Dim>& uptake : uptakes) {
+    if (stays_in_element(uptake.element)) continue;
     for (int a = 0; a <= Dim; ++a) {
-      taken[mesh.elements[take.element][a]] += take.own_volume * take.barycentric[a];
+      taken[mesh.elements[uptake.element][a]] += uptake.own_volume * uptake.barycentric[a];
     }
   }
   const auto see = [&](std::vector<double>& seen) {
@@ -244,15 +204,15 @@ auto GrainTransfer<Dim>::transfer_on_the_way(const std::vector<double>& before,
       }
     }
   };
-  const Handout handout = compare(eroded.at_node, taken, rounds_of_ways, see, pending);
+  const Handout handout = compare(eroded.at_node, taken, rounds_along_paths, see, pending);
 
-  for (FinesUptake<Dim>& take : takes) {
-    const int e = take.element;
+  for (FinesUptake<Dim>& uptake : uptakes) {
+    const int e = uptake.element;
     const double ratio = stays_in_element(e) ? eroded.in_element[e] / taken_in_element[e]
-                                             : at_place(e, take.barycentric, handout.factor);
-    take.mass = grain_density_ * take.own_volume * ratio;
-    points.fines_mass[take.point] += take.mass;
-    result.received[take.region] += take.mass;
+                                             : at_place(e, uptake.barycentric, handout.factor);
+    uptake.mass = grain_density_ * uptake.own_volume * ratio;
+    points.fines_mass[uptake.point] += uptake.mass;
+    result.received[uptake.region] += uptake.mass;
   }
   if (handout.per_volume.empty()) return result;
   for (int p = 0; p < points.size(); ++p) {
@@ -265,6 +225,6 @@ auto GrainTransfer<Dim>::transfer_on_the_way(const std::vector<double>& before,
   return result;
 }
 
-template class GrainTransfer<2>;
+template class FinesTransfer<2>;
 
 }  // namespace suffuse

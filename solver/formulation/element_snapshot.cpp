@@ -1,0 +1,133 @@
+#include "formulation/element_snapshot.hpp"
+
+#include "grid/face_flux.hpp"
+
+namespace suffuse {
+namespace {
+
+Field scalar(const char* name, const char* unit, int components = 1) {
+  return {name, unit, components, {}};
+}
+
+/// Means of elements, and their linear functions at the vertices.
+template <int Dim>
+void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesState<Dim>& liquid,
+               Snapshot& result) {
+  using Nodes = FieldNodes<Dim>;
+  Field porosity = scalar("porosity", "1");
+  Field concentration = scalar("concentration", "1");
+  Field fines = scalar("fines_fraction", "1");
+  Field water = scalar("water_fraction", "1");
+  Field erodible = scalar("erodible_fraction", "1");
+  Field vertex_porosity = scalar("porosity", "1", Dim + 1);
+  Field vertex_concentration = scalar("concentration", "1", Dim + 1);
+  Field vertex_fines = scalar("fines_fraction", "1", Dim + 1);
+  Field vertex_water = scalar("water_fraction", "1", Dim + 1);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const ElementValues<Dim>& pores = liquid.pore_volume[e];
+    const ElementValues<Dim>& volume = liquid.fines_volume[e];
+    const double pore_sum = element_sum<Dim>(pores);
+    const double fines_sum = element_sum<Dim>(volume);
+    const double n = pore_sum / grid.volume[e];
+    const double n_f = fines_sum / grid.volume[e];
+    porosity.values.push_back(n);
+    concentration.values.push_back(fines_sum / pore_sum);
+    fines.values.push_back(n_f);
+    water.values.push_back(n - n_f);
+    erodible.values.push_back(solid.soils().soil_of_element(e).porosity_max() - n);
+
+    const double node_volume = grid.volume[e] / (Dim + 1);
+    ElementValues<Dim> n_node;
+    ElementValues<Dim> f_node;
+    ElementValues<Dim> c_node;
+    for (int j = 0; j <= Dim; ++j) {
+      n_node[j] = pores[j] / node_volume;
+      f_node[j] = volume[j] / node_volume;
+      c_node[j] = volume[j] / pores[j];
+    }
+    const auto n_vertex = Nodes::at_vertices(n_node);
+    const auto f_vertex = Nodes::at_vertices(f_node);
+    const auto c_vertex = Nodes::at_vertices(c_node);
+    for (int k = 0; k <= Dim; ++k) {
+      vertex_porosity.values.push_back(n_vertex[k]);
+      vertex_fines.values.push_back(f_vertex[k]);
+      vertex_water.values.push_back(n_vertex[k] - f_vertex[k]);
+      vertex_concentration.values.push_back(c_vertex[k]);
+    }
+  }
+  result.cell = {std::move(porosity), std::move(concentration), std::move(fines), std::move(water),
+                 std::move(erodible)};
+  result.element_vertex = {std::move(vertex_porosity), std::move(vertex_concentration),
+                           std::move(vertex_fines), std::move(vertex_water)};
+}
+
+template <int Dim>
+void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, Snapshot& result) {
+  const auto vectors = [](const char* name, const VectorField<Dim>& from) {
+    Field field{name, "m/s", Dim, {}};
+    for (const Vector<Dim>& v : from) field.values.insert(field.values.end(), v.begin(), v.end());
+    return field;
+  };
+  result.cell.insert(result.cell.begin() + 1, {"pressure", "Pa", 1, flow.pressure});
+  result.cell.push_back(vectors("darcy_flux", element_flux(grid, flow.face_flux)));
+  result.cell.push_back(
+      {"region", "1", 1, {grid.mesh.element_region.begin(), grid.mesh.element_region.end()}});
+  result.node = {vectors("liquid_velocity", flow.velocity),
+                 {"pressure", "Pa", 1, flow.node_pressure}};
+}
+
+template <int Dim>
+void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                      const FinesState<Dim>& liquid, const FlowState<Dim>& flow, Snapshot& result) {
+  using Nodes = FieldNodes<Dim>;
+  Field solid_fraction = scalar("solid_fraction", "1");
+  Field erodible = scalar("erodible_fraction", "1");
+  Field concentration = scalar("concentration", "1");
+  Field fines = scalar("fines_fraction", "1");
+  Field rate = scalar("erosion_rate", "1/s");
+  Field pressure = scalar("pressure", "Pa");
+  const MaterialPoints<Dim>& points = solid.soils().points();
+  const std::vector<double> flux = flux_magnitude_at(grid, flow.face_flux, points, 1.0);
+  for (int p = 0; p < points.size(); ++p) {
+    const int e = points.element[p];
+    const double n = solid.porosity()[p];
+    ElementValues<Dim> c_node;
+    ElementValues<Dim> f_node;
+    for (int j = 0; j <= Dim; ++j) {
+      c_node[j] = liquid.fines_volume[e][j] / liquid.pore_volume[e][j];
+      f_node[j] = liquid.fines_volume[e][j] / (grid.volume[e] / (Dim + 1));
+    }
+    solid_fraction.values.push_back(1.0 - n);
+    erodible.values.push_back(solid.state().erodible_volume[p] / points.volume[p]);
+    concentration.values.push_back(Nodes::value(c_node, points.barycentric[p]));
+    fines.values.push_back(Nodes::value(f_node, points.barycentric[p]));
+    rate.values.push_back(erosion_rate(solid.soils().erosion_of_element(e), n, flow.time, flux[p]));
+    pressure.values.push_back(flow.pressure[e]);
+  }
+  result.solid = {{"porosity", "1", 1, solid.porosity()},
+                  std::move(solid_fraction),
+                  std::move(erodible),
+                  std::move(concentration),
+                  std::move(fines),
+                  std::move(rate),
+                  std::move(pressure)};
+}
+
+}  // namespace
+
+template <int Dim>
+Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                          const FinesState<Dim>& liquid, const FlowState<Dim>& flow, long step) {
+  Snapshot result;
+  result.time = flow.time;
+  result.step = step;
+  add_pores(grid, solid, liquid, result);
+  add_flow(grid, flow, result);
+  add_solid_points(grid, solid, liquid, flow, result);
+  return result;
+}
+
+template Snapshot element_snapshot(const Grid<2>&, const Skeleton<2>&, const FinesState<2>&,
+                                   const FlowState<2>&, long);
+
+}  // namespace suffuse

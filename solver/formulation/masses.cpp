@@ -1,0 +1,136 @@
+#include "formulation/masses.hpp"
+
+#include <cmath>
+
+namespace suffuse {
+namespace {
+
+void book_one(double outward, CompensatedSum& in, CompensatedSum& out) {
+  if (outward > 0.0) out.add(outward);
+  if (outward < 0.0) in.add(-outward);
+}
+
+double relative(double residual, double initial) {
+  return initial > 0.0 ? residual / initial : residual;
+}
+
+/// From what is stored, what crossed and what was stored at the start.
+LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
+                     const Stored& initial) {
+  LedgerRow row;
+  row.t = time;
+  row.solid = stored.solid;
+  row.erodible = stored.erodible;
+  row.water = stored.water;
+  row.fines = stored.fines;
+  row.eroded = stored.eroded;
+  row.water_in = crossed.water_in;
+  row.fines_in = crossed.fines_in;
+  row.water_out = crossed.water_out;
+  row.fines_out = crossed.fines_out;
+  row.pending = stored.pending;
+  row.points = stored.points;
+  row.points_in = crossed.points_in;
+  row.points_out = crossed.points_out;
+  row.residual_water = relative((stored.water - initial.water) + crossed.water_net, initial.water);
+  row.residual_grains = relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
+                                     stored.pending + crossed.fines_net,
+                                 initial.solid + initial.fines);
+  return row;
+}
+
+}  // namespace
+
+std::vector<Stored> totals(const std::vector<StoredSums>& sums) {
+  std::vector<Stored> result;
+  result.reserve(sums.size());
+  for (const StoredSums& s : sums) result.push_back(s.totals());
+  return result;
+}
+
+template <int Dim>
+MassAccounts<Dim>::MassAccounts(const Grid<Dim>& grid)
+    : grid_(grid), faces_(grid.mesh.region_names.size() + 1), crossed_(faces_.size()) {
+  for (int f = 0; f < grid.face_count(); ++f) {
+    const int left = grid.mesh.element_region[grid.face_left[f]];
+    if (grid.is_outer(f)) {
+      faces_[0].push_back({f, 1.0});
+      faces_[left + 1].push_back({f, 1.0});
+      continue;
+    }
+    const int right = grid.mesh.element_region[grid.face_right[f]];
+    if (left == right) continue;
+    faces_[left + 1].push_back({f, 1.0});
+    faces_[right + 1].push_back({f, -1.0});
+  }
+}
+
+template <int Dim>
+void MassAccounts<Dim>::book(const std::vector<double>& water, const std::vector<double>& fines) {
+  for (std::size_t account = 0; account < faces_.size(); ++account) {
+    CrossedSums& sum = crossed_[account];
+    for (const auto& [face, sign] : faces_[account]) {
+      book_one(sign * water[face], sum.water_in, sum.water_out);
+      book_one(sign * fines[face], sum.fines_in, sum.fines_out);
+    }
+  }
+}
+
+template <int Dim>
+void MassAccounts<Dim>::book(const RegionCrossings& crossings) {
+  for (std::size_t r = 0; r < crossings.fines_out.size(); ++r) {
+    const double out = crossings.fines_out[r];
+    CrossedSums& account = crossed_[r + 1];
+    (out > 0.0 ? account.fines_out : account.fines_in).add(std::abs(out));
+  }
+  for (const PointCrossing& point : crossings.points) book(point);
+}
+
+template <int Dim>
+void MassAccounts<Dim>::book(const PointCrossing& point) {
+  const auto leave = [&](CrossedSums& account) {
+    account.water_out.add(point.water_mass);
+    account.fines_out.add(point.fines_mass);
+    ++account.points_out;
+  };
+  const auto enter = [&](CrossedSums& account) {
+    account.water_in.add(point.water_mass);
+    account.fines_in.add(point.fines_mass);
+    ++account.points_in;
+  };
+  CrossedSums& from = crossed_[point.from + 1];
+  CrossedSums& to = crossed_[point.to + 1];
+  point.from < 0 ? enter(from) : leave(from);
+  point.to < 0 ? leave(to) : enter(to);
+}
+
+template <int Dim>
+LedgerRow MassAccounts<Dim>::ledger(double time, const std::vector<Stored>& stored) const {
+  return ledger_row(time, stored[0], crossed_[0].totals(), initial_[0]);
+}
+
+template <int Dim>
+std::vector<RegionRow> MassAccounts<Dim>::region_rows(double time,
+                                                      const std::vector<Stored>& stored,
+                                                      const SoilMap<Dim>& soils,
+                                                      double grain_density) const {
+  const MaterialPoints<Dim>& points = soils.points();
+  std::vector<double> volume(grid_.mesh.region_names.size(), 0.0);
+  for (int p = 0; p < points.size(); ++p) {
+    volume[grid_.mesh.element_region[points.element[p]]] += points.volume[p];
+  }
+  std::vector<RegionRow> rows;
+  for (std::size_t r = 0; r < volume.size(); ++r) {
+    RegionRow row;
+    row.region = static_cast<int>(r);
+    row.porosity_mean =
+        volume[r] > 0.0 ? 1.0 - stored[r + 1].solid / (grain_density * volume[r]) : 1.0;
+    row.ledger = ledger_row(time, stored[r + 1], crossed_[r + 1].totals(), initial_[r + 1]);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+template class MassAccounts<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,136 @@
+#include "formulation/two_phase_model.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "grid/face_flux.hpp"
+
+namespace suffuse {
+template <int Dim>
+TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& options)
+    : case_(c),
+      options_(options),
+      grid_(c.mesh),
+      soils_(c),
+      solid_(make_skeleton(grid_, soils_,
+                           options.erosion ? options.erosion_span : TimeSpan::never(),
+                           options.flow.threads)),
+      masses_(grid_),
+      grain_density_(c.document.scene.soils.front().grain_density) {
+  flux_history_.mean.assign(grid_.face_count(), 0.0);
+  flux_history_.end = flux_history_.mean;
+}
+
+template <int Dim>
+void TwoPhaseModel<Dim>::archive(StateArchive& archive) {
+  archive(*solid_, *flow_, masses_, time_, flux_history_, last_dt_, steps_, erosion_timing_);
+}
+
+template <int Dim>
+double TwoPhaseModel<Dim>::coupling_interval() const {
+  const auto limits = flow_->coupling_limits();
+  double longest = std::numeric_limits<double>::infinity();
+  if (options_.transport) {
+    longest = transport().longest_step(flux_history_.mean);
+    if (!limits.one_transport_step) longest *= transport().coupling().steps;
+  }
+  const bool erodes = solid_->erodes_within(time_, std::numeric_limits<double>::infinity());
+  if (limits.follows_pores || !erodes) return longest;
+  const double growth = transport().coupling().pore_growth;
+  const std::vector<double>& porosity = flow_->coefficients().porosity;
+  const std::vector<double> flux = element_flux_magnitude();
+  for (std::size_t e = 0; e < porosity.size(); ++e) {
+    const ErosionModel& model = soils_.erosion_of_element(static_cast<int>(e));
+    const double rate = erosion_rate(model, porosity[e], std::max(time_, model.start), flux[e]);
+    if (rate > 0.0) longest = std::min(longest, growth * porosity[e] / rate);
+  }
+  return longest;
+}
+
+template <int Dim>
+std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
+  std::vector<double> result;
+  result.reserve(grid_.mesh.elements.size());
+  for (const Vector<Dim>& q : element_flux(grid_, flux_history_.mean)) result.push_back(q.norm());
+  return result;
+}
+
+template <int Dim>
+PoreForecast<Dim> TwoPhaseModel<Dim>::pore_forecast() const {
+  return {grid_, *solid_, time_, pores(), flux_history_, threads()};
+}
+
+template <int Dim>
+void TwoPhaseModel<Dim>::start_flux_history() {
+  flux_history_.mean = flux_history_.end = flow_->face_flux(0.0);
+}
+
+template <int Dim>
+void TwoPhaseModel<Dim>::note_flow(double begin, const FlowProgress& flow) {
+  flux_history_.duration = flow.end - begin;
+  flux_history_.mean = per_time(flow.volumes.liquid, flux_history_.duration);
+  flux_history_.end = soils_.erodes_by_flux() ? flow_->face_flux(flow.end) : flux_history_.mean;
+  erosion_flux_ = erosion_flux(grid_, soils_, flux_history_.mean, threads());
+  steps_ += flow.steps;
+  last_dt_ = flow.dt;
+}
+
+template <int Dim>
+const std::vector<double>& TwoPhaseModel<Dim>::erode(const TransportStep& step,
+                                                     const std::vector<char>& waiting) {
+  exchange_.clear();
+  if (!solid_->erodes_within(step.begin, step.end)) return exchange_;
+  const PassTimer timer(erosion_timing_);
+  ++erosion_timing_.calls;
+  solid_->erode(step.begin, step.end, erosion_flux_, waiting, exchange_);
+  return exchange_;
+}
+
+template <int Dim>
+LedgerRow TwoPhaseModel<Dim>::ledger() const {
+  return masses_.ledger(time_, stored());
+}
+
+template <int Dim>
+std::vector<RegionRow> TwoPhaseModel<Dim>::region_rows() const {
+  return masses_.region_rows(time_, stored(), soils_, grain_density_);
+}
+
+template <int Dim>
+HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const {
+  HistoryRow row;
+  row.t = time_;
+  flow_->describe(flow, row);
+  // Over regions that erode, or over all soil where none does.
+  const MaterialPoints<Dim>& points = soils_.points();
+  CompensatedSum pores;
+  CompensatedSum volume;
+  for (int p = 0; p < points.size(); ++p) {
+    const bool erodes = soils_.erosion_of_element(points.element[p]).law != ErosionLaw::none;
+    if (soils_.erodes() && !erodes) continue;
+    pores.add(points.volume[p] * solid_->porosity()[p]);
+    volume.add(points.volume[p]);
+  }
+  row.porosity_mean = pores.value() / volume.value();
+  return row;
+}
+
+template <int Dim>
+std::vector<StoredSums> TwoPhaseModel<Dim>::solid_masses() const {
+  std::vector<StoredSums> sums(masses_.count());
+  const MaterialPoints<Dim>& points = soils_.points();
+  const SolidState& solid = solid_->state();
+  for (int p = 0; p < points.size(); ++p) {
+    const double mass = grain_density_ * points.volume[p];
+    for (StoredSums* sum : {&sums[0], &sums[grid_.mesh.element_region[points.element[p]] + 1]}) {
+      sum->solid.add(grain_density_ * solid.solid_volume[p]);
+      sum->erodible.add(grain_density_ * solid.erodible_volume[p]);
+      sum->eroded.add(mass * (solid_->porosity()[p] - solid_->initial_porosity()[p]));
+    }
+  }
+  return sums;
+}
+
+template class TwoPhaseModel<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,120 @@
+#pragma once
+
+/// What both formulations share and how the driver runs them: interval by interval, from one output
+/// to the next. The step itself is `advance` of `SinglePoint` and `DoublePoint`.
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flow/flow_solver.hpp"
+#include "formulation/masses.hpp"
+#include "results/writer.hpp"
+#include "solid/pores.hpp"
+#include "transport/transport.hpp"
+
+namespace suffuse {
+
+/// What a formulation runs and what it leaves out (decided by the plan of the run).
+struct ModelOptions {
+  FlowOptions flow;
+  bool erosion = true;
+  bool transport = true;  ///< fines can be in the liquid
+  /// Times, s, within which the solid can change and after which the liquid can hold fines.
+  TimeSpan erosion_span;
+  double fines_from = -std::numeric_limits<double>::infinity();
+};
+
+template <int Dim>
+class TwoPhaseModel {
+ public:
+  virtual ~TwoPhaseModel() = default;
+  TwoPhaseModel(const TwoPhaseModel&) = delete;
+  TwoPhaseModel& operator=(const TwoPhaseModel&) = delete;
+
+  /// One interval of flow, erosion and transport: to `latest` (s, the next output) or less far.
+  /// Throws NumericalError.
+  virtual void advance(double latest) = 0;
+
+  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] long steps() const { return steps_; }
+  /// Length of the last step of the flow, s.
+  [[nodiscard]] double last_step() const { return last_dt_; }
+  /// Longest interval that erosion and transport can follow, s.
+  [[nodiscard]] double coupling_interval() const;
+  [[nodiscard]] virtual long liquid_points() const { return 0; }
+
+  [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
+  [[nodiscard]] const Skeleton<Dim>& solid() const { return *solid_; }
+  [[nodiscard]] const FlowSolver<Dim>& flow() const { return *flow_; }
+  [[nodiscard]] FlowState<Dim> flow_state() const { return flow_->state(time_); }
+
+  // What the results hold, at this moment.
+  [[nodiscard]] virtual HistoryRow history_row(const FlowState<Dim>& flow) const = 0;
+  [[nodiscard]] LedgerRow ledger() const;
+  [[nodiscard]] std::vector<RegionRow> region_rows() const;
+  [[nodiscard]] virtual Snapshot snapshot(const FlowState<Dim>& flow) const = 0;
+
+  /// Everything that intervals to come depend on: what is restored goes on as if it had not been
+  /// interrupted, to the last bit.
+  virtual void archive(StateArchive& archive);
+  [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
+  /// Warnings since the last call.
+  [[nodiscard]] std::vector<std::string> take_warnings() { return flow_->take_warnings(); }
+
+ protected:
+  TwoPhaseModel(const Case<Dim>& c, const ModelOptions& options);
+
+  /// The way that liquid and fines are carried.
+  [[nodiscard]] virtual const Transport<Dim>& transport() const = 0;
+  [[nodiscard]] virtual PoreState pores() const = 0;
+  /// Masses inside the model, then inside each region.
+  [[nodiscard]] virtual std::vector<Stored> stored() const = 0;
+
+  [[nodiscard]] const Scene& scene() const { return case_.document.scene; }
+  [[nodiscard]] int threads() const { return options_.flow.threads; }
+  [[nodiscard]] PoreForecast<Dim> pore_forecast() const;
+  /// Exchange of fines between solid and liquid over a step, m3 per solid point; empty where none
+  /// is possible.
+  [[nodiscard]] const std::vector<double>& erode(const TransportStep& step,
+                                                 const std::vector<char>& waiting);
+  /// Once the flow has started.
+  void start_flux_history();
+  /// Mean over the last interval, m3/s.
+  [[nodiscard]] const std::vector<double>& mean_face_rate() const { return flux_history_.mean; }
+  /// After the flow has gone an interval that began at `begin`.
+  void note_flow(double begin, const FlowProgress& flow);
+  /// Flux per element at its centroid, m/s, over the last interval.
+  [[nodiscard]] std::vector<double> element_flux_magnitude() const;
+  /// The row's entries that do not depend on how liquid is carried.
+  [[nodiscard]] HistoryRow common_history(const FlowState<Dim>& flow) const;
+  /// The solid's masses, model first.
+  [[nodiscard]] std::vector<StoredSums> solid_masses() const;
+
+  const Case<Dim>& case_;
+  ModelOptions options_;
+  Grid<Dim> grid_;
+  SoilMap<Dim> soils_;
+  std::unique_ptr<Skeleton<Dim>> solid_;
+  std::unique_ptr<FlowSolver<Dim>> flow_;  ///< made by each formulation
+  MassAccounts<Dim> masses_;
+  double grain_density_;
+  double time_ = 0.0;
+
+ private:
+  FluxHistory flux_history_;
+  std::vector<double> erosion_flux_;  ///< |q| at solid points over the last interval, m/s
+  std::vector<double> exchange_;
+  double last_dt_ = 0.0;
+  long steps_ = 0;
+
+ protected:
+  PassTiming erosion_timing_{"erosion", 0, 0.0};
+};
+
+/// The formulation that the scene asks for. Keeps a reference to the case.
+template <int Dim>
+std::unique_ptr<TwoPhaseModel<Dim>> make_model(const Case<Dim>& c, const ModelOptions& options);
+
+}  // namespace suffuse

@@ -1,0 +1,78 @@
+#include "solid/pores.hpp"
+
+#include "grid/face_flux.hpp"
+#include "grid/parallel.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
+  // The initial porosity is a linear function, so its values at the field nodes are exact; points
+  // moved off the Gauss positions would not reproduce it.
+  ElementField<Dim> result(grid.mesh.element_count());
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    for (int j = 0; j <= Dim; ++j) {
+      Vector<Dim> x = Vector<Dim>::Zero();
+      for (int k = 0; k <= Dim; ++k) {
+        const double weight = k == j ? FieldNodes<Dim>::near_vertex : FieldNodes<Dim>::far_vertex;
+        x += weight * grid.mesh.nodes[grid.mesh.elements[e][k]];
+      }
+      result[e][j] = grid.volume[e] / (Dim + 1) * soils.soil_of_element(e).initial_porosity(x);
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid) {
+  ElementField<Dim> result = initial_pore_volume(grid, solid.soils());
+  const MaterialPoints<Dim>& points = solid.soils().points();
+  for (int p = 0; p < points.size(); ++p) {
+    const double volume = points.volume[p] * (solid.porosity()[p] - solid.initial_porosity()[p]);
+    for (int j = 0; j <= Dim; ++j) {
+      result[points.element[p]][j] += volume * FieldNodes<Dim>::basis(points.barycentric[p][j]);
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+PoreState PoreForecast<Dim>::at(double time) const {
+  PoreState result = now_;
+  if (!solid_.erodes_within(time_, time)) return result;
+  const SoilMap<Dim>& soils = solid_.soils();
+  const std::vector<double> after = solid_.porosity_after(
+      time_, time, erosion_flux(grid_, soils, flux_.extrapolated(time - time_), threads_));
+  const std::vector<double>& before = solid_.porosity();
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    double growth = 0.0;
+    for (int p = soils.points_begin(e); p < soils.points_begin(e + 1); ++p) {
+      growth += soils.points().volume[p] * (after[p] - before[p]);
+    }
+    const double porosity = now_.porosity[e] + growth / grid_.volume[e];
+    // The water stays what it is: (1 - c) n does not change.
+    result.concentration[e] = 1.0 - (1.0 - now_.concentration[e]) * now_.porosity[e] / porosity;
+    result.porosity[e] = porosity;
+  });
+  return result;
+}
+
+template <int Dim>
+std::vector<double> erosion_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                                 const std::vector<double>& face_rate, int threads) {
+  if (!soils.erodes_by_flux()) return {};
+  const MaterialPoints<Dim>& points = soils.points();
+  std::vector<double> result(points.size());
+  for_each_index(points.size(), threads, [&](int p) {
+    result[p] = flux_at(grid, face_rate, points.element[p], points.position(grid.mesh, p)).norm();
+  });
+  return result;
+}
+
+template ElementField<2> initial_pore_volume(const Grid<2>&, const SoilMap<2>&);
+template ElementField<2> pore_field(const Grid<2>&, const Skeleton<2>&);
+template class PoreForecast<2>;
+template std::vector<double> erosion_flux(const Grid<2>&, const SoilMap<2>&,
+                                          const std::vector<double>&, int);
+
+}  // namespace suffuse

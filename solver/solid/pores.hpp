@@ -1,0 +1,62 @@
+#pragma once
+
+/// What the pores of each element hold, now and as erosion will have made them.
+
+#include <vector>
+
+#include "grid/element_field.hpp"
+#include "grid/extrapolated_flux.hpp"
+#include "grid/grid.hpp"
+#include "solid/skeleton.hpp"
+
+namespace suffuse {
+
+/// Per element.
+struct PoreState {
+  std::vector<double> porosity;       ///< n_L
+  std::vector<double> water_volume;   ///< pore volume minus fluidised fines, m3
+  std::vector<double> concentration;  ///< c
+  std::vector<double> flux;           ///< |q|, m/s; may be empty where no soil erodes by it
+};
+
+/// Pore volume per element and field node at the start, m3.
+template <int Dim>
+ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>& soils);
+
+/// The same now: with what the solid points have given since.
+template <int Dim>
+ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid);
+
+/// The pores at times to come, as erosion will have made them before fines have moved. Keeps
+/// references to the skeleton and the grid; holds until the skeleton changes.
+template <int Dim>
+class PoreForecast {
+ public:
+  /// `now`: the pores at `time`, s; `flux`: of the last interval.
+  PoreForecast(const Grid<Dim>& grid, const Skeleton<Dim>& solid, double time, PoreState now,
+               const FluxHistory& flux, int threads)
+      : grid_(grid),
+        solid_(solid),
+        time_(time),
+        now_(std::move(now)),
+        flux_(flux),
+        threads_(threads) {}
+
+  [[nodiscard]] PoreState at(double time) const;
+
+ private:
+  const Grid<Dim>& grid_;
+  const Skeleton<Dim>& solid_;
+  double time_;
+  PoreState now_;
+  const FluxHistory& flux_;
+  int threads_;
+};
+
+/// |q| at the solid points, m/s, from volumes through faces per second; empty when no soil erodes
+/// by it.
+template <int Dim>
+std::vector<double> erosion_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                                 const std::vector<double>& face_rate, int threads);
+
+}  // namespace suffuse

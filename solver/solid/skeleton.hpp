@@ -1,0 +1,63 @@
+#pragma once
+
+/// The solid phase as the rest of the solver sees it: soil at material points, of which a part can
+/// erode into the liquid. An interface; the skeleton that stays in place is `RigidSkeleton`.
+
+#include <memory>
+#include <vector>
+
+#include "grid/grid.hpp"
+#include "results/state_archive.hpp"
+#include "solid/soil_map.hpp"
+
+namespace suffuse {
+
+/// What a solid point holds. Its porosity follows from this and the volume it stands for.
+struct SolidState {
+  std::vector<double> solid_volume;     ///< per point, m3: coarse skeleton and erodible fines
+  std::vector<double> erodible_volume;  ///< the part of it that can still erode, m3
+
+  void archive(auto& archive) { archive(solid_volume, erodible_volume); }
+};
+
+template <int Dim>
+class Skeleton {
+ public:
+  Skeleton() = default;
+  virtual ~Skeleton() = default;
+  Skeleton(const Skeleton&) = delete;
+  Skeleton& operator=(const Skeleton&) = delete;
+
+  [[nodiscard]] virtual const SoilMap<Dim>& soils() const = 0;
+  [[nodiscard]] virtual const SolidState& state() const = 0;
+  /// n_L per solid point.
+  [[nodiscard]] virtual const std::vector<double>& porosity() const = 0;
+  /// n_L per solid point at the start.
+  [[nodiscard]] virtual const std::vector<double>& initial_porosity() const = 0;
+  /// Mean n_L per element.
+  [[nodiscard]] virtual std::vector<double> element_porosity() const = 0;
+  /// Volume of solid that crosses each face per second, along its normal, m3/s. Empty while the
+  /// solid stays in place.
+  [[nodiscard]] virtual const std::vector<double>& face_volume_rate() const = 0;
+
+  /// Whether anything can erode between two times.
+  [[nodiscard]] virtual bool erodes_within(double from, double to) const = 0;
+  /// n_L per solid point at time `to`, from now (`from`), without changing the state. `flux`: mean
+  /// of |q| at each point over that time, m/s; may be empty unless a soil erodes by it.
+  [[nodiscard]] virtual std::vector<double> porosity_after(
+      double from, double to, const std::vector<double>& flux) const = 0;
+  /// Exchange of fines with the liquid from `from` to `to`. `exchange` becomes the volume per solid
+  /// point that went into the liquid, m3 (negative: that came from it). Elements of `waiting` (per
+  /// element, may be empty) stay as they are.
+  virtual void erode(double from, double to, const std::vector<double>& flux,
+                     const std::vector<char>& waiting, std::vector<double>& exchange) = 0;
+
+  virtual void archive(StateArchive& archive) = 0;
+};
+
+/// The skeleton that the scene asks for. Exchange happens within `erosion_span` alone.
+template <int Dim>
+std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                                             const TimeSpan& erosion_span, int threads);
+
+}  // namespace suffuse

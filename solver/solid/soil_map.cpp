@@ -1,0 +1,111 @@
+#include "solid/soil_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Free water resists the flow so much less than the most conductive soil: next to nothing, and
+/// steady flow through it is still one linear system.
+constexpr double free_water_ease = 1e4;
+
+Soil free_water(const Scene& scene) {
+  Soil water;
+  water.porosity = 1.0;
+  water.skeleton_fraction = 0.0;
+  water.conductivity = 0.0;
+  for (const Soil& soil : scene.soils) {
+    water.conductivity = std::max(water.conductivity, free_water_ease * soil.conductivity);
+  }
+  return water;
+}
+
+}  // namespace
+
+template <int Dim>
+SoilMap<Dim>::SoilMap(const Case<Dim>& c)
+    : mesh_(c.mesh),
+      points_(c.solid_points),
+      free_water_(std::make_shared<const Soil>(free_water(c.document.scene))) {
+  for (const std::string& region : mesh_.region_names) {
+    const Soil* soil = c.document.scene.find_soil(region);
+    if (soil == nullptr && c.document.scene.is_free_water(region)) soil = free_water_.get();
+    if (soil == nullptr) {
+      throw InputError({{c.document.locate("soil"), "soil." + region, "nothing",
+                         "a soil for region '" + region + "' of the mesh", ""}});
+    }
+    soil_of_region_.push_back(soil);
+    erosion_of_region_.push_back(
+        {soil->erosion.law, soil->erosion.rate, soil->erosion.start, soil->porosity_max()});
+  }
+  points_begin_.assign(mesh_.element_count() + 1, 0);
+  for (const int e : points_.element) ++points_begin_[e + 1];
+  std::partial_sum(points_begin_.begin(), points_begin_.end(), points_begin_.begin());
+}
+
+template <int Dim>
+bool SoilMap<Dim>::erodes() const {
+  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(), [](const auto& model) {
+    return model.law != ErosionLaw::none && model.rate > 0.0;
+  });
+}
+
+template <int Dim>
+bool SoilMap<Dim>::erodes_by_flux() const {
+  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(), [](const auto& model) {
+    return model.law == ErosionLaw::flux && model.rate > 0.0;
+  });
+}
+
+template <int Dim>
+std::vector<double> SoilMap<Dim>::erosion_breakpoints() const {
+  std::vector<double> times;
+  for (std::size_t r = 0; r < erosion_of_region_.size(); ++r) {
+    const ErosionModel& model = erosion_of_region_[r];
+    if (model.law == ErosionLaw::none || model.rate == 0.0) continue;
+    times.push_back(model.start);
+    if (model.law != ErosionLaw::constant) continue;
+    double first = std::numeric_limits<double>::infinity();
+    double last = 0.0;
+    for (int p = 0; p < points_.size(); ++p) {
+      if (mesh_.element_region[points_.element[p]] != static_cast<int>(r)) continue;
+      const double gone = (model.porosity_max - initial_porosity(p)) / model.rate;
+      first = std::min(first, gone);
+      last = std::max(last, gone);
+    }
+    for (const double gone : {first, last}) {
+      if (std::isfinite(gone)) times.push_back(model.start + gone);
+    }
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+template <int Dim>
+TimeSpan SoilMap<Dim>::erosion_span() const {
+  // Porosity that is added up over many steps reaches its end earlier or later by their round-off.
+  constexpr double round_off = 1e-6;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  TimeSpan span{never, -never};
+  for (int p = 0; p < points_.size(); ++p) {
+    const ErosionModel& model = erosion_of_element(points_.element[p]);
+    if (model.law == ErosionLaw::none || model.rate == 0.0) continue;
+    span.begin = std::min(span.begin, model.start);
+    const bool runs_out = model.law == ErosionLaw::constant &&
+                          soil_of_element(points_.element[p]).erosion.empty_elements !=
+                              EmptyElements::dry;  // those wait for liquid
+    const double gone = model.start + (model.porosity_max - initial_porosity(p)) / model.rate;
+    span.end = std::max(span.end, runs_out ? gone * (1.0 + round_off) : never);
+  }
+  return span;
+}
+
+template class SoilMap<2>;
+
+}  // namespace suffuse

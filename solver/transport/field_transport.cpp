@@ -1,0 +1,106 @@
+#include "transport/field_transport.hpp"
+
+#include <algorithm>
+
+#include "grid/parallel.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+FieldTransport<Dim>::FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                                    const std::vector<FaceCondition>& conditions, double fines_from,
+                                    int threads)
+    : grid_(grid),
+      soils_(soils),
+      fines_from_(fines_from),
+      threads_(threads),
+      scheme_(grid, conditions, threads) {
+  state_.pore_volume = initial_pore_volume(grid, soils);
+  state_.fines_volume.assign(grid.mesh.element_count(), ElementValues<Dim>{});
+  find_basis();
+}
+
+template <int Dim>
+void FieldTransport<Dim>::find_basis() {
+  const auto& places = soils_.points().barycentric;
+  if (places.empty()) return;
+  const int first = soils_.points().element.front();
+  const int count = soils_.points_begin(first + 1) - soils_.points_begin(first);
+  for (int e = 0; e < grid_.mesh.element_count() && points_lie_alike_; ++e) {
+    const int begin = soils_.points_begin(e);
+    const int end = soils_.points_begin(e + 1);
+    points_lie_alike_ =
+        begin == end || (end - begin == count &&
+                         std::equal(places.begin() + begin, places.begin() + end, places.begin()));
+  }
+  basis_.resize(points_lie_alike_ ? static_cast<std::size_t>(count) : places.size());
+  for (std::size_t p = 0; p < basis_.size(); ++p) {
+    for (int j = 0; j <= Dim; ++j) basis_[p][j] = FieldNodes<Dim>::basis(places[p][j]);
+  }
+}
+
+template <int Dim>
+void FieldTransport<Dim>::spread(const std::vector<double>& exchange,
+                                 ElementField<Dim>& field) const {
+  field.resize(grid_.mesh.element_count());
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    const int begin = soils_.points_begin(e);
+    const ElementValues<Dim>* basis = basis_.data() + (points_lie_alike_ ? 0 : begin);
+    ElementValues<Dim> sum{};
+    for (int p = begin; p < soils_.points_begin(e + 1); ++p, ++basis) {
+      for (int j = 0; j <= Dim; ++j) sum[j] += exchange[p] * (*basis)[j];
+    }
+    field[e] = sum;
+  });
+}
+
+template <int Dim>
+double FieldTransport<Dim>::longest_step(const std::vector<double>& face_rate) const {
+  return transport_safety * scheme_.steps_allowed(state_, face_rate);
+}
+
+template <int Dim>
+std::vector<TransportStep> FieldTransport<Dim>::start_interval(double begin,
+                                                               const FlowProgress& flow) {
+  carries_ = flow.end > fines_from_;
+  if (!carries_) return {{begin, flow.end, 1.0}};
+  const double allowed = transport_safety * scheme_.steps_allowed(state_, flow.volumes.liquid);
+  const std::vector<TransportStep> steps = equal_steps(begin, flow.end, step_count(allowed));
+  std::vector<double> step_volume = flow.volumes.liquid;
+  if (steps.size() > 1) {
+    for (double& volume : step_volume) volume *= steps.front().share;
+  }
+  scheme_.start(state_, step_volume, scratch_);
+  return steps;
+}
+
+template <int Dim>
+void FieldTransport<Dim>::advance(const TransportStep& /*step*/, const FaceVolumes& /*volumes*/,
+                                  const std::vector<double>& exchange,
+                                  const std::vector<double>& /*pressure*/) {
+  if (!carries_) return;
+  const PassTimer timer(timing_);
+  ++timing_.calls;
+  eroded_.clear();
+  if (!exchange.empty()) spread(exchange, eroded_);
+  scheme_.advance(state_, eroded_, scratch_);
+}
+
+template <int Dim>
+std::vector<double> FieldTransport<Dim>::crossed() const {
+  std::vector<double> result(grid_.face_count(), 0.0);
+  if (carries_) scheme_.grains_crossed(scratch_, result);
+  return result;
+}
+
+template <int Dim>
+std::vector<double> FieldTransport<Dim>::face_concentration(
+    double time, const std::vector<double>& face_rate) const {
+  std::vector<double> result(grid_.face_count(), 0.0);
+  if (time > fines_from_) scheme_.face_concentration(state_, face_rate, scratch_, result);
+  return result;
+}
+
+template class FieldTransport<2>;
+
+}  // namespace suffuse

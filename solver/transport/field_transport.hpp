@@ -1,0 +1,61 @@
+#pragma once
+
+/// Fluidised fines as a field on the mesh (single-point formulation): the concentration is linear
+/// in each element and carried by the volumes that cross faces.
+
+#include "transport/eulerian.hpp"
+#include "transport/transport.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class FieldTransport final : public Transport<Dim> {
+ public:
+  /// Fines can be in the liquid after `fines_from`, s.
+  FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                 const std::vector<FaceCondition>& conditions, double fines_from, int threads);
+
+  [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
+  [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
+    return {.steps = 32.0, .pore_growth = 2e-3};
+  }
+  [[nodiscard]] std::vector<TransportStep> start_interval(double begin,
+                                                          const FlowProgress& flow) override;
+  void advance(const TransportStep& step, const FaceVolumes& volumes,
+               const std::vector<double>& exchange, const std::vector<double>& pressure) override;
+
+  void archive(StateArchive& archive) override { archive(state_, timing_); }
+  [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
+
+  [[nodiscard]] const FinesState<Dim>& state() const { return state_; }
+  /// Volume of fines that crossed each face in this interval, m3.
+  [[nodiscard]] std::vector<double> crossed() const;
+  /// Mean concentration of the liquid that would cross each face at these volumes.
+  [[nodiscard]] std::vector<double> face_concentration(double time,
+                                                       const std::vector<double>& face_rate) const;
+
+ private:
+  /// Exchange at solid points as a field, m3 per element and field node. Its sum is that of the
+  /// points exactly.
+  void spread(const std::vector<double>& exchange, ElementField<Dim>& field) const;
+  void find_basis();
+
+  const Grid<Dim>& grid_;
+  const SoilMap<Dim>& soils_;
+  double fines_from_;
+  int threads_;
+  EulerianTransport<Dim> scheme_;
+  FinesState<Dim> state_;
+  bool carries_ = false;  ///< fines in this interval
+  /// Values of the element's basis functions at its points; only of the first element's points
+  /// where they lie alike in every element that has any.
+  std::vector<ElementValues<Dim>> basis_;
+  bool points_lie_alike_ = true;
+  PassTiming timing_{"transport", 0, 0.0};
+
+  // Kept, so that steps allocate nothing.
+  mutable TransportScratch<Dim> scratch_;
+  ElementField<Dim> eroded_;
+};
+
+}  // namespace suffuse

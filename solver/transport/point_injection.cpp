@@ -1,0 +1,172 @@
+#include "transport/point_injection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <tuple>
+
+#include "case/errors.hpp"
+#include "physics/liquid.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Fractional part of multiples of it spread evenly (golden ratio - 1).
+constexpr double golden = 0.6180339887498948482;
+/// Points injected at one face in one step. A flow that asks for more has lost its numbers.
+constexpr double max_injected = 1e7;
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+/// Uniform in [0, 1), from whole numbers alone (splitmix64): the same on every platform, and
+/// injected points do not depend on the order in which they are injected.
+double hashed(std::uint64_t seed, std::uint64_t face, std::uint64_t number, std::uint64_t use) {
+  std::uint64_t x = seed;
+  for (const std::uint64_t word : {face, number, use}) {
+    x += 0x9e3779b97f4a7c15U + word;
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    x ^= x >> 31U;
+  }
+  return static_cast<double>(x >> 11U) * 0x1.0p-53;
+}
+
+/// Van der Corput's sequence in base two: each number falls into the widest gap so far.
+double radical_inverse(long number) {
+  double result = 0.0;
+  double digit = 0.5;
+  for (long n = number; n > 0; n /= 2, digit *= 0.5) {
+    if (n % 2 != 0) result += digit;
+  }
+  return result;
+}
+
+/// Where along a segment the share `u` of a flux has passed that is linear from `at_begin` to
+/// `at_end`, both >= 0.
+double share_along(double at_begin, double at_end, double u) {
+  const double root = std::sqrt(at_begin * at_begin * (1.0 - u) + at_end * at_end * u);
+  const double sum = at_begin + root;
+  return sum > 0.0 ? u * (at_begin + at_end) / sum : u;
+}
+
+}  // namespace
+
+template <int Dim>
+PointInjection<Dim>::PointInjection(const Grid<Dim>& grid,
+                                    const std::vector<FaceCondition>& conditions,
+                                    InjectionSettings settings, LiquidDensities densities,
+                                    double bulk_modulus)
+    : grid_(grid),
+      conditions_(conditions),
+      settings_(std::move(settings)),
+      densities_(densities),
+      bulk_modulus_(bulk_modulus) {
+  for (const FaceCondition& condition : conditions) {
+    is_open_.push_back(condition.kind != FaceKind::interior && condition.kind != FaceKind::wall);
+    if (is_open_.back() != 0) open_faces_.push_back(static_cast<int>(is_open_.size()) - 1);
+  }
+}
+
+template <int Dim>
+InflowAccount PointInjection<Dim>::nothing_entered(long next_id) const {
+  InflowAccount account;
+  account.next_id = next_id;
+  account.injected.assign(grid_.face_count(), 0);
+  account.volume.assign(grid_.face_count(), 0.0);
+  for (const int f : open_faces_) {
+    account.volume[f] = settings_.point_volume[f] * fraction(0.5 + golden * static_cast<double>(f));
+  }
+  return account;
+}
+
+template <int Dim>
+PointPlace<Dim> PointInjection<Dim>::place_on_face(int face, long number,
+                                                   const VectorField<Dim>& node_flux) const {
+  static_assert(Dim == 2, "a face of three nodes needs a share of the flux in two directions");
+  // As much of the face's inflow on either side of the point as its number says.
+  const auto& nodes = grid_.face_nodes[face];
+  const auto inward = [&](int i) {
+    if (node_flux.empty()) return 1.0;  // the same all along the face
+    return std::max(0.0, -grid_.face_normal[face].dot(node_flux[i]));
+  };
+  const double u = settings_.random
+                       ? hashed(settings_.seed, face, number, 1)
+                       : fraction(radical_inverse(number + 1) + golden * static_cast<double>(face));
+  const double s = share_along(inward(nodes[0]), inward(nodes[1]), u);
+  const int e = grid_.face_left[face];
+  PointPlace<Dim> place{e, {}};
+  for (int a = 0; a <= Dim; ++a) {
+    const int node = grid_.mesh.elements[e][a];
+    if (node == nodes[0]) place.barycentric[a] = 1.0 - s;
+    if (node == nodes[1]) place.barycentric[a] = s;
+  }
+  return place;
+}
+
+template <int Dim>
+double PointInjection<Dim>::volumes_at_injection(int face, long number) const {
+  if (!settings_.random) return static_cast<double>(number) + 1.0;
+  const long batch = settings_.points_per_element[face];
+  const long first = number / batch * batch;
+  // Called at every open face in every step: no memory of its own each time.
+  thread_local std::vector<double> at;
+  at.resize(batch);
+  for (long k = 0; k < batch; ++k) {
+    at[k] = static_cast<double>(batch) * hashed(settings_.seed, face, first + k, 0);
+  }
+  std::nth_element(at.begin(), at.begin() + (number - first), at.end());
+  return static_cast<double>(first) + at[number - first];
+}
+
+template <int Dim>
+void PointInjection<Dim>::inject(InflowAccount& account, const std::vector<double>& volume,
+                                 const VectorField<Dim>& node_flux,
+                                 std::vector<InjectedPoint<Dim>>& points) const {
+  for (const int f : open_faces_) {
+    const double inflow = -volume[f];
+    const double before = account.volume[f];
+    account.volume[f] += inflow;
+    if (inflow <= 0.0) continue;
+    const double point_volume = settings_.point_volume[f];
+    if (!(inflow <= max_injected * point_volume)) {
+      const Vector<Dim> at = grid_.face_centre(f);
+      std::ostringstream message;
+      message << inflow << " m3 enter in one step at (" << at[0];
+      for (int d = 1; d < Dim; ++d) message << ", " << at[d];
+      message << "), more than " << max_injected
+              << " liquid points hold; look at the boundary conditions and at gravity";
+      throw NumericalError(message.str());
+    }
+    const long injected_before = account.injected[f];
+    for (;;) {
+      const long number = account.injected[f];
+      // In points' volumes, counted as `before` and `account.volume` are: without those injected.
+      const double due = volumes_at_injection(f, number) - static_cast<double>(injected_before);
+      const double share = (due * point_volume - before) / inflow;
+      if (share > 1.0) break;
+      points.push_back({place_on_face(f, number, node_flux), f, number, std::max(0.0, share)});
+      account.volume[f] -= point_volume;
+      ++account.injected[f];
+    }
+  }
+  std::ranges::sort(points, {}, [](const InjectedPoint<Dim>& point) {
+    return std::tuple(point.share, point.face, point.number);
+  });
+}
+
+template <int Dim>
+auto PointInjection<Dim>::content(const InjectedPoint<Dim>& point, double element_pressure) const
+    -> Content {
+  const double concentration = conditions_[point.face].concentration;
+  const double volume = settings_.point_volume[point.face];
+  const double ratio = density_ratio(element_pressure, bulk_modulus_);
+  return {(1.0 - concentration) * volume * densities_.water * ratio,
+          concentration * volume * densities_.grain};
+}
+
+template class PointInjection<2>;
+
+}  // namespace suffuse

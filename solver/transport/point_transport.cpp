@@ -1,0 +1,80 @@
+#include "transport/point_transport.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+PointTransport<Dim>::PointTransport(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                                    const std::vector<FaceCondition>& conditions,
+                                    InjectionSettings injection, LiquidDensities densities,
+                                    double bulk_modulus, int threads)
+    : grid_(grid),
+      solid_(solid),
+      densities_(densities),
+      bulk_modulus_(bulk_modulus),
+      threads_(threads),
+      injection_(grid, conditions, std::move(injection), densities, bulk_modulus),
+      transfer_(grid, solid.soils(), densities.grain),
+      pending_(grid.mesh.node_count(), 0.0) {}
+
+template <int Dim>
+std::vector<char> PointTransport<Dim>::waiting() const {
+  std::vector<char> result;
+  const SoilMap<Dim>& soils = solid_.soils();
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (soils.soil_of_element(e).erosion.empty_elements != EmptyElements::dry || has_points(e)) {
+      continue;
+    }
+    result.resize(grid_.mesh.elements.size(), 0);
+    result[e] = 1;
+  }
+  return result;
+}
+
+template <int Dim>
+bool PointTransport<Dim>::has_pending() const {
+  return std::ranges::any_of(pending_, [](double volume) { return volume != 0.0; });
+}
+
+template <int Dim>
+int PointTransport<Dim>::empty_elements() const {
+  int empty = 0;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (solid_.soils().is_soil(e) && !has_points(e)) ++empty;
+  }
+  return empty;
+}
+
+template <int Dim>
+void PointTransport<Dim>::start_crossings() {
+  crossings_.points.clear();
+  crossings_.fines_out.assign(grid_.mesh.region_names.size(), 0.0);
+}
+
+template <int Dim>
+void PointTransport<Dim>::book(const typename FinesTransfer<Dim>::Result& transferred) {
+  for (std::size_t r = 0; r < transferred.eroded.size(); ++r) {
+    crossings_.fines_out[r] += transferred.eroded[r] - transferred.received[r];
+  }
+}
+
+double checked_step_count(double allowed, double begin, double duration) {
+  // Liquid that needs more steps goes nowhere sensible.
+  constexpr double max_steps = 1e4;
+  const double count = step_count(allowed);
+  if (!(count <= max_steps)) {
+    std::ostringstream message;
+    message << "the flow has run away: at t = " << begin
+            << " s liquid would cross thousands of elements in " << duration << " s";
+    throw NumericalError(message.str());
+  }
+  return count;
+}
+
+template class PointTransport<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,102 @@
+#pragma once
+
+/// Liquid as material points (double-point formulation): what both ways of moving them share, and
+/// what the formulation asks of them.
+
+#include "results/tables.hpp"
+#include "solid/skeleton.hpp"
+#include "transport/fines_transfer.hpp"
+#include "transport/point_injection.hpp"
+#include "transport/transport.hpp"
+
+namespace suffuse {
+
+/// A point that changed its region; -1 is outside.
+struct PointCrossing {
+  int from;
+  int to;
+  double water_mass;  ///< kg
+  double fines_mass;  ///< kg
+};
+
+/// Masses that crossed borders of regions in an interval.
+struct RegionCrossings {
+  std::vector<PointCrossing> points;
+  /// Per region: fines that its solid gave minus those that its liquid received, kg. At a border of
+  /// regions fines of one may join liquid of the other.
+  std::vector<double> fines_out;
+};
+
+/// Volume of fines and of all liquid at p = 0, per element, m3.
+struct LiquidContent {
+  std::vector<double> fines;
+  std::vector<double> liquid;
+};
+
+template <int Dim>
+class PointTransport : public Transport<Dim> {
+ public:
+  PointTransport(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                 const std::vector<FaceCondition>& conditions, InjectionSettings injection,
+                 LiquidDensities densities, double bulk_modulus, int threads);
+
+  [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
+    return {.steps = 4.0, .pore_growth = 1e-3};
+  }
+
+  /// Sorted by element.
+  [[nodiscard]] virtual LiquidPoints<Dim> points() const = 0;
+  [[nodiscard]] virtual int size() const = 0;
+  [[nodiscard]] virtual LiquidContent content() const = 0;
+  /// Elements whose solid waits for liquid before it erodes, 1 for each; empty where none does.
+  [[nodiscard]] std::vector<char> waiting() const;
+  /// Whether fines wait at nodes for liquid.
+  [[nodiscard]] bool has_pending() const;
+
+  /// Pressure at each point, Pa.
+  [[nodiscard]] virtual std::vector<double> point_pressure(const LiquidPoints<Dim>& points,
+                                                           const FlowState<Dim>& flow) const = 0;
+  /// Liquid volume of each point, m3; `pressure` per element, Pa.
+  [[nodiscard]] virtual std::vector<double> point_volume(
+      const LiquidPoints<Dim>& points, const std::vector<double>& pressure) const = 0;
+  /// What this strategy alone can say of the flow.
+  virtual void describe(const FlowState<Dim>& /*flow*/, HistoryRow& /*row*/) const {}
+
+  /// Of this interval.
+  [[nodiscard]] const RegionCrossings& crossings() const { return crossings_; }
+  /// Volume of fines per node that waits for liquid, m3.
+  [[nodiscard]] const std::vector<double>& pending() const { return pending_; }
+  [[nodiscard]] const InflowAccount& inflow() const { return inflow_; }
+  /// Elements of soil without a liquid point: now, and added up over all movements of points.
+  [[nodiscard]] int empty_elements() const;
+  [[nodiscard]] double empty_elements_total() const { return empty_total_; }
+
+  void archive(StateArchive& archive) override {
+    archive(inflow_, pending_, empty_total_, fines_timing_, movement_timing_);
+  }
+
+ protected:
+  [[nodiscard]] virtual bool has_points(int element) const = 0;
+  void start_crossings();
+  void book(const typename FinesTransfer<Dim>::Result& transferred);
+
+  const Grid<Dim>& grid_;
+  const Skeleton<Dim>& solid_;
+  LiquidDensities densities_;
+  double bulk_modulus_;
+  int threads_;
+  PointInjection<Dim> injection_;
+  FinesTransfer<Dim> transfer_;
+  InflowAccount inflow_;
+  std::vector<double> pending_;
+  double empty_total_ = 0.0;
+  RegionCrossings crossings_;
+  PassTiming fines_timing_{"transfer of fines", 0, 0.0};
+  PassTiming movement_timing_{"movement of liquid points", 0, 0.0};
+};
+
+/// Steps of transport over an interval in which points may cross the share `allowed` of it at a
+/// time. Throws NumericalError where these would be far too many.
+double checked_step_count(double allowed, double begin, double duration);
+
+}  // namespace suffuse

@@ -1,0 +1,243 @@
+#include "transport/points_along_faces.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <utility>
+
+#include "physics/liquid.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Elements that a point may cross in one step. Fines are taken up along the path, and in steady
+/// flow the answer does not depend on the step; but where the flow changes, points follow its mean
+/// over the step.
+constexpr double max_elements = 1.0;
+/// Points that one thread moves at a time.
+constexpr int points_together = 1024;
+
+}  // namespace
+
+template <int Dim>
+PointsAlongFaces<Dim>::PointsAlongFaces(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                                        const std::vector<FaceCondition>& conditions,
+                                        InjectionSettings injection, LiquidDensities densities,
+                                        double bulk_modulus, int threads,
+                                        const MaterialPoints<Dim>& places,
+                                        const std::vector<double>& pressure)
+    : PointTransport<Dim>(grid, solid, conditions, std::move(injection), densities, bulk_modulus,
+                          threads),
+      points_(clean_liquid(places, pressure, densities, bulk_modulus)),
+      begins_(element_begins(points_, grid.mesh.element_count())) {
+  this->inflow_ = this->injection_.nothing_entered(points_.size());
+}
+
+template <int Dim>
+void PointsAlongFaces<Dim>::archive(StateArchive& archive) {
+  PointTransport<Dim>::archive(archive);
+  archive(points_);
+  if (archive.restores()) begins_ = element_begins(points_, this->grid_.mesh.element_count());
+}
+
+template <int Dim>
+LiquidContent PointsAlongFaces<Dim>::content() const {
+  const auto elements = static_cast<std::size_t>(this->grid_.mesh.element_count());
+  LiquidContent content{std::vector<double>(elements, 0.0), std::vector<double>(elements, 0.0)};
+  for (int p = 0; p < points_.size(); ++p) {
+    content.fines[points_.element[p]] += points_.fines_mass[p] / this->densities_.grain;
+    content.liquid[points_.element[p]] +=
+        liquid_volume(points_.water_mass[p], points_.fines_mass[p], this->densities_, 1.0);
+  }
+  return content;
+}
+
+template <int Dim>
+std::vector<double> PointsAlongFaces<Dim>::point_volume(const LiquidPoints<Dim>& points,
+                                                        const std::vector<double>& pressure) const {
+  std::vector<double> result(points.size());
+  int ratio_of = -1;
+  double ratio = 1.0;
+  for (int p = 0; p < points.size(); ++p) {
+    if (points.element[p] != ratio_of) {
+      ratio_of = points.element[p];
+      ratio = density_ratio(pressure[ratio_of], this->bulk_modulus_);
+    }
+    result[p] = liquid_volume(points.water_mass[p], points.fines_mass[p], this->densities_, ratio);
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> PointsAlongFaces<Dim>::point_pressure(const LiquidPoints<Dim>& points,
+                                                          const FlowState<Dim>& flow) const {
+  std::vector<double> result(points.size());
+  for (int p = 0; p < points.size(); ++p) {
+    result[p] = interpolate(this->grid_, points.place(p), flow.node_pressure);
+  }
+  return result;
+}
+
+template <int Dim>
+double PointsAlongFaces<Dim>::longest_step(const std::vector<double>& face_rate) const {
+  const std::vector<double> porosity = this->solid_.element_porosity();
+  double most = 0.0;
+  for (int e = 0; e < this->grid_.mesh.element_count(); ++e) {
+    most = std::max(most, crossings(this->grid_, {face_rate, porosity, porosity}, e));
+  }
+  return most > 0.0 ? transport_safety * max_elements / most
+                    : std::numeric_limits<double>::infinity();
+}
+
+template <int Dim>
+std::vector<TransportStep> PointsAlongFaces<Dim>::start_interval(double begin,
+                                                                 const FlowProgress& flow) {
+  this->start_crossings();
+  porosity_ = this->solid_.element_porosity();
+  // In shares of the interval, as these volumes are those of all of it.
+  const double allowed = longest_step(flow.volumes.liquid);
+  return equal_steps(begin, flow.end, checked_step_count(allowed, begin, flow.end - begin));
+}
+
+template <int Dim>
+void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes& volumes,
+                                    const std::vector<double>& exchange,
+                                    const std::vector<double>& pressure) {
+  std::vector<double> volume = volumes.liquid;
+  for (double& v : volume) v *= step.share;
+  const bool erodes = !exchange.empty();
+  std::vector<double> porosity_end = erodes ? this->solid_.element_porosity() : porosity_;
+  Paths paths;
+  {
+    const PassTimer timer(this->movement_timing_);
+    ++this->movement_timing_.calls;
+    paths = follow(volume, porosity_end, pressure);
+  }
+  if (erodes || this->has_pending()) {
+    const PassTimer timer(this->fines_timing_);
+    ++this->fines_timing_.calls;
+    const std::vector<double> nothing(erodes ? 0 : this->solid_.porosity().size(), 0.0);
+    this->book(this->transfer_.transfer_along_paths(erodes ? exchange : nothing,
+                                                    point_volume(points_, pressure), points_,
+                                                    paths.uptakes, this->pending_));
+  }
+  const PassTimer timer(this->movement_timing_);
+  settle(paths);
+  this->empty_total_ += this->empty_elements();
+  porosity_ = std::move(porosity_end);
+}
+
+template <int Dim>
+void PointsAlongFaces<Dim>::inject(const std::vector<double>& volume,
+                                   const std::vector<double>& pressure, Paths& paths,
+                                   std::vector<double>& begin) {
+  std::vector<InjectedPoint<Dim>> injected;
+  this->injection_.inject(this->inflow_, volume, {}, injected);
+  for (const InjectedPoint<Dim>& point : injected) {
+    const int e = point.place.element;
+    const auto [water_mass, fines_mass] = this->injection_.content(point, pressure[e]);
+    points_.element.push_back(e);
+    points_.barycentric.push_back(point.place.barycentric);
+    points_.water_mass.push_back(water_mass);
+    points_.fines_mass.push_back(fines_mass);
+    points_.id.push_back(this->inflow_.next_id++);
+    paths.from.push_back(-1);
+    begin.push_back(point.share);
+  }
+}
+
+template <int Dim>
+auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
+                                   const std::vector<double>& porosity_end,
+                                   const std::vector<double>& pressure) -> Paths {
+  Paths paths;
+  paths.from.reserve(points_.element.size());
+  for (const int e : points_.element) {
+    paths.from.push_back(this->grid_.mesh.element_region[e]);
+  }
+  std::vector<double> begin(points_.element.size(), 0.0);
+  inject(volume, pressure, paths, begin);
+  paths.fines = points_.fines_mass;
+
+  const FaceWalkField<Dim> field{volume, porosity_, porosity_end};
+  const int count = points_.size();
+  paths.left_by.assign(count, -1);
+  // One list for each block of points: their order does not depend on the threads.
+  const int blocks = (count + points_together - 1) / points_together;
+  std::vector<std::vector<FinesUptake<Dim>>> uptakes(blocks);
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic) num_threads(this->threads_) if (blocks > 4)
+  for (int block = 0; block < blocks; ++block) {
+    try {
+      std::vector<FacePassage<Dim>> passages;
+      const int end = std::min(count, (block + 1) * points_together);
+      for (int p = block * points_together; p < end; ++p) {
+        follow_point(p, begin[p], field, pressure[points_.element[p]], passages, paths,
+                     uptakes[block]);
+      }
+    } catch (...) {
+#pragma omp critical(suffuse_follow_failure)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  std::size_t all = 0;
+  for (const auto& of_block : uptakes) all += of_block.size();
+  paths.uptakes.reserve(all);
+  for (auto& of_block : uptakes) {
+    paths.uptakes.insert(paths.uptakes.end(), of_block.begin(), of_block.end());
+    of_block = {};  // or there would be twice as many
+  }
+  return paths;
+}
+
+template <int Dim>
+void PointsAlongFaces<Dim>::follow_point(int p, double begin, const FaceWalkField<Dim>& field,
+                                         double pressure, std::vector<FacePassage<Dim>>& passages,
+                                         Paths& paths, std::vector<FinesUptake<Dim>>& uptakes) {
+  const auto& region = this->grid_.mesh.element_region;
+  double volume = liquid_volume(points_.water_mass[p], points_.fines_mass[p], this->densities_,
+                                density_ratio(pressure, this->bulk_modulus_));
+  PointPlace<Dim> place = points_.place(p);
+  passages.clear();
+  paths.left_by[p] =
+      walk_along_faces(this->grid_, field, place, begin, 1.0, points_.id[p], passages);
+  points_.element[p] = place.element;
+  points_.barycentric[p] = place.barycentric;
+  for (const FacePassage<Dim>& passage : passages) {
+    const bool in_first = region[passage.element] == paths.from[p];
+    uptakes.push_back({p, passage.element, passage.barycentric, volume * (passage.growth - 1.0),
+                       in_first ? paths.from[p] : region[place.element]});
+    volume *= passage.growth;
+  }
+}
+
+template <int Dim>
+void PointsAlongFaces<Dim>::settle(const Paths& paths) {
+  const auto& region = this->grid_.mesh.element_region;
+  const int count = points_.size();
+  std::vector<double> carried = paths.fines;
+  for (const FinesUptake<Dim>& uptake : paths.uptakes) {
+    if (uptake.region == paths.from[uptake.point]) carried[uptake.point] += uptake.mass;
+  }
+  auto& crossings = this->crossings_.points;
+  std::vector<unsigned char> keep(count, 1);
+  for (int p = 0; p < count; ++p) {
+    const int last = region[points_.element[p]];
+    if (paths.from[p] != last) {
+      crossings.push_back({paths.from[p], last, points_.water_mass[p], carried[p]});
+    }
+    if (paths.left_by[p] < 0) continue;
+    keep[p] = 0;
+    crossings.push_back({last, -1, points_.water_mass[p], points_.fines_mass[p]});
+    this->inflow_.volume[paths.left_by[p]] +=
+        liquid_volume(points_.water_mass[p], points_.fines_mass[p], this->densities_, 1.0);
+  }
+  keep_points(points_, keep);
+  sort_by_element(points_, this->grid_.mesh.element_count());
+  begins_ = element_begins(points_, this->grid_.mesh.element_count());
+}
+
+template class PointsAlongFaces<2>;
+
+}  // namespace suffuse

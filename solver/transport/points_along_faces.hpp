@@ -1,0 +1,73 @@
+#pragma once
+
+/// Liquid points that follow the volumes through faces (double-point default): exactly along the
+/// flux of each element, from face to face, taking up fines on the way.
+
+#include "grid/face_walk.hpp"
+#include "transport/point_transport.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class PointsAlongFaces final : public PointTransport<Dim> {
+ public:
+  /// Points in their places, clean, packed by the pressure of their elements (Pa).
+  PointsAlongFaces(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                   const std::vector<FaceCondition>& conditions, InjectionSettings injection,
+                   LiquidDensities densities, double bulk_modulus, int threads,
+                   const MaterialPoints<Dim>& places, const std::vector<double>& pressure);
+
+  [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
+  [[nodiscard]] std::vector<TransportStep> start_interval(double begin,
+                                                          const FlowProgress& flow) override;
+  void advance(const TransportStep& step, const FaceVolumes& volumes,
+               const std::vector<double>& exchange, const std::vector<double>& pressure) override;
+
+  [[nodiscard]] LiquidPoints<Dim> points() const override { return points_; }
+  [[nodiscard]] int size() const override { return points_.size(); }
+  [[nodiscard]] LiquidContent content() const override;
+  [[nodiscard]] std::vector<double> point_pressure(const LiquidPoints<Dim>& points,
+                                                   const FlowState<Dim>& flow) const override;
+  [[nodiscard]] std::vector<double> point_volume(
+      const LiquidPoints<Dim>& points, const std::vector<double>& pressure) const override;
+
+  void archive(StateArchive& archive) override;
+  [[nodiscard]] std::vector<PassTiming> passes() const override {
+    return {this->fines_timing_, this->movement_timing_};
+  }
+
+ private:
+  /// Where points went in a step. Those that left are still among them, in their last element; the
+  /// injected ones are at the end.
+  struct Paths {
+    std::vector<int> from;      ///< region at the start of the step, -1: outside
+    std::vector<int> left_by;   ///< outer face, -1: none
+    std::vector<double> fines;  ///< of each point before it took any up, kg
+    std::vector<FinesUptake<Dim>> uptakes;
+  };
+
+  [[nodiscard]] bool has_points(int element) const override {
+    return begins_[element + 1] > begins_[element];
+  }
+  void inject(const std::vector<double>& volume, const std::vector<double>& pressure, Paths& paths,
+              std::vector<double>& begin);
+  /// Moves every point: injected ones from the moment at which they come in, those that leave until
+  /// then.
+  [[nodiscard]] Paths follow(const std::vector<double>& volume,
+                             const std::vector<double>& porosity_end,
+                             const std::vector<double>& pressure);
+  /// The same for one point; appends what it takes up.
+  void follow_point(int p, double begin, const FaceWalkField<Dim>& field, double pressure,
+                    std::vector<FacePassage<Dim>>& passages, Paths& paths,
+                    std::vector<FinesUptake<Dim>>& uptakes);
+  /// Takes out points that left, once all have their fines, and books who changed region. What a
+  /// point took up in the region that it came from it carries across, the rest it receives where it
+  /// goes; one that leaves the model first crosses into its last region.
+  void settle(const Paths& paths);
+
+  LiquidPoints<Dim> points_;
+  std::vector<int> begins_;       ///< points of each element
+  std::vector<double> porosity_;  ///< per element, at the start of the step
+};
+
+}  // namespace suffuse

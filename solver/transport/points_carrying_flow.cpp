@@ -1,0 +1,186 @@
+#include "transport/points_carrying_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "physics/liquid.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Share of an element that a point may cross between two couplings with erosion.
+constexpr double max_share_of_element = 0.25;
+
+}  // namespace
+
+template <int Dim>
+PointsCarryingFlow<Dim>::PointsCarryingFlow(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                                            ExplicitFlow<Dim>& flow, InjectionSettings injection,
+                                            LiquidDensities densities, double bulk_modulus,
+                                            int threads, const MaterialPoints<Dim>& places)
+    : PointTransport<Dim>(grid, solid, flow.conditions(), std::move(injection), densities,
+                          bulk_modulus, threads),
+      flow_(flow),
+      points_(grid, densities, threads),
+      entered_(grid.face_count(), 0.0) {
+  LiquidPoints<Dim> liquid = clean_liquid(places, flow.pressure(), densities, bulk_modulus);
+  for (int p = 0; p < liquid.size(); ++p) {
+    liquid.pressure.push_back(flow.pressure()[liquid.element[p]]);
+    liquid.velocity.push_back(interpolate(grid, liquid.place(p), flow.scheme().velocity()));
+  }
+  this->inflow_ = this->injection_.nothing_entered(liquid.size());
+  points_.blocks().fill(liquid, grid.mesh.element_count());
+}
+
+template <int Dim>
+void PointsCarryingFlow<Dim>::archive(StateArchive& archive) {
+  PointTransport<Dim>::archive(archive);
+  archive(points_.blocks(), exchange_timing_);
+}
+
+template <int Dim>
+FlowProgress PointsCarryingFlow<Dim>::drive(FlowSolver<Dim>& /*flow*/,
+                                            const FlowInterval<Dim>& interval) {
+  this->start_crossings();
+  const auto steps = flow_.plan_steps(interval);
+  porosity_ = interval.pores.at(0.5 * (steps.begin + steps.end)).porosity;
+  for (long s = 0; s < steps.count; ++s) {
+    points_to_grid();
+    flow_.step(steps.start_of(s), steps.dt);
+    flow_.take_boundary_values(steps.start_of(s), steps.start_of(s) + steps.dt);
+    grid_to_points(steps.dt);
+  }
+  return flow_.finish(steps);
+}
+
+template <int Dim>
+void PointsCarryingFlow<Dim>::points_to_grid() {
+  const PassTimer timer(exchange_timing_);
+  ++exchange_timing_.calls;
+  flow_.scheme().rewrite([this](VectorField<Dim>& velocity, std::vector<double>& pressure) {
+    points_.points_to_grid(velocity, pressure);
+    pressure_before_ = pressure;
+  });
+}
+
+template <int Dim>
+void PointsCarryingFlow<Dim>::grid_to_points(double dt) {
+  const PassTimer timer(this->movement_timing_);
+  ++this->movement_timing_.calls;
+  flow_.node_flux(node_flux_);
+  for (const int f : this->injection_.open_faces()) entered_[f] = dt * flow_.flux_through(f);
+  inject(dt);
+  const auto& scheme = flow_.scheme();
+  moved_.clear();
+  points_.grid_to_points(
+      {scheme.previous_velocity(), scheme.velocity(), pressure_before_, scheme.pressure()},
+      {node_flux_, porosity_, this->injection_.is_open()}, dt, arriving_, moved_);
+  for (const CarriedCrossing& point : moved_) {
+    this->crossings_.points.push_back({point.from, point.to, point.water_mass, point.fines_mass});
+    if (point.left_by < 0) continue;
+    this->inflow_.volume[point.left_by] +=
+        liquid_volume(point.water_mass, point.fines_mass, this->densities_, 1.0);
+  }
+  this->empty_total_ += this->empty_elements();
+}
+
+template <int Dim>
+void PointsCarryingFlow<Dim>::inject(double dt) {
+  const auto& scheme = flow_.scheme();
+  injected_.clear();
+  arriving_.clear();
+  this->injection_.inject(this->inflow_, entered_, node_flux_, injected_);
+  for (const InjectedPoint<Dim>& injected : injected_) {
+    const double pressure = scheme.pressure()[injected.place.element];
+    const auto [water_mass, fines_mass] = this->injection_.content(injected, pressure);
+    CarriedPoint<Dim> point{};
+    std::copy_n(injected.place.barycentric.begin(), Dim, point.at.begin());
+    point.velocity = interpolate(this->grid_, injected.place, scheme.velocity());
+    point.pressure = pressure;
+    point.water_mass = water_mass;
+    point.fines_mass = fines_mass;
+    point.id = this->inflow_.next_id++;
+    arriving_.push_back({injected.place, point, (1.0 - injected.share) * dt});
+  }
+}
+
+template <int Dim>
+double PointsCarryingFlow<Dim>::longest_step(const std::vector<double>& /*face_rate*/) const {
+  VectorField<Dim> node_flux;
+  flow_.node_flux(node_flux);
+  const std::vector<double>& porosity = flow_.coefficients().porosity;
+  const WalkField<Dim> field{node_flux, porosity, this->injection_.is_open()};
+  double fastest = 0.0;
+  for (int e = 0; e < this->grid_.mesh.element_count(); ++e) {
+    fastest = std::max(fastest, crossing_rate(this->grid_, field, e));
+  }
+  return fastest > 0.0 ? transport_safety * max_share_of_element / fastest
+                       : std::numeric_limits<double>::infinity();
+}
+
+template <int Dim>
+void PointsCarryingFlow<Dim>::advance(const TransportStep& /*step*/, const FaceVolumes& /*volumes*/,
+                                      const std::vector<double>& exchange,
+                                      const std::vector<double>& /*pressure*/) {
+  if (exchange.empty() && !this->has_pending()) return;
+  const PassTimer timer(this->fines_timing_);
+  ++this->fines_timing_.calls;
+  const std::vector<double> nothing(exchange.empty() ? this->solid_.porosity().size() : 0, 0.0);
+  this->book(this->transfer_.transfer(exchange.empty() ? nothing : exchange, porosity_,
+                                      this->densities_, points_.blocks(), this->pending_));
+}
+
+template <int Dim>
+LiquidContent PointsCarryingFlow<Dim>::content() const {
+  const PointBlocks<Dim>& points = points_.blocks();
+  const int elements = this->grid_.mesh.element_count();
+  LiquidContent content{std::vector<double>(elements, 0.0), std::vector<double>(elements, 0.0)};
+  for (int e = 0; e < elements; ++e) {
+    for (int slot = 0; slot < points.count(e); ++slot) {
+      const double fines_mass = points.fines_mass(e, slot);
+      content.fines[e] += fines_mass / this->densities_.grain;
+      content.liquid[e] +=
+          liquid_volume(points.water_mass(e, slot), fines_mass, this->densities_, 1.0);
+    }
+  }
+  return content;
+}
+
+template <int Dim>
+std::vector<double> PointsCarryingFlow<Dim>::point_pressure(const LiquidPoints<Dim>& points,
+                                                            const FlowState<Dim>& /*flow*/) const {
+  return points.pressure;
+}
+
+template <int Dim>
+std::vector<double> PointsCarryingFlow<Dim>::point_volume(
+    const LiquidPoints<Dim>& points, const std::vector<double>& /*pressure*/) const {
+  std::vector<double> result(points.size());
+  for (int p = 0; p < points.size(); ++p) {
+    result[p] = liquid_volume(points.water_mass[p], points.fines_mass[p], this->densities_,
+                              density_ratio(points.pressure[p], this->bulk_modulus_));
+  }
+  return result;
+}
+
+template <int Dim>
+void PointsCarryingFlow<Dim>::describe(const FlowState<Dim>& flow, HistoryRow& row) const {
+  // The pressures of the points about the smooth field of the nodes.
+  const LiquidPoints<Dim> points = this->points();
+  const std::vector<double> volume = point_volume(points, flow.pressure);
+  double square = 0.0;
+  double sum = 0.0;
+  for (int p = 0; p < points.size(); ++p) {
+    const double off =
+        points.pressure[p] - interpolate(this->grid_, points.place(p), flow.node_pressure);
+    square += volume[p] * off * off;
+    sum += volume[p];
+  }
+  row.pressure_scatter = std::sqrt(square / sum);
+}
+
+template class PointsCarryingFlow<2>;
+
+}  // namespace suffuse

@@ -1,0 +1,71 @@
+#pragma once
+
+/// Liquid points that carry the flow (material-point integration, the paper's): in each step of the
+/// flow nodes take their velocity and elements their pressure from the points, points take back the
+/// change of both (FLIP) and move.
+
+#include "flow/explicit_flow.hpp"
+#include "transport/carried_points.hpp"
+#include "transport/point_transport.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class PointsCarryingFlow final : public PointTransport<Dim> {
+ public:
+  /// Points in their places, clean, with the pressure and velocity of `flow`, which has started and
+  /// outlives this.
+  PointsCarryingFlow(const Grid<Dim>& grid, const Skeleton<Dim>& solid, ExplicitFlow<Dim>& flow,
+                     InjectionSettings injection, LiquidDensities densities, double bulk_modulus,
+                     int threads, const MaterialPoints<Dim>& places);
+
+  /// Runs the flow that this was made for; points move with each of its steps.
+  FlowProgress drive(FlowSolver<Dim>& flow, const FlowInterval<Dim>& interval) override;
+  [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
+  [[nodiscard]] std::vector<TransportStep> start_interval(double begin,
+                                                          const FlowProgress& flow) override {
+    return {{begin, flow.end, 1.0}};
+  }
+  /// Hands the fines to the points, which have moved already.
+  void advance(const TransportStep& step, const FaceVolumes& volumes,
+               const std::vector<double>& exchange, const std::vector<double>& pressure) override;
+
+  [[nodiscard]] LiquidPoints<Dim> points() const override { return points_.blocks().points(); }
+  [[nodiscard]] int size() const override { return points_.blocks().size(); }
+  [[nodiscard]] LiquidContent content() const override;
+  [[nodiscard]] std::vector<double> point_pressure(const LiquidPoints<Dim>& points,
+                                                   const FlowState<Dim>& flow) const override;
+  [[nodiscard]] std::vector<double> point_volume(
+      const LiquidPoints<Dim>& points, const std::vector<double>& pressure) const override;
+  void describe(const FlowState<Dim>& flow, HistoryRow& row) const override;
+
+  void archive(StateArchive& archive) override;
+  [[nodiscard]] std::vector<PassTiming> passes() const override {
+    return {exchange_timing_, this->fines_timing_, this->movement_timing_};
+  }
+
+ private:
+  [[nodiscard]] bool has_points(int element) const override {
+    return points_.blocks().count(element) > 0;
+  }
+  /// Nodes and elements take velocity and pressure from the points.
+  void points_to_grid();
+  /// After a step of the flow of `dt` seconds: points take the change and move.
+  void grid_to_points(double dt);
+  void inject(double dt);
+
+  ExplicitFlow<Dim>& flow_;
+  CarriedPoints<Dim> points_;
+  std::vector<double> porosity_;  ///< per element, in the middle of the interval
+  PassTiming exchange_timing_{"exchange of points and nodes", 0, 0.0};
+
+  // Of one step; kept, so that steps allocate nothing.
+  std::vector<double> pressure_before_;  ///< per element, that the step began with, Pa
+  VectorField<Dim> node_flux_;           ///< m/s
+  std::vector<double> entered_;          ///< per open face, m3
+  std::vector<InjectedPoint<Dim>> injected_;
+  std::vector<ArrivingPoint<Dim>> arriving_;
+  std::vector<CarriedCrossing> moved_;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,67 @@
+#pragma once
+
+/// How liquid and the fines in it get on while the flow goes: as a field on the mesh, as points
+/// along the volumes that cross faces, or as points that carry the flow themselves. A formulation
+/// holds one of these strategies.
+
+#include <vector>
+
+#include "flow/flow_solver.hpp"
+
+namespace suffuse {
+
+/// A step of transport: a part of an interval of the flow.
+struct TransportStep {
+  double begin = 0.0;  ///< s
+  double end = 0.0;    ///< s
+  double share = 1.0;  ///< of the volumes that cross faces in the interval
+};
+
+template <int Dim>
+class Transport {
+ public:
+  Transport() = default;
+  virtual ~Transport() = default;
+  Transport(const Transport&) = delete;
+  Transport& operator=(const Transport&) = delete;
+
+  /// Runs the flow over an interval. Throws NumericalError.
+  virtual FlowProgress drive(FlowSolver<Dim>& flow, const FlowInterval<Dim>& interval) {
+    return flow.advance(interval);
+  }
+  /// Longest step of transport at these volumes through faces per second (m3/s, along each face's
+  /// normal), s.
+  [[nodiscard]] virtual double longest_step(const std::vector<double>& face_rate) const = 0;
+  /// How far the flow may go ahead of this.
+  struct Coupling {
+    double steps;        ///< of transport, where the flow could go any length by itself
+    double pore_growth;  ///< relative, where the flow does not forecast the pores
+  };
+  [[nodiscard]] virtual Coupling coupling() const = 0;
+  /// Starts on the interval that the flow has crossed. Returns the steps that make it up, in their
+  /// order. Throws NumericalError where these would be far too many.
+  [[nodiscard]] virtual std::vector<TransportStep> start_interval(double begin,
+                                                                  const FlowProgress& flow) = 0;
+  /// One of them. `exchange`: fines that each solid point gives to the liquid in it, m3; empty
+  /// where none can. `pressure`: per element, Pa. Throws NumericalError.
+  virtual void advance(const TransportStep& step, const FaceVolumes& volumes,
+                       const std::vector<double>& exchange,
+                       const std::vector<double>& pressure) = 0;
+
+  virtual void archive(StateArchive& archive) = 0;
+  /// What this cost, for run.json.
+  [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
+};
+
+/// Share of its limit that a step of transport takes.
+inline constexpr double transport_safety = 0.9;
+
+/// An interval in `count` equal steps.
+std::vector<TransportStep> equal_steps(double begin, double end, double count);
+
+/// Steps over an interval of which one may take the share `allowed` (safety included). Intervals
+/// are often cut to a whole number of steps: a share that is off by little, as the flow may be,
+/// must not ask for one more. The safety has room for it.
+double step_count(double allowed);
+
+}  // namespace suffuse
