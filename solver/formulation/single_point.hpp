@@ -17,6 +17,8 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
   void advance(double latest) override;
 
   [[nodiscard]] const FinesState<Dim>& liquid() const { return fines_->state(); }
+  /// Per element, kg.
+  [[nodiscard]] const std::vector<double>& water_mass() const { return water_mass_; }
   [[nodiscard]] HistoryRow history_row(const FlowState<Dim>& flow) const override;
   [[nodiscard]] Snapshot snapshot(const FlowState<Dim>& flow) const override;
   void archive(StateArchive& archive) override;

@@ -86,8 +86,8 @@ TEST(PermeabilityFeedbackDoublePoint, FluxVolumeAndFinesFollowTheExactSolution) 
   double volume_error = 0.0;
   double out_error = 0.0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const HistoryRow history = run.model().history_row(moments.states[k], moments.flows[k]);
-    const LedgerRow ledger = run.model().ledger(moments.states[k]);
+    const HistoryRow history = moments.states[k].history;
+    const LedgerRow ledger = moments.states[k].ledger;
     flux_error = std::max(flux_error, std::abs(history.flux_in / rows[k].number("q") - 1.0));
     // Liquid comes in whole points: what they bring misses the volume by less than one per face.
     const double volume = 2.0 * flux + rows[k].number("V_cum_since_t0");

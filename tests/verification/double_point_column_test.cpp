@@ -64,15 +64,15 @@ Seen compare(const Scene& scene, const std::string& column) {
   }
   EXPECT_EQ(times.back(), scene.time.end);
   model::DoublePointRun run(column_case(scene));
-  const double initial = run.model().ledger(run.model().state()).points;
+  const double initial = run.model().ledger().points;
   const auto moments = run.run(times);
   const int specimen = model::region_index(run.input().mesh, "specimen");
   Seen seen;
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const DoublePointState<2>& state = moments.states[k];
-    const HistoryRow row = run.model().history_row(state, moments.flows[k]);
-    const LedgerRow ledger = run.model().ledger(state);
-    const double solid = run.model().region_rows(state)[specimen].ledger.solid;
+    const model::ModelState<DoublePoint>& state = moments.states[k];
+    const HistoryRow row = state.history;
+    const LedgerRow ledger = state.ledger;
+    const double solid = state.regions[specimen].ledger.solid;
     const auto note = [](double& worst, double value) { worst = std::max(worst, std::abs(value)); };
     note(seen.worst_porosity, (row.porosity_mean - porosity[k]) / 0.1);
     note(seen.worst_solid, (solid - 2700.0 * (1.0 - porosity[k])) / erodible_mass);
@@ -88,7 +88,7 @@ Seen compare(const Scene& scene, const std::string& column) {
     // 64 elements of soil: specimen and buffers.
     seen.empty_share += row.empty_elements / 64.0 / static_cast<double>(times.size());
   }
-  EXPECT_GT(run.model().ledger(moments.states.back()).points_out, initial) << "water was to flow";
+  EXPECT_GT(moments.states.back().ledger.points_out, initial) << "water was to flow";
   return seen;
 }
 

@@ -94,13 +94,13 @@ FluidisedMass compare_masses(const LayerSettings& layers, int points, int column
   EXPECT_GE(times.size(), 8u);
   model::DoublePointRun run(model::make_double_point_case(model::layered_mesh(columns, layers),
                                                           fines_scene(points, times.back())));
-  const auto moments = run.run(times);
+  const auto moments = run.run(times, true);
   const int specimen = model::region_index(run.input().mesh, "specimen");
   FluidisedMass worst;
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const LedgerRow row = run.model().region_rows(moments.states[k])[specimen].ledger;
+    const LedgerRow row = moments.states[k].regions[specimen].ledger;
     const double fraction = row.fines / liquid_volume(row.water, row.fines, {1000.0, 2700.0}, 1.0);
-    const Snapshot snapshot = run.model().snapshot(moments.states[k], moments.flows[k], 0);
+    const Snapshot& snapshot = moments.snapshots[k];
     const auto fines = std::find_if(snapshot.cell.begin(), snapshot.cell.end(),
                                     [](const Field& f) { return f.name == "fines_fraction"; });
     const Mesh<2>& mesh = run.input().mesh;

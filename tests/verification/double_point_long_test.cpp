@@ -42,7 +42,7 @@ class DoublePointLong : public ::testing::TestWithParam<const char*> {
 TEST_P(DoublePointLong, FortyPoreVolumesLeaveThePointsAsTheyWere) {
   const double end = 40.0 * pore_volume_time;
   model::DoublePointRun run(model::make_double_point_case(mesh(), still_scene(end)));
-  const LedgerRow initial = run.model().ledger(run.model().state());
+  const LedgerRow initial = run.model().ledger();
   // Not in step with the column, in which the same points come again and again.
   const auto times = model::times_up_to(end, 0.37 * pore_volume_time);
   const auto moments = run.run(times);
@@ -54,8 +54,8 @@ TEST_P(DoublePointLong, FortyPoreVolumesLeaveThePointsAsTheyWere) {
   double empty = 0.0;
   std::array<double, 2> volume{};  // mean over the second and the last quarter
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const HistoryRow row = run.model().history_row(moments.states[k], moments.flows[k]);
-    const double off = run.model().ledger(moments.states[k]).water / initial.water - 1.0;
+    const HistoryRow row = moments.states[k].history;
+    const double off = moments.states[k].ledger.water / initial.water - 1.0;
     worst_number = std::max(worst_number, std::abs(row.liquid_points / initial.points - 1.0));
     worst_volume = std::max(worst_volume, std::abs(off));
     if (k / quarter == 1) volume[0] += off / static_cast<double>(quarter);
@@ -69,7 +69,7 @@ TEST_P(DoublePointLong, FortyPoreVolumesLeaveThePointsAsTheyWere) {
             << " %, in the mean of the second quarter by " << 100.0 * volume[0]
             << " %, of the last by " << 100.0 * volume[1] << " %; volume defect " << worst_defect
             << ", in the last quarter " << late_defect << "; empty elements " << empty << '\n';
-  EXPECT_GT(run.model().ledger(run.model().state()).points_out, 35.0 * initial.points);
+  EXPECT_GT(run.model().ledger().points_out, 35.0 * initial.points);
   EXPECT_LE(worst_volume, 0.01);
   EXPECT_NEAR(volume[0], volume[1], 1e-3);
   // In elements of other sizes points are of other sizes, too: their number varies more.
@@ -82,7 +82,7 @@ TEST_P(DoublePointLong, FortyPoreVolumesLeaveThePointsAsTheyWere) {
 INSTANTIATE_TEST_SUITE_P(Meshes, DoublePointLong, ::testing::Values("regular", "jittered", "free"));
 
 /// Positions in ascending order, whatever the order in which points were born.
-std::vector<std::array<double, 2>> positions(const DoublePointState<2>& state,
+std::vector<std::array<double, 2>> positions(const model::ModelState<DoublePoint>& state,
                                              const Mesh<2>& mesh) {
   std::vector<std::array<double, 2>> result;
   for (int p = 0; p < state.liquid.size(); ++p) {

@@ -45,13 +45,13 @@ TEST_P(SealedBox, ErosionSourcesNoPressureAndLosesNoMass) {
     const auto moments = run.run({1.0, 5.0, 10.0, 22.0, 30.0});
     for (std::size_t k = 0; k < moments.flows.size(); ++k) {
       EXPECT_LE(largest(moments.flows[k].pressure), 1e-8 * scene.liquid.bulk_modulus);
-      const LedgerRow row = run.model().ledger(moments.states[k]);
+      const LedgerRow row = moments.states[k].ledger;
       EXPECT_EQ(row.water_in + row.water_out + row.fines_in + row.fines_out, 0.0);
       EXPECT_NEAR(row.fines, row.eroded, 1e-12 * row.solid);
     }
     EXPECT_LE(run.worst_residual(), 1e-12);
     // Everything eroded is still in the box.
-    EXPECT_GT(run.model().ledger(moments.states.back()).fines, 100.0);
+    EXPECT_GT(moments.states.back().ledger.fines, 100.0);
   }
 }
 
@@ -82,7 +82,7 @@ TEST_P(HydrostaticRest, StaysAtRestOnAnUnstructuredMeshWithTwoPorosities) {
   GetParam().apply(scene);
   model::ModelRun run(model::make_case(two_soils_free_mesh(0.12), scene));
   const Mesh<2>& mesh = run.input().mesh;
-  const FlowState<2> begin = run.model().moment();
+  const FlowState<2> begin = run.model().flow_state();
   for (int e = 0; e < mesh.element_count(); ++e) {
     const double depth = 1.0 - element_centroid(mesh, e)[1];
     EXPECT_NEAR(begin.pressure[e], 9810.0 * depth, 1e-6) << "the steady state is hydrostatic";
@@ -104,13 +104,13 @@ TEST(EquationOfState, PressureIsThatOfTheMasses) {
   scene.time.end = 30.0;
   model::ModelRun run(model::make_case(model::column_mesh(4, 4), scene));
   run.run({30.0});
-  const SinglePointState<2>& state = run.model().state();
-  const std::vector<double> pressure = run.model().moment().pressure;
+  const FinesState<2>& liquid = run.model().liquid();
+  const std::vector<double> pressure = run.model().flow_state().pressure;
   for (std::size_t e = 0; e < pressure.size(); ++e) {
     const double water =
-        element_sum<2>(state.liquid.pore_volume[e]) - element_sum<2>(state.liquid.fines_volume[e]);
+        element_sum<2>(liquid.pore_volume[e]) - element_sum<2>(liquid.fines_volume[e]);
     const double expected =
-        scene.liquid.bulk_modulus * std::log(state.water_mass[e] / (1000.0 * water));
+        scene.liquid.bulk_modulus * std::log(run.model().water_mass()[e] / (1000.0 * water));
     EXPECT_NEAR(pressure[e], expected, 1e-6);
   }
 }
@@ -127,7 +127,7 @@ TEST_P(SteadyFlow, StaysSteady) {
   model::ModelRun run(model::make_case(model::column_mesh(4, 8), scene));
   const auto moments = run.run({0.1, 1.0});
   for (std::size_t k = 0; k < 2; ++k) {
-    const HistoryRow row = run.model().history_row(moments.states[k], moments.flows[k]);
+    const HistoryRow row = moments.states[k].history;
     // p/K is 3e-4 here: the water expands by that on its way.
     EXPECT_NEAR(row.flux_out, 0.012, 0.012 * 4e-4);
   }

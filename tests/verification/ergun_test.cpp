@@ -16,19 +16,16 @@ namespace {
 struct Fluxes {
   double start = 0.0;
   double later = 0.0;
-  double uneven = 0.0;  ///< flux in less flux out, later
+  double uneven = 0.0;  ///< flux in minus flux out, later
 };
 
 template <class Run>
 Fluxes fluxes_of(Case<2> c) {
   Run run(std::move(c));
-  const auto flux = [&](const auto& state, const FlowState<2>& moment) {
-    return run.model().history_row(state, moment);
-  };
   Fluxes result;
-  result.start = flux(run.model().state(), run.model().moment()).flux_in / 0.5;
+  result.start = run.state().history.flux_in / 0.5;
   const auto moments = run.run({3000.0 * run.plan().flow.step});
-  const HistoryRow row = flux(moments.states[0], moments.flows[0]);
+  const HistoryRow row = moments.states[0].history;
   result.later = row.flux_in / 0.5;
   result.uneven = row.flux_out / 0.5 - result.later;
   return result;
@@ -102,8 +99,7 @@ TEST(ErgunFlux, IsReachedFromRestByTheImplicitScheme) {
     const auto single = one.run({60.0});
     const auto both = two.run({60.0});
     for (const double flux :
-         {one.model().history_row(single.states[0], single.flows[0]).flux_in / 0.5,
-          two.model().history_row(both.states[0], both.flows[0]).flux_in / 0.5}) {
+         {single.states[0].history.flux_in / 0.5, both.states[0].history.flux_in / 0.5}) {
       EXPECT_NEAR(flux / row.number("q_ergun"), 1.0, 1e-6)
           << row.text("k") << ' ' << row.text("n") << ' ' << row.text("gradp");
       worst = std::max(worst, std::abs(flux / row.number("q_ergun") - 1.0));

@@ -47,7 +47,7 @@ double node_depth(const Mesh<2>& mesh, int e, int j) {
 
 /// Relative L1 error of c by the rule of the field nodes, leaving out what lies within `margin` of
 /// `kink` (none with a negative margin).
-double relative_error(const Mesh<2>& mesh, const SinglePointState<2>& state,
+double relative_error(const Mesh<2>& mesh, const model::ModelState<SinglePoint>& state,
                       const std::function<double(double)>& exact, double kink, double margin) {
   double error = 0.0;
   double scale = 0.0;
@@ -63,7 +63,7 @@ double relative_error(const Mesh<2>& mesh, const SinglePointState<2>& state,
 }
 
 /// Mean of the element's linear fields at depth x, over the width: what `sample` would show.
-double value_at_depth(const Mesh<2>& mesh, const SinglePointState<2>& state, double x) {
+double value_at_depth(const Mesh<2>& mesh, const model::ModelState<SinglePoint>& state, double x) {
   double sum = 0.0;
   int count = 0;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -157,8 +157,8 @@ TEST_P(FinesProfile, ErrorAndOrder) {
       // The front: where water stands that entered when erosion began.
       double front = 0.0;
       while (front < 1.0 && profile(front) < (1.0 - 1e-12) * profile(2.0)) front += 1e-3;
-      const SinglePointState<2>& state = moments.states[k];
-      const HistoryRow row = run.model().history_row(state, moments.flows[k]);
+      const model::ModelState<SinglePoint>& state = moments.states[k];
+      const HistoryRow row = state.history;
       EXPECT_GE(row.concentration_min, 0.0);
       EXPECT_LT(row.concentration_max, 1.0);
       smooth_errors[cells].push_back(relative_error(run.input().mesh, state, profile, front, 0.15));
@@ -232,7 +232,7 @@ TEST_P(FinesOutflow, CumulativeMassWithinOnePercent) {
     const auto moments = run.run(times);
     const double width = 2.0 / 16.0;
     for (std::size_t k = 0; k < times.size(); ++k) {
-      const LedgerRow row = run.model().ledger(moments.states[k]);
+      const LedgerRow row = moments.states[k].ledger;
       EXPECT_NEAR(row.fines_out / width, expected[k], 0.01 * expected[k])
           << name << ' ' << rate << " t = " << times[k];
     }
@@ -288,7 +288,7 @@ double water_made(bool third_term) {
   scene.flow.porosity_gradient_term = third_term;
   model::ModelRun run(model::make_case(strip(8), scene));
   const auto moments = run.run({5.0});
-  const LedgerRow row = run.model().ledger(moments.states[0]);
+  const LedgerRow row = moments.states[0].ledger;
   EXPECT_GT(row.water_in, 0.0);
   return row.residual_water * (row.water + row.water_out - row.water_in) /
          ((1.0 + row.residual_water) * row.water_in);

@@ -52,7 +52,7 @@ long calls_of(const std::vector<PassTiming>& passes, const std::string& name) {
 }
 
 /// Mean of n_f over the width at depth x, from the elements that hold it.
-double fines_at_depth(const Mesh<2>& mesh, const SinglePointState<2>& state, double x) {
+double fines_at_depth(const Mesh<2>& mesh, const model::ModelState<SinglePoint>& state, double x) {
   double sum = 0.0;
   int count = 0;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -131,8 +131,8 @@ TEST_P(PermeabilityFeedback, FluxVolumeAndFinesFollowTheExactSolution) {
   double out_error = 0.0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ReferenceRow& row = rows[k];
-    const HistoryRow history = run.model().history_row(moments.states[k], moments.flows[k]);
-    const LedgerRow ledger = run.model().ledger(moments.states[k]);
+    const HistoryRow history = moments.states[k].history;
+    const LedgerRow ledger = moments.states[k].ledger;
     flux_error = std::max(flux_error, std::abs(history.flux_in / width / row.number("q") - 1.0));
     const double volume = 2.0 * 0.012 + row.number("V_cum_since_t0");
     volume_error =
@@ -186,7 +186,7 @@ TEST(PermeabilityFeedback, ItsErrorFallsWithTheSquareOfTheStep) {
     scene.time.stepping = stepping;
     model::ModelRun run(model::make_case(model::column_mesh(4, 4), scene));
     const auto moments = run.run({22.0});
-    return std::abs(run.model().ledger(moments.states[0]).water_in / 1000.0 - exact) / exact;
+    return std::abs(moments.states[0].ledger.water_in / 1000.0 - exact) / exact;
   };
   for (const auto& [stepping, order] :
        {std::pair{TimeStepping::second_order, 2.0}, std::pair{TimeStepping::monotone, 1.0}}) {
@@ -248,8 +248,7 @@ TEST(FluxLaw, ErosionFollowsAFluxThatChanges) {
     const double t = 5.0 * static_cast<double>(k + 1);
     const double exact = 0.4 - 0.1 * std::exp(-20.0 * 0.012 * t * t / 20.0);
     for (const double n : moments.states[k].porosity) EXPECT_NEAR(n, exact, 1e-4 * 0.1);
-    EXPECT_NEAR(run.model().ledger(moments.states[k]).water_in, 1000.0 * 0.012 * t * t / 20.0,
-                1e-4);
+    EXPECT_NEAR(moments.states[k].ledger.water_in, 1000.0 * 0.012 * t * t / 20.0, 1e-4);
   }
 }
 
@@ -268,7 +267,7 @@ TEST(Events, KinksOfBoundaryValuesAndErosionAreHitExactly) {
     scene.time.step = step;
     model::ModelRun run(model::make_case(model::column_mesh(2, 4), scene));
     const auto moments = run.run({20.0});
-    const LedgerRow row = run.model().ledger(moments.states[0]);
+    const LedgerRow row = moments.states[0].ledger;
     EXPECT_NEAR(row.water_in / 1000.0, volume, 1e-13);
     EXPECT_LE(run.worst_residual(), 1e-12);
     for (const double n : moments.states[0].porosity) EXPECT_NEAR(n, 0.4, 1e-15);
@@ -338,7 +337,7 @@ TEST(StartUp, WavesThatMoveNothingAreNotFollowed) {
       const double time = times[k];
       const double exact =
           0.3 * width_of(mesh) * head / 1000.0 * tau * (time - tau * (1.0 - std::exp(-time / tau)));
-      const double flowed = run.model().ledger(moments.states[k]).water_out / 1000.0;
+      const double flowed = moments.states[k].ledger.water_out / 1000.0;
       worst = std::max(worst, std::abs(flowed - exact) / (exact / time * end));
     }
     steps = run.steps();
@@ -373,8 +372,8 @@ TEST(KeptFlow, SteadyFlowIsNotSolvedAgain) {
   const auto without = solved.run({60.0, 120.0});
   EXPECT_EQ(calls_of(solved.model().passes(), "flow"), 120);
   for (std::size_t k = 0; k < 2; ++k) {
-    const LedgerRow a = kept.model().ledger(with.states[k]);
-    const LedgerRow b = solved.model().ledger(without.states[k]);
+    const LedgerRow a = with.states[k].ledger;
+    const LedgerRow b = without.states[k].ledger;
     const double bar = 0.1 * scene.time.tolerance;
     EXPECT_NEAR(a.water_in, b.water_in, bar * b.water_in);
     EXPECT_NEAR(a.fines_out, b.fines_out, bar * b.eroded);

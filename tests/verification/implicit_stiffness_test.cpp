@@ -36,7 +36,7 @@ TEST(Stiffness, AnySoilAndAnyWaterGetThroughADay) {
       scene.soils[0].erosion = {ErosionLaw::first_order, 1e-4, 600.0, false};
       model::ModelRun run(model::make_case(model::column_mesh(4, 4), scene));
       const auto moments = run.run({86400.0});
-      const HistoryRow row = run.model().history_row(moments.states[0], moments.flows[0]);
+      const HistoryRow row = moments.states[0].history;
       std::cout << "k = " << conductivity << ", K = " << modulus << ": " << run.steps()
                 << " steps, residual " << run.worst_residual() << '\n';
       EXPECT_LE(run.worst_residual(), 1e-12);

@@ -6,11 +6,30 @@
 #include <cmath>
 #include <vector>
 
+#include "driver/plan.hpp"
 #include "formulation/double_point.hpp"
 #include "formulation/single_point.hpp"
 #include "solver/double_point_case.hpp"
 
 namespace suffuse::model {
+
+inline FinesState<2> liquid_of(const SinglePoint<2>& model) {
+  return model.liquid();
+}
+inline LiquidPoints<2> liquid_of(const DoublePoint<2>& model) {
+  return model.liquid().points();
+}
+
+/// What a model has come to at one time.
+template <template <int> class Model>
+struct ModelState {
+  double time = 0.0;             ///< s
+  std::vector<double> porosity;  ///< per solid point
+  decltype(liquid_of(std::declval<const Model<2>&>())) liquid;
+  HistoryRow history;
+  LedgerRow ledger;
+  std::vector<RegionRow> regions;
+};
 
 /// A case, its plan and the model that runs it, kept together.
 template <template <int> class Model>
@@ -19,30 +38,31 @@ class FormulationRun {
   explicit FormulationRun(Case<2> c, SolverOptions options = {})
       : case_(std::move(c)), plan_(make_plan(case_, options)), model_(case_, plan_) {}
 
-  /// State and flow at each of `times` (ascending).
+  /// State and flow at each of `times` (ascending), and snapshots where asked for.
   struct Moments {
-    std::vector<typename Model<2>::State> states;
+    std::vector<ModelState<Model>> states;
     std::vector<FlowState<2>> flows;
+    std::vector<Snapshot> snapshots;
   };
-  Moments run(const std::vector<double>& times) {
+  Moments run(const std::vector<double>& times, bool with_snapshots = false) {
     Moments result;
-    auto next = times.begin();
-    while (next != times.end()) {
-      const auto within = [&](double reached) {
-        std::vector<double> found;
-        for (auto t = next; t != times.end() && *t <= reached; ++t) found.push_back(*t);
-        return found;
-      };
-      for (auto& [state, flow] : model_.advance(times.back(), within)) {
-        result.states.push_back(std::move(state));
-        result.flows.push_back(std::move(flow));
-        ++next;
+    for (const double time : times) {
+      while (model_.time() < time) {
+        model_.advance(time);
+        note_residuals();
       }
-      note_residuals();
+      result.flows.push_back(model_.flow_state());
+      result.states.push_back(state());
+      if (with_snapshots) result.snapshots.push_back(model_.snapshot(result.flows.back()));
     }
     return result;
   }
 
+  [[nodiscard]] ModelState<Model> state() const {
+    return {model_.time(),     model_.solid().porosity(),
+            liquid_of(model_), model_.history_row(model_.flow_state()),
+            model_.ledger(),   model_.region_rows()};
+  }
   [[nodiscard]] Model<2>& model() { return model_; }
   [[nodiscard]] const Case<2>& input() const { return case_; }
   [[nodiscard]] const Plan& plan() const { return plan_; }
@@ -52,7 +72,7 @@ class FormulationRun {
 
  private:
   void note_residuals() {
-    const LedgerRow row = model_.ledger(model_.state());
+    const LedgerRow row = model_.ledger();
     worst_residual_ =
         std::max({worst_residual_, std::abs(row.residual_water), std::abs(row.residual_grains)});
   }

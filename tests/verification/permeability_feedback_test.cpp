@@ -50,7 +50,7 @@ double largest_error(const Scene& scene, const Table& table) {
   const auto moments = run.run(table.times);
   double worst = 0.0;
   for (std::size_t k = 0; k < table.times.size(); ++k) {
-    const HistoryRow row = run.model().history_row(moments.states[k], moments.flows[k]);
+    const HistoryRow row = moments.states[k].history;
     for (const double flux : {row.flux_in, row.flux_out}) {
       worst = std::max(worst, std::abs(flux - table.fluxes[k]) / table.fluxes[k]);
     }
@@ -85,7 +85,7 @@ TEST(PermeabilityFeedback, StepIsSafeToTheEnd) {
     model::ModelRun run(model::make_case(model::column_mesh(2, 8), scene));
     const auto moments = run.run({30.0});
     for (const std::string& warning : run.model().take_warnings()) ADD_FAILURE() << warning;
-    const HistoryRow row = run.model().history_row(moments.states[0], moments.flows[0]);
+    const HistoryRow row = moments.states[0].history;
     // Water that enters under 5886 Pa expands by p / K on its way.
     const double expected = 1.2e-4 * 3.2263374;
     EXPECT_NEAR(row.flux_in, expected, 5886.0 / 2e7 * expected);

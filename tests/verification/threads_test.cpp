@@ -20,7 +20,7 @@ Snapshot snapshot_of(const Scene& scene, const std::vector<double>& times, int t
   options.threads = threads;
   model::ModelRun run(model::make_case(model::column_mesh(100, 100, 1.0, 1.0), scene), options);
   run.run(times);
-  return run.model().snapshot(run.model().state(), run.model().moment(), 0);
+  return run.model().snapshot(run.model().flow_state());
 }
 
 void expect_same_bits(const Snapshot& one, const Snapshot& two) {
