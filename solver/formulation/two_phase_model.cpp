@@ -123,7 +123,7 @@ std::vector<StoredSums> TwoPhaseModel<Dim>::solid_masses() const {
   for (int p = 0; p < points.size(); ++p) {
     const double mass = grain_density_ * points.volume[p];
     for (StoredSums* sum : {&sums[0], &sums[grid_.mesh.element_region[points.element[p]] + 1]}) {
-      sum->solid.add(grain_density_ * solid.solid_volume[p]);
+      sum->solid.add(grain_density_ * solid.solid_volume(p));
       sum->erodible.add(grain_density_ * solid.erodible_volume[p]);
       sum->eroded.add(mass * (solid_->porosity()[p] - solid_->initial_porosity()[p]));
     }

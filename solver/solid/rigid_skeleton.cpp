@@ -12,12 +12,12 @@ RigidSkeleton<Dim>::RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soi
                                   const TimeSpan& erosion_span, int threads)
     : grid_(grid), soils_(soils), erosion_span_(erosion_span), threads_(threads) {
   const MaterialPoints<Dim>& points = soils.points();
-  state_.solid_volume.reserve(points.size());
+  state_.skeleton_volume.reserve(points.size());
   state_.erodible_volume.reserve(points.size());
   for (int p = 0; p < points.size(); ++p) {
     const double porosity = soils.initial_porosity(p);
     const double porosity_max = soils.soil_of_element(points.element[p]).porosity_max();
-    state_.solid_volume.push_back(points.volume[p] * (1.0 - porosity));
+    state_.skeleton_volume.push_back(points.volume[p] * (1.0 - porosity_max));
     state_.erodible_volume.push_back(points.volume[p] * (porosity_max - porosity));
   }
   update_porosity();
@@ -29,11 +29,8 @@ RigidSkeleton<Dim>::RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soi
 
 template <int Dim>
 void RigidSkeleton<Dim>::update_porosity() {
-  porosity_.resize(state_.solid_volume.size());
-  for (int p = 0; p < soils_.points().size(); ++p) {
-    porosity_[p] =
-        porosity_of(p, soils_.soil_of_element(soils_.points().element[p]).porosity_max());
-  }
+  porosity_.resize(state_.skeleton_volume.size());
+  for (int p = 0; p < soils_.points().size(); ++p) porosity_[p] = porosity_of(p);
 }
 
 template <int Dim>
@@ -78,16 +75,13 @@ void RigidSkeleton<Dim>::erode(double from, double to, const std::vector<double>
       const double after =
           suffuse::porosity_after(model, porosity_[p], from, to, flux.empty() ? unset : flux[p]);
       if (after == porosity_[p]) continue;
-      double& solid = state_.solid_volume[p];
       double& erodible = state_.erodible_volume[p];
       const double volume = points.volume[p] * (after - porosity_[p]);
-      const bool is_last = after >= model.porosity_max || volume >= erodible;
-      const double left = solid - (is_last ? erodible : volume);
+      const double left = after >= model.porosity_max ? 0.0 : std::max(0.0, erodible - volume);
       // What the rounded state lost, so that none is lost on the way to the liquid.
-      exchange[p] = solid - left;
-      erodible = is_last ? 0.0 : erodible - exchange[p];
-      solid = left;
-      porosity_[p] = porosity_of(p, model.porosity_max);
+      exchange[p] = erodible - left;
+      erodible = left;
+      porosity_[p] = porosity_of(p);
     }
   });
 }

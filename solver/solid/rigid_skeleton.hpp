@@ -32,12 +32,9 @@ class RigidSkeleton final : public Skeleton<Dim> {
   void archive(StateArchive& archive) override;
 
  private:
-  /// n_L of a point from what it holds; where nothing is left to erode it is known without
-  /// round-off.
-  [[nodiscard]] double porosity_of(int point, double porosity_max) const {
-    return state_.erodible_volume[point] > 0.0
-               ? 1.0 - state_.solid_volume[point] / soils_.points().volume[point]
-               : porosity_max;
+  /// n_L of a point from what it holds.
+  [[nodiscard]] double porosity_of(int point) const {
+    return 1.0 - state_.solid_volume(point) / soils_.points().volume[point];
   }
   void update_porosity();
 

@@ -12,12 +12,16 @@
 
 namespace suffuse {
 
-/// What a solid point holds. Its porosity follows from this and the volume it stands for.
+/// What the solid points hold, m3. Porosity follows from this and the volume that a point stands
+/// for.
 struct SolidState {
-  std::vector<double> solid_volume;     ///< per point, m3: coarse skeleton and erodible fines
-  std::vector<double> erodible_volume;  ///< the part of it that can still erode, m3
+  std::vector<double> skeleton_volume;  ///< per point: coarse grains, which never erode
+  std::vector<double> erodible_volume;  ///< per point: fines that can still erode
 
-  void archive(auto& archive) { archive(solid_volume, erodible_volume); }
+  [[nodiscard]] double solid_volume(int point) const {
+    return skeleton_volume[point] + erodible_volume[point];
+  }
+  void archive(auto& archive) { archive(skeleton_volume, erodible_volume); }
 };
 
 template <int Dim>

@@ -19,6 +19,10 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
                      InjectionSettings injection, LiquidDensities densities, double bulk_modulus,
                      int threads, const MaterialPoints<Dim>& places);
 
+  /// Pores grow by little: a point that comes in takes its part in what the whole interval eroded.
+  [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
+    return {.steps = 1.0, .pore_growth = 2e-4};
+  }
   /// Runs the flow that this was made for; points move with each of its steps.
   FlowProgress drive(FlowSolver<Dim>& flow, const FlowInterval<Dim>& interval) override;
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;

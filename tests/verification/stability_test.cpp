@@ -6,6 +6,7 @@
 #include <random>
 
 #include "case/errors.hpp"
+#include "flow/explicit_nodal.hpp"
 #include "free_mesh.hpp"
 #include "model_run.hpp"
 
