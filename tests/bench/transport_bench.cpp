@@ -6,6 +6,7 @@
 #include "bench/bench.hpp"
 #include "flow/implicit_mixed.hpp"
 #include "linear/supernodal_factor.hpp"
+#include "solid/pores.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
 #include "transport/eulerian.hpp"
@@ -19,9 +20,10 @@ struct Column {
       : c(make(cells)),
         grid(c.mesh),
         conditions(face_conditions(c, grid)),
-        skeleton(c, grid, threads),
+        soils(c),
+        skeleton(grid, soils, {}, threads),
         transport(grid, conditions, threads) {
-    state.pore_volume = skeleton.initial_pore_volume();
+    state.pore_volume = initial_pore_volume(grid, soils);
     state.fines_volume = state.pore_volume;
     for (int e = 0; e < grid.mesh.element_count(); ++e) {
       const Vector<2> x = element_centroid(grid.mesh, e);
@@ -42,11 +44,12 @@ struct Column {
     return model::make_case(model::column_mesh(cells, cells), scene);
   }
 
-  [[nodiscard]] double points() const { return skeleton.points().size(); }
+  [[nodiscard]] double points() const { return soils.points().size(); }
 
   Case<2> c;
   Grid<2> grid;
   std::vector<FaceCondition> conditions;
+  SoilMap<2> soils;
   RigidSkeleton<2> skeleton;
   EulerianTransport<2> transport;
   FinesState<2> state;
@@ -84,11 +87,10 @@ BENCHMARK(Transport)->Name("QuickTransport")->Args({3'300, 1})->UseRealTime();
 void Erosion(benchmark::State& bench) {
   const auto threads = static_cast<int>(bench.range(1));
   Column column(cells_for(static_cast<double>(bench.range(0))), threads);
-  std::vector<double> porosity = column.skeleton.initial_porosity();
-  ElementField<2> eroded;
+  std::vector<double> exchange;
   double time = 0.0;
   for ([[maybe_unused]] const auto step : bench) {
-    column.skeleton.erode(porosity, time, time + 1.0, {}, eroded);
+    column.skeleton.erode(time, time + 1.0, {}, {}, exchange);
     time += 1.0;
   }
   report(bench, column.points(), 16.0 + 8.0 + 8.0 + 8.0 / 3.0, threads);

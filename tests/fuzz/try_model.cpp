@@ -1,9 +1,8 @@
 #include "case/case_file.hpp"
+#include "driver/output_schedule.hpp"
 #include "driver/plan.hpp"
-#include "driver/step_loop.hpp"
 #include "edited_files.hpp"
-#include "formulation/double_point.hpp"
-#include "formulation/single_point.hpp"
+#include "formulation/two_phase_model.hpp"
 #include "refusal.hpp"
 #include "targets.hpp"
 
@@ -23,34 +22,25 @@ bool is_long(const Scene& scene, const Plan& plan) {
          scene.time.end > most_rows * scene.output.snapshot_every;
 }
 
-/// All that outputs ask for.
-template <class Model>
-struct Outputs {
-  const Model& model;
-
-  void operator()(const auto& state, const auto& moment, OutputSchedule::Due due) const {
-    if (due.row) {
-      static_cast<void>(model.history_row(state, moment));
-      static_cast<void>(model.ledger(state));
-      static_cast<void>(model.region_rows(state));
-    }
-    if (due.snapshot) static_cast<void>(model.snapshot(state, moment, model.steps()));
-  }
-  void operator()(const auto& looks) const {
-    for (const auto& look : looks) (*this)(look.state, look.flow, look.due);
-  }
-};
-
-/// The first intervals.
-template <class Model>
+/// The first intervals, with their outputs.
 void run(const Case<2>& c, const Plan& plan) {
-  Model model(c, plan);
-  StepLoop<Model> loop(c.document.scene, model);
-  const Outputs<Model> outputs{model};
-  loop.start(outputs);
-  for (int i = 0; i < most_intervals && !loop.finished(); ++i) {
-    loop.advance(outputs);
-    static_cast<void>(model.take_warnings());
+  const auto model = make_model(c, plan);
+  OutputSchedule schedule(c.document.scene);
+  const auto output = [&] {
+    const OutputSchedule::Due due = schedule.take(model->time());
+    const FlowState<2> flow = model->flow_state();
+    if (due.row) {
+      static_cast<void>(model->history_row(flow));
+      static_cast<void>(model->ledger());
+      static_cast<void>(model->region_rows());
+    }
+    if (due.snapshot) static_cast<void>(model->snapshot(flow));
+  };
+  output();
+  for (int i = 0; i < most_intervals && !schedule.finished(); ++i) {
+    model->advance(schedule.next());
+    output();
+    static_cast<void>(model->take_warnings());
   }
 }
 
@@ -65,11 +55,7 @@ void try_model(const std::string& input) {
   static_cast<void>(is_taken([&] {
     const Plan plan = make_plan(c, {});
     if (is_long(c.document.scene, plan)) return;
-    if (c.document.scene.formulation == Formulation::single_point) {
-      run<SinglePoint<2>>(c, plan);
-    } else {
-      run<DoublePoint<2>>(c, plan);
-    }
+    run(c, plan);
   }));
 }
 

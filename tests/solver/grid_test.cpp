@@ -6,7 +6,7 @@
 
 #include "grid/compensated_sum.hpp"
 #include "grid/element_field.hpp"
-#include "grid/face_flux.hpp"
+#include "grid/extrapolated_flux.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {
@@ -64,42 +64,14 @@ TEST(FieldNodes, BasisIsOneAtItsNodeAndAddsUpToOne) {
               0.2 * vertices[0] + 0.3 * vertices[1] + 0.5 * vertices[2], 1e-14);
 }
 
-/// Fluxes through faces of a field that is the same everywhere.
-std::vector<double> uniform_flux(const Grid<2>& grid, const Vector<2>& q) {
-  std::vector<double> flux;
-  for (const Vector<2>& normal : grid.face_normal) flux.push_back(q.dot(normal));
-  return flux;
-}
-
-TEST(FluxInTime, IsExactWhereTheFluxDoesNotTurn) {
-  const Grid<2> grid(mesh);
-  const Vector<2> direction(0.6, -0.8);
-  for (const double share : {0.1, 0.5, 0.77, 1.0}) {
-    // From 1 to 3 m/s.
-    const FluxInTime flux{uniform_flux(grid, 2.0 * direction), uniform_flux(grid, 2.0 * direction),
-                          share};
-    const double mean = mean_magnitude_at(grid, flux, 3, element_centroid(mesh, 3));
-    EXPECT_NEAR(mean, 1.0 + share, 1e-14);
-  }
-}
-
-TEST(FluxInTime, WhatItComesToGrowsWhereTheFluxTurns) {
-  const Grid<2> grid(mesh);
-  // Through zero, turned about, and aside.
-  for (const auto& [begin, end] : {std::pair{Vector<2>(1.0, 0.0), Vector<2>(-0.5, 0.0)},
-                                   std::pair{Vector<2>(1.0, 0.0), Vector<2>(-2.0, 0.0)},
-                                   std::pair{Vector<2>(1.0, 0.0), Vector<2>(0.0, 1.0)}}) {
-    const Vector<2> mean = 0.5 * (begin + end);
-    double last = 0.0;
-    for (int k = 1; k <= 20; ++k) {
-      const double share = k / 20.0;
-      const FluxInTime flux{uniform_flux(grid, mean), uniform_flux(grid, end - begin), share};
-      const double all = share * mean_magnitude_at(grid, flux, 7, element_centroid(mesh, 7));
-      EXPECT_GE(all, last);
-      last = all;
-    }
-    EXPECT_NEAR(last, mean.norm(), 1e-14);
-  }
+TEST(FluxHistory, GoesOnAsItDid) {
+  // Linear in time: 2 on the mean of 4 s, 3 at their end, so 3.5 on the mean of the next 4 s.
+  const FluxHistory flux{{2.0, -1.0}, {3.0, -1.0}, 4.0};
+  EXPECT_EQ(flux.extrapolated(4.0), (std::vector<double>{4.0, -1.0}));
+  EXPECT_EQ(flux.extrapolated(2.0), (std::vector<double>{3.5, -1.0}));
+  EXPECT_EQ(flux.extrapolated(0.0), flux.end);
+  // Not for ever.
+  EXPECT_EQ(flux.extrapolated(1e9), flux.extrapolated(16.0));
 }
 
 TEST(CompensatedSum, KeepsWhatAPlainSumLoses) {

@@ -1,4 +1,4 @@
-#include "transport/grain_transfer.hpp"
+#include "transport/fines_transfer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,8 @@ struct TransferCase {
   TransferCase(MassTransfer way, Seeding seeding, int points_per_element, double jitter)
       : input(make(way, seeding, points_per_element, jitter)),
         grid(input.mesh),
-        skeleton(input, grid),
-        transfer(grid, skeleton, grain_density),
-        before(skeleton.initial_porosity()),
+        soils(input),
+        transfer(grid, soils, grain_density),
         pending(input.mesh.node_count(), 0.0) {
     const MaterialPoints<2>& seeded = input.liquid_points;
     points.element = seeded.element;
@@ -62,15 +61,24 @@ struct TransferCase {
     }
     return result;
   }
-  /// Each solid point's porosity grows by growth(element).
-  auto erode(const std::function<double(int)>& growth) {
-    std::vector<double> after = before;
-    for (std::size_t s = 0; s < after.size(); ++s) {
-      after[s] += growth(skeleton.points().element[s]);
+  /// What solid points give when their porosity grows by growth(element), m3.
+  [[nodiscard]] std::vector<double> exchange(const std::function<double(int)>& growth) const {
+    std::vector<double> result = soils.points().volume;
+    for (std::size_t s = 0; s < result.size(); ++s) {
+      result[s] *= growth(soils.points().element[s]);
     }
+    return result;
+  }
+  /// Points take what the solid gives, as those do that carry the flow.
+  auto erode(const std::function<double(int)>& growth) {
+    points.pressure.assign(points.size(), 0.0);
+    points.velocity.assign(points.size(), Vector<2>::Zero());
+    PointBlocks<2> blocks;
+    blocks.fill(points, input.mesh.element_count());
     const std::vector<double> porosity(input.mesh.element_count(), 0.3);
-    auto result = transfer.transfer(before, after, porosity, begins(), volumes(), points, pending);
-    before = after;
+    auto result =
+        transfer.transfer(exchange(growth), porosity, {1000.0, grain_density}, blocks, pending);
+    points = blocks.points();
     return result;
   }
   [[nodiscard]] double fines() const {
@@ -83,14 +91,13 @@ struct TransferCase {
 
   Case<2> input;
   Grid<2> grid;
-  RigidSkeleton<2> skeleton;
-  GrainTransfer<2> transfer;
-  std::vector<double> before;
+  SoilMap<2> soils;
+  FinesTransfer<2> transfer;
   LiquidPoints<2> points;
   std::vector<double> pending;
 };
 
-TEST(GrainTransfer, LosesNothing) {
+TEST(FinesTransfer, LosesNothing) {
   for (const MassTransfer way : {MassTransfer::nodal, MassTransfer::element}) {
     for (const int points : {1, 3, 12}) {
       TransferCase c(way, Seeding::random, points, 0.04);
@@ -114,7 +121,7 @@ TEST(GrainTransfer, LosesNothing) {
   }
 }
 
-TEST(GrainTransfer, ByElementEachPointTakesItsShareOfTheElement) {
+TEST(FinesTransfer, ByElementEachPointTakesItsShareOfTheElement) {
   TransferCase c(MassTransfer::element, Seeding::random, 4, 0.04);
   // Points of an element are of different volumes.
   for (int p = 0; p < c.points.size(); ++p) c.points.water_mass[p] *= 1.0 + 0.1 * (p % 3);
@@ -132,7 +139,7 @@ TEST(GrainTransfer, ByElementEachPointTakesItsShareOfTheElement) {
   }
 }
 
-TEST(GrainTransfer, ByNodesEvenErosionGivesEvenConcentration) {
+TEST(FinesTransfer, ByNodesEvenErosionGivesEvenConcentration) {
   // Points that stand exactly for the pores of their element: each takes phi / n of its volume.
   TransferCase even(MassTransfer::nodal, Seeding::gauss, 3, 0.04);
   const std::vector<double> volume = even.volumes();
@@ -167,7 +174,7 @@ TEST(GrainTransfer, ByNodesEvenErosionGivesEvenConcentration) {
   EXPECT_LE(by_nodes, 0.5 * by_element);
 }
 
-TEST(GrainTransfer, WaitsForLiquidWhereThereIsNone) {
+TEST(FinesTransfer, WaitsForLiquidWhereThereIsNone) {
   for (const MassTransfer way : {MassTransfer::nodal, MassTransfer::element}) {
     TransferCase c(way, Seeding::low_discrepancy, 3, 0.0);
     const LiquidPoints<2> all = c.points;
@@ -185,7 +192,7 @@ TEST(GrainTransfer, WaitsForLiquidWhereThereIsNone) {
   }
 }
 
-TEST(GrainTransfer, AnEmptyElementGivesToItsNeighbours) {
+TEST(FinesTransfer, AnEmptyElementGivesToItsNeighbours) {
   for (const MassTransfer way : {MassTransfer::nodal, MassTransfer::element}) {
     TransferCase c(way, Seeding::low_discrepancy, 3, 0.0);
     const int lone = 24;
@@ -207,14 +214,13 @@ std::vector<FinesUptake<2>> takes_in_place(const TransferCase& c, double growth)
   return takes;
 }
 
-TEST(GrainTransfer, OnTheWayEachTakeGetsItsOwnTimesACommonFactor) {
+TEST(FinesTransfer, AlongPathsEachUptakeGetsItsOwnTimesACommonFactor) {
   // Takes that add up to half of what eroded, evenly: twice each.
   TransferCase c(MassTransfer::nodal, Seeding::gauss, 3, 0.04);
   auto takes = takes_in_place(c, 0.5 * 1e-3 / 0.3);
-  std::vector<double> after = c.before;
-  for (double& n : after) n += 1e-3;
+  const std::vector<double> exchange = c.exchange([](int) { return 1e-3; });
   const auto result =
-      c.transfer.transfer_on_the_way(c.before, after, c.volumes(), c.points, takes, c.pending);
+      c.transfer.transfer_along_paths(exchange, c.volumes(), c.points, takes, c.pending);
   for (const FinesUptake<2>& take : takes) {
     EXPECT_NEAR(take.mass / (grain_density * take.own_volume), 2.0, 1e-12);
     EXPECT_EQ(c.points.fines_mass[take.point], take.mass);
@@ -223,22 +229,18 @@ TEST(GrainTransfer, OnTheWayEachTakeGetsItsOwnTimesACommonFactor) {
   EXPECT_NEAR(result.eroded[0], grain_density * 1e-3, 1e-13);
 }
 
-TEST(GrainTransfer, OnTheWayNothingIsLost) {
+TEST(FinesTransfer, AlongPathsNothingIsLost) {
   for (const MassTransfer way : {MassTransfer::nodal, MassTransfer::element}) {
     TransferCase c(way, Seeding::random, 3, 0.04);
     c.empty([](int e) { return e % 7 == 3 || e < 4; });
     const auto growth = [](int e) { return e % 3 == 0 ? 0.0 : 1e-3 * (1 + e % 5); };
-    std::vector<double> after = c.before;
-    for (std::size_t s = 0; s < after.size(); ++s) {
-      after[s] += growth(c.skeleton.points().element[s]);
-    }
     // Only some points took anything, and by far not what eroded.
     auto takes = takes_in_place(c, 1e-4);
     std::erase_if(takes, [&](const FinesUptake<2>& take) {
       return take.point % 2 == 0 || growth(take.element) == 0.0;
     });
-    const auto result =
-        c.transfer.transfer_on_the_way(c.before, after, c.volumes(), c.points, takes, c.pending);
+    const auto result = c.transfer.transfer_along_paths(c.exchange(growth), c.volumes(), c.points,
+                                                        takes, c.pending);
     EXPECT_NEAR(c.fines() + c.pending_mass(), result.eroded[0], 1e-13);
     EXPECT_NEAR(c.fines(), result.received[0], 1e-13);
     if (way == MassTransfer::nodal) continue;
@@ -252,18 +254,17 @@ TEST(GrainTransfer, OnTheWayNothingIsLost) {
   }
 }
 
-TEST(GrainTransfer, OnTheWayGrainsThatNobodyTookGoToPointsNear) {
+TEST(FinesTransfer, AlongPathsFinesThatNoPointTookGoToPointsNear) {
   TransferCase c(MassTransfer::nodal, Seeding::low_discrepancy, 3, 0.0);
-  std::vector<double> after = c.before;
-  for (double& n : after) n += 1e-3;
+  const std::vector<double> exchange = c.exchange([](int) { return 1e-3; });
   std::vector<FinesUptake<2>> none;
-  c.transfer.transfer_on_the_way(c.before, after, c.volumes(), c.points, none, c.pending);
+  c.transfer.transfer_along_paths(exchange, c.volumes(), c.points, none, c.pending);
   EXPECT_NEAR(c.fines(), grain_density * 1e-3, 1e-13);
   EXPECT_EQ(c.pending_mass(), 0.0);
 
   TransferCase dry(MassTransfer::nodal, Seeding::low_discrepancy, 3, 0.0);
   dry.empty([](int) { return true; });
-  dry.transfer.transfer_on_the_way(dry.before, after, {}, dry.points, none, dry.pending);
+  dry.transfer.transfer_along_paths(exchange, {}, dry.points, none, dry.pending);
   EXPECT_NEAR(dry.pending_mass(), grain_density * 1e-3, 1e-13);
 }
 
