@@ -157,8 +157,8 @@ void add_chart(vtkContextScene& scene, const Chart& chart, float x, float y) {
   const float bottom = y + bottom_room;
   drawn->SetSize(vtkRectf(left, bottom, plot_width, plot_height));
   for (const auto& curve : chart.curves) add_curve(*drawn, drawn_curve(chart, curve));
-  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), ticks_of(chart, &Curve::x, chart.x_too));
-  set_axis(*drawn->GetAxis(vtkAxis::LEFT), ticks_of(chart, &Curve::y, chart.y_too));
+  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), ticks_of(chart, &Curve::x, chart.extra_x));
+  set_axis(*drawn->GetAxis(vtkAxis::LEFT), ticks_of(chart, &Curve::y, chart.extra_y));
   scene.AddItem(drawn);
   add_painted(scene, [chart, left, bottom](vtkContext2D& painter) {
     const float center = left + plot_width / 2.0F;

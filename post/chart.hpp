@@ -34,10 +34,10 @@ struct Chart {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::vector<Curve> curves;    ///< later ones cover earlier ones
-  bool logarithmic = false;     ///< both axes; all values are positive then
-  std::vector<double> x_too{};  ///< what an axis reaches beside the values of the curves
-  std::vector<double> y_too{};
+  std::vector<Curve> curves;      ///< later ones cover earlier ones
+  bool logarithmic = false;       ///< both axes; all values are positive then
+  std::vector<double> extra_x{};  ///< values that the axis covers too, beside those of the curves
+  std::vector<double> extra_y{};
 };
 
 /// Draws charts beside one another, from three on in rows of two, with one legend for all. Throws

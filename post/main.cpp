@@ -7,7 +7,6 @@
 #include <iostream>
 #include <optional>
 
-#include "accuracy_chart.hpp"
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "export.hpp"
@@ -21,7 +20,6 @@
 #include "run_curves.hpp"
 #include "run_table.hpp"
 #include "sample.hpp"
-#include "stress_chart.hpp"
 
 namespace suffuse {
 namespace {
@@ -38,7 +36,6 @@ struct Options {
   std::string on;
   std::string range;
   std::string reference;
-  std::string problem;
   bool all = false;
   std::optional<double> render_time;
   double tolerance = 1e-12;
@@ -107,16 +104,6 @@ void figure(const Options& options) {
   const auto runs = all_runs(options);
   for (const auto& run : runs) keep_out(run, "-o", options.output);
   draw_figure(options.figure, runs, options.output);
-}
-
-void accuracy(const Options& options) {
-  picture_format(options.output, "suffuse-post accuracy");
-  draw_charts(accuracy_charts(read_accuracy_runs(options.csv), options.problem), options.output);
-}
-
-void stress(const Options& options) {
-  picture_format(options.output, "suffuse-post stress");
-  draw_stress_chart(read_sweep_counts(options.csv), options.output);
 }
 
 void render_field(const Options& options) {
@@ -213,23 +200,6 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
   command = add_command(app, chosen, "table", "One row per run: settings, cost, errors", table);
   command->add_option("RESULTS", o.all_results, "results folders")->required()->type_name("FOLDER");
   command->add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
-
-  command = add_command(app, chosen, "accuracy", "Chart of wall time against error", accuracy);
-  command->add_option("TABLE", o.csv, "table that make -C workflows accuracy writes")
-      ->required()
-      ->type_name("FILE.csv");
-  command->add_option("--problem", o.problem, "the problem whose runs to draw")->required();
-  command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
-      ->required()
-      ->type_name("FILE");
-
-  command = add_command(app, chosen, "stress", "Chart of the stress study", stress);
-  command->add_option("TABLE", o.csv, "table that make -C workflows stress writes")
-      ->required()
-      ->type_name("FILE.csv");
-  command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
-      ->required()
-      ->type_name("FILE");
 
   command =
       add_command(app, chosen, "export", ".pvd and .vtu files for other tools", export_results);
