@@ -1,6 +1,6 @@
 #pragma once
 
-/// A field of a snapshot as one number per place, with its label: what pictures colour.
+/// A field of a snapshot as one number per place, with its label, for pictures in colour.
 
 #include <optional>
 #include <string>

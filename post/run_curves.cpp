@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t marker_count = 24;
 constexpr int curve_intervals = 480;
 
-/// Colours of Okabe and Ito (2008), which colour-blind readers can tell apart. Runs with the same
+/// Colours of Okabe and Ito, which colour-blind readers can tell apart. Runs with the same
 /// filling of markers differ in brightness too.
 constexpr Color dark_blue{0.0, 0.27, 0.53};
 constexpr Color vermilion{0.835, 0.369, 0.0};
