@@ -22,8 +22,8 @@
 namespace suffuse {
 namespace {
 
-constexpr int least_width = 1200;
-/// Axes of one chart, and the room about them for titles and labels.
+constexpr int min_width = 1200;
+/// Size of the axes of one chart, and the room around them for titles and labels, pixels.
 constexpr float plot_width = 720.0F;
 constexpr float plot_height = 630.0F;
 constexpr float left_room = 120.0F;
@@ -33,7 +33,7 @@ constexpr float margin = 30.0F;
 constexpr float cell_width = left_room + plot_width + margin;
 constexpr float cell_height = bottom_room + plot_height + top_room;
 
-/// All rows, or those that carry a marker.
+/// The rows of a curve as VTK's charts want them: all, or those with a marker.
 vtkSmartPointer<vtkTable> table_of(const Curve& curve, bool marked_only) {
   vtkNew<vtkDoubleArray> x;
   vtkNew<vtkDoubleArray> y;
@@ -72,13 +72,13 @@ void add_line(vtkChartXY& chart, const Curve& curve) {
 }
 
 void add_curve(vtkChartXY& chart, const Curve& curve) {
-  // VTK calls a line through one point an error.
+  // VTK reports a line through one point as an error.
   if (curve.has_line() && curve.x.size() > 1) add_line(chart, curve);
   if (!curve.markers) return;
   for (const auto& layer : marker_layers(curve)) add_markers(chart, curve, layer);
 }
 
-/// Where an axis ends, and its ticks: positions in the units of what is drawn, and their labels.
+/// Ends and ticks of an axis, in the units that VTK draws in: logarithms on logarithmic axes.
 struct AxisTicks {
   double low;
   double high;
@@ -93,7 +93,6 @@ AxisTicks even_axis(double low, double high) {
   return axis;
 }
 
-/// VTK draws the logarithms.
 AxisTicks logarithmic_axis(double low, double high) {
   const LogarithmicTicks found = logarithmic_ticks(low, high);
   AxisTicks axis{std::log10(found.low), std::log10(found.high), {}, {}};
@@ -104,7 +103,8 @@ AxisTicks logarithmic_axis(double low, double high) {
   return axis;
 }
 
-/// The axis reaches a little beyond its ends, so that no marker is cut in half.
+/// Sets range and ticks. The range is a little wider than the ends, so that no marker is cut in
+/// half.
 void set_axis(vtkAxis& axis, const AxisTicks& ticks) {
   const double room = 0.025 * (ticks.high - ticks.low);
   axis.SetTitle("");
@@ -121,23 +121,24 @@ void set_axis(vtkAxis& axis, const AxisTicks& ticks) {
   axis.SetCustomTickPositions(positions, labels);
 }
 
-AxisTicks ticks_of(const Chart& chart, const std::vector<double> Curve::*values,
-                   const std::vector<double>& more) {
+/// The axis that covers `values` of all curves and `extra`.
+AxisTicks axis_of(const Chart& chart, const std::vector<double> Curve::*values,
+                  const std::vector<double>& extra) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  const auto reach = [&](const std::vector<double>& all) {
+  const auto include = [&](const std::vector<double>& all) {
     for (const double value : all) {
       low = std::min(low, value);
       high = std::max(high, value);
     }
   };
-  for (const auto& curve : chart.curves) reach(curve.*values);
-  reach(more);
+  for (const auto& curve : chart.curves) include(curve.*values);
+  include(extra);
   if (chart.logarithmic) return low <= high ? logarithmic_axis(low, high) : logarithmic_axis(1, 10);
   return low <= high ? even_axis(low, high) : even_axis(0.0, 1.0);
 }
 
-/// What VTK draws of a curve: the logarithms on logarithmic axes.
+/// A curve in the units that VTK draws in: logarithms on logarithmic axes.
 Curve drawn_curve(const Chart& chart, Curve curve) {
   if (!chart.logarithmic) return curve;
   for (auto* values : {&curve.x, &curve.y}) {
@@ -146,8 +147,8 @@ Curve drawn_curve(const Chart& chart, Curve curve) {
   return curve;
 }
 
-/// Adds a chart whose cell has its lower left corner there. VTK's own titles run into the labels of
-/// the ticks where a viewer has wider letters, so they are painted apart.
+/// Adds a chart with the lower left corner of its cell at (x, y). Titles are painted apart: VTK
+/// puts its own so close that they overlap the tick labels in viewers with wider letters.
 void add_chart(vtkContextScene& scene, const Chart& chart, float x, float y) {
   vtkNew<vtkChartXY> drawn;
   drawn->SetShowLegend(false);
@@ -157,8 +158,8 @@ void add_chart(vtkContextScene& scene, const Chart& chart, float x, float y) {
   const float bottom = y + bottom_room;
   drawn->SetSize(vtkRectf(left, bottom, plot_width, plot_height));
   for (const auto& curve : chart.curves) add_curve(*drawn, drawn_curve(chart, curve));
-  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), ticks_of(chart, &Curve::x, chart.x_too));
-  set_axis(*drawn->GetAxis(vtkAxis::LEFT), ticks_of(chart, &Curve::y, chart.y_too));
+  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), axis_of(chart, &Curve::x, chart.extra_x));
+  set_axis(*drawn->GetAxis(vtkAxis::LEFT), axis_of(chart, &Curve::y, chart.extra_y));
   scene.AddItem(drawn);
   add_painted(scene, [chart, left, bottom](vtkContext2D& painter) {
     const float center = left + plot_width / 2.0F;
@@ -196,7 +197,7 @@ std::vector<double> round_ticks(double low, double high) {
   for (const double factor : {5.0, 2.0, 1.0}) {
     if (factor * decade >= rough) step = factor * decade;
   }
-  // Rounding must not add a tick beyond an end that lies on one.
+  // An end that lies on a tick up to rounding needs no tick beyond it.
   const auto first = static_cast<long>(std::floor(low / step + 1e-9));
   const auto last = static_cast<long>(std::ceil(high / step - 1e-9));
   std::vector<double> ticks;
@@ -212,9 +213,9 @@ std::string tick_text(double tick) {
 
 LogarithmicTicks logarithmic_ticks(double low, double high) {
   constexpr std::array<double, 3> factors{1.0, 2.0, 5.0};
-  // Rounding must not add a tick beyond an end that lies on one.
+  // An end that lies on a tick up to rounding needs no tick beyond it.
   constexpr double slack = 1e-9;
-  constexpr double many_decades = 1000.0;
+  constexpr double three_decades = 1000.0;
   LogarithmicTicks found;
   std::vector<double> all;
   const int first = static_cast<int>(std::floor(std::log10(low)));
@@ -226,10 +227,10 @@ LogarithmicTicks logarithmic_ticks(double low, double high) {
   const auto end = std::ranges::lower_bound(all, high * (1.0 - slack));
   found.high = end == all.end() ? all.back() : *end;
   if (found.high <= found.low) found.high = *std::ranges::upper_bound(all, found.low);
-  const bool powers_alone = found.high > many_decades * found.low * (1.0 + slack);
+  const bool powers_only = found.high > three_decades * found.low * (1.0 + slack);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i] < found.low || all[i] > found.high) continue;
-    if (!powers_alone || i % factors.size() == 0) found.ticks.push_back(all[i]);
+    if (!powers_only || i % factors.size() == 0) found.ticks.push_back(all[i]);
   }
   return found;
 }
@@ -245,15 +246,17 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
   const std::size_t count = charts.size();
   const std::size_t columns = count < 3 ? count : 2;
   const std::size_t lines = (count + columns - 1) / columns;
-  // An odd chart leaves a cell that the legend fits into.
-  const bool in_cell = lines * columns > count;
+  // An odd number of charts leaves a cell free for the legend.
+  const bool legend_in_cell = lines * columns > count;
   const float legend_left =
-      static_cast<float>(in_cell ? columns - 1 : columns) * cell_width + (in_cell ? left_room : 0);
-  const float legend_top = (in_cell ? 1.0F : static_cast<float>(lines)) * cell_height - top_room;
+      static_cast<float>(legend_in_cell ? columns - 1 : columns) * cell_width +
+      (legend_in_cell ? left_room : 0);
+  const float legend_top =
+      (legend_in_cell ? 1.0F : static_cast<float>(lines)) * cell_height - top_room;
   const float height = static_cast<float>(lines) * cell_height;
   const float width =
       std::max(legend_left + ChartLegend::width(rows) + margin,
-               std::max(static_cast<float>(columns) * cell_width, float{least_width}));
+               std::max(static_cast<float>(columns) * cell_width, float{min_width}));
   draw_picture(static_cast<int>(width), static_cast<int>(height), charts.front().title, path,
                [&](vtkContextScene& scene) {
                  for (std::size_t i = 0; i < count; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Charts of curves against time, as PNG, SVG or PDF, drawn with VTK's charts and no X server.
+/// Line charts with axes and one legend, as PNG, SVG or PDF. VTK draws them; no X server is needed.
 
 #include <array>
 #include <string>
@@ -19,49 +19,51 @@ struct Curve {
   std::vector<double> x;
   std::vector<double> y;
   bool markers = false;
-  bool joined = false;              ///< a line too, where there are markers
-  std::vector<std::size_t> marked;  ///< rows with a marker; all of them when empty
+  bool joined = false;              ///< draw a line through the markers too
+  std::vector<std::size_t> marked;  ///< rows that get a marker; empty: all rows
   Dash dash = Dash::solid;
   float width = 2.0F;  ///< of the line, pixels
   Marker marker = Marker::circle;
-  bool hollow = false;  ///< white inside; a target has a smaller dot
+  bool hollow = false;  ///< white inside; a target gets a smaller dot
   Color color{0.0, 0.0, 0.0};
 
   [[nodiscard]] bool has_line() const { return joined || !markers; }
 };
 
+/// One chart: what its axes say and the curves in it.
 struct Chart {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::vector<Curve> curves;    ///< later ones cover earlier ones
-  bool logarithmic = false;     ///< both axes; all values are positive then
-  std::vector<double> x_too{};  ///< what an axis reaches beside the values of the curves
-  std::vector<double> y_too{};
+  std::vector<Curve> curves;      ///< later ones cover earlier ones
+  bool logarithmic = false;       ///< both axes; all values must be positive
+  std::vector<double> extra_x{};  ///< values that the axis covers too, beside those of the curves
+  std::vector<double> extra_y{};
 };
 
-/// Draws charts beside one another, from three on in rows of two, with one legend for all. Throws
-/// InputError for an unknown suffix, FileError.
+/// Draws two charts side by side, three or more in rows of two, with one legend for all. The suffix
+/// of `path` gives the format. Throws InputError for an unknown suffix, FileError.
 void draw_charts(const std::vector<Chart>& charts, const std::string& path);
 
-/// At least two round numbers that enclose [low, high], evenly spaced, 5 to 11 of them.
+/// 5 to 11 evenly spaced round numbers that enclose [low, high]. Where low = high they enclose an
+/// interval around it.
 std::vector<double> round_ticks(double low, double high);
 
-/// A tick as text.
+/// The label of a tick, six digits at most.
 std::string tick_text(double tick);
 
-/// A logarithmic axis: what it reaches, and its labelled ticks.
+/// Ends and labelled ticks of a logarithmic axis.
 struct LogarithmicTicks {
   double low = 0.0;
   double high = 0.0;
   std::vector<double> ticks;
 };
 
-/// Ends at 1, 2 or 5 times a power of ten that enclose [low, high] > 0; ticks at all of these in
-/// between, beyond three decades at the powers alone.
+/// The ends are 1, 2 or 5 times a power of ten and enclose [low, high], with low > 0. Ticks are at
+/// all such numbers in between; on an axis longer than three decades, at powers of ten only.
 LogarithmicTicks logarithmic_ticks(double low, double high);
 
-/// A tick of a logarithmic axis as text.
+/// The label of a tick of a logarithmic axis: 0.001, 500, 2e-4.
 std::string logarithmic_tick_text(double tick);
 
 }  // namespace suffuse

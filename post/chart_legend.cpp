@@ -13,11 +13,11 @@
 namespace suffuse {
 namespace {
 
-constexpr float largest_row_height = 30.0F;
+constexpr float max_row_height = 30.0F;
 constexpr float symbol_width = 64.0F;
 constexpr float symbol_gap = 12.0F;
 constexpr int font_size = 18;
-/// The widest of the fonts a viewer may put in place of Helvetica.
+/// Of the widest font that viewers use in place of Helvetica, pixels.
 constexpr float letter_width = 0.56F * font_size;
 
 void paint_marker(vtkContext2D* painter, const Curve& curve, float x, float y) {
@@ -71,7 +71,7 @@ void ChartLegend::place(float left, float top, float height, const std::vector<C
   top_ = top;
   std::copy_if(curves.begin(), curves.end(), std::back_inserter(rows_),
                [](const Curve& curve) { return !curve.label.empty(); });
-  row_height_ = std::min(largest_row_height, height / static_cast<float>(rows_.size()));
+  row_height_ = std::min(max_row_height, height / static_cast<float>(rows_.size()));
 }
 
 float ChartLegend::width(const std::vector<Curve>& curves) {

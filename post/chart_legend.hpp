@@ -1,6 +1,7 @@
 #pragma once
 
-/// The legend beside a chart. VTK's own shows a line as 25 pixels, too short to tell dashes apart.
+/// The legend beside a chart: a row for each label, with its line or marker. VTK's own legend draws
+/// lines of 25 pixels, too short to tell dashes apart.
 
 #include <vtkContextItem.h>
 #include <vtkSmartPointer.h>
@@ -9,25 +10,27 @@
 
 namespace suffuse {
 
-/// VTK's number for a pen.
+/// VTK's line type of a pen (vtkPen).
 int vtk_line_type(Dash dash);
 
-/// One of the shapes that make a marker, the lowest first.
+/// One of the shapes painted over one another that make a marker.
 struct MarkerLayer {
-  int shape;   ///< VTK's number
+  int shape;   ///< of vtkMarkerUtilities
   float size;  ///< pixels
-  bool white;  ///< or else in the colour of the curve
+  bool white;  ///< else the colour of the curve
 };
+/// The shapes of a curve's marker, the lowest first.
 std::vector<MarkerLayer> marker_layers(const Curve& curve);
 
+/// A VTK item that paints the legend.
 class ChartLegend : public vtkContextItem {
  public:
   static ChartLegend* New();
 
-  /// Top left corner in pixels from the bottom left of the picture, the height there is, and the
-  /// rows to show. Many rows move closer together.
+  /// Sets the top left corner (pixels from the bottom left of the picture), the height available
+  /// and the rows: the curves that have a label. Rows move closer where the height is too small.
   void place(float left, float top, float height, const std::vector<Curve>& curves);
-  /// Pixels that these rows are wide.
+  /// Width of the rows in pixels.
   static float width(const std::vector<Curve>& curves);
 
   bool Paint(vtkContext2D* painter) override;

@@ -1,14 +1,14 @@
 #pragma once
 
-/// Colours of fields.
+/// The colour map of fields: a number between 0 and 1 becomes a colour.
 
 #include "chart.hpp"
 
 namespace suffuse {
 
-/// Viridis at `fraction` (0 to 1, limited to that): dark to bright without a turn, so that it
-/// survives grey printing. Fit of sixth degree by M. Zucker (2019) to the map of S. van der Walt
-/// and N. Smith (2015).
+/// Viridis at `fraction`, which is limited to 0 to 1. Its luminance rises all the way, so that the
+/// map can be read in grey print. Polynomial of sixth degree by M. Zucker (2019), fitted to the map
+/// of S. van der Walt and N. Smith (2015).
 Color viridis(double fraction);
 
 /// Luminance of a colour, 0 to 1 (Rec. 709).

@@ -41,8 +41,8 @@ std::vector<std::string> kinds_of(const ResultsReader& results) {
   return kinds;
 }
 
-/// VTK says of a damaged file neither its name nor what is wrong with it. All are looked at before
-/// anything is written.
+/// Reads from every snapshot, before anything is written. A damaged one throws FileError with its
+/// name here; VTK's messages about it would name neither the file nor the fault.
 void check_snapshots(const ResultsReader& results) {
   for (std::size_t i = 0; i < results.times().size(); ++i) {
     for (const auto& kind : kinds_of(results)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Snapshots as VTK's XML files, for tools that do not read VTKHDF.
+/// Export of snapshots to VTK's XML files, for tools that cannot read VTKHDF.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace suffuse {
 
-/// Writes mesh.pvd, solid.pvd, of a double-point run liquid.pvd, and the .vtu files they name into
-/// `folder`, which is made if it is not there. Throws FileError.
+/// Writes mesh.pvd, solid.pvd and, for a double-point run, liquid.pvd, with the .vtu files that
+/// they name, into `folder`. Creates the folder if there is none. Throws FileError.
 void export_vtu(const ResultsReader& results, const std::string& folder);
 
 }  // namespace suffuse

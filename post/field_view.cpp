@@ -12,7 +12,7 @@
 namespace suffuse {
 namespace {
 
-/// What `--on` calls a place and the kinds of fields found there, best first.
+/// A place as `--on` names it, and the kinds of fields there, in the order of preference.
 struct NamedPlace {
   std::string name;
   std::vector<std::string> kinds;
@@ -47,7 +47,7 @@ void check_place(const std::vector<NamedPlace>& places, const std::string& on,
       InputProblem{command, "--on", '"' + on + '"', quoted_list(names), closest_name(on, names)}});
 }
 
-/// Symbols of the table in docs/theory.md.
+/// A blank and the symbol of a field from the table in docs/theory.md, or nothing.
 std::string symbol_of(const std::string& name) {
   static const std::map<std::string, std::string> symbols{
       {"porosity", "n_L"},          {"solid_fraction", "n_S"}, {"skeleton_fraction", "n_C"},

@@ -1,6 +1,6 @@
 #pragma once
 
-/// One field of a snapshot as numbers to colour.
+/// A field of a snapshot as one number per place, with its label, for pictures in colour.
 
 #include <optional>
 #include <string>
@@ -11,42 +11,43 @@
 
 namespace suffuse {
 
-/// Where a field was found: "cell", "element_vertex", "node", "solid" or "liquid".
+/// A field and where it lives: "cell", "element_vertex", "node", "solid" or "liquid".
 struct FieldPlace {
   std::string name;
   std::string where;
 };
 
-/// Looks for a field in the snapshot `index`, on `on` ("cell", "node", "solid", "liquid") or, when
-/// that is empty, anywhere, elements first. "node" means the elements' own linear fields too.
-/// Throws InputError, naming `command`, that lists the fields there are and where they live.
+/// Finds a field of the snapshot `index` on `on`: "cell", "node" (elements' own linear fields
+/// included), "solid" or "liquid"; empty: the first of these that has it. Throws InputError, naming
+/// `command`, with all fields and where they live.
 FieldPlace find_field(const ResultsReader& results, std::size_t index, const std::string& name,
                       const std::string& on, const std::string& command);
 
-/// `on cell: "a" or "b"; on node: ...` of the places named, or of all when none is.
+/// `on cell: "a" or "b"; on node: ...`, for the places in `only`, for all places when it is empty.
 std::string fields_and_places(const ResultsReader& results, std::size_t index,
                               const std::vector<std::string>& only = {});
 
-/// Values with vectors replaced by their magnitude: per element, per vertex of every element, per
-/// node or per point.
+/// A field with one number per element, per vertex of every element, per node or per point; of a
+/// vector field the magnitudes.
 struct ScalarField {
   std::vector<double> values;
   std::string unit;
   bool is_vector = false;
 };
+/// Reads a field of the snapshot `index`. Throws FileError.
 ScalarField read_scalar(const ResultsReader& results, std::size_t index, const FieldPlace& place);
 
 /// "concentration c (-)", "magnitude of darcy_flux q (m/s)"
 std::string field_label(const FieldPlace& place, const ScalarField& field);
 
-/// A value of a field that counts kinds.
+/// One value of a field whose values stand for kinds, with its name and colour.
 struct Category {
   double value;
   std::string name;
   Color color;
 };
 
-/// The kinds of `saturation_state` and `region`; empty for fields that measure.
+/// The kinds of `saturation_state` and `region`; empty for all other fields.
 std::vector<Category> categories(const ResultsReader& results, const FieldPlace& place);
 
 }  // namespace suffuse

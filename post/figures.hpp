@@ -1,6 +1,6 @@
 #pragma once
 
-/// The figures that `suffuse-post figure` knows, from results.
+/// The figures of `suffuse-post figure`, by name.
 
 #include <string>
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace suffuse {
 
-/// Names that `draw_figure` knows.
+/// Names of all figures, sorted.
 std::vector<std::string> figure_names();
 
-/// The charts of a figure, beside one another: "porosity", "masses", "solid-mass"
+/// The charts of a figure, drawn side by side: "porosity", "masses", "solid-mass"
 /// (soil_figures.hpp), "outflow", "empty-elements", "flux" (flow_figures.hpp), and "comparison":
-/// porosity, masses and concentration of the outflow in one picture. Throws InputError for another
-/// name.
+/// porosity, masses and concentration of the outflow in one picture. Throws InputError for other
+/// names.
 std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs);
 
-/// Draws one of those, or "model", the sketch of one run's model (model_sketch.hpp). Throws
+/// Draws one of these figures, or "model", the sketch of one run's model (model_sketch.hpp). Throws
 /// InputError, FileError.
 void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs,
                  const std::string& path);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int outflow_windows = 24;
 
-/// Masses that cross the boundary at which outflow is counted.
+/// Masses over time, counted at the boundary of the eroding soil or of the model.
 std::vector<Masses> outflow_masses(const ResultsReader& run, const Specimen& soil) {
   if (soil.regions.size() == 1) return computed_masses(run, soil);
   const Table ledger = run.ledger();
@@ -26,6 +26,7 @@ std::vector<Masses> outflow_masses(const ResultsReader& run, const Specimen& soi
   return masses;
 }
 
+/// Concentration of the outflow, a mean per window of time.
 struct Outflow {
   std::vector<double> t;  ///< middles of the windows, s
   std::vector<double> concentration;

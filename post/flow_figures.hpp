@@ -1,23 +1,23 @@
 #pragma once
 
-/// Figures of the flow and of what it carries. The runs may be of either formulation. All throw
-/// FileError when a table has no two times.
+/// Figures of the flow and of the fines that it carries, for runs of either formulation. All
+/// functions throw FileError when a table has fewer than two times.
 
 #include "chart.hpp"
 #include "results/reader.hpp"
 
 namespace suffuse {
 
-/// Concentration of the liquid that leaves the eroding soil, and the grains that left it. Taken at
-/// the soil's own boundary, so that buffers below it delay nothing; at the model's where several
-/// regions erode. Concentrations are means over a 24th of the run. With the exact curves where
-/// a scene has them (see column_fines.hpp).
+/// Two charts: concentration of the liquid that leaves the eroding soil, and mass of the grains
+/// that left it. Outflow is counted at the boundary of the soil, so that free water behind it
+/// causes no delay; where several regions erode, at the boundary of the model. Concentrations are
+/// means over 1/24 of the run. Exact curves are added where a scene has them (column_fines.hpp).
 std::vector<Chart> outflow_charts(const std::vector<ResultsReader>& runs);
 
-/// Fig. 6 of the paper: elements found without liquid points, added up over the steps.
+/// Fig. 6 of the paper: number of elements without liquid points, summed over the steps.
 Chart empty_elements_chart(const std::vector<ResultsReader>& runs);
 
-/// Liquid that enters and leaves the model, with the steady flux where it is known.
+/// Liquid flux into and out of the model, with the exact steady flux where there is one.
 Chart flux_chart(const std::vector<ResultsReader>& runs);
 
 }  // namespace suffuse

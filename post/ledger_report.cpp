@@ -30,7 +30,7 @@ std::vector<double> sum(const std::vector<double>& a, const std::vector<double>&
   return total;
 }
 
-/// All grains in place; runs of earlier versions know no pending ones.
+/// Mass of all grains in the model. Ledgers of earlier versions have no column `pending`.
 std::vector<double> stored_grains(const Table& table) {
   const auto grains = sum(table.column("solid"), table.column("fines"));
   return table.has("pending") ? sum(grains, table.column("pending")) : grains;
@@ -56,12 +56,12 @@ Balance balance(const Table& table, const std::string& place, const std::string&
   b.worst_time = table.column("t").front();
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double formed = std::abs(stored[row] + (out[row] - in[row]) - b.initial);
-    // Thousands of pore volumes leave the columns too few digits for the little that is stored; the
-    // solver's own residual, formed before they are rounded, has them.
-    const double digits =
+    // After thousands of pore volumes the stored mass is below the rounding of `in` and `out`. Such
+    // a difference says nothing; the solver forms its residual before that rounding.
+    const double rounding =
         std::numeric_limits<double>::epsilon() * (stored[row] + in[row] + out[row]);
-    const double beyond = formed <= digits ? 0.0 : formed;
-    for (const double residual : {std::abs(reported[row]), beyond / scale}) {
+    const double significant = formed <= rounding ? 0.0 : formed;
+    for (const double residual : {std::abs(reported[row]), significant / scale}) {
       if (residual <= b.worst_residual) continue;
       b.worst_residual = residual;
       b.worst_time = table.column("t")[row];
@@ -83,15 +83,15 @@ std::string short_number(double value, const char* format) {
   return buffer;
 }
 
-/// What only a double-point run has.
+/// Pending grains and liquid points of a double-point run.
 std::string liquid_point_text(const Table& ledger) {
   const auto& pending = ledger.column("pending");
-  const auto most = std::ranges::max_element(pending);
+  const auto largest = std::ranges::max_element(pending);
   const auto& t = ledger.column("t");
   const auto last = [&](const char* name) { return number_text(ledger.column(name).back()); };
   return "pending grains: " + short_number(pending.back(), "%.6g") + " kg, at most " +
-         short_number(*most, "%.6g") +
-         " kg at t = " + short_number(t[static_cast<std::size_t>(most - pending.begin())], "%.6g") +
+         short_number(*largest, "%.6g") + " kg at t = " +
+         short_number(t[static_cast<std::size_t>(largest - pending.begin())], "%.6g") +
          " s\nliquid points: " + last("points") + "; entered " + last("points_in") + ", left " +
          last("points_out") + "\n";
 }

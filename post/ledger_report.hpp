@@ -1,6 +1,6 @@
 #pragma once
 
-/// The balance of a run, for people and for scripts.
+/// Mass balance of a run as text, and the check of its residuals.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace suffuse {
 
-/// What came of one constituent, kg (per metre of thickness in 2D).
+/// Mass balance of one constituent over the run, kg (per metre of thickness in 2D).
 struct Balance {
   std::string place;        ///< "model" or a region's name
   std::string constituent;  ///< "water" or "grains"
@@ -18,17 +18,16 @@ struct Balance {
   double stored = 0.0;
   double eroded = 0.0;          ///< grains only
   double worst_residual = 0.0;  ///< largest |residual| of any row, relative to `initial`
-  double worst_time = 0.0;      ///< when, s
+  double worst_time = 0.0;      ///< time of that row, s
 };
 
-/// Water and grains (solid, fluidised and pending) of the whole model, then of every region when
-/// there are several. A residual is
-/// the larger of the solver's own and one formed anew from the masses in the table.
-/// Throws FileError when a table has no rows.
+/// Balances of water and grains (solid, fluidised and pending) of the whole model, then of every
+/// region when there are several. The residual of a row is the larger of two: the solver's own, and
+/// the one that follows from the masses in the table. Throws FileError when a table has no rows.
 std::vector<Balance> balances(const ResultsReader& results);
 
-/// An aligned table; below it, of a double-point run, the grains that wait for a liquid point and
-/// the liquid points.
+/// The balances as an aligned table. For a double-point run two lines follow: the pending grains,
+/// and the numbers of liquid points.
 std::string balance_text(const ResultsReader& results, const std::vector<Balance>& balances);
 
 /// Throws NumericalError, naming place, constituent and time, when a residual exceeds `tolerance`

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <optional>
 
-#include "accuracy_chart.hpp"
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "export.hpp"
@@ -21,7 +20,6 @@
 #include "run_curves.hpp"
 #include "run_table.hpp"
 #include "sample.hpp"
-#include "stress_chart.hpp"
 
 namespace suffuse {
 namespace {
@@ -38,7 +36,6 @@ struct Options {
   std::string on;
   std::string range;
   std::string reference;
-  std::string problem;
   bool all = false;
   std::optional<double> render_time;
   double tolerance = 1e-12;
@@ -46,9 +43,10 @@ struct Options {
   int count = 0;
 };
 
-/// Refuses to write into a results folder, whose tables would be written over and which the solver
-/// replaces when it runs again.
-void keep_out(const ResultsReader& results, const std::string& option, const std::string& path) {
+/// Refuses to write into a results folder: its tables could be overwritten, and the solver deletes
+/// the folder when it runs again.
+void refuse_inside(const ResultsReader& results, const std::string& option,
+                   const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path place = fs::weakly_canonical(fs::absolute(path));
   const fs::path from_results = place.lexically_relative(fs::canonical(results.folder()));
@@ -59,7 +57,7 @@ void keep_out(const ResultsReader& results, const std::string& option, const std
 }
 
 void write_csv(const ResultsReader& results, const std::string& path, const Table& table) {
-  keep_out(results, "--csv", path);
+  refuse_inside(results, "--csv", path);
   write_table(path, table);
 }
 
@@ -92,7 +90,7 @@ void sample_line(const Options& options) {
 void error(const Options& options) {
   const auto reference = read_reference_table(options.reference);
   const ResultsReader results(options.results);
-  if (!options.csv.empty()) keep_out(results, "--csv", options.csv);
+  if (!options.csv.empty()) refuse_inside(results, "--csv", options.csv);
   const auto errors = reference_errors(results, reference);
   std::cout << error_text(errors);
   if (!options.csv.empty()) write_errors(options.csv, errors);
@@ -105,18 +103,8 @@ std::vector<ResultsReader> all_runs(const Options& options) {
 void figure(const Options& options) {
   picture_format(options.output);
   const auto runs = all_runs(options);
-  for (const auto& run : runs) keep_out(run, "-o", options.output);
+  for (const auto& run : runs) refuse_inside(run, "-o", options.output);
   draw_figure(options.figure, runs, options.output);
-}
-
-void accuracy(const Options& options) {
-  picture_format(options.output, "suffuse-post accuracy");
-  draw_charts(accuracy_charts(read_accuracy_runs(options.csv), options.problem), options.output);
-}
-
-void stress(const Options& options) {
-  picture_format(options.output, "suffuse-post stress");
-  draw_stress_chart(read_sweep_counts(options.csv), options.output);
 }
 
 void render_field(const Options& options) {
@@ -129,19 +117,19 @@ void render_field(const Options& options) {
   if (!options.range.empty()) request.range = parse_range(options.range);
   request.output =
       options.output.empty() ? folder_name(results) + "-" + options.field + ".png" : options.output;
-  keep_out(results, "-o", request.output);
+  refuse_inside(results, "-o", request.output);
   for (const auto& path : render(results, request)) std::cout << path << "\n";
 }
 
 void table(const Options& options) {
   const auto runs = all_runs(options);
-  for (const auto& run : runs) keep_out(run, "--csv", options.csv);
+  for (const auto& run : runs) refuse_inside(run, "--csv", options.csv);
   write_run_table(options.csv, runs);
 }
 
 void export_results(const Options& options) {
   const ResultsReader results(options.results);
-  keep_out(results, "-o", options.output);
+  refuse_inside(results, "-o", options.output);
   export_vtu(results, options.output);
 }
 
@@ -154,24 +142,26 @@ CLI::App* add_command(CLI::App& app, Action& chosen, const std::string& name,
   return command;
 }
 
-void declare(CLI::App& app, Options& o, Action& chosen) {
-  app.require_subcommand(1);
-  const auto one_folder = [&o](CLI::App* command) {
-    command->add_option("RESULTS", o.results, "results folder")->required()->type_name("FOLDER");
-  };
+void add_results(CLI::App* command, Options& o) {
+  command->add_option("RESULTS", o.results, "results folder")->required()->type_name("FOLDER");
+}
 
+void add_balance_commands(CLI::App& app, Options& o, Action& chosen) {
   auto* command = add_command(app, chosen, "ledger", "Balance of water and grains", ledger);
-  one_folder(command);
+  add_results(command, o);
   command->add_option("--csv", o.csv, "write the whole ledger here")->type_name("FILE");
   command->add_option("--tolerance", o.tolerance, "largest residual allowed")
       ->capture_default_str();
 
   command = add_command(app, chosen, "history", "Range of every quantity over the run", history);
-  one_folder(command);
+  add_results(command, o);
   command->add_option("--csv", o.csv, "write the whole history here")->type_name("FILE");
+}
 
-  command = add_command(app, chosen, "sample", "Fields along a line at one time", sample_line);
-  one_folder(command);
+void add_value_commands(CLI::App& app, Options& o, Action& chosen) {
+  auto* command =
+      add_command(app, chosen, "sample", "Fields along a line at one time", sample_line);
+  add_results(command, o);
   command->add_option("--time", o.time, "time, s; between snapshots by interpolation")->required();
   command->add_option("--line", o.line, "its two ends, m")->required()->type_name("X0,Y0:X1,Y1");
   command->add_option("--count", o.count, "points, ends included")->required();
@@ -181,16 +171,19 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
   command->add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
 
   command = add_command(app, chosen, "error", "Distance from values that are known", error);
-  one_folder(command);
+  add_results(command, o);
   command
       ->add_option("--reference", o.reference,
                    "known values: columns t, x and y or neither, and a column per quantity")
       ->required()
       ->type_name("FILE.csv");
   command->add_option("--csv", o.csv, "write the errors here")->type_name("FILE");
+}
 
-  command = add_command(app, chosen, "render", "Pictures of a field on the model", render_field);
-  one_folder(command);
+void add_picture_commands(CLI::App& app, Options& o, Action& chosen) {
+  auto* command =
+      add_command(app, chosen, "render", "Pictures of a field on the model", render_field);
+  add_results(command, o);
   command->add_option("--field", o.field, "what to show")->required();
   auto* time = command->add_option("--time", o.render_time,
                                    "time, s: the nearest snapshot; without it the last");
@@ -209,37 +202,31 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
   command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");
+}
 
-  command = add_command(app, chosen, "table", "One row per run: settings, cost, errors", table);
+void add_file_commands(CLI::App& app, Options& o, Action& chosen) {
+  auto* command =
+      add_command(app, chosen, "table", "One row per run: settings, cost, errors", table);
   command->add_option("RESULTS", o.all_results, "results folders")->required()->type_name("FOLDER");
   command->add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
 
-  command = add_command(app, chosen, "accuracy", "Chart of wall time against error", accuracy);
-  command->add_option("TABLE", o.csv, "table that make -C workflows accuracy writes")
-      ->required()
-      ->type_name("FILE.csv");
-  command->add_option("--problem", o.problem, "the problem whose runs to draw")->required();
-  command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
-      ->required()
-      ->type_name("FILE");
-
-  command = add_command(app, chosen, "stress", "Chart of the stress study", stress);
-  command->add_option("TABLE", o.csv, "table that make -C workflows stress writes")
-      ->required()
-      ->type_name("FILE.csv");
-  command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
-      ->required()
-      ->type_name("FILE");
-
   command =
       add_command(app, chosen, "export", ".pvd and .vtu files for other tools", export_results);
-  one_folder(command);
+  add_results(command, o);
   command->add_option("-o,--output", o.output, "folder to write into")
       ->required()
       ->type_name("FOLDER");
 }
 
-/// An empty argument comes of a script's variable that is not set: never what was meant.
+void declare(CLI::App& app, Options& o, Action& chosen) {
+  app.require_subcommand(1);
+  add_balance_commands(app, o, chosen);
+  add_value_commands(app, o, chosen);
+  add_picture_commands(app, o, chosen);
+  add_file_commands(app, o, chosen);
+}
+
+/// Makes empty values an error. They come from unset variables of scripts.
 void refuse_empty_values(CLI::App& app) {
   const CLI::Validator not_empty(
       [](const std::string& value) { return value.empty() ? "expected a value" : ""; }, "");
@@ -250,7 +237,7 @@ void refuse_empty_values(CLI::App& app) {
   }
 }
 
-/// CLI11 calls a misspelt subcommand a missing one.
+/// Names a misspelt subcommand, which CLI11 would report as a missing one.
 void refuse_unknown_command(const CLI::App& app, const std::string& first) {
   std::vector<std::string> known;
   for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {

@@ -20,7 +20,7 @@ namespace {
 constexpr Color black{0.0, 0.0, 0.0};
 constexpr Color red{0.84, 0.0, 0.0};
 constexpr Color blue{0.1, 0.35, 0.9};
-/// Green and purple as in the paper, then others; grey orange for what is impervious.
+/// Green and purple as in the paper, then others; impervious boundaries are orange.
 constexpr std::array<Color, 5> boundary_colors{
     {{0.0, 0.55, 0.25}, {0.55, 0.1, 0.6}, {0.0, 0.6, 0.75}, {0.75, 0.6, 0.0}, {0.35, 0.35, 0.35}}};
 constexpr Color impervious_color{0.95, 0.5, 0.1};
@@ -28,19 +28,19 @@ constexpr std::array<Color, 4> soil_tints{
     {{0.96, 0.90, 0.78}, {0.86, 0.84, 0.80}, {0.90, 0.94, 0.82}, {0.97, 0.86, 0.84}}};
 constexpr Color water_tint{0.86, 0.94, 1.0};
 constexpr float boundary_width = 6.0F;
-constexpr float largest_width = 900.0F;
-constexpr float largest_height = 1100.0F;
+constexpr float max_width = 900.0F;
+constexpr float max_height = 1100.0F;
 constexpr float title_room = 80.0F;
 constexpr float legend_gap = 50.0F;
 constexpr float legend_row = 30.0F;
 
-/// "6000", or from the least to the most of what changes in time: "0 to 6000".
+/// A constant as "6000"; a value that changes in time as "0 to 6000", its smallest and largest.
 std::string range_text(const TimeFunction& f) {
-  const std::string least = number_text(f.smallest());
-  return f.is_constant() ? least : least + " to " + number_text(f.largest());
+  const std::string smallest = number_text(f.smallest());
+  return f.is_constant() ? smallest : smallest + " to " + number_text(f.largest());
 }
 
-/// What is prescribed on a boundary; empty where nothing flows.
+/// The conditions on a boundary; empty where it is impervious.
 std::string condition_text(const BoundaryCondition& b) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
@@ -117,7 +117,7 @@ Curve marker_row(const std::string& label, const Color& color, Marker marker) {
   return row;
 }
 
-/// The colour of a boundary by its number among those that something flows through.
+/// The colour of a boundary by its number.
 Color boundary_color(const std::vector<SketchedBoundary>& boundaries, std::size_t number) {
   if (boundaries[number].label.ends_with("impervious")) return impervious_color;
   return boundary_colors.at(number % boundary_colors.size());
@@ -187,7 +187,7 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   rows.push_back(line_row(count_text(mesh.elements.size(), "element"), black, 1.0F));
   for (const auto& tint : tints) rows.push_back(marker_row(tint.label, tint.color, Marker::square));
 
-  const ModelView view(mesh, axes_left, axes_bottom, largest_width, largest_height);
+  const ModelView view(mesh, axes_left, axes_bottom, max_width, max_height);
   const float legend_left = view.left() + view.width() + legend_gap;
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const float shown_height = std::max(view.height(), legend_height);

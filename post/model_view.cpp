@@ -16,32 +16,32 @@ namespace {
 
 constexpr int font_size = 18;
 constexpr float tick_length = 8.0F;
-/// Beyond this, discs are drawn at once and less round.
-constexpr std::size_t most_round_discs = 20'000;
+/// More discs than this are drawn in one call of VTK, which is faster; they are less round.
+constexpr std::size_t max_round_discs = 20'000;
 
-/// Round numbers within [low, high], at least `apart` pixels from one another.
-std::vector<double> ticks_within(double low, double high, double scale, double apart) {
+/// Round numbers within [low, high] that are at least `min_distance` pixels apart.
+std::vector<double> ticks_within(double low, double high, double scale, double min_distance) {
   const double slack = 1e-9 * (high - low);
   std::vector<double> inside;
   for (const double tick : round_ticks(low, high)) {
     if (tick >= low - slack && tick <= high + slack) inside.push_back(tick);
   }
-  const double spacing = inside.size() > 1 ? scale * (inside[1] - inside[0]) : apart;
+  const double spacing = inside.size() > 1 ? scale * (inside[1] - inside[0]) : min_distance;
   std::size_t every = 1;
-  // Halves and fifths keep the numbers round.
+  // Every second, fifth or tenth: the numbers stay round.
   for (const std::size_t factor : {2, 5, 10}) {
-    if (static_cast<double>(every) * spacing < apart) every = factor;
+    if (static_cast<double>(every) * spacing < min_distance) every = factor;
   }
-  std::vector<double> kept;
-  for (std::size_t i = 0; i < inside.size(); i += every) kept.push_back(inside[i]);
-  return kept;
+  std::vector<double> chosen;
+  for (std::size_t i = 0; i < inside.size(); i += every) chosen.push_back(inside[i]);
+  return chosen;
 }
 
 unsigned char byte_of(double value) {
   return static_cast<unsigned char>(std::lround(255.0 * value));
 }
 
-/// Elements of each edge.
+/// The one or two elements of each edge.
 std::map<std::array<int, 2>, std::vector<int>> elements_of_edges(const Mesh<2>& mesh) {
   std::map<std::array<int, 2>, std::vector<int>> elements;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -63,15 +63,15 @@ Edges edges_where(const Mesh<2>& mesh, const Wanted& wanted) {
 
 }  // namespace
 
-ModelView::ModelView(const Mesh<2>& mesh, float left, float bottom, float largest_width,
-                     float largest_height)
+ModelView::ModelView(const Mesh<2>& mesh, float left, float bottom, float max_width,
+                     float max_height)
     : low_(mesh.nodes.front()), high_(low_), origin_(left, bottom) {
   for (const auto& node : mesh.nodes) {
     low_ = low_.cwiseMin(node);
     high_ = high_.cwiseMax(node);
   }
   const Vector<2> size = high_ - low_;
-  scale_ = std::min(largest_width / size[0], largest_height / size[1]);
+  scale_ = std::min(max_width / size[0], max_height / size[1]);
 }
 
 void ModelView::paint_axes(vtkContext2D& painter) const {
@@ -129,7 +129,7 @@ void paint_discs(vtkContext2D& painter, const ModelView& view,
                  const std::vector<Vector<2>>& positions, const std::vector<Color>& colors,
                  float diameter) {
   if (positions.empty()) return;
-  if (positions.size() <= most_round_discs) {
+  if (positions.size() <= max_round_discs) {
     painter.GetPen()->SetLineType(vtkPen::NO_PEN);
     for (std::size_t p = 0; p < positions.size(); ++p) {
       const Color& color = colors[colors.size() == 1 ? 0 : p];
@@ -157,9 +157,9 @@ void paint_discs(vtkContext2D& painter, const ModelView& view,
 float disc_diameter(const ModelView& view, const Mesh<2>& mesh, std::size_t points) {
   double area = 0.0;
   for (int e = 0; e < mesh.element_count(); ++e) area += element_volume(mesh, e);
-  const double apart =
+  const double distance =
       view.scale() * std::sqrt(area / static_cast<double>(std::max<std::size_t>(points, 1)));
-  return static_cast<float>(std::clamp(0.6 * apart, 2.0, 14.0));
+  return static_cast<float>(std::clamp(0.6 * distance, 2.0, 14.0));
 }
 
 }  // namespace suffuse

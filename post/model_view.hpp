@@ -1,6 +1,7 @@
 #pragma once
 
-/// A mesh on paper: where metres become pixels, and what render and the model sketch paint alike.
+/// The mapping of a mesh from metres to pixels, and painters of axes, edges and discs in it, for
+/// render and the model sketch.
 
 #include <vtkContext2D.h>
 
@@ -11,12 +12,13 @@
 
 namespace suffuse {
 
-/// Equal scales on both axes. Pixels count from the bottom left of the picture.
+/// Maps positions in metres to pixels, with one scale for both axes. Pixels count from the bottom
+/// left of the picture.
 class ModelView {
  public:
-  /// Fits the mesh into a box whose lower left corner is there, keeping to its left and bottom.
-  ModelView(const Mesh<2>& mesh, float left, float bottom, float largest_width,
-            float largest_height);
+  /// Fits the mesh into a box with lower left corner (left, bottom) and the given largest size; the
+  /// mesh touches the left and bottom sides. All in pixels.
+  ModelView(const Mesh<2>& mesh, float left, float bottom, float max_width, float max_height);
 
   [[nodiscard]] Vector<2> pixel(const Vector<2>& x) const { return origin_ + scale_ * (x - low_); }
   [[nodiscard]] float left() const { return static_cast<float>(origin_[0]); }
@@ -26,7 +28,7 @@ class ModelView {
   /// Pixels per metre.
   [[nodiscard]] double scale() const { return scale_; }
 
-  /// Ticks and labels in metres at the left and below.
+  /// Paints ticks and labels in metres to the left of the mesh and below.
   void paint_axes(vtkContext2D& painter) const;
 
  private:
@@ -36,28 +38,29 @@ class ModelView {
   double scale_ = 1.0;
 };
 
-/// Room that the axes need at the left and below, pixels.
+/// Room for the axes to the left of the mesh and below, pixels.
 inline constexpr float axes_left = 110.0F;
 inline constexpr float axes_bottom = 90.0F;
 
-/// Lines of `width` pixels between pairs of nodes.
+/// Pairs of nodes.
 using Edges = std::vector<std::array<int, 2>>;
+/// Paints lines of `width` pixels.
 void paint_edges(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
                  const Edges& edges, const Color& color, float width);
 
-/// Every edge of the mesh once, in ascending order.
+/// Every edge of the mesh, sorted.
 Edges all_edges(const Mesh<2>& mesh);
-/// Edges that belong to one element only.
+/// Edges on the outer boundary: those of one element only.
 Edges outer_edges(const Mesh<2>& mesh);
 /// Edges between elements of two regions.
 Edges region_edges(const Mesh<2>& mesh);
 
-/// Discs of `diameter` pixels, one colour each or one for all.
+/// Paints discs of `diameter` pixels; `colors` has one colour per disc, or one for all.
 void paint_discs(vtkContext2D& painter, const ModelView& view,
                  const std::vector<Vector<2>>& positions, const std::vector<Color>& colors,
                  float diameter);
 
-/// A diameter at which that many points on the whole mesh stay apart, pixels.
+/// A diameter in pixels at which discs do not touch when `points` of them are spread over the mesh.
 float disc_diameter(const ModelView& view, const Mesh<2>& mesh, std::size_t points);
 
 }  // namespace suffuse

@@ -19,8 +19,8 @@ namespace {
       "; off-screen drawing needs EGL's surfaceless platform (package libegl1 with Mesa)");
 }
 
-/// A window whose context is there already. Debian's GLEW loads every OpenGL function, then looks
-/// for a GLX display and reports `Unknown error` because there is none: VTK would stop there.
+/// A window in an existing context. Debian's GLEW loads every OpenGL function, then looks for a GLX
+/// display and reports `Unknown error` because there is none. VTK would stop at that message.
 class EglWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static EglWindow* New();

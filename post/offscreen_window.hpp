@@ -1,6 +1,6 @@
 #pragma once
 
-/// A VTK render window that draws into memory with no X server.
+/// A VTK render window that draws into memory and needs no X server.
 
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkSmartPointer.h>
@@ -9,7 +9,8 @@
 
 namespace suffuse {
 
-/// An OpenGL context of EGL's surfaceless platform (Mesa), current for as long as this lives.
+/// An OpenGL context of EGL's surfaceless platform (Mesa). It is the current context of the thread
+/// as long as the object lives.
 class OffscreenContext {
  public:
   /// Throws FileError when the machine has no such platform.
@@ -23,7 +24,8 @@ class OffscreenContext {
   void* context_ = nullptr;
 };
 
-/// A window of `width` by `height` pixels on the context now current, with smooth edges.
+/// A window of `width` by `height` pixels in the current OpenGL context, with smooth edges. Throws
+/// FileError when OpenGL does not start.
 vtkSmartPointer<vtkGenericOpenGLRenderWindow> make_offscreen_window(int width, int height);
 
 }  // namespace suffuse

@@ -40,12 +40,12 @@ void write_png(vtkRenderWindow& window, const std::string& path) {
   writer->Write();
 }
 
-/// SVG or PDF: curves as curves, text as text.
+/// Writes SVG or PDF, with curves as curves and text as text.
 void write_vector(vtkRenderWindow& window, const std::string& title, const std::string& path) {
   const std::filesystem::path file(path);
   vtkNew<vtkGL2PSExporter> exporter;
   exporter->SetRenderWindow(&window);
-  // The exporter puts the suffix behind the prefix itself.
+  // The exporter appends the suffix itself.
   exporter->SetFilePrefix((file.parent_path() / file.stem()).string().c_str());
   if (file.extension() == ".svg") {
     exporter->SetFileFormatToSVG();
@@ -54,13 +54,13 @@ void write_vector(vtkRenderWindow& window, const std::string& title, const std::
   }
   exporter->SetTitle(title.c_str());
   if (file.extension() == ".svg") exporter->CompressOff();
-  exporter->SilentOn();      // it says that an SVG cannot hold its (white) background
+  exporter->SilentOn();      // it would warn that SVG has no background colour
   exporter->SetSortToOff();  // what is drawn later lies on top
   exporter->TextAsPathOff();
   exporter->Write();
 }
 
-/// The exporter does not say when the disk is full.
+/// Throws FileError when `file` does not end as it must: the exporter does not report a full disk.
 void expect_end(const std::string& file, const std::string& end, const std::string& path) {
   std::ifstream in(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -72,7 +72,7 @@ void expect_end(const std::string& file, const std::string& end, const std::stri
   }
 }
 
-/// White below everything, so that pictures stay readable on dark pages.
+/// Paints a white background, so that pictures can be read on dark pages.
 void paint_paper(vtkContext2D& painter, int width, int height) {
   painter.GetPen()->SetLineType(vtkPen::NO_PEN);
   painter.GetBrush()->SetColorF(1.0, 1.0, 1.0);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Pictures as PNG, SVG or PDF, painted with VTK's 2D context and no X server.
+/// Pictures as PNG, SVG or PDF, painted with VTK's 2D context. No X server is needed.
 
 #include <vtkContext2D.h>
 #include <vtkContextItem.h>
@@ -11,14 +11,15 @@
 
 namespace suffuse {
 
-/// The suffix of `path`: ".png", ".svg" or ".pdf". Throws InputError, naming `command`, for others.
+/// The suffix of `path`: ".png", ".svg" or ".pdf". Throws InputError, naming `command`, for other
+/// suffixes.
 std::string picture_format(const std::string& path,
                            const std::string& command = "suffuse-post figure");
 
 /// Throws InputError when `path` does not end in .png.
 void require_png(const std::string& path, const std::string& command);
 
-/// Paints by a function.
+/// An item of a VTK scene that calls a function to paint itself.
 class PaintedItem : public vtkContextItem {
  public:
   static PaintedItem* New();
@@ -26,18 +27,19 @@ class PaintedItem : public vtkContextItem {
   bool Paint(vtkContext2D* painter) override;
 };
 
-/// Adds an item that paints with `paint`, above what is there already.
+/// Adds an item that paints with `paint`, over the items added before.
 void add_painted(vtkContextScene& scene, std::function<void(vtkContext2D&)> paint);
 
-/// Where text stands about its position.
+/// Which end of a text is at the given position.
 enum class Anchor { left, center, right };
 
-/// Black text, centred vertically on y; `angle` in degrees.
+/// Paints black text, centred vertically on y; `size` in pixels, `angle` in degrees.
 void paint_text(vtkContext2D& painter, const std::string& text, int size, float x, float y,
                 Anchor anchor = Anchor::center, double angle = 0.0);
 
-/// Paints a white picture of `width` by `height` pixels with what `fill` adds. Pixels count from
-/// the bottom left. Throws FileError.
+/// Writes a white picture of `width` by `height` pixels with the items that `fill` adds. Pixels
+/// count from the bottom left; `title` goes into the metadata. Throws InputError for an unknown
+/// suffix, FileError.
 void draw_picture(int width, int height, const std::string& title, const std::string& path,
                   const std::function<void(vtkContextScene&)>& fill);
 

@@ -35,7 +35,7 @@ std::vector<std::string> quantity_names(const Table& table) {
   return names;
 }
 
-/// Adds up the differences of one quantity.
+/// Accumulates the errors of one quantity.
 class ErrorSum {
  public:
   void add(double value, double expected) {
@@ -46,7 +46,7 @@ class ErrorSum {
     size_sum_ += size;
     squares_ += difference * difference;
     size_squares_ += size * size;
-    // A value that is not a number must not pass for a small error.
+    // Written so that a difference of NaN makes the largest one NaN.
     if (!(difference <= largest_)) largest_ = difference;
     largest_size_ = std::max(largest_size_, size);
   }
@@ -65,7 +65,7 @@ class ErrorSum {
   double largest_size_ = 0.0;
 };
 
-/// The field that a column of values names: of NAME_x and NAME_y it is NAME.
+/// The field that a column names: NAME for NAME, NAME_x and NAME_y.
 std::string field_of(const std::string& quantity) {
   const bool component = quantity.ends_with("_x") || quantity.ends_with("_y");
   return component ? quantity.substr(0, quantity.size() - 2) : quantity;
@@ -79,7 +79,8 @@ std::map<double, std::vector<std::size_t>> rows_by_time(const Table& table) {
   return rows;
 }
 
-/// Columns of `sampled` that hold these quantities. A scalar has no component, a vector needs one.
+/// The columns of `sampled` named `names`. Throws InputError where a scalar is named with a
+/// component, or a vector without one.
 std::vector<const std::vector<double>*> sampled_columns(const Table& sampled,
                                                         const std::vector<std::string>& names,
                                                         const std::string& path) {
@@ -105,15 +106,15 @@ std::vector<ErrorSum> field_errors(const ResultsReader& run, const ReferenceTabl
     const std::string field = field_of(name);
     if (std::ranges::find(fields, field) == fields.end()) fields.push_back(field);
   }
-  const SampleWords words{command, reference.path + ": t", reference.path + ": x, y",
-                          reference.path};
+  const SampleNames input_names{command, reference.path + ": t", reference.path + ": x, y",
+                                reference.path};
   std::vector<ErrorSum> sums(names.size());
   for (const auto& [t, rows] : rows_by_time(table)) {
     std::vector<Vector<2>> places;
     for (const auto row : rows) {
       places.emplace_back(table.column("x")[row], table.column("y")[row]);
     }
-    const Table sampled = sample_places(run, t, places, fields, words);
+    const Table sampled = sample_places(run, t, places, fields, input_names);
     const auto columns = sampled_columns(sampled, names, reference.path);
     for (std::size_t k = 0; k < names.size(); ++k) {
       for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -130,7 +131,8 @@ struct TimeSeries {
   std::vector<double> values;
 };
 
-double at(const TimeSeries& curve, double t, const std::string& path) {
+/// Linear between the times of `curve`. `path` names the reference table in messages.
+double interpolate(const TimeSeries& curve, double t, const std::string& path) {
   const double slack = 1e-12 * std::max(std::abs(curve.t.front()), std::abs(curve.t.back()));
   if (!(t >= curve.t.front() - slack && t <= curve.t.back() + slack)) {
     throw wrong(path + ": t", number_text(t),
@@ -145,8 +147,8 @@ double at(const TimeSeries& curve, double t, const std::string& path) {
   return curve.values[i - 1] + weight * (curve.values[i] - curve.values[i - 1]);
 }
 
-/// Volume mean of a component of an element field in every snapshot; nothing when there is no such
-/// field.
+/// Volume mean over the model of an element field, or of a component NAME_x or NAME_y, for every
+/// snapshot. Nothing when there is no such field.
 std::optional<TimeSeries> mean_series(const ResultsReader& run, const std::string& quantity) {
   const std::string field = field_of(quantity);
   const Mesh<2> mesh = run.mesh();
@@ -172,6 +174,7 @@ std::optional<TimeSeries> mean_series(const ResultsReader& run, const std::strin
   return curve;
 }
 
+/// The quantity over the run. Throws InputError when the run does not have it.
 TimeSeries curve_of(const ResultsReader& run, const std::string& quantity,
                     const std::string& path) {
   const Table history = run.history();
@@ -200,7 +203,7 @@ std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTabl
     const TimeSeries curve = curve_of(run, name, reference.path);
     ErrorSum sum;
     for (std::size_t row = 0; row < reference.values.rows(); ++row) {
-      sum.add(at(curve, reference.values.column("t")[row], reference.path),
+      sum.add(interpolate(curve, reference.values.column("t")[row], reference.path),
               reference.values.column(name)[row]);
     }
     sums.push_back(sum);
@@ -208,6 +211,7 @@ std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTabl
   return sums;
 }
 
+/// Throws InputError for a table that is not as read_reference_table says.
 void check(const ReferenceTable& reference) {
   const Table& table = reference.values;
   const auto names = quantity_names(table);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How far a run is from values that are known: exact ones, or those of a finer run.
+/// Errors of a run against reference values: exact ones, or those of a finer run.
 
 #include <string>
 #include <vector>
@@ -9,40 +9,40 @@
 
 namespace suffuse {
 
-/// Distances of a run from the values of one quantity, relative: sum of |difference| over sum of
-/// |value|, root of the sums of squares likewise, largest |difference| over largest |value|.
+/// Relative errors of one quantity, with the differences d of the run from the reference values v:
+/// l1 = sum |d| / sum |v|, l2 = sqrt(sum d^2 / sum v^2), max = max |d| / max |v|.
 struct ReferenceError {
   std::string quantity;
-  std::size_t values = 0;
+  std::size_t values = 0;  ///< number of reference values
   double l1 = 0.0;
   double l2 = 0.0;
   double max = 0.0;
 };
 
-/// A table of known values with its path, for messages.
+/// A table of reference values, and its path for messages.
 struct ReferenceTable {
   std::string path;
   Table values;
 };
 
-/// Reads a CSV file. It has a column `t` (s), either both `x` and `y` (m) or neither, and one
-/// column or more of values. Throws FileError; InputError for a table that is not like that, or
-/// one that has nothing but zeros in a column of values.
+/// Reads a CSV file with a column `t` (s), columns `x` and `y` (m) or neither, and at least one
+/// column of values. Throws FileError; InputError for another layout, for values that are not
+/// finite and for a column of values that are all zero.
 ReferenceTable read_reference_table(const std::string& path);
 
-/// One for each column of values. With places they are fields, as `sample` takes them there, the
-/// components of a vector as NAME_x and NAME_y. Without places they are columns of history.csv or
-/// ledger.csv, linear between rows, or `mean_` and the name of a field of the elements: its volume
-/// mean over the model, linear between snapshots.
+/// One error for each column of values. Where the table has places, columns name fields, which are
+/// evaluated there as in `sample`; the components of a vector are NAME_x and NAME_y. Where it has
+/// none, columns name those of history.csv or ledger.csv, linear between rows, or are `mean_NAME`:
+/// the volume mean of a field of the elements over the model, linear between snapshots.
 ///
 /// Throws InputError for a quantity that the run does not have, or a time or place outside it.
 std::vector<ReferenceError> reference_errors(const ResultsReader& run,
                                              const ReferenceTable& reference);
 
-/// For people: a line per quantity.
+/// A line of text per quantity.
 std::string error_text(const std::vector<ReferenceError>& errors);
 
-/// Columns quantity, values, l1, l2, max. Throws FileError.
+/// Writes a CSV table with the columns quantity, values, l1, l2, max. Throws FileError.
 void write_errors(const std::string& path, const std::vector<ReferenceError>& errors);
 
 }  // namespace suffuse

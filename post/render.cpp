@@ -28,22 +28,22 @@ namespace {
 const std::string command = "suffuse-post render";
 constexpr Color no_value{0.75, 0.75, 0.75};
 constexpr Color mesh_color{0.55, 0.55, 0.55};
-constexpr float largest_width = 1000.0F;
-constexpr float largest_height = 800.0F;
+constexpr float max_width = 1000.0F;
+constexpr float max_height = 800.0F;
 constexpr float top_room = 70.0F;
 constexpr float gap = 40.0F;
 constexpr float bar_width = 30.0F;
-constexpr float least_bar = 340.0F;
+constexpr float min_bar_height = 340.0F;
 constexpr float bar_room = 215.0F;
 constexpr int bar_bands = 256;
-constexpr int most_triangles = 400'000;
-constexpr int finest_division = 16;
+constexpr int max_triangles = 400'000;
+constexpr int max_division = 16;
 
-/// Colours of values: by kind, or along the map between two numbers.
+/// The colours of values: one per kind, or the colour map over a range.
 struct Scale {
   std::array<double, 2> range{0.0, 1.0};
-  bool exceeds_low = false;  ///< values lie outside a range that was asked for
-  bool exceeds_high = false;
+  bool exceeds_low = false;   ///< some values are below the range, which the user gave
+  bool exceeds_high = false;  ///< above it
   std::vector<Category> kinds;
 
   [[nodiscard]] Color color(double value) const {
@@ -55,13 +55,13 @@ struct Scale {
   }
 };
 
-/// All that one picture shows.
+/// The content of one picture.
 struct Frame {
   std::string title;
   std::string label;
   std::string where;
   std::vector<double> values;
-  std::vector<Vector<2>> positions;  ///< of points
+  std::vector<Vector<2>> positions;  ///< of points; empty for fields of elements and nodes
   Scale scale;
 };
 
@@ -70,6 +70,7 @@ std::size_t nearest_snapshot(const std::vector<double>& times, double t) {
   return static_cast<std::size_t>(std::ranges::min_element(times, {}, distance) - times.begin());
 }
 
+/// "NAME, t = 12 s", with the time asked for where the snapshot has another.
 std::string title_of(const ResultsReader& results, std::size_t index,
                      const std::optional<double>& asked) {
   const double t = results.times()[index];
@@ -91,7 +92,8 @@ std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
   return every;
 }
 
-/// The range of the values of all frames, widened where they are one number to rounding.
+/// The scale that covers the values of all snapshots. The range is widened where all values agree
+/// up to rounding.
 Scale make_scale(const ResultsReader& results, const std::vector<std::size_t>& snapshots,
                  const FieldPlace& place, const RenderRequest& request) {
   Scale scale;
@@ -128,7 +130,7 @@ unsigned char byte_of(double value) {
   return static_cast<unsigned char>(std::lround(255.0 * value));
 }
 
-/// Triangles in colours, one per corner.
+/// Triangles with a colour at each corner.
 class ColoredTriangles {
  public:
   void add(const std::array<Vector<2>, 3>& corners, const std::array<Color, 3>& colors) {
@@ -171,8 +173,8 @@ std::array<double, 3> corner_values(const Frame& frame, const Mesh<2>& mesh, int
   return values;
 }
 
-/// Divides an element into `n` by `n` parts: colours between the corners of a triangle are mixed,
-/// which is not what the map has between them.
+/// Adds an element as n^2 triangles. VTK interpolates colours, not values, between the corners of a
+/// triangle; only in small triangles is the difference too small to see.
 void add_divided(ColoredTriangles& triangles, const std::array<Vector<2>, 3>& corners,
                  const std::array<double, 3>& values, const Scale& scale, int n) {
   const auto at = [&](int i, int j) {
@@ -196,8 +198,8 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const Mesh<2>&
                     const Frame& frame) {
   const bool smooth = frame.where != "cell";
   int division = 1;
-  while (smooth && division < finest_division &&
-         4 * division * division * mesh.element_count() <= most_triangles) {
+  while (smooth && division < max_division &&
+         4 * division * division * mesh.element_count() <= max_triangles) {
     division *= 2;
   }
   ColoredTriangles triangles;
@@ -209,7 +211,8 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const Mesh<2>&
   triangles.paint(painter);
 }
 
-/// Edges where elements are large enough for the colours to show between them.
+/// Paints the edges of elements where these are large enough not to hide the colours, the edges of
+/// regions and those of the model.
 void paint_mesh(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh) {
   const double pixels = double{view.width()} * view.height() / mesh.element_count();
   if (pixels > 100.0) paint_edges(painter, view, mesh, all_edges(mesh), mesh_color, 0.7F);
@@ -225,7 +228,7 @@ void paint_points(vtkContext2D& painter, const ModelView& view, const Mesh<2>& m
               disc_diameter(view, mesh, frame.positions.size()));
 }
 
-/// An end of the range is rarely round; rounding beside zero says nothing.
+/// The label of an end of the range: four digits; zero where the value is rounding.
 std::string end_text(double value, double range) {
   if (std::abs(value) < 1e-9 * range) value = 0.0;
   char text[32];
@@ -263,7 +266,7 @@ void paint_bar(vtkContext2D& painter, const Frame& frame, float left, float bott
              Anchor::center, 90.0);
 }
 
-/// Pixels that the names of the kinds need.
+/// Width of the legend of kinds, pixels.
 float kinds_width(const Frame& frame) {
   std::size_t letters = frame.label.size();
   for (const auto& kind : frame.scale.kinds) letters = std::max(letters, kind.name.size());
@@ -285,15 +288,15 @@ void paint_kinds(vtkContext2D& painter, const Frame& frame, float left, float to
 }
 
 void draw_frame(const Mesh<2>& mesh, const Frame& frame, const std::string& path) {
-  const ModelView view(mesh, axes_left, axes_bottom, largest_width, largest_height);
+  const ModelView view(mesh, axes_left, axes_bottom, max_width, max_height);
   const float right = view.left() + view.width() + gap;
   const bool by_kind = !frame.scale.kinds.empty();
   const float side = by_kind ? kinds_width(frame) : bar_room;
-  // A long title over a narrow model still fits: a letter of 24 pixels is about 14 wide.
+  // Wide enough for a long title over a narrow model: a letter of size 24 is about 14 pixels wide.
   const float title = 14.0F * static_cast<float>(frame.title.size()) + 2.0F * gap;
   const auto width = static_cast<int>(std::max(right + side, title));
   const auto height =
-      static_cast<int>(view.bottom() + std::max(view.height(), least_bar) + top_room);
+      static_cast<int>(view.bottom() + std::max(view.height(), min_bar_height) + top_room);
   draw_picture(width, height, frame.title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
       const bool points =
@@ -307,13 +310,13 @@ void draw_frame(const Mesh<2>& mesh, const Frame& frame, const std::string& path
       if (by_kind) {
         paint_kinds(painter, frame, right, view.bottom() + view.height());
       } else {
-        paint_bar(painter, frame, right, view.bottom(), std::max(view.height(), least_bar));
+        paint_bar(painter, frame, right, view.bottom(), std::max(view.height(), min_bar_height));
       }
     });
   });
 }
 
-/// FILE_0000.png
+/// `FILE_0007.png` for `FILE.png` and 7.
 std::string numbered(const std::string& path, std::size_t number) {
   char digits[24];
   std::snprintf(digits, sizeof digits, "_%04zu", number);

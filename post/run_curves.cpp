@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t marker_count = 24;
 constexpr int curve_intervals = 480;
 
-/// After Okabe and Ito, for colour-blind readers; runs that are both filled or both hollow differ
-/// in brightness too.
+/// Colours of Okabe and Ito, which colour-blind readers can tell apart. Runs with the same
+/// filling of markers differ in brightness too.
 constexpr Color dark_blue{0.0, 0.27, 0.53};
 constexpr Color vermilion{0.835, 0.369, 0.0};
 constexpr Color sky_blue{0.337, 0.706, 0.914};
@@ -37,6 +37,7 @@ RunStyle style_of(std::size_t number, const std::array<Marker, Markers>& markers
   return {markers[number % Markers], (number / Markers) % 2 == 1, colors[number % Colors]};
 }
 
+/// Whether the same curve is among `curves`.
 bool is_drawn(const std::vector<Curve>& curves, const Curve& curve) {
   return std::any_of(curves.begin(), curves.end(), [&](const Curve& other) {
     return other.dash == curve.dash && other.x == curve.x && other.y == curve.y;
@@ -81,9 +82,9 @@ std::vector<std::string> run_labels(const std::vector<ResultsReader>& runs) {
   const bool mixed = is_mixed(runs);
   for (const auto& run : runs) {
     const auto& name = run.scene().scene.name;
-    const auto alike = std::ranges::count_if(
+    const auto same_name = std::ranges::count_if(
         runs, [&](const ResultsReader& other) { return other.scene().scene.name == name; });
-    std::string label = alike > 1 ? folder_name(run) : name;
+    std::string label = same_name > 1 ? folder_name(run) : name;
     if (mixed) label += is_double_point(run) ? ", double-point" : ", single-point";
     if (run.status() != "done") label += " (" + run.status() + ")";
     labels.push_back(label);
@@ -114,11 +115,11 @@ std::vector<double> exact_times(double end, const Specimen& specimen) {
   return times;
 }
 
-Curve thinned(Curve curve, std::size_t run, std::size_t runs) {
+Curve with_fewer_markers(Curve curve, std::size_t run, std::size_t runs) {
   if (curve.x.size() <= marker_count + 1) return curve;
-  const double begin = curve.x.front();
-  const double spacing = (curve.x.back() - begin) / static_cast<double>(marker_count);
-  double next = begin + spacing * static_cast<double>(run) / static_cast<double>(runs);
+  const double start = curve.x.front();
+  const double spacing = (curve.x.back() - start) / static_cast<double>(marker_count);
+  double next = start + spacing * static_cast<double>(run) / static_cast<double>(runs);
   curve.marked.clear();
   for (std::size_t row = 0; row < curve.x.size(); ++row) {
     if (curve.x[row] < next) continue;
@@ -138,7 +139,7 @@ RunCurves::RunCurves(const std::vector<ResultsReader>& runs)
 }
 
 std::string RunCurves::soil_name() const {
-  return soil_named(std::ranges::all_of(soils_, &Specimen::is_all));
+  return specimen_name(std::ranges::all_of(soils_, &Specimen::has_all_soil));
 }
 
 Curve RunCurves::exact_line(std::size_t run, const std::vector<double>& x,
@@ -187,12 +188,12 @@ void RunCurves::add_run(std::size_t run, std::vector<double> x, std::vector<doub
 }
 
 void RunCurves::add_run(std::size_t run, Curve curve) {
-  numeric_.push_back(thinned(std::move(curve), run, size()));
+  computed_.push_back(with_fewer_markers(std::move(curve), run, size()));
 }
 
 Chart RunCurves::chart(const std::string& title, const std::string& y_label) const {
   Chart chart{title, "time (s)", y_label, exact_};
-  chart.curves.insert(chart.curves.end(), numeric_.begin(), numeric_.end());
+  chart.curves.insert(chart.curves.end(), computed_.begin(), computed_.end());
   return chart;
 }
 

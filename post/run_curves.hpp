@@ -1,7 +1,6 @@
 #pragma once
 
-/// What the figures share: how runs are named and told apart, and which exact curve goes with
-/// which.
+/// Labels, styles and exact curves of runs, the same in all figures.
 
 #include <string>
 #include <vector>
@@ -11,67 +10,69 @@
 
 namespace suffuse {
 
-/// How the markers of a run look.
+/// Marker and colour of a run.
 struct RunStyle {
   Marker marker = Marker::circle;
   bool hollow = false;
   Color color{};
 };
 
-/// One per run. Where both formulations are there, single-point runs have cold colours and circles
-/// or squares, double-point runs warm colours and diamonds or targets.
+/// One style per run. In a figure with both formulations, single-point runs get cold colours and
+/// circles or squares, double-point runs warm colours and diamonds or targets.
 std::vector<RunStyle> run_styles(const std::vector<ResultsReader>& runs);
 
-/// The results folder's name without what is before it and without `.results`.
+/// The name of the results folder, without its path and without `.results`.
 std::string folder_name(const ResultsReader& run);
 
-/// Names of the runs; folders tell apart what the scenes call alike. Where both formulations are
-/// there the name says which; a run that is not done says so.
+/// One label per run: the name of its scene, or of its folder where scenes have equal names. It
+/// includes the formulation where there are both, and the status of a run that is not done.
 std::vector<std::string> run_labels(const std::vector<ResultsReader>& runs);
 
 /// True when both formulations are among the runs.
 bool is_mixed(const std::vector<ResultsReader>& runs);
+
 bool is_double_point(const ResultsReader& run);
 
 /// "exact, constant law, 0.001 1/s"
 std::string law_label(const Specimen& specimen);
 
-/// Times of an exact curve from 0 to `end`, with the kinks where erosion starts and ends.
+/// Times at which to draw an exact curve from 0 to `end`, including those at which erosion starts
+/// and ends, where the curve has kinks.
 std::vector<double> exact_times(double end, const Specimen& specimen);
 
-/// Markers at about `marker_count` rows, evenly in time; runs take turns, so that none hides
-/// another.
-Curve thinned(Curve curve, std::size_t run, std::size_t runs);
+/// The curve with markers at about 24 rows only, evenly in time. The times differ from run to run,
+/// so that markers do not hide one another.
+Curve with_fewer_markers(Curve curve, std::size_t run, std::size_t runs);
 
-/// Curves of a figure in the making.
+/// Collects the curves of one chart: exact ones, and those of the runs.
 class RunCurves {
  public:
   explicit RunCurves(const std::vector<ResultsReader>& runs);
 
   [[nodiscard]] std::size_t size() const { return labels_.size(); }
   [[nodiscard]] const Specimen& soil(std::size_t run) const { return soils_[run]; }
-  /// "the soil", or "the soil that erodes" when a run has some that does not.
+  /// "the soil", or "the soil that erodes" when a run has soil that does not.
   [[nodiscard]] std::string soil_name() const;
   [[nodiscard]] const std::string& label(std::size_t run) const { return labels_[run]; }
   [[nodiscard]] const RunStyle& style(std::size_t run) const { return styles_[run]; }
 
-  /// Adds what the legend says of a run.
+  /// Appends `text` to the label of a run.
   void extend_label(std::size_t run, const std::string& text) { labels_[run] += text; }
 
-  /// An exact curve of a run, in the dash of its law, which is its label with `more` behind it;
-  /// grey where another of the same law came before. The same curve of several runs is drawn once.
+  /// Adds an exact curve of a run. Its dash and its label are those of the erosion law, with `more`
+  /// after the label; a further curve of the same law is grey. Equal curves are drawn once.
   void add_exact(std::size_t run, const std::vector<double>& x, const std::vector<double>& y,
                  const std::string& more = "");
   /// The same without a row in the legend.
   void add_unlabelled_exact(std::size_t run, const std::vector<double>& x,
                             const std::vector<double>& y);
-  /// A line of its own label below the runs.
+  /// Adds a line with its own style and label, under the curves of the runs.
   void add_line(const Curve& line);
-  /// A curve of markers in the run's style.
+  /// Adds a curve of markers in the style of the run.
   void add_run(std::size_t run, std::vector<double> x, std::vector<double> y);
-  /// Any curve of a run, thinned.
+  /// Adds any curve of a run, with fewer markers.
   void add_run(std::size_t run, Curve curve);
-  /// Exact curves first, runs over them, against time.
+  /// The chart, with time on the x axis. Curves of runs cover exact ones.
   [[nodiscard]] Chart chart(const std::string& title, const std::string& y_label) const;
 
  private:
@@ -83,7 +84,7 @@ class RunCurves {
   std::vector<RunStyle> styles_;
   std::vector<std::string> laws_;
   std::vector<Curve> exact_;
-  std::vector<Curve> numeric_;
+  std::vector<Curve> computed_;
 };
 
 }  // namespace suffuse

@@ -19,12 +19,12 @@
 namespace suffuse {
 namespace {
 
-/// Erodible mass below this share of the first one counts as none.
-constexpr double nothing_left = 1e-9;
+/// Erosion counts as complete when this share of the initial erodible mass is left.
+constexpr double complete_share = 1e-9;
 
 using Row = std::map<std::string, std::string>;
 
-/// A cell of CSV: what has commas or quotes is quoted.
+/// A cell of CSV; text with commas, quotes or line ends is quoted.
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -59,14 +59,15 @@ void add_settings(Row& row, const ResultsReader& run, const Specimen& soil) {
   row["empty_elements"] = scene_word(erosion.empty_elements);
 }
 
+/// When the erodible mass of the run is used up, s; infinity if it never is.
 double computed_exhaustion(const std::vector<Masses>& masses) {
   const double first = masses.front().erodible;
   const auto none = std::ranges::find_if(
-      masses, [&](const Masses& m) { return m.erodible <= nothing_left * first; });
+      masses, [&](const Masses& m) { return m.erodible <= complete_share * first; });
   return none == masses.end() ? std::numeric_limits<double>::infinity() : none->t;
 }
 
-/// Largest distances from the exact curves in % of the mass that can erode.
+/// Adds the largest distances from the exact curves, in % of the mass that can erode.
 void add_errors(Row& row, const ResultsReader& run, const Specimen& soil,
                 const std::vector<Masses>& masses) {
   const double density = run.scene().scene.liquid.density;
@@ -81,7 +82,7 @@ void add_errors(Row& row, const ResultsReader& run, const Specimen& soil,
   }
   row["error_solid_percent"] = number_text(100.0 * solid / erodible);
   row["error_eroded_percent"] = number_text(100.0 * eroded / erodible);
-  const double room =
+  const double erodible_volume =
       integrate(soil, 0.0, [](const Soil& s, double n, double) { return s.porosity_max() - n; });
   const Table history = run.history();
   double porosity = 0.0;
@@ -89,7 +90,7 @@ void add_errors(Row& row, const ResultsReader& run, const Specimen& soil,
     porosity = std::max(porosity, std::abs(history.column("porosity_mean")[i] -
                                            exact_mean_porosity(soil, history.column("t")[i])));
   }
-  row["error_porosity_percent"] = number_text(100.0 * porosity * soil.volume / room);
+  row["error_porosity_percent"] = number_text(100.0 * porosity * soil.volume / erodible_volume);
 }
 
 void add_fines_error(Row& row, const ResultsReader& run, const std::vector<Masses>& masses) {
@@ -97,16 +98,17 @@ void add_fines_error(Row& row, const ResultsReader& run, const std::vector<Masse
   if (!flow) return;
   row["darcy_flux"] = number_text(flow->flux);
   const ColumnFines exact(*flow, masses.back().t);
-  double worst = 0.0;
-  double most = 0.0;
+  double error = 0.0;
+  double largest = 0.0;
   for (const auto& m : masses) {
     const double fines = exact.fines(m.t);
-    worst = std::max(worst, std::abs(m.fines - fines));
-    most = std::max(most, fines);
+    error = std::max(error, std::abs(m.fines - fines));
+    largest = std::max(largest, fines);
   }
-  if (most > 0.0) row["error_fines_relative"] = number_text(worst / most);
+  if (largest > 0.0) row["error_fines_relative"] = number_text(error / largest);
 }
 
+/// NaN if any value is NaN.
 double largest_magnitude(const Table& table, const std::string& name) {
   double largest = 0.0;
   for (const double value : table.column(name)) {

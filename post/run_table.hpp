@@ -1,6 +1,6 @@
 #pragma once
 
-/// One row of numbers per run: how it was computed, what it cost, how far it is from what is exact.
+/// A table with one row per run: settings, cost, errors against exact solutions.
 
 #include <string>
 #include <vector>
@@ -12,8 +12,9 @@ namespace suffuse {
 /// Names of the columns; docs/file-formats.md says what they hold.
 const std::vector<std::string>& run_table_columns();
 
-/// CSV text with one line of names and a row per run. Numbers read back exactly; what does not
-/// apply to a run is empty, `inf` is a time that never comes. Throws FileError.
+/// CSV text: a line of names and a row per run. Numbers have all their digits. A cell is empty
+/// where the column does not apply to the run; `inf` is the time of an event that never happens.
+/// Throws FileError.
 std::string run_table(const std::vector<ResultsReader>& runs);
 
 /// Writes the table of `runs`. Throws FileError.

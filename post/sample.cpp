@@ -13,18 +13,18 @@
 namespace suffuse {
 namespace {
 
-/// Rounding that still counts as on an edge, in barycentric coordinates.
+/// A point this far outside an element counts as on its edge, in barycentric coordinates.
 constexpr double edge_tolerance = 1e-9;
 
-/// Beyond this a slip of the keyboard is likelier than intent.
-constexpr int most_points = 1'000'000;
+/// A larger number of points is refused: it is likely a typing error.
+constexpr int max_points = 1'000'000;
 
-/// Where a field is looked for, best first.
-constexpr std::array<const char*, 3> places{"element_vertex", "node", "cell"};
+/// Where a field is looked for, in the order of preference.
+constexpr std::array<const char*, 3> kinds_of_place{"element_vertex", "node", "cell"};
 
 InputError wrong(const std::string& option, const std::string& found, const std::string& expected,
                  const std::string& suggestion = {},
-                 const std::string& command = SampleWords{}.command) {
+                 const std::string& command = SampleNames{}.command) {
   return InputError(std::vector{InputProblem{command, option, found, expected, suggestion}});
 }
 
@@ -44,7 +44,7 @@ std::string position_text(const Vector<2>& x) {
   return "(" + number_text(x[0]) + ", " + number_text(x[1]) + ")";
 }
 
-/// An element that holds the point, and where in it the point is.
+/// An element that contains the point, and the position of the point in it.
 struct Place {
   int element;
   std::array<double, 3> barycentric;
@@ -59,9 +59,9 @@ std::array<double, 3> barycentric(const Mesh<2>& mesh, int element, const Vector
   return {1.0 - local[0] - local[1], local[0], local[1]};
 }
 
-/// All elements that hold x; only those in the soil where there are any.
+/// All elements that contain x, on their edges included; only those of soil where there are any.
 std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, const Vector<2>& x,
-                          const SampleWords& words) {
+                          const SampleNames& input_names) {
   std::vector<Place> everywhere;
   std::vector<Place> in_soil;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -72,28 +72,29 @@ std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, con
     if (results.scene().scene.find_soil(region) != nullptr) in_soil.push_back({e, b});
   }
   if (everywhere.empty()) {
-    throw wrong(words.places, "the point " + position_text(x), "points inside the model", "",
-                words.command);
+    throw wrong(input_names.places, "the point " + position_text(x), "points inside the model", "",
+                input_names.command);
   }
   return in_soil.empty() ? everywhere : in_soil;
 }
 
-/// The snapshots on either side of a time and the weight of the later one.
-struct Moment {
+/// The snapshots before and after a time, and the weight of the later one.
+struct SnapshotPair {
   std::size_t before;
   std::size_t after;
   double weight;
 };
 
-Moment find_moment(const ResultsReader& results, double time, const SampleWords& words) {
+SnapshotPair find_snapshots(const ResultsReader& results, double time,
+                            const SampleNames& input_names) {
   const auto& times = results.times();
   if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
   const double slack = 1e-12 * std::max(std::abs(times.front()), std::abs(times.back()));
   if (!(time >= times.front() - slack && time <= times.back() + slack)) {
-    throw wrong(words.time, number_text(time),
+    throw wrong(input_names.time, number_text(time),
                 "a time from " + number_text(times.front()) + " to " + number_text(times.back()) +
                     " s, the first and last snapshot",
-                "", words.command);
+                "", input_names.command);
   }
   const auto later = std::lower_bound(times.begin(), times.end(), time);
   if (later == times.begin()) return {0, 0, 0.0};
@@ -102,7 +103,7 @@ Moment find_moment(const ResultsReader& results, double time, const SampleWords&
   return {after - 1, after, (time - times[after - 1]) / (times[after] - times[after - 1])};
 }
 
-/// A field at one moment with the kind of place it lives on.
+/// A field at one time, and the kind of place it lives on.
 struct SampledField {
   Field values;
   std::string where;
@@ -111,9 +112,9 @@ struct SampledField {
   [[nodiscard]] int width() const { return where == "element_vertex" ? 1 : values.components; }
 };
 
-/// A field that only points carry has no value in between.
+/// Throws InputError when the field lives on points: it has no values between them.
 void refuse_point_field(const ResultsReader& results, std::size_t index, const std::string& name,
-                        const SampleWords& words) {
+                        const SampleNames& input_names) {
   std::vector<std::string> kinds{"solid"};
   if (results.scene().scene.formulation == Formulation::double_point) kinds.emplace_back("liquid");
   for (const auto& kind : kinds) {
@@ -123,33 +124,33 @@ void refuse_point_field(const ResultsReader& results, std::size_t index, const s
     found += kind + " points";
     std::string expected = "a field " + fields_and_places(results, index, {"cell", "node"});
     expected += " (suffuse-post render --on " + kind + " shows it)";
-    throw wrong(words.fields, found, expected, "", words.command);
+    throw wrong(input_names.fields, found, expected, "", input_names.command);
   }
 }
 
-SampledField read_at(const ResultsReader& results, const Moment& moment, const std::string& name,
-                     const SampleWords& words) {
+SampledField read_field(const ResultsReader& results, const SnapshotPair& pair,
+                        const std::string& name, const SampleNames& input_names) {
   std::vector<std::string> known;
-  for (const std::string where : places) {
-    const auto names = results.field_names(moment.before, where);
+  for (const std::string where : kinds_of_place) {
+    const auto names = results.field_names(pair.before, where);
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       known.insert(known.end(), names.begin(), names.end());
       continue;
     }
-    Field field = results.field(moment.before, where, name);
-    if (moment.weight > 0.0) {
-      const Field later = results.field(moment.after, where, name);
+    Field field = results.field(pair.before, where, name);
+    if (pair.weight > 0.0) {
+      const Field later = results.field(pair.after, where, name);
       for (std::size_t i = 0; i < field.values.size(); ++i) {
-        field.values[i] += moment.weight * (later.values[i] - field.values[i]);
+        field.values[i] += pair.weight * (later.values[i] - field.values[i]);
       }
     }
     return {field, where};
   }
-  refuse_point_field(results, moment.before, name, words);
+  refuse_point_field(results, pair.before, name, input_names);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
-  throw wrong(words.fields, "\"" + name + "\"", quoted_list(known), closest_name(name, known),
-              words.command);
+  throw wrong(input_names.fields, "\"" + name + "\"", quoted_list(known), closest_name(name, known),
+              input_names.command);
 }
 
 double value_in(const Mesh<2>& mesh, const SampledField& field, const Place& place, int component) {
@@ -208,8 +209,8 @@ std::vector<std::string> parse_field_names(const std::string& text) {
 Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
              const std::vector<std::string>& fields) {
   if (count < 2) throw wrong("--count", std::to_string(count), "at least 2, the ends of the line");
-  if (count > most_points) {
-    throw wrong("--count", std::to_string(count), "at most " + std::to_string(most_points));
+  if (count > max_points) {
+    throw wrong("--count", std::to_string(count), "at most " + std::to_string(max_points));
   }
   std::vector<Vector<2>> positions;
   for (int i = 0; i < count; ++i) {
@@ -221,12 +222,12 @@ Table sample(const ResultsReader& results, double time, const SampleLine& line, 
 
 Table sample_places(const ResultsReader& results, double time,
                     const std::vector<Vector<2>>& positions, const std::vector<std::string>& fields,
-                    const SampleWords& words) {
-  const Moment moment = find_moment(results, time, words);
+                    const SampleNames& input_names) {
+  const SnapshotPair pair = find_snapshots(results, time, input_names);
   std::vector<SampledField> sampled;
   Table table{{"x", "y"}, std::vector<std::vector<double>>(2)};
   for (const auto& name : fields) {
-    sampled.push_back(read_at(results, moment, name, words));
+    sampled.push_back(read_field(results, pair, name, input_names));
     for (int k = 0; k < sampled.back().width(); ++k) {
       table.names.push_back(column_name(sampled.back(), k));
       table.columns.emplace_back();
@@ -234,7 +235,7 @@ Table sample_places(const ResultsReader& results, double time,
   }
   const Mesh<2> mesh = results.mesh();
   for (const auto& x : positions) {
-    const auto around = locate(results, mesh, x, words);
+    const auto around = locate(results, mesh, x, input_names);
     table.columns[0].push_back(x[0]);
     table.columns[1].push_back(x[1]);
     std::size_t column = 2;

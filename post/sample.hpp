@@ -1,6 +1,6 @@
 #pragma once
 
-/// Values of fields along a straight line at one time.
+/// Values of fields at given places and at one time, between elements and snapshots too.
 
 #include <string>
 #include <vector>
@@ -9,6 +9,7 @@
 
 namespace suffuse {
 
+/// A straight line between two points, m.
 struct SampleLine {
   Vector<2> from;
   Vector<2> to;
@@ -20,29 +21,30 @@ SampleLine parse_line(const std::string& text);
 /// Reads `a,b,c`. Throws InputError on an empty name.
 std::vector<std::string> parse_field_names(const std::string& text);
 
-/// `count` >= 2 points from end to end; columns x, y and the fields, vectors as NAME_x, NAME_y.
+/// Samples `count` >= 2 points, evenly spaced from end to end of the line. The table has columns x,
+/// y and the fields, vectors as NAME_x and NAME_y.
 ///
-/// In an element its own linear field is taken where there is one, else nodal values are
-/// interpolated, else the element's mean holds. A point on an edge takes the mean of its elements
-/// in the soil; free water counts only where no soil holds the point. Between two snapshots, values
-/// are interpolated linearly in time.
+/// The value in an element is, in this order of preference, that of the element's own linear field,
+/// of interpolated nodal values, or the element's mean. On an edge or node it is the mean over the
+/// elements of soil there, over those of free water where there is no soil. Between two snapshots
+/// values are linear in time.
 ///
-/// Throws InputError for an unknown field, a field that only points carry, a time outside the
+/// Throws InputError for an unknown field, a field that lives on points only, a time outside the
 /// snapshots or a point outside the model.
 Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
              const std::vector<std::string>& fields);
 
-/// What messages call the command and its inputs.
-struct SampleWords {
+/// Names of the command and its inputs in messages.
+struct SampleNames {
   std::string command = "suffuse-post sample";
   std::string time = "--time";
   std::string places = "--line";
   std::string fields = "--fields";
 };
 
-/// The same at any places.
+/// The same at any `positions` (m). `input_names` are used in messages.
 Table sample_places(const ResultsReader& results, double time,
                     const std::vector<Vector<2>>& positions, const std::vector<std::string>& fields,
-                    const SampleWords& words = {});
+                    const SampleNames& input_names = {});
 
 }  // namespace suffuse

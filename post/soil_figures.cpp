@@ -9,6 +9,7 @@ namespace {
 
 const std::string mass_label = "mass (kg per metre of thickness)";
 
+/// A mass that figures show.
 struct Quantity {
   const char* name;
   Marker marker;
@@ -22,7 +23,7 @@ constexpr std::array<Quantity, 4> quantities{{
     {"total", Marker::target, [](const Masses& m) { return m.total(); }},
 }};
 
-/// Times and one quantity of computed or exact masses.
+/// One quantity of computed or exact masses over time.
 struct Series {
   std::vector<double> t;
   std::vector<double> y;
@@ -45,7 +46,7 @@ std::vector<Masses> exact_series(const ResultsReader& run, const Specimen& soil,
   return masses;
 }
 
-/// One quantity of every run, in the style of the run.
+/// Adds one quantity of every run in the style of the run, with its exact curve.
 void add_quantity(RunCurves& curves, const std::vector<ResultsReader>& runs,
                   const Quantity& quantity) {
   for (std::size_t r = 0; r < runs.size(); ++r) {

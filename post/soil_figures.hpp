@@ -1,7 +1,7 @@
 #pragma once
 
-/// Figures of what happens to the soil, each with the exact curves of the scenes' own parameters.
-/// The runs may be of either formulation. All throw FileError when a table has no two times.
+/// Figures of the eroding soil, with exact curves where there are any, for runs of either
+/// formulation. All functions throw FileError when a table has fewer than two times.
 
 #include "chart.hpp"
 #include "results/reader.hpp"
@@ -12,16 +12,17 @@ namespace suffuse {
 Chart porosity_chart(const std::vector<ResultsReader>& runs);
 
 /// Fig. 7: solid, eroded, liquid and total mass of the eroding soil in closed accounting (in the
-/// soil, plus what left, less what entered).
+/// soil, plus what left, minus what entered).
 Chart masses_chart(const std::vector<ResultsReader>& runs);
 
-/// Fig. 5: solid mass of the eroding soil; the legend says how many points an element has.
+/// Fig. 5: solid mass of the eroding soil; the legend has the number of points per element.
 Chart solid_mass_chart(const std::vector<ResultsReader>& runs);
 
 /// Solid and eroded mass with one marker per run, for `comparison`.
 Chart eroded_and_solid_chart(const std::vector<ResultsReader>& runs);
 
-/// ": 12 liquid points per element, empty elements erode", or ": 3 points per element".
+/// The end of a label: ": 12 liquid points per element, empty elements erode" for a double-point
+/// scene, ": 3 points per element" for a single-point one.
 std::string discretization(const Scene& scene);
 
 }  // namespace suffuse

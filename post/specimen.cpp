@@ -14,7 +14,8 @@ bool erodes(const Soil& soil) {
   return soil.erosion.law != ErosionLaw::none;
 }
 
-/// Three edge midpoints integrate quadratics exactly; uniform soil collapses to one portion.
+/// Adds an element to the portions, as three parts with the porosity at its edge midpoints, which
+/// integrates quadratics exactly. A region of uniform soil becomes one portion.
 void add_element(std::map<std::pair<std::string, double>, Portion>& portions, const Mesh<2>& mesh,
                  int element, const Soil& soil) {
   const double volume = element_volume(mesh, element);
@@ -42,7 +43,7 @@ Specimen specimen(const ResultsReader& run) {
     const bool counts = soil != nullptr && (erodes(*soil) || !any);
     soils.push_back(counts ? soil : nullptr);
     if (counts) found.regions.push_back(r);
-    if (soil != nullptr && !counts) found.is_all = false;
+    if (soil != nullptr && !counts) found.has_all_soil = false;
   }
   std::map<std::pair<std::string, double>, Portion> portions;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -56,8 +57,8 @@ Specimen specimen(const ResultsReader& run) {
   return found;
 }
 
-std::string soil_named(bool all) {
-  return all ? "the soil" : "the soil that erodes";
+std::string specimen_name(bool has_all_soil) {
+  return has_all_soil ? "the soil" : "the soil that erodes";
 }
 
 double integrate(const Specimen& specimen, double t,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The soil that figures and tables are about: what erodes, or all soil where nothing does.
+/// The specimen of a run, which figures and tables describe: all soil that erodes, or all soil
+/// where none does. Its masses over time, computed and exact.
 
 #include <functional>
 #include <string>
@@ -10,39 +11,42 @@
 
 namespace suffuse {
 
-/// Soil of one initial porosity.
+/// Part of the specimen with one soil and one initial porosity.
 struct Portion {
   Soil soil;
   double volume = 0.0;  ///< m3 (per metre of thickness in 2D)
   double initial_porosity = 0.0;
 };
 
-/// The specimen, as the solver's own `porosity_mean` counts it.
+/// The regions and portions of the specimen; the column `porosity_mean` of history.csv is the mean
+/// over the same soil.
 struct Specimen {
-  std::vector<int> regions;  ///< as regions.csv numbers them
+  std::vector<int> regions;  ///< numbers as in regions.csv
   std::vector<Portion> portions;
-  double volume = 0.0;
-  bool is_all = true;  ///< of the soil; else what does not erode is left out
+  double volume = 0.0;       ///< m3 (per metre of thickness in 2D)
+  bool has_all_soil = true;  ///< false when there is soil that does not erode beside it
 };
 
+/// The specimen of a run. Throws FileError.
 Specimen specimen(const ResultsReader& run);
 
-/// "the soil", or "the soil that erodes" when some is left out.
-std::string soil_named(bool all);
+/// How titles name the specimen: "the soil" when it has all soil, else "the soil that erodes".
+std::string specimen_name(bool has_all_soil);
 
-/// Sum over the specimen of volume times a function of (soil, initial porosity, exact porosity at
-/// time `t`).
+/// Integral over the specimen of `density`, a function of (soil, initial porosity, exact porosity
+/// at time t).
 double integrate(const Specimen& specimen, double t,
                  const std::function<double(const Soil&, double, double)>& density);
 
-/// Whether the porosity of all of it is exact whatever the flow; else the exact quantities below
-/// are not numbers.
+/// Whether every soil of the specimen has an exact porosity that does not depend on the flow. Where
+/// not, the exact quantities below are NaN.
 bool has_exact_porosity(const Specimen& specimen);
 
 /// Volume mean of the exact porosity.
 double exact_mean_porosity(const Specimen& specimen, double t);
 
-/// When the last portion has lost all its fines, s: infinity for laws that only approach it.
+/// When the last portion has lost all its erodible grains, s; infinity for laws that never reach
+/// that.
 double exact_exhaustion(const Specimen& specimen);
 
 /// Masses of the specimen at one time, kg (per metre of thickness in 2D).
@@ -51,7 +55,7 @@ struct Masses {
   double solid = 0.0;
   double erodible = 0.0;
   double eroded = 0.0;
-  double liquid = 0.0;   ///< closed accounting: in the soil, plus what left, less what entered
+  double liquid = 0.0;   ///< closed accounting: in the soil, plus what left, minus what entered
   double fines = 0.0;    ///< fluidised grains in the soil
   double pending = 0.0;  ///< eroded grains that no liquid point carries yet
   double water_out = 0.0;
@@ -61,15 +65,15 @@ struct Masses {
   [[nodiscard]] double total() const { return solid + liquid + pending; }
 };
 
-/// The region ledgers added up over the specimen, ascending in time. Throws FileError when
-/// regions.csv has no two times.
+/// Masses of a run: the ledgers of the regions summed over the specimen, in the order of time.
+/// Throws FileError when regions.csv has fewer than two times.
 std::vector<Masses> computed_masses(const ResultsReader& run, const Specimen& specimen);
 
-/// What is exact of them whatever the flow: solid, erodible, eroded, and the liquid in closed
-/// accounting.
+/// Exact masses at time t, as far as they do not depend on the flow: solid, erodible, eroded, and
+/// liquid in closed accounting; the others are zero. `water_density` in kg/m3.
 Masses exact_masses(const Specimen& specimen, double water_density, double t);
 
-/// Throws FileError when a table has no two times to draw a curve through.
+/// Throws FileError when a table has fewer than two times, too few for a curve.
 void require_curve(const ResultsReader& run, const Table& table, const std::string& name);
 
 }  // namespace suffuse

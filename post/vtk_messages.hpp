@@ -1,6 +1,6 @@
 #pragma once
 
-/// VTK prints what goes wrong and carries on; this turns it into errors.
+/// Turns VTK's error messages into exceptions. VTK itself prints them and goes on.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace suffuse {
 
-/// Catches VTK's messages for as long as it lives.
+/// Collects VTK's messages as long as the object lives.
 class VtkMessages {
  public:
   VtkMessages();
@@ -18,9 +18,9 @@ class VtkMessages {
   VtkMessages& operator=(const VtkMessages&) = delete;
   ~VtkMessages();
 
-  /// Drops the messages that end in exactly this.
+  /// Drops the messages that end in `ending`.
   void forget(const std::string& ending);
-  /// Throws FileError with the first message, if there is any; `what` says what was being done.
+  /// Throws FileError with the first message, if there is any; `what` is the start of its text.
   void throw_errors(const std::string& what) const;
 
  private:

@@ -20,14 +20,13 @@ flags_of() {
   eval "printf '%s\n' $command" | grep -v '^-W'
 }
 
-for folder in mesher mesher/case solver/flow solver/grid solver/physics solver/results solver/solid \
-  solver/transport solver post; do
+for folder in $(find mesher solver post -name '*.cpp' -printf '%h\n' | sort -u); do
   stem=$work/${folder//\//-}
   files=$(find "$folder" -maxdepth 1 -name '*.cpp' | sort)
   batches=$((($(wc -l <<< "$files") + batch_size - 1) / batch_size))
   # Neighbours in the alphabet do alike things with like names.
   split -d -a 3 -n "r/$batches" - "$stem." <<< "$files"
-  flags_of "$(grep -v main.cpp <<< "$files" | head -n 1)" > "$stem-flags"
+  flags_of "$({ grep -v main.cpp <<< "$files" || echo "$files"; } | head -n 1)" > "$stem-flags"
   for batch in "$stem".*; do
     sed "s|.*|#include \"$PWD/&\"|" "$batch" > "$batch-all.cpp"
     { cat "$stem-flags"; echo '-DSUFFUSE_VERSION="any"'; } > "$batch-flags"

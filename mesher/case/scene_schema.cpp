@@ -177,6 +177,7 @@ Declaration instruction(const char* pattern, const char* sentence) {
   return d;
 }
 
+// NOLINTNEXTLINE(readability-function-size): one list, which is read from top to bottom
 std::vector<SceneKey> declare_keys() {
   using Geometry = GeometrySettings;
   using Layers = LayerSettings;

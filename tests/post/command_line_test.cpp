@@ -100,7 +100,7 @@ TEST_F(PostCommand, AMisspeltCommandIsNamed) {
   expect_refusal("ledgr " + run, 2,
                  "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"sample\", "
                  "\"error\", \"render\", \"figure\", "
-                 "\"table\", \"accuracy\", \"stress\" or \"export\"; did you mean ledger?");
+                 "\"table\" or \"export\"; did you mean ledger?");
 }
 
 TEST_F(PostCommand, LedgerRefusesAResidual) {
@@ -151,20 +151,6 @@ TEST_F(PostCommand, ErrorAgainstATable) {
                  "suffuse-post error: " + known +
                      ": t: got 130; expected a time from 0 to 120 s, which the run has");
   EXPECT_EQ(post("error " + run + " --reference " + scratch / "none.csv").code, 4);
-}
-
-TEST_F(PostCommand, AccuracyOfATable) {
-  const std::string table = scratch / "accuracy.csv";
-  std::ofstream(table) << "problem,scheme,quantity,error_l1,seconds\n"
-                       << "dam,sp-implicit,porosity,1e-3,0.5\n";
-  EXPECT_EQ(post("accuracy " + table + " --problem dam -o " + scratch / "dam.png").code, 0);
-  EXPECT_TRUE(fs::exists(scratch / "dam.png"));
-  expect_refusal(
-      "accuracy " + table + " --problem dm -o " + scratch / "dm.png", 2,
-      "suffuse-post accuracy: --problem: got \"dm\"; expected \"dam\"; did you mean dam?");
-  expect_refusal("accuracy " + table + " --problem dam -o dam.jpg", 2,
-                 "suffuse-post accuracy: -o: got \"dam.jpg\"; expected a name that ends in .png, "
-                 ".svg or .pdf");
 }
 
 TEST_F(PostCommand, LedgerRefusesNaN) {

@@ -283,5 +283,38 @@ TEST(Figures, TicksAreRoundAndEnclose) {
   EXPECT_GT(flat.back(), 0.3);
 }
 
+TEST(LogarithmicTicks, EncloseWhatThereIs) {
+  const auto near = logarithmic_ticks(0.03, 0.4);
+  EXPECT_DOUBLE_EQ(near.low, 0.02);
+  EXPECT_DOUBLE_EQ(near.high, 0.5);
+  ASSERT_EQ(near.ticks.size(), 5U);
+  EXPECT_DOUBLE_EQ(near.ticks[2], 0.1);
+  // Ends on a tick stay there.
+  const auto exact = logarithmic_ticks(0.02, 5.0);
+  EXPECT_DOUBLE_EQ(exact.low, 0.02);
+  EXPECT_DOUBLE_EQ(exact.high, 5.0);
+  const auto wide = logarithmic_ticks(3e-7, 0.4);
+  EXPECT_DOUBLE_EQ(wide.low, 2e-7);
+  EXPECT_DOUBLE_EQ(wide.high, 0.5);
+  ASSERT_EQ(wide.ticks.size(), 6U);
+  EXPECT_DOUBLE_EQ(wide.ticks.front(), 1e-6);
+  const auto one = logarithmic_ticks(1.0, 1.0);
+  EXPECT_LT(one.low, one.high);
+  for (const double value : {1e-9, 7e-5, 0.99, 9.99, 1e6}) {
+    const auto ticks = logarithmic_ticks(value, 1.5 * value);
+    EXPECT_LE(ticks.low, value * (1 + 1e-9));
+    EXPECT_GE(ticks.high, 1.5 * value * (1 - 1e-9));
+    EXPECT_GE(ticks.ticks.size(), 2U);
+  }
+}
+
+TEST(LogarithmicTicks, Text) {
+  EXPECT_EQ(logarithmic_tick_text(1e-5), "1e-5");
+  EXPECT_EQ(logarithmic_tick_text(2e-4), "2e-4");
+  EXPECT_EQ(logarithmic_tick_text(1e-3), "0.001");
+  EXPECT_EQ(logarithmic_tick_text(500), "500");
+  EXPECT_EQ(logarithmic_tick_text(1e5), "1e5");
+}
+
 }  // namespace
 }  // namespace suffuse

@@ -1,4 +1,4 @@
-#include "text_table.hpp"
+#include "studies/text_table.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "accuracy_chart.hpp"
+#include "studies/accuracy_chart.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,14 +7,15 @@
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "results/number_text.hpp"
-#include "text_table.hpp"
+#include "studies/text_table.hpp"
 
 namespace suffuse {
 namespace {
 
-const std::string command = "suffuse-post accuracy";
+const std::string command = "suffuse-studies accuracy";
 
-struct Way {
+/// How a scheme steps in time, and how its runs are drawn.
+struct Stepping {
   const char* name;
   const char* label;
   Marker marker;
@@ -22,8 +23,8 @@ struct Way {
   Color color;
 };
 
-/// Told apart by marker and dash where there are no colours.
-constexpr std::array<Way, 4> ways{
+/// Marker and dash tell them apart in print without colours.
+constexpr std::array<Stepping, 4> steppings{
     {{"scaled", "explicit, mass scaling 10 000", Marker::diamond, Dash::dotted, {0.84, 0.37, 0.0}},
      {"explicit", "explicit", Marker::square, Dash::dashed, {0.0, 0.0, 0.0}},
      {"drag",
@@ -33,19 +34,20 @@ constexpr std::array<Way, 4> ways{
       {0.0, 0.55, 0.4}},
      {"implicit", "implicit", Marker::circle, Dash::solid, {0.0, 0.4, 0.75}}}};
 
-struct Formulations {
+struct Formulation {
   const char* name;
-  const char* more;  ///< in labels
-  bool single;
+  const char* label_end;
+  bool single_point;
 };
 
-constexpr std::array<Formulations, 3> formulations{
+constexpr std::array<Formulation, 3> formulations{
     {{"sp", "", true}, {"dp", "", false}, {"paper", ", paper's mode", false}}};
 
 std::vector<std::string> schemes() {
   std::vector<std::string> names;
   for (const auto& f : formulations) {
-    for (const auto& way : ways) names.push_back(std::string(f.name) + "-" + way.name);
+    for (const auto& stepping : steppings)
+      names.push_back(std::string(f.name) + "-" + stepping.name);
   }
   return names;
 }
@@ -69,19 +71,19 @@ std::string quantity_words(const std::string& quantity) {
   return quantity;
 }
 
-/// A paler shade, for runs that others beat.
+/// A paler shade, for runs that are not among the best.
 Color pale(const Color& color) {
   Color mixed{};
   for (std::size_t k = 0; k < 3; ++k) mixed.at(k) = 1.0 - 0.35 * (1.0 - color.at(k));
   return mixed;
 }
 
-Curve markers(const std::vector<AccuracyRun>& runs, const Way& way, bool hollow) {
+Curve markers(const std::vector<AccuracyRun>& runs, const Stepping& stepping, bool hollow) {
   Curve curve;
   curve.markers = true;
-  curve.marker = way.marker;
-  curve.dash = way.dash;
-  curve.color = way.color;
+  curve.marker = stepping.marker;
+  curve.dash = stepping.dash;
+  curve.color = stepping.color;
   curve.hollow = hollow;
   for (const auto& run : runs) {
     curve.x.push_back(run.error);
@@ -90,20 +92,20 @@ Curve markers(const std::vector<AccuracyRun>& runs, const Way& way, bool hollow)
   return curve;
 }
 
-void add_scheme(Chart& chart, const std::vector<AccuracyRun>& runs, const Way& way,
-                const Formulations& formulation) {
+void add_scheme(Chart& chart, const std::vector<AccuracyRun>& runs, const Stepping& stepping,
+                const Formulation& formulation) {
   std::vector<AccuracyRun> own;
-  const std::string name = std::string(formulation.name) + "-" + way.name;
+  const std::string name = std::string(formulation.name) + "-" + stepping.name;
   std::ranges::copy_if(runs, std::back_inserter(own),
                        [&](const AccuracyRun& run) { return run.scheme == name; });
   if (own.empty()) return;
-  const bool hollow = !std::string(formulation.more).empty();
-  Curve all = markers(own, way, hollow);
-  all.color = pale(way.color);
-  Curve best = markers(best_runs(own), way, hollow);
+  const bool hollow = !std::string(formulation.label_end).empty();
+  Curve all = markers(own, stepping, hollow);
+  all.color = pale(stepping.color);
+  Curve best = markers(best_runs(own), stepping, hollow);
   best.joined = true;
-  best.label = std::string(way.label) + formulation.more;
-  // What others beat lies below every line.
+  best.label = std::string(stepping.label) + formulation.label_end;
+  // Under the lines of every scheme.
   chart.curves.insert(chart.curves.begin(), all);
   chart.curves.push_back(best);
 }
@@ -167,13 +169,13 @@ std::vector<Chart> accuracy_charts(const std::vector<AccuracyRun>& runs,
     chart.y_label = "wall time of the solver (s)";
     chart.logarithmic = true;
     for (const auto& run : own) {
-      chart.x_too.push_back(run.error);
-      chart.y_too.push_back(run.seconds);
+      chart.extra_x.push_back(run.error);
+      chart.extra_y.push_back(run.seconds);
     }
   }
   for (const auto& formulation : formulations) {
-    for (const auto& way : ways)
-      add_scheme(charts[formulation.single ? 0 : 1], own, way, formulation);
+    for (const auto& stepping : steppings)
+      add_scheme(charts[formulation.single_point ? 0 : 1], own, stepping, formulation);
   }
   return charts;
 }

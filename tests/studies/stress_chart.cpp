@@ -1,4 +1,4 @@
-#include "stress_chart.hpp"
+#include "studies/stress_chart.hpp"
 
 #include <vtkBrush.h>
 #include <vtkPen.h>
@@ -10,12 +10,12 @@
 #include "case/errors.hpp"
 #include "chart.hpp"
 #include "picture.hpp"
-#include "text_table.hpp"
+#include "studies/text_table.hpp"
 
 namespace suffuse {
 namespace {
 
-/// A part of a bar.
+/// A part of a bar: the runs with one verdict.
 struct Verdict {
   const char* name;
   int SweepCount::*count;
@@ -33,7 +33,7 @@ constexpr float row_height = 36.0F;
 constexpr float bar_height = 26.0F;
 constexpr float bottom_room = 90.0F;
 constexpr float top_room = 70.0F;
-/// With 16 digits fill their textures, and VTK shows a row of their tops below them.
+/// With size 16 digits fill their textures, and VTK repeats their top row below them.
 constexpr int text_size = 18;
 
 void paint_box(vtkContext2D& painter, unsigned char grey, float x, float y, float width,
@@ -44,7 +44,7 @@ void paint_box(vtkContext2D& painter, unsigned char grey, float x, float y, floa
   painter.DrawRect(x, y, width, height);
 }
 
-/// A number within its part where it has room.
+/// A part of a bar, with its number where the number fits.
 void paint_part(vtkContext2D& painter, const Verdict& verdict, int count, float x, float y,
                 float width) {
   paint_box(painter, verdict.grey, x, y, width, bar_height);
@@ -96,9 +96,9 @@ std::vector<SweepCount> read_sweep_counts(const std::string& path) {
 }
 
 void draw_stress_chart(const std::vector<SweepCount>& sweeps, const std::string& path) {
-  int most = 1;
-  for (const SweepCount& sweep : sweeps) most = std::max(most, sweep.runs());
-  const std::vector<double> ticks = round_ticks(0.0, most);
+  int longest = 1;
+  for (const SweepCount& sweep : sweeps) longest = std::max(longest, sweep.runs());
+  const std::vector<double> ticks = round_ticks(0.0, longest);
   const float scale = plot_width / static_cast<float>(ticks.back());
   const float top = bottom_room + row_height * static_cast<float>(sweeps.size());
   const auto paint = [=](vtkContext2D& painter) {

@@ -1,4 +1,4 @@
-#include "accuracy_chart.hpp"
+#include "studies/accuracy_chart.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST(AccuracyRuns, OthersAreRefused) {
   EXPECT_TRUE(scheme.ends_with("did you mean sp-implicit?"));
 }
 
-TEST(AccuracyRuns, TheBestAreThoseThatNoOtherBeats) {
+TEST(AccuracyRuns, TheBestHaveNoRunBothFasterAndMoreExact) {
   const auto run = [](double error, double seconds) {
     return AccuracyRun{"p", "sp-implicit", "c", error, seconds};
   };
@@ -79,7 +79,7 @@ TEST(AccuracyCharts, OneForEachFormulationOnTheSameAxes) {
   ASSERT_EQ(charts.size(), 2U);
   for (const auto& chart : charts) {
     EXPECT_TRUE(chart.logarithmic);
-    EXPECT_EQ(chart.x_too.size(), 4U);
+    EXPECT_EQ(chart.extra_x.size(), 4U);
     EXPECT_EQ(chart.x_label, "relative error of the concentration of fluidised grains, L1 (-)");
   }
   // All runs, and the one that is best.
@@ -93,7 +93,7 @@ TEST(AccuracyCharts, OneForEachFormulationOnTheSameAxes) {
     ADD_FAILURE() << "not refused";
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "suffuse-post accuracy: --problem: got \"c\"; expected \"a\" or \"b\"; did you "
+              "suffuse-studies accuracy: --problem: got \"c\"; expected \"a\" or \"b\"; did you "
               "mean a?");
   }
 }
@@ -102,8 +102,8 @@ TEST(AccuracyCharts, OneForEachFormulationOnTheSameAxes) {
 TEST(AccuracyCharts, SchemesDifferWithoutColour) {
   std::string table = header;
   for (const std::string formulation : {"sp", "dp", "paper"}) {
-    for (const std::string way : {"scaled", "explicit", "drag", "implicit"}) {
-      table += "a," + formulation + "-" + way + ",1,concentration,1e-2,1\n";
+    for (const std::string stepping : {"scaled", "explicit", "drag", "implicit"}) {
+      table += "a," + formulation + "-" + stepping + ",1,concentration,1e-2,1\n";
     }
   }
   for (const auto& chart : accuracy_charts(read(table), "a")) {
@@ -117,39 +117,6 @@ TEST(AccuracyCharts, SchemesDifferWithoutColour) {
     EXPECT_EQ(markers.size(), labels.size());
     EXPECT_EQ(2 * labels.size(), chart.curves.size());
   }
-}
-
-TEST(LogarithmicTicks, EncloseWhatThereIs) {
-  const auto near = logarithmic_ticks(0.03, 0.4);
-  EXPECT_DOUBLE_EQ(near.low, 0.02);
-  EXPECT_DOUBLE_EQ(near.high, 0.5);
-  ASSERT_EQ(near.ticks.size(), 5U);
-  EXPECT_DOUBLE_EQ(near.ticks[2], 0.1);
-  // Ends on a tick stay there.
-  const auto exact = logarithmic_ticks(0.02, 5.0);
-  EXPECT_DOUBLE_EQ(exact.low, 0.02);
-  EXPECT_DOUBLE_EQ(exact.high, 5.0);
-  const auto wide = logarithmic_ticks(3e-7, 0.4);
-  EXPECT_DOUBLE_EQ(wide.low, 2e-7);
-  EXPECT_DOUBLE_EQ(wide.high, 0.5);
-  ASSERT_EQ(wide.ticks.size(), 6U);
-  EXPECT_DOUBLE_EQ(wide.ticks.front(), 1e-6);
-  const auto one = logarithmic_ticks(1.0, 1.0);
-  EXPECT_LT(one.low, one.high);
-  for (const double value : {1e-9, 7e-5, 0.99, 9.99, 1e6}) {
-    const auto ticks = logarithmic_ticks(value, 1.5 * value);
-    EXPECT_LE(ticks.low, value * (1 + 1e-9));
-    EXPECT_GE(ticks.high, 1.5 * value * (1 - 1e-9));
-    EXPECT_GE(ticks.ticks.size(), 2U);
-  }
-}
-
-TEST(LogarithmicTicks, Text) {
-  EXPECT_EQ(logarithmic_tick_text(1e-5), "1e-5");
-  EXPECT_EQ(logarithmic_tick_text(2e-4), "2e-4");
-  EXPECT_EQ(logarithmic_tick_text(1e-3), "0.001");
-  EXPECT_EQ(logarithmic_tick_text(500), "500");
-  EXPECT_EQ(logarithmic_tick_text(1e5), "1e5");
 }
 
 TEST(AccuracyCharts, AreDrawn) {

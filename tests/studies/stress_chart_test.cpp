@@ -1,4 +1,4 @@
-#include "stress_chart.hpp"
+#include "studies/stress_chart.hpp"
 
 #include <gtest/gtest.h>
 

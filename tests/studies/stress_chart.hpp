@@ -1,13 +1,14 @@
 #pragma once
 
-/// How the runs of the stress study ended, from the table of `make -C workflows stress`.
+/// Chart of the stress study: how the runs of each sweep ended, from the table that
+/// `make -C workflows stress` writes.
 
 #include <string>
 #include <vector>
 
 namespace suffuse {
 
-/// Runs of one sweep.
+/// Numbers of runs of one sweep, by verdict.
 struct SweepCount {
   std::string sweep;
   int pass = 0;
@@ -18,10 +19,10 @@ struct SweepCount {
 };
 
 /// Reads the columns sweep and verdict of a CSV file, and no others; sweeps in the order of the
-/// file. Throws FileError with file and line; InputError for a verdict that is none.
+/// file. Throws FileError with file and line; InputError for an unknown verdict.
 std::vector<SweepCount> read_sweep_counts(const std::string& path);
 
-/// A bar per sweep, stacked of what passed, was refused and failed, with the numbers, in greys.
+/// A bar per sweep, stacked in greys: runs that passed, were refused, failed, with their numbers.
 /// Throws InputError for an unknown suffix, FileError.
 void draw_stress_chart(const std::vector<SweepCount>& sweeps, const std::string& path);
 

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Does check_rooms.sh see what it must? On a tree of a few files, in a folder of its own.
+set -euo pipefail
+
+workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+# file PATH INCLUDE...: writes a source file with these includes.
+file() {
+  local path=$1
+  shift
+  mkdir -p "$work/$(dirname "$path")"
+  printf '#include "%s"\n' "$@" > "$work/$path"
+}
+
+# expect WHAT STATUS LINES: what check_rooms.sh finds, without its last line.
+expect() {
+  local status=0 found
+  found=$("$workflows/check_rooms.sh" "$work") || status=$?
+  if [ "$status" == "$2" ] && [ "$(sed '$d' <<< "$found")" == "$3" ]; then
+    echo "ok: $1"
+  else
+    printf 'FAILED: %s: exit code %s\n%s\n' "$1" "$status" "$found"
+    failures=$((failures + 1))
+  fi
+}
+
+file solver/main.cpp driver/run.hpp
+file solver/driver/run.hpp flow/flow.hpp results/writer.hpp
+file solver/flow/flow.hpp case/mesh.hpp flow/parts.hpp physics/liquid.hpp
+file solver/results/writer.hpp case/mesh.hpp
+file mesher/case/mesh.hpp physics/liquid.hpp
+file mesher/main.cpp case/mesh.hpp geometry.hpp
+file post/main.cpp results/writer.hpp chart.hpp
+expect 'includes that go down' 0 ''
+
+file solver/flow/flow.hpp grid/grid.hpp driver/run.hpp
+expect 'an include that goes up' 1 'solver/flow/flow.hpp:2: includes "driver/run.hpp"; solver/flow stands below solver/driver'
+file solver/flow/flow.hpp grid/grid.hpp
+file solver/physics/laws/law.cpp case/scene.hpp
+expect 'one from a folder within a room' 1 \
+  'solver/physics/laws/law.cpp:1: includes "case/scene.hpp"; solver/physics stands below mesher/case'
+rm -r "$work/solver/physics"
+file post/chart.cpp flow/flow.hpp
+expect 'one of post into the solver' 1 'post/chart.cpp:1: includes "flow/flow.hpp"; post must not include solver/flow'
+file post/chart.cpp chart.hpp
+file solver/flow/parts.cpp parts.hpp
+expect 'one without a room' 1 'solver/flow/parts.cpp:1: includes "parts.hpp"; expected ROOM/FILE with a known room'
+rm "$work/solver/flow/parts.cpp"
+
+file solver/run.cpp driver/run.hpp
+expect 'a loose file' 1 'solver/run.cpp: is a loose file; expected it in a folder of solver/'
+rm "$work/solver/run.cpp"
+file solver/cellar/wine.cpp case/mesh.hpp
+expect 'a room without a place' 1 'solver/cellar/wine.cpp: is in a folder without a place in the order of check_rooms.sh'
+rm -r "$work/solver/cellar"
+
+seq -f '// %g' 501 > "$work/solver/flow/long.cpp"
+expect 'a long file' 1 'solver/flow/long.cpp: has 501 lines; expected at most 500'
+sed -i 1d "$work/solver/flow/long.cpp"
+expect 'and one that is just short enough' 0 ''
+
+rooms=(physics case results grid linear solid flow transport formulation driver)
+for ((i = 2; i < 10; ++i)); do file "solver/${rooms[i]}/all.hpp" "${rooms[@]:0:i}"; done
+expect 'too many arrows' 1 'solver/: has 45 arrows between rooms; expected at most 40'
+
+[ "$failures" -eq 0 ] || { echo "$failures of the checks of check_rooms.sh failed"; exit 1; }
