@@ -16,6 +16,7 @@
 #include "column.hpp"
 #include "geometry_scan.hpp"
 #include "gmsh_session.hpp"
+#include "hilbert_order.hpp"
 #include "mesh_extraction.hpp"
 #include "point_sizes.hpp"
 
@@ -282,7 +283,7 @@ Geometry build_geometry(const SceneDocument& document) {
     result.notes.push_back(std::to_string(extracted.turned) +
                            " clockwise triangles were turned round");
   }
-  result.mesh = std::move(extracted.mesh);
+  result.mesh = in_hilbert_order(extracted.mesh);
   return result;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <tuple>
 
 #include "bench/bench.hpp"
 #include "flow/explicit_nodal.hpp"
@@ -56,55 +55,15 @@ struct FlowSquare {
   double dt = 0.0;
 };
 
-/// Gmsh's triangles, and the same with nodes and elements in rows across the square, so that what
-/// comes next in a loop is near in memory.
-enum MeshKind { cells, gmsh, gmsh_in_order };
-
-template <class PlaceOf>
-std::vector<int> in_rows(int count, const PlaceOf& place_of) {
-  const double rows = 0.6 * std::sqrt(count);
-  std::vector<std::tuple<int, double, int>> keys;
-  keys.reserve(count);
-  for (int i = 0; i < count; ++i) {
-    const Vector<2> place = place_of(i);
-    keys.emplace_back(static_cast<int>(rows * place[1]), place[0], i);
-  }
-  std::ranges::sort(keys);
-  std::vector<int> order;
-  order.reserve(count);
-  for (const auto& key : keys) order.push_back(std::get<2>(key));
-  return order;
-}
-
-Mesh<2> in_order(const Mesh<2>& mesh) {
-  Mesh<2> result = mesh;
-  const auto node_order = in_rows(mesh.node_count(), [&](int i) { return mesh.nodes[i]; });
-  std::vector<int> new_node(node_order.size());
-  for (std::size_t i = 0; i < node_order.size(); ++i) {
-    new_node[node_order[i]] = static_cast<int>(i);
-    result.nodes[i] = mesh.nodes[node_order[i]];
-  }
-  const auto element_order =
-      in_rows(mesh.element_count(), [&](int e) { return element_centroid(mesh, e); });
-  for (std::size_t e = 0; e < element_order.size(); ++e) {
-    result.elements[e] = mesh.elements[element_order[e]];
-    for (int& node : result.elements[e]) node = new_node[node];
-  }
-  for (auto& set : result.boundaries) {
-    for (auto& face : set.faces) {
-      for (int& node : face) node = new_node[node];
-    }
-  }
-  return result;
-}
+/// Squares of two triangles, in rows; Gmsh's triangles as the mesher numbers them.
+enum MeshKind { cells, free_mesh };
 
 Mesh<2> mesh_of(long elements, MeshKind kind) {
   const double side = std::sqrt(0.5 * static_cast<double>(elements));
   if (kind == cells) {
     return model::column_mesh(static_cast<int>(side), static_cast<int>(side));
   }
-  const Mesh<2> mesh = model::free_mesh(1.07 / side);
-  return kind == gmsh ? mesh : in_order(mesh);
+  return model::free_mesh(1.07 / side);
 }
 
 /// Squares with about `elements` elements; made once.
@@ -155,11 +114,9 @@ BENCHMARK_CAPTURE(Flow, elements, elements, false, cells)->Apply(sizes);
 BENCHMARK_CAPTURE(Flow, elements_double_point, elements, true, cells)->Apply(sizes);
 BENCHMARK_CAPTURE(Flow, step, step, false, cells)->Apply(sizes);
 BENCHMARK_CAPTURE(Flow, step_double_point, step, true, cells)->Apply(sizes);
-BENCHMARK_CAPTURE(Flow, step_gmsh, step, false, gmsh)->Apply(sizes);
-BENCHMARK_CAPTURE(Flow, step_gmsh_in_order, step, false, gmsh_in_order)->Apply(sizes);
+BENCHMARK_CAPTURE(Flow, step_free_mesh, step, false, free_mesh)->Apply(sizes);
 BENCHMARK_CAPTURE(Reference, step, cells)->Apply(reference_sizes);
-BENCHMARK_CAPTURE(Reference, step_gmsh, gmsh)->Apply(reference_sizes);
-BENCHMARK_CAPTURE(Reference, step_gmsh_in_order, gmsh_in_order)->Apply(reference_sizes);
+BENCHMARK_CAPTURE(Reference, step_free_mesh, free_mesh)->Apply(reference_sizes);
 BENCHMARK_CAPTURE(Flow, quick, step, false, cells)
     ->Name("QuickFlow")
     ->Args({3000, 1})

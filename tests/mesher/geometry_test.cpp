@@ -15,6 +15,7 @@
 #include "case/errors.hpp"
 #include "gmsh_export.hpp"
 #include "gmsh_session.hpp"
+#include "hilbert_order.hpp"
 #include "summary.hpp"
 #include "temporary_folder.hpp"
 
@@ -183,6 +184,18 @@ TEST(Column, RefusesMoreTrianglesThanAnyoneMeans) {
   EXPECT_EQ(refusal([] { build(column(1.0, 1.0, 1e-4, "regular")); }),
             "test.toml:8: mesh.size: got 0.0001; expected at least 0.000632456, which makes 5 "
             "million triangles here");
+}
+
+void expect_order(const Mesh<2>& mesh) {
+  const Mesh<2> ordered = in_hilbert_order(mesh);
+  EXPECT_EQ(mesh.elements, ordered.elements);
+  EXPECT_EQ(mesh.nodes, ordered.nodes);
+}
+
+TEST(Column, IsInTheOrderOfHilbertsCurve) {
+  for (const std::string structure : {"regular", "crossed", "free"}) {
+    expect_order(build(column(1.0, 2.0, 0.1, structure)).mesh);
+  }
 }
 
 /// Rows of every kind, 13 with the specimen's 3.
@@ -782,8 +795,15 @@ TEST_F(UserFile, OneEdgeTakesOneCondition) {
 
 TEST_F(UserFile, AMeshIsUsedAsItIs) {
   const Geometry geometry = build_file("square.msh");
-  EXPECT_EQ(geometry.mesh.elements, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  // In the order of `in_hilbert_order`: the upper one of its two triangles comes first.
+  EXPECT_EQ(geometry.mesh.nodes, (std::vector<Vector<2>>{{0, 0}, {1, 1}, {0, 1}, {1, 0}}));
+  EXPECT_EQ(geometry.mesh.elements, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 3, 1}}));
   EXPECT_TRUE(geometry.notes.empty());
+}
+
+TEST_F(UserFile, IsInTheOrderOfHilbertsCurve) {
+  expect_order(build_file("square.geo", "0.1").mesh);
+  expect_order(build_file("meshes_itself.geo").mesh);
 }
 
 TEST_F(UserFile, ClockwiseTrianglesAreTurnedRound) {
@@ -897,6 +917,27 @@ TEST(GmshExport, ReopensWithItsGroupsAndColours) {
   EXPECT_EQ(colours, (std::set<std::array<int, 3>>{{230, 159, 0}, {86, 180, 233}}));
 }
 
+TEST(GmshExport, CountsFromOneWhatTheCaseCountsFromZero) {
+  const TemporaryFolder folder;
+  const Mesh<2> mesh = build_layers(test::unit_column, all_layers, buffer).mesh;
+  write_gmsh(folder.file("a.msh"), mesh);
+  const GmshSession session;
+  gmsh::open(folder.file("a.msh"));
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    int type = 0;
+    std::vector<std::size_t> nodes;
+    gmsh::model::mesh::getElement(static_cast<std::size_t>(e) + 1, type, nodes);
+    for (std::size_t& node : nodes) --node;
+    EXPECT_EQ(nodes, std::vector<std::size_t>(mesh.elements[e].begin(), mesh.elements[e].end()));
+  }
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    std::vector<double> x;
+    std::vector<double> parameters;
+    gmsh::model::mesh::getNode(static_cast<std::size_t>(n) + 1, x, parameters);
+    EXPECT_EQ(Vector<2>(x[0], x[1]), mesh.nodes[n]);
+  }
+}
+
 TEST(GmshExport, OfLayersServesAsAGeometry) {
   const TemporaryFolder folder;
   const Mesh<2> mesh = build_layers(test::unit_column, all_layers, buffer).mesh;
@@ -905,17 +946,11 @@ TEST(GmshExport, OfLayersServesAsAGeometry) {
   const Mesh<2> again = build(geometry, buffer, {"formulation=double-point"}).mesh;
   EXPECT_EQ(again.region_names, mesh.region_names);
   EXPECT_EQ(again.nodes, mesh.nodes);
-  const auto elements_by_region = [](const Mesh<2>& m) {  // the file has them in this order
-    std::set<std::pair<int, std::array<int, 3>>> elements;
-    for (int e = 0; e < m.element_count(); ++e) {
-      elements.emplace(m.element_region[e], m.elements[e]);
-    }
-    return elements;
-  };
-  EXPECT_EQ(elements_by_region(again), elements_by_region(mesh));
+  EXPECT_EQ(again.elements, mesh.elements);
+  EXPECT_EQ(again.element_region, mesh.element_region);
   ASSERT_EQ(again.boundaries.size(), mesh.boundaries.size());
   for (const auto& set : mesh.boundaries) {
-    EXPECT_EQ(boundary(again, set.name).faces.size(), set.faces.size()) << set.name;
+    EXPECT_EQ(boundary(again, set.name).faces, set.faces) << set.name;
   }
 }
 

@@ -1,0 +1,39 @@
+#pragma once
+
+/// Numbers the elements and nodes of a mesh so that what lies together in space lies together in
+/// memory: elements along Hilbert's curve, nodes as the elements need them.
+///
+/// Hilbert's curve passes through all cells of a grid of 2^k cells a side (squares for Dim = 2,
+/// cubes for 3), each step into a neighbouring cell. Any stretch of it fills a compact part of the
+/// grid, on every scale: a loop over elements finds its nodes in the cache, and a row of
+/// consecutive elements is a part of the model with a short border.
+
+#include <array>
+#include <cstdint>
+
+#include "case/mesh.hpp"
+
+namespace suffuse {
+
+/// Levels of the grid whose cells still have a position on the curve of 64 bits.
+template <int Dim>
+inline constexpr int finest_hilbert_level = 63 / Dim;
+
+/// Position on the curve, from 0, of a cell of the grid of 2^level cells a side. The curve starts
+/// at cell 0. Coarser grids agree with finer ones: the cell that contains this one has the position
+/// divided by 2^Dim.
+/// \param cell   coordinates, each below 2^level
+/// \param level  1 to `finest_hilbert_level`
+/// J. Skilling, AIP Conf. Proc. 707 (2004) 381-387.
+template <int Dim>
+std::uint64_t hilbert_position(std::array<std::uint32_t, Dim> cell, int level);
+
+/// The same mesh in another order: elements by the position of their centroids on the curve in the
+/// smallest square or cube around the mesh, where that is equal by their former number; nodes as
+/// the elements in this order name them first; the faces of each boundary by their nodes,
+/// ascending. Corners of an element stay in their order, regions and boundaries in theirs. Every
+/// node belongs to an element.
+template <int Dim>
+Mesh<Dim> in_hilbert_order(const Mesh<Dim>& mesh);
+
+}  // namespace suffuse
