@@ -8,8 +8,9 @@
 namespace suffuse {
 namespace {
 
-std::vector<double> values_of(const Eigen::SparseMatrix<double>& matrix) {
-  return {matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros()};
+/// Copies into memory that is there already.
+void copy_values(const Eigen::SparseMatrix<double>& matrix, std::vector<double>& values) {
+  values.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
 }
 
 /// Whether these are the values of the matrix; no values are those of none.
@@ -31,7 +32,7 @@ void LaggedPreconditioner::factorise(const Matrix& matrix) {
   last_iterations_ = 0;
   ++counts_.factorisations;
   factor_->factorise(matrix);
-  factored_values_ = values_of(matrix);
+  copy_values(matrix, factored_values_);
 }
 
 void LaggedPreconditioner::archive(StateArchive& archive, const Matrix& pattern) {
@@ -79,7 +80,7 @@ Eigen::VectorXd LaggedPreconditioner::solve(const SymmetricSystem& system) {
       repeated_iterations_ < limits_.repeated_iterations) {
     Eigen::VectorXd x = system.guess;
     const bool solved = solve_by_iterations(system, x);
-    if (!repeated) iterated_values_ = values_of(matrix);
+    if (!repeated) copy_values(matrix, iterated_values_);
     if (solved) return x;
   }
   if (!factored) factorise(matrix);
