@@ -69,10 +69,10 @@ std::vector<double> ImplicitMixed<Dim>::stages() const {
 template <int Dim>
 SolveCounts ImplicitMixed<Dim>::counts() const {
   SolveCounts result = earlier_counts_;
-  if (factor_) {
-    result.factorisations += factor_->counts().factorisations;
-    result.solves += factor_->counts().solves;
-    result.iterations += factor_->counts().iterations;
+  if (solver_) {
+    result.factorisations += solver_->counts().factorisations;
+    result.solves += solver_->counts().solves;
+    result.iterations += solver_->counts().iterations;
   }
   return result;
 }
@@ -81,7 +81,7 @@ template <int Dim>
 void ImplicitMixed<Dim>::archive(StateArchive& archive,
                                  const std::vector<FaceCondition>& conditions) {
   set_up(conditions);
-  factor_->archive(archive, matrix_);
+  solver_->archive(archive, matrix_);
   correction_->archive(archive);
   archive(earlier_counts_, rise_rate_, flux_scale_, last_steady_, last_steady_flux_);
 }
@@ -103,7 +103,7 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
 
   lay_out_matrix();
   earlier_counts_ = counts();
-  factor_.emplace(matrix_, settings_.threads);
+  solver_.emplace(settings_.threads);
   correction_.emplace(grid_, conditions);
   rise_rate_.assign(faces, 0.0);
   flux_scale_ = 0.0;
@@ -274,7 +274,7 @@ void ImplicitMixed<Dim>::solve_pressure(const FlowForcing<Dim>& forcing) {
   }
 
   const Eigen::VectorXd solution =
-      factor_->solve(matrix_, work_.load, work_.guess, work_.tolerance);
+      solver_->solve({matrix_, work_.load, work_.guess, work_.tolerance});
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
     if (unknown_[f] >= 0) work_.pressure.rise[f] = solution[unknown_[f]];
   });

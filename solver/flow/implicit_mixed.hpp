@@ -191,9 +191,9 @@ class ImplicitMixed {
   std::vector<std::array<std::array<int, Dim + 1>, Dim + 1>> position_;
   std::vector<std::array<std::array<double, Dim + 1>, Dim + 1>> normal_products_;  ///< N.N / volume
   std::vector<double> face_area_;
-  std::optional<LaggedPreconditioner> factor_;
+  std::optional<LaggedPreconditioner> solver_;
   std::optional<FluxCorrection<Dim>> correction_;
-  SolveCounts earlier_counts_;  ///< of factors given up
+  SolveCounts earlier_counts_;  ///< of solvers given up
 
   // Where iterations start; they change no result beyond round-off.
   std::vector<double> rise_rate_;  ///< of the last stage, per face, Pa/s

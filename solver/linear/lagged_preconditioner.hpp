@@ -3,10 +3,11 @@
 /// Solves a sequence of similar symmetric positive definite systems with as few factorisations as
 /// it takes.
 
-#include <Eigen/SparseCore>
+#include <memory>
 #include <vector>
 
-#include "linear/supernodal_factor.hpp"
+#include "linear/cholesky_factor.hpp"
+#include "linear/conjugate_gradients.hpp"
 #include "results/state_archive.hpp"
 
 namespace suffuse {
@@ -19,67 +20,55 @@ struct SolveCounts {
   long iterations = 0;  ///< of conjugate gradients
 };
 
+/// When a matrix that has changed is factored anew. A factorisation costs about ten iterations.
+struct LagLimits {
+  /// Of one solution: where it would take more, or goes too slowly, the matrix is factored.
+  IterationLimits solution;
+  /// After a solution that took more than this the next changed matrix is factored at once:
+  /// matrices that drift drift on.
+  int tiring_iterations = 7;
+  /// A matrix that has taken this many, in solutions with one right-hand side after another, is
+  /// factored: what came so often is likely to come again.
+  int repeated_iterations = 10;
+};
+
 /// Keeps the factor of one matrix and the values it belongs to. A matrix with the same values is
-/// solved with it directly; one that has changed, by conjugate gradients preconditioned with it;
-/// one that has changed so much that these need more than `most_iterations`, or would by their pace
-/// after a third of them, or one that comes again and again, with a new factor.
+/// solved with it directly; one that has changed, by conjugate gradients preconditioned with it,
+/// until LagLimits say that a new factor is cheaper.
 class LaggedPreconditioner {
  public:
-  static constexpr int most_iterations = 15;
-  /// After a solution that took more than this many the next changed matrix is factored at once:
-  /// a factorisation costs about ten iterations, and matrices that drift drift on.
-  static constexpr int tiring_iterations = 7;
+  explicit LaggedPreconditioner(
+      int threads = 1, LagLimits limits = {},
+      std::unique_ptr<Factor> factor = std::make_unique<CholeskyFactor>());
 
-  /// Iterations on one and the same matrix after which it is factored: by then that would have been
-  /// cheaper, and what came so often is likely to come again.
-  static constexpr int worth_a_factor = 10;
-
-  /// Orders and analyses the pattern (approximate minimum degree), which every matrix given to
-  /// `solve` must have. Both triangles are stored.
-  explicit LaggedPreconditioner(const Eigen::SparseMatrix<double>& pattern, int threads = 1);
-
-  /// Solution of matrix x = rhs. Iterations begin at `guess` and end when each row's residual is
-  /// within `tolerance` (per row, in the unit of `rhs`) or within the round-off of computing it.
-  /// Throws NumericalError when the matrix is not positive definite or not finite.
-  Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
-                        const Eigen::VectorXd& guess, const Eigen::VectorXd& tolerance);
+  /// Solution of a system, within its tolerance or the round-off of computing a residual. A direct
+  /// solution that misses this is refined once. The pattern of the matrix is the same in every
+  /// call. Throws NumericalError when the matrix is not positive definite or not finite.
+  Eigen::VectorXd solve(const SymmetricSystem& system);
 
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
 
-  /// Which matrix is held decides how the next ones are solved. Its factor is made again, of the
-  /// same values and thus with the same bits; `pattern` is that of the constructor.
+  /// Which matrix is factored decides how the next ones are solved. Its factor is made again, of
+  /// the same values and thus with the same bits; `pattern` is that of the matrices.
   void archive(StateArchive& archive, const Eigen::SparseMatrix<double>& pattern);
 
  private:
-  void factorise(const Eigen::SparseMatrix<double>& matrix);
-  void find_residual(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
-                     const Eigen::VectorXd& x, Eigen::VectorXd& residual) const;
-  /// Residual per row that is small enough: `tolerance`, or what double precision cannot tell from
-  /// nothing, as a row's terms are as large as its diagonal times the largest unknown.
-  void find_allowed(const Eigen::VectorXd& rhs, const Eigen::VectorXd& x,
-                    const Eigen::VectorXd& tolerance, Eigen::VectorXd& allowed) const;
-  /// Largest residual over `share` of what is allowed; infinite where a residual is no number, or
-  /// nothing is allowed and something left.
-  [[nodiscard]] double excess(const Eigen::VectorXd& residual, const Eigen::VectorXd& allowed,
-                              double share) const;
-  [[nodiscard]] bool is_factored(const Eigen::SparseMatrix<double>& matrix) const;
-  [[nodiscard]] Eigen::VectorXd solve_directly(const Eigen::SparseMatrix<double>& matrix,
-                                               const Eigen::VectorXd& rhs,
-                                               const Eigen::VectorXd& tolerance);
-  /// Improves `x`; whether it got there in time.
-  bool iterate(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
-               const Eigen::VectorXd& tolerance, Eigen::VectorXd& x);
+  using Matrix = Eigen::SparseMatrix<double>;
 
-  int threads_;
-  ReleasableLdlt factor_;
-  SupernodalFactor packed_;   ///< what it came to
-  Eigen::VectorXd diagonal_;  ///< of the matrix being solved
-  // Of the iterations; kept, so that they allocate nothing.
-  Eigen::VectorXd residual_, allowed_, preconditioned_, direction_, image_;
-  std::vector<double> factored_values_;
-  long last_iterations_ = 0;
+  void factorise(const Matrix& matrix);
+  [[nodiscard]] Eigen::VectorXd solve_directly(const SymmetricSystem& system);
+  /// Improves `x` by iterations with the factor of an earlier matrix. Returns whether it is solved.
+  bool solve_by_iterations(const SymmetricSystem& system, Eigen::VectorXd& x);
+
+  LagLimits limits_;
+  std::unique_ptr<Factor> factor_;
+  ConjugateGradients conjugate_gradients_;
+  Residual residual_;
+  Eigen::VectorXd correction_;
+  std::vector<double> factored_values_;  ///< empty where there is no factor
   std::vector<double> iterated_values_;  ///< of the matrix last solved by iterations
-  long spent_ = 0;                       ///< iterations on it so far
+  long last_iterations_ = 0;             ///< of the last solution by iterations
+  long repeated_iterations_ = 0;         ///< on the matrix of `iterated_values_`
   SolveCounts counts_;
 };
 

@@ -1,0 +1,45 @@
+#pragma once
+
+/// Conjugate gradients (Hestenes and Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409),
+/// preconditioned with the factor of a similar matrix.
+
+#include "linear/factor.hpp"
+#include "linear/symmetric_system.hpp"
+
+namespace suffuse {
+
+/// When iterations are given up.
+struct IterationLimits {
+  int max_iterations = 15;
+  /// After so many iterations the pace is looked at: the share of the digits needed that has been
+  /// gained must be at least `min_progress`, half of what an even pace gives.
+  int pace_iterations = max_iterations / 3;
+  double min_progress = 1.0 / 6.0;
+};
+
+class ConjugateGradients {
+ public:
+  explicit ConjugateGradients(int threads, IterationLimits limits = {})
+      : threads_(threads), limits_(limits), residual_(threads) {}
+
+  /// Improves `x` until each row's residual is allowed (see Residual). Returns whether it got there
+  /// within the limits; where not, `x` is worth nothing.
+  bool solve(const SymmetricSystem& system, Factor& preconditioner, Eigen::VectorXd& x);
+
+  /// Of the last call of `solve`.
+  [[nodiscard]] int iterations() const { return iterations_; }
+
+ private:
+  /// Iterates until the updated residual is half of what is allowed.
+  bool iterate(const SymmetricSystem& system, Factor& preconditioner, Eigen::VectorXd& x);
+
+  int threads_;
+  IterationLimits limits_;
+  int iterations_ = 0;
+  double first_excess_ = 0.0;
+  // Kept from call to call, so that iterations allocate nothing.
+  Residual residual_;
+  Eigen::VectorXd preconditioned_, direction_, image_;
+};
+
+}  // namespace suffuse
