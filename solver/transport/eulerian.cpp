@@ -173,13 +173,18 @@ double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
     const ElementValues<Dim>& pores = state.pore_volume[e];
     const double total = element_sum<Dim>(pores);
     const double smallest = *std::min_element(pores.begin(), pores.end());
+    ElementValues<Dim> share;
+    for (int k = 0; k <= Dim; ++k) {
+      share[k] =
+          total - Dim * (FieldNodes<Dim>::far_vertex * total + FieldNodes<Dim>::spread * pores[k]);
+    }
+    // Pores that differ too much have no useful weights. The smallest in the place of all leave
+    // grains out, and then every face has the same share.
+    if (*std::min_element(share.begin(), share.end()) < 0.25 * smallest) share.fill(smallest);
     double allowed = infinity;
     for (int k = 0; k <= Dim; ++k) {
       const double outflow = grid_.element_face_sign[e][k] * face_volume[grid_.element_face[e][k]];
-      if (outflow <= 0.0) continue;
-      const double share =
-          total - Dim * (FieldNodes<Dim>::far_vertex * total + FieldNodes<Dim>::spread * pores[k]);
-      allowed = std::min(allowed, std::max(share, 0.25 * smallest) / outflow);
+      if (outflow > 0.0) allowed = std::min(allowed, share[k] / outflow);
     }
     return allowed;
   });
