@@ -133,35 +133,33 @@ TEST(TetrahedraTransport, BothSidesOfAFaceFindTheSameGrains) {
   EXPECT_GE(inner, s.grid.face_count() / 2);
 }
 
-/// Pores differ within an element by little, where every face has a share of its own, and by more
-/// than any soil's.
-TEST(TetrahedraTransport, StepsAsLongAsAllowedStayWithinBoundsWherePoresDiffer) {
+/// One element at a time, where nothing else limits the step: any flow through its faces, 0 or 0.02
+/// at each of its vertices, which no limiter would leave, and pores that differ by little, where
+/// every face has a share of its own, and by more than any soil's.
+TEST(TetrahedraTransport, StepsAsLongAsAllowedTakeNoMoreThanThereIs) {
+  Cube s(model::box_mesh({2, 2, 2}));
+  model::Uniform uniform(4);
   for (const double contrast : {1.2, 2.0, 10.0}) {
-    model::Uniform uniform(4);
-    Cube s(rough_mesh(6), 0.6);
-    const int elements = s.grid.mesh.element_count();
-    for (int e = 0; e < elements; ++e) {
-      const bool has_grains = uniform() > 0.0;
+    for (int state = 0; state < 2000; ++state) {
+      const int e = state % s.grid.mesh.element_count();
+      s.state.pore_volume.assign(s.state.pore_volume.size(), {1.0, 1.0, 1.0, 1.0});
+      s.state.fines_volume.assign(s.state.fines_volume.size(), {});
+      s.volume.assign(s.grid.face_count(), 0.0);
+      ElementValues<3> at_vertices;
+      double sum = 0.0;
+      for (double& c : at_vertices) sum += c = uniform() > 0.3 ? 0.02 : 0.0;
       for (int j = 0; j < 4; ++j) {
-        s.state.pore_volume[e][j] *= uniform() > 0.0 ? contrast : 1.0;
-        s.state.fines_volume[e][j] = has_grains ? 0.6 * s.state.pore_volume[e][j] : 0.0;
+        const double c = FieldNodes<3>::far_vertex * sum + FieldNodes<3>::spread * at_vertices[j];
+        s.state.pore_volume[e][j] = uniform() > 0.0 ? contrast : 1.0;
+        s.state.fines_volume[e][j] = s.state.pore_volume[e][j] * c;
+        s.volume[s.grid.element_face[e][j]] =
+            s.grid.element_face_sign[e][j] * (uniform() > 0.0 ? 1.0 : -0.1);
       }
-    }
-    s.transport.limit(s.state, s.volume);
-    std::vector<double> part = s.volume;
-    const double allowed = s.transport.steps_allowed(s.state, s.volume);
-    for (double& v : part) v *= allowed;
-    s.transport.start(s.state, part, s.scratch);
-    for (int step = 0; step < 20; ++step) {
-      s.transport.advance(s.state, {}, s.scratch);
-      for (int e = 0; e < elements; ++e) {
-        const double mean =
-            element_sum<3>(s.state.fines_volume[e]) / element_sum<3>(s.state.pore_volume[e]);
-        EXPECT_GE(mean, 0.0) << contrast;
-        // At the outlet the field may go on as it comes, but nothing of that runs upstream.
-        const bool is_above = element_centroid(s.grid.mesh, e)[2] > 0.4;
-        EXPECT_LE(mean, is_above ? 0.6 + 1e-11 : 1.0) << contrast;
-      }
+      const double allowed = s.transport.steps_allowed(s.state, s.volume);
+      if (!std::isfinite(allowed)) continue;
+      for (double& v : s.volume) v *= allowed;
+      s.transport.start(s.state, s.volume, s.scratch);
+      ASSERT_NO_THROW(s.transport.advance(s.state, {}, s.scratch)) << contrast << ' ' << state;
     }
   }
 }
