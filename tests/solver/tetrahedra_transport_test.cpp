@@ -9,7 +9,8 @@
 #include "box_mesh.hpp"
 #include "solver/flow_model.hpp"
 #include "transport/eulerian.hpp"
-#include "transport/lagrangian.hpp"
+#include "transport/face_placement.hpp"
+#include "transport/point_injection.hpp"
 
 namespace suffuse {
 namespace {
@@ -203,71 +204,36 @@ TEST(TetrahedraTransport, ASmoothProfileIsSecondOrder) {
   EXPECT_LE(errors[2], 1e-3);
 }
 
-/// Moments of points on the one face that liquid enters, and how many lie in each quarter of it.
+/// Moments of points on a triangle, and how many lie in each quarter of it.
 struct Spread {
   std::array<double, 3> mean{};
   std::array<std::array<double, 3>, 3> second{};
   std::array<double, 4> quarter{};  ///< at each corner, then the one in the middle
 };
 
-/// Where points come in through a face of one tetrahedron. `node_flux`: inward at the face's nodes
-/// (ascending); empty: along face volumes.
-Spread spread_of(bool random, const std::vector<double>& node_flux, int points) {
-  const Mesh<3> mesh = model::box_mesh({1, 1, 1});
-  const Grid<3> grid(mesh);
-  int face = 0;
-  while (!grid.is_outer(face)) ++face;
-  std::vector<FaceCondition> conditions(grid.face_count());
-  for (int f = 0; f < grid.face_count(); ++f) {
-    if (grid.is_outer(f)) conditions[f].kind = FaceKind::wall;
-  }
-  conditions[face].kind = FaceKind::flux;
-  InjectionSettings settings{std::vector<double>(grid.face_count(), 1.0),
-                             std::vector<int>(grid.face_count(), 4), random, 3};
-  const LagrangianTransport<3> transport(grid, conditions, settings, {1000.0, 2700.0}, 2e9, 1);
-  LiquidMotion<3> motion{{}, std::vector<double>(grid.face_count(), 0.0), 1.0};
-  motion.entered[face] = -points;
-  if (!node_flux.empty()) {
-    motion.node_flux.assign(mesh.node_count(), Vector<3>::Zero());
-    const Vector<3> inward = -grid.face_normal[face].normalized();
-    for (int a = 0; a < 3; ++a) motion.node_flux[grid.face_nodes[face][a]] = node_flux[a] * inward;
-  }
-  InflowAccount entering = transport.nothing_entered(0);
-  std::vector<InjectedPoint<3>> born;
-  transport.births(entering, motion, born);
+Spread spread_of(bool random, const std::array<double, 3>& inflow, int points) {
+  model::Uniform uniform(8);
   Spread spread;
-  for (const InjectedPoint<3>& point : born) {
-    std::array<double, 3> at{};
-    double sum = 0.0;
-    for (int k = 0; k < 4; ++k) {
-      const int node = mesh.elements[point.place.element][k];
-      const auto& nodes = grid.face_nodes[face];
-      const auto found = std::find(nodes.begin(), nodes.end(), node);
-      if (found == nodes.end()) {
-        EXPECT_EQ(point.place.barycentric[k], 0.0);
-        continue;
-      }
-      at[found - nodes.begin()] = point.place.barycentric[k];
-      EXPECT_GE(point.place.barycentric[k], 0.0);
-      sum += point.place.barycentric[k];
-    }
-    EXPECT_NEAR(sum, 1.0, 1e-15);
-    const double share = 1.0 / static_cast<double>(born.size());
+  for (int p = 0; p < points; ++p) {
+    std::array<double, 2> u = even_numbers<2>(p, 7);
+    if (random) u = {0.5 + 0.5 * uniform(), 0.5 + 0.5 * uniform()};
+    const std::array<double, 3> at = spread_on_face(inflow, u);
+    EXPECT_NEAR(at[0] + at[1] + at[2], 1.0, 1e-15);
     for (int i = 0; i < 3; ++i) {
-      spread.mean[i] += share * at[i];
-      for (int j = 0; j < 3; ++j) spread.second[i][j] += share * at[i] * at[j];
+      EXPECT_GE(at[i], 0.0);
+      spread.mean[i] += at[i] / points;
+      for (int j = 0; j < 3; ++j) spread.second[i][j] += at[i] * at[j] / points;
     }
     const auto largest = std::max_element(at.begin(), at.end());
-    spread.quarter[*largest > 0.5 ? largest - at.begin() : 3] += share;
+    spread.quarter[*largest > 0.5 ? largest - at.begin() : 3] += 1.0 / points;
   }
-  EXPECT_NEAR(static_cast<double>(born.size()), points, 1.0);
   return spread;
 }
 
 TEST(TetrahedraPlacement, PointsLieEvenlyOnAFace) {
   for (const bool random : {false, true}) {
     const int points = 20000;
-    const Spread spread = spread_of(random, {}, points);
+    const Spread spread = spread_of(random, {2.0, 2.0, 2.0}, points);
     // Three standard deviations of random points; evenly spread ones are as close as a few of them.
     const double tolerance = random ? 3.0 * 0.25 / std::sqrt(points) : 5.0 / points;
     double worst = 0.0;
@@ -288,25 +254,50 @@ TEST(TetrahedraPlacement, PointsLieEvenlyOnAFace) {
 }
 
 TEST(TetrahedraPlacement, PointsFollowTheInflowAtTheNodes) {
-  for (const std::vector<double>& inflow : {std::vector<double>{1.0, 1.0, 1.0},
-                                            {1.0, 2.0, 4.0},
-                                            {5.0, 0.0, 1.0},
-                                            {0.0, 0.0, 2.0},
-                                            {3.0, 0.0, 0.0},
-                                            {2.0, -1.0, 1.0}}) {
-    std::array<double, 3> weight;
-    double sum = 0.0;
-    for (int i = 0; i < 3; ++i) sum += weight[i] = std::max(0.0, inflow[i]);
+  using Inflow = std::array<double, 3>;
+  for (const Inflow& inflow : {Inflow{1.0, 1.0, 1.0}, Inflow{1.0, 2.0, 4.0}, Inflow{5.0, 0.0, 1.0},
+                               Inflow{0.0, 0.0, 2.0}, Inflow{3.0, 0.0, 0.0}}) {
+    const double sum = inflow[0] + inflow[1] + inflow[2];
     const Spread spread = spread_of(false, inflow, 20000);
     for (int i = 0; i < 3; ++i) {
-      EXPECT_NEAR(spread.mean[i], (sum + weight[i]) / (4.0 * sum), 3e-4);
+      EXPECT_NEAR(spread.mean[i], (sum + inflow[i]) / (4.0 * sum), 3e-4);
       for (int j = 0; j < 3; ++j) {
         // Mean of l_i l_j l_k over the triangle: 2 a! b! c! / 5!.
-        const double expected = i == j ? (sum + 2.0 * weight[i]) / (10.0 * sum)
-                                       : (sum + weight[i] + weight[j]) / (20.0 * sum);
+        const double expected = i == j ? (sum + 2.0 * inflow[i]) / (10.0 * sum)
+                                       : (sum + inflow[i] + inflow[j]) / (20.0 * sum);
         EXPECT_NEAR(spread.second[i][j], expected, 3e-4);
       }
     }
+  }
+}
+
+TEST(TetrahedraPlacement, PointsComeInOnTheFaceThatLiquidEnters) {
+  const Mesh<3> mesh = model::box_mesh({2, 2, 2});
+  const Grid<3> grid(mesh);
+  std::vector<FaceCondition> conditions(grid.face_count());
+  std::vector<double> volume(grid.face_count(), 0.0);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (!grid.is_outer(f)) continue;
+    conditions[f].kind = FaceKind::flux;
+    volume[f] = -50.0;
+  }
+  for (const bool random : {false, true}) {
+    const InjectionSettings settings{std::vector<double>(grid.face_count(), 1.0),
+                                     std::vector<int>(grid.face_count(), 4), random, 3};
+    const PointInjection<3> injection(grid, conditions, settings, {1000.0, 2700.0}, 2e9);
+    InflowAccount account = injection.nothing_entered(0);
+    std::vector<InjectedPoint<3>> points;
+    injection.inject(account, volume, {}, points);
+    EXPECT_GE(points.size(), 48U * 49U);
+    Vector<3> mean = Vector<3>::Zero();
+    for (const InjectedPoint<3>& point : points) {
+      const Vector<3> x = point.place.position(mesh);
+      const Vector<3>& normal = grid.face_normal[point.face];
+      EXPECT_NEAR(normal.dot(x - grid.face_centre(point.face)), 0.0, 1e-15);
+      for (const double share : point.place.barycentric) EXPECT_GE(share, 0.0);
+      mean += x / static_cast<double>(points.size());
+    }
+    EXPECT_LE((mean - Vector<3>(0.5, 0.5, 0.5)).norm(), random ? 0.03 : 0.003);
   }
 }
 
