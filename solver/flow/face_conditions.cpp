@@ -119,6 +119,8 @@ void BoundaryValues<Dim>::update_concentrations(double time,
 }
 
 template std::vector<FaceCondition> face_conditions(const Case<2>&, const Grid<2>&);
+template std::vector<FaceCondition> face_conditions(const Case<3>&, const Grid<3>&);
 template class BoundaryValues<2>;
+template class BoundaryValues<3>;
 
 }  // namespace suffuse

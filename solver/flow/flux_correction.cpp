@@ -136,5 +136,6 @@ void FluxCorrection<Dim>::correct(std::vector<double>& face_flux,
 }
 
 template class FluxCorrection<2>;
+template class FluxCorrection<3>;
 
 }  // namespace suffuse

@@ -684,5 +684,6 @@ MixedStep<Dim> ImplicitMixed<Dim>::steady(const FlowForcing<Dim>& forcing) {
 }
 
 template class ImplicitMixed<2>;
+template class ImplicitMixed<3>;
 
 }  // namespace suffuse

@@ -68,35 +68,43 @@ struct ElementFlow {
   }
 };
 
-/// Notices walks around a node: about a node that the flow turns around, circles are crossed the
-/// faster the smaller they are, without end at the node itself.
+/// Notices walks around a node or, in three dimensions, around an edge: where the flow turns around
+/// one, circles are crossed the faster the smaller they are, without end on it.
 template <int Dim>
 class Circling {
  public:
-  explicit Circling(const Grid<Dim>& grid) : grid_(grid) {}
+  explicit Circling(const Grid<Dim>& grid) : grid_(grid) { common_.fill(none); }
 
   /// `place` has come onto the face opposite its local vertex `vertex`.
   void crossed(const PointPlace<Dim>& place, int vertex) {
     const auto& nodes = grid_.mesh.elements[place.element];
-    const auto found = std::find(nodes.begin(), nodes.end(), node_);
-    if (found == nodes.end() || found - nodes.begin() == vertex) {
-      const auto& at = place.barycentric;
-      node_ = nodes[std::max_element(at.begin(), at.end()) - at.begin()];
+    bool any = false;
+    for (int& node : common_) {
+      const auto found = std::find(nodes.begin(), nodes.end(), node);
+      if (found == nodes.end() || found - nodes.begin() == vertex) node = none;
+      any = any || node != none;
+    }
+    if (!any) {
+      std::remove_copy(nodes.begin(), nodes.end(), common_.begin(), nodes[vertex]);
       crossings_ = 0;
     }
     ++crossings_;
   }
   [[nodiscard]] bool in_a_small_circle(const PointPlace<Dim>& place) const {
     const auto& nodes = grid_.mesh.elements[place.element];
-    const auto found = std::find(nodes.begin(), nodes.end(), node_);
-    return crossings_ > most_crossings / 2 && found != nodes.end() &&
-           place.barycentric[found - nodes.begin()] > 1.0 - small_circle;
+    double share = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      const bool is_common = std::find(common_.begin(), common_.end(), nodes[k]) != common_.end();
+      if (is_common) share += place.barycentric[k];
+    }
+    return crossings_ > most_crossings / 2 && share > 1.0 - small_circle;
   }
 
  private:
+  static constexpr int none = -1;
   const Grid<Dim>& grid_;
-  int node_ = -1;
-  int crossings_ = 0;
+  std::array<int, Dim> common_;  ///< nodes of every face crossed of late, in any order
+  int crossings_ = 0;            ///< of faces with these nodes
 };
 
 }  // namespace
@@ -158,6 +166,9 @@ double crossings(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, int ele
 
 template int walk_along_faces(const Grid<2>&, const FaceWalkField<2>&, PointPlace<2>&, double,
                               double, long, std::vector<FacePassage<2>>&);
+template int walk_along_faces(const Grid<3>&, const FaceWalkField<3>&, PointPlace<3>&, double,
+                              double, long, std::vector<FacePassage<3>>&);
 template double crossings(const Grid<2>&, const FaceWalkField<2>&, int);
+template double crossings(const Grid<3>&, const FaceWalkField<3>&, int);
 
 }  // namespace suffuse

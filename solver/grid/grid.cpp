@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <map>
 
 namespace suffuse {
 namespace {
@@ -23,6 +22,34 @@ void invert(const Entities& nodes_of, int node_count, std::vector<int>& begin,
   }
 }
 
+/// Faces of which one element is known, in a list for each smallest node. A face leaves its list
+/// with its second element, so lists stay short.
+template <int Dim>
+class OpenFaces {
+ public:
+  explicit OpenFaces(int node_count) : first_(node_count, -1) {}
+
+  /// Takes out the face with these nodes (ascending); -1 when there is none.
+  int take(const std::array<int, Dim>& nodes, const std::vector<std::array<int, Dim>>& face_nodes) {
+    for (int* link = &first_[nodes[0]]; *link >= 0; link = &next_[*link]) {
+      const int face = *link;
+      if (face_nodes[face] != nodes) continue;
+      *link = next_[face];
+      return face;
+    }
+    return -1;
+  }
+  /// Puts in the face that comes after those so far.
+  void put(int smallest_node) {
+    next_.push_back(first_[smallest_node]);
+    first_[smallest_node] = static_cast<int>(next_.size()) - 1;
+  }
+
+ private:
+  std::vector<int> first_;  ///< per node
+  std::vector<int> next_;   ///< per face
+};
+
 }  // namespace
 
 template <int Dim>
@@ -33,7 +60,7 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in) : mesh(mesh_in) {
   element_face.resize(elements);
   element_face_sign.resize(elements);
   node_volume.assign(mesh.node_count(), 0.0);
-  std::map<std::array<int, Dim>, int> known;
+  OpenFaces<Dim> open(mesh.node_count());
   for (int e = 0; e < elements; ++e) {
     const auto& vertices = mesh.elements[e];
     Eigen::Matrix<double, Dim, Dim> edges;
@@ -53,17 +80,20 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in) : mesh(mesh_in) {
       std::array<int, Dim> nodes;
       std::remove_copy(vertices.begin(), vertices.end(), nodes.begin(), vertices[k]);
       std::sort(nodes.begin(), nodes.end());
-      const auto [it, is_new] = known.try_emplace(nodes, face_count());
-      element_face[e][k] = it->second;
-      element_face_sign[e][k] = is_new ? 1.0 : -1.0;
+      int f = open.take(nodes, face_nodes);
+      const bool is_new = f < 0;
       if (is_new) {
+        f = face_count();
+        open.put(nodes[0]);
         face_nodes.push_back(nodes);
         face_left.push_back(e);
         face_right.push_back(-1);
         face_normal.push_back(-Dim * volume[e] * shape_gradient[e][k]);
       } else {
-        face_right[it->second] = e;
+        face_right[f] = e;
       }
+      element_face[e][k] = f;
+      element_face_sign[e][k] = is_new ? 1.0 : -1.0;
     }
   }
   invert(face_nodes, mesh.node_count(), node_face_begin, node_face);
@@ -87,5 +117,6 @@ Vector<Dim> Grid<Dim>::face_centre(int face) const {
 }
 
 template struct Grid<2>;
+template struct Grid<3>;
 
 }  // namespace suffuse

@@ -139,6 +139,8 @@ double crossing_rate(const Grid<Dim>& grid, const WalkField<Dim>& field, int ele
 }
 
 template int walk(const Grid<2>&, const WalkField<2>&, PointPlace<2>&, double, long);
+template int walk(const Grid<3>&, const WalkField<3>&, PointPlace<3>&, double, long);
 template double crossing_rate(const Grid<2>&, const WalkField<2>&, int);
+template double crossing_rate(const Grid<3>&, const WalkField<3>&, int);
 
 }  // namespace suffuse

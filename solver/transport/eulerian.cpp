@@ -36,6 +36,23 @@ void find_concentration(const ElementValues<Dim>& fines, const ElementValues<Dim
   for (int k = 0; k <= Dim; ++k) c[k] = FieldNodes<Dim>::at_vertex(at_nodes[k], sum);
 }
 
+/// Sum of the values at a side's nodes. The elements on both sides have these in different orders
+/// and find the same number, to the last bit: three values are added in the order of their size.
+template <int Dim>
+[[gnu::always_inline]] inline double side_sum(const std::array<double, Dim>& values) {
+  if constexpr (Dim == 2) {
+    return values[0] + values[1];
+  } else {
+    static_assert(Dim == 3);
+    const double low = std::min(values[0], values[1]);
+    const double high = std::max(values[0], values[1]);
+    const double lowest = std::min(low, values[2]);
+    const double highest = std::max(high, values[2]);
+    const double middle = std::max(low, std::min(high, values[2]));
+    return (lowest + middle) + highest;
+  }
+}
+
 /// What transport adds to the fines of an element, per field node, m3. `c` at its vertices,
 /// `crossing` at the nodes of its sides; `out`: what leaves through these is added, halved.
 template <int Dim>
@@ -45,7 +62,6 @@ template <int Dim>
   // Integrals with the element's linear functions, times Dim (Dim + 1). Through a side: of c q with
   // those of its vertices. Inside: of c q with their gradients, where q is the field of Raviart and
   // Thomas; the geometry cancels.
-  static_assert(Dim == 2, "both sides of a face must add up its nodes in the same order");
   ElementValues<Dim> load{};
   double net_outflow = 0.0;
   double sum = 0.0;
@@ -54,12 +70,13 @@ template <int Dim>
     net_outflow += outflow[k];
   }
   for (int k = 0; k <= Dim; ++k) {
-    const double first = at_vertices[upwind[k][0]];
-    const double second = at_vertices[upwind[k][1]];
-    const double both = first + second;
-    out[k] += 0.5 * (outflow[k] * (both / Dim));
-    load[side_vertex<Dim>(k, 0)] -= outflow[k] * (both + first);
-    load[side_vertex<Dim>(k, 1)] -= outflow[k] * (both + second);
+    std::array<double, Dim> crossing;
+    for (int a = 0; a < Dim; ++a) crossing[a] = at_vertices[upwind[k][a]];
+    const double all = side_sum<Dim>(crossing);
+    out[k] += 0.5 * (outflow[k] * (all / Dim));
+    for (int a = 0; a < Dim; ++a) {
+      load[side_vertex<Dim>(k, a)] -= outflow[k] * (all + crossing[a]);
+    }
     load[k] += net_outflow * ((sum + c[k]) / (Dim + 2)) - outflow[k] * sum;
   }
   // The field nodes' functions are the vertices' made orthogonal: the same map as for values.
@@ -156,13 +173,18 @@ double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
     const ElementValues<Dim>& pores = state.pore_volume[e];
     const double total = element_sum<Dim>(pores);
     const double smallest = *std::min_element(pores.begin(), pores.end());
+    ElementValues<Dim> share;
+    for (int k = 0; k <= Dim; ++k) {
+      share[k] =
+          total - Dim * (FieldNodes<Dim>::far_vertex * total + FieldNodes<Dim>::spread * pores[k]);
+    }
+    // Pores that differ too much have no useful weights. The smallest in the place of all leave
+    // grains out, and then every face has the same share.
+    if (*std::min_element(share.begin(), share.end()) < 0.25 * smallest) share.fill(smallest);
     double allowed = infinity;
     for (int k = 0; k <= Dim; ++k) {
       const double outflow = grid_.element_face_sign[e][k] * face_volume[grid_.element_face[e][k]];
-      if (outflow <= 0.0) continue;
-      const double share =
-          total - Dim * (FieldNodes<Dim>::far_vertex * total + FieldNodes<Dim>::spread * pores[k]);
-      allowed = std::min(allowed, std::max(share, 0.25 * smallest) / outflow);
+      if (outflow > 0.0) allowed = std::min(allowed, share[k] / outflow);
     }
     return allowed;
   });
@@ -361,5 +383,6 @@ void EulerianTransport<Dim>::advance(FinesState<Dim>& state, const ElementField<
 }
 
 template class EulerianTransport<2>;
+template class EulerianTransport<3>;
 
 }  // namespace suffuse

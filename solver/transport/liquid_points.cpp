@@ -93,8 +93,12 @@ LiquidPoints<Dim> clean_liquid(const MaterialPoints<Dim>& places,
 template LiquidPoints<2> clean_liquid(const MaterialPoints<2>&, const std::vector<double>&,
                                       const LiquidDensities&, double);
 template void LiquidPoints<2>::reserve(int);
+template void LiquidPoints<3>::reserve(int);
 template void sort_by_element(LiquidPoints<2>&, int);
+template void sort_by_element(LiquidPoints<3>&, int);
 template std::vector<int> element_begins(const LiquidPoints<2>&, int);
+template std::vector<int> element_begins(const LiquidPoints<3>&, int);
 template void keep_points(LiquidPoints<2>&, const std::vector<unsigned char>&);
+template void keep_points(LiquidPoints<3>&, const std::vector<unsigned char>&);
 
 }  // namespace suffuse

@@ -8,12 +8,11 @@
 
 #include "case/errors.hpp"
 #include "physics/liquid.hpp"
+#include "transport/face_placement.hpp"
 
 namespace suffuse {
 namespace {
 
-/// Fractional part of multiples of it spread evenly (golden ratio - 1).
-constexpr double golden = 0.6180339887498948482;
 /// Points injected at one face in one step. A flow that asks for more has lost its numbers.
 constexpr double max_injected = 1e7;
 
@@ -32,24 +31,6 @@ double hashed(std::uint64_t seed, std::uint64_t face, std::uint64_t number, std:
     x ^= x >> 31U;
   }
   return static_cast<double>(x >> 11U) * 0x1.0p-53;
-}
-
-/// Van der Corput's sequence in base two: each number falls into the widest gap so far.
-double radical_inverse(long number) {
-  double result = 0.0;
-  double digit = 0.5;
-  for (long n = number; n > 0; n /= 2, digit *= 0.5) {
-    if (n % 2 != 0) result += digit;
-  }
-  return result;
-}
-
-/// Where along a segment the share `u` of a flux has passed that is linear from `at_begin` to
-/// `at_end`, both >= 0.
-double share_along(double at_begin, double at_end, double u) {
-  const double root = std::sqrt(at_begin * at_begin * (1.0 - u) + at_end * at_end * u);
-  const double sum = at_begin + root;
-  return sum > 0.0 ? u * (at_begin + at_end) / sum : u;
 }
 
 }  // namespace
@@ -85,23 +66,23 @@ InflowAccount PointInjection<Dim>::nothing_entered(long next_id) const {
 template <int Dim>
 PointPlace<Dim> PointInjection<Dim>::place_on_face(int face, long number,
                                                    const VectorField<Dim>& node_flux) const {
-  static_assert(Dim == 2, "a face of three nodes needs a share of the flux in two directions");
   // As much of the face's inflow on either side of the point as its number says.
   const auto& nodes = grid_.face_nodes[face];
-  const auto inward = [&](int i) {
-    if (node_flux.empty()) return 1.0;  // the same all along the face
-    return std::max(0.0, -grid_.face_normal[face].dot(node_flux[i]));
-  };
-  const double u = settings_.random
-                       ? hashed(settings_.seed, face, number, 1)
-                       : fraction(radical_inverse(number + 1) + golden * static_cast<double>(face));
-  const double s = share_along(inward(nodes[0]), inward(nodes[1]), u);
+  std::array<double, Dim> inflow;
+  inflow.fill(1.0);  // along face volumes: the same all over the face
+  for (int a = 0; a < Dim && !node_flux.empty(); ++a) {
+    inflow[a] = std::max(0.0, -grid_.face_normal[face].dot(node_flux[nodes[a]]));
+  }
+  std::array<double, Dim - 1> u = even_numbers<Dim - 1>(number, face);
+  for (int d = 0; d < Dim - 1 && settings_.random; ++d) {
+    u[d] = hashed(settings_.seed, face, number, d + 1);
+  }
+  const std::array<double, Dim> on_face = spread_on_face(inflow, u);
   const int e = grid_.face_left[face];
   PointPlace<Dim> place{e, {}};
   for (int a = 0; a <= Dim; ++a) {
-    const int node = grid_.mesh.elements[e][a];
-    if (node == nodes[0]) place.barycentric[a] = 1.0 - s;
-    if (node == nodes[1]) place.barycentric[a] = s;
+    const auto found = std::find(nodes.begin(), nodes.end(), grid_.mesh.elements[e][a]);
+    if (found != nodes.end()) place.barycentric[a] = on_face[found - nodes.begin()];
   }
   return place;
 }
@@ -168,5 +149,6 @@ auto PointInjection<Dim>::content(const InjectedPoint<Dim>& point, double elemen
 }
 
 template class PointInjection<2>;
+template class PointInjection<3>;
 
 }  // namespace suffuse

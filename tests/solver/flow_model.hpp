@@ -22,8 +22,9 @@ class Uniform {
 };
 
 /// Flow alone on a mesh: walls unless said otherwise, soil of 0.02 m/s.
-struct FlowModel {
-  explicit FlowModel(const Mesh<2>& mesh_in) : mesh(mesh_in), grid(mesh) {
+template <int Dim>
+struct FlowModelOf {
+  explicit FlowModelOf(const Mesh<Dim>& mesh_in) : mesh(mesh_in), grid(mesh) {
     forcing.coefficients = model::flow_coefficients(grid, 0.02);
     forcing.conditions.resize(grid.face_count());
     for (int f = 0; f < grid.face_count(); ++f) {
@@ -48,35 +49,38 @@ struct FlowModel {
     }
   }
   /// The forcing at each stage of a step, constant.
-  [[nodiscard]] std::vector<const FlowForcing<2>*> constant(const ImplicitMixed<2>& flow) const {
-    std::vector<const FlowForcing<2>*> result(flow.stages().size(), &forcing);
+  [[nodiscard]] std::vector<const FlowForcing<Dim>*> constant(
+      const ImplicitMixed<Dim>& flow) const {
+    std::vector<const FlowForcing<Dim>*> result(flow.stages().size(), &forcing);
     return result;
   }
-  [[nodiscard]] MixedState<2> rest(double pressure = 0.0) const {
+  [[nodiscard]] MixedState<Dim> rest(double pressure = 0.0) const {
     return {std::vector<double>(grid.face_count(), pressure),
-            std::vector<Vector<2>>(mesh.element_count(), Vector<2>::Zero())};
+            std::vector<Vector<Dim>>(mesh.element_count(), Vector<Dim>::Zero())};
   }
   /// Volume per pressure that an element stores at each of its faces, m3/Pa.
   [[nodiscard]] double capacity(int e, double modulus) const {
-    return forcing.coefficients.water_volume[e] / (3.0 * modulus);
+    return forcing.coefficients.water_volume[e] / ((Dim + 1) * modulus);
   }
 
-  FlowModel(const FlowModel&) = delete;
-  FlowModel& operator=(const FlowModel&) = delete;
+  FlowModelOf(const FlowModelOf&) = delete;
+  FlowModelOf& operator=(const FlowModelOf&) = delete;
 
-  Mesh<2> mesh;
-  Grid<2> grid;
-  FlowForcing<2> forcing;
+  Mesh<Dim> mesh;
+  Grid<Dim> grid;
+  FlowForcing<Dim> forcing;
 };
+using FlowModel = FlowModelOf<2>;
 
 /// Largest |net outflow of an element - what it should be| over the largest flux through a face.
-inline double imbalance(const Grid<2>& grid, const std::vector<double>& flux,
-                        const std::vector<double>& net_outflow) {
+template <int Dim>
+double imbalance(const Grid<Dim>& grid, const std::vector<double>& flux,
+                 const std::vector<double>& net_outflow) {
   double worst = 0.0;
   double largest = 0.0;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     double outflow = 0.0;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k <= Dim; ++k) {
       outflow += grid.element_face_sign[e][k] * flux[grid.element_face[e][k]];
     }
     worst = std::max(worst, std::abs(outflow - net_outflow[e]));

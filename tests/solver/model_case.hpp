@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <random>
+#include <type_traits>
 
 #include "case/case_file.hpp"
 #include "flow/flow.hpp"
@@ -95,12 +96,12 @@ inline std::function<Vector<2>(const Vector<2>&)> jittered(double amount, unsign
 }
 
 /// Clean water of 1000 kg/m3 in soil whose porosity depends on the place.
-inline FlowCoefficients<2> flow_coefficients(
-    const Grid<2>& grid, double conductivity,
-    const std::function<double(const Vector<2>&)>& porosity = [](const Vector<2>&) {
-      return 0.3;
-    }) {
-  FlowCoefficients<2> c;
+template <int Dim>
+FlowCoefficients<Dim> flow_coefficients(
+    const Grid<Dim>& grid, double conductivity,
+    const std::type_identity_t<std::function<double(const Vector<Dim>&)>>& porosity =
+        [](const Vector<Dim>&) { return 0.3; }) {
+  FlowCoefficients<Dim> c;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const double n = porosity(element_centroid(grid.mesh, e));
     c.porosity.push_back(n);
