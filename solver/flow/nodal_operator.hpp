@@ -65,11 +65,14 @@ class NodalOperator {
 
   /// Force of pressure and gravity on a node, N.
   [[nodiscard]] Vector<Dim> force(int node, const std::vector<double>& pressure) const {
-    Vector<Dim> sum = external_force_[node];
+    Vector<Dim> sum = Vector<Dim>::Zero();
     for (int k = grid_.node_face_begin[node]; k < grid_.node_face_begin[node + 1]; ++k) {
-      const NodeFace& face = node_faces_[k];
-      sum += face.normal * (pressure[face.left] - (face.right < 0 ? 0.0 : pressure[face.right]));
+      const int f = grid_.node_face[k];
+      const double left = pressure[grid_.face_left[f]];
+      const double right = grid_.face_right[f] < 0 ? 0.0 : pressure[grid_.face_right[f]];
+      if (!flux_is_fixed(f)) sum += (left - right) * grid_.face_normal[f];
     }
+    sum = (external_force_[node] + sum / Dim).eval();
     return sum;
   }
 
