@@ -5,6 +5,9 @@
 namespace suffuse {
 namespace {
 
+/// Below this many indices a loop is shorter than waking the threads.
+constexpr int worth_threads_of_flow = 8192;
+
 /// rho_w / rho_w0 - 1 = exp(p / K) - 1 to third order, for p small against K; the exact value is
 /// restored with the masses.
 double density_excess(double pressure_over_modulus) {
@@ -12,7 +15,6 @@ double density_excess(double pressure_over_modulus) {
   return x * (1.0 + 0.5 * x * (1.0 + (1.0 / 3.0) * x));
 }
 
-constexpr int worth = 8192;
 }  // namespace
 
 template <int Dim>
@@ -52,8 +54,7 @@ void ExplicitNodal<Dim>::archive(StateArchive& archive) {
 
 template <int Dim>
 void ExplicitNodal<Dim>::step(double dt) {
-  velocity_spacing_ = 0.5 * (last_dt_ + dt);
-  accelerate(velocity_spacing_);
+  accelerate(0.5 * (last_dt_ + dt));
   cross_faces(dt);
   compress(dt);
   last_dt_ = dt;
@@ -66,15 +67,18 @@ void ExplicitNodal<Dim>::accelerate(double spacing) {
   const std::vector<double>& quadratic_drag = operator_.node_quadratic_drag();
   const bool implicit_drag = settings_.drag == DragIntegration::implicit_drag;
   std::swap(velocity_, previous_velocity_);
-  for_each_index(static_cast<int>(velocity_.size()), settings_.threads, [&](int i) {
-    const Vector<Dim>& before = previous_velocity_[i];
-    const double rate = spacing * inverse_mass_[i];
-    double damping = rate * drag[i];
-    if (!quadratic_drag.empty()) damping += rate * quadratic_drag[i] * before.norm();
-    const Vector<Dim> gain = rate * operator_.force(i, pressure_);
-    velocity_[i] = implicit_drag ? Vector<Dim>((before + gain) / (1.0 + damping))
-                                 : Vector<Dim>(before + gain - damping * before);
-  }, worth);
+  for_each_index(
+      static_cast<int>(velocity_.size()), settings_.threads,
+      [&](int i) {
+        const Vector<Dim>& before = previous_velocity_[i];
+        const double rate = spacing * inverse_mass_[i];
+        double damping = rate * drag[i];
+        if (!quadratic_drag.empty()) damping += rate * quadratic_drag[i] * before.norm();
+        const Vector<Dim> gain = rate * operator_.force(i, pressure_);
+        velocity_[i] = implicit_drag ? Vector<Dim>((before + gain) / (1.0 + damping))
+                                     : Vector<Dim>(before + gain - damping * before);
+      },
+      worth_threads_of_flow);
   operator_.constrain(velocity_);
 }
 
@@ -91,22 +95,21 @@ template <int Dim>
 void ExplicitNodal<Dim>::cross_faces(double dt) {
   const Grid<Dim>& grid = operator_.grid();
   const double compressibility = 1.0 / settings_.bulk_modulus;
-  for_each_index(grid.face_count(), settings_.threads, [&](int f) {
-    const double flux = operator_.face_flux(f, velocity_);
-    volumes_.liquid[f] += dt * flux;
-    face_flux_[f] = flux;
-    if (settings_.pressure_moves_with_liquid) return;
-    const double left = pressure_[grid.face_left[f]];
-    const double right = grid.is_outer(f) ? outer_pressure(f) : pressure_[grid.face_right[f]];
-    const double upwind = flux < 0.0 ? right : left;
-    volumes_.density_excess[f] += dt * flux * density_excess(upwind * compressibility);
-    convected_flux_[f] = flux * convection_[f];
-    face_flux_[f] += convected_flux_[f] * upwind;
-  }, worth);
-  if (!settings_.sum_displacements) return;
-  for_each_index(static_cast<int>(velocity_.size()), settings_.threads, [&](int i) {
-    flux_integral_[i] += dt * operator_.carried_porosity()[i] * velocity_[i];
-  }, worth);
+  for_each_index(
+      grid.face_count(), settings_.threads,
+      [&](int f) {
+        const double flux = operator_.face_flux(f, velocity_);
+        volumes_.liquid[f] += dt * flux;
+        face_flux_[f] = flux;
+        if (settings_.pressure_moves_with_liquid) return;
+        const double left = pressure_[grid.face_left[f]];
+        const double right = grid.is_outer(f) ? outer_pressure(f) : pressure_[grid.face_right[f]];
+        const double upwind = flux < 0.0 ? right : left;
+        volumes_.density_excess[f] += dt * flux * density_excess(upwind * compressibility);
+        convected_flux_[f] = flux * convection_[f];
+        face_flux_[f] += convected_flux_[f] * upwind;
+      },
+      worth_threads_of_flow);
 }
 
 /// dp_e/dt = -K outflow / water volume. Reads fluxes, writes pressures.
@@ -114,18 +117,21 @@ template <int Dim>
 void ExplicitNodal<Dim>::compress(double dt) {
   const Grid<Dim>& grid = operator_.grid();
   const bool convects = !settings_.pressure_moves_with_liquid;
-  for_each_index(static_cast<int>(pressure_.size()), settings_.threads, [&](int e) {
-    const double p = pressure_[e];
-    double outflow = 0.0;
-    for (int k = 0; k <= Dim; ++k) {
-      const int f = grid.element_face[e][k];
-      const double flux = convects ? face_flux_[f] - convected_flux_[f] * p : face_flux_[f];
-      outflow += grid.face_left[f] == e ? flux : -flux;
-    }
-    // ln(1 - lost) to second order: the density's own increment, not only the strain's.
-    const double lost = dt * outflow * compression_[e];
-    pressure_[e] = p - settings_.bulk_modulus * lost * (1.0 + 0.5 * lost);
-  }, worth);
+  for_each_index(
+      static_cast<int>(pressure_.size()), settings_.threads,
+      [&](int e) {
+        const double p = pressure_[e];
+        double outflow = 0.0;
+        for (int k = 0; k <= Dim; ++k) {
+          const int f = grid.element_face[e][k];
+          const double flux = convects ? face_flux_[f] - convected_flux_[f] * p : face_flux_[f];
+          outflow += grid.face_left[f] == e ? flux : -flux;
+        }
+        // ln(1 - lost) to second order: the density's own increment, not only the strain's.
+        const double lost = dt * outflow * compression_[e];
+        pressure_[e] = p - settings_.bulk_modulus * lost * (1.0 + 0.5 * lost);
+      },
+      worth_threads_of_flow);
 }
 
 template <int Dim>
@@ -133,24 +139,6 @@ void ExplicitNodal<Dim>::reset_volumes() {
   const int faces = operator_.grid().face_count();
   volumes_.liquid.assign(faces, 0.0);
   if (!settings_.pressure_moves_with_liquid) volumes_.density_excess.assign(faces, 0.0);
-  if (settings_.sum_displacements) flux_integral_.assign(velocity_.size(), Vector<Dim>::Zero());
-}
-
-template <int Dim>
-VectorField<Dim> ExplicitNodal<Dim>::displacements() const {
-  VectorField<Dim> result = flux_integral_;
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] /= operator_.carried_porosity()[i];
-  return result;
-}
-
-template <int Dim>
-VectorField<Dim> ExplicitNodal<Dim>::velocity_at(double ahead) const {
-  VectorField<Dim> result = velocity_;
-  if (velocity_spacing_ == 0.0) return result;
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] += ahead / velocity_spacing_ * (result[i] - previous_velocity_[i]);
-  }
-  return result;
 }
 
 template class ExplicitNodal<2>;

@@ -19,8 +19,6 @@ struct ExplicitSettings {
   /// carry the liquid, or left out where no mass depends on it. Nobody then needs the density of
   /// the water that crossed a face.
   bool pressure_moves_with_liquid = false;
-  /// Whether `flux_integral` is needed.
-  bool sum_displacements = false;
   int threads = 1;
 };
 
@@ -64,9 +62,6 @@ class ExplicitNodal {
   [[nodiscard]] const VectorField<Dim>& velocity() const { return velocity_; }
   /// Velocity that the last step started with.
   [[nodiscard]] const VectorField<Dim>& previous_velocity() const { return previous_velocity_; }
-  void remember_velocity() {}
-  /// Velocity `ahead` seconds after the middle of the last step, on the line through the last two.
-  [[nodiscard]] VectorField<Dim> velocity_at(double ahead) const;
 
   /// Between steps, with the coefficients of the moment: pressures and velocities, not volumes.
   void archive(StateArchive& archive);
@@ -74,9 +69,6 @@ class ExplicitNodal {
   /// Volumes since the last `reset_volumes`. Without `density_excess` where the pressure moves with
   /// the liquid.
   [[nodiscard]] const FaceVolumes& volumes() const { return volumes_; }
-  /// Integral of each node's flux n_i v_i since then, m; empty unless asked for.
-  [[nodiscard]] const VectorField<Dim>& flux_integral() const { return flux_integral_; }
-  [[nodiscard]] VectorField<Dim> displacements() const;
   void reset_volumes();
 
   /// The parts of a step, for benchmarks: velocities after `spacing` seconds; volumes through faces
@@ -94,17 +86,16 @@ class ExplicitNodal {
   VectorField<Dim> velocity_;     ///< per node, m/s
   VectorField<Dim> previous_velocity_;
   double last_dt_ = 0.0;
-  double velocity_spacing_ = 0.0;  ///< time between the last two velocities, s
 
   std::vector<double> inverse_mass_;  ///< per node, 1 / (S m_i), 1/kg
-  std::vector<double> compression_;   ///< per element, 1 / water volume (times n_e without the
-                                      ///< third term), 1/m3
-  std::vector<double> convection_;    ///< per face, (1 - c) / K, 1/Pa
-  /// Per face: an element of pressure p takes part in it with `face_flux_` - p `convected_flux_`.
-  std::vector<double> face_flux_;       ///< m3/s
-  std::vector<double> convected_flux_;  ///< m3/(Pa s)
+  /// Per element, 1 / water volume (times n_e without the third term), 1/m3.
+  std::vector<double> compression_;
+  std::vector<double> convection_;  ///< per face, (1 - c) / K, 1/Pa
+  /// Per face: an element of pressure p sees the flux `face_flux_` - p `convected_flux_`.
+  std::vector<double> face_flux_;  ///< m3/s
+  std::vector<double>
+      convected_flux_;  ///< m3/(Pa s); empty where the pressure moves with the liquid
   FaceVolumes volumes_;
-  VectorField<Dim> flux_integral_;
 };
 
 }  // namespace suffuse

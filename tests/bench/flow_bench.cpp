@@ -39,7 +39,6 @@ struct FlowSquare {
     ExplicitSettings settings;
     settings.bulk_modulus = modulus;
     settings.pressure_moves_with_liquid = double_point;
-    settings.sum_displacements = double_point;
     settings.threads = threads;
     return settings;
   }
@@ -128,8 +127,7 @@ void Flow(benchmark::State& state, Pass pass, bool double_point, MeshKind kind) 
     if (pass == faces) flow.cross_faces(s.dt);
     if (pass == elements) flow.compress(s.dt);
   }
-  const double count = s.grid.mesh.element_count();
-  const double points = points_per_element * count;
+  const double points = points_per_element * static_cast<double>(s.grid.mesh.element_count());
   report(state, points, 0.0, threads);
 }
 
@@ -142,7 +140,9 @@ void Reference(benchmark::State& state, MeshKind kind) {
 }
 
 void sizes(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"elements", "threads"})->ArgsProduct({{3000, 30000, 100000, 333000}, {1, 2}})->UseRealTime();
+  b->ArgNames({"elements", "threads"})
+      ->ArgsProduct({{3000, 30000, 100000, 333000}, {1, 2}})
+      ->UseRealTime();
 }
 
 void reference_sizes(benchmark::internal::Benchmark* b) {
