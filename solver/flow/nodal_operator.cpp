@@ -19,12 +19,6 @@ NodalOperator<Dim>::NodalOperator(const Grid<Dim>& grid, std::vector<FaceConditi
   for (const FaceCondition& condition : conditions_) {
     flux_is_fixed_.push_back(condition.fixes_flux() ? 1 : 0);
   }
-  node_faces_.reserve(grid_.node_face.size());
-  for (const int f : grid_.node_face) {
-    Vector<Dim> share = Vector<Dim>::Zero();
-    if (!conditions_[f].fixes_flux()) share = grid_.face_normal[f] / Dim;
-    node_faces_.push_back({grid_.face_left[f], grid_.face_right[f], share});
-  }
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (conditions_[f].fixes_flux()) fixed_faces_.push_back(f);
     if (conditions_[f].kind != FaceKind::pressure) continue;

@@ -63,14 +63,17 @@ class NodalOperator {
   }
   [[nodiscard]] const std::vector<NodeConstraint<Dim>>& constraints() const { return constraints_; }
 
-  /// Force of pressure and gravity on a node, N.
+  /// Force of pressure and gravity on a node, N: each face at the node pushes with the difference
+  /// of the pressures on its sides. Outside is 0: the external force has the boundary's pressure.
   [[nodiscard]] Vector<Dim> force(int node, const std::vector<double>& pressure) const {
-    Vector<Dim> sum = external_force_[node];
+    Vector<Dim> sum = Vector<Dim>::Zero();
     for (int k = grid_.node_face_begin[node]; k < grid_.node_face_begin[node + 1]; ++k) {
-      const NodeFace& face = node_faces_[k];
-      sum += face.normal * (pressure[face.left] - (face.right < 0 ? 0.0 : pressure[face.right]));
+      const int f = grid_.node_face[k];
+      if (flux_is_fixed(f)) continue;
+      const double right = grid_.is_outer(f) ? 0.0 : pressure[grid_.face_right[f]];
+      sum += (pressure[grid_.face_left[f]] - right) * grid_.face_normal[f];
     }
-    return sum;
+    return external_force_[node] + sum / Dim;
   }
 
   [[nodiscard]] bool flux_is_fixed(int face) const { return flux_is_fixed_[face] != 0; }
@@ -92,13 +95,6 @@ class NodalOperator {
   }
 
  private:
-  /// A face as its nodes' force sees it.
-  struct NodeFace {
-    int left;
-    int right;           ///< -1: outside, where the external force has the pressure
-    Vector<Dim> normal;  ///< share of one node; zero where the flux is fixed
-  };
-
   void make_constraint_normals();
   void set_boundary_force();
   void set_held_values();
@@ -110,7 +106,6 @@ class NodalOperator {
   std::vector<FaceCondition> conditions_;
   Vector<Dim> gravity_;
   bool porosity_gradient_term_;
-  std::vector<NodeFace> node_faces_;  ///< rows as grid.node_face
   std::vector<double> node_porosity_;
   std::vector<double> carried_porosity_;
   std::vector<double> node_mass_;

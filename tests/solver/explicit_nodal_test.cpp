@@ -1,4 +1,4 @@
-/// The explicit scheme's fast loops against its plain ones (nodal_reference.hpp).
+/// The explicit scheme's loops against another way to write them (nodal_reference.hpp).
 
 #include "flow/explicit_nodal.hpp"
 
@@ -73,7 +73,6 @@ class Twins {
                   options.drag,
                   options.porosity_gradient_term,
                   options.pressure_moves_with_liquid,
-                  true,
                   threads},
         fast_(op_, settings_),
         plain_(op_, settings_),
@@ -116,7 +115,6 @@ class Twins {
     const BoundaryValues<2> values(case_, grid_);
     for (int s = 0; s < steps; ++s, time_ += dt_) {
       op_.set_boundary_values(values, time_, time_ + 0.5 * dt_);
-      if (s + 1 == steps) fast_.remember_velocity();
       fast_.step(dt_);
       plain_.step(dt_);
     }
@@ -144,12 +142,11 @@ class Twins {
   [[nodiscard]] double pressures() const { return difference(fast_.pressure(), plain_.pressure()); }
   [[nodiscard]] double velocities() const {
     return std::max(difference(fast_.velocity(), plain_.velocity()),
-                    difference(fast_.velocity_at(0.3 * dt_), plain_.velocity_at(0.3 * dt_)));
+                    difference(fast_.previous_velocity(), plain_.previous_velocity()));
   }
   [[nodiscard]] double volumes() const {
     const FaceVolumes volumes = fast_.volumes();
-    double most = std::max(difference(volumes.liquid, plain_.volumes().liquid),
-                           difference(fast_.displacements(), plain_.displacements()));
+    double most = difference(volumes.liquid, plain_.volumes().liquid);
     if (settings_.pressure_moves_with_liquid) {
       EXPECT_TRUE(volumes.density_excess.empty()) << "nobody asks for it";
     } else {
@@ -247,15 +244,6 @@ TEST(ExplicitNodal, IsTheSameOnTwoThreads) {
     EXPECT_EQ(one.fast().volumes().density_excess, two.fast().volumes().density_excess)
         << options.name;
   }
-}
-
-TEST(ExplicitNodal, AVelocityThatNobodyRemembersIsRefused) {
-  Twins twins(model::column_mesh(3, 3), all_options()[0]);
-  twins.run(2);
-  EXPECT_NO_THROW(static_cast<void>(twins.fast().velocity_at(0.0)));
-  twins.fast().step(1e-6);
-  twins.fast().step(1e-6);
-  EXPECT_THROW(static_cast<void>(twins.fast().velocity_at(0.0)), std::logic_error);
 }
 
 }  // namespace

@@ -30,32 +30,20 @@ class NodalReference {
     operator_.constrain(velocity_);
     previous_velocity_ = velocity_;
   }
-  void reset_volumes() {
-    volumes_.reset(operator_.grid().face_count());
-    displacement_.assign(velocity_.size(), Vector<Dim>::Zero());
-  }
+  void reset_volumes() { volumes_.reset(operator_.grid().face_count()); }
 
   void step(double dt) {
     previous_velocity_ = velocity_;
-    velocity_spacing_ = 0.5 * (last_dt_ + dt);
-    accelerate(velocity_spacing_);
+    accelerate(0.5 * (last_dt_ + dt));
     cross_faces(dt);
-    for (std::size_t i = 0; i < displacement_.size(); ++i) displacement_[i] += dt * velocity_[i];
     compress(dt);
     last_dt_ = dt;
   }
 
   [[nodiscard]] const std::vector<double>& pressure() const { return pressure_; }
   [[nodiscard]] const VectorField<Dim>& velocity() const { return velocity_; }
-  [[nodiscard]] VectorField<Dim> velocity_at(double ahead) const {
-    VectorField<Dim> result = velocity_;
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      result[i] += ahead / velocity_spacing_ * (velocity_[i] - previous_velocity_[i]);
-    }
-    return result;
-  }
+  [[nodiscard]] const VectorField<Dim>& previous_velocity() const { return previous_velocity_; }
   [[nodiscard]] const FaceVolumes& volumes() const { return volumes_; }
-  [[nodiscard]] const VectorField<Dim>& displacements() const { return displacement_; }
 
  private:
   void accelerate(double dt) {
@@ -125,9 +113,7 @@ class NodalReference {
   VectorField<Dim> velocity_;
   VectorField<Dim> previous_velocity_;
   double last_dt_ = 0.0;
-  double velocity_spacing_ = 0.0;
   FaceVolumes volumes_;
-  VectorField<Dim> displacement_;
   std::vector<double> face_flux_;
   std::vector<double> upwind_pressure_;
 };
