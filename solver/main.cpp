@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/errors.hpp"
+#include "driver/estimate.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/run.hpp"
@@ -36,8 +37,9 @@ int explain(const suffuse::Case<2>& c, const suffuse::Plan& plan, int threads) {
   for (const std::string& warning : plan.warnings) std::cout << "warning: " << warning << '\n';
   std::cout << std::flush;
   catch_interrupts();
-  static_cast<void>(c);
-  static_cast<void>(threads);
+  for (const std::string& sentence : sentences(estimate_run(c, plan), threads)) {
+    std::cout << sentence << '\n';
+  }
   return static_cast<int>(ExitCode::done);
 }
 

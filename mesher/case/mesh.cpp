@@ -26,6 +26,17 @@ Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element) {
   return sum / (Dim + 1);
 }
 
+template <int Dim>
+Vector<Dim> extent(const Mesh<Dim>& mesh) {
+  Vector<Dim> low = mesh.nodes.front();
+  Vector<Dim> high = low;
+  for (const Vector<Dim>& x : mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return high - low;
+}
+
 double smallest_angle(const Mesh<2>& mesh) {
   double smallest = std::numbers::pi;
   for (const auto& corners : mesh.elements) {
@@ -43,5 +54,7 @@ template double element_volume<2>(const Mesh<2>&, int);
 template double element_volume<3>(const Mesh<3>&, int);
 template Vector<2> element_centroid<2>(const Mesh<2>&, int);
 template Vector<3> element_centroid<3>(const Mesh<3>&, int);
+template Vector<2> extent<2>(const Mesh<2>&);
+template Vector<3> extent<3>(const Mesh<3>&);
 
 }  // namespace suffuse

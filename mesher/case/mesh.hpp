@@ -38,6 +38,10 @@ double element_volume(const Mesh<Dim>& mesh, int element);
 template <int Dim>
 Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element);
 
+/// Lengths of the box around the mesh, m.
+template <int Dim>
+Vector<Dim> extent(const Mesh<Dim>& mesh);
+
 /// Smallest interior angle of all elements, degrees.
 double smallest_angle(const Mesh<2>& mesh);
 

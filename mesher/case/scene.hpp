@@ -143,7 +143,6 @@ struct FlowSettings {
 struct OutputSettings {
   double every = unset;           ///< s between rows of the tables and, by default, snapshots
   double snapshot_every = unset;  ///< s between snapshots
-  bool exact = false;             ///< end a step on every output time instead of interpolating
 };
 
 struct Scene {

@@ -437,7 +437,12 @@ std::vector<SceneKey> declare_keys() {
              "How the flow is stepped: implicit, with fluxes through faces and pressures of "
              "elements; or explicit, with velocities at nodes.")
           .otherwise("implicit"),
-      key("time.step", at(&Scene::time, &TimeSettings::step), "Time step.")
+      key("time.step", at(&Scene::time, &TimeSettings::step),
+          "Longest time step. The stretch from one output to the next, and to a time at which "
+          "erosion or a "
+          "boundary value changes its course, is divided into equal steps: 0.0851 s and an output "
+          "every second "
+          "make 12 steps of 0.0833 s. Column `dt` of history.csv shows the step.")
           .named("dt")
           .in("s")
           .above(0.0)
@@ -471,18 +476,17 @@ std::vector<SceneKey> declare_keys() {
           .otherwise("explicit"),
 
       key("output.every", at(&Scene::output, &OutputSettings::every),
-          "Time between rows of the tables.")
+          "Time between rows of the tables. A row is the state at the end of a step: every output "
+          "ends one.")
           .in("s")
           .above(0.0)
           .mandatory(),
       key("output.snapshot_every", at(&Scene::output, &OutputSettings::snapshot_every),
-          "Time between snapshots of the whole state; not below `every`.")
+          "Time between snapshots of the whole state; not below `every`. A snapshot ends a step, "
+          "as a row does.")
           .in("s")
           .above(0.0)
           .otherwise_as("`output.every`"),
-      key("output.exact", at(&Scene::output, &OutputSettings::exact),
-          "End a step on every output time, instead of interpolating to it.")
-          .otherwise(false),
   };
 }
 

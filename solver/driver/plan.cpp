@@ -178,13 +178,24 @@ void find_speed_that_drag_follows(const Case<Dim>& c, Plan& plan) {
   const Scene& scene = c.document.scene;
   const bool inertia = scene.time.scheme == FlowScheme::explicit_nodal || plan.flow.inertia;
   if (!inertia || scene.time.mass_scaling > 1.0) return;
-  Vector<Dim> low = c.mesh.nodes.front();
-  Vector<Dim> high = low;
-  for (const Vector<Dim>& x : c.mesh.nodes) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
+  plan.speed_that_drag_follows = extent(c.mesh).norm() / longest_relaxation(scene);
+}
+
+/// The slowest soil's pressures spread over the whole model with the diffusivity K k / (rho n g),
+/// and drag stops the liquid: both to exp(-11) = 2e-5.
+template <int Dim>
+double settling_time(const Case<Dim>& c) {
+  const Scene& scene = c.document.scene;
+  constexpr double folds = 11.0;
+  constexpr double pi = 3.14159265358979;
+  const double length = 2.0 / pi * extent(c.mesh).maxCoeff();
+  const double squared_wave_speed = scene.liquid.bulk_modulus / scene.liquid.density;
+  const double relaxation = longest_relaxation(scene);
+  double slowest = relaxation;
+  for (const Soil& soil : scene.soils) {
+    slowest = std::min(slowest, soil.conductivity / (soil.porosity * conductivity_gravity));
   }
-  plan.speed_that_drag_follows = (high - low).norm() / longest_relaxation(scene);
+  return folds * (length * length / (slowest * squared_wave_speed) + relaxation);
 }
 
 void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
@@ -353,6 +364,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
     plan_explicit_step(c, grid, soils, conditions, plan);
   } else {
     plan_implicit_step(scene, plan);
+    plan.settling_time = settling_time(c);
     warn_of_free_water_with_inertia(c, plan);
   }
 

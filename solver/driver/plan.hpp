@@ -22,6 +22,8 @@ struct Plan : ModelOptions {
   /// Where inertia counts: liquid that is faster passes the model before drag would have brought it
   /// to its speed, m/s. The momentum that it carries along is not in the equations.
   double speed_that_drag_follows = std::numeric_limits<double>::infinity();
+  /// Implicit only: after it a flow that starts from rest is steady to about 1e-5 of itself, s.
+  double settling_time = 0.0;
   std::vector<std::string> sentences;  ///< what runs, what is skipped, and why
   std::vector<std::string> warnings;
 };

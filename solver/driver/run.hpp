@@ -1,6 +1,6 @@
 #pragma once
 
-/// The step loop: follows the plan, writes the results.
+/// Runs a case from its start, or from where an earlier run stopped, and writes its results folder.
 
 #include <string>
 
@@ -11,8 +11,8 @@ namespace suffuse {
 
 struct RunOptions {
   bool quiet = false;   ///< no progress
-  bool resume = false;  ///< goes on with the run in the folder, if there is one
-  /// Wall time, s, after which a run that has written no snapshot keeps a checkpoint; 0: never.
+  bool resume = false;  ///< continue the run in the folder, if there is one
+  /// Wall time, s, after which a run that has written no snapshot writes a checkpoint; 0: never.
   double checkpoint_every = 600.0;
 };
 
@@ -20,8 +20,8 @@ struct RunOptions {
 /// SIGINT, SIGTERM or SIGHUP (with a checkpoint, and a line that says how to go on). A run that is
 /// resumed gives the same bits as one that never stopped, on any number of threads. Throws
 /// NumericalError and FileError, after noting it in run.json, and InputError where the folder holds
-/// the results of another scene. Keeps of the case what it goes on needing: hand it over where
-/// there are many points. `case_path` is for messages.
+/// the results of another scene. Takes the case by value and gives back the memory of its liquid
+/// points once the model has its own: move it in. `case_path` is for messages.
 template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path = "NAME.case.h5");

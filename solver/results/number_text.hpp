@@ -1,6 +1,6 @@
 #pragma once
 
-/// Numbers as text that reads back to the very same double.
+/// Numbers as text: exactly, for files; in a few digits, for sentences.
 
 #include <optional>
 #include <string>
@@ -13,6 +13,12 @@ std::string number_text(double value);
 
 /// Four digits, for sentences.
 std::string short_text(double value);
+
+/// 1.234e7 -> "12 MB": two or three digits, decimal units.
+std::string bytes_text(double bytes);
+
+/// 75.4 -> "75 s", 400 -> "6.7 min": two or three digits.
+std::string duration_text(double seconds);
 
 /// The number that is the whole of `text`, or nothing.
 std::optional<double> parse_number(std::string_view text);

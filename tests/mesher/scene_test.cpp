@@ -120,7 +120,6 @@ TEST(Scene, reads_every_value_of_the_papers_scene) {
   EXPECT_EQ(scene.time.drag, DragIntegration::implicit_drag);
   EXPECT_EQ(scene.output.every, 1.0);
   EXPECT_EQ(scene.output.snapshot_every, 5.0);
-  EXPECT_TRUE(scene.output.exact);
 
   ASSERT_EQ(scene.soils.size(), 1U);
   const Soil& soil = scene.soils[0];
@@ -159,7 +158,6 @@ TEST(Scene, fills_in_defaults) {
   EXPECT_EQ(scene.time.mass_scaling, 1.0);
   EXPECT_EQ(scene.time.drag, DragIntegration::explicit_drag);
   EXPECT_EQ(scene.output.snapshot_every, scene.output.every);
-  EXPECT_FALSE(scene.output.exact);
   EXPECT_EQ(scene.gravity, (std::array{0.0, 0.0, 0.0}));
   EXPECT_EQ(scene.soils[0].conductivity_law, ConductivityLaw::constant);
   EXPECT_EQ(scene.soils[0].erosion.law, ErosionLaw::none);

@@ -11,6 +11,7 @@
 #include "driver/output_schedule.hpp"
 #include "driver/run.hpp"
 #include "mesher/temporary_folder.hpp"
+#include "results/number_text.hpp"
 #include "solver/double_point_case.hpp"
 
 namespace suffuse {
@@ -108,12 +109,15 @@ TEST(OutputSchedule, MergesRowsAndSnapshots) {
   scene.output.every = 0.25;
   scene.output.snapshot_every = 0.5;
   OutputSchedule schedule(scene);
-  EXPECT_EQ(schedule.times_until(0.6), (std::vector<double>{0.0, 0.25, 0.5}));
-  const auto first = schedule.take(0.0);
-  EXPECT_TRUE(first.row && first.snapshot);
-  const auto second = schedule.take(0.25);
-  EXPECT_TRUE(second.row && !second.snapshot);
-  EXPECT_EQ(schedule.times_until(9.0), (std::vector<double>{0.5, 0.75, 1.0}));
+  std::string outputs;
+  while (!schedule.finished()) {
+    const double time = schedule.next();
+    EXPECT_FALSE(schedule.take(time - 0.125).row) << "nothing is due between outputs";
+    const OutputSchedule::Due due = schedule.take(time);
+    outputs +=
+        short_text(time) + (due.row ? " row" : "") + (due.snapshot ? " snapshot" : "") + ", ";
+  }
+  EXPECT_EQ(outputs, "0 row snapshot, 0.25 row, 0.5 row snapshot, 0.75 row, 1 row snapshot, ");
 }
 
 TEST(Estimate, OfAWholeTrialIsTheRun) {

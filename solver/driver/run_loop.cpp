@@ -1,0 +1,32 @@
+#include "driver/run_loop.hpp"
+
+#include "driver/interrupt.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
+  const bool at_the_start = schedule_.rows().past() == 0;
+  if (at_the_start) output(sink);
+  bool goes_on = true;
+  while (goes_on && !schedule_.finished() && !interrupted()) {
+    model_->advance(schedule_.next());
+    for (const std::string& warning : model_->take_warnings()) sink.warn(warning);
+    output(sink);
+    goes_on = sink.continue_after_interval();
+  }
+}
+
+template <int Dim>
+void RunLoop<Dim>::output(OutputSink<Dim>& sink) {
+  const OutputSchedule::Due due = schedule_.take(model_->time());
+  if (!due.row && !due.snapshot) return;
+  const FlowState<Dim> flow = model_->flow_state();
+  // The snapshot keeps the state of the run, and with it how many rows there are.
+  if (due.row) sink.write_row(flow);
+  if (due.snapshot) sink.write_snapshot(flow);
+}
+
+template class RunLoop<2>;
+
+}  // namespace suffuse
