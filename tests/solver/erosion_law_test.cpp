@@ -256,6 +256,17 @@ TEST(FluxLaw, DecaysWithTheLiquidThatPasses) {
   EXPECT_NEAR(erosion_rate(m, n_0, 42.0, flux), 4.0 * flux * 0.1, 1e-17);
 }
 
+TEST(FluxLaw, ErodesBeyondItsThresholdOnly) {
+  ErosionModel m = model(erosion_law("flux"), 4.0);
+  m.parameters.threshold = 0.005;
+  EXPECT_EQ(porosity_after(m, n_0, 0.0, 42.0, 0.004), n_0);
+  EXPECT_EQ(erosion_rate(m, n_0, 42.0, 0.005), 0.0);
+  EXPECT_NEAR(erosion_rate(m, n_0, 42.0, flux), 4.0 * 0.007 * 0.1, 1e-17);
+  EXPECT_NEAR(porosity_after(m, n_0, 0.0, 42.0, flux), n_max - 0.1 * std::exp(-4.0 * 0.007 * 40.0),
+              1e-15);
+  EXPECT_TRUE(std::isnan(porosity_after(m, n_0, 0.0, 42.0, unset)));
+}
+
 TEST(ConstantLaw, StartsAndEndsAtItsExactTimes) {
   const ErosionModel m = model(erosion_law("constant"), 1e-3);
   EXPECT_EQ(porosity_after(m, n_0, 0.0, 2.0, unset), n_0);
