@@ -248,8 +248,8 @@ std::vector<std::int64_t> liquid_point_counts(const Mesh<2>& mesh, const Scene& 
   const PointSettings& settings = scene.points;
   std::vector<std::int64_t> counts(mesh.elements.size(), settings.liquid_per_element);
   if (!settings.equal_volume || settings.seeding == Seeding::gauss) return counts;
-  double mean = mean_liquid_volume(
-      mesh, scene, [](const Soil& soil) { return soil.erosion.law != ErosionLaw::none; });
+  double mean =
+      mean_liquid_volume(mesh, scene, [](const Soil& soil) { return soil.erosion.law->erodes(); });
   if (mean == 0.0) mean = mean_liquid_volume(mesh, scene, [](const Soil&) { return true; });
   for (int e = 0; e < mesh.element_count(); ++e) {
     const double elements_worth = liquid_volume(mesh, scene, e) / mean;

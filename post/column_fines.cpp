@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "exact_solution.hpp"
-
 namespace suffuse {
 namespace {
 
@@ -53,7 +51,7 @@ double porosity_behind(const Scene& scene, const Mesh<2>& mesh, const BoundarySe
     const auto& region = mesh.region_names[mesh.element_region[e]];
     if (scene.is_free_water(region)) return 1.0;
     const Soil* soil = scene.find_soil(region);
-    if (soil == nullptr || soil->erosion.law != ErosionLaw::none) return unset;
+    if (soil == nullptr || soil->erosion.law->erodes()) return unset;
     return soil->initial_porosity(element_centroid(mesh, e));
   }
   return unset;
@@ -98,8 +96,8 @@ double resistance(const Scene& scene, const Mesh<2>& mesh, double width) {
   for (int e = 0; e < mesh.element_count(); ++e) {
     const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
     if (soil == nullptr) continue;
-    const bool lasts = soil->conductivity_law == ConductivityLaw::constant ||
-                       soil->erosion.law == ErosionLaw::none;
+    const bool lasts =
+        !soil->conductivity_law->depends_on_porosity() || !soil->erosion.law->erodes();
     if (soil->drag != SoilDrag::darcy || !lasts) return unset;
     total += element_volume(mesh, e) / (width * soil->conductivity);
   }
@@ -122,7 +120,7 @@ const Soil* eroding_soil(const Scene& scene, const Mesh<2>& mesh) {
   const Soil* found = nullptr;
   for (const auto& region : mesh.region_names) {
     const Soil* soil = scene.find_soil(region);
-    if (soil == nullptr || soil->erosion.law == ErosionLaw::none) continue;
+    if (soil == nullptr || !soil->erosion.law->erodes()) continue;
     if (found != nullptr || soil->porosity_gradient != std::array<double, 3>{}) return nullptr;
     found = soil;
   }
@@ -143,19 +141,14 @@ std::optional<ColumnFlow> column_flow(const ResultsReader& run) {
   const TimeFunction entering = inlet.condition->concentration.value_or(0.0);
   const bool clean = entering.smallest() == 0.0 && entering.largest() == 0.0;
   if (!(std::abs(upward) > 0.0) || !clean) return std::nullopt;
-  ColumnFlow flow{*soil, soil->porosity, scene.geometry.height, scene.geometry.width,
-                  std::abs(upward)};
-  if (soil->erosion.law == ErosionLaw::flux) {
-    // At a uniform flux that lasts it is the first-order law with kappa = lambda |q|.
-    flow.soil.erosion.law = ErosionLaw::first_order;
-    flow.soil.erosion.rate *= flow.flux;
-  }
-  return flow;
+  if (soil->erosion.law->exact_porosity == nullptr) return std::nullopt;
+  return ColumnFlow{*soil, soil->porosity, scene.geometry.height, scene.geometry.width,
+                    std::abs(upward)};
 }
 
 ColumnFines::ColumnFines(const ColumnFlow& flow, double end) : flow_(flow) {
   const double start = flow.soil.erosion.start;
-  const double exhausted = exhaustion_time(flow.soil, flow.porosity);
+  const double exhausted = exhaustion_time(flow.soil.erosion_model(), flow.porosity);
   const auto add = [&](double from, double to) {
     for (int k = 1; k <= intervals && to > from; ++k) {
       const double t = from + (to - from) * k / intervals;
@@ -170,7 +163,7 @@ ColumnFines::ColumnFines(const ColumnFlow& flow, double end) : flow_(flow) {
 }
 
 double ColumnFines::porosity(double t) const {
-  return exact_porosity(flow_.soil, flow_.porosity, t);
+  return exact_porosity(flow_.soil.erosion_model(), flow_.porosity, t, flow_.flux);
 }
 
 double ColumnFines::path_between(double from, double to) const {

@@ -14,7 +14,7 @@ namespace suffuse {
 
 /// A specimen of uniform initial porosity between clean inflow and outflow.
 struct ColumnFlow {
-  Soil soil;  ///< with a law that depends on porosity alone, which at this flux the flux law is too
+  Soil soil;                ///< with a law whose porosity is known exactly at a constant flux
   double porosity = unset;  ///< n_0
   double length = unset;    ///< of the specimen along the flow, m
   double width = unset;     ///< m

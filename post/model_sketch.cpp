@@ -132,10 +132,10 @@ std::string count_text(std::size_t count, const std::string& kind) {
 std::string region_label(const Scene& scene, const std::string& region) {
   if (scene.is_free_water(region)) return region + ": free water";
   const Soil* soil = scene.find_soil(region);
-  if (soil == nullptr || soil->erosion.law == ErosionLaw::none) {
+  if (soil == nullptr || !soil->erosion.law->erodes()) {
     return region + ": soil, does not erode";
   }
-  return region + ": soil, erodes (" + scene_word(soil->erosion.law) + " law)";
+  return region + ": soil, erodes (" + std::string(soil->erosion.law->word) + " law)";
 }
 
 std::vector<SketchedBoundary> sketched_boundaries(const ResultsReader& run) {

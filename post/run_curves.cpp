@@ -94,9 +94,8 @@ std::vector<std::string> run_labels(const std::vector<ResultsReader>& runs) {
 
 std::string law_label(const Specimen& specimen) {
   const auto& erosion = specimen.portions.front().soil.erosion;
-  if (erosion.law == ErosionLaw::none) return "exact, no erosion";
-  const std::string unit = erosion.law == ErosionLaw::flux ? " 1/m" : " 1/s";
-  return "exact, " + scene_word(erosion.law) + " law, " + number_text(erosion.rate) + unit;
+  if (!erosion.law->erodes()) return "exact, no erosion";
+  return "exact, " + law_text(*erosion.law, number_text(erosion.rate));
 }
 
 std::vector<double> exact_times(double end, const Specimen& specimen) {

@@ -47,7 +47,7 @@ void add_settings(Row& row, const ResultsReader& run, const Specimen& soil) {
   const bool double_point = is_double_point(run);
   const auto& erosion = soil.portions.front().soil.erosion;
   row["formulation"] = scene_word(scene.formulation);
-  row["law"] = scene_word(erosion.law);
+  row["law"] = erosion.law->word;
   row["rate"] = number_text(erosion.rate);
   row["mass_scaling"] = number_text(scene.time.mass_scaling);
   row["solid_per_element"] = std::to_string(scene.points.solid_per_element);

@@ -6,22 +6,6 @@ std::string scene_word(Formulation value) {
   return value == Formulation::double_point ? "double-point" : "single-point";
 }
 
-std::string scene_word(ErosionLaw value) {
-  switch (value) {
-    case ErosionLaw::none:
-      return "none";
-    case ErosionLaw::constant:
-      return "constant";
-    case ErosionLaw::logarithmic:
-      return "logarithmic";
-    case ErosionLaw::first_order:
-      return "first-order";
-    case ErosionLaw::flux:
-      return "flux";
-  }
-  return "";
-}
-
 std::string scene_word(Seeding value) {
   switch (value) {
     case Seeding::gauss:

@@ -9,7 +9,6 @@
 namespace suffuse {
 
 std::string scene_word(Formulation value);
-std::string scene_word(ErosionLaw value);
 std::string scene_word(Seeding value);
 std::string scene_word(PressureIntegration value);
 std::string scene_word(MassTransfer value);

@@ -123,7 +123,7 @@ std::string discretization(const Scene& scene) {
   }
   bool dry = false;
   for (const auto& soil : scene.soils) {
-    if (soil.erosion.law == ErosionLaw::none) continue;
+    if (!soil.erosion.law->erodes()) continue;
     dry = dry || soil.erosion.empty_elements == EmptyElements::dry;
   }
   return ": " + points_text(scene.points.liquid_per_element, " liquid ") +

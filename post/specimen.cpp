@@ -5,13 +5,12 @@
 #include <map>
 
 #include "case/errors.hpp"
-#include "exact_solution.hpp"
 
 namespace suffuse {
 namespace {
 
 bool erodes(const Soil& soil) {
-  return soil.erosion.law != ErosionLaw::none;
+  return soil.erosion.law->erodes();
 }
 
 /// Adds an element to the portions, as three parts with the porosity at its edge midpoints, which
@@ -65,15 +64,17 @@ double integrate(const Specimen& specimen, double t,
                  const std::function<double(const Soil&, double, double)>& density) {
   double total = 0.0;
   for (const auto& portion : specimen.portions) {
-    const double now = exact_porosity(portion.soil, portion.initial_porosity, t);
+    const double now =
+        exact_porosity(portion.soil.erosion_model(), portion.initial_porosity, t, unset);
     total += portion.volume * density(portion.soil, portion.initial_porosity, now);
   }
   return total;
 }
 
 bool has_exact_porosity(const Specimen& specimen) {
-  return std::ranges::all_of(specimen.portions,
-                             [](const Portion& p) { return has_exact_porosity(p.soil); });
+  return std::ranges::all_of(specimen.portions, [](const Portion& p) {
+    return has_exact_porosity(p.soil.erosion_model());
+  });
 }
 
 double exact_mean_porosity(const Specimen& specimen, double t) {
@@ -84,7 +85,7 @@ double exact_mean_porosity(const Specimen& specimen, double t) {
 double exact_exhaustion(const Specimen& specimen) {
   double last = 0.0;
   for (const auto& portion : specimen.portions) {
-    last = std::max(last, exhaustion_time(portion.soil, portion.initial_porosity));
+    last = std::max(last, exhaustion_time(portion.soil.erosion_model(), portion.initial_porosity));
   }
   return last;
 }

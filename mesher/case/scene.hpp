@@ -5,23 +5,19 @@
 /// SI units throughout.
 
 #include <array>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "case/time_function.hpp"
+#include "physics/conductivity/conductivity_law.hpp"
+#include "physics/erosion/erosion_law.hpp"
 
 namespace suffuse {
 
-/// A value not yet set: using it shows.
-inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
-
 enum class Formulation { single_point, double_point };
 enum class MeshStructure { regular, crossed, free };
-enum class ErosionLaw { none, constant, logarithmic, first_order, flux };
-enum class ConductivityLaw { constant, kozeny_carman };
 enum class FlowScheme { explicit_nodal, implicit_mixed };
 enum class TimeStepping { second_order, monotone };
 enum class DragIntegration { explicit_drag, implicit_drag };
@@ -75,13 +71,14 @@ struct LiquidProperties {
 };
 
 struct ErosionSettings {
-  ErosionLaw law = ErosionLaw::none;
-  double rate = 0.0;  ///< alpha (Eq. 6), beta (Eq. 7), kappa (first-order), 1/s; lambda (flux), 1/m
-  double start = 0.0;              ///< t_0, s
-  bool momentum_transfer = false;  ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
+  const ErosionLaw* law = no_erosion();  ///< never null
+  double rate = 0.0;                     ///< in the unit of the law
+  double start = 0.0;                    ///< t_0, s
+  bool momentum_transfer = false;        ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
   MassTransfer mass_transfer = MassTransfer::nodal;  ///< double-point: who gets eroded grains
   EmptyElements empty_elements =
-      EmptyElements::wet;  ///< double-point: erode without liquid points?
+      EmptyElements::wet;             ///< double-point: erode without liquid points?
+  ErosionParameters parameters = {};  ///< what the law asks for beside the rate
 };
 
 struct Soil {
@@ -92,12 +89,15 @@ struct Soil {
   double skeleton_fraction = unset;           ///< n_C
   double grain_density = unset;               ///< rho_s, kg/m3
   double conductivity = unset;                ///< k at the initial porosity, m/s
-  ConductivityLaw conductivity_law = ConductivityLaw::constant;
+  const ConductivityLaw* conductivity_law = conductivity_laws().front();  ///< never null
   SoilDrag drag = SoilDrag::darcy;
   ErosionSettings erosion;
 
   /// n_L,max = 1 - n_C
   [[nodiscard]] double porosity_max() const { return 1.0 - skeleton_fraction; }
+  [[nodiscard]] ErosionModel erosion_model() const {
+    return {erosion.law, erosion.rate, erosion.start, porosity_max(), erosion.parameters};
+  }
   /// n_0 at a position of 2 or 3 coordinates.
   template <class Position>
   [[nodiscard]] double initial_porosity(const Position& x) const {

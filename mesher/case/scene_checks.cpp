@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "case/law_texts.hpp"
 #include "case/scene_schema.hpp"
 
 namespace suffuse {
@@ -124,8 +125,24 @@ class Checks {
         break;
       }
     }
-    if (soil.erosion.law != ErosionLaw::none) {
-      require(table + ".rate", "soil.*.erosion.rate", "as law is not \"none\"", table + ".law");
+    if (soil.erosion.law->erodes()) {
+      require(table + ".rate", "soil.*.erosion.rate",
+              "as law is not " + shown_value(std::string(no_erosion()->word)), table + ".law");
+    }
+    check_parameters(soil, table);
+  }
+
+  /// What one law asks for may be inherited by a soil with another law, but not given to it.
+  void check_parameters(const Soil& soil, const std::string& table) const {
+    if (given(table_of(soil) + ".like") || !given(table + ".law") || refused(table + ".law"))
+      return;
+    for (const ErosionParameter& parameter : erosion_parameters()) {
+      const std::string key = joined(table, std::string(parameter.key));
+      std::vector<std::string> laws = laws_with_parameter(parameter.key);
+      if (!given(key) || std::ranges::find(laws, soil.erosion.law->word) != laws.end()) continue;
+      for (std::string& law : laws) law = shown_value(law);
+      report(key, "a key of another law", "law = " + listed(laws) + ", or no such key",
+             {table + ".law"});
     }
   }
 
@@ -199,13 +216,12 @@ class Checks {
   void check_third_term() const {
     const bool single_point = scene_.formulation == Formulation::single_point;
     if (scene_.flow.porosity_gradient_term || !single_point) return;
-    const bool erodes = std::any_of(scene_.soils.begin(), scene_.soils.end(), [](const Soil& soil) {
-      return soil.erosion.law != ErosionLaw::none && soil.erosion.rate > 0.0;
-    });
+    const bool eroding = std::any_of(scene_.soils.begin(), scene_.soils.end(),
+                                     [](const Soil& soil) { return erodes(soil.erosion_model()); });
     const bool grains_enter =
         std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(),
                     [](const auto& b) { return b.concentration.value_or(0.0).largest() > 0.0; });
-    if (!erodes && !grains_enter) return;
+    if (!eroding && !grains_enter) return;
     report("flow.porosity_gradient_term", "false where soil erodes or grains enter",
            "true: without this term of Eq. 2 no balance closes");
   }

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "case/law_texts.hpp"
+
 namespace suffuse {
 namespace {
 
@@ -112,8 +114,8 @@ using MemberOf = std::remove_reference_t<std::invoke_result_t<Access, Scene&, st
 
 /// A key under construction; each call returns the key so that a declaration is one expression.
 struct Declaration : SceneKey {
-  Declaration&& named(const char* name) && { return set(symbol, name); }
-  Declaration&& in(const char* si_unit) && { return set(unit, si_unit); }
+  Declaration&& named(std::string name) && { return set(symbol, std::move(name)); }
+  Declaration&& in(std::string si_unit) && { return set(unit, std::move(si_unit)); }
   Declaration&& above(double x) && { return set(lower, Bound{x, true}); }
   Declaration&& at_least(double x) && { return set(lower, Bound{x, false}); }
   Declaration&& below(double x) && { return set(upper, Bound{x, true}); }
@@ -122,7 +124,7 @@ struct Declaration : SceneKey {
   Declaration&& one_of(std::vector<std::int64_t> all) && { return set(integers, std::move(all)); }
   Declaration&& mandatory() && { return set(required, true); }
   Declaration&& otherwise(Value value) && { return set(default_value, std::move(value)); }
-  Declaration&& otherwise_as(const char* note) && { return set(default_note, note); }
+  Declaration&& otherwise_as(std::string note) && { return set(default_note, std::move(note)); }
 
  private:
   template <class Field, class New>
@@ -133,11 +135,11 @@ struct Declaration : SceneKey {
 };
 
 template <class Access>
-Declaration key(const char* pattern, Access access, const char* sentence) {
+Declaration key(const std::string& pattern, Access access, std::string sentence) {
   Declaration d;
   d.pattern = pattern;
   d.kind = kind_of(MemberOf<Access>{});
-  d.sentence = sentence;
+  d.sentence = std::move(sentence);
   d.store = [access](Scene& scene, std::size_t i, const Value& value) {
     keep(access(scene, i), value);
   };
@@ -148,11 +150,11 @@ Declaration key(const char* pattern, Access access, const char* sentence) {
 template <class Access>
 Declaration choice(const char* pattern, Access access,
                    const std::vector<std::pair<std::string, MemberOf<Access>>>& meanings,
-                   const char* sentence) {
+                   std::string sentence) {
   Declaration d;
   d.pattern = pattern;
   d.kind = ValueKind::word;
-  d.sentence = sentence;
+  d.sentence = std::move(sentence);
   for (const auto& meaning : meanings) d.words.push_back(meaning.first);
   d.store = [access, meanings](Scene& scene, std::size_t i, const Value& value) {
     const auto& word = std::get<std::string>(value);
@@ -160,6 +162,32 @@ Declaration choice(const char* pattern, Access access,
         std::ranges::find(meanings, word, [](const auto& m) { return m.first; })->second;
   };
   return d;
+}
+
+/// The laws that there are, as meanings of their words.
+template <class Law>
+std::vector<std::pair<std::string, const Law*>> by_word(std::span<const Law* const> laws) {
+  std::vector<std::pair<std::string, const Law*>> meanings;
+  for (const Law* law : laws) meanings.emplace_back(law->word, law);
+  return meanings;
+}
+
+std::string no_erosion_word() {
+  return shown_value(std::string(no_erosion()->word));
+}
+
+/// A number that only some erosion laws ask for.
+Declaration erosion_parameter(const ErosionParameter& parameter) {
+  const auto access = [value = parameter.value](Scene& scene, std::size_t i) -> double& {
+    return scene.soils[i].erosion.parameters.*value;
+  };
+  const std::string laws = listed(laws_with_parameter(parameter.key));
+  return key("soil.*.erosion." + std::string(parameter.key), access,
+             std::string(parameter.sentence) + " With the law " + laws + " only.")
+      .named(std::string(parameter.symbol))
+      .in(std::string(parameter.unit))
+      .at_least(0.0)
+      .otherwise(ErosionParameters{}.*parameter.value);
 }
 
 /// Rows of elements in a layer of the column.
@@ -340,34 +368,28 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .mandatory(),
 
-      choice("soil.*.conductivity_law", in_soil(&Soil::conductivity_law),
-             {{"constant", ConductivityLaw::constant},
-              {"kozeny-carman", ConductivityLaw::kozeny_carman}},
-             "How conductivity follows porosity: not at all, or k = k_0 KC(n_L) / KC(n_0) with "
-             "KC(n) = n^3 / (1 - n)^2, k_0 being `conductivity`.")
-          .otherwise("constant"),
+      choice(
+          "soil.*.conductivity_law", in_soil(&Soil::conductivity_law), by_word(conductivity_laws()),
+          "How conductivity follows porosity: " +
+              chained(texts_of(conductivity_laws(), &ConductivityLaw::description), ", ", ", or ") +
+              ".")
+          .otherwise(std::string(conductivity_laws().front()->word)),
       choice("soil.*.drag", in_soil(&Soil::drag),
              {{"darcy", SoilDrag::darcy}, {"ergun", SoilDrag::ergun}},
              "Resistance to the flow: Darcy's, or Ergun's, which also grows with the square of the "
              "flux and has Darcy's `conductivity` at small fluxes.")
           .otherwise("darcy"),
 
-      choice("soil.*.erosion.law", in_erosion(&ErosionSettings::law),
-             {{"none", ErosionLaw::none},
-              {"constant", ErosionLaw::constant},
-              {"logarithmic", ErosionLaw::logarithmic},
-              {"first-order", ErosionLaw::first_order},
-              {"flux", ErosionLaw::flux}},
-             "No erosion; phi_e = alpha; phi_e = -beta ln(n_L / n_L,max); "
-             "phi_e = kappa (n_L,max - n_L); phi_e = lambda (n_L,max - n_L) |q|.")
+      choice("soil.*.erosion.law", in_erosion(&ErosionSettings::law), by_word(erosion_laws()),
+             chained(texts_of(erosion_laws(), &ErosionLaw::equation), "; ", "; ") + ".")
           .named("phi_e")
-          .otherwise_as("`\"none\"`; required with any other erosion key"),
+          .otherwise_as("`" + no_erosion_word() + "`; required with any other erosion key"),
       key("soil.*.erosion.rate", in_erosion(&ErosionSettings::rate),
-          "Rate of the law: alpha, beta, kappa or lambda.")
-          .named("alpha, beta, kappa, lambda")
-          .in("1/s (lambda: 1/m)")
+          "Rate of the law: " + listed(rate_symbols()) + ".")
+          .named(chained(rate_symbols(), ", ", ", "))
+          .in(rate_unit())
           .at_least(0.0)
-          .otherwise_as("required unless `law = \"none\"`"),
+          .otherwise_as("required unless `law = " + no_erosion_word() + "`"),
       key("soil.*.erosion.start", in_erosion(&ErosionSettings::start), "When erosion starts.")
           .named("t_0")
           .in("s")
@@ -520,7 +542,14 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 const std::vector<SceneKey>& scene_keys() {
-  static const std::vector<SceneKey> keys = declare_keys();
+  static const std::vector<SceneKey> keys = [] {
+    std::vector<SceneKey> all = declare_keys();
+    const auto rate = std::ranges::find(all, "soil.*.erosion.rate", &SceneKey::pattern);
+    std::vector<SceneKey> of_laws;
+    for (const ErosionParameter& p : erosion_parameters()) of_laws.push_back(erosion_parameter(p));
+    all.insert(rate + 1, of_laws.begin(), of_laws.end());
+    return all;
+  }();
   return keys;
 }
 

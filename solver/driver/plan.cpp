@@ -140,7 +140,7 @@ void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
   const ElementField<Dim> pores = initial_pore_volume(grid, soils);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const ErosionModel& model = soils.erosion_of_element(e);
-    if (model.law == ErosionLaw::none || !(model.rate > 0.0)) continue;
+    if (!erodes(model)) continue;
     ElementValues<Dim> least = pores[e];
     for (int p = soils.points_begin(e); p < soils.points_begin(e + 1); ++p) {
       const double erodible = points.volume[p] * (model.porosity_max - soils.initial_porosity(p));
@@ -164,7 +164,7 @@ double longest_relaxation(const Scene& scene) {
   double relaxation = 0.0;
   for (const Soil& soil : scene.soils) {
     for (const double n : {soil.porosity, soil.porosity_max()}) {
-      if (n > soil.porosity && soil.erosion.law == ErosionLaw::none) continue;
+      if (n > soil.porosity && !soil.erosion.law->erodes()) continue;
       const double k = conductivity_at(soil.conductivity_law, soil.conductivity, soil.porosity, n);
       relaxation = std::max(relaxation, k / (n * conductivity_gravity));
     }

@@ -71,7 +71,7 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
       follows_pores_(options.inertia || this->has_ergun() || this->gravity().norm() > 0.0) {
   for (const Soil& soil : this->scene().soils) {
     follows_pores_ |=
-        soil.conductivity_law != ConductivityLaw::constant || soil.erosion.momentum_transfer;
+        soil.conductivity_law->depends_on_porosity() || soil.erosion.momentum_transfer;
   }
   for (const FaceCondition& condition : this->conditions_) {
     follows_pores_ |= condition.kind == FaceKind::velocity;

@@ -106,7 +106,7 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   CompensatedSum pores;
   CompensatedSum volume;
   for (int p = 0; p < points.size(); ++p) {
-    const bool erodes = soils_.erosion_of_element(points.element[p]).law != ErosionLaw::none;
+    const bool erodes = soils_.soil_of_element(points.element[p]).erosion.law->erodes();
     if (soils_.erodes() && !erodes) continue;
     pores.add(points.volume[p] * solid_->porosity()[p]);
     volume.add(points.volume[p]);

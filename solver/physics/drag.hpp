@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "case/scene.hpp"
+#include "physics/conductivity/conductivity_law.hpp"
 
 namespace suffuse {
 
@@ -14,21 +14,6 @@ inline constexpr double conductivity_gravity = 9.81;
 /// Darcy drag on the liquid per mixture volume, divided by n_L: n_L rho_w g / k, in kg/(m3 s).
 inline double darcy_drag(double porosity, double water_density, double conductivity) {
   return porosity * water_density * conductivity_gravity / conductivity;
-}
-
-/// KC(n) = n^3 / (1 - n)^2, to which Kozeny and Carman's conductivity is proportional: infinite
-/// where there is no solid (Carman, Trans. Inst. Chem. Eng. 15 (1937) 150).
-inline double kozeny_carman(double porosity) {
-  const double solid = 1.0 - porosity;
-  return porosity * porosity * porosity / (solid * solid);
-}
-
-/// k of a soil whose porosity has gone from `initial_porosity`, where k is `conductivity`, to
-/// `porosity`, m/s.
-inline double conductivity_at(ConductivityLaw law, double conductivity, double initial_porosity,
-                              double porosity) {
-  if (law == ConductivityLaw::constant) return conductivity;
-  return conductivity * (kozeny_carman(porosity) / kozeny_carman(initial_porosity));
 }
 
 /// Grain size at which Ergun's equation has the given conductivity at the initial porosity, m:

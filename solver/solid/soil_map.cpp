@@ -40,8 +40,7 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
                          "a soil for region '" + region + "' of the mesh", ""}});
     }
     soil_of_region_.push_back(soil);
-    erosion_of_region_.push_back(
-        {soil->erosion.law, soil->erosion.rate, soil->erosion.start, soil->porosity_max()});
+    erosion_of_region_.push_back(soil->erosion_model());
   }
   points_begin_.assign(mesh_.element_count() + 1, 0);
   for (const int e : points_.element) ++points_begin_[e + 1];
@@ -50,36 +49,31 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
 
 template <int Dim>
 bool SoilMap<Dim>::erodes() const {
-  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(), [](const auto& model) {
-    return model.law != ErosionLaw::none && model.rate > 0.0;
-  });
+  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(),
+                     [](const auto& model) { return suffuse::erodes(model); });
 }
 
 template <int Dim>
 bool SoilMap<Dim>::erodes_by_flux() const {
-  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(), [](const auto& model) {
-    return model.law == ErosionLaw::flux && model.rate > 0.0;
-  });
+  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(),
+                     [](const auto& model) { return depends_on_flux(model); });
 }
 
 template <int Dim>
 std::vector<double> SoilMap<Dim>::erosion_breakpoints() const {
   std::vector<double> times;
   for (std::size_t r = 0; r < erosion_of_region_.size(); ++r) {
-    const ErosionModel& model = erosion_of_region_[r];
-    if (model.law == ErosionLaw::none || model.rate == 0.0) continue;
-    times.push_back(model.start);
-    if (model.law != ErosionLaw::constant) continue;
-    double first = std::numeric_limits<double>::infinity();
-    double last = 0.0;
+    double lowest = 1.0;
+    double highest = 0.0;
     for (int p = 0; p < points_.size(); ++p) {
       if (mesh_.element_region[points_.element[p]] != static_cast<int>(r)) continue;
-      const double gone = (model.porosity_max - initial_porosity(p)) / model.rate;
-      first = std::min(first, gone);
-      last = std::max(last, gone);
+      lowest = std::min(lowest, initial_porosity(p));
+      highest = std::max(highest, initial_porosity(p));
     }
-    for (const double gone : {first, last}) {
-      if (std::isfinite(gone)) times.push_back(model.start + gone);
+    if (lowest > highest) continue;  // no points
+    for (const double porosity : {lowest, highest}) {
+      const std::vector<double> own = breakpoints(erosion_of_region_[r], porosity);
+      times.insert(times.end(), own.begin(), own.end());
     }
   }
   std::sort(times.begin(), times.end());
@@ -95,13 +89,12 @@ TimeSpan SoilMap<Dim>::erosion_span() const {
   TimeSpan span{never, -never};
   for (int p = 0; p < points_.size(); ++p) {
     const ErosionModel& model = erosion_of_element(points_.element[p]);
-    if (model.law == ErosionLaw::none || model.rate == 0.0) continue;
+    if (!suffuse::erodes(model)) continue;
     span.begin = std::min(span.begin, model.start);
-    const bool runs_out = model.law == ErosionLaw::constant &&
-                          soil_of_element(points_.element[p]).erosion.empty_elements !=
-                              EmptyElements::dry;  // those wait for liquid
-    const double gone = model.start + (model.porosity_max - initial_porosity(p)) / model.rate;
-    span.end = std::max(span.end, runs_out ? gone * (1.0 + round_off) : never);
+    const bool waits_for_liquid =
+        soil_of_element(points_.element[p]).erosion.empty_elements == EmptyElements::dry;
+    const double gone = exhaustion_time(model, initial_porosity(p)) * (1.0 + round_off);
+    span.end = std::max(span.end, waits_for_liquid ? never : gone);
   }
   return span;
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
-#include "physics/erosion_law.hpp"
+#include "physics/erosion/erosion_law.hpp"
 
 namespace suffuse {
 
@@ -56,8 +56,8 @@ class SoilMap {
   [[nodiscard]] bool erodes() const;
   /// Some soil's erosion depends on the flow.
   [[nodiscard]] bool erodes_by_flux() const;
-  /// Times at which erosion starts or, at a constant rate, ends (at the first and the last point of
-  /// a region), ascending, s.
+  /// Times at which erosion starts or, where the law says when, ends (at the first and the last
+  /// point of a region), ascending, s.
   [[nodiscard]] std::vector<double> erosion_breakpoints() const;
   /// When porosity can change at all: from the first start on until, if only constant rates are at
   /// work, the last soil has nothing left to erode; infinite where that cannot be told.

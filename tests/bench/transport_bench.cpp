@@ -39,7 +39,7 @@ struct Column {
 
   static Case<2> make(int cells) {
     Scene scene = model::paper_scene();
-    scene.soils[0].erosion = {ErosionLaw::constant, 1e-9, 0.0, false};
+    scene.soils[0].erosion = {erosion_law("constant"), 1e-9, 0.0, false};
     scene.boundaries = {model::flux_on("top", 0.012), model::pressure_on("bottom", 0.0)};
     return model::make_case(model::column_mesh(cells, cells), scene);
   }

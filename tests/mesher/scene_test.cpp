@@ -130,7 +130,7 @@ TEST(Scene, reads_every_value_of_the_papers_scene) {
   EXPECT_EQ(soil.skeleton_fraction, 0.6);
   EXPECT_EQ(soil.grain_density, 2700.0);
   EXPECT_EQ(soil.conductivity, 2e-2);
-  EXPECT_EQ(soil.erosion.law, ErosionLaw::logarithmic);
+  EXPECT_EQ(soil.erosion.law, erosion_law("logarithmic"));
   EXPECT_EQ(soil.erosion.rate, 1e-3);
   EXPECT_EQ(soil.erosion.start, 2.0);
   EXPECT_TRUE(soil.erosion.momentum_transfer);
@@ -159,8 +159,8 @@ TEST(Scene, fills_in_defaults) {
   EXPECT_EQ(scene.time.drag, DragIntegration::explicit_drag);
   EXPECT_EQ(scene.output.snapshot_every, scene.output.every);
   EXPECT_EQ(scene.gravity, (std::array{0.0, 0.0, 0.0}));
-  EXPECT_EQ(scene.soils[0].conductivity_law, ConductivityLaw::constant);
-  EXPECT_EQ(scene.soils[0].erosion.law, ErosionLaw::none);
+  EXPECT_EQ(scene.soils[0].conductivity_law, conductivity_law("constant"));
+  EXPECT_EQ(scene.soils[0].erosion.law, erosion_law("none"));
   EXPECT_TRUE(scene.boundaries.empty());
 }
 
@@ -207,9 +207,23 @@ TEST(Scene, takes_laws_that_follow_the_flux_and_the_porosity) {
   const Scene scene =
       scene_of(least, {"soil.specimen.erosion.law=flux", "soil.specimen.erosion.rate=4",
                        "soil.specimen.conductivity_law=kozeny-carman"});
-  EXPECT_EQ(scene.soils[0].erosion.law, ErosionLaw::flux);
+  EXPECT_EQ(scene.soils[0].erosion.law, erosion_law("flux"));
   EXPECT_EQ(scene.soils[0].erosion.rate, 4.0);
-  EXPECT_EQ(scene.soils[0].conductivity_law, ConductivityLaw::kozeny_carman);
+  EXPECT_EQ(scene.soils[0].conductivity_law, conductivity_law("kozeny-carman"));
+}
+
+TEST(Scene, takes_a_threshold_with_the_flux_law_only) {
+  const std::vector<std::string> flux{"soil.specimen.erosion.law=flux",
+                                      "soil.specimen.erosion.rate=4"};
+  EXPECT_EQ(scene_of(least, flux).soils[0].erosion.parameters.threshold, 0.0);
+  std::vector<std::string> with_threshold = flux;
+  with_threshold.emplace_back("soil.specimen.erosion.threshold=5e-3");
+  const Scene scene = scene_of(least, with_threshold);
+  EXPECT_EQ(scene.soils[0].erosion.parameters.threshold, 5e-3);
+  EXPECT_EQ(scene.soils[0].erosion_model().parameters.threshold, 5e-3);
+  // A soil that is like another may have another law.
+  with_threshold.emplace_back("soil.base={like=\"specimen\", erosion={law=\"first-order\"}}");
+  EXPECT_EQ(scene_of(least, with_threshold).soils[1].erosion.law, erosion_law("first-order"));
 }
 
 using Knots = std::vector<std::pair<double, double>>;
@@ -295,13 +309,13 @@ TEST(Scene, reads_every_value_of_the_double_point_scene) {
 
   const Soil& specimen = *scene.find_soil("specimen");
   EXPECT_EQ(specimen.drag, SoilDrag::ergun);
-  EXPECT_EQ(specimen.erosion.law, ErosionLaw::constant);
+  EXPECT_EQ(specimen.erosion.law, erosion_law("constant"));
   EXPECT_EQ(specimen.erosion.mass_transfer, MassTransfer::element);
   EXPECT_EQ(specimen.erosion.empty_elements, EmptyElements::dry);
   const Soil& like_it = *scene.find_soil("buffer");
   EXPECT_EQ(like_it.porosity, specimen.porosity);
   EXPECT_EQ(like_it.drag, SoilDrag::ergun);
-  EXPECT_EQ(like_it.erosion.law, ErosionLaw::none);  // its rate is inherited, and of no account
+  EXPECT_EQ(like_it.erosion.law, erosion_law("none"));  // its rate is inherited, and of no account
   EXPECT_EQ(like_it.erosion.rate, specimen.erosion.rate);
 
   for (const std::string water : {"inflow", "outflow", "free_above", "free_below"}) {
@@ -371,14 +385,14 @@ erosion.law = "none"
   EXPECT_EQ(buffer->porosity, 0.35);
   EXPECT_EQ(buffer->skeleton_fraction, 0.6);
   EXPECT_EQ(buffer->conductivity, 2e-2);
-  EXPECT_EQ(buffer->erosion.law, ErosionLaw::none);
+  EXPECT_EQ(buffer->erosion.law, erosion_law("none"));
   EXPECT_EQ(buffer->erosion.start, 2.0);
   const Soil* fine = scene.find_soil("fine");
   ASSERT_NE(fine, nullptr);
   EXPECT_EQ(fine->porosity, 0.35);
   EXPECT_EQ(fine->conductivity, 1e-4);
-  EXPECT_EQ(fine->erosion.law, ErosionLaw::none);
-  EXPECT_EQ(scene.find_soil("specimen")->erosion.law, ErosionLaw::constant);
+  EXPECT_EQ(fine->erosion.law, erosion_law("none"));
+  EXPECT_EQ(scene.find_soil("specimen")->erosion.law, erosion_law("constant"));
   EXPECT_EQ(scene.find_soil("sand"), nullptr);
 }
 
@@ -405,7 +419,7 @@ TEST(Override, changes_and_adds_keys) {
               "time.end=10", "time.end = 20", "boundary[0].on=top", "boundary[0].pressure=3000",
               "boundary[1]={on=\"bottom\", darcy_flux=-1e-3}", "gravity=[0, -9.81]", "name='a b'",
               "time.drag=implicit", "soil.\"two words\".like=specimen"});
-  EXPECT_EQ(scene.soils[0].erosion.law, ErosionLaw::first_order);
+  EXPECT_EQ(scene.soils[0].erosion.law, erosion_law("first-order"));
   EXPECT_EQ(scene.soils[0].erosion.rate, 5e-3);
   EXPECT_EQ(scene.time.end, 20.0);
   ASSERT_EQ(scene.boundaries.size(), 2U);

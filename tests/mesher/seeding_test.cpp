@@ -190,12 +190,12 @@ Scene fan_scene(Seeding seeding) {
   specimen.region = "specimen";
   specimen.porosity = 0.3;
   specimen.porosity_gradient = {0.05, 0.02, 0.0};
-  specimen.erosion.law = ErosionLaw::constant;
+  specimen.erosion.law = erosion_law("constant");
   Soil beside = specimen;
   beside.region = "buffer";
   beside.porosity = 0.5;
   beside.porosity_gradient = {};
-  beside.erosion.law = ErosionLaw::none;
+  beside.erosion.law = erosion_law("none");
   scene.soils = {specimen, beside};
   return scene;
 }
@@ -322,7 +322,7 @@ TEST(Seeding, CountsPointsByTheLiquidOfSoilThatErodes) {
     }
   };
   expect_proportion(0, 4);
-  for (Soil& soil : scene.soils) soil.erosion.law = ErosionLaw::none;
+  for (Soil& soil : scene.soils) soil.erosion.law = erosion_law("none");
   expect_proportion(0, 8);
 }
 

@@ -42,7 +42,7 @@ ColumnFlow paper_flow(const std::string& law, double rate, double flux) {
   flow.soil.porosity = 0.3;
   flow.soil.skeleton_fraction = 0.6;
   flow.soil.grain_density = 2700.0;
-  flow.soil.erosion.law = law == "log" ? ErosionLaw::logarithmic : ErosionLaw::constant;
+  flow.soil.erosion.law = law == "log" ? erosion_law("logarithmic") : erosion_law("constant");
   flow.soil.erosion.rate = rate;
   flow.soil.erosion.start = 2.0;
   flow.porosity = 0.3;
@@ -123,13 +123,20 @@ TEST(ColumnFlow, ComesFromAFluxOrAVelocityInFreeWater) {
   EXPECT_NEAR(flow->flux, 2e-2 / 2.0, 1e-16);
 }
 
-TEST(ColumnFlow, TakesTheFluxLawForFirstOrderAtItsFlux) {
+TEST(ColumnFlow, OfTheFluxLawErodesAsFirstOrderAtItsFlux) {
   const ScratchFolder scratch;
   const auto flow = flow_of(scratch, testing::double_point::column(),
                             "law = \"constant\"\nrate = 0.001", "law = \"flux\"\nrate = 4.0");
   ASSERT_TRUE(flow);
-  EXPECT_EQ(flow->soil.erosion.law, ErosionLaw::first_order);
-  EXPECT_DOUBLE_EQ(flow->soil.erosion.rate, 4.0 * 0.02);
+  ColumnFlow first_order = *flow;
+  first_order.soil.erosion.law = erosion_law("first-order");
+  first_order.soil.erosion.rate = 4.0 * 0.02;
+  const ColumnFines fines(*flow, 60.0);
+  const ColumnFines expected(first_order, 60.0);
+  for (const double t : {10.0, 30.0, 60.0}) {
+    EXPECT_GT(fines.concentration(1.0, t), 0.0);
+    EXPECT_NEAR(fines.concentration(1.0, t), expected.concentration(1.0, t), 1e-14) << t;
+  }
 }
 
 TEST(ColumnFlow, IsThereForLevelTablesAndNotForChangingOnes) {

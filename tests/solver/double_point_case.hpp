@@ -52,7 +52,7 @@ inline Mesh<2> layered_mesh(int columns, const LayerSettings& layers, int specim
 inline Scene double_point_scene(double flux, double rate) {
   Scene scene = paper_scene();
   scene.formulation = Formulation::double_point;
-  scene.soils.front().erosion.law = ErosionLaw::constant;
+  scene.soils.front().erosion.law = erosion_law("constant");
   scene.soils.front().erosion.rate = rate;
   scene.soils.front().erosion.start = 2.0;
   Soil buffer = scene.soils.front();

@@ -22,7 +22,7 @@ using test::TemporaryFolder;
 
 Scene single_point_scene(FlowScheme scheme) {
   Scene scene = model::paper_scene();
-  scene.soils[0].erosion.law = ErosionLaw::constant;
+  scene.soils[0].erosion.law = erosion_law("constant");
   scene.soils[0].erosion.rate = 5e-3;
   scene.soils[0].erosion.start = 2.0;
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
@@ -47,8 +47,8 @@ std::vector<Example> examples() {
     const std::string name = implicit ? "implicit" : "explicit";
     Scene scene = single_point_scene(scheme);
     result.push_back({"single-point, " + name, model::make_case(model::column_mesh(4, 4), scene)});
-    scene.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
-    scene.soils[0].erosion.law = ErosionLaw::logarithmic;
+    scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+    scene.soils[0].erosion.law = erosion_law("logarithmic");
     scene.soils[0].erosion.rate = 1e-2;
     scene.soils[0].erosion.start = 0.0;
     result.push_back({"single-point, " + name + ", Kozeny-Carman",

@@ -60,7 +60,7 @@ TEST(Plan, StiffWaterNeedsFluxesThatAddUpAtAllTimes) {
 TEST(Plan, PointsOnCornersMustLeavePoresElsewhere) {
   Scene scene = fluxes(0.01, -0.01);
   scene.points.solid_per_element = 1;
-  scene.soils[0].erosion = {ErosionLaw::constant, 1e-3, 0.0, false};
+  scene.soils[0].erosion = {erosion_law("constant"), 1e-3, 0.0, false};
   Case<2> c = model::make_case(model::column_mesh(4, 4), scene);
   c.solid_points.barycentric[7] = {0.0, 0.0, 1.0};
   EXPECT_NO_THROW(make_plan(c, {})) << "of 0.3 it takes a third of 0.1";
@@ -89,7 +89,7 @@ TEST(Plan, SkipsWhatTheSceneDoesNotNeed) {
   scene.boundaries[0].concentration = 0.1;
   EXPECT_TRUE(plan_of({}).transport);
   EXPECT_FALSE(plan_of({}).erosion);
-  scene.soils[0].erosion = {ErosionLaw::constant, 1e-3, 0.0, false};
+  scene.soils[0].erosion = {erosion_law("constant"), 1e-3, 0.0, false};
   EXPECT_TRUE(plan_of({}).erosion);
 }
 

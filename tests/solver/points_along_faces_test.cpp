@@ -217,7 +217,7 @@ TEST(PointsAlongFaces, SecondOrderWherePorosityCurvesInTime) {
   for (const double dt : {6.0, 3.0, 1.5}) {
     Scene scene = model::double_point_scene(flux, kappa);
     scene.soils[0].porosity = 0.2;
-    scene.soils[0].erosion.law = ErosionLaw::first_order;
+    scene.soils[0].erosion.law = erosion_law("first-order");
     scene.soils[0].erosion.start = 0.0;
     scene.points.liquid_per_element = 48;
     Column column(model::layered_mesh(4, {}, 8, 0.5), std::move(scene));

@@ -21,7 +21,7 @@ struct SolidCase {
 
   static Case<2> make(double rate, double start) {
     Scene scene = model::paper_scene();
-    scene.soils[0].erosion.law = ErosionLaw::constant;
+    scene.soils[0].erosion.law = erosion_law("constant");
     scene.soils[0].erosion.rate = rate;
     scene.soils[0].erosion.start = start;
     return model::make_case(model::column_mesh(4, 4), scene);

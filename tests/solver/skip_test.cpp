@@ -12,7 +12,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Scene single_point_scene(FlowScheme scheme) {
   Scene scene = model::paper_scene();
-  scene.soils[0].erosion.law = ErosionLaw::constant;
+  scene.soils[0].erosion.law = erosion_law("constant");
   scene.soils[0].erosion.rate = 2e-2;
   scene.soils[0].erosion.start = 2.0;
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
@@ -126,8 +126,8 @@ TEST(SkipInTime, OnlyWhatIsCertain) {
   EXPECT_EQ(plan_of().erosion_span.end, infinity);
   // These laws come to an end without reaching it.
   scene.soils[0].erosion.empty_elements = EmptyElements::wet;
-  for (const ErosionLaw law :
-       {ErosionLaw::logarithmic, ErosionLaw::first_order, ErosionLaw::flux}) {
+  for (const ErosionLaw* law :
+       {erosion_law("logarithmic"), erosion_law("first-order"), erosion_law("flux")}) {
     scene.soils[0].erosion.law = law;
     EXPECT_EQ(plan_of().erosion_span.begin, 2.0);
     EXPECT_EQ(plan_of().erosion_span.end, infinity);

@@ -42,9 +42,9 @@ class KnownPorosity {
  public:
   explicit KnownPorosity(const Scene& scene) {
     for (const Soil& soil : scene.soils) {
-      if (soil.erosion.law == ErosionLaw::none) continue;
+      if (soil.erosion.law == erosion_law("none")) continue;
       if (soil_ != nullptr || soil.porosity_gradient != std::array<double, 3>{} ||
-          soil.erosion.law == ErosionLaw::flux ||
+          soil.erosion.law == erosion_law("flux") ||
           soil.erosion.empty_elements == EmptyElements::dry) {
         soil_ = nullptr;
         return;
@@ -59,8 +59,9 @@ class KnownPorosity {
     const double first = soil_->porosity;
     const double most = soil_->porosity_max();
     const double rate = soil_->erosion.rate;
-    if (soil_->erosion.law == ErosionLaw::constant) return std::min(most, first + rate * duration);
-    if (soil_->erosion.law == ErosionLaw::first_order) {
+    if (soil_->erosion.law == erosion_law("constant"))
+      return std::min(most, first + rate * duration);
+    if (soil_->erosion.law == erosion_law("first-order")) {
       return most - (most - first) * std::exp(-rate * duration);
     }
     return logarithmic(first, most, rate * duration / most);

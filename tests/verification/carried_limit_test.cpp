@@ -17,7 +17,7 @@ Scene carried_scene(int points_per_element) {
   scene.formulation = Formulation::double_point;
   scene.flow.integration = PressureIntegration::material_point;
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
-  scene.soils.front().erosion = {ErosionLaw::constant, 0.1, 0.1, false};
+  scene.soils.front().erosion = {erosion_law("constant"), 0.1, 0.1, false};
   scene.points.liquid_per_element = points_per_element;
   scene.time.end = 1.0;
   return scene;

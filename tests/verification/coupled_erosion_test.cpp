@@ -45,7 +45,7 @@ TEST_P(FluxLawEverywhere, UniformFluxMakesItTheFirstOrderLaw) {
   Scene scene = model::paper_scene();
   scene.boundaries = {model::flux_on("top", flux), model::pressure_on("bottom", 0.0)};
   scene.initial_flow = InitialFlow::steady;
-  scene.soils[0].erosion = {ErosionLaw::flux, kappa / flux, 2.0, false};
+  scene.soils[0].erosion = {erosion_law("flux"), kappa / flux, 2.0, false};
   scene.time.end = times.back();
   GetParam().apply(scene);
   model::ModelRun single(model::make_case(model::column_mesh(4, 4), scene));
@@ -73,7 +73,7 @@ TEST(PermeabilityFeedbackDoublePoint, FluxVolumeAndFinesFollowTheExactSolution) 
   }
   Scene scene = model::double_point_scene(flux, 5e-3);
   scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
-  scene.soils.front().conductivity_law = ConductivityLaw::kozeny_carman;
+  scene.soils.front().conductivity_law = conductivity_law("kozeny-carman");
   scene.boundaries = {model::pressure_on("inflow", 5886.0), model::pressure_on("outflow", 0.0)};
   scene.boundaries[0].concentration = 0.0;
   scene.time.inertia = false;

@@ -35,9 +35,9 @@ class SealedBox : public ::testing::TestWithParam<model::SchemeCase> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, SealedBox, schemes, name_of);
 
 TEST_P(SealedBox, ErosionSourcesNoPressureAndLosesNoMass) {
-  for (const ErosionLaw law : {ErosionLaw::constant, ErosionLaw::logarithmic}) {
+  for (const ErosionLaw* law : {erosion_law("constant"), erosion_law("logarithmic")}) {
     Scene scene = model::paper_scene();
-    scene.soils[0].erosion = {law, law == ErosionLaw::constant ? 5e-3 : 1e-2, 2.0, false};
+    scene.soils[0].erosion = {law, law == erosion_law("constant") ? 5e-3 : 1e-2, 2.0, false};
     scene.time.end = 30.0;
     GetParam().apply(scene);
     model::ModelRun run(
@@ -98,7 +98,7 @@ TEST(EquationOfState, PressureIsThatOfTheMasses) {
   // From rest, ringing, with erosion: what the flow integrates and what the masses say could drift
   // apart.
   Scene scene = model::paper_scene();
-  scene.soils[0].erosion = {ErosionLaw::logarithmic, 1e-2, 0.0, false};
+  scene.soils[0].erosion = {erosion_law("logarithmic"), 1e-2, 0.0, false};
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
   scene.time.mass_scaling = 1e4;
   scene.time.end = 30.0;

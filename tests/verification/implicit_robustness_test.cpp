@@ -22,7 +22,7 @@ Scene column(Formulation formulation) {
   Scene scene = model::paper_scene();
   scene.formulation = formulation;
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
-  scene.soils.front().erosion = {ErosionLaw::constant, 5e-3, 2.0, false};
+  scene.soils.front().erosion = {erosion_law("constant"), 5e-3, 2.0, false};
   scene.time.scheme = FlowScheme::implicit_mixed;
   scene.time.inertia = false;
   scene.time.end = 40.0;
@@ -55,62 +55,62 @@ void jump(Scene& scene, double within) {
 class HardScenes : public ::testing::TestWithParam<HardScene> {};
 INSTANTIATE_TEST_SUITE_P(
     All, HardScenes,
-    ::testing::Values(HardScene{"JumpOfPressure", [](Scene& s) { jump(s, 1e-7); }, 400},
-                      HardScene{"JumpShorterThanTimeHasDigitsFor", [](Scene& s) { jump(s, 1e-10); },
-                                400},
-                      HardScene{"JumpInSoftWater",
-                                [](Scene& s) {
-                                  s.liquid.bulk_modulus = 2e5;
-                                  jump(s, 1e-7);
-                                },
-                                400},
-                      HardScene{"JumpInTightSoil",
-                                [](Scene& s) {
-                                  s.soils[0].conductivity = 1e-6;
-                                  jump(s, 1e-7);
-                                },
-                                400},
-                      HardScene{"FluxLawWithFeedback",
-                                [](Scene& s) {
-                                  s.soils[0].erosion = {ErosionLaw::flux, 5.0, 2.0, false};
-                                  s.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
-                                },
-                                300},
-                      HardScene{"MomentumOfAllFinesAtOnce",
-                                [](Scene& s) {
-                                  s.soils[0].erosion = {ErosionLaw::constant, 1e3, 2.0, true};
-                                },
-                                300},
-                      HardScene{"MomentumAndSmallTolerance",
-                                [](Scene& s) {
-                                  s.soils[0].erosion = {ErosionLaw::logarithmic, 1e-2, 2.0, true};
-                                  s.time.tolerance = 1e-6;
-                                },
-                                6000},
-                      HardScene{"HeavyLiquid",
-                                [](Scene& s) {
-                                  s.gravity = {0.0, -9.81};
-                                },
-                                2000},
-                      HardScene{"HeavyLiquidAndFeedback",
-                                [](Scene& s) {
-                                  s.gravity = {0.0, -9.81};
-                                  s.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
-                                },
-                                2000},
-                      HardScene{"HeavyLiquidAtRest",
-                                [](Scene& s) {
-                                  s.gravity = {0.0, -9.81};
-                                  s.boundaries[0].pressure = 0.0;
-                                  s.boundaries[1].pressure = 9810.0;
-                                },
-                                2000},
-                      HardScene{"HeavyStiffLiquid",
-                                [](Scene& s) {
-                                  s.gravity = {0.0, -9.81};
-                                  s.liquid.bulk_modulus = infinite;
-                                },
-                                2000}),
+    ::testing::Values(
+        HardScene{"JumpOfPressure", [](Scene& s) { jump(s, 1e-7); }, 400},
+        HardScene{"JumpShorterThanTimeHasDigitsFor", [](Scene& s) { jump(s, 1e-10); }, 400},
+        HardScene{"JumpInSoftWater",
+                  [](Scene& s) {
+                    s.liquid.bulk_modulus = 2e5;
+                    jump(s, 1e-7);
+                  },
+                  400},
+        HardScene{"JumpInTightSoil",
+                  [](Scene& s) {
+                    s.soils[0].conductivity = 1e-6;
+                    jump(s, 1e-7);
+                  },
+                  400},
+        HardScene{"FluxLawWithFeedback",
+                  [](Scene& s) {
+                    s.soils[0].erosion = {erosion_law("flux"), 5.0, 2.0, false};
+                    s.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+                  },
+                  300},
+        HardScene{"MomentumOfAllFinesAtOnce",
+                  [](Scene& s) {
+                    s.soils[0].erosion = {erosion_law("constant"), 1e3, 2.0, true};
+                  },
+                  300},
+        HardScene{"MomentumAndSmallTolerance",
+                  [](Scene& s) {
+                    s.soils[0].erosion = {erosion_law("logarithmic"), 1e-2, 2.0, true};
+                    s.time.tolerance = 1e-6;
+                  },
+                  6000},
+        HardScene{"HeavyLiquid",
+                  [](Scene& s) {
+                    s.gravity = {0.0, -9.81};
+                  },
+                  2000},
+        HardScene{"HeavyLiquidAndFeedback",
+                  [](Scene& s) {
+                    s.gravity = {0.0, -9.81};
+                    s.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+                  },
+                  2000},
+        HardScene{"HeavyLiquidAtRest",
+                  [](Scene& s) {
+                    s.gravity = {0.0, -9.81};
+                    s.boundaries[0].pressure = 0.0;
+                    s.boundaries[1].pressure = 9810.0;
+                  },
+                  2000},
+        HardScene{"HeavyStiffLiquid",
+                  [](Scene& s) {
+                    s.gravity = {0.0, -9.81};
+                    s.liquid.bulk_modulus = infinite;
+                  },
+                  2000}),
     [](const auto& param_info) { return param_info.param.name; });
 
 template <class Run>
@@ -165,8 +165,8 @@ TEST(FeedbackAfterAStart, KeepsTheToleranceAndDoesNotSeeSkips) {
   const std::vector<double> times{3.0, 6.0, 9.0, 12.0, 15.0};
   const auto flows = [&](double tolerance, bool no_skip) {
     Scene scene = column(Formulation::single_point);
-    scene.soils[0].erosion = {ErosionLaw::flux, 5.0, 2.0, false};
-    scene.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
+    scene.soils[0].erosion = {erosion_law("flux"), 5.0, 2.0, false};
+    scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
     scene.time.tolerance = tolerance;
     SolverOptions options;
     options.no_skip = no_skip;

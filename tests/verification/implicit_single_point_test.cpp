@@ -117,8 +117,8 @@ TEST_P(PermeabilityFeedback, FluxVolumeAndFinesFollowTheExactSolution) {
   ASSERT_GE(rows.size(), 7U);
   Scene scene = under_head(times.back());
   scene.liquid.bulk_modulus = stiff;
-  scene.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
-  scene.soils[0].erosion = {ErosionLaw::constant, feedback.rate, 2.0, false};
+  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+  scene.soils[0].erosion = {erosion_law("constant"), feedback.rate, 2.0, false};
   scene.time.step = feedback.step;
   scene.time.inertia = false;  // nor has the exact solution
   scene.time.tolerance = feedback.tolerance;
@@ -179,8 +179,8 @@ TEST(PermeabilityFeedback, ItsErrorFallsWithTheSquareOfTheStep) {
   const auto error = [&](double step, TimeStepping stepping) {
     Scene scene = under_head(22.0);
     scene.liquid.bulk_modulus = stiff;
-    scene.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
-    scene.soils[0].erosion = {ErosionLaw::constant, 5e-3, 2.0, false};
+    scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+    scene.soils[0].erosion = {erosion_law("constant"), 5e-3, 2.0, false};
     scene.time.step = step;
     scene.time.inertia = false;
     scene.time.stepping = stepping;
@@ -213,7 +213,7 @@ TEST(FluxLaw, UniformFluxMakesItTheFirstOrderLaw) {
   Scene scene = implicit_scene(times.back());
   scene.boundaries = {model::flux_on("top", flux), model::pressure_on("bottom", 0.0)};
   scene.liquid.bulk_modulus = stiff;
-  scene.soils[0].erosion = {ErosionLaw::flux, kappa / flux, 2.0, false};
+  scene.soils[0].erosion = {erosion_law("flux"), kappa / flux, 2.0, false};
   model::ModelRun run(model::make_case(strip(32), scene));
   const auto moments = run.run(times);
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -241,7 +241,7 @@ TEST(FluxLaw, ErosionFollowsAFluxThatChanges) {
   scene.boundaries[0].darcy_flux =
       TimeFunction(std::vector<std::pair<double, double>>{{0.0, 0.0}, {10.0, 0.012}});
   scene.liquid.bulk_modulus = stiff;
-  scene.soils[0].erosion = {ErosionLaw::flux, 20.0, 0.0, false};
+  scene.soils[0].erosion = {erosion_law("flux"), 20.0, 0.0, false};
   model::ModelRun run(model::make_case(model::column_mesh(2, 4), scene));
   const auto moments = run.run({5.0, 10.0});
   for (std::size_t k = 0; k < 2; ++k) {
@@ -260,7 +260,7 @@ TEST(Events, KinksOfBoundaryValuesAndErosionAreHitExactly) {
   scene.boundaries[0].darcy_flux = TimeFunction(std::vector<std::pair<double, double>>{
       {1.7, 0.0}, {3.1, 0.012}, {11.9, 0.012}, {12.3, 0.004}});
   scene.liquid.bulk_modulus = stiff;
-  scene.soils[0].erosion = {ErosionLaw::constant, 0.02, 2.3, false};
+  scene.soils[0].erosion = {erosion_law("constant"), 0.02, 2.3, false};
   scene.time.inertia = false;
   const double volume = 0.012 * (0.5 * 1.4 + 8.8 + 0.4) - 0.5 * 0.4 * 0.008 + 0.004 * 7.7;
   for (const std::optional<double> step : {std::optional<double>{}, std::optional<double>{1.0}}) {
@@ -359,7 +359,7 @@ TEST(StartUp, WavesThatMoveNothingAreNotFollowed) {
 TEST(KeptFlow, SteadyFlowIsNotSolvedAgain) {
   Scene scene = under_head(120.0);
   scene.initial_flow = InitialFlow::rest;
-  scene.soils[0].erosion = {ErosionLaw::constant, 5e-3, 2.0, false};
+  scene.soils[0].erosion = {erosion_law("constant"), 5e-3, 2.0, false};
   scene.time.step = 1.0;
   scene.time.inertia = false;
   model::ModelRun kept(model::make_case(model::column_mesh(4, 4), scene));

@@ -33,7 +33,7 @@ TEST(Stiffness, AnySoilAndAnyWaterGetThroughADay) {
       scene.liquid.bulk_modulus = modulus;
       scene.output.every = scene.output.snapshot_every = 3600.0;
       scene.soils[0].conductivity = conductivity;
-      scene.soils[0].erosion = {ErosionLaw::first_order, 1e-4, 600.0, false};
+      scene.soils[0].erosion = {erosion_law("first-order"), 1e-4, 600.0, false};
       model::ModelRun run(model::make_case(model::column_mesh(4, 4), scene));
       const auto moments = run.run({86400.0});
       const HistoryRow row = moments.states[0].history;

@@ -16,8 +16,8 @@ constexpr double height = 1.0;
 
 Scene feedback_scene(double rate, double flux, double end) {
   Scene scene = model::paper_scene();
-  scene.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
-  scene.soils[0].erosion = {ErosionLaw::constant, rate, 2.0, false};
+  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+  scene.soils[0].erosion = {erosion_law("constant"), rate, 2.0, false};
   const double gradient = 1000.0 * 9.81 * flux / scene.soils[0].conductivity;
   scene.boundaries = {model::pressure_on("top", gradient * height),
                       model::pressure_on("bottom", 0.0)};

@@ -197,7 +197,7 @@ TEST(StabilityLimitRefusal, TheLimitFollowsErosion) {
   // The paper's step of 0.0851 s: porosity grows by a third and the limit falls to 0.088 s.
   Scene scene = model::paper_scene();
   scene.time.mass_scaling = 1e4;
-  scene.soils[0].erosion = {ErosionLaw::constant, 1e-3, 2.0, false};
+  scene.soils[0].erosion = {erosion_law("constant"), 1e-3, 2.0, false};
   const Case<2> c = model::make_case(model::column_mesh(4, 4), scene);
   const double limit = make_plan(c, {}).limit.step;
   EXPECT_GT(limit, 0.0851);

@@ -10,7 +10,7 @@ namespace {
 /// A column with more nodes, faces and elements than the loops need to go parallel.
 Scene large_scene() {
   Scene scene = model::paper_scene();
-  scene.soils[0].erosion = {ErosionLaw::logarithmic, 1e-2, 0.0, false};
+  scene.soils[0].erosion = {erosion_law("logarithmic"), 1e-2, 0.0, false};
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
   return scene;
 }
@@ -45,8 +45,8 @@ TEST(Threads, ImplicitFlowToo) {
   scene.time.scheme = FlowScheme::implicit_mixed;
   scene.time.step = 0.5;
   scene.time.end = 2.0;
-  scene.soils[0].erosion = {ErosionLaw::flux, 2.0, 0.0, false};
-  scene.soils[0].conductivity_law = ConductivityLaw::kozeny_carman;
+  scene.soils[0].erosion = {erosion_law("flux"), 2.0, 0.0, false};
+  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
   expect_same_bits(snapshot_of(scene, {0.3, 0.8, 1.2}, 1), snapshot_of(scene, {0.3, 0.8, 1.2}, 2));
 }
 
