@@ -6,38 +6,10 @@
 namespace suffuse {
 namespace {
 
-/// Elements that one thread passes over at a time.
-constexpr int passed_together = 64;
-/// Elements between the one whose points are handled and the one whose points are fetched: blocks
-/// that moved are where no processor expects them.
-constexpr int looked_ahead = 4;
-/// Below this many elements a pass is over before other threads are awake.
+/// Elements that one thread handles together.
+constexpr int elements_together = 64;
+/// Below this many elements a loop is over before other threads are awake.
 constexpr int worth_threads_of_points = 512;
-
-double sum(const SimdDouble4& lanes) {
-  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-}
-
-/// Not returned: without registers that long, compilers would have it pass in different ways.
-void lower(SimdDouble4& lowest, const SimdDouble4& values) {
-  lowest = values < lowest ? values : lowest;
-}
-
-bool any_at_or_below_zero(const SimdDouble4& lanes) {
-  return std::min(std::min(lanes[0], lanes[1]), std::min(lanes[2], lanes[3])) <= 0.0;
-}
-
-/// All Dim + 1 barycentric coordinates of four points.
-template <int Dim>
-std::array<SimdDouble4, Dim + 1> coordinates(const std::array<SimdDouble4, Dim>& at) {
-  std::array<SimdDouble4, Dim + 1> result;
-  result[Dim] = SimdDouble4{} + 1.0;
-  for (int a = 0; a < Dim; ++a) {
-    result[a] = at[a];
-    result[Dim] -= at[a];
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -47,8 +19,7 @@ CarriedPoints<Dim>::CarriedPoints(const Grid<Dim>& grid, LiquidDensities densiti
       densities_(densities),
       threads_(threads),
       corners_(grid.mesh.elements.size() * (Dim + 1)),
-      departures_((grid.mesh.elements.size() + passed_together - 1) / passed_together + 1),
-      without_room_(threads) {
+      departures_((grid.mesh.elements.size() + elements_together - 1) / elements_together + 1) {
   node_corner_.reserve(corners_.size());
   for (int i = 0; i < grid.mesh.node_count(); ++i) {
     for (int k = grid.node_element_begin[i]; k < grid.node_element_begin[i + 1]; ++k) {
@@ -74,11 +45,8 @@ void CarriedPoints<Dim>::points_to_grid(VectorField<Dim>& velocity, std::vector<
 #pragma omp parallel num_threads(threads_) if (elements > worth_threads_of_points)
   {
 #pragma omp for schedule(static)
-    for (int e = 0; e < elements; ++e) {
-      blocks_.prefetch(e + looked_ahead);
-      element_to_corners(e, pressure[e]);
-    }
-    // Each node adds up its corners in their order, whichever thread made them.
+    for (int e = 0; e < elements; ++e) points_to_corners(e, pressure[e]);
+      // Each node adds up its corners in their order, whichever thread made them.
 #pragma omp for schedule(static)
     for (int i = 0; i < nodes; ++i) {
       double mass = 0.0;
@@ -93,32 +61,29 @@ void CarriedPoints<Dim>::points_to_grid(VectorField<Dim>& velocity, std::vector<
   }
 }
 
+/// Sums over the points of an element, p: m_p N_a(x_p) and m_p N_a(x_p) v_p for each node a,
+/// V_p and V_p p_p for the element.
 template <int Dim>
-void CarriedPoints<Dim>::element_to_corners(int element, double& pressure) {
-  std::array<SimdDouble4, Dim + 1> mass{};
-  std::array<std::array<SimdDouble4, Dim>, Dim + 1> momentum{};
-  SimdDouble4 volume{};
-  SimdDouble4 work{};
+void CarriedPoints<Dim>::points_to_corners(int element, double& pressure) {
+  std::array<Corner, Dim + 1> corners;
+  for (Corner& corner : corners) corner = {0.0, Vector<Dim>::Zero()};
+  double volume = 0.0;
+  double work = 0.0;
   const double water_volume = 1.0 / densities_.water;
   const double grain_volume = 1.0 / densities_.grain;
-  for (const PointQuad<Dim>& quad : std::as_const(blocks_).quads(element)) {
-    const std::array<SimdDouble4, Dim + 1> at = coordinates<Dim>(quad.at);
+  for (const CarriedPoint<Dim>& point : std::as_const(blocks_).of(element)) {
+    const std::array<double, Dim + 1> at = all_coordinates<Dim>(point.at);
+    const double mass = point.water_mass + point.fines_mass;
     for (int a = 0; a <= Dim; ++a) {
-      const SimdDouble4 share = at[a] * (quad.water_mass + quad.fines_mass);
-      mass[a] += share;
-      for (int d = 0; d < Dim; ++d) momentum[a][d] += share * quad.velocity[d];
+      corners[a].mass += at[a] * mass;
+      corners[a].momentum += at[a] * mass * point.velocity;
     }
-    const SimdDouble4 v = quad.water_mass * water_volume + quad.fines_mass * grain_volume;
+    const double v = point.water_mass * water_volume + point.fines_mass * grain_volume;
     volume += v;
-    work += v * quad.pressure;
+    work += v * point.pressure;
   }
-  for (int a = 0; a <= Dim; ++a) {
-    Corner& corner = corners_[element * (Dim + 1) + a];
-    corner.mass = sum(mass[a]);
-    for (int d = 0; d < Dim; ++d) corner.momentum[d] = sum(momentum[a][d]);
-  }
-  const double all = sum(volume);
-  if (all > 0.0) pressure = sum(work) / all;
+  std::copy(corners.begin(), corners.end(), &corners_[element * (Dim + 1)]);
+  if (volume > 0.0) pressure = work / volume;
 }
 
 template <int Dim>
@@ -148,39 +113,27 @@ auto CarriedPoints<Dim>::element_step(int element, const FlowChange<Dim>& change
 }
 
 template <int Dim>
-void CarriedPoints<Dim>::move_element(int element, const ElementStep& step,
-                                      const WalkField<Dim>& field, double duration,
-                                      Departures& departures) {
-  departures.leaving.clear();
-  int slot = 0;
-  for (PointQuad<Dim>& quad : blocks_.quads(element)) {
-    const std::array<SimdDouble4, Dim> before = quad.at;
-    const std::array<SimdDouble4, Dim + 1> at = coordinates<Dim>(before);
+void CarriedPoints<Dim>::move_points(int element, const ElementStep& step,
+                                     const WalkField<Dim>& field, double duration,
+                                     Departures& departures) {
+  // From the last on: a point that leaves gives its slot to one that has moved already.
+  for (int slot = blocks_.count(element) - 1; slot >= 0; --slot) {
+    CarriedPoint<Dim>& point = blocks_.of(element)[slot];
+    const std::array<double, Dim + 1> before = all_coordinates<Dim>(point.at);
+    std::array<double, Dim> after = point.at;
     for (int b = 0; b <= Dim; ++b) {
-      for (int d = 0; d < Dim; ++d) {
-        quad.velocity[d] += at[b] * step.gain[b][d];
-        quad.at[d] += at[b] * step.drift[d][b];
-      }
+      point.velocity += before[b] * step.gain[b];
+      for (int a = 0; a < Dim; ++a) after[a] += before[b] * step.drift[a][b];
     }
-    quad.pressure += step.pressure_gain;
-    SimdDouble4 lowest = coordinates<Dim>(quad.at)[Dim];
-    for (const SimdDouble4& coordinate : quad.at) lower(lowest, coordinate);
-    if (any_at_or_below_zero(lowest)) {
-      for (int lane = 0; lane < simd_width; ++lane) {
-        if (lowest[lane] <= 0.0) departures.leaving.push_back({slot + lane, before});
-      }
+    point.pressure += step.pressure_gain;
+    const bool leaves = std::ranges::min(all_coordinates<Dim>(after)) <= 0.0;
+    if (leaves) {
+      send({element, before}, blocks_.remove(element, slot), grid_.mesh.element_region[element],
+           field, duration, departures);
+    } else {
+      point.at = after;
     }
-    slot += simd_width;
   }
-  // From the last on: no point that stays takes the slot of one that is still to leave.
-  for (auto gone = departures.leaving.rbegin(); gone != departures.leaving.rend(); ++gone) {
-    if (gone->slot >= blocks_.count(element)) continue;
-    CarriedPoint<Dim> point = blocks_.remove(element, gone->slot);
-    for (int a = 0; a < Dim; ++a) point.at[a] = gone->before[a][gone->slot % simd_width];
-    send({element, all_coordinates<Dim>(point.at)}, point, grid_.mesh.element_region[element],
-         field, duration, departures);
-  }
-  blocks_.recentre_empty(element);
 }
 
 template <int Dim>
@@ -213,11 +166,10 @@ void CarriedPoints<Dim>::grid_to_points(const FlowChange<Dim>& change, const Wal
     departures.travellers.clear();
     departures.crossings.clear();
     try {
-      const int end = std::min(elements, (k + 1) * passed_together);
-      for (int e = k * passed_together; e < end; ++e) {
-        blocks_.prefetch(e + looked_ahead);
+      const int end = std::min(elements, (k + 1) * elements_together);
+      for (int e = k * elements_together; e < end; ++e) {
         if (blocks_.count(e) == 0) continue;
-        move_element(e, element_step(e, change, field, duration), field, duration, departures);
+        move_points(e, element_step(e, change, field, duration), field, duration, departures);
       }
     } catch (...) {
       departures.failure = std::current_exception();
@@ -233,11 +185,11 @@ void CarriedPoints<Dim>::grid_to_points(const FlowChange<Dim>& change, const Wal
     if (departures.failure) std::rethrow_exception(departures.failure);
     crossings.insert(crossings.end(), departures.crossings.begin(), departures.crossings.end());
   }
-  let_in();
+  put_into_elements();
 }
 
 template <int Dim>
-void CarriedPoints<Dim>::let_in() {
+void CarriedPoints<Dim>::put_into_elements() {
   // Each thread fills elements of its own, in the order of the lists.
   const long elements = grid_.mesh.element_count();
 #pragma omp parallel for schedule(static) \
@@ -245,19 +197,12 @@ void CarriedPoints<Dim>::let_in() {
   for (int thread = 0; thread < threads_; ++thread) {
     const auto begin = static_cast<int>(elements * thread / threads_);
     const auto end = static_cast<int>(elements * (thread + 1) / threads_);
-    without_room_[thread].clear();
     for (const Departures& departures : departures_) {
       for (const Traveller& traveller : departures.travellers) {
-        if (traveller.to < begin || traveller.to >= end) continue;
-        if (!blocks_.add(traveller.to, traveller.point)) {
-          without_room_[thread].push_back(traveller);
+        if (traveller.to >= begin && traveller.to < end) {
+          blocks_.add(traveller.to, traveller.point);
         }
       }
-    }
-  }
-  for (const std::vector<Traveller>& travellers : without_room_) {
-    for (const Traveller& traveller : travellers) {
-      blocks_.add_growing(traveller.to, traveller.point);
     }
   }
 }

@@ -2,8 +2,8 @@
 
 /// Liquid points that carry the flow (material-point integration): what one step of the flow does
 /// with them. Nodes and elements take velocity and pressure from the points, the points take back
-/// the change of both (FLIP) and move. Each element's points are passed over four at a time, and
-/// only points that leave their element are walked.
+/// the change of both (FLIP) and move. A point that stays in its element moves by one formula; only
+/// points that leave their element are walked from face to face.
 
 #include <exception>
 #include <vector>
@@ -73,14 +73,8 @@ class CarriedPoints {
     int to;
     CarriedPoint<Dim> point;
   };
-  /// A point that leaves its element, and where the points beside it were before.
-  struct Leaving {
-    int slot;
-    std::array<SimdDouble4, Dim> before;
-  };
-  /// Who leaves the elements that one thread looks at together.
+  /// Points that leave the elements which one thread handles together.
   struct Departures {
-    std::vector<Leaving> leaving;  ///< of one element
     std::vector<Traveller> travellers;
     std::vector<CarriedCrossing> crossings;
     std::exception_ptr failure;
@@ -94,12 +88,12 @@ class CarriedPoints {
   };
   [[nodiscard]] ElementStep element_step(int element, const FlowChange<Dim>& change,
                                          const WalkField<Dim>& field, double duration) const;
-  void element_to_corners(int element, double& pressure);
-  void move_element(int element, const ElementStep& step, const WalkField<Dim>& field,
-                    double duration, Departures& departures);
+  void points_to_corners(int element, double& pressure);
+  void move_points(int element, const ElementStep& step, const WalkField<Dim>& field,
+                   double duration, Departures& departures);
   void send(PointPlace<Dim> place, CarriedPoint<Dim> point, int from_region,
             const WalkField<Dim>& field, double time, Departures& departures) const;
-  void let_in();
+  void put_into_elements();
 
   const Grid<Dim>& grid_;
   LiquidDensities densities_;
@@ -108,7 +102,6 @@ class CarriedPoints {
   std::vector<Corner> corners_;   ///< Dim + 1 per element
   std::vector<int> node_corner_;  ///< rows as grid.node_element
   std::vector<Departures> departures_;
-  std::vector<std::vector<Traveller>> without_room_;  ///< per thread
 };
 
 }  // namespace suffuse

@@ -31,39 +31,33 @@ model::Column& column_of(const benchmark::State& state) {
   return *all.at(key).column;
 }
 
-double quad_bytes(const model::Column& column) {
-  double quads = 0.0;
-  const PointBlocks<2>& blocks = column.liquid().blocks();
-  for (int e = 0; e < blocks.element_count(); ++e) {
-    quads += static_cast<double>(blocks.quads(e).size());
-  }
-  return quads * sizeof(PointQuad<2>);
-}
-
-/// `bytes` of all points and elements in one call of `pass`.
-template <class Pass>
-void measure(benchmark::State& state, double quads, double per_element, const Pass& pass) {
+/// `point_bytes` of each point and `element_bytes` of each element in one call of `loop`.
+template <class Loop>
+void measure(benchmark::State& state, double point_bytes, double element_bytes, const Loop& loop) {
   model::Column& column = column_of(state);
-  const long ids = column.entering().next_id;
-  for ([[maybe_unused]] const auto step : state) pass(column);
-  const double points = column.liquid().blocks().size();
+  const long ids = column.inflow().next_id;
+  for ([[maybe_unused]] const auto step : state) loop(column);
+  const double points = column.carried().blocks().size();
   const auto elements = static_cast<double>(column.grid().mesh.element_count());
-  report(state, points, (quads * quad_bytes(column) + per_element * elements) / points,
+  report(state, points, point_bytes + element_bytes * elements / points,
          static_cast<int>(state.range(1)));
-  state.counters["crossing"] = static_cast<double>(column.liquid().carried().travelled()) / points;
-  state.counters["births"] = static_cast<double>(column.entering().next_id - ids) /
-                             static_cast<double>(state.iterations());
+  state.counters["crossing"] = static_cast<double>(column.carried().travelled()) / points;
+  state.counters["injected"] =
+      static_cast<double>(column.inflow().next_id - ids) / static_cast<double>(state.iterations());
 }
 
-/// Points to nodes and elements: every point read, sums of each corner written and read.
-void Gather(benchmark::State& state) {
-  measure(state, 1.0, 2 * 72 + 8 + 16, [](model::Column& column) { column.give(); });
+constexpr double point_bytes = sizeof(CarriedPoint<2>);
+
+/// Every point read, sums of each corner written and read.
+void PointsToGrid(benchmark::State& state) {
+  measure(state, point_bytes, 2 * 72 + 8 + 16,
+          [](model::Column& column) { column.points_to_grid(); });
 }
 
-/// What nodes and elements gained to points, which move: every point read and written; flux,
-/// velocities, pressures and gradients of each element read.
-void TakeAndMove(benchmark::State& state) {
-  measure(state, 2.0, 48 + 12 + 3 * 8 + 48, [](model::Column& column) { column.take(); });
+/// Every point read and written; flux, velocities, pressures and gradients of each element read.
+void GridToPoints(benchmark::State& state) {
+  measure(state, 2.0 * point_bytes, 48 + 12 + 3 * 8 + 48,
+          [](model::Column& column) { column.grid_to_points(); });
 }
 
 /// The nodes' own part.
@@ -72,7 +66,7 @@ void Flow(benchmark::State& state) {
 }
 
 void Step(benchmark::State& state) {
-  measure(state, 3.0, 500, [](model::Column& column) { column.move(); });
+  measure(state, 3.0 * point_bytes, 500, [](model::Column& column) { column.move(); });
 }
 
 void sizes(benchmark::internal::Benchmark* benchmark) {
@@ -83,8 +77,8 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
     }
   }
 }
-BENCHMARK(Gather)->Apply(sizes);
-BENCHMARK(TakeAndMove)->Apply(sizes);
+BENCHMARK(PointsToGrid)->Apply(sizes);
+BENCHMARK(GridToPoints)->Apply(sizes);
 BENCHMARK(Flow)->Apply(sizes);
 BENCHMARK(Step)->Apply(sizes);
 BENCHMARK(Step)->Name("QuickStep")->Args({2000, 1, 14})->UseRealTime();

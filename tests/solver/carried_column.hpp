@@ -6,9 +6,12 @@
 #include <map>
 
 #include "driver/plan.hpp"
+#include "flow/explicit_flow.hpp"
 #include "grid/compensated_sum.hpp"
+#include "solid/rigid_skeleton.hpp"
 #include "solver/double_point_case.hpp"
-#include "transport/carried_liquid.hpp"
+#include "transport/carried_points.hpp"
+#include "transport/point_injection.hpp"
 
 namespace suffuse::model {
 
@@ -38,40 +41,31 @@ inline Case<2> fast_column(int columns, double speed = 1.0) {
   return make_double_point_case(std::move(mesh), scene);
 }
 
-/// A flow with its liquid, as the double-point model has it, without erosion.
+/// A flow with the points that carry it, step by step, without erosion.
 class Column {
  public:
   explicit Column(const Case<2>& c, int threads = 1)
       : case_(c),
         plan_(make_plan(c, {.threads = threads, .no_skip = false})),
         grid_(c.mesh),
-        skeleton_(c, grid_),
-        flow_(c, grid_, skeleton_, plan_.flow),
-        transport_(grid_, flow_.conditions(), births(), densities_,
-                   c.document.scene.liquid.bulk_modulus, threads),
-        entering_(transport_.nothing_entered(c.liquid_points.size())),
-        liquid_(grid_, flow_, transport_, densities_, threads, entering_) {
+        soils_(c),
+        solid_(grid_, soils_, TimeSpan::never(), threads),
+        porosity_(solid_.element_porosity()),
+        flow_(c, grid_, solid_, plan_.flow),
+        injection_(grid_, flow_.conditions(), injection_settings(), densities_,
+                   c.document.scene.liquid.bulk_modulus),
+        inflow_(injection_.nothing_entered(c.liquid_points.size())),
+        points_(grid_, densities_, threads),
+        entered_(grid_.face_count(), 0.0) {
     PoreState pores;
-    for (const auto& volume : skeleton_.initial_pore_volume()) {
-      pores.water_volume.push_back(element_sum<2>(volume));
-    }
-    for (int e = 0; e < c.mesh.element_count(); ++e) {
-      pores.porosity.push_back(pores.water_volume[e] / grid_.volume[e]);
+    pores.porosity = porosity_;
+    for (std::size_t e = 0; e < porosity_.size(); ++e) {
+      pores.water_volume.push_back(porosity_[e] * grid_.volume[e]);
     }
     pores.concentration.assign(c.mesh.element_count(), 0.0);
     flow_.update(0.0, pores, std::vector<double>(grid_.face_count(), 0.0));
     flow_.start();
     dt = plan_.flow.step;
-    porosity_ = pores.porosity;
-    liquid_.set_porosity(pores.porosity);
-    liquid_.on_moved = [this](const std::vector<CarriedCrossing>& crossings) {
-      for (const CarriedCrossing& c1 : crossings) {
-        crossed[{c1.from, c1.to}] += c1.water_mass;
-        if (c1.from < 0) fines_in.add(c1.fines_mass);
-        if (c1.to < 0) fines_in.add(-c1.fines_mass);
-        ++count;
-      }
-    };
     LiquidPoints<2> points;
     const MaterialPoints<2>& seeds = c.liquid_points;
     points.element = seeds.element;
@@ -81,43 +75,86 @@ class Column {
       points.water_mass.push_back(1000.0 * seeds.volume[p]);
       points.fines_mass.push_back(p % 5 * seeds.volume[p]);
       // What neither node nor element sees belongs to it too.
-      const int e = seeds.element[p];
-      Vector<2> velocity = Vector<2>::Zero();
-      for (int a = 0; a < 3; ++a) {
-        velocity += seeds.barycentric[p][a] * flow_.scheme().velocity()[c.mesh.elements[e][a]];
-      }
-      points.pressure.push_back(flow_.pressure()[e] + 10.0 * std::sin(p));
+      const Vector<2> velocity = interpolate(grid_, {seeds.element[p], seeds.barycentric[p]}, flow_.scheme().velocity());
+      points.pressure.push_back(flow_.pressure()[seeds.element[p]] + 10.0 * std::sin(p));
       points.velocity.emplace_back((1.0 + 0.1 * std::sin(2.0 * p)) * velocity);
     }
-    liquid_.blocks().fill(points, c.mesh.element_count());
+    points_.blocks().fill(points, c.mesh.element_count());
   }
 
-  void give() { liquid_.give(0.0, dt); }
+  void points_to_grid() {
+    flow_.scheme().rewrite([this](VectorField<2>& velocity, std::vector<double>& pressure) {
+      points_.points_to_grid(velocity, pressure);
+      pressure_before_ = pressure;
+    });
+  }
   void step() { flow_.scheme().step(dt); }
-  void take() { liquid_.take(); }
-
+  void grid_to_points() {
+    const auto& scheme = flow_.scheme();
+    flow_.node_flux(node_flux_);
+    const std::vector<ArrivingPoint<2>> arriving = inject(inflow_);
+    crossings_.clear();
+    points_.grid_to_points(
+        {scheme.previous_velocity(), scheme.velocity(), pressure_before_, scheme.pressure()},
+        walk_field(), dt, arriving, crossings_);
+    for (const CarriedCrossing& point : crossings_) {
+      crossed[{point.from, point.to}] += point.water_mass;
+      if (point.from < 0) fines_in.add(point.fines_mass);
+      if (point.to < 0) fines_in.add(-point.fines_mass);
+      if (point.left_by >= 0) account_for(point, inflow_);
+      ++count;
+    }
+  }
   void move() {
-    give();
+    points_to_grid();
     step();
-    take();
+    grid_to_points();
   }
 
-  [[nodiscard]] LiquidPoints<2> points() const { return liquid_.blocks().points(false); }
+  /// Points that the last step of the flow brings in, after `grid_to_points` or within.
+  std::vector<ArrivingPoint<2>> inject(InflowAccount& inflow) {
+    for (const int f : injection_.open_faces()) entered_[f] = dt * flow_.flux_through(f);
+    std::vector<InjectedPoint<2>> injected;
+    injection_.inject(inflow, entered_, node_flux_, injected);
+    std::vector<ArrivingPoint<2>> arriving;
+    for (const InjectedPoint<2>& in : injected) {
+      const double pressure = flow_.pressure()[in.place.element];
+      const auto [water_mass, fines_mass] = injection_.content(in, pressure);
+      arriving.push_back({in.place,
+                          {{in.place.barycentric[0], in.place.barycentric[1]},
+                           interpolate(grid_, in.place, flow_.scheme().velocity()),
+                           pressure,
+                           water_mass,
+                           fines_mass,
+                           inflow.next_id++},
+                          (1.0 - in.share) * dt});
+    }
+    return arriving;
+  }
+  /// A point that left through an outer face takes its volume along.
+  static void account_for(const CarriedCrossing& point, InflowAccount& inflow) {
+    inflow.volume[point.left_by] +=
+        liquid_volume(point.water_mass, point.fines_mass, densities_, 1.0);
+  }
+  /// How points move in the last step of the flow.
+  [[nodiscard]] WalkField<2> walk_field() const {
+    return {node_flux_, porosity_, injection_.is_open()};
+  }
+
+  [[nodiscard]] LiquidPoints<2> points() const { return points_.blocks().points(); }
+  [[nodiscard]] const CarriedPoints<2>& carried() const { return points_; }
   [[nodiscard]] const Grid<2>& grid() const { return grid_; }
   [[nodiscard]] ExplicitFlow<2>& flow() { return flow_; }
-  [[nodiscard]] const LagrangianTransport<2>& transport() const { return transport_; }
-  [[nodiscard]] const std::vector<double>& porosity() const { return porosity_; }
-  [[nodiscard]] const InflowAccount& entering() const { return entering_; }
-  [[nodiscard]] const CarriedLiquid<2>& liquid() const { return liquid_; }
+  [[nodiscard]] const InflowAccount& inflow() const { return inflow_; }
 
   static constexpr LiquidDensities densities_{1000.0, 2700.0};
   double dt = 0.0;                                ///< s
   std::map<std::pair<int, int>, double> crossed;  ///< water, by regions
-  CompensatedSum fines_in;                        ///< less those that left, kg
+  CompensatedSum fines_in;                        ///< minus those that left, kg
   long count = 0;
 
  private:
-  [[nodiscard]] InjectionSettings births() const {
+  [[nodiscard]] InjectionSettings injection_settings() const {
     std::vector<double> volume(grid_.mesh.element_count(), 0.0);
     std::vector<int> points(grid_.mesh.element_count(), 0);
     for (int p = 0; p < case_.liquid_points.size(); ++p) {
@@ -135,12 +172,17 @@ class Column {
   const Case<2>& case_;
   Plan plan_;
   Grid<2> grid_;
-  RigidSkeleton<2> skeleton_;
-  ExplicitFlow<2> flow_;
-  LagrangianTransport<2> transport_;
-  InflowAccount entering_;
-  CarriedLiquid<2> liquid_;
+  SoilMap<2> soils_;
+  RigidSkeleton<2> solid_;
   std::vector<double> porosity_;
+  ExplicitFlow<2> flow_;
+  PointInjection<2> injection_;
+  InflowAccount inflow_;
+  CarriedPoints<2> points_;
+  std::vector<double> entered_;
+  std::vector<double> pressure_before_;
+  VectorField<2> node_flux_;
+  std::vector<CarriedCrossing> crossings_;
 };
 
 }  // namespace suffuse::model

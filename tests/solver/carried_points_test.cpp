@@ -1,5 +1,5 @@
-/// Liquid points that carry the flow: the packed passes against the plain way of doing it, point by
-/// point; threads, balances, and the blocks that hold them.
+/// Liquid points that carry the flow: each step against the plain way, in which every point is
+/// walked from face to face; threads, balances, and the blocks that hold the points.
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,10 @@ using model::fast_column;
 /// The same liquid the plain way: a loop over all points for each thing, every point walked.
 class PlainLiquid {
  public:
-  explicit PlainLiquid(const Column& column)
-      : points(column.points()), entering_(column.entering()) {}
+  explicit PlainLiquid(const Column& column) : points(column.points()), inflow_(column.inflow()) {}
 
-  void gather(const Grid<2>& grid, VectorField<2>& velocity, std::vector<double>& pressure) {
+  void points_to_grid(const Grid<2>& grid, VectorField<2>& velocity,
+                      std::vector<double>& pressure) {
     VectorField<2> momentum(velocity.size(), Vector<2>::Zero());
     std::vector<double> mass(velocity.size(), 0.0);
     std::vector<double> work(pressure.size(), 0.0);
@@ -48,36 +48,57 @@ class PlainLiquid {
     }
   }
 
-  void take_and_move(Column& column, const VectorField<2>& velocity_before,
-                     const std::vector<double>& pressure_before) {
+  /// After `column` has moved its own points.
+  void grid_to_points(Column& column, const VectorField<2>& velocity_before,
+                      const std::vector<double>& pressure_before) {
     const Grid<2>& grid = column.grid();
     const VectorField<2>& velocity = column.flow().scheme().velocity();
     const std::vector<double>& pressure = column.flow().pressure();
+    std::vector<double> time(points.size(), column.dt);
+    std::vector<int> from;
     for (int p = 0; p < points.size(); ++p) {
       const int e = points.element[p];
       points.pressure[p] += pressure[e] - pressure_before[e];
-      for (int a = 0; a < 3; ++a) {
-        const int i = grid.mesh.elements[e][a];
-        points.velocity[p] += points.barycentric[p][a] * (velocity[i] - velocity_before[i]);
-      }
+      points.velocity[p] += interpolate(grid, points.place(p), velocity) -
+                            interpolate(grid, points.place(p), velocity_before);
+      from.push_back(grid.mesh.element_region[e]);
     }
-    LiquidMotion<2> motion;
-    column.flow().node_flux(motion.node_flux);
-    for (int f = 0; f < grid.face_count(); ++f) {
-      motion.entered.push_back(column.dt * column.flow().flux_through(f));
+    for (const ArrivingPoint<2>& arriving : column.inject(inflow_)) {
+      add(arriving);
+      time.push_back(arriving.time);
+      from.push_back(-1);
     }
-    motion.duration = column.dt;
-    for (const PointCrossing& c : column.transport().move(points, entering_, motion,
-                                                          column.porosity(), pressure, velocity)) {
-      crossed[{c.from, c.to}] += c.water_mass;
+    std::vector<unsigned char> keep;
+    for (int p = 0; p < points.size(); ++p) {
+      PointPlace<2> place = points.place(p);
+      const int left_by = walk(grid, column.walk_field(), place, time[p], points.id[p]);
+      const int to = left_by < 0 ? grid.mesh.element_region[place.element] : -1;
+      if (from[p] != to || to < 0) crossed[{from[p], to}] += points.water_mass[p];
+      keep.push_back(left_by < 0);
+      points.element[p] = place.element;
+      points.barycentric[p] = place.barycentric;
+      if (left_by < 0) continue;
+      Column::account_for({from[p], to, left_by, points.water_mass[p], points.fines_mass[p]},
+                          inflow_);
     }
+    keep_points(points, keep);
   }
 
   LiquidPoints<2> points;
   std::map<std::pair<int, int>, double> crossed;
 
  private:
-  InflowAccount entering_;
+  void add(const ArrivingPoint<2>& arriving) {
+    points.element.push_back(arriving.place.element);
+    points.barycentric.push_back(arriving.place.barycentric);
+    points.water_mass.push_back(arriving.point.water_mass);
+    points.fines_mass.push_back(arriving.point.fines_mass);
+    points.id.push_back(arriving.point.id);
+    points.pressure.push_back(arriving.point.pressure);
+    points.velocity.push_back(arriving.point.velocity);
+  }
+
+  InflowAccount inflow_;
 };
 
 /// Index of each point by its id.
@@ -127,11 +148,12 @@ TEST(CarriedPoints, DoWhatThePlainWayDoes) {
   constexpr int steps = 400;
   for (int k = 0; k < steps; ++k) {
     auto& scheme = column.flow().scheme();
-    scheme.rewrite(
-        [&](auto& velocity, auto& pressure) { plain.gather(column.grid(), velocity, pressure); });
+    scheme.rewrite([&](auto& velocity, auto& pressure) {
+      plain.points_to_grid(column.grid(), velocity, pressure);
+    });
     const VectorField<2> velocity = scheme.velocity();
     const std::vector<double> pressure = scheme.pressure();
-    column.give();
+    column.points_to_grid();
     for (std::size_t i = 0; i < velocity.size(); ++i) {
       at_nodes = std::max(at_nodes, (scheme.velocity()[i] - velocity[i]).norm());
       speed = std::max(speed, velocity[i].norm());
@@ -143,12 +165,12 @@ TEST(CarriedPoints, DoWhatThePlainWayDoes) {
     const VectorField<2> velocity_before = scheme.velocity();
     const std::vector<double> pressure_before = scheme.pressure();
     column.step();
-    plain.take_and_move(column, velocity_before, pressure_before);
-    column.take();
+    column.grid_to_points();
+    plain.grid_to_points(column, velocity_before, pressure_before);
   }
   const Differences off = compare(c.mesh, column.points(), plain.points);
   std::cout << steps << " steps: " << column.count << " crossings of regions, "
-            << column.entering().next_id - c.liquid_points.size() << " births, "
+            << column.inflow().next_id - c.liquid_points.size() << " points injected, "
             << column.points().size() << " points; off by " << off.place << " m, "
             << off.velocity / speed << " of the largest speed, " << off.pressure / largest
             << " of the largest pressure; at nodes " << at_nodes / speed << ", in elements "
@@ -158,7 +180,7 @@ TEST(CarriedPoints, DoWhatThePlainWayDoes) {
   EXPECT_LE(off.pressure, 1e-11 * largest);
   EXPECT_LE(at_nodes, 1e-11 * speed);
   EXPECT_LE(in_elements, 1e-11 * largest);
-  EXPECT_GT(column.entering().next_id, c.liquid_points.size() + 1000);
+  EXPECT_GT(column.inflow().next_id, c.liquid_points.size() + 1000);
   ASSERT_EQ(column.crossed.size(), plain.crossed.size());
   for (const auto& [regions, mass] : plain.crossed) {
     EXPECT_NEAR(column.crossed[regions], mass, 1e-12 * mass);
@@ -171,11 +193,8 @@ TEST(CarriedPoints, ThreadsChangeNoBit) {
   Column one(c, 1);
   Column two(c, 3);
   for (int k = 0; k < 60; ++k) {
-    for (Column* column : {&one, &two}) {
-      column->give();
-      column->step();
-      column->take();
-    }
+    one.move();
+    two.move();
   }
   const LiquidPoints<2> a = one.points();
   const LiquidPoints<2> b = two.points();
@@ -198,11 +217,7 @@ TEST(CarriedPoints, NothingIsLostAndNothingComesFromNowhere) {
     return total.value();
   };
   const LiquidPoints<2> before = column.points();
-  for (int k = 0; k < 1200; ++k) {
-    column.give();
-    column.step();
-    column.take();
-  }
+  for (int k = 0; k < 1200; ++k) column.move();
   const LiquidPoints<2> after = column.points();
   double water_in = 0.0;
   for (const auto& [regions, mass] : column.crossed) {
@@ -211,12 +226,12 @@ TEST(CarriedPoints, NothingIsLostAndNothingComesFromNowhere) {
   }
   const double water = sum(before.water_mass);
   const double fines = sum(before.fines_mass);
-  std::cout << column.entering().next_id - before.size() << " births: water off by "
+  std::cout << column.inflow().next_id - before.size() << " points injected: water off by "
             << (sum(after.water_mass) - water - water_in) / water << ", fines by "
             << (sum(after.fines_mass) - fines - column.fines_in.value()) / fines << "\n";
   EXPECT_NEAR(sum(after.water_mass), water + water_in, 1e-12 * water);
   EXPECT_NEAR(sum(after.fines_mass), fines + column.fines_in.value(), 1e-12 * fines);
-  EXPECT_GT(column.entering().next_id, 3L * before.size()) << "the liquid was replaced";
+  EXPECT_GT(column.inflow().next_id, 3L * before.size()) << "the liquid was replaced";
   for (int p = 0; p < after.size(); ++p) {
     for (const double at : after.barycentric[p]) {
       ASSERT_GE(at, -1e-15);
@@ -245,7 +260,7 @@ TEST(PointBlocks, KeepPointsWholeAndInOrder) {
   const LiquidPoints<2> points = some_points({0, 0, 0, 0, 0, 2, 2, 3});
   PointBlocks<2> blocks;
   blocks.fill(points, 5);
-  const LiquidPoints<2> out = blocks.points(false);
+  const LiquidPoints<2> out = blocks.points();
   EXPECT_EQ(out.element, points.element);
   EXPECT_EQ(out.barycentric, points.barycentric);
   EXPECT_EQ(out.water_mass, points.water_mass);
@@ -261,42 +276,25 @@ TEST(PointBlocks, ALastPointTakesTheSlotOfOneThatLeaves) {
   const CarriedPoint<2> gone = blocks.remove(0, 0);
   EXPECT_EQ(gone.id, 100);
   EXPECT_EQ(gone.velocity, Vector<2>(0.4, 0.5));
-  EXPECT_EQ(blocks.points(false).id, (std::vector<long>{102, 101, 103}));
-  for (const PointQuad<2>& quad : blocks.quads(0)) {
-    for (int lane = 2; lane < simd_width; ++lane) {
-      EXPECT_EQ(quad.water_mass[lane], 0.0);
-      EXPECT_EQ(quad.fines_mass[lane], 0.0);
-    }
-  }
+  EXPECT_EQ(blocks.points().id, (std::vector<long>{102, 101, 103}));
 }
 
-TEST(PointBlocks, GrowWhereTheyAreFullAndUseWhatWasGivenUp) {
+TEST(PointBlocks, TakeInAsManyPointsAsCome) {
   PointBlocks<2> blocks;
   blocks.fill(some_points({0, 1, 2}), 3);
-  CarriedPoint<2> more = blocks.point(0, 0);
+  CarriedPoint<2> more = blocks.of(0)[0];
   std::vector<long> expected{100};
   for (int k = 0; k < 40; ++k) {
     more.id = 200 + k;
-    if (k < 3) {
-      EXPECT_TRUE(blocks.add(0, more)) << k;
-    } else {
-      EXPECT_EQ(blocks.add(0, more), k % 4 != 3) << k;
-      if (k % 4 != 3) static_cast<void>(blocks.remove(0, blocks.count(0) - 1));
-      blocks.add_growing(0, more);
-    }
+    blocks.add(0, more);
     expected.push_back(more.id);
   }
-  // The second grows through the blocks that the first gave up.
-  for (int k = 0; k < 36; ++k) {
-    more.id = 300 + k;
-    blocks.add_growing(1, more);
-    EXPECT_EQ(blocks.count(1), k + 2);
-  }
-  const LiquidPoints<2> points = blocks.points(false);
-  EXPECT_EQ(std::vector<long>(points.id.begin(), points.id.begin() + 41), expected);
-  EXPECT_EQ(points.id[41], 101);
-  EXPECT_EQ(points.id[42], 300);
-  EXPECT_EQ(points.id.back(), 102);
+  more.id = 300;
+  blocks.add(1, more);
+  expected.insert(expected.end(), {101, 300, 102});
+  EXPECT_EQ(blocks.points().id, expected);
+  EXPECT_EQ(blocks.count(0), 41);
+  EXPECT_EQ(blocks.size(), 44);
 }
 
 }  // namespace
