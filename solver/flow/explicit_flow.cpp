@@ -156,9 +156,9 @@ void ExplicitFlow<Dim>::check_step(double time) {
 
 template <int Dim>
 auto ExplicitFlow<Dim>::plan_steps(const FlowInterval<Dim>& interval) -> Steps {
-  check_step(interval.begin);
-  const double until = this->next_breakpoint(interval.begin, interval.latest);
-  const double left = until - interval.begin;
+  check_step(interval.start);
+  const double until = this->next_breakpoint(interval.start, interval.latest);
+  const double left = until - interval.start;
   const long to_the_end =
       std::max(1L, static_cast<long>(std::ceil(left / step_ * (1.0 - round_off))));
   const double dt = left / static_cast<double>(to_the_end);
@@ -169,7 +169,7 @@ auto ExplicitFlow<Dim>::plan_steps(const FlowInterval<Dim>& interval) -> Steps {
       allowed < static_cast<double>(most) ? std::max(1L, static_cast<long>(allowed)) : most;
   last_steps_ = count;
   last_dt_ = dt;
-  Steps steps{interval.begin, count, dt, until};
+  Steps steps{interval.start, count, dt, until};
   if (count < to_the_end) steps.end = steps.start_of(count);
   scheme_.reset_volumes();
   return steps;

@@ -50,9 +50,9 @@ void FlowSolver<Dim>::archive(StateArchive& archive) {
 }
 
 template <int Dim>
-double FlowSolver<Dim>::next_breakpoint(double begin, double latest) const {
+double FlowSolver<Dim>::next_breakpoint(double start, double latest) const {
   for (const double time : breakpoints_) {
-    if (time > begin && !is_same_time(time, begin)) return std::min(time, latest);
+    if (time > start && !is_same_time(time, start)) return std::min(time, latest);
   }
   return latest;
 }

@@ -12,6 +12,7 @@
 
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
+#include "flow/flow_values.hpp"
 #include "grid/face_flux.hpp"
 #include "results/pass_timer.hpp"
 #include "results/state_archive.hpp"
@@ -19,19 +20,6 @@
 #include "solid/pores.hpp"
 
 namespace suffuse {
-
-/// The same time, but for the rounding of sums of steps.
-inline bool is_same_time(double a, double b) {
-  return std::abs(a - b) <= 1e-14 * std::max(std::abs(a), std::abs(b));
-}
-
-/// Share of the way from `a` to `b`.
-template <class Value>
-std::vector<Value> between(const std::vector<Value>& a, const std::vector<Value>& b, double share) {
-  std::vector<Value> result(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] + share * (b[i] - a[i]);
-  return result;
-}
 
 /// The flow at one moment.
 template <int Dim>
@@ -49,7 +37,7 @@ struct FlowState {
 /// An interval that the flow crosses by itself, until erosion and transport must follow.
 template <int Dim>
 struct FlowInterval {
-  double begin = 0.0;    ///< s
+  double start = 0.0;    ///< s
   double latest = 0.0;   ///< next output, or the end: the interval ends there at the latest, s
   double longest = 0.0;  ///< that erosion and transport can follow, s
   const PoreForecast<Dim>& pores;  ///< as erosion will make them
@@ -138,7 +126,7 @@ class FlowSolver {
   /// Times at which erosion starts or ends or a boundary value has a kink, ascending, s.
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
   /// The first breakpoint after `begin`, or `latest` where that comes first.
-  [[nodiscard]] double next_breakpoint(double begin, double latest) const;
+  [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; where a pressure is prescribed, that is it.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
   /// A warning for the next `take_warnings`.

@@ -1,0 +1,175 @@
+#include "flow/flow_scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "flow/flow_values.hpp"
+#include "flow/implicit_thresholds.hpp"
+#include "physics/drag.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr const ImplicitThresholds& limits = implicit_thresholds;
+
+/// Reciprocal of the element's smallest height, 1/m.
+template <int Dim>
+double steepest_shape(const Grid<Dim>& grid, int e) {
+  double steepest = 0.0;
+  for (const Vector<Dim>& g : grid.shape_gradient[e]) steepest = std::max(steepest, g.norm());
+  return steepest;
+}
+
+template <int Dim>
+bool is_obtuse(const Grid<Dim>& grid, int e) {
+  double widest = 0.0;
+  for (int a = 0; a <= Dim; ++a) {
+    for (int b = 0; b < a; ++b) {
+      const auto& g = grid.shape_gradient[e];
+      widest = std::max(widest, g[a].dot(g[b]) / (g[a].norm() * g[b].norm()));
+    }
+  }
+  return widest > limits.obtuse_cosine;
+}
+
+}  // namespace
+
+void FlowScales::include(const std::vector<double>& face_pressure,
+                         const std::vector<double>& face_flux) {
+  if (!flux_known) flux = std::max(flux, largest_magnitude(face_flux));
+  const auto [low, high] = std::ranges::minmax(face_pressure);
+  pressure = std::max(pressure, high - low);
+}
+
+void FlowScales::include_in_bounds(const std::vector<double>& face_pressure) {
+  const auto [low, high] = std::ranges::minmax(face_pressure);
+  min_pressure = std::min(min_pressure, low);
+  max_pressure = std::max(max_pressure, high);
+}
+
+double FlowScales::overshoot(const std::vector<double>& face_pressure) const {
+  if (!has_bounds || pressure == 0.0) return 0.0;
+  const auto [low, high] = std::ranges::minmax(face_pressure);
+  return std::max({0.0, high - max_pressure, min_pressure - low}) / pressure;
+}
+
+template <int Dim>
+FlowScales find_scales(ImplicitMixed<Dim>& scheme, const FlowForcing<Dim>& at_start,
+                       const BoundaryValues<Dim>& values, double end, bool has_gravity) {
+  FlowScales scales;
+  std::vector<double> times{0.0};
+  if (values.vary()) {
+    times.insert(times.end(), values.events().begin(), values.events().end());
+    times.push_back(end);
+  }
+  bool prescribes_flux = false;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const double time : times) {
+    FlowForcing<Dim> forcing = at_start;
+    values.update(time, forcing.conditions);
+    for (const FaceCondition& condition : forcing.conditions) {
+      if (condition.kind == FaceKind::pressure) {
+        low = std::min(low, condition.value);
+        high = std::max(high, condition.value);
+      }
+      prescribes_flux |= condition.fixes_flux() && condition.value != 0.0;
+    }
+    try {
+      const MixedStep<Dim> steady = scheme.steady(forcing);
+      scales.include(steady.end.face_pressure, steady.face_flux);
+    } catch (const NumericalError&) {
+      // Boundaries that prescribe fluxes alone may have no steady flow: then the flow itself sets
+      // the scales as it goes.
+    }
+  }
+  scales.has_bounds = low <= high && !prescribes_flux && !has_gravity;
+  scales.min_pressure = low;
+  scales.max_pressure = high;
+  if (low <= high) scales.pressure = std::max(scales.pressure, high - low);
+  return scales;
+}
+
+template <int Dim>
+void raise_over_round_off(FlowScales& scales, const Grid<Dim>& grid,
+                          const FlowCoefficients<Dim>& coefficients, const LiquidProperties& liquid,
+                          double end) {
+  Vector<Dim> low = grid.mesh.nodes.front();
+  Vector<Dim> high = low;
+  for (const Vector<Dim>& x : grid.mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  double pressure = limits.nothing * liquid.density * conductivity_gravity * (high - low).norm();
+  if (std::isfinite(liquid.bulk_modulus)) {
+    pressure = std::max(pressure, limits.state_round_off * liquid.bulk_modulus);
+  }
+  double flux = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double steepest = steepest_shape(grid, e);
+    const double mobility = coefficients.porosity[e] / coefficients.drag[e];
+    flux = std::max({flux, mobility * pressure * grid.volume[e] * steepest * steepest,
+                     limits.nothing * coefficients.water_volume[e] / end});
+  }
+  scales.pressure = std::max(scales.pressure, pressure);
+  scales.flux_known = scales.flux > flux;
+  scales.flux = std::max(scales.flux, flux);
+}
+
+template <int Dim>
+double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                    double bulk_modulus, bool inertia) {
+  double fastest = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double resistance = coefficients.drag[e] / coefficients.porosity[e];
+    const double size = steepest_shape(grid, e);
+    const double relaxation = coefficients.mixture_density[e] / coefficients.drag[e];
+    const double diffusivity =
+        bulk_modulus * grid.volume[e] / (resistance * coefficients.water_volume[e]);
+    if (inertia) {
+      fastest = std::max(fastest, 1.0 / relaxation);
+      if (std::isfinite(diffusivity)) {
+        fastest = std::max(fastest, std::sqrt(diffusivity / relaxation) * size);
+      }
+    } else if (std::isfinite(diffusivity)) {
+      fastest = std::max(fastest, diffusivity * size * size);
+    }
+  }
+  return fastest;
+}
+
+template <int Dim>
+std::optional<std::string> obtuse_angle_warning(const Grid<Dim>& grid,
+                                                const FlowCoefficients<Dim>& coefficients) {
+  int obtuse = 0;
+  double min_resistance = std::numeric_limits<double>::infinity();
+  double max_resistance = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (is_obtuse(grid, e)) ++obtuse;
+    const double resistance = coefficients.drag[e] / coefficients.porosity[e];
+    min_resistance = std::min(min_resistance, resistance);
+    max_resistance = std::max(max_resistance, resistance);
+  }
+  if (obtuse == 0 || max_resistance < limits.strong_contrast * min_resistance) return std::nullopt;
+  std::ostringstream message;
+  message.precision(3);
+  message << obtuse << " of " << grid.mesh.element_count()
+          << " elements have obtuse angles, and conductivities differ by a factor of "
+          << max_resistance / min_resistance
+          << ": pressures may leave the range of their boundary values; history.csv has by how "
+             "much (pressure_overshoot)";
+  return message.str();
+}
+
+template FlowScales find_scales(ImplicitMixed<2>&, const FlowForcing<2>&, const BoundaryValues<2>&,
+                                double, bool);
+template void raise_over_round_off(FlowScales&, const Grid<2>&, const FlowCoefficients<2>&,
+                                   const LiquidProperties&, double);
+template double fastest_rate(const Grid<2>&, const FlowCoefficients<2>&, double, bool);
+template std::optional<std::string> obtuse_angle_warning(const Grid<2>&,
+                                                         const FlowCoefficients<2>&);
+
+}  // namespace suffuse

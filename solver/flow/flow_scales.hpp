@@ -1,0 +1,66 @@
+#pragma once
+
+/// How large fluxes and pressures of a scene are: errors of the implicit flow are relative to these
+/// scales, which come from what the boundary conditions can drive.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "flow/face_conditions.hpp"
+#include "flow/flow.hpp"
+#include "flow/implicit_mixed.hpp"
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+struct FlowScales {
+  double flux = 0.0;        ///< largest through a face, m3/s
+  double pressure = 0.0;    ///< largest less smallest at the faces, Pa
+  bool flux_known = false;  ///< from the boundary conditions; else the flow sets it as it goes
+  /// Prescribed pressures alone drive the flow: pressures stay between these two, Pa.
+  bool has_bounds = false;
+  double min_pressure = 0.0;
+  double max_pressure = 0.0;
+
+  /// Raises the scales to those of a flow with these pressures and fluxes at the faces. A known
+  /// flux scale stays: a passing peak, as at a start from rest, is no measure of what follows.
+  void include(const std::vector<double>& face_pressure, const std::vector<double>& face_flux);
+  /// Widens the bounds to these pressures, from which the flow starts.
+  void include_in_bounds(const std::vector<double>& face_pressure);
+  /// How far pressures leave their bounds, over the pressure scale; zero without bounds.
+  [[nodiscard]] double overshoot(const std::vector<double>& face_pressure) const;
+
+  void archive(auto& archive) {
+    archive(flux, pressure, flux_known, has_bounds, min_pressure, max_pressure);
+  }
+};
+
+/// The scales of the steady flows that the boundary conditions drive at the start, at each kink of
+/// their values and at the end. `at_start`: coefficients and conditions. Where no steady flow
+/// exists, as with prescribed fluxes alone, the scales are zero or smaller.
+template <int Dim>
+FlowScales find_scales(ImplicitMixed<Dim>& scheme, const FlowForcing<Dim>& at_start,
+                       const BoundaryValues<Dim>& values, double end, bool has_gravity);
+
+/// Raises the scales over what counts as nothing: see ImplicitThresholds::nothing. `end` of the
+/// run, s.
+template <int Dim>
+void raise_over_round_off(FlowScales& scales, const Grid<Dim>& grid,
+                          const FlowCoefficients<Dim>& coefficients, const LiquidProperties& liquid,
+                          double end);
+
+/// How fast anything in the flow can change: relaxation of the velocity, waves and diffusion of the
+/// pressure through the smallest element, 1/s. Zero where nothing limits it.
+template <int Dim>
+double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                    double bulk_modulus, bool inertia);
+
+/// A warning where the mesh has obtuse angles and conductivities differ much, so that pressures may
+/// leave their bounds.
+template <int Dim>
+std::optional<std::string> obtuse_angle_warning(const Grid<Dim>& grid,
+                                                const FlowCoefficients<Dim>& coefficients);
+
+}  // namespace suffuse

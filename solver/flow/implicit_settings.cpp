@@ -1,0 +1,50 @@
+#include "flow/implicit_settings.hpp"
+
+#include <algorithm>
+
+namespace suffuse {
+
+bool has_condition(const std::vector<FaceCondition>& conditions, FaceKind kind) {
+  return std::ranges::find(conditions, kind, &FaceCondition::kind) != conditions.end();
+}
+
+bool depends_on_pores(const Scene& scene, const std::vector<FaceCondition>& conditions,
+                      const FlowOptions& options) {
+  const auto depends = [](const Soil& soil) {
+    return soil.conductivity_law->depends_on_porosity() || soil.erosion.momentum_transfer ||
+           soil.drag == SoilDrag::ergun;
+  };
+  return options.inertia || has_condition(conditions, FaceKind::velocity) ||
+         std::ranges::any_of(scene.soils, depends);
+}
+
+ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options) {
+  ImplicitSettings settings;
+  settings.bulk_modulus = scene.liquid.bulk_modulus;
+  settings.inertia = options.inertia;
+  settings.stepping = scene.time.stepping;
+  settings.threads = options.threads;
+  return settings;
+}
+
+StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool follows_pores,
+                           const std::vector<double>& kinks) {
+  StepSettings settings;
+  settings.tolerance = scene.time.tolerance;
+  settings.end = scene.time.end;
+  if (options.step_given) settings.given_step = options.step;
+  settings.unnoticed = options.unnoticed;
+  settings.length_alone_changes_matrix = !follows_pores;
+  settings.kinks = kinks;
+  settings.threads = options.threads;
+  return settings;
+}
+
+BlendingSettings blending_settings(const Scene& scene, const FlowOptions& options,
+                                   bool follows_pores) {
+  const auto [lightest, heaviest] =
+      std::minmax(scene.liquid.density, scene.soils.front().grain_density);
+  return {!options.step_given, follows_pores, lightest, heaviest};
+}
+
+}  // namespace suffuse

@@ -1,0 +1,31 @@
+#pragma once
+
+/// What a scene and its plan ask of the parts of the implicit flow.
+
+#include <vector>
+
+#include "flow/coefficient_blending.hpp"
+#include "flow/face_conditions.hpp"
+#include "flow/flow_solver.hpp"
+#include "flow/implicit_mixed.hpp"
+#include "flow/step_control.hpp"
+
+namespace suffuse {
+
+/// Whether a boundary has a condition of this kind.
+bool has_condition(const std::vector<FaceCondition>& conditions, FaceKind kind);
+
+/// Whether the coefficients of the flow change while erosion opens the pores, gravity apart.
+bool depends_on_pores(const Scene& scene, const std::vector<FaceCondition>& conditions,
+                      const FlowOptions& options);
+
+ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options);
+
+/// `kinks`: times at which boundary values may have one, s.
+StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool follows_pores,
+                           const std::vector<double>& kinks);
+
+BlendingSettings blending_settings(const Scene& scene, const FlowOptions& options,
+                                   bool follows_pores);
+
+}  // namespace suffuse

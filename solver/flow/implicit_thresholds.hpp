@@ -1,0 +1,84 @@
+#pragma once
+
+/// The fixed numbers of the implicit flow: how much one step may differ from the last, how fast
+/// corrections act, how near to steady is steady, and what is round-off. The scene's tolerance is
+/// the only one a user chooses. Numbers without a unit are ratios.
+
+namespace suffuse {
+
+struct ImplicitThresholds {
+  // Lengths of steps (StepControl).
+
+  /// The longest step that may follow a step, in lengths of that step.
+  double max_growth = 4.0;
+  /// The shortest step that may follow a step or replace a rejected one, in lengths of that one.
+  double min_shrinkage = 0.1;
+  /// The longest step that may replace a rejected one, in lengths of that one.
+  double max_retry = 0.9;
+  /// The next step's length, in lengths of the step whose error is expected to equal the tolerance.
+  double safety = 0.85;
+  /// Where the length alone changes the matrix, a step grows by at least this factor or not at all:
+  /// less is not worth a factorisation.
+  double min_growth_for_new_matrix = 1.5;
+  /// A step that misses the end of its interval by less than this share of itself ends there.
+  double end_margin = 1e-9;
+  /// The first step, as a share of the shortest time in which the flow changes (from rest) or of
+  /// the run (from a steady flow).
+  double first_step = 1e-2;
+  /// Boundary values that change within this share of the run, divided by the tolerance, jump: they
+  /// are crossed in one step, as time has no digits for shorter ones.
+  double jump = 1e-12;
+  /// A step below this share of the time reached is too short: adding it leaves few digits.
+  double min_step_of_time = 1e-14;
+  /// A step below this share of the run is too short.
+  double min_step_of_run = 1e-20;
+
+  // Fading of a difference over steps (MassRelaxation and CoefficientBlending).
+
+  /// The time in which a step closes a difference is the longest of recent steps, where each later
+  /// step takes this share of its own length off. With the last step alone, one that was shortened
+  /// by the difference itself would be followed by ever shorter ones.
+  double fading = 0.5;
+
+  // Release of the mass error (MassRelaxation).
+
+  /// Water that does not fit its pores leaves over at least this many steps: all at once, the flux
+  /// would jump, and no step is short enough for a jump.
+  double release_steps = 4.0;
+  /// A change of volume below this share of the volume is round-off: 16 units in the last place.
+  double volume_round_off = 16.0 * 2.220446049250313e-16;
+
+  // Blending of coefficients (CoefficientBlending).
+
+  /// After a breakpoint, coefficients reach their new values within this share of the step before
+  /// it, as soil that starts to erode may change its resistance at once.
+  double breakpoint_blending = 1e-2;
+
+  // Reuse of a steady flow (SteadyReuse).
+
+  /// A flow is steady when it differs from the steady solution by less than this share of the
+  /// tolerance.
+  double steady = 0.02;
+  /// A steady flow is solved again when its sources have changed by this share of the tolerance.
+  double steady_update = 0.01;
+  /// Resistances that differ by less than this share are equal.
+  double resistance_round_off = 1e-12;
+
+  // Scales of errors (FlowScales).
+
+  /// This share of a hydrostatic pressure over the height of the model, of the flux that such a
+  /// pressure drives, and of an element's water per duration of the run counts as nothing: water
+  /// at rest flows by round-off, and no step is short enough for the relative error of that.
+  double nothing = 1e-9;
+  /// Pressures below this share of the bulk modulus are round-off of the equation of state.
+  double state_round_off = 1e-12;
+  /// Cosines of angles above this, negative, are obtuse.
+  double obtuse_cosine = 1e-9;
+  /// Conductivities that differ by less than this factor keep pressures within their bounds even
+  /// where angles are obtuse, as far as the results show.
+  double strong_contrast = 100.0;
+};
+
+inline constexpr ImplicitThresholds implicit_thresholds;
+
+}  // namespace suffuse

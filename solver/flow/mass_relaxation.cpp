@@ -1,0 +1,48 @@
+#include "flow/mass_relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/flow_values.hpp"
+#include "flow/implicit_thresholds.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr const ImplicitThresholds& limits = implicit_thresholds;
+
+}  // namespace
+
+void MassRelaxation::observe(std::vector<double> mismatch, const std::vector<double>& volume) {
+  const std::size_t elements = mismatch.size();
+  if (outflow_.empty()) outflow_.assign(elements, 0.0);
+  if (source_.empty()) source_.assign(elements, 0.0);
+  if (change_time_ > 0.0 && active()) {
+    // What the last step added, the next one would add again: it leaves as it comes. Over short
+    // steps round-off would be a large rate.
+    for (std::size_t e = 0; e < elements; ++e) {
+      const double growth = mismatch[e] - mismatch_[e];
+      const double round_off = limits.volume_round_off * (volume[e] + std::abs(mismatch[e]));
+      const double certain = std::copysign(std::max(0.0, std::abs(growth) - round_off), growth);
+      outflow_[e] = certain / change_time_ + source_[e];
+    }
+  }
+  mismatch_ = std::move(mismatch);
+}
+
+std::vector<double> MassRelaxation::wanted_source(double dt, double filling_time) const {
+  std::vector<double> source = outflow_;
+  const double rate = 1.0 / std::max(limits.release_steps * dt, filling_time);
+  for (std::size_t e = 0; e < mismatch_.size(); ++e) source[e] += rate * mismatch_[e];
+  return source;
+}
+
+std::vector<double> MassRelaxation::next_source(double dt, double filling_time) const {
+  return between(source_, wanted_source(dt, filling_time), std::min(1.0, dt / change_time_));
+}
+
+void MassRelaxation::finish(double dt) {
+  change_time_ = std::max(dt, change_time_ - limits.fading * dt);
+}
+
+}  // namespace suffuse

@@ -1,0 +1,50 @@
+#pragma once
+
+/// Lets water that does not fit its pores out of the elements, over several steps. Masses are what
+/// is stored, and the pressures of a linear step miss the equation of state by a little: an element
+/// then holds more or less water than its pores take at its pressure. The next steps get that
+/// mismatch as a source, in m3/s per element (positive: water leaves):
+///
+///   source = outflow that keeps the mismatch from growing
+///          + mismatch / max(4 dt, time in which the flow fills an element)
+///
+/// so that for equal steps a mismatch falls to 3/4 of itself with each.
+
+#include <utility>
+#include <vector>
+
+namespace suffuse {
+
+class MassRelaxation {
+ public:
+  /// `mismatch`: volume of water too much per element after the last step, m3; `volume`: of all its
+  /// water, m3.
+  void observe(std::vector<double> mismatch, const std::vector<double>& volume);
+  /// Whether a mismatch has been observed; without one there is no source.
+  [[nodiscard]] bool active() const { return !mismatch_.empty(); }
+
+  /// The source that the mismatch asks for over steps of `dt`, m3/s per element. `filling_time`: in
+  /// which the largest flux fills the smallest element, s; infinite at rest.
+  [[nodiscard]] std::vector<double> wanted_source(double dt, double filling_time) const;
+  /// The source of the next step: the wanted one, or a part of the change towards it where the step
+  /// is shorter than recent ones. A change that did not shrink with the step would be a jump that
+  /// no step is short enough for.
+  [[nodiscard]] std::vector<double> next_source(double dt, double filling_time) const;
+
+  /// The source of the last step, m3/s per element; empty until a mismatch has been observed.
+  [[nodiscard]] const std::vector<double>& source() const { return source_; }
+  /// This source is in effect.
+  void set_source(std::vector<double> source) { source_ = std::move(source); }
+  /// A step of `dt` seconds is over.
+  void finish(double dt);
+
+  void archive(auto& archive) { archive(mismatch_, outflow_, source_, change_time_); }
+
+ private:
+  std::vector<double> mismatch_;  ///< water too much per element, m3
+  std::vector<double> outflow_;   ///< that keeps it from growing (moving water expands), m3/s
+  std::vector<double> source_;    ///< of the last step, m3/s
+  double change_time_ = 0.0;      ///< in which the source changes: the last step, or longer, s
+};
+
+}  // namespace suffuse

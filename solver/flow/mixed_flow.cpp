@@ -1,0 +1,63 @@
+#include "flow/mixed_flow.hpp"
+
+#include <cmath>
+
+#include "grid/face_flux.hpp"
+#include "grid/parallel.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+std::vector<double> element_pressure(const Grid<Dim>& grid,
+                                     const std::vector<double>& face_pressure, int threads) {
+  std::vector<double> result(grid.mesh.element_count(), 0.0);
+  for_each_index(grid.mesh.element_count(), threads, [&](int e) {
+    for (const int f : grid.element_face[e]) result[e] += face_pressure[f] / (Dim + 1);
+  });
+  return result;
+}
+
+template <int Dim>
+FaceVolumes face_volumes(const Grid<Dim>& grid, const std::vector<double>& start_face,
+                         const std::vector<double>& start_element, const MixedStep<Dim>& step,
+                         double bulk_modulus, int threads) {
+  FaceVolumes result{step.face_volume, std::vector<double>(grid.face_count(), 0.0)};
+  if (std::isinf(bulk_modulus)) return result;
+  const std::vector<double> end = element_pressure(grid, step.end.face_pressure, threads);
+  for_each_index(grid.face_count(), threads, [&](int f) {
+    const double volume = step.face_volume[f];
+    const int from = volume < 0.0 ? grid.face_right[f] : grid.face_left[f];
+    const double upwind = from >= 0 ? 0.5 * (start_element[from] + end[from])
+                                    : 0.5 * (start_face[f] + step.end.face_pressure[f]);
+    result.density_excess[f] = volume * std::expm1(upwind / bulk_modulus);
+  });
+  return result;
+}
+
+template <int Dim>
+NodalFields<Dim> nodal_fields(const Grid<Dim>& grid, const MixedFlow<Dim>& flow,
+                              const std::vector<double>& element_pressure,
+                              const std::vector<double>& porosity) {
+  NodalFields<Dim> result{std::vector<double>(grid.mesh.node_count(), 0.0),
+                          VectorField<Dim>(grid.mesh.node_count(), Vector<Dim>::Zero())};
+  const std::vector<Vector<Dim>> flux = element_flux(grid, flow.face_flux);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    for (int k = 0; k <= Dim; ++k) {
+      const int i = grid.mesh.elements[e][k];
+      const double weight = grid.volume[e] / (Dim + 1) / grid.node_volume[i];
+      const double at_vertex =
+          (Dim + 1) * element_pressure[e] - Dim * flow.state.face_pressure[grid.element_face[e][k]];
+      result.pressure[i] += weight * at_vertex;
+      result.velocity[i] += weight / porosity[e] * flux[e];
+    }
+  }
+  return result;
+}
+
+template std::vector<double> element_pressure(const Grid<2>&, const std::vector<double>&, int);
+template FaceVolumes face_volumes(const Grid<2>&, const std::vector<double>&,
+                                  const std::vector<double>&, const MixedStep<2>&, double, int);
+template NodalFields<2> nodal_fields(const Grid<2>&, const MixedFlow<2>&,
+                                     const std::vector<double>&, const std::vector<double>&);
+
+}  // namespace suffuse

@@ -1,0 +1,57 @@
+#pragma once
+
+/// The state of the mixed elements with its fluxes, and what transport and results read from it.
+
+#include <vector>
+
+#include "flow/flow.hpp"
+#include "flow/implicit_mixed.hpp"
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+/// The flow at one moment.
+template <int Dim>
+struct MixedFlow {
+  MixedState<Dim> state;
+  std::vector<double> face_flux;     ///< along each face's normal, m3/s
+  std::vector<double> flux_through;  ///< see MixedStep: errors and scales are of this
+
+  void archive(auto& archive) { archive(state, face_flux, flux_through); }
+};
+
+/// The flow at the end of a step.
+template <int Dim>
+MixedFlow<Dim> end_of(MixedStep<Dim> step) {
+  return {std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
+}
+
+/// Mean pressure of each element, Pa, of the pressures at its faces.
+template <int Dim>
+std::vector<double> element_pressure(const Grid<Dim>& grid,
+                                     const std::vector<double>& face_pressure, int threads);
+
+/// What crossed the faces in a step that started with the pressures `start_face` and, per element,
+/// `start_element`, Pa; `bulk_modulus` in Pa, may be infinite. The density of what crosses a face
+/// is that at the pressure of the element it comes from, mean over the step; of what enters from
+/// outside, that at the face.
+template <int Dim>
+FaceVolumes face_volumes(const Grid<Dim>& grid, const std::vector<double>& start_face,
+                         const std::vector<double>& start_element, const MixedStep<Dim>& step,
+                         double bulk_modulus, int threads);
+
+/// Pressure and velocity at the nodes.
+template <int Dim>
+struct NodalFields {
+  std::vector<double> pressure;  ///< Pa
+  VectorField<Dim> velocity;     ///< intrinsic, m/s
+};
+
+/// At each node the mean of what the linear fields of the elements around have there, weighted with
+/// their volumes. `porosity` per element.
+template <int Dim>
+NodalFields<Dim> nodal_fields(const Grid<Dim>& grid, const MixedFlow<Dim>& flow,
+                              const std::vector<double>& element_pressure,
+                              const std::vector<double>& porosity);
+
+}  // namespace suffuse

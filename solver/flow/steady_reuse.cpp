@@ -1,0 +1,67 @@
+#include "flow/steady_reuse.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/flow_values.hpp"
+#include "flow/implicit_thresholds.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr const ImplicitThresholds& limits = implicit_thresholds;
+
+}  // namespace
+
+template <int Dim>
+bool boundary_values_rest(const BoundaryValues<Dim>& values,
+                          const std::vector<FaceCondition>& conditions, double time, double end) {
+  if (!values.vary()) return true;
+  // Between two kinks values are linear: equal at their ends means constant.
+  std::vector<FaceCondition> later = conditions;
+  const auto next =
+      std::upper_bound(values.events().begin(), values.events().end(), time * (1.0 + 1e-14));
+  values.update(next != values.events().end() ? *next : end, later);
+  return std::ranges::equal(later, conditions, {}, &FaceCondition::value, &FaceCondition::value);
+}
+
+template <int Dim>
+void SteadyReuse<Dim>::check(const FlowCoefficients<Dim>& coefficients) {
+  if (coefficients_ && !resists_alike(coefficients, *coefficients_)) stop();
+}
+
+template <int Dim>
+bool SteadyReuse<Dim>::is_close(const std::vector<double>& a, const std::vector<double>& b,
+                                double scale) const {
+  return largest_difference(a, b) <= limits.steady * settings_.tolerance * scale;
+}
+
+template <int Dim>
+bool SteadyReuse<Dim>::needs_update(const std::vector<double>& source,
+                                    const std::vector<double>& new_source,
+                                    double flux_scale) const {
+  double together = 0.0;
+  for (std::size_t e = 0; e < source.size(); ++e) together += std::abs(new_source[e] - source[e]);
+  return together > limits.steady_update * settings_.tolerance * flux_scale;
+}
+
+template <int Dim>
+bool SteadyReuse<Dim>::resists_alike(const FlowCoefficients<Dim>& a,
+                                     const FlowCoefficients<Dim>& b) const {
+  const auto same = [](double x, double y) {
+    return std::abs(x - y) <= limits.resistance_round_off * std::abs(y);
+  };
+  for (std::size_t e = 0; e < a.drag.size(); ++e) {
+    if (!same(a.drag[e] / a.porosity[e], b.drag[e] / b.porosity[e])) return false;
+    if (settings_.has_gravity && !same(a.mixture_density[e], b.mixture_density[e])) return false;
+    if (settings_.prescribes_velocity && !same(a.porosity[e], b.porosity[e])) return false;
+    if (!a.quadratic_drag.empty() && !same(a.quadratic_drag[e], b.quadratic_drag[e])) return false;
+  }
+  return true;
+}
+
+template bool boundary_values_rest(const BoundaryValues<2>&, const std::vector<FaceCondition>&,
+                                   double, double);
+template class SteadyReuse<2>;
+
+}  // namespace suffuse

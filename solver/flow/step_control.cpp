@@ -1,0 +1,112 @@
+#include "flow/step_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "flow/flow_values.hpp"
+#include "flow/implicit_thresholds.hpp"
+#include "grid/parallel.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr const ImplicitThresholds& limits = implicit_thresholds;
+
+}  // namespace
+
+void StepControl::start(double first_step, bool smooth) {
+  next_ = settings_.given_step.value_or(first_step);
+  smooth_ = smooth;
+}
+
+bool StepControl::is_jump(double start, double dt) const {
+  if (!(dt <= limits.jump * settings_.end / settings_.tolerance)) return false;
+  return contains_time(settings_.kinks, start) && contains_time(settings_.kinks, start + dt);
+}
+
+double StepControl::propose(double start, double until, double longest) {
+  shortened_ = false;
+  const double left = until - start;
+  if (settings_.given_step) {
+    // The given step is the longest one: what is left is divided evenly.
+    return left /
+           std::max(1.0, std::ceil(left / *settings_.given_step * (1.0 - limits.end_margin)));
+  }
+  if (is_jump(start, left)) return left;
+  double dt = std::min(next_, longest);
+  // No short step before the end: two halves are better than nine tenths and one.
+  if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
+  return dt * (1.0 + limits.end_margin) >= left ? left : dt;
+}
+
+double StepControl::error(double start, double dt,
+                          const std::vector<ControlledField>& fields) const {
+  if (!smooth_ || is_jump(start, dt)) return 0.0;
+  double error = 0.0;
+  for (const ControlledField& field : fields) {
+    if (!(field.scale > 0.0)) continue;
+    const double ahead = field.previous != nullptr ? dt / last_ : 0.0;
+    const std::vector<double>& now = field.start;
+    const double distance =
+        largest_of(static_cast<int>(now.size()), settings_.threads, 0.0, [&](int i) {
+          const double predicted =
+              field.previous != nullptr ? now[i] + ahead * (now[i] - (*field.previous)[i]) : now[i];
+          return std::abs(field.end[i] - predicted);
+        });
+    error = std::max(error, distance / field.scale);
+  }
+  // Oscillations within a time that goes unnoticed move next to nothing.
+  const double weight = dt / (dt + settings_.unnoticed);
+  return 0.5 * weight * error / settings_.tolerance;
+}
+
+bool StepControl::accept(double start, double error, bool predicted, double& dt) {
+  if (settings_.given_step) return true;
+  const double order = (predicted ? 2.0 : 1.0) + settings_.unnoticed / (dt + settings_.unnoticed);
+  const double wanted =
+      error > 0.0 ? limits.safety * std::pow(error, -1.0 / order) : limits.max_growth;
+  if (error <= 1.0) {
+    double next = dt * std::clamp(wanted, limits.min_shrinkage, limits.max_growth);
+    if (settings_.length_alone_changes_matrix && wanted >= 1.0 &&
+        wanted < limits.min_growth_for_new_matrix) {
+      next = dt;
+    }
+    // A step that the interval cut short says nothing against the longer one that was planned.
+    next_ = !shortened_ && wanted >= 1.0 ? std::max(next, next_) : next;
+    return true;
+  }
+  ++rejected_;
+  shortened_ = true;
+  dt *= std::clamp(wanted, limits.min_shrinkage, limits.max_retry);
+  if (!(dt > limits.min_step_of_time * start) || dt < limits.min_step_of_run * settings_.end) {
+    std::ostringstream message;
+    message << "no step is short enough for time.tolerance = " << settings_.tolerance
+            << " at t = " << start
+            << " s: something that drives or resists the flow changes at once; take a larger "
+               "tolerance or give time.step";
+    throw NumericalError(message.str());
+  }
+  return false;
+}
+
+void StepControl::finish(double dt) {
+  last_ = dt;
+  smooth_ = true;
+}
+
+void StepControl::grow(double dt) {
+  if (!settings_.given_step) next_ = std::max(next_, limits.max_growth * dt);
+}
+
+void StepControl::account_for(double error) {
+  if (settings_.given_step) return;
+  const double relative = error / settings_.tolerance;
+  if (relative > 1.0) {
+    const double share = std::max(limits.safety * std::pow(relative, -0.5), limits.min_shrinkage);
+    next_ = std::min(next_, share * last_);
+  }
+}
+
+}  // namespace suffuse

@@ -1,0 +1,86 @@
+#pragma once
+
+/// Chooses the lengths of time steps so that the local error of each stays within a tolerance. The
+/// error of a step is estimated as half the distance between its result and a straight line through
+/// the two states before it, which for equal steps is the local error of backward Euler
+/// (dt^2 |y''| / 2, Hairer and Wanner, Solving Ordinary Differential Equations II). Knows values at
+/// the ends of steps, and nothing of the equations behind them.
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace suffuse {
+
+struct StepSettings {
+  double tolerance = 0.0;            ///< for the local error of a step over the field's scale
+  double end = 0.0;                  ///< of the run, s
+  std::optional<double> given_step;  ///< longest step, s; then errors play no part
+  /// Errors of steps much shorter than this count by the integral of the field over the step, not
+  /// by its value, s: waves of shorter periods need not be followed.
+  double unnoticed = 0.0;
+  /// The matrix of a step depends on nothing but its length.
+  bool length_alone_changes_matrix = false;
+  /// Times at which boundary values may have a kink, ascending, s. Two of them close together are a
+  /// jump, which one step crosses.
+  std::vector<double> kinks;
+  int threads = 1;
+};
+
+/// A field whose error decides on the length of steps, as it is at the ends of steps.
+struct ControlledField {
+  const std::vector<double>* previous;  ///< at the start of the last step; null: predicts nothing
+  const std::vector<double>& start;     ///< at the start of this step
+  const std::vector<double>& end;       ///< at its end
+  double scale;                         ///< errors are relative to this; zero: it has no error
+};
+
+class StepControl {
+ public:
+  explicit StepControl(StepSettings settings) : settings_(std::move(settings)) {}
+
+  /// The first step takes `first_step` seconds, or the given one. `smooth`: the state at the start
+  /// belongs to the curve that follows; else the first step has no error that could be estimated.
+  void start(double first_step, bool smooth);
+
+  /// Length of the step to try from `start`, s: ends at `until` at the latest, and takes no longer
+  /// than `longest`.
+  [[nodiscard]] double propose(double start, double until, double longest);
+  /// Estimated local error of a step of `dt` from `start`, over the tolerance; zero where a jump or
+  /// a start that is not smooth leaves nothing to compare with.
+  [[nodiscard]] double error(double start, double dt,
+                             const std::vector<ControlledField>& fields) const;
+  /// Whether a step of this error is good enough. If so, finds the length of the next one; if not,
+  /// shortens `dt`. `predicted`: a state before the start was part of the estimate. Throws
+  /// NumericalError when the step would become too short to change the time.
+  [[nodiscard]] bool accept(double start, double error, bool predicted, double& dt);
+  /// A step of `dt` seconds is over.
+  void finish(double dt);
+
+  /// The next step may be as long as this one allows, whatever was planned: nothing changes.
+  void grow(double dt);
+  /// What the last step took for granted was wrong by this share: shortens the next one
+  /// accordingly.
+  void account_for(double error);
+
+  /// Whether states so far are points of a smooth curve.
+  [[nodiscard]] bool smooth() const { return smooth_; }
+  [[nodiscard]] bool has_given_step() const { return settings_.given_step.has_value(); }
+  [[nodiscard]] double last_step() const { return last_; }  ///< s; zero before the first
+  [[nodiscard]] double next_step() const { return next_; }  ///< as it will be tried, s
+  [[nodiscard]] long rejected() const { return rejected_; }
+
+  void archive(auto& archive) { archive(last_, next_, smooth_, rejected_); }
+
+ private:
+  [[nodiscard]] bool is_jump(double start, double dt) const;
+
+  StepSettings settings_;
+  double last_ = 0.0;
+  double next_ = 0.0;
+  bool smooth_ = true;
+  long rejected_ = 0;
+  bool shortened_ = false;  ///< the step at hand has been rejected before
+};
+
+}  // namespace suffuse
