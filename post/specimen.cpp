@@ -9,7 +9,7 @@
 namespace suffuse {
 namespace {
 
-bool erodes(const Soil& soil) {
+bool has_law(const Soil& soil) {
   return soil.erosion.law->erodes();
 }
 
@@ -33,13 +33,13 @@ void add_element(std::map<std::pair<std::string, double>, Portion>& portions, co
 
 Specimen specimen(const ResultsReader& run) {
   const Scene& scene = run.scene().scene;
-  const bool any = std::any_of(scene.soils.begin(), scene.soils.end(), erodes);
+  const bool any = std::any_of(scene.soils.begin(), scene.soils.end(), has_law);
   const Mesh<2> mesh = run.mesh();
   Specimen found;
   std::vector<const Soil*> soils;
   for (int r = 0; r < static_cast<int>(mesh.region_names.size()); ++r) {
     const Soil* soil = scene.find_soil(mesh.region_names[r]);
-    const bool counts = soil != nullptr && (erodes(*soil) || !any);
+    const bool counts = soil != nullptr && (has_law(*soil) || !any);
     soils.push_back(counts ? soil : nullptr);
     if (counts) found.regions.push_back(r);
     if (soil != nullptr && !counts) found.has_all_soil = false;
