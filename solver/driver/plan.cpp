@@ -360,8 +360,9 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   const std::vector<FaceCondition> conditions = face_conditions(c, grid);
   refuse_contradictory_fluxes(c, grid, soils, BoundaryValues<Dim>(c, grid));
   refuse_points_near_corners(c, grid, soils);
+  check_scheme(c);
   if (scene.time.scheme == FlowScheme::explicit_nodal) {
-    plan_explicit_step(c, grid, soils, conditions, plan);
+    if constexpr (Dim == 2) plan_explicit_step(c, grid, soils, conditions, plan);
   } else {
     plan_implicit_step(scene, plan);
     plan.settling_time = settling_time(c);
@@ -376,5 +377,6 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
 }
 
 template Plan make_plan(const Case<2>&, const SolverOptions&);
+template Plan make_plan(const Case<3>&, const SolverOptions&);
 
 }  // namespace suffuse

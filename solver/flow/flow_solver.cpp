@@ -184,5 +184,6 @@ void FlowSolver<Dim>::warn_of_unstated_inflow(double time, const std::vector<dou
 }
 
 template class FlowSolver<2>;
+template class FlowSolver<3>;
 
 }  // namespace suffuse

@@ -168,4 +168,8 @@ template <int Dim>
 std::unique_ptr<FlowSolver<Dim>> make_flow(const Case<Dim>& c, const Grid<Dim>& grid,
                                            const Skeleton<Dim>& solid, const FlowOptions& options);
 
+/// Throws InputError where the scene's scheme does not work in this dimension.
+template <int Dim>
+void check_scheme(const Case<Dim>& c);
+
 }  // namespace suffuse

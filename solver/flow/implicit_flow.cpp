@@ -299,5 +299,6 @@ std::vector<PassTiming> ImplicitFlow<Dim>::passes() const {
 }
 
 template class ImplicitFlow<2>;
+template class ImplicitFlow<3>;
 
 }  // namespace suffuse

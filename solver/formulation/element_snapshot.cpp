@@ -129,5 +129,7 @@ Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
 
 template Snapshot element_snapshot(const Grid<2>&, const Skeleton<2>&, const FinesState<2>&,
                                    const FlowState<2>&, long);
+template Snapshot element_snapshot(const Grid<3>&, const Skeleton<3>&, const FinesState<3>&,
+                                   const FlowState<3>&, long);
 
 }  // namespace suffuse

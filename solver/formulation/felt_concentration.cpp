@@ -42,5 +42,7 @@ std::vector<double> felt_concentration(const Grid<Dim>& grid, const SoilMap<Dim>
 
 template std::vector<double> felt_concentration(const Grid<2>&, const SoilMap<2>&,
                                                 std::vector<double>, const std::vector<double>&);
+template std::vector<double> felt_concentration(const Grid<3>&, const SoilMap<3>&,
+                                                std::vector<double>, const std::vector<double>&);
 
 }  // namespace suffuse

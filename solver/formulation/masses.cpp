@@ -132,5 +132,6 @@ std::vector<RegionRow> MassAccounts<Dim>::region_rows(double time,
 }
 
 template class MassAccounts<2>;
+template class MassAccounts<3>;
 
 }  // namespace suffuse

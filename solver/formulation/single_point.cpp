@@ -175,5 +175,6 @@ std::vector<PassTiming> SinglePoint<Dim>::passes() const {
 }
 
 template class SinglePoint<2>;
+template class SinglePoint<3>;
 
 }  // namespace suffuse

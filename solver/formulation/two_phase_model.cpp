@@ -132,5 +132,6 @@ std::vector<StoredSums> TwoPhaseModel<Dim>::solid_masses() const {
 }
 
 template class TwoPhaseModel<2>;
+template class TwoPhaseModel<3>;
 
 }  // namespace suffuse

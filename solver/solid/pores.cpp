@@ -74,5 +74,10 @@ template ElementField<2> pore_field(const Grid<2>&, const Skeleton<2>&);
 template class PoreForecast<2>;
 template std::vector<double> erosion_flux(const Grid<2>&, const SoilMap<2>&,
                                           const std::vector<double>&, int);
+template ElementField<3> initial_pore_volume(const Grid<3>&, const SoilMap<3>&);
+template ElementField<3> pore_field(const Grid<3>&, const Skeleton<3>&);
+template class PoreForecast<3>;
+template std::vector<double> erosion_flux(const Grid<3>&, const SoilMap<3>&,
+                                          const std::vector<double>&, int);
 
 }  // namespace suffuse

@@ -101,5 +101,8 @@ std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, const SoilMa
 template class RigidSkeleton<2>;
 template std::unique_ptr<Skeleton<2>> make_skeleton(const Grid<2>&, const SoilMap<2>&,
                                                     const TimeSpan&, int);
+template class RigidSkeleton<3>;
+template std::unique_ptr<Skeleton<3>> make_skeleton(const Grid<3>&, const SoilMap<3>&,
+                                                    const TimeSpan&, int);
 
 }  // namespace suffuse

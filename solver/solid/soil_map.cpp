@@ -100,5 +100,6 @@ TimeSpan SoilMap<Dim>::erosion_span() const {
 }
 
 template class SoilMap<2>;
+template class SoilMap<3>;
 
 }  // namespace suffuse

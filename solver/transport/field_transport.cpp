@@ -102,5 +102,6 @@ std::vector<double> FieldTransport<Dim>::face_concentration(
 }
 
 template class FieldTransport<2>;
+template class FieldTransport<3>;
 
 }  // namespace suffuse

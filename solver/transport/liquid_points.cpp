@@ -92,6 +92,8 @@ LiquidPoints<Dim> clean_liquid(const MaterialPoints<Dim>& places,
 
 template LiquidPoints<2> clean_liquid(const MaterialPoints<2>&, const std::vector<double>&,
                                       const LiquidDensities&, double);
+template LiquidPoints<3> clean_liquid(const MaterialPoints<3>&, const std::vector<double>&,
+                                      const LiquidDensities&, double);
 template void LiquidPoints<2>::reserve(int);
 template void LiquidPoints<3>::reserve(int);
 template void sort_by_element(LiquidPoints<2>&, int);

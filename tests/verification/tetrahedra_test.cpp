@@ -7,8 +7,13 @@
 #include <limits>
 
 #include "box_mesh.hpp"
+#include "case/errors.hpp"
+#include "driver/plan.hpp"
+#include "exact_fines.hpp"
 #include "flow/implicit_mixed.hpp"
+#include "formulation/single_point.hpp"
 #include "grid/face_flux.hpp"
+#include "reference_table.hpp"
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
@@ -165,6 +170,114 @@ TEST(Tetrahedra, ElementsBalanceAtAnyContrastAndWithStorage) {
       }
       EXPECT_LE(model::imbalance(m.grid, step.face_volume, net_outflow), 1e-12) << modulus;
     }
+  }
+}
+
+/// Clean water enters a column from above at 0.012 m/s; the soil erodes at a constant rate from 2 s
+/// on, as in the tables of tests/data/reference.
+class SuffusionColumn {
+ public:
+  static constexpr double flux = 0.012;
+  static constexpr double rate = 1e-3;
+  static constexpr double start = 2.0;
+  static constexpr int cells = 16;
+  static constexpr double width = 2.0 / cells;
+
+  [[nodiscard]] static Case<3> input(double end, FlowScheme scheme) {
+    Scene scene = model::paper_scene();
+    scene.soils[0].erosion = {erosion_law("constant"), rate, start, false};
+    scene.boundaries = {model::flux_on("top", flux), model::pressure_on("bottom", 0.0)};
+    scene.initial_flow = InitialFlow::steady;
+    scene.time.end = end;
+    scene.time.scheme = scheme;
+    return model::make_case(model::box_mesh({2, 2, cells}, {width, width, 1.0},
+                                            model::disturbed(0.1 / cells, {width, width, 1.0})),
+                            scene);
+  }
+};
+
+/// Mean of |c - exact| over the column by the rule of the field nodes.
+double mean_error(const Mesh<3>& mesh, const FinesState<3>& liquid,
+                  const std::function<double(double)>& exact_at_depth) {
+  double error = 0.0;
+  double volume = 0.0;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    for (int j = 0; j < 4; ++j) {
+      double depth = 1.0;
+      for (int k = 0; k < 4; ++k) {
+        depth -= (k == j ? FieldNodes<3>::near_vertex : FieldNodes<3>::far_vertex) *
+                 mesh.nodes[mesh.elements[e][k]][2];
+      }
+      const double c = liquid.fines_volume[e][j] / liquid.pore_volume[e][j];
+      error += element_volume(mesh, e) * std::abs(c - exact_at_depth(depth));
+      volume += element_volume(mesh, e);
+    }
+  }
+  return error / volume;
+}
+
+/// Rows of a reference table for this column at time t.
+std::vector<ReferenceRow> rows_at(const std::string& table, double t) {
+  std::vector<ReferenceRow> result;
+  for (const auto& row : read_reference(table)) {
+    if (row.text("law") == "const" && row.number("par") == SuffusionColumn::rate &&
+        row.number("q") == SuffusionColumn::flux && row.number("t") == t) {
+      result.push_back(row);
+    }
+  }
+  return result;
+}
+
+TEST(TetrahedraSuffusion, PorosityMassesAndProfileOfTheColumn) {
+  const std::vector<double> times{7, 12, 22, 52};
+  const Case<3> c = SuffusionColumn::input(times.back(), FlowScheme::implicit_mixed);
+  const Plan plan = make_plan(c, {});
+  SinglePoint<3> model(c, plan);
+  const UniformFines exact([](double) { return SuffusionColumn::rate; }, 0.3, 0.4,
+                           SuffusionColumn::start, SuffusionColumn::flux, times.back());
+  for (const double t : times) {
+    while (model.time() < t) {
+      model.advance(t);
+      const LedgerRow row = model.ledger();
+      EXPECT_LE(std::abs(row.residual_water), 1e-12);
+      EXPECT_LE(std::abs(row.residual_grains), 1e-12);
+    }
+    ASSERT_EQ(model.time(), t);
+    const double porosity = 0.3 + SuffusionColumn::rate * (t - SuffusionColumn::start);
+    for (const double n : model.solid().porosity()) EXPECT_NEAR(n, porosity, 1e-12);
+
+    const auto profile = [&](double x) { return exact.concentration(x, t); };
+    const auto table = rows_at("fines-profile.csv", t);
+    ASSERT_GE(table.size(), 11U);
+    for (const auto& row : table) {
+      EXPECT_NEAR(profile(row.number("x")), row.number("n_f") / row.number("n_L"), 2e-6);
+    }
+    const double error = mean_error(c.mesh, model.liquid(), profile);
+    EXPECT_LE(error, 0.01 * (profile(1.0) - profile(0.0))) << t;
+
+    const auto masses = rows_at("masses.csv", t);
+    ASSERT_EQ(masses.size(), 1U);
+    const double area = SuffusionColumn::width * SuffusionColumn::width;
+    const LedgerRow row = model.ledger();
+    EXPECT_NEAR(row.solid / area, masses[0].number("M_solid"), 1e-7);
+    const double out = masses[0].number("M_eroded_out");
+    EXPECT_NEAR(row.fines_out / area, out, 0.01 * out);
+    EXPECT_NEAR(row.fines / area, masses[0].number("M_fluidised_in"), 0.01 * out);
+    std::cout << "t = " << t << " s: error of c " << error / (profile(1.0) - profile(0.0))
+              << " of its range, of the mass that left " << row.fines_out / area / out - 1.0
+              << ", residuals " << row.residual_water << ' ' << row.residual_grains << '\n';
+  }
+}
+
+TEST(TetrahedraSuffusion, TheExplicitSchemeIsRefused) {
+  const Case<3> c = SuffusionColumn::input(1.0, FlowScheme::explicit_nodal);
+  try {
+    make_plan(c, {});
+    FAIL() << "took it";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the explicit scheme is for meshes of triangles"),
+              std::string::npos)
+        << error.what();
   }
 }
 
