@@ -62,5 +62,6 @@ void CoefficientBlending<Dim>::shorten(double dt) {
 }
 
 template class CoefficientBlending<2>;
+template class CoefficientBlending<3>;
 
 }  // namespace suffuse

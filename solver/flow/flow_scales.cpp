@@ -171,5 +171,12 @@ template void raise_over_round_off(FlowScales&, const Grid<2>&, const FlowCoeffi
 template double fastest_rate(const Grid<2>&, const FlowCoefficients<2>&, double, bool);
 template std::optional<std::string> obtuse_angle_warning(const Grid<2>&,
                                                          const FlowCoefficients<2>&);
+template FlowScales find_scales(ImplicitMixed<3>&, const FlowForcing<3>&, const BoundaryValues<3>&,
+                                double, bool);
+template void raise_over_round_off(FlowScales&, const Grid<3>&, const FlowCoefficients<3>&,
+                                   const LiquidProperties&, double);
+template double fastest_rate(const Grid<3>&, const FlowCoefficients<3>&, double, bool);
+template std::optional<std::string> obtuse_angle_warning(const Grid<3>&,
+                                                         const FlowCoefficients<3>&);
 
 }  // namespace suffuse

@@ -59,5 +59,10 @@ template FaceVolumes face_volumes(const Grid<2>&, const std::vector<double>&,
                                   const std::vector<double>&, const MixedStep<2>&, double, int);
 template NodalFields<2> nodal_fields(const Grid<2>&, const MixedFlow<2>&,
                                      const std::vector<double>&, const std::vector<double>&);
+template std::vector<double> element_pressure(const Grid<3>&, const std::vector<double>&, int);
+template FaceVolumes face_volumes(const Grid<3>&, const std::vector<double>&,
+                                  const std::vector<double>&, const MixedStep<3>&, double, int);
+template NodalFields<3> nodal_fields(const Grid<3>&, const MixedFlow<3>&,
+                                     const std::vector<double>&, const std::vector<double>&);
 
 }  // namespace suffuse

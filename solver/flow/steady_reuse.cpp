@@ -63,5 +63,8 @@ bool SteadyReuse<Dim>::resists_alike(const FlowCoefficients<Dim>& a,
 template bool boundary_values_rest(const BoundaryValues<2>&, const std::vector<FaceCondition>&,
                                    double, double);
 template class SteadyReuse<2>;
+template bool boundary_values_rest(const BoundaryValues<3>&, const std::vector<FaceCondition>&,
+                                   double, double);
+template class SteadyReuse<3>;
 
 }  // namespace suffuse
