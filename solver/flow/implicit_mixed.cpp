@@ -131,9 +131,9 @@ void ImplicitMixed<Dim>::lay_out_matrix() {
 
   const auto position = [&](int row, int column) {
     const int* inner = matrix_.innerIndexPtr();
-    const int* begin = inner + matrix_.outerIndexPtr()[column];
-    const int* end = inner + matrix_.outerIndexPtr()[column + 1];
-    return static_cast<int>(std::lower_bound(begin, end, row) - inner);
+    const int* first = inner + matrix_.outerIndexPtr()[column];
+    const int* last = inner + matrix_.outerIndexPtr()[column + 1];
+    return static_cast<int>(std::lower_bound(first, last, row) - inner);
   };
   position_.resize(elements);
   for (int e = 0; e < elements; ++e) {
@@ -448,10 +448,51 @@ double ImplicitMixed<Dim>::momentum_error(const Field& flux, const Field& push,
 }
 
 template <int Dim>
+typename ImplicitMixed<Dim>::FluxChange ImplicitMixed<Dim>::flux_change(
+    const Field& new_flux, const Field& new_push) const {
+  const Work& w = work_;
+  FluxChange result{0.0, largest_norm<Dim>(new_flux), true};
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    double rise = 0.0;
+    double area = 0.0;
+    for (const int f : grid_.element_face[e]) {
+      rise = std::max(rise, std::abs(w.pressure.rise[f]));
+      area = std::max(area, face_area_[f]);
+    }
+    const double round_off =
+        epsilon * (conductance_of(e) * rise / area +
+                   w.law.mobility[e] * (w.law.drive[e].norm() + new_push[e].norm()));
+    const double here = (new_flux[e] - w.flux[e]).norm();
+    if (here > 1e-12 * result.largest_flux + 16.0 * round_off) result.is_round_off = false;
+    result.largest = std::max(result.largest, here);
+  }
+  return result;
+}
+
+template <int Dim>
+double ImplicitMixed<Dim>::damp(Field& new_flux, Field& new_push,
+                                const std::vector<double>& quadratic_drag) const {
+  constexpr double min_share = 1e-3;
+  const double error = momentum_error(work_.flux, work_.push, quadratic_drag);
+  double share = 1.0;
+  while (share > min_share) {
+    Field part_flux = part_of_way<Dim>(work_.flux, new_flux, share);
+    Field part_push = part_of_way<Dim>(work_.push, new_push, share);
+    if (momentum_error(part_flux, part_push, quadratic_drag) <= error) {
+      new_flux = std::move(part_flux);
+      new_push = std::move(part_push);
+      break;
+    }
+    share *= 0.5;
+  }
+  return share;
+}
+
+template <int Dim>
 void ImplicitMixed<Dim>::solve_quadratic(const MixedState<Dim>& base,
                                          const FlowForcing<Dim>& forcing, const Field& flux_guess) {
   // Continuity is linear, so after the first iteration only momentum is left to fulfil.
-  constexpr int most_iterations = 100;
+  constexpr int max_iterations = 100;
   Work& w = work_;
   const int elements = grid_.mesh.element_count();
   const std::vector<double>& quadratic_drag = forcing.coefficients.quadratic_drag;
@@ -469,54 +510,24 @@ void ImplicitMixed<Dim>::solve_quadratic(const MixedState<Dim>& base,
     solve_pressure(forcing);
     find_flux(new_flux, new_push);
 
-    const double largest = largest_norm<Dim>(new_flux);
-    double change = 0.0;
-    bool converged = true;
-    for (int e = 0; e < elements; ++e) {
-      double rise = 0.0;
-      double area = 0.0;
-      for (const int f : grid_.element_face[e]) {
-        rise = std::max(rise, std::abs(w.pressure.rise[f]));
-        area = std::max(area, face_area_[f]);
-      }
-      const double round_off =
-          epsilon * (conductance_of(e) * rise / area +
-                     w.law.mobility[e] * (w.law.drive[e].norm() + new_push[e].norm()));
-      const double here = (new_flux[e] - w.flux[e]).norm();
-      if (here > 1e-12 * largest + 16.0 * round_off) converged = false;
-      change = std::max(change, here);
-    }
+    const FluxChange change = flux_change(new_flux, new_push);
     // A small change that no longer halves is round-off that spread through the mesh.
-    if (change <= 1e-6 * largest && change > 0.5 * last_change) converged = true;
-    if (converged) {
+    const bool stagnates =
+        change.largest <= 1e-6 * change.largest_flux && change.largest > 0.5 * last_change;
+    if (change.is_round_off || stagnates) {
       w.flux.swap(new_flux);
       return;
     }
-    if (iteration == most_iterations) {
+    if (iteration == max_iterations) {
       std::ostringstream text;
-      text << "the flow with quadratic drag did not converge in " << most_iterations
-           << " iterations of Newton's method: the flux still changes by " << change << " m/s of "
-           << largest << " m/s";
+      text << "the flow with quadratic drag did not converge in " << max_iterations
+           << " iterations of Newton's method: the flux still changes by " << change.largest
+           << " m/s of " << change.largest_flux << " m/s";
       throw NumericalError(text.str());
     }
-
-    // The whole step, or the part of it that lessens the error of momentum. Not for the first: it
-    // is what fulfils continuity.
-    double share = 1.0;
-    if (iteration > 0) {
-      const double error = momentum_error(w.flux, w.push, quadratic_drag);
-      while (share > 1e-3) {
-        Field part_flux = part_of_way<Dim>(w.flux, new_flux, share);
-        Field part_push = part_of_way<Dim>(w.push, new_push, share);
-        if (momentum_error(part_flux, part_push, quadratic_drag) <= error) {
-          new_flux = std::move(part_flux);
-          new_push = std::move(part_push);
-          break;
-        }
-        share *= 0.5;
-      }
-    }
-    last_change = share == 1.0 ? change : std::numeric_limits<double>::infinity();
+    // The first step is never shortened: it is the one that fulfils continuity.
+    const double share = iteration > 0 ? damp(new_flux, new_push, quadratic_drag) : 1.0;
+    last_change = share == 1.0 ? change.largest : std::numeric_limits<double>::infinity();
     w.flux.swap(new_flux);
     w.push.swap(new_push);
   }
@@ -633,7 +644,7 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
 }
 
 template <int Dim>
-MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& begin, double dt,
+MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& start, double dt,
                                         const std::vector<const FlowForcing<Dim>*>& forcing) {
   set_up(forcing.front()->conditions);
   const auto flux_of = [&](const std::vector<Vector<Dim>>& velocity, const auto& coefficients) {
@@ -643,7 +654,7 @@ MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& begin, double dt,
   };
   if (settings_.stepping == TimeStepping::monotone) {
     const FlowForcing<Dim>& last = *forcing.at(0);
-    Stage stage = solve_stage(begin, dt, last, flux_of(begin.velocity, last.coefficients));
+    Stage stage = solve_stage(start, dt, last, flux_of(start.velocity, last.coefficients));
     std::vector<double> volume = stage.face_flux;
     for (double& v : volume) v *= dt;
     return {std::move(stage.state), std::move(volume), std::move(stage.face_flux),
@@ -654,12 +665,12 @@ MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& begin, double dt,
   const FlowForcing<Dim>& early = *forcing.at(0);
   const FlowForcing<Dim>& late = *forcing.at(1);
   const Stage first =
-      solve_stage(begin, duration, early, flux_of(begin.velocity, early.coefficients));
+      solve_stage(start, duration, early, flux_of(start.velocity, early.coefficients));
   constexpr double ahead = (1.0 - stage_share) / stage_share;
-  MixedState<Dim> base = begin;
+  MixedState<Dim> base = start;
   for (int f = 0; f < grid_.face_count(); ++f) base.face_pressure[f] += ahead * first.rise[f];
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    base.velocity[e] += ahead * (first.state.velocity[e] - begin.velocity[e]);
+    base.velocity[e] += ahead * (first.state.velocity[e] - start.velocity[e]);
   }
   Stage second =
       solve_stage(base, duration, late, flux_of(first.state.velocity, late.coefficients));

@@ -75,7 +75,7 @@ class ImplicitMixed {
   /// water does not compress and no pressure is prescribed the first face of the piece has p = 0,
   /// and prescribed inflow and sources must cancel. Throws NumericalError when they do not, when an
   /// element has no resistance, or when Newton's method for the quadratic drag does not converge.
-  MixedStep<Dim> step(const MixedState<Dim>& begin, double dt,
+  MixedStep<Dim> step(const MixedState<Dim>& start, double dt,
                       const std::vector<const FlowForcing<Dim>*>& forcing);
 
   /// Steady state, without inertia and storage: face_flux as rates; face_volume stays empty.
@@ -123,7 +123,7 @@ class ImplicitMixed {
     MomentumLaw law;
     FacePressure pressure;
     Field flux;  ///< per element, m/s
-    Field push;  ///< drive less pressure gradient, Pa/m
+    Field push;  ///< drive minus pressure gradient, Pa/m
     // Of the linear system.
     Field face_push;                ///< what an element drives without the unknown rises, m/s
     std::vector<double> round_off;  ///< of it, m/s
@@ -154,6 +154,17 @@ class ImplicitMixed {
   void linearise_about(const Field& flux, const std::vector<double>& quadratic_drag);
   /// Flux and push of each element at the pressures found.
   void find_flux(Field& flux, Field& push) const;
+  /// How an iteration of Newton's method changes the flux of the elements.
+  struct FluxChange {
+    double largest = 0.0;       ///< m/s
+    double largest_flux = 0.0;  ///< m/s
+    bool is_round_off = false;  ///< in every element
+  };
+  [[nodiscard]] FluxChange flux_change(const Field& new_flux, const Field& new_push) const;
+  /// Shortens the step to the new flux and push until it does not raise the error of momentum.
+  /// Returns the share of the step that is left; where no share helps, the step stays whole and the
+  /// share is below 1e-3.
+  double damp(Field& new_flux, Field& new_push, const std::vector<double>& quadratic_drag) const;
   /// Size of the momentum that is missing at a flux and its push.
   [[nodiscard]] double momentum_error(const Field& flux, const Field& push,
                                       const std::vector<double>& quadratic_drag) const;

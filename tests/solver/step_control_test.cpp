@@ -1,0 +1,231 @@
+/// Step control alone, on equations whose local errors are known.
+
+#include "flow/step_control.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <utility>
+
+#include "case/errors.hpp"
+#include "flow/implicit_thresholds.hpp"
+#include "results/state_archive.hpp"
+#include "solver/flow_model.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr const ImplicitThresholds& limits = implicit_thresholds;
+
+StepSettings settings(double tolerance, double end) {
+  StepSettings result;
+  result.tolerance = tolerance;
+  result.end = end;
+  return result;
+}
+
+/// A control that has taken a step of `dt`.
+StepControl after_step(const StepSettings& s, double dt) {
+  StepControl control(s);
+  control.start(dt, true);
+  control.finish(dt);
+  return control;
+}
+
+TEST(StepControl, EstimateOfEqualStepsIsTheLocalErrorOfBackwardEuler) {
+  // y' = -y by backward Euler: y falls by 1 / (1 + dt) per step, exactly by exp(-dt).
+  std::vector<double> off;
+  for (const double dt : {0.04, 0.02, 0.01}) {
+    const std::vector<double> previous{1.0 + dt};
+    const std::vector<double> start{1.0};
+    const std::vector<double> end{1.0 / (1.0 + dt)};
+    const StepControl control = after_step(settings(1e-3, 10.0), dt);
+    const double estimated = 1e-3 * control.error(1.0, dt, {{&previous, start, end, 1.0}});
+    const double exact = end[0] - std::exp(-dt);
+    off.push_back(estimated / exact - 1.0);
+  }
+  EXPECT_LE(off.back(), 0.01);
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(std::log2(off[i] / off[i + 1]), 1.0, 0.1);
+}
+
+TEST(StepControl, ErrorsAreTheLargestOverScalesAndCountLessWhereNotNoticed) {
+  StepSettings s = settings(1e-2, 10.0);
+  const std::vector<double> zero(3, 0.0);
+  const std::vector<double> a{0.0, -0.4, 0.1};
+  const std::vector<double> b{8.0, 0.0, 0.0};
+  const StepControl control = after_step(s, 1.0);
+  const std::vector<ControlledField> fields{
+      {nullptr, zero, a, 1.0}, {nullptr, zero, b, 10.0}, {nullptr, zero, b, 0.0}};
+  EXPECT_DOUBLE_EQ(control.error(0.0, 1.0, fields), 0.5 * 0.8 / 1e-2);
+  s.unnoticed = 3.0;
+  EXPECT_DOUBLE_EQ(after_step(s, 1.0).error(0.0, 1.0, fields), 0.25 * 0.5 * 0.8 / 1e-2);
+}
+
+struct Integration {
+  double max_local_error = 0.0;
+  long steps = 0;
+  long rejected = 0;
+};
+
+/// y' = -y from 1 to time 6 by backward Euler under step control.
+Integration integrate_decay(double tolerance) {
+  constexpr double end = 6.0;
+  StepControl control(settings(tolerance, end));
+  control.start(1e-4, true);
+  Integration result;
+  std::vector<double> now{1.0};
+  std::vector<double> previous;
+  double time = 0.0;
+  while (time < end) {
+    double dt = control.propose(time, end, end);
+    std::vector<double> next;
+    do {
+      next = {now[0] / (1.0 + dt)};
+    } while (!control.accept(
+        time, control.error(time, dt, {{previous.empty() ? nullptr : &previous, now, next, 1.0}}),
+        !previous.empty(), dt));
+    result.max_local_error =
+        std::max(result.max_local_error, std::abs(next[0] - now[0] * std::exp(-dt)));
+    control.finish(dt);
+    previous = std::exchange(now, next);
+    time += dt;
+    ++result.steps;
+  }
+  result.rejected = control.rejected();
+  return result;
+}
+
+TEST(StepControl, LocalErrorsMeetTheToleranceAndStepsAreOfItsSquareRoot) {
+  std::vector<double> steps;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    const Integration run = integrate_decay(tolerance);
+    std::cout << "tolerance " << tolerance << ": " << run.steps << " steps, " << run.rejected
+              << " rejected, largest local error " << run.max_local_error / tolerance
+              << " of the tolerance\n";
+    EXPECT_LE(run.max_local_error, tolerance);
+    EXPECT_GE(run.max_local_error, 0.5 * tolerance);
+    EXPECT_LE(run.rejected, 2);
+    steps.push_back(static_cast<double>(run.steps));
+  }
+  // A local error of dt^2 y'' / 2 allows steps of the square root of the tolerance.
+  EXPECT_NEAR(std::log10(steps[3] / steps[2]), 0.5, 0.05);
+}
+
+TEST(StepControl, FindsTheLengthWhoseErrorIsTheTolerance) {
+  // An error of (dt / 2)^2: the longest step is of 2 s.
+  for (const double first : {1e-3, 1.0, 1.9, 2.1, 50.0}) {
+    StepControl control(settings(1e-3, 1e6));
+    control.start(first, true);
+    double time = 0.0;
+    for (int step = 0; step < 12; ++step) {
+      double dt = control.propose(time, 1e6, 1e6);
+      while (!control.accept(time, dt * dt / 4.0, true, dt)) continue;
+      control.finish(dt);
+      time += dt;
+      EXPECT_LE(dt, 2.0);
+      EXPECT_LE(control.next_step(), limits.max_growth * dt);
+    }
+    EXPECT_NEAR(control.next_step(), limits.safety * 2.0, 1e-3) << first;
+  }
+}
+
+TEST(StepControl, ErrorsThatDoNotFallWithTheStepEndTheRun) {
+  StepControl control(settings(1e-3, 100.0));
+  control.start(1.0, true);
+  double dt = control.propose(50.0, 100.0, 100.0);
+  const auto try_on = [&] {
+    while (!control.accept(50.0, 2.0, true, dt)) continue;
+  };
+  EXPECT_THROW(try_on(), NumericalError);
+  EXPECT_LE(dt, 1e-14 * 50.0);
+  EXPECT_GE(control.rejected(), 20);
+}
+
+TEST(StepControl, StepsEndOnTheEndOfTheIntervalWithoutShortOnes) {
+  model::Uniform uniform(5);
+  for (int i = 0; i < 1000; ++i) {
+    const double next = std::exp(3.0 * uniform());
+    StepControl control(settings(1e-3, 1e6));
+    control.start(next, true);
+    double time = 10.0;
+    const double until = 10.0 + std::exp(3.0 * uniform());
+    int steps = 0;
+    while (time < until) {
+      const double dt = control.propose(time, until, 1e9);
+      EXPECT_LE(dt, next * (1.0 + 1e-8));
+      EXPECT_GE(dt, std::min(0.5 * next, (until - 10.0)) * (1.0 - 1e-8));
+      time = dt < until - time ? time + dt : until;
+      ++steps;
+    }
+    EXPECT_LE(steps, std::ceil((until - 10.0) / next) + 1e-8);
+  }
+}
+
+TEST(StepControl, GivenStepsDivideTheIntervalEvenly) {
+  StepSettings s = settings(1e-3, 100.0);
+  s.given_step = 0.0851;
+  StepControl control(s);
+  control.start(77.0, false);
+  EXPECT_DOUBLE_EQ(control.propose(3.0, 4.0, 1e9), 1.0 / 12.0);
+  EXPECT_DOUBLE_EQ(control.propose(3.0, 3.0 + 2.0 * 0.0851, 1e9), 0.0851);
+  double dt = 0.0851;
+  EXPECT_TRUE(control.accept(3.0, 1e9, true, dt));
+  control.account_for(1e9);
+  control.grow(1e9);
+  EXPECT_EQ(control.next_step(), 0.0851);
+}
+
+TEST(StepControl, CrossesJumpsInOneStepWithoutAnError) {
+  StepSettings s = settings(1e-3, 100.0);
+  const double jump = 0.9 * 1e-12 * 100.0 / 1e-3;
+  s.kinks = {20.0, 20.0 + jump, 40.0, 40.0 + 2.0 * jump};
+  StepControl control = after_step(s, 1e-12);
+  const std::vector<double> before{0.0};
+  const std::vector<double> after{1e6};
+  const std::vector<ControlledField> fields{{nullptr, before, after, 1.0}};
+  EXPECT_EQ(control.propose(20.0, 20.0 + jump, 1e9), (20.0 + jump) - 20.0);
+  EXPECT_EQ(control.error(20.0, jump, fields), 0.0);
+  EXPECT_GT(control.error(20.0, 0.5 * jump, fields), 1e6);
+  EXPECT_GT(control.error(40.0, 2.0 * jump, fields), 1e6);
+}
+
+TEST(StepControl, AnIntervalThatEndsEarlyDoesNotShortenLaterSteps) {
+  StepControl control(settings(1e-3, 100.0));
+  control.start(5.0, true);
+  double dt = control.propose(0.0, 0.1, 1e9);
+  EXPECT_EQ(dt, 0.1);
+  EXPECT_TRUE(control.accept(0.0, 1e-3, true, dt));
+  EXPECT_EQ(control.next_step(), 5.0);
+}
+
+TEST(StepControl, WhereTheLengthAloneChangesTheMatrixItChangesByALotOrNotAtAll) {
+  StepSettings s = settings(1e-3, 100.0);
+  s.length_alone_changes_matrix = true;
+  for (const double growth : {1.2, 1.49, 1.51, 3.0}) {
+    StepControl control(s);
+    control.start(1.0, true);
+    double dt = control.propose(0.0, 100.0, 100.0);
+    const double error = std::pow(limits.safety / growth, 2);
+    ASSERT_TRUE(control.accept(0.0, error, true, dt));
+    EXPECT_NEAR(control.next_step(), growth < 1.5 ? 1.0 : growth, 1e-12);
+  }
+}
+
+TEST(StepControl, GoesOnAsArchived) {
+  StepControl control = after_step(settings(1e-3, 100.0), 2.0);
+  double dt = control.propose(0.0, 100.0, 100.0);
+  EXPECT_FALSE(control.accept(0.0, 4.0, true, dt));
+  StateArchive stored;
+  control.archive(stored);
+  StateArchive restored(stored.finish());
+  StepControl other(settings(1e-3, 100.0));
+  other.archive(restored);
+  restored.finish();
+  EXPECT_EQ(other.last_step(), 2.0);
+  EXPECT_EQ(other.next_step(), control.next_step());
+  EXPECT_EQ(other.rejected(), 1);
+}
+
+}  // namespace
+}  // namespace suffuse
