@@ -16,8 +16,8 @@ struct Geometry {
 };
 
 /// Builds the mesh with Gmsh and holds the scene against it. Throws InputError with every problem
-/// found, FileError when the geometry file cannot be read. Problems name nodes and elements by Gmsh's
-/// numbers, those of the user's .msh; the mesh has its own: see `hilbert_order.hpp`.
+/// found, FileError when the geometry file cannot be read. Problems name nodes and elements by
+/// Gmsh's numbers, those of the user's .msh; the mesh is in the order of `hilbert_order.hpp`.
 ///
 /// A .geo or .step file is meshed here: sizes and fields in the file hold, `mesh.size` is the size
 /// where the file says nothing and an upper bound elsewhere. A .geo that meshes itself and a .msh

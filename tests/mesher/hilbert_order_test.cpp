@@ -128,7 +128,7 @@ Mesh<3> cube(int n) {
   };
   for (int k = 0; k <= n; ++k) {
     for (int j = 0; j <= n; ++j) {
-      for (int i = 0; i <= n; ++i) mesh.nodes.push_back(Vector<3>(i, j, k) / n);
+      for (int i = 0; i <= n; ++i) mesh.nodes.emplace_back(Vector<3>(i, j, k) / n);
     }
   }
   for (int c = 0; c < n * n * n; ++c) {
@@ -190,10 +190,10 @@ std::multiset<std::pair<Place, std::string>> contents(const Mesh<2>& mesh) {
   }
   for (const auto& set : mesh.boundaries) {
     for (const auto& face : set.faces) {
-      std::vector<Place> ends;
-      for (const int node : face) ends.push_back({mesh.nodes[node][0], mesh.nodes[node][1]});
-      std::ranges::sort(ends);
-      contents.emplace(Place{ends[0][0], ends[0][1], ends[1][0], ends[1][1]}, set.name);
+      Place a{mesh.nodes[face[0]][0], mesh.nodes[face[0]][1]};
+      Place b{mesh.nodes[face[1]][0], mesh.nodes[face[1]][1]};
+      if (b < a) std::swap(a, b);
+      contents.emplace(Place{a[0], a[1], b[0], b[1]}, set.name);
     }
   }
   return contents;
