@@ -9,6 +9,7 @@
 
 #include "mesher/temporary_folder.hpp"
 #include "results/layout.hpp"
+#include "results/writer.hpp"
 #include "results/state_archive.hpp"
 
 namespace suffuse {

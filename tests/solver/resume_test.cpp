@@ -111,7 +111,6 @@ std::vector<test::Mode> variants() {
       test::with(single, "gravity", {"gravity=[0.0, -9.81]", "time.stepping=monotone"}),
       test::with(single, "ergun", {"soil.specimen.drag=ergun"}),
       test::with(single, "boundary_values_in_time", {tables}),
-      test::with(single, "exact_output", {"output.exact=true"}),
       // The flow is solved once and kept; what erodes does not change it.
       test::with(single, "kept_flow",
                  {"soil.specimen.conductivity_law=constant", "liquid.bulk_modulus=inf",
