@@ -226,5 +226,6 @@ auto FinesTransfer<Dim>::transfer_along_paths(const std::vector<double>& exchang
 }
 
 template class FinesTransfer<2>;
+template class FinesTransfer<3>;
 
 }  // namespace suffuse

@@ -76,5 +76,6 @@ double checked_step_count(double allowed, double begin, double duration) {
 }
 
 template class PointTransport<2>;
+template class PointTransport<3>;
 
 }  // namespace suffuse

@@ -239,5 +239,6 @@ void PointsAlongFaces<Dim>::settle(const Paths& paths) {
 }
 
 template class PointsAlongFaces<2>;
+template class PointsAlongFaces<3>;
 
 }  // namespace suffuse

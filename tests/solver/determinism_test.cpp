@@ -1,16 +1,12 @@
-/// The same case gives the same files, on any number of threads; and whoever looks more often sees
-/// the same run.
+/// The same case gives the same files, on any number of threads; steps end on outputs.
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <sstream>
+#include <stdexcept>
 
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
-#include "results/restart_point.hpp"
+#include "results/reader.hpp"
 #include "solver/solver_process.hpp"
 
 namespace suffuse {
@@ -18,41 +14,9 @@ namespace {
 
 using test::Outcome;
 
-/// Lines of a table by what stands before the first comma, the time; several for tables of regions.
-std::map<std::string, std::string> lines_by_time(const std::string& path) {
-  std::istringstream in(test::read_file(path));
-  std::map<std::string, std::string> lines;
-  for (std::string line; std::getline(in, line);) {
-    lines[line.substr(0, line.find(','))] += line + "\n";
-  }
-  return lines;
-}
-
-/// What run.json says of the work that was done.
-nlohmann::json account(const std::string& results) {
-  const auto info = nlohmann::json::parse(test::read_file(results + "/" + layout::run_info));
-  nlohmann::json said = {{"steps", info.at("steps")}, {"points", info.at("liquid_points")}};
-  for (const auto& pass : info.at("passes")) said[pass.at("name")] = pass.at("calls");
-  return said;
-}
-
-/// The state of the whole run that the last snapshot keeps.
-std::vector<std::uint8_t> last_state(const std::string& results) {
-  const int last = test::snapshots_in(results) - 1;
-  const std::string file = results + "/" + layout::snapshot("mesh", last);
-  return read_restart_point(file).value().state;
-}
-
-/// All but the two counters of outputs, 18 bytes in one place.
-void expect_same_state(const std::vector<std::uint8_t>& one,
-                       const std::vector<std::uint8_t>& other) {
-  ASSERT_EQ(one.size(), other.size());
-  ASSERT_GT(one.size(), 10000U);
-  const auto first = std::ranges::mismatch(one, other).in1 - one.begin();
-  const auto last =
-      std::mismatch(one.rbegin(), one.rend(), other.rbegin()).first.base() - one.begin();
-  EXPECT_GT(last - first, 0) << "the counters";
-  EXPECT_LE(last - first, 18);
+/// A column of the history.
+std::vector<double> column(const std::string& results, const std::string& name) {
+  return ResultsReader(results).history().column(name);
 }
 
 class Determinism : public testing::TestWithParam<test::Mode> {
@@ -90,26 +54,24 @@ TEST_P(Determinism, OneAndTwoThreadsGiveTheSameFiles) {
   EXPECT_EQ(test::difference(solve(case_path, "two", {"--threads", "2"}), one), "");
 }
 
-TEST_P(Determinism, OutputsDoNotChangeTheRun) {
-  // Times that binary numbers have exactly, so that those in common are the same to the last digit.
-  const double unit = GetParam().name == "single_point_explicit" ? 1.0 / 128.0 : 1.0 / 16.0;
-  const auto every = [&](const std::string& name, double rows, double snapshots) {
-    const std::string output = "output={every = " + number_text(rows) +
-                               ", snapshot_every = " + number_text(snapshots) + "}";
-    const std::string end = "time.end=" + number_text(64.0 * unit);
-    return solve(place_.make_case(test::with(GetParam(), name, {output, end})), name);
+/// Each row is the state at the end of a step, at the time that was asked for to the last digit.
+TEST_P(Determinism, StepsEndOnOutputs) {
+  const auto every = [&](const std::string& name, double rows) {
+    const std::string output = "output={every = " + number_text(rows) + ", snapshot_every = 2.0}";
+    return solve(place_.make_case(test::with(GetParam(), name, {output, "time.end=4.0"})), name);
   };
-  const std::string often = every("often", unit, 4.0 * unit);
-  const std::string seldom = every("seldom", 8.0 * unit, 32.0 * unit);
-  EXPECT_EQ(account(often), account(seldom)) << "steps and calls of all passes";
-  expect_same_state(last_state(often), last_state(seldom));
-  for (const char* table : {layout::history, layout::ledger, layout::regions}) {
-    const auto all = lines_by_time(often + "/" + table);
-    const auto few = lines_by_time(seldom + "/" + table);
-    EXPECT_EQ(all.size(), 66U) << "names and rows";
-    EXPECT_EQ(few.size(), 10U);
-    for (const auto& [time, lines] : few) EXPECT_EQ(all.at(time), lines) << table;
+  const std::string often = every("often", 0.125);
+  const std::string seldom = every("seldom", 1.0);
+  const std::vector<double> times = column(often, "t");
+  ASSERT_EQ(times.size(), 33U);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    EXPECT_EQ(times[k], 0.125 * static_cast<double>(k));
   }
+  // Other steps, the same run.
+  const std::vector<double> porosity = column(often, "porosity_mean");
+  const std::vector<double> same = column(seldom, "porosity_mean");
+  ASSERT_EQ(same.size(), 5U);
+  for (std::size_t k = 0; k < same.size(); ++k) EXPECT_NEAR(porosity[8 * k], same[k], 1e-5);
 }
 
 std::string name_of(const testing::TestParamInfo<test::Mode>& info) {
