@@ -186,7 +186,7 @@ FlowProgress ExplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
 template <int Dim>
 FlowProgress ExplicitFlow<Dim>::finish(const Steps& steps) {
   timing_.calls += steps.count;
-  this->take_boundary_values(steps.begin, steps.end);
+  this->update_boundary_values(steps.begin, steps.end);
   return {steps.count, steps.dt, steps.end, scheme_.volumes()};
 }
 

@@ -49,7 +49,7 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   /// One of them, under the boundary values of its time.
   void step(double begin, double dt);
   /// Boundary values at `now`, with the concentrations of what entered `since`.
-  using FlowSolver<Dim>::take_boundary_values;
+  using FlowSolver<Dim>::update_boundary_values;
   /// What the steps came to.
   FlowProgress finish(const Steps& steps);
   FlowProgress advance(const FlowInterval<Dim>& interval) override;

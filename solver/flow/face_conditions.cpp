@@ -26,7 +26,7 @@ FaceCondition condition_of(const BoundaryCondition& boundary, int index, double 
   return condition;
 }
 
-/// Those of a boundary's values that change in time.
+/// The values of a boundary that change in time.
 std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
   std::vector<TimeFunction> varying;
   for (const auto& value :

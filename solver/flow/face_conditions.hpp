@@ -1,6 +1,7 @@
 #pragma once
 
-/// What the scene's boundary conditions say of each face of the grid.
+/// The scene's boundary conditions, face by face: which faces are walls, and where a pressure or a
+/// flux is prescribed, with their values in time.
 
 #include <string>
 #include <vector>
@@ -22,19 +23,19 @@ struct FaceCondition {
   FaceKind kind = FaceKind::interior;
   double value = 0.0;
   double concentration = 0.0;        ///< c of liquid that enters
-  bool concentration_given = false;  ///< else clean water enters, and the run says so
+  bool concentration_given = false;  ///< by the scene; else clean water enters, with a warning
   int boundary = -1;                 ///< index of the scene's boundary entry
 
-  /// Its kind and place are the scene's.
+  /// Values alone: the scene restores the rest.
   void archive(auto& archive) { archive(value, concentration); }
-  /// The flux through the face is prescribed, zero included.
+  /// Whether the flux through the face is prescribed; at a wall it is zero.
   [[nodiscard]] bool fixes_flux() const {
     return kind == FaceKind::wall || kind == FaceKind::velocity || kind == FaceKind::flux;
   }
 };
 
-/// Per face of the grid, with the values at t = 0. Throws InputError when a condition names no
-/// boundary of the mesh or two conditions meet on one face.
+/// The condition of each face of the grid, with its values at t = 0. Throws InputError when a
+/// condition names no boundary of the mesh or two conditions share a face.
 template <int Dim>
 std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& grid);
 
@@ -48,10 +49,10 @@ class BoundaryValues {
   /// Per face of the grid, at a time in s.
   [[nodiscard]] std::vector<FaceCondition> at(double time) const;
   /// The same in place: `conditions` come from `at` or `face_conditions` of the same case, at any
-  /// time. Touches the faces of boundaries that change in time and no others.
+  /// time. Changes only faces of boundaries whose values change in time.
   void update(double time, std::vector<FaceCondition>& conditions) const;
-  /// Concentrations of another time alone, in place: what entered over an interval has that of its
-  /// middle, which is the mean wherever it is linear.
+  /// Sets concentrations alone to those at `time`. Liquid that enters over an interval has the
+  /// concentration at its middle, which is the mean where the concentration is linear.
   void update_concentrations(double time, std::vector<FaceCondition>& conditions) const;
   /// Whether any value changes in time.
   [[nodiscard]] bool vary() const { return !varying_.empty(); }

@@ -29,18 +29,19 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
         soils_.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
   }
   breakpoints_ = soils_.erosion_breakpoints();
-  const std::vector<double>& knots = boundary_values_.events();
-  breakpoints_.insert(breakpoints_.end(), knots.begin(), knots.end());
+  const std::vector<double>& kinks = boundary_values_.events();
+  breakpoints_.insert(breakpoints_.end(), kinks.begin(), kinks.end());
   std::ranges::sort(breakpoints_);
   const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
                                  [](const Soil& s) { return s.drag == SoilDrag::ergun; });
   if (!ergun) return;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const Soil& soil = soils_.soil_of_element(e);
-    const bool has_it = soil.drag == SoilDrag::ergun;
-    grain_size_.push_back(has_it ? ergun_grain_size(soil.conductivity, initial_porosity_[e],
-                                                    scene_.liquid.density, scene_.liquid.viscosity)
-                                 : std::numeric_limits<double>::infinity());
+    const bool has_ergun = soil.drag == SoilDrag::ergun;
+    grain_size_.push_back(has_ergun
+                              ? ergun_grain_size(soil.conductivity, initial_porosity_[e],
+                                                 scene_.liquid.density, scene_.liquid.viscosity)
+                              : std::numeric_limits<double>::infinity());
   }
 }
 
@@ -145,7 +146,7 @@ void FlowSolver<Dim>::describe(const FlowState<Dim>& state, HistoryRow& row) con
   }
   row.flux_in = in.value();
   row.flux_out = out.value();
-  // At the nodes: single elements carry patterns that push nothing.
+  // At the nodes: pressures of single elements may have patterns that exert no force.
   const std::vector<double>& pressure = state.node_pressure;
   const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
   row.pressure_min = *low;
@@ -171,7 +172,7 @@ void FlowSolver<Dim>::warn_of_unstated_inflow(double time, const std::vector<dou
         inflow_warned_[condition.boundary]) {
       continue;
     }
-    // Round-off of a flow at rest is no inflow.
+    // The round-off of a flow at rest is no inflow.
     const int e = grid_.face_left[f];
     if (entered[f] >= -1e-12 * coefficients_.porosity[e] * grid_.volume[e]) continue;
     inflow_warned_[condition.boundary] = true;

@@ -1,7 +1,8 @@
 #pragma once
 
-/// The flow of a scene as the formulations see it, whichever scheme steps it: boundary conditions,
-/// coefficients and state, and what the results say of it.
+/// The flow solver of a scene, as formulations and transport use it. It turns boundary conditions
+/// and the state of the pores into pressures and into volumes of liquid through faces. The scheme,
+/// implicit or explicit, is a derived class; what both share is here.
 
 #include <algorithm>
 #include <cmath>
@@ -21,43 +22,43 @@
 
 namespace suffuse {
 
-/// The flow at one moment.
+/// The flow at one moment, for results.
 template <int Dim>
 struct FlowState {
-  double time = 0.0;
-  double dt = 0.0;
+  double time = 0.0;                  ///< s
+  double dt = 0.0;                    ///< of the last step, or of the first before it, s
   std::vector<double> pressure;       ///< per element, Pa
-  std::vector<double> node_pressure;  ///< Pa
+  std::vector<double> node_pressure;  ///< per node, Pa
   VectorField<Dim> velocity;          ///< per node, intrinsic, m/s
   std::vector<double> face_flux;      ///< along each face's normal, m3/s
   double eos_error = 0.0;             ///< see HistoryRow
   double pressure_overshoot = 0.0;    ///< see HistoryRow
 };
 
-/// An interval that the flow crosses by itself, until erosion and transport must follow.
+/// A coupling interval: the flow advances through it alone, then erosion and transport follow.
 template <int Dim>
 struct FlowInterval {
-  double start = 0.0;    ///< s
-  double latest = 0.0;   ///< next output, or the end: the interval ends there at the latest, s
-  double longest = 0.0;  ///< that erosion and transport can follow, s
-  const PoreForecast<Dim>& pores;  ///< as erosion will make them
+  double start = 0.0;              ///< s
+  double latest = 0.0;             ///< latest end: the next output or the end of the run, s
+  double longest = 0.0;            ///< longest duration that erosion and transport can follow, s
+  const PoreForecast<Dim>& pores;  ///< the pores within the interval, as erosion opens them
 };
 
-/// What the flow made of an interval.
+/// What the flow did in a coupling interval.
 struct FlowProgress {
-  long steps = 0;
-  double dt = 0.0;      ///< of the last step, s
-  double end = 0.0;     ///< s; before the interval's latest end where the flow chose so
-  FaceVolumes volumes;  ///< that crossed the faces
+  long steps = 0;       ///< that it took
+  double dt = 0.0;      ///< length of the last one, s
+  double end = 0.0;     ///< of the interval, s: its latest end, or before where the flow chose so
+  FaceVolumes volumes;  ///< that crossed the faces since its start
 };
 
-/// How a plan wants the flow stepped.
+/// How the plan of a run wants the flow stepped.
 struct FlowOptions {
-  double step = unset;      ///< s
-  bool step_given = false;  ///< by the scene; else the scheme may change it
-  bool inertia = false;     ///< implicit only
-  /// Implicit only: errors of steps much shorter than this count by the volume that they misplace,
-  /// not by the flux, s. Waves whose periods are shorter need not be followed.
+  double step = unset;      ///< length of a step, s
+  bool step_given = false;  ///< the scene gives `step`; else the scheme may change it
+  bool inertia = false;     ///< implicit only: keep rho_L dv/dt
+  /// Implicit only: waves of shorter periods need not be followed, s. Errors of steps much shorter
+  /// than this count by the volume that is misplaced, not by the flux.
   double unnoticed = 0.0;
   bool reuse_steady = true;  ///< implicit only: a steady flow is not solved again
   int threads = 1;
@@ -75,49 +76,53 @@ class FlowSolver {
   [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
   [[nodiscard]] const FlowCoefficients<Dim>& coefficients() const { return coefficients_; }
 
-  /// How far the flow may go by itself before erosion and transport follow.
+  /// What limits the length of a coupling interval besides erosion and transport.
   struct CouplingLimits {
-    bool one_transport_step = false;  ///< no more than one of them
-    bool follows_pores = false;       ///< it forecasts them; else they may grow by little only
+    bool one_transport_step = false;  ///< an interval holds at most one step of transport
+    /// The flow uses the forecast of the pores; else they may open by little within an interval.
+    bool follows_pores = false;
   };
   [[nodiscard]] virtual CouplingLimits coupling_limits() const = 0;
 
-  /// Takes what the pores hold at `time`, and the concentration of what crosses each face.
+  /// Finds the coefficients at `time`, s, from the state of the pores and the concentration of the
+  /// liquid that crosses each face.
   virtual void update(double time, const PoreState& pores,
                       const std::vector<double>& face_concentration);
 
-  /// At rest or steady, as the scene says. Warns where this mesh cannot follow the flow.
+  /// Makes the state at the start of the run: at rest or steady, as the scene says. Adds a warning
+  /// where this mesh cannot resolve the flow. `update` comes first.
   virtual void start() = 0;
 
-  /// Takes one step or many, within the interval; ends on its latest end or on a breakpoint exactly
-  /// where it reaches one. Throws NumericalError.
+  /// Takes one step or many within the interval. It ends exactly on the latest end or on a
+  /// breakpoint where it reaches one. Throws NumericalError.
   virtual FlowProgress advance(const FlowInterval<Dim>& interval) = 0;
 
   /// Pressure per element, Pa.
   [[nodiscard]] virtual const std::vector<double>& pressure() const = 0;
-  /// The masses of water are what is conserved (single-point): pressures follow from them, at once
-  /// or with the next step. `water_mass` per element, kg.
+  /// Makes pressures follow the masses of water, which are what is conserved (single-point): at
+  /// once, or over the next steps. `water_mass` per element, kg; `time` in s.
   virtual void match_masses(double time, const std::vector<double>& water_mass) = 0;
 
-  /// The flow as it stands.
+  /// The flow at `time`, s, the end of the last step.
   [[nodiscard]] virtual FlowState<Dim> state(double time) const = 0;
-  /// Its fluxes through faces alone, m3/s.
+  /// The fluxes through faces of `state`, m3/s.
   [[nodiscard]] virtual std::vector<double> face_flux(double time) const {
     return state(time).face_flux;
   }
-  /// What this scheme did: passes with calls and seconds, for run.json.
+  /// Calls and seconds of each pass of the scheme, for run.json.
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
 
-  /// Everything that steps to come depend on, once started.
+  /// Stores or restores everything that later steps depend on, after `start`.
   virtual void archive(StateArchive& archive);
 
-  /// Fluxes through the outer boundary, pressures and speeds.
+  /// Writes what a row of history.csv says of the flow: fluxes through the outer boundary, extreme
+  /// pressures and speeds, errors.
   void describe(const FlowState<Dim>& state, HistoryRow& row) const;
 
-  /// Names each boundary that liquid entered through, once, where the scene gives it no
-  /// concentration. `entered`: volume along each face's normal, m3.
+  /// Adds a warning for each boundary through which liquid entered although the scene gives it no
+  /// concentration, once. `entered`: volume along each face's normal, m3; `time` in s.
   void warn_of_unstated_inflow(double time, const std::vector<double>& entered);
-  /// Things to say once, newly found.
+  /// The warnings since the last call.
   [[nodiscard]] std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  protected:
@@ -125,11 +130,11 @@ class FlowSolver {
       double time, const PoreState& pores, const std::vector<double>& face_concentration) const;
   /// Times at which erosion starts or ends or a boundary value has a kink, ascending, s.
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
-  /// The first breakpoint after `begin`, or `latest` where that comes first.
+  /// The first breakpoint after `start`, or `latest` where that comes first, s.
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
-  /// Mean of the elements around each node, Pa; where a pressure is prescribed, that is it.
+  /// Mean of the elements around each node, Pa; at a prescribed pressure, that pressure.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
-  /// A warning for the next `take_warnings`.
+  /// Adds a warning, which the next `take_warnings` returns.
   void warn(std::string text) { warnings_.push_back(std::move(text)); }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
@@ -138,15 +143,16 @@ class FlowSolver {
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;
   [[nodiscard]] const BoundaryValues<Dim>& boundary_values() const { return boundary_values_; }
-  /// Takes the boundary values of this moment, with the concentrations of what entered `since`.
-  void take_boundary_values(double since, double now) {
-    boundary_values_.update(now, conditions_);
-    boundary_values_.update_concentrations(0.5 * (since + now), conditions_);
+  /// Sets the boundary values to those at the end of a step, and concentrations to the means of
+  /// what entered since its start; both in s.
+  void update_boundary_values(double start, double end) {
+    boundary_values_.update(end, conditions_);
+    boundary_values_.update_concentrations(0.5 * (start + end), conditions_);
   }
-  /// Where a pressure is prescribed, that is the node's.
+  /// Sets the pressure of nodes on faces with a prescribed pressure to that, Pa.
   void prescribe_at_nodes(std::vector<double>& node_pressure) const;
 
-  std::vector<FaceCondition> conditions_;  ///< with the values of this moment
+  std::vector<FaceCondition> conditions_;  ///< per face, at the end of the last step
   FlowCoefficients<Dim> coefficients_;
 
  private:
@@ -163,7 +169,7 @@ class FlowSolver {
   std::vector<std::string> warnings_;
 };
 
-/// The scheme that the scene asks for.
+/// The flow solver of the scheme that the scene asks for.
 template <int Dim>
 std::unique_ptr<FlowSolver<Dim>> make_flow(const Case<Dim>& c, const Grid<Dim>& grid,
                                            const Skeleton<Dim>& solid, const FlowOptions& options);

@@ -41,7 +41,7 @@ FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
                         face_volumes(this->grid(), now_.state.face_pressure, pressure_, step,
                                      this->scene().liquid.bulk_modulus, this->threads())};
   remember(std::move(step), dt);
-  this->take_boundary_values(interval.start, end);
+  this->update_boundary_values(interval.start, end);
   if (contains_time(this->breakpoints(), end)) {
     pass_breakpoint(end, dt);
   } else if (!reuse_.active()) {
@@ -143,8 +143,8 @@ void ImplicitFlow<Dim>::reuse_if_steady(double time) {
   const PassTimer timer(solving_);
   if (!reuse_.allowed() || !previous_) return;
   // Sealed water is steady only while nothing disturbs it, its own round-off included.
-  const bool open = has_condition(this->conditions_, FaceKind::pressure);
-  if (!open && std::isfinite(this->scene().liquid.bulk_modulus)) return;
+  const bool sealed = !has_condition(this->conditions_, FaceKind::pressure);
+  if (sealed && std::isfinite(this->scene().liquid.bulk_modulus)) return;
   if (!reuse_.is_close(now_.face_flux, previous_->face_flux, scales_.flux)) return;
   if (!boundary_values_rest(this->boundary_values(), this->conditions_, time,
                             this->scene().time.end)) {
@@ -225,14 +225,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::start() {
   const Grid<Dim>& grid = this->grid();
   const Scene& scene = this->scene();
-  now_.state.face_pressure.assign(grid.face_count(), 0.0);
-  now_.state.velocity.assign(grid.mesh.element_count(), Vector<Dim>::Zero());
-  now_.face_flux.assign(grid.face_count(), 0.0);
-  now_.flux_through = now_.face_flux;
-  for (int f = 0; f < grid.face_count(); ++f) {
-    const FaceCondition& condition = this->conditions_[f];
-    if (condition.kind == FaceKind::pressure) now_.state.face_pressure[f] = condition.value;
-  }
+  now_ = flow_at_rest(grid, this->conditions_);
   const FlowForcing<Dim> forcing{this->coefficients_, this->conditions_, {}};
   scales_ = find_scales(scheme_, forcing, this->boundary_values(), scene.time.end, has_gravity_);
   // Water without compressibility and inertia has no start-up: it flows at once.

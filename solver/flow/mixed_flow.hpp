@@ -26,6 +26,10 @@ MixedFlow<Dim> end_of(MixedStep<Dim> step) {
   return {std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
 }
 
+/// Water at rest under no pressure but those prescribed at faces.
+template <int Dim>
+MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions);
+
 /// Mean pressure of each element, Pa, of the pressures at its faces.
 template <int Dim>
 std::vector<double> element_pressure(const Grid<Dim>& grid,

@@ -49,7 +49,7 @@ FlowProgress PointsCarryingFlow<Dim>::drive(FlowSolver<Dim>& /*flow*/,
   for (long s = 0; s < steps.count; ++s) {
     points_to_grid();
     flow_.step(steps.start_of(s), steps.dt);
-    flow_.take_boundary_values(steps.start_of(s), steps.start_of(s) + steps.dt);
+    flow_.update_boundary_values(steps.start_of(s), steps.start_of(s) + steps.dt);
     grid_to_points(steps.dt);
   }
   return flow_.finish(steps);
