@@ -16,9 +16,9 @@ void catch_interrupts() {
   requested = 0;
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);
-  // Who ignores it, as nohup does, means it.
+  // A program started by nohup must go on ignoring it.
   if (std::signal(SIGHUP, request) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  // Nobody reads the messages any more: no reason to end a run.
+  // The program that read the messages has ended: no reason to end the run.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

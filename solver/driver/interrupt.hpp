@@ -1,11 +1,13 @@
 #pragma once
 
-/// SIGINT, SIGTERM and SIGHUP, the end of a terminal, ask for an orderly end.
+/// Signals that end a run in good order: SIGINT, SIGTERM and SIGHUP (the terminal was closed).
 
 namespace suffuse {
 
-/// From here on these signals are noted instead of ending the program, and SIGPIPE is ignored.
+/// From this call on these signals set `interrupted` instead of ending the program, and SIGPIPE is
+/// ignored.
 void catch_interrupts();
+/// Whether one of them came since the last `catch_interrupts`.
 [[nodiscard]] bool interrupted();
 
 }  // namespace suffuse

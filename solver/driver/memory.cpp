@@ -12,8 +12,8 @@ namespace suffuse {
 
 double peak_memory() {
   constexpr double kilobyte = 1024.0;
-  // getrusage also counts what the process was before it became this program, a large shell or
-  // test runner for instance; the kernel's own note of this program's memory does not.
+  // VmHWM counts this program alone. getrusage also counts the program that started it, before
+  // the exec: a large shell or test runner, for instance.
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     double kilobytes = 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// When a run has something to write: rows of the tables, and snapshots.
+/// The output times of a run: of rows of the tables, and of snapshots. Every output time ends a
+/// step of the flow.
 
 #include <algorithm>
 #include <vector>
@@ -16,17 +17,17 @@ class OutputTimes {
 
   [[nodiscard]] double next() const { return std::min(static_cast<double>(index_) * every_, end_); }
   [[nodiscard]] bool finished() const { return finished_; }
-  /// How many times are past.
+  /// Number of times that are past.
   [[nodiscard]] long past() const { return index_; }
   void archive(auto& archive) { archive(index_, finished_); }
   void advance() {
     finished_ = next() >= end_;
     ++index_;
   }
-  /// How many there are from the first to the last.
+  /// Number of all times.
   [[nodiscard]] long count() const {
     OutputTimes all(every_, end_);
-    // Close below the end at once: counting one by one takes as long as there are times.
+    // Starts shortly before the end, as there may be very many times.
     all.index_ = std::max(0L, static_cast<long>(end_ / every_) - 2);
     while (!all.finished()) all.advance();
     return all.index_;
@@ -42,7 +43,7 @@ class OutputTimes {
 /// Both kinds of output of a scene.
 class OutputSchedule {
  public:
-  /// What is to be written at one moment.
+  /// What is to be written at one time.
   struct Due {
     bool row = false;
     bool snapshot = false;
@@ -58,14 +59,14 @@ class OutputSchedule {
 
   void archive(auto& archive) { archive(rows_, snapshots_); }
 
-  /// Not to be asked when finished.
+  /// The next output time, s. Only before it is finished.
   [[nodiscard]] double next() const {
     return rows_.finished()        ? snapshots_.next()
            : snapshots_.finished() ? rows_.next()
                                    : std::min(rows_.next(), snapshots_.next());
   }
 
-  /// What is due at `time`, and goes on to what comes after.
+  /// What is due at `time`; moves on to the output after it.
   Due take(double time) {
     const Due due{!rows_.finished() && rows_.next() <= time,
                   !snapshots_.finished() && snapshots_.next() <= time};

@@ -23,10 +23,10 @@ double largest_inflow_concentration(const Scene& scene) {
   return largest;
 }
 
-/// Coefficients at which the stability limit is smallest: porosity as it will be at the end, water
-/// fraction at its least. Erosion swaps solid for grains in the liquid, so where a soil erodes n_w
-/// stays at its initial value; a soil that does not erode can fill with the richest liquid there
-/// is, but need not: `with_richest_liquid` says whether it counts.
+/// Coefficients at which the stability limit is smallest: the porosity at the end of the run and
+/// the smallest water fraction. Erosion turns solid into fines in the liquid, so n_w of a soil that
+/// erodes stays as it is at the start. A soil that does not erode may fill with the liquid that is
+/// richest in fines: with `with_richest_liquid` it does.
 template <int Dim>
 FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& grid,
                                          const SoilMap<Dim>& soils, bool with_richest_liquid) {
@@ -44,7 +44,7 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
                                scene.time.end, std::numeric_limits<double>::infinity());
   }
   const double clean = 1.0 - largest_inflow_concentration(scene);
-  double dilution = 1.0;  // of water by eroded grains, at worst
+  double dilution = 1.0;  // smallest share of water in liquid that carries eroded fines
   for (int e = 0; e < elements; ++e) {
     if (!soils.is_soil(e)) first[e] = last[e] = 1.0;
     dilution = std::min(dilution, first[e] / last[e]);
@@ -59,8 +59,8 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
           porosity, scene.liquid.density,
           conductivity_at(soil.conductivity_law, soil.conductivity, first[e], porosity));
     };
-    // Stepped explicitly drag takes from the limit, implicitly it adds to it. With Kozeny-Carman it
-    // falls as pores open, else it grows.
+    // Drag that is stepped explicitly lowers the limit, implicitly it raises it. With Kozeny-Carman
+    // drag falls as porosity grows, with the other laws it grows.
     const auto [least, most] = std::minmax({drag_at(first[e]), drag_at(last[e])});
     worst.porosity.push_back(last[e]);
     worst.water_volume.push_back(grid.volume[e] * first[e] * clean *
@@ -89,14 +89,14 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
       {{c.document.locate("time.step"), "time.step", found.str(), expected.str(), ""}});
 }
 
-/// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero,
-/// and water that does not compress has no other: at all times then.
+/// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero.
+/// For incompressible water they must do so at all times.
 template <int Dim>
 void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
                                  const SoilMap<Dim>& soils, const BoundaryValues<Dim>& values) {
   const Scene& scene = c.document.scene;
   const bool stiff = std::isinf(scene.liquid.bulk_modulus);
-  // What the scheme itself asks of water that does not compress.
+  // For incompressible water as strict as the implicit scheme.
   const double round_off = stiff ? 1e-9 : 1e-6;
   const bool steady = scene.initial_flow == InitialFlow::steady;
   std::vector<double> times;
@@ -113,7 +113,7 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
       if (conditions[f].kind == FaceKind::pressure) return;
       double flux = grid.face_normal[f].norm() * conditions[f].value;
       if (conditions[f].kind == FaceKind::velocity) {
-        if (time > 0.0 || !steady) return;  // what enters depends on how erosion goes on
+        if (time > 0.0 || !steady) return;  // the flux depends on the porosity by then
         flux *= soils.soil_of_element(grid.face_left[f]).initial_porosity(grid.face_centre(f));
       }
       net += flux;
@@ -130,8 +130,8 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
   }
 }
 
-/// What a point erodes is shared among the field nodes of its element, of which those far from it
-/// get less than nothing. That is right on the whole, as long as pores are left there.
+/// The volume that a point erodes is distributed over the field nodes of its element, and those far
+/// from the point get a negative share. The sum is right as long as each node keeps a pore volume.
 template <int Dim>
 void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
                                 const SoilMap<Dim>& soils) {
@@ -159,7 +159,7 @@ void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
   }
 }
 
-/// Longest time in which drag brings the flow of a soil to its end, k / (n g), s.
+/// Longest time constant with which drag stops the flow in a soil, k / (n g), s.
 double longest_relaxation(const Scene& scene) {
   double relaxation = 0.0;
   for (const Soil& soil : scene.soils) {
@@ -172,7 +172,7 @@ double longest_relaxation(const Scene& scene) {
   return relaxation;
 }
 
-/// Scaled masses have a bound of their own.
+/// Not with scaled masses, which `RowChecks` checks otherwise.
 template <int Dim>
 void find_speed_that_drag_follows(const Case<Dim>& c, Plan& plan) {
   const Scene& scene = c.document.scene;
@@ -213,10 +213,14 @@ void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
 }
 
 void describe_explicit_flow(const Scene& scene, Plan& plan) {
-  const double steps = std::ceil(scene.time.end / plan.flow.step * (1.0 - 1e-12));
+  // Each stretch from one output to the next is divided evenly.
+  const double stretch =
+      std::min({scene.output.every, scene.output.snapshot_every, scene.time.end});
+  const double step = stretch / std::ceil(stretch / plan.flow.step * (1.0 - 1e-12));
   plan.sentences.push_back(
-      "run: flow, explicit nodal scheme, about " + short_text(steps) + " steps of " +
-      short_text(plan.flow.step) + " s (stability limit " + short_text(plan.limit.step) + " s, " +
+      "run: flow, explicit nodal scheme, about " +
+      short_text(std::ceil(scene.time.end / step * (1.0 - 1e-12))) + " steps of " +
+      short_text(step) + " s (stability limit " + short_text(plan.limit.step) + " s, " +
       (plan.flow.step_given ? "step from the scene" : "0.9 of the limit") + ")");
 }
 
@@ -237,7 +241,7 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
                       : "skip: the flow while it is steady and nothing that drives it changes");
 }
 
-/// When nothing erodes, and whether grains are in the liquid until then.
+/// The times at which nothing erodes.
 void describe_spans(const Scene& scene, Plan& plan) {
   const bool late = plan.erosion && plan.erosion_span.begin > 0.0;
   const bool early = plan.erosion && plan.erosion_span.end < scene.time.end;
@@ -287,19 +291,20 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
       outputs(scene.output.snapshot_every) + " snapshots; steps end on them");
 }
 
-/// Inertia delays the flow by its relaxation time: kept unless that is short against the step, or
-/// what it keeps from flowing is within the tolerance of what flows in the whole run.
+/// Inertia delays the flow by its relaxation time. It is left out where this time is short against
+/// the given step, or where the volume that it delays is within the tolerance of the volume that
+/// flows in the whole run.
 void plan_implicit_step(const Scene& scene, Plan& plan) {
   constexpr double short_of_a_step = 0.01;
   plan.flow.step = scene.time.step.value_or(unset);
   const double unnoticed =
       scene.time.step ? short_of_a_step * *scene.time.step : scene.time.tolerance * scene.time.end;
   plan.flow.inertia = scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
-  // Inertia is kept for the start-up that drag brings to its end, not for the waves in it.
+  // Inertia is there for the start-up as a whole; the waves in it need not be followed.
   if (plan.flow.inertia && !scene.time.inertia) plan.flow.unnoticed = unnoticed;
 }
 
-/// Free water has next to no drag: what is set in motion there goes on for hours.
+/// Free water has next to no drag: its oscillations last for hours.
 template <int Dim>
 void warn_of_free_water_with_inertia(const Case<Dim>& c, Plan& plan) {
   const Scene& scene = c.document.scene;
@@ -318,8 +323,8 @@ template <int Dim>
 void plan_explicit_step(const Case<Dim>& c, const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                         const std::vector<FaceCondition>& conditions, Plan& plan) {
   const Scene& scene = c.document.scene;
-  // A step that the scene gives is refused for what is certain to come; while the run goes on it is
-  // checked against what came.
+  // A given step is refused only for liquid that is certain to come. During the run it is checked
+  // against the limit of the moment.
   const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, soils, !plan.flow.step_given);
   NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
   op.update(worst);

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Decides from the scene, once and before anything runs, what a run does and what it leaves out.
+/// The plan of a run: which passes it runs and which it skips, with which steps. It is made once,
+/// from the scene, before anything runs.
 
 #include <limits>
 #include <string>
@@ -18,9 +19,9 @@ struct SolverOptions {
 };
 
 struct Plan : ModelOptions {
-  StabilityLimit limit;  ///< explicit: the smallest the run is expected to meet
-  /// Where inertia counts: liquid that is faster passes the model before drag would have brought it
-  /// to its speed, m/s. The momentum that it carries along is not in the equations.
+  StabilityLimit limit;  ///< explicit only: the smallest that is expected in the run
+  /// Only with inertia: faster liquid crosses the model before drag slows or accelerates it to its
+  /// steady speed, m/s. The momentum that it carries along is not in the equations.
   double speed_that_drag_follows = std::numeric_limits<double>::infinity();
   /// Implicit only: after it a flow that starts from rest is steady to about 1e-5 of itself, s.
   double settling_time = 0.0;
@@ -28,7 +29,8 @@ struct Plan : ModelOptions {
   std::vector<std::string> warnings;
 };
 
-/// Throws InputError for a step above the stability limit and for what the scheme cannot do.
+/// Throws InputError for a step above the stability limit, for prescribed fluxes that contradict
+/// each other and for points that the scheme cannot handle.
 template <int Dim>
 Plan make_plan(const Case<Dim>& c, const SolverOptions& options);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Tells the user how far a run is: a bar on a terminal, a plain line every few seconds elsewhere,
-/// nothing when quiet. Writes to stderr.
+/// Progress of a run, on stderr: a bar on a terminal, otherwise a line every few seconds, nothing
+/// when quiet.
 
 #include <chrono>
 #include <string>
@@ -12,11 +12,12 @@ class Progress {
  public:
   Progress(double end, bool quiet);
 
-  /// Simulated time reached and the step in force, s. Cheap enough to be called at every interval.
+  /// Simulated time and length of the last step, s. May be called after every interval: most calls
+  /// print nothing.
   void report(double time, double dt);
-  /// A line of its own, warnings included, that does not break the bar. Not silenced by quiet.
+  /// Prints a line without breaking the bar, also when quiet.
   void say(const std::string& line);
-  /// Ends the bar.
+  /// Removes the bar.
   void finish();
 
  private:

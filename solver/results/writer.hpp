@@ -41,8 +41,7 @@ struct Snapshot {
   /// The element's own linear scalar at its vertices: Dim + 1 components per element, in the order
   /// of its nodes. `sample` reads these.
   std::vector<Field> element_vertex;
-  /// From where a run can go on that was stopped after this snapshot; nothing where that is kept
-  /// with a later one of the same step.
+  /// The state from which a run can continue after this snapshot.
   std::optional<RestartPoint> restart;
 };
 

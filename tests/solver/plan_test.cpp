@@ -119,6 +119,17 @@ TEST(Plan, TakesNineTenthsOfTheLimitWithoutAStep) {
   EXPECT_DOUBLE_EQ(plan.flow.step, 0.9 * plan.limit.step);
 }
 
+TEST(Plan, SaysTheStepsThatOutputsLeave) {
+  Scene scene = fluxes(0.01, -0.01);
+  scene.time.step = 0.0851;
+  scene.time.mass_scaling = 1e4;
+  const Plan plan = make_plan(model::make_case(model::column_mesh(4, 4), scene), {});
+  EXPECT_EQ(plan.sentences.front().find("run: flow, explicit nodal scheme, about 1440 steps of "
+                                        "0.08333 s (stability limit "),
+            0U)
+      << plan.sentences.front();
+}
+
 TEST(Plan, KeepsInertiaWhereItsTimeWouldBeNoticed) {
   Scene scene = fluxes(0.01, -0.01);
   scene.time.scheme = FlowScheme::implicit_mixed;
