@@ -1,6 +1,7 @@
 #pragma once
 
-/// The paper's flow scheme: explicit liquid momentum at the nodes, one pressure per element.
+/// The paper's flow scheme: liquid velocities at the nodes of the mesh and one pressure per
+/// element, stepped explicitly.
 
 #include <vector>
 
@@ -16,8 +17,8 @@ struct ExplicitSettings {
   /// false drops the third term of Eq. 2, for comparison: see FlowSettings.
   bool porosity_gradient_term = true;
   /// Pressure changes with strain alone: its convection, of order p / K, is done by the points that
-  /// carry the liquid, or left out where no mass depends on it. Nobody then needs the density of
-  /// the water that crossed a face.
+  /// carry the liquid, or left out where no mass depends on it. The density of the water that
+  /// crossed a face is then not needed.
   bool pressure_moves_with_liquid = false;
   int threads = 1;
 };

@@ -29,8 +29,8 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
         soils_.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
   }
   breakpoints_ = soils_.erosion_breakpoints();
-  const std::vector<double>& knots = boundary_values_.events();
-  breakpoints_.insert(breakpoints_.end(), knots.begin(), knots.end());
+  const std::vector<double>& of_boundaries = boundary_values_.breakpoints();
+  breakpoints_.insert(breakpoints_.end(), of_boundaries.begin(), of_boundaries.end());
   std::ranges::sort(breakpoints_);
   const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
                                  [](const Soil& s) { return s.drag == SoilDrag::ergun; });

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The flow of a scene as the formulations see it, whichever scheme steps it: boundary conditions,
-/// coefficients and state, and what the results say of it.
+/// The liquid flow of a scene, whatever the scheme: an interface that the formulations step, with
+/// boundary conditions, coefficients, state and the columns of the results that describe it.
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +125,7 @@ class FlowSolver {
       double time, const PoreState& pores, const std::vector<double>& face_concentration) const;
   /// Times at which erosion starts or ends or a boundary value has a kink, ascending, s.
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
-  /// The first breakpoint after `begin`, or `latest` where that comes first.
+  /// The first breakpoint after `start`, or `latest` where that comes first.
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; where a pressure is prescribed, that is it.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
@@ -133,7 +133,6 @@ class FlowSolver {
   void warn(std::string text) { warnings_.push_back(std::move(text)); }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
-  [[nodiscard]] const SoilMap<Dim>& soils() const { return soils_; }
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;

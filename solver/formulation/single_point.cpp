@@ -11,12 +11,12 @@ namespace suffuse {
 
 template <int Dim>
 void SinglePoint<Dim>::advance(double latest) {
-  const double begin = this->time_;
+  const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
   const FlowProgress flow =
-      fines_->drive(*this->flow_, {begin, latest, this->coupling_interval(), forecast});
-  this->note_flow(begin, flow);
-  for (const TransportStep& step : fines_->start_interval(begin, flow)) {
+      fines_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
+  this->note_flow(start, flow);
+  for (const TransportStep& step : fines_->start_interval(start, flow)) {
     const std::vector<double>& exchange = this->erode(step, {});
     fines_->advance(step, flow.volumes, exchange, this->flow_->pressure());
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The three tables of a run. Each row type lists its columns once; writer, reader and the post
-/// stage all go by that list.
+/// The three tables of a run: history, ledger and regions. Each row type lists its columns once,
+/// for writer, reader and the post stage.
 
 #include <array>
 #include <string_view>
@@ -19,8 +19,8 @@ struct HistoryRow {
   double t = 0.0;
   double dt = 0.0;             ///< step of the flow in force, s
   double porosity_mean = 0.0;  ///< volume mean over eroding regions, or over all soil
-  double flux_in = 0.0;        ///< liquid entering through all boundaries
-  double flux_out = 0.0;       ///< liquid leaving through all boundaries
+  double flux_in = 0.0;        ///< liquid that enters through all boundaries
+  double flux_out = 0.0;       ///< liquid that leaves through all boundaries
   double liquid_points = 0.0;
   double empty_elements = 0.0;
   double empty_elements_total = 0.0;
@@ -71,15 +71,15 @@ struct LedgerRow {
   double solid = 0.0;     ///< all solid in place: skeleton and erodible
   double erodible = 0.0;  ///< solid in place that can still erode
   double water = 0.0;
-  double fines = 0.0;   ///< fluidised grains in the model
-  double eroded = 0.0;  ///< grains eroded since the start
+  double fines = 0.0;   ///< fluidised fines in the model
+  double eroded = 0.0;  ///< fines eroded since the start
   double water_in = 0.0;
   double fines_in = 0.0;
   double water_out = 0.0;
   double fines_out = 0.0;
   double residual_water = 0.0;   ///< relative to the initial water
   double residual_grains = 0.0;  ///< relative to the initial grains (solid and fluidised)
-  /// Double-point: grains eroded where no liquid point is near, waiting at nodes for one.
+  /// Double-point: fines eroded where no liquid point is near, waiting at nodes for one.
   double pending = 0.0;
   double points = 0.0;  ///< liquid points, and how many entered and left since the start
   double points_in = 0.0;

@@ -1,5 +1,4 @@
-/// The same case gives the same files, on any number of threads; and whoever looks more often sees
-/// the same run.
+/// The same case gives the same files on any number of threads, and more outputs show the same run.
 
 #include <gtest/gtest.h>
 

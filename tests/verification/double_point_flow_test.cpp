@@ -70,10 +70,11 @@ TEST(DoublePointAndSinglePoint, AgreeInTheSameColumn) {
     worst = std::max(worst, difference);
     largest = std::max(largest, one.concentration_out[k]);
   }
-  std::cout << "double-point less single-point: porosity " << porosity << ", eroded mass " << eroded
-            << " kg, c at the outlet " << 100.0 * concentration / largest << " % of its largest, "
-            << 100.0 * at_front / largest << " % as the front arrives; double-point less exact "
-            << 100.0 * error / largest << " %\n";
+  std::cout << "double-point minus single-point: porosity " << porosity << ", eroded mass "
+            << eroded << " kg, c at the outlet " << 100.0 * concentration / largest
+            << " % of its largest, " << 100.0 * at_front / largest
+            << " % as the front arrives; double-point minus exact " << 100.0 * error / largest
+            << " %\n";
   EXPECT_LE(porosity, 1e-12);
   EXPECT_LE(eroded, 1e-10 * one.eroded.back());
   EXPECT_LE(concentration, 0.01 * largest);
