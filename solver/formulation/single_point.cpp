@@ -132,7 +132,7 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
     const double flux = flow.face_flux[f];
     if (this->grid_.is_outer(f) && flux > 0.0) fines_out.add(flux * concentration[f]);
   }
-  row.concentration_out = row.flux_out > 0.0 ? fines_out.value() / row.flux_out : 0.0;
+  this->describe_outflow(fines_out.value(), row);
 
   row.concentration_min = std::numeric_limits<double>::infinity();
   row.concentration_max = -row.concentration_min;

@@ -116,6 +116,12 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
 }
 
 template <int Dim>
+void TwoPhaseModel<Dim>::describe_outflow(double fines_out, HistoryRow& row) const {
+  row.concentration_out = row.flux_out > 0.0 ? fines_out / row.flux_out : 0.0;
+  row.turbidity_out = grain_density_ * row.concentration_out;  // kg/m3 = g/l
+}
+
+template <int Dim>
 std::vector<StoredSums> TwoPhaseModel<Dim>::solid_masses() const {
   std::vector<StoredSums> sums(masses_.count());
   const MaterialPoints<Dim>& points = soils_.points();

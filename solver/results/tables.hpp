@@ -41,9 +41,10 @@ struct HistoryRow {
   /// Implicit: how far pressures lie outside the range of their boundary and initial values, over
   /// that range; 0 where gravity or a prescribed flux leaves them without such bounds.
   double pressure_overshoot = 0.0;
+  double turbidity_out = 0.0;  ///< mass of fines per volume of the leaving liquid, g/l
 };
 
-inline constexpr std::array<Column<HistoryRow>, 18> history_columns{{
+inline constexpr std::array<Column<HistoryRow>, 19> history_columns{{
     {"t", &HistoryRow::t},
     {"dt", &HistoryRow::dt},
     {"porosity_mean", &HistoryRow::porosity_mean},
@@ -62,6 +63,7 @@ inline constexpr std::array<Column<HistoryRow>, 18> history_columns{{
     {"pressure_scatter", &HistoryRow::pressure_scatter},
     {"eos_error", &HistoryRow::eos_error},
     {"pressure_overshoot", &HistoryRow::pressure_overshoot},
+    {"turbidity_out", &HistoryRow::turbidity_out},
 }};
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross
