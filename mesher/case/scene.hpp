@@ -1,6 +1,6 @@
 #pragma once
 
-/// The scene as the solver sees it: typed, checked, defaults filled in. Keys, bounds and units are
+/// The scene as the programs use it: typed, checked, defaults filled in. Keys, bounds and units are
 /// declared in `scene_schema.cpp`; `docs/scene-reference.md` is generated from there.
 /// SI units throughout.
 

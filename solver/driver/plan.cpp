@@ -102,7 +102,7 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
   std::vector<double> times;
   if (stiff || steady) times.push_back(0.0);
   if (stiff) {
-    times.insert(times.end(), values.events().begin(), values.events().end());
+    times.insert(times.end(), values.breakpoints().begin(), values.breakpoints().end());
     times.push_back(scene.time.end);
   }
   for (const double time : times) {

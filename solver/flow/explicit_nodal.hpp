@@ -92,7 +92,7 @@ class ExplicitNodal {
   /// Per element, 1 / water volume (times n_e without the third term), 1/m3.
   std::vector<double> compression_;
   std::vector<double> convection_;  ///< per face, (1 - c) / K, 1/Pa
-  /// Per face: an element of pressure p sees the flux `face_flux_` - p `convected_flux_`.
+  /// Per face: the flux out of an element of pressure p is `face_flux_` - p `convected_flux_`.
   std::vector<double> face_flux_;  ///< m3/s
   std::vector<double>
       convected_flux_;  ///< m3/(Pa s); empty where the pressure moves with the liquid

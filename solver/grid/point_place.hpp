@@ -46,7 +46,7 @@ void put_on_face(std::array<double, Count>& at, int vertex) {
   for (double& share : at) share /= sum;
 }
 
-/// The same place seen from the other side of the inner face opposite local vertex `vertex`, on
+/// The same place in the element on the other side of the inner face opposite local vertex `vertex`, on
 /// which it lies.
 template <int Dim>
 PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int vertex) {
