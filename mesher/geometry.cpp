@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Beyond this a misplaced decimal point is likelier than intent.
-constexpr double most_triangles = 5e6;
+constexpr double max_triangles = 5e6;
 
 std::string extension_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
@@ -54,9 +54,9 @@ bool is_mesh_file(const std::string& path) {
 /// \param strip  width of what is meshed besides, in rows of elements, all rows together, m
 void refuse_too_many(const SceneDocument& document, double area, double strip = 0.0) {
   const double size = document.scene.mesh.size;
-  // Triangles fill half a square each: most_triangles = 2 (area + strip size) / size^2.
+  // Triangles fill half a square each: max_triangles = 2 (area + strip size) / size^2.
   const double smallest =
-      (strip + std::sqrt(strip * strip + 2.0 * area * most_triangles)) / most_triangles;
+      (strip + std::sqrt(strip * strip + 2.0 * area * max_triangles)) / max_triangles;
   if (!(size < smallest)) return;
   refuse(document, "mesh.size", short_number(size),
          "at least " + short_number(smallest) + ", which makes 5 million triangles here");

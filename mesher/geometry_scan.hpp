@@ -1,6 +1,6 @@
 #pragma once
 
-/// Looks through a user's geometry file, and every file it draws in, before Gmsh executes it.
+/// Checks a user's geometry file, and every file that it includes, before Gmsh executes it.
 
 #include <string>
 #include <vector>

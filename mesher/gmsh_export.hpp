@@ -1,6 +1,6 @@
 #pragma once
 
-/// The mesh for the eyes of Gmsh.
+/// Writes the mesh as a .msh file that Gmsh can show.
 
 #include <string>
 

@@ -101,7 +101,7 @@ void limit_use(double seconds, double bytes) {
 #endif
 }
 
-/// What libraries print as they end is of no use to anybody.
+/// Libraries print as they end; that is dropped.
 void silence() {
   const int nowhere = ::open("/dev/null", O_WRONLY);
   if (nowhere < 0) return;
@@ -111,13 +111,13 @@ void silence() {
 
 }  // namespace
 
-std::string gmsh_crash(const std::function<void()>& body, double most_seconds, double most_bytes) {
+std::string gmsh_crash(const std::function<void()>& body, double max_seconds, double max_bytes) {
   constexpr int too_much = 3;
   const pid_t child = ::fork();
   if (child < 0) throw FileError("no second process can be started to read a file in");
   if (child == 0) {
     silence();
-    limit_use(most_seconds, most_bytes);
+    limit_use(max_seconds, max_bytes);
     ::_exit(gmsh_complaint(body) == no_memory ? too_much : 0);
   }
   int status = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Numbers the elements and nodes of a mesh so that what lies together in space lies together in
-/// memory: elements along Hilbert's curve, nodes as the elements need them.
+/// Numbers the elements and nodes of a mesh so that neighbours in space are neighbours in memory:
+/// elements along Hilbert's curve, nodes as the elements need them.
 ///
 /// Hilbert's curve passes through all cells of a grid of 2^k cells a side (squares for Dim = 2,
 /// cubes for 3), each step into a neighbouring cell. Any stretch of it fills a compact part of the

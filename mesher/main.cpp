@@ -79,12 +79,12 @@ void check_outputs(const Arguments& arguments, const SceneDocument& document) {
 
 void refuse_too_many_points(const SceneDocument& document, const Mesh<2>& mesh) {
   // Beyond this a misplaced decimal point is likelier than intent.
-  constexpr double most_points = 1e8;
+  constexpr double max_points = 1e8;
   double count = 0.0;
   for (const std::int64_t of_element : liquid_point_counts(mesh, document.scene)) {
     count += static_cast<double>(of_element);
   }
-  if (count <= most_points) return;
+  if (count <= max_points) return;
   const std::string key = "points.liquid_per_element";
   throw InputError(std::vector<InputProblem>{
       {document.locate(key), key, shown_number(count) + " liquid points in all",

@@ -27,11 +27,11 @@ constexpr double smallest_area = 1e-12;
 constexpr double out_of_plane = 1e-9;
 constexpr double same_place = 1e-9;
 /// Of a coordinate, m: areas are products of two, and their squares are still numbers.
-constexpr double most_distant = 1e50;
+constexpr double max_coordinate = 1e50;
 /// Characters.
 constexpr std::size_t longest_name = 127;
 /// Of one kind, before "and N more".
-constexpr std::size_t most_examples = 5;
+constexpr std::size_t max_examples = 5;
 
 std::string place(const Vector<2>& x) {
   return "(" + short_number(x[0]) + ", " + short_number(x[1]) + ")";
@@ -63,11 +63,11 @@ class Kind {
   Kind(const Kind&) = delete;
   Kind& operator=(const Kind&) = delete;
   ~Kind() {
-    if (count_ <= most_examples) return;
-    problems_[last_].found += ", and " + std::to_string(count_ - most_examples) + " more like it";
+    if (count_ <= max_examples) return;
+    problems_[last_].found += ", and " + std::to_string(count_ - max_examples) + " more like it";
   }
   void add(const std::string& found) {
-    if (++count_ > most_examples) return;
+    if (++count_ > max_examples) return;
     last_ = problems_.size();
     problems_.push_back({"", "", found, expected_, ""});
   }
@@ -354,11 +354,11 @@ class Extraction {
 
   /// Whether all nodes are somewhere; those that are not are problems.
   bool has_coordinates() {
-    Kind kind(result_.problems, "finite coordinates, in m, below " + short_number(most_distant));
+    Kind kind(result_.problems, "finite coordinates, in m, below " + short_number(max_coordinate));
     bool all = true;
     for (Tag tag : node_tags_) {
       const auto& x = coordinates_.at(tag);
-      const auto is_near = [](double value) { return std::abs(value) <= most_distant; };
+      const auto is_near = [](double value) { return std::abs(value) <= max_coordinate; };
       if (std::ranges::all_of(x, is_near)) continue;
       all = false;
       kind.add("node " + std::to_string(tag) + " at (" + short_number(x[0]) + ", " +

@@ -1,6 +1,6 @@
 #pragma once
 
-/// From the mesh of the current Gmsh model to ours.
+/// Makes a mesh from that of the current Gmsh model.
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What suffuse-mesher tells about its result.
+/// The lines that suffuse-mesher prints about its result.
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Does a scene fit a mesh?
+/// Checks that a scene fits a mesh.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The ways a stage can fail, each with the exit code that the command line documents.
+/// Errors with which a stage ends: each kind has an exit code.
 
 #include <stdexcept>
 #include <string>
@@ -54,7 +54,7 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Opens those of stdin, stdout and stderr that are closed, for nothing to be read or seen there:
+/// Opens those of stdin, stdout and stderr that are closed, to read and show nothing:
 /// a file opened later would get the number of one of them, and the messages meant for it. Has a
 /// file that may not grow further (SIGXFSZ) fail the write instead of ending the program.
 void prepare_process();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A thin owner of HDF5 handles: what the case and the results files need and no more. Every
+/// Reads and writes HDF5 files: the part of the library that case and results files need. Every
 /// failure is a FileError that names the file and the object.
 
 #include <hdf5.h>

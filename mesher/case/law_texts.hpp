@@ -1,7 +1,6 @@
 #pragma once
 
-/// What the scene reference and messages say of the laws that there are, made of what each law says
-/// of itself.
+/// Texts about the laws, for the scene reference and for messages, from what each law declares.
 
 #include <algorithm>
 #include <span>

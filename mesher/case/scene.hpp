@@ -1,6 +1,6 @@
 #pragma once
 
-/// The scene as the solver sees it: typed, checked, defaults filled in. Keys, bounds and units are
+/// The scene as the programs use it: typed, checked, defaults filled in. Keys, bounds and units are
 /// declared in `scene_schema.cpp`; `docs/scene-reference.md` is generated from there.
 /// SI units throughout.
 
@@ -75,7 +75,8 @@ struct ErosionSettings {
   double rate = 0.0;                     ///< in the unit of the law
   double start = 0.0;                    ///< t_0, s
   bool momentum_transfer = false;        ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
-  MassTransfer mass_transfer = MassTransfer::nodal;  ///< double-point: who gets eroded grains
+  MassTransfer mass_transfer =
+      MassTransfer::nodal;  ///< double-point: which points take up eroded fines
   EmptyElements empty_elements =
       EmptyElements::wet;             ///< double-point: erode without liquid points?
   ErosionParameters parameters = {};  ///< what the law asks for beside the rate

@@ -13,7 +13,7 @@ namespace {
 using Vector3 = std::array<double, 3>;
 
 /// Of each table. More is likelier a slip than intent, and would fill the disk.
-constexpr double most_rows = 1e6;
+constexpr double max_rows = 1e6;
 
 class Checks {
  public:
@@ -218,10 +218,10 @@ class Checks {
     if (scene_.flow.porosity_gradient_term || !single_point) return;
     const bool eroding = std::any_of(scene_.soils.begin(), scene_.soils.end(),
                                      [](const Soil& soil) { return erodes(soil.erosion_model()); });
-    const bool grains_enter =
+    const bool fines_enter =
         std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(),
                     [](const auto& b) { return b.concentration.value_or(0.0).largest() > 0.0; });
-    if (!eroding && !grains_enter) return;
+    if (!eroding && !fines_enter) return;
     report("flow.porosity_gradient_term", "false where soil erodes or grains enter",
            "true: without this term of Eq. 2 no balance closes");
   }
@@ -331,9 +331,9 @@ class Checks {
       report("time.step", shown_value(*time.step), "dt <= T = " + shown_number(time.end) + " s",
              {"time.end"});
     }
-    if (output.every * most_rows < time.end) {
+    if (output.every * max_rows < time.end) {
       report("output.every", shown_value(output.every),
-             "at least " + shown_number(time.end / most_rows) +
+             "at least " + shown_number(time.end / max_rows) +
                  " s, which makes a million rows until T = " + shown_number(time.end) + " s",
              {"time.end"});
     }

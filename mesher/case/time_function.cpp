@@ -32,7 +32,7 @@ double TimeFunction::largest() const {
   return std::ranges::max(knots, {}, by_value).second;
 }
 
-std::vector<double> TimeFunction::knot_times() const {
+std::vector<double> TimeFunction::breakpoints() const {
   std::vector<double> times;
   for (const auto& [time, value] : knots) times.push_back(time);
   return times;

@@ -19,7 +19,7 @@ struct TimeFunction {
   [[nodiscard]] bool is_constant() const;
   [[nodiscard]] double smallest() const;
   [[nodiscard]] double largest() const;
-  [[nodiscard]] std::vector<double> knot_times() const;
+  [[nodiscard]] std::vector<double> breakpoints() const;
 
   friend bool operator==(const TimeFunction&, const TimeFunction&) = default;
 

@@ -102,7 +102,7 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
   std::vector<double> times;
   if (stiff || steady) times.push_back(0.0);
   if (stiff) {
-    times.insert(times.end(), values.events().begin(), values.events().end());
+    times.insert(times.end(), values.breakpoints().begin(), values.breakpoints().end());
     times.push_back(scene.time.end);
   }
   for (const double time : times) {
@@ -243,11 +243,11 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
 
 /// The times at which nothing erodes.
 void describe_spans(const Scene& scene, Plan& plan) {
-  const bool late = plan.erosion && plan.erosion_span.begin > 0.0;
+  const bool late = plan.erosion && plan.erosion_span.start > 0.0;
   const bool early = plan.erosion && plan.erosion_span.end < scene.time.end;
   std::string when;
   if (late)
-    when = "before t = " + short_text(std::min(plan.erosion_span.begin, scene.time.end)) + " s";
+    when = "before t = " + short_text(std::min(plan.erosion_span.start, scene.time.end)) + " s";
   if (early) {
     when +=
         std::string(late ? " and " : "") + "after t = " + short_text(plan.erosion_span.end) + " s";
@@ -356,7 +356,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
 
   if (!options.no_skip) {
     plan.erosion_span = soils.erosion_span();
-    if (largest_inflow_concentration(scene) == 0.0) plan.fines_from = plan.erosion_span.begin;
+    if (largest_inflow_concentration(scene) == 0.0) plan.fines_from = plan.erosion_span.start;
   }
 
   plan.flow.threads = options.threads;

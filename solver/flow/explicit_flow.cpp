@@ -16,7 +16,7 @@ namespace {
 
 /// Solving for the steady flow of more elements than this would take longer than the warning is
 /// worth.
-constexpr int most_elements_checked = 100000;
+constexpr int max_elements_checked = 100000;
 
 /// Steps between two couplings.
 constexpr long max_steps = 1000;
@@ -72,7 +72,7 @@ void ExplicitFlow<Dim>::archive(StateArchive& archive) {
 template <int Dim>
 void ExplicitFlow<Dim>::start() {
   if (this->scene().initial_flow == InitialFlow::rest) {
-    if (this->grid().mesh.element_count() <= most_elements_checked) {
+    if (this->grid().mesh.element_count() <= max_elements_checked) {
       warn_of_locking(steady_flow(operator_).velocity);
     }
     scheme_.set_velocity(VectorField<Dim>(this->grid().mesh.node_count(), Vector<Dim>::Zero()));
@@ -93,11 +93,10 @@ void ExplicitFlow<Dim>::start() {
 
 template <int Dim>
 void ExplicitFlow<Dim>::warn_of_locking(const VectorField<Dim>& steady_velocity) {
-  if (this->grid().mesh.element_count() > most_elements_checked) return;
+  if (this->grid().mesh.element_count() > max_elements_checked) return;
   // The mixed elements it is compared with know Darcy's drag alone.
   if (!this->scene().flow.porosity_gradient_term || this->has_ergun()) return;
-  const auto deviation =
-      deviation_from_mixed_flow(operator_, this->coefficients_, this->gravity(), steady_velocity);
+  const auto deviation = deviation_from_mixed_flow(operator_, this->coefficients_, steady_velocity);
   if (!deviation || *deviation < locked_deviation) return;
   std::ostringstream message;
   message.precision(2);
@@ -186,14 +185,14 @@ FlowProgress ExplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
 template <int Dim>
 FlowProgress ExplicitFlow<Dim>::finish(const Steps& steps) {
   timing_.calls += steps.count;
-  this->update_boundary_values(steps.begin, steps.end);
+  this->update_boundary_values(steps.start, steps.end);
   return {steps.count, steps.dt, steps.end, scheme_.volumes()};
 }
 
 template <int Dim>
-void ExplicitFlow<Dim>::step(double begin, double dt) {
+void ExplicitFlow<Dim>::step(double start, double dt) {
   if (this->boundary_values().vary()) {
-    operator_.set_boundary_values(this->boundary_values(), begin, begin + 0.5 * dt);
+    operator_.set_boundary_values(this->boundary_values(), start, start + 0.5 * dt);
   }
   scheme_.step(dt);
 }

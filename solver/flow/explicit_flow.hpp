@@ -33,13 +33,13 @@ class ExplicitFlow final : public FlowSolver<Dim> {
 
   /// Steps of one length for an interval.
   struct Steps {
-    double begin;  ///< s
+    double start;  ///< s
     long count;
     double dt;   ///< s
     double end;  ///< s
 
     [[nodiscard]] double start_of(long step) const {
-      return begin + static_cast<double>(step) * dt;
+      return start + static_cast<double>(step) * dt;
     }
   };
   /// As many as the interval allows; what is left up to its latest end is divided evenly. Shortens
@@ -47,7 +47,7 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   /// it.
   [[nodiscard]] Steps plan_steps(const FlowInterval<Dim>& interval);
   /// One of them, under the boundary values of its time.
-  void step(double begin, double dt);
+  void step(double start, double dt);
   /// Boundary values at `now`, with the concentrations of what entered `since`.
   using FlowSolver<Dim>::update_boundary_values;
   /// What the steps came to.

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The paper's flow scheme: explicit liquid momentum at the nodes, one pressure per element.
+/// The paper's flow scheme: liquid velocities at the nodes of the mesh and one pressure per
+/// element, stepped explicitly.
 
 #include <vector>
 
@@ -16,8 +17,8 @@ struct ExplicitSettings {
   /// false drops the third term of Eq. 2, for comparison: see FlowSettings.
   bool porosity_gradient_term = true;
   /// Pressure changes with strain alone: its convection, of order p / K, is done by the points that
-  /// carry the liquid, or left out where no mass depends on it. Nobody then needs the density of
-  /// the water that crossed a face.
+  /// carry the liquid, or left out where no mass depends on it. The density of the water that
+  /// crossed a face is then not needed.
   bool pressure_moves_with_liquid = false;
   int threads = 1;
 };
@@ -91,7 +92,7 @@ class ExplicitNodal {
   /// Per element, 1 / water volume (times n_e without the third term), 1/m3.
   std::vector<double> compression_;
   std::vector<double> convection_;  ///< per face, (1 - c) / K, 1/Pa
-  /// Per face: an element of pressure p sees the flux `face_flux_` - p `convected_flux_`.
+  /// Per face: the flux out of an element of pressure p is `face_flux_` - p `convected_flux_`.
   std::vector<double> face_flux_;  ///< m3/s
   std::vector<double>
       convected_flux_;  ///< m3/(Pa s); empty where the pressure moves with the liquid

@@ -84,13 +84,13 @@ BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
       if (initial_[f].boundary == b) varying.faces.push_back(f);
     }
     for (const TimeFunction& value : values) {
-      for (const double time : value.knot_times()) {
-        if (time > 0.0 && time < c.document.scene.time.end) events_.push_back(time);
+      for (const double time : value.breakpoints()) {
+        if (time > 0.0 && time < c.document.scene.time.end) breakpoints_.push_back(time);
       }
     }
   }
-  std::ranges::sort(events_);
-  events_.erase(std::unique(events_.begin(), events_.end()), events_.end());
+  std::ranges::sort(breakpoints_);
+  breakpoints_.erase(std::unique(breakpoints_.begin(), breakpoints_.end()), breakpoints_.end());
 }
 
 template <int Dim>

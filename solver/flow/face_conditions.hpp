@@ -58,7 +58,7 @@ class BoundaryValues {
   [[nodiscard]] bool vary() const { return !varying_.empty(); }
   /// Times at which a value that changes may have a kink, in (0, end), s: ascending, each once.
   /// Between two of them every value is linear in time.
-  [[nodiscard]] const std::vector<double>& events() const { return events_; }
+  [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
 
  private:
   struct Varying {
@@ -69,7 +69,7 @@ class BoundaryValues {
 
   std::vector<FaceCondition> initial_;
   std::vector<Varying> varying_;
-  std::vector<double> events_;
+  std::vector<double> breakpoints_;
 };
 
 }  // namespace suffuse

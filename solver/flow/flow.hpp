@@ -1,6 +1,6 @@
 #pragma once
 
-/// What every flow scheme takes and gives: coefficients in, volumes through faces out.
+/// Input and output of every flow scheme: coefficients in, volumes through faces out.
 
 #include <vector>
 
@@ -11,11 +11,11 @@ namespace suffuse {
 template <int Dim>
 using VectorField = std::vector<Vector<Dim>>;
 
-/// What the rest of the model tells the flow. All per element unless noted.
+/// What the pores are to the flow. All per element unless noted.
 template <int Dim>
 struct FlowCoefficients {
   std::vector<double> porosity;         ///< n_L
-  std::vector<double> water_volume;     ///< pore volume less fluidised grains, m3
+  std::vector<double> water_volume;     ///< pore volume minus fluidised fines, m3
   std::vector<double> mixture_density;  ///< rho_L, kg/m3
   std::vector<double> drag;             ///< on the liquid, divided by n_L, kg/(m3 s)
   /// Of fast flow: b in the pressure gradient b |q| q, kg/m4 (Ergun). Empty where no soil has it.
@@ -33,11 +33,6 @@ struct FaceVolumes {
   /// The same weighted with rho_w / rho_w0 - 1 of the water that crossed: what tells water's mass
   /// from its reference volume.
   std::vector<double> density_excess;
-
-  void reset(int faces) {
-    liquid.assign(faces, 0.0);
-    density_excess.assign(faces, 0.0);
-  }
 };
 
 }  // namespace suffuse

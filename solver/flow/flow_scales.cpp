@@ -62,7 +62,7 @@ FlowScales find_scales(ImplicitMixed<Dim>& scheme, const FlowForcing<Dim>& at_st
   FlowScales scales;
   std::vector<double> times{0.0};
   if (values.vary()) {
-    times.insert(times.end(), values.events().begin(), values.events().end());
+    times.insert(times.end(), values.breakpoints().begin(), values.breakpoints().end());
     times.push_back(end);
   }
   bool prescribes_flux = false;

@@ -17,7 +17,7 @@ namespace suffuse {
 
 struct FlowScales {
   double flux = 0.0;        ///< largest through a face, m3/s
-  double pressure = 0.0;    ///< largest less smallest at the faces, Pa
+  double pressure = 0.0;    ///< largest minus smallest at the faces, Pa
   bool flux_known = false;  ///< from the boundary conditions; else the flow sets it as it goes
   /// Prescribed pressures alone drive the flow: pressures stay between these two, Pa.
   bool has_bounds = false;

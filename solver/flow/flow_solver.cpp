@@ -29,7 +29,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
         soils_.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
   }
   breakpoints_ = soils_.erosion_breakpoints();
-  const std::vector<double>& kinks = boundary_values_.events();
+  const std::vector<double>& kinks = boundary_values_.breakpoints();
   breakpoints_.insert(breakpoints_.end(), kinks.begin(), kinks.end());
   std::ranges::sort(breakpoints_);
   const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),

@@ -25,8 +25,8 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
       scheme_(grid, scheme_settings(this->scene(), options), this->gravity()),
       has_gravity_(this->gravity().norm() > 0.0),
       follows_pores_(depends_on_pores(this->scene(), this->conditions_, options) || has_gravity_),
-      control_(
-          step_settings(this->scene(), options, follows_pores_, this->boundary_values().events())),
+      control_(step_settings(this->scene(), options, follows_pores_,
+                             this->boundary_values().breakpoints())),
       blending_(blending_settings(this->scene(), options, follows_pores_)),
       reuse_({options.reuse_steady, this->scene().time.tolerance, has_gravity_,
               has_condition(this->conditions_, FaceKind::velocity)}) {}
@@ -133,7 +133,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::pass_breakpoint(double time, double dt) {
   if (!reuse_.active()) previous_.reset();
   if (follows_pores_) blending_.shorten(dt);
-  const bool boundary_kink = contains_time(this->boundary_values().events(), time);
+  const bool boundary_kink = contains_time(this->boundary_values().breakpoints(), time);
   // Where erosion starts, the steady flow still fits its coefficients, but not those to come.
   if (boundary_kink || follows_pores_ || has_gravity_) reuse_.stop();
 }

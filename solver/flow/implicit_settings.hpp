@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a scene and its plan ask of the parts of the implicit flow.
+/// Settings of the parts of the implicit flow, from the scene and its plan.
 
 #include <vector>
 

@@ -13,8 +13,7 @@ namespace {
 /// Flux that the prescribed values and gravity could drive through one element: what rest is small
 /// against.
 template <int Dim>
-double drivable_flux(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& coefficients,
-                     const Vector<Dim>& gravity) {
+double drivable_flux(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& coefficients) {
   const Grid<Dim>& grid = op.grid();
   double pressure = 0.0;
   double prescribed = 0.0;
@@ -29,8 +28,8 @@ double drivable_flux(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& 
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const double mobility = coefficients.porosity[e] / coefficients.drag[e];
     const double size = std::pow(grid.volume[e], 1.0 / Dim);
-    driven = std::max(
-        driven, mobility * (pressure / size + coefficients.mixture_density[e] * gravity.norm()));
+    driven = std::max(driven, mobility * (pressure / size +
+                                          coefficients.mixture_density[e] * op.gravity().norm()));
   }
   return driven + prescribed;
 }
@@ -40,12 +39,11 @@ double drivable_flux(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& 
 template <int Dim>
 std::optional<double> deviation_from_mixed_flow(const NodalOperator<Dim>& op,
                                                 const FlowCoefficients<Dim>& coefficients,
-                                                const Vector<Dim>& gravity,
                                                 const VectorField<Dim>& velocity) {
   const Grid<Dim>& grid = op.grid();
   std::vector<Vector<Dim>> mixed;
   try {
-    ImplicitMixed<Dim> scheme(grid, {}, gravity);
+    ImplicitMixed<Dim> scheme(grid, {}, op.gravity());
     mixed = element_flux(grid, scheme.steady({coefficients, op.conditions(), {}}).face_flux);
   } catch (const NumericalError&) {
     return std::nullopt;  // Prescribed fluxes that do not balance have no steady flow.
@@ -62,13 +60,13 @@ std::optional<double> deviation_from_mixed_flow(const NodalOperator<Dim>& op,
     scale += grid.volume[e] * mixed[e].squaredNorm();
     volume += grid.volume[e];
   }
-  const double rest = 1e-9 * drivable_flux(op, coefficients, gravity);
+  const double rest = 1e-9 * drivable_flux(op, coefficients);
   if (scale <= rest * rest * volume) return std::nullopt;
   return std::sqrt(difference / scale);
 }
 
 template std::optional<double> deviation_from_mixed_flow(const NodalOperator<2>&,
                                                          const FlowCoefficients<2>&,
-                                                         const Vector<2>&, const VectorField<2>&);
+                                                         const VectorField<2>&);
 
 }  // namespace suffuse

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Tells whether the nodal scheme can follow the flow of a scene on its mesh.
+/// Measures whether the nodal (explicit) scheme can follow the flow of a scene on its mesh.
 
 #include <optional>
 
@@ -16,10 +16,9 @@ namespace suffuse {
 template <int Dim>
 std::optional<double> deviation_from_mixed_flow(const NodalOperator<Dim>& op,
                                                 const FlowCoefficients<Dim>& coefficients,
-                                                const Vector<Dim>& gravity,
                                                 const VectorField<Dim>& velocity);
 
-/// Above this a run should not pass without a word: the mesh locks the flow or is far too coarse
+/// Above this the run warns: the mesh locks the flow or is far too coarse
 /// for it. Under a weir in a bed ten elements deep it is 0.48 on free and 0.18 on crossed meshes.
 inline constexpr double locked_deviation = 0.3;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Lets water that does not fit its pores out of the elements, over several steps. Masses are what
+/// Moves water that does not fit its pores out of the elements, over several steps. Masses are what
 /// is stored, and the pressures of a linear step miss the equation of state by a little: an element
 /// then holds more or less water than its pores take at its pressure. The next steps get that
 /// mismatch as a source, in m3/s per element (positive: water leaves):

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The state of the mixed elements with its fluxes, and what transport and results read from it.
+/// Pressures and fluxes of the mixed elements at one time, and what transport and results need of
+/// them.
 
 #include <vector>
 

@@ -1,10 +1,10 @@
 #pragma once
 
-/// The discrete gradient and divergence of the nodal scheme, with its constraints at the boundary.
-/// Nodal velocities are linear, pressure is constant per element ("mixed integration"). A face
-/// carries F = N . mean(q_i), q_i = n_i v_i, one number for both sides, so what leaves one element
-/// enters the next; the force on a node is the transpose of that, so the pair exchanges energy
-/// exactly.
+/// Pressure forces on nodes and fluxes through faces in the explicit scheme, with its constraints
+/// at the boundary: the discrete gradient and divergence. Nodal velocities are linear, pressure is
+/// constant per element ("mixed integration"). A face carries F = N . mean(q_i), q_i = n_i v_i, one
+/// number for both sides, so what leaves one element enters the next; the force on a node is the
+/// transpose of that, so the pair exchanges energy exactly.
 
 #include <Eigen/Core>
 #include <vector>
@@ -69,16 +69,12 @@ class NodalOperator {
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (int k = grid_.node_face_begin[node]; k < grid_.node_face_begin[node + 1]; ++k) {
       const int f = grid_.node_face[k];
-      if (flux_is_fixed(f)) continue;
+      if (flux_is_fixed_[f] != 0) continue;
       const double right = grid_.is_outer(f) ? 0.0 : pressure[grid_.face_right[f]];
       sum += (pressure[grid_.face_left[f]] - right) * grid_.face_normal[f];
     }
     return external_force_[node] + sum / Dim;
   }
-
-  [[nodiscard]] bool flux_is_fixed(int face) const { return flux_is_fixed_[face] != 0; }
-  /// Where it is, walls included: along the face's normal, m3/s.
-  [[nodiscard]] double fixed_flux(int face) const { return fixed_flux_[face]; }
 
   /// Liquid volume through a face per second, along its normal, m3/s.
   [[nodiscard]] double face_flux(int face, const VectorField<Dim>& velocity) const {

@@ -69,7 +69,7 @@ class Compression {
 /// An upper bound, up to what Lanczos' method can know, of the operator's largest eigenvalue.
 template <int Dim>
 double largest_eigenvalue(const Compression<Dim>& compression) {
-  constexpr int most_rounds = 200;
+  constexpr int max_rounds = 200;
   constexpr double goal = 1e-4;
   const Eigen::Index size = compression.size();
   Eigen::VectorXd now(size);
@@ -83,7 +83,7 @@ double largest_eigenvalue(const Compression<Dim>& compression) {
   std::vector<double> diagonal;
   std::vector<double> beside;
   double bound = 0.0;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     Eigen::VectorXd next = compression(now);
     diagonal.push_back(now.dot(next));
     next -= diagonal.back() * now;
@@ -154,9 +154,9 @@ double assembled_limit(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>
                        const std::vector<double>& node_speed, PressureIntegration integration) {
   double omega =
       std::sqrt(largest_eigenvalue(Compression<Dim>(op, coefficients, bulk_modulus, mass_scaling)));
-  constexpr double least_passed_on = 1.0 / (2.0 * Dim);  // theta
+  constexpr double min_passed_on = 1.0 / (2.0 * Dim);  // theta
   if (integration == PressureIntegration::material_point) {
-    omega *= std::sqrt(2.0 - least_passed_on);
+    omega *= std::sqrt(2.0 - min_passed_on);
   }
   const bool explicit_drag = drag == DragIntegration::explicit_drag;
   double damping = explicit_drag ? 0.0 : std::numeric_limits<double>::infinity();

@@ -1,7 +1,6 @@
 #pragma once
 
-/// Stability limit of the explicit nodal scheme with a rigid skeleton (physics.md's formula, summed
-/// over the element's nodes instead of bounded by its largest porosity).
+/// The longest step with which the explicit nodal scheme is stable, in soil that stays in place.
 
 #include <array>
 

@@ -80,7 +80,7 @@ template <int Dim>
 NodalSteadyState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
                                          const std::vector<double>& drag) {
   constexpr double storage_share = 1e-7;  // of the matrix' own diagonal
-  constexpr int most_solves = 60;
+  constexpr int max_solves = 60;
   constexpr double goal = 1e-14;
 
   Eigen::SparseMatrix<double> matrix = pressure_matrix(op, drag);
@@ -103,7 +103,7 @@ NodalSteadyState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
   NodalSteadyState<Dim> state;
   state.pressure.assign(matrix.rows(), 0.0);
   double previous = std::numeric_limits<double>::infinity();
-  for (int solve = 0; solve < most_solves; ++solve) {
+  for (int solve = 0; solve < max_solves; ++solve) {
     state.velocity = balanced_velocity(op, drag, state.pressure);
     double largest_flux = 0.0;
     const Eigen::VectorXd outflow = net_outflow(op, state.velocity, largest_flux);
@@ -122,14 +122,14 @@ NodalSteadyState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
 
 template <int Dim>
 NodalSteadyState<Dim> steady_flow(const NodalOperator<Dim>& op) {
-  constexpr int most_iterations = 200;
+  constexpr int max_iterations = 200;
   constexpr double goal = 1e-12;
   const std::vector<double>& quadratic = op.node_quadratic_drag();
   NodalSteadyState<Dim> state = linear_steady_flow(op, op.node_drag());
   if (quadratic.empty()) return state;
   // The secant drag of the last iterate and the one before, in equal parts: alone each overshoots.
   std::vector<double> drag = op.node_drag();
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     double change = 0.0;
     for (std::size_t i = 0; i < drag.size(); ++i) {
       const double secant = op.node_drag()[i] + quadratic[i] * state.velocity[i].norm();

@@ -19,9 +19,9 @@ bool boundary_values_rest(const BoundaryValues<Dim>& values,
   if (!values.vary()) return true;
   // Between two kinks values are linear: equal at their ends means constant.
   std::vector<FaceCondition> later = conditions;
-  const auto next =
-      std::upper_bound(values.events().begin(), values.events().end(), time * (1.0 + 1e-14));
-  values.update(next != values.events().end() ? *next : end, later);
+  const auto next = std::upper_bound(values.breakpoints().begin(), values.breakpoints().end(),
+                                     time * (1.0 + 1e-14));
+  values.update(next != values.breakpoints().end() ? *next : end, later);
   return std::ranges::equal(later, conditions, {}, &FaceCondition::value, &FaceCondition::value);
 }
 

@@ -10,12 +10,12 @@ namespace suffuse {
 
 template <int Dim>
 void DoublePoint<Dim>::advance(double latest) {
-  const double begin = this->time_;
+  const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
   const FlowProgress flow =
-      liquid_->drive(*this->flow_, {begin, latest, this->coupling_interval(), forecast});
-  this->note_flow(begin, flow);
-  for (const TransportStep& step : liquid_->start_interval(begin, flow)) {
+      liquid_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
+  this->note_flow(start, flow);
+  for (const TransportStep& step : liquid_->start_interval(start, flow)) {
     const std::vector<double>& exchange = this->erode(step, liquid_->waiting());
     liquid_->advance(step, flow.volumes, exchange, this->flow_->pressure());
   }
@@ -49,35 +49,16 @@ void DoublePoint<Dim>::start_liquid() {
     ExplicitFlow<Dim>& carried = *flow;
     this->flow_ = std::move(flow);
     start_flow();
-    liquid_ = std::make_unique<PointsCarryingFlow<Dim>>(this->grid_, *this->solid_, carried,
-                                                        injection_settings(), densities_, modulus,
-                                                        this->threads(), c.liquid_points);
+    liquid_ = std::make_unique<PointsCarryingFlow<Dim>>(
+        this->grid_, *this->solid_, carried, injection_settings(c, this->grid_), densities_,
+        modulus, this->threads(), c.liquid_points);
     return;
   }
   this->flow_ = make_flow(c, this->grid_, *this->solid_, options);
   start_flow();
   liquid_ = std::make_unique<PointsAlongFaces<Dim>>(
-      this->grid_, *this->solid_, this->flow_->conditions(), injection_settings(), densities_,
-      modulus, this->threads(), c.liquid_points, this->flow_->pressure());
-}
-
-template <int Dim>
-InjectionSettings DoublePoint<Dim>::injection_settings() const {
-  const MaterialPoints<Dim>& points = this->case_.liquid_points;
-  std::vector<double> volume(this->grid_.mesh.element_count(), 0.0);
-  std::vector<int> count(this->grid_.mesh.element_count(), 0);
-  for (int p = 0; p < points.size(); ++p) {
-    volume[points.element[p]] += points.volume[p];
-    ++count[points.element[p]];
-  }
-  InjectionSettings result;
-  result.random = this->scene().points.seeding == Seeding::random;
-  result.seed = this->scene().points.seed;
-  for (const int e : this->grid_.face_left) {
-    result.point_volume.push_back(volume[e] / count[e]);
-    result.points_per_element.push_back(count[e]);
-  }
-  return result;
+      this->grid_, *this->solid_, this->flow_->conditions(), injection_settings(c, this->grid_),
+      densities_, modulus, this->threads(), c.liquid_points, this->flow_->pressure());
 }
 
 template <int Dim>

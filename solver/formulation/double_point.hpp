@@ -34,7 +34,6 @@ class DoublePoint final : public TwoPhaseModel<Dim> {
   [[nodiscard]] PoreState clean_pores() const;
   /// Flow and liquid points as the scene wants them.
   void start_liquid();
-  [[nodiscard]] InjectionSettings injection_settings() const;
   /// Concentration of fines at liquid points of these volumes.
   [[nodiscard]] std::vector<double> concentrations(const LiquidPoints<Dim>& points,
                                                    const std::vector<double>& volume) const;

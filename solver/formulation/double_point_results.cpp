@@ -65,8 +65,7 @@ HistoryRow DoublePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
   const std::vector<int> begins = element_begins(points, this->grid_.mesh.element_count());
   const ElementField<Dim> fit =
       concentration_fit(this->grid_, points, begins, volume, concentration);
-  const double fines_out = fines_outflow(this->grid_, flow.face_flux, fit);
-  row.concentration_out = row.flux_out > 0.0 ? fines_out / row.flux_out : 0.0;
+  this->describe_outflow(fines_outflow(this->grid_, flow.face_flux, fit), row);
   row.volume_defect = volume_defect(this->grid_, points, volume, this->solid_->element_porosity());
   liquid_->describe(flow, row);
   return row;

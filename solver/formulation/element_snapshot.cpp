@@ -87,7 +87,7 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   Field rate = scalar("erosion_rate", "1/s");
   Field pressure = scalar("pressure", "Pa");
   const MaterialPoints<Dim>& points = solid.soils().points();
-  const std::vector<double> flux = flux_magnitude_at(grid, flow.face_flux, points, 1.0);
+  const std::vector<double> flux = erosion_flux(grid, solid.soils(), flow.face_flux, 1);
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
     const double n = solid.porosity()[p];
@@ -101,7 +101,8 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
     erodible.values.push_back(solid.state().erodible_volume[p] / points.volume[p]);
     concentration.values.push_back(Nodes::value(c_node, points.barycentric[p]));
     fines.values.push_back(Nodes::value(f_node, points.barycentric[p]));
-    rate.values.push_back(erosion_rate(solid.soils().erosion_of_element(e), n, flow.time, flux[p]));
+    rate.values.push_back(erosion_rate(solid.soils().erosion_of_element(e), n, flow.time,
+                                       flux.empty() ? unset : flux[p]));
     pressure.values.push_back(flow.pressure[e]);
   }
   result.solid = {{"porosity", "1", 1, solid.porosity()},

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The fields of a snapshot that do not depend on how liquid is carried: those of elements, nodes
-/// and solid points.
+/// Fields of a snapshot at elements, nodes and solid points: the part of a snapshot that both
+/// formulations share.
 
 #include "flow/flow_solver.hpp"
 #include "results/writer.hpp"

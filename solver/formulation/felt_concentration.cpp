@@ -8,26 +8,26 @@ std::vector<double> felt_concentration(const Grid<Dim>& grid, const SoilMap<Dim>
                                        const std::vector<double>& volume) {
   constexpr int rounds = 4;
   const auto& region = grid.mesh.element_region;
-  std::vector<double> grains_of_region(grid.mesh.region_names.size(), 0.0);
-  std::vector<double> volume_of_region(grains_of_region.size(), 0.0);
+  std::vector<double> fines_of_region(grid.mesh.region_names.size(), 0.0);
+  std::vector<double> volume_of_region(fines_of_region.size(), 0.0);
   for (std::size_t e = 0; e < volume.size(); ++e) {
-    grains_of_region[region[e]] += volume[e] * concentration[e];
+    fines_of_region[region[e]] += volume[e] * concentration[e];
     volume_of_region[region[e]] += volume[e];
   }
   for (int round = 0; round < rounds; ++round) {
-    std::vector<double> grains(grid.mesh.node_count(), 0.0);
-    std::vector<double> liquid(grains.size(), 0.0);
+    std::vector<double> fines(grid.mesh.node_count(), 0.0);
+    std::vector<double> liquid(fines.size(), 0.0);
     for (int e = 0; e < grid.mesh.element_count(); ++e) {
       if (!soils.is_soil(e)) continue;
       for (const int i : grid.mesh.elements[e]) {
-        grains[i] += volume[e] * concentration[e];
+        fines[i] += volume[e] * concentration[e];
         liquid[i] += volume[e];
       }
     }
     for (int e = 0; e < grid.mesh.element_count(); ++e) {
       double mean = 0.0;
       for (const int i : grid.mesh.elements[e]) {
-        mean += liquid[i] > 0.0 ? grains[i] / liquid[i] / (Dim + 1) : 0.0;
+        mean += liquid[i] > 0.0 ? fines[i] / liquid[i] / (Dim + 1) : 0.0;
       }
       concentration[e] = mean;
     }
@@ -35,7 +35,7 @@ std::vector<double> felt_concentration(const Grid<Dim>& grid, const SoilMap<Dim>
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const int r = region[e];
     if (soils.is_soil(e) || volume_of_region[r] <= 0.0) continue;
-    concentration[e] = grains_of_region[r] / volume_of_region[r];
+    concentration[e] = fines_of_region[r] / volume_of_region[r];
   }
   return concentration;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The concentration of fines that the weight of the liquid goes by where liquid points carry it.
+/// The concentration of fines from which the weight of the liquid is found in double-point models.
 
 #include <vector>
 
@@ -10,9 +10,9 @@
 namespace suffuse {
 
 /// From the concentrations of the elements and their liquid volumes, m3. A point that crosses a
-/// face would be a jump of the buoyancy, and free water, which next to nothing resists, would
-/// answer it with eddies of its own. So in soil concentrations are smoothed over the elements
-/// around, and free water is taken as well mixed.
+/// face would make the buoyancy jump, and free water, which resists flow very little, would turn in
+/// eddies. So concentrations in soil are smoothed over the elements around, and free water counts
+/// as well mixed.
 template <int Dim>
 std::vector<double> felt_concentration(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                        std::vector<double> concentration,

@@ -21,7 +21,7 @@ struct Crossed {
   double fines_out = 0.0;
   double points_in = 0.0;  ///< liquid points, numbers
   double points_out = 0.0;
-  double water_net = 0.0;  ///< out less in, with more digits than their difference
+  double water_net = 0.0;  ///< out minus in, with more digits than their difference
   double fines_net = 0.0;
 };
 

@@ -11,12 +11,12 @@ namespace suffuse {
 
 template <int Dim>
 void SinglePoint<Dim>::advance(double latest) {
-  const double begin = this->time_;
+  const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
   const FlowProgress flow =
-      fines_->drive(*this->flow_, {begin, latest, this->coupling_interval(), forecast});
-  this->note_flow(begin, flow);
-  for (const TransportStep& step : fines_->start_interval(begin, flow)) {
+      fines_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
+  this->note_flow(start, flow);
+  for (const TransportStep& step : fines_->start_interval(start, flow)) {
     const std::vector<double>& exchange = this->erode(step, {});
     fines_->advance(step, flow.volumes, exchange, this->flow_->pressure());
   }
@@ -132,7 +132,7 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
     const double flux = flow.face_flux[f];
     if (this->grid_.is_outer(f) && flux > 0.0) fines_out.add(flux * concentration[f]);
   }
-  row.concentration_out = row.flux_out > 0.0 ? fines_out.value() / row.flux_out : 0.0;
+  this->describe_outflow(fines_out.value(), row);
 
   row.concentration_min = std::numeric_limits<double>::infinity();
   row.concentration_max = -row.concentration_min;

@@ -66,8 +66,8 @@ void TwoPhaseModel<Dim>::start_flux_history() {
 }
 
 template <int Dim>
-void TwoPhaseModel<Dim>::note_flow(double begin, const FlowProgress& flow) {
-  flux_history_.duration = flow.end - begin;
+void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
+  flux_history_.duration = flow.end - start;
   flux_history_.mean = per_time(flow.volumes.liquid, flux_history_.duration);
   flux_history_.end = soils_.erodes_by_flux() ? flow_->face_flux(flow.end) : flux_history_.mean;
   erosion_flux_ = erosion_flux(grid_, soils_, flux_history_.mean, threads());
@@ -79,10 +79,10 @@ template <int Dim>
 const std::vector<double>& TwoPhaseModel<Dim>::erode(const TransportStep& step,
                                                      const std::vector<char>& waiting) {
   exchange_.clear();
-  if (!solid_->erodes_within(step.begin, step.end)) return exchange_;
+  if (!solid_->erodes_within(step.start, step.end)) return exchange_;
   const PassTimer timer(erosion_timing_);
   ++erosion_timing_.calls;
-  solid_->erode(step.begin, step.end, erosion_flux_, waiting, exchange_);
+  solid_->erode(step.start, step.end, erosion_flux_, waiting, exchange_);
   return exchange_;
 }
 
@@ -113,6 +113,12 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   }
   row.porosity_mean = pores.value() / volume.value();
   return row;
+}
+
+template <int Dim>
+void TwoPhaseModel<Dim>::describe_outflow(double fines_out, HistoryRow& row) const {
+  row.concentration_out = row.flux_out > 0.0 ? fines_out / row.flux_out : 0.0;
+  row.turbidity_out = grain_density_ * row.concentration_out;  // kg/m3 = g/l
 }
 
 template <int Dim>

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What both formulations share and how the driver runs them: interval by interval, from one output
-/// to the next. The step itself is `advance` of `SinglePoint` and `DoublePoint`.
+/// The model of a run, stepped by the driver from one output to the next: what the single-point and
+/// the double-point formulation share. The step itself is `advance` of each.
 
 #include <limits>
 #include <memory>
@@ -33,8 +33,8 @@ class TwoPhaseModel {
   TwoPhaseModel(const TwoPhaseModel&) = delete;
   TwoPhaseModel& operator=(const TwoPhaseModel&) = delete;
 
-  /// One interval of flow, erosion and transport: to `latest` (s, the next output) or less far.
-  /// Throws NumericalError.
+  /// One interval of flow, erosion and transport: to `latest` (s, the next output) or to an earlier
+  /// time. Throws NumericalError.
   virtual void advance(double latest) = 0;
 
   [[nodiscard]] double time() const { return time_; }
@@ -66,7 +66,7 @@ class TwoPhaseModel {
  protected:
   TwoPhaseModel(const Case<Dim>& c, const ModelOptions& options);
 
-  /// The way that liquid and fines are carried.
+  /// How liquid and fines are carried.
   [[nodiscard]] virtual const Transport<Dim>& transport() const = 0;
   [[nodiscard]] virtual PoreState pores() const = 0;
   /// Masses inside the model, then inside each region.
@@ -83,12 +83,14 @@ class TwoPhaseModel {
   void start_flux_history();
   /// Mean over the last interval, m3/s.
   [[nodiscard]] const std::vector<double>& mean_face_rate() const { return flux_history_.mean; }
-  /// After the flow has gone an interval that began at `begin`.
-  void note_flow(double begin, const FlowProgress& flow);
+  /// Records fluxes and steps of an interval of the flow that started at `start`, s.
+  void note_flow(double start, const FlowProgress& flow);
   /// Flux per element at its centroid, m/s, over the last interval.
   [[nodiscard]] std::vector<double> element_flux_magnitude() const;
   /// The row's entries that do not depend on how liquid is carried.
   [[nodiscard]] HistoryRow common_history(const FlowState<Dim>& flow) const;
+  /// The row's entries on the fines in the liquid that leaves; `fines_out`: their volume, m3/s.
+  void describe_outflow(double fines_out, HistoryRow& row) const;
   /// The solid's masses, model first.
   [[nodiscard]] std::vector<StoredSums> solid_masses() const;
 

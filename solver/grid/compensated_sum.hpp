@@ -4,8 +4,8 @@
 
 namespace suffuse {
 
-/// Neumaier's sum: the error does not grow with the number of terms. Long balances close to 1e-12
-/// because of it.
+/// Sums of many numbers whose round-off does not grow with their count (Neumaier's summation). Long
+/// balances close to 1e-12 because of it.
 class CompensatedSum {
  public:
   static constexpr bool has_no_gaps = true;  ///< see StateArchive

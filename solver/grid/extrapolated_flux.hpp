@@ -1,6 +1,7 @@
 #pragma once
 
-/// How fast liquid will go through faces in the time to come, for soils that erode by it.
+/// Fluxes through faces extrapolated from the last interval to times to come, for soils whose
+/// erosion depends on the flux.
 
 #include <algorithm>
 #include <vector>
@@ -16,9 +17,8 @@ struct FluxHistory {
 
   void archive(auto& archive) { archive(mean, end, duration); }
 
-  /// Mean rates over the next `ahead` seconds: those at the end go on changing as they did since
-  /// the interval's mean. Over no more than a few times its duration: the interval tells nothing of
-  /// what comes later.
+  /// Mean rates over the next `ahead` seconds: linear through the interval's mean and end, for no
+  /// more than a few times its duration.
   [[nodiscard]] std::vector<double> extrapolated(double ahead) const {
     constexpr double max_durations = 4.0;
     const double share = std::min(ahead / duration, max_durations);

@@ -1,11 +1,10 @@
 #pragma once
 
-/// The field of lowest order of Raviart and Thomas inside an element, from the fluxes through its
-/// faces.
+/// The flux at a place in an element, from the fluxes through its faces: the field of lowest order
+/// of Raviart and Thomas.
 
 #include <vector>
 
-#include "case/material_points.hpp"
 #include "grid/grid.hpp"
 
 namespace suffuse {
@@ -33,19 +32,7 @@ std::vector<Vector<Dim>> element_flux(const Grid<Dim>& grid, const std::vector<d
   return result;
 }
 
-/// Its magnitude at material points, times `scale`.
-template <int Dim>
-std::vector<double> flux_magnitude_at(const Grid<Dim>& grid, const std::vector<double>& face_flux,
-                                      const MaterialPoints<Dim>& points, double scale) {
-  std::vector<double> result(points.size());
-  for (int p = 0; p < points.size(); ++p) {
-    result[p] =
-        scale * flux_at(grid, face_flux, points.element[p], points.position(grid.mesh, p)).norm();
-  }
-  return result;
-}
-
-/// Fluxes through faces on the mean, m3/s, from volumes over `duration` seconds.
+/// Mean fluxes through faces, m3/s, from volumes over `duration` seconds.
 inline std::vector<double> per_time(std::vector<double> volumes, double duration) {
   for (double& v : volumes) v /= duration;
   return volumes;

@@ -97,7 +97,7 @@ class Circling {
       const bool is_common = std::find(common_.begin(), common_.end(), nodes[k]) != common_.end();
       if (is_common) share += place.barycentric[k];
     }
-    return crossings_ > most_crossings / 2 && share > 1.0 - small_circle;
+    return crossings_ > max_crossings / 2 && share > 1.0 - small_circle;
   }
 
  private:
@@ -114,13 +114,13 @@ int walk_along_faces(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, Poi
                      double from, double to, long id, std::vector<FacePassage<Dim>>& passages) {
   double now = from;
   Circling<Dim> circling(grid);
-  for (int crossing = 0; crossing <= most_crossings; ++crossing) {
+  for (int crossing = 0; crossing <= max_crossings; ++crossing) {
     const int e = place.element;
-    const double change = field.porosity_end[e] - field.porosity_begin[e];
-    const PorosityInTime porosity{field.porosity_begin[e] + now * change, change};
+    const double change = field.porosity_end[e] - field.porosity_start[e];
+    const PorosityInTime porosity{field.porosity_start[e] + now * change, change};
     // Too small a circle to follow: the point stays, and only its element's porosity goes on.
-    const bool stays = crossing == most_crossings && circling.in_a_small_circle(place);
-    if (crossing == most_crossings && !stays) break;
+    const bool stays = crossing == max_crossings && circling.in_a_small_circle(place);
+    if (crossing == max_crossings && !stays) break;
 
     const ElementFlow<Dim> flow(grid, field.face_volume, e);
     double clock = porosity.clock(to - now);
@@ -161,7 +161,7 @@ double crossings(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, int ele
   const ElementFlow<Dim> flow(grid, field.face_volume, element);
   double most = 0.0;
   for (const double out : flow.out) most = std::max(most, std::abs(out));
-  return most / std::min(field.porosity_begin[element], field.porosity_end[element]);
+  return most / std::min(field.porosity_start[element], field.porosity_end[element]);
 }
 
 template int walk_along_faces(const Grid<2>&, const FaceWalkField<2>&, PointPlace<2>&, double,

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Moves points along the field of Raviart and Thomas that volumes through faces make, exactly
-/// within each element (Pollock 1988, on simplices).
+/// Moves points with the liquid that crosses faces, exactly within each element (Pollock 1988, on
+/// simplices): along the field of Raviart and Thomas of the volumes through the faces.
 
 #include <vector>
 
@@ -10,20 +10,20 @@
 namespace suffuse {
 
 /// Liquid over one interval. Points move with flux / porosity; porosity goes linearly in time from
-/// begin to end. Nothing crosses a face of volume zero.
+/// start to end. Nothing crosses a face of volume zero.
 template <int Dim>
 struct FaceWalkField {
   const std::vector<double>& face_volume;     ///< along each face's normal, whole interval, m3
-  const std::vector<double>& porosity_begin;  ///< per element
+  const std::vector<double>& porosity_start;  ///< per element
   const std::vector<double>& porosity_end;    ///< per element
 };
 
-/// A point's way through an element whose porosity changed meanwhile.
+/// The path of a point through an element whose porosity changed meanwhile.
 template <int Dim>
 struct FacePassage {
   int element;
   std::array<double, Dim + 1> barycentric;  ///< half-way between its ends
-  double growth;                            ///< porosity at the end over that at the beginning
+  double growth;                            ///< porosity at the end over that at the start
 };
 
 /// Walks `place` through the interval's shares from `from` to `to` (0 <= from <= to <= 1). With
@@ -34,8 +34,8 @@ struct FacePassage {
 ///
 /// so that each coordinate and the moment at which it vanishes have closed forms. Adds to
 /// `passages` where porosity changed. Returns the outer face by which the point left, with the
-/// place on that face, or -1. Throws NumericalError when the walk does not come to an end; `id` is
-/// for the message.
+/// place on that face, or -1. Throws NumericalError when the point crosses faces without end; `id`
+/// is for the message.
 template <int Dim>
 int walk_along_faces(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, PointPlace<Dim>& place,
                      double from, double to, long id, std::vector<FacePassage<Dim>>& passages);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Faces, geometry and adjacency of a simplicial mesh, made once from it. Local face k of an
-/// element lies opposite its vertex k.
+/// The mesh with its faces, volumes, gradients and neighbours, made once from the mesh. Local face
+/// k of an element lies opposite its vertex k.
 
 #include <array>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Loops shared among threads. What runs at an index writes to places of its own, so results are
+/// Loops shared among threads. The body at an index writes to that index alone, so results are
 /// the same, bit by bit, on any number of threads. For sources that compile with OpenMP.
 
 #include <omp.h>
@@ -9,7 +9,7 @@
 
 namespace suffuse {
 
-/// Below this many indices a loop is over before other threads are awake.
+/// A loop of fewer indices takes less time than waking the threads.
 inline constexpr int worth_threads = 4096;
 
 /// Calls `loop(begin, end)` for parts that together are [0, count). A loop that one thread runs

@@ -46,7 +46,7 @@ void put_on_face(std::array<double, Count>& at, int vertex) {
   for (double& share : at) share /= sum;
 }
 
-/// The same place seen from the other side of the inner face opposite local vertex `vertex`, on
+/// The same place in the element on the other side of the inner face opposite local vertex `vertex`, on
 /// which it lies.
 template <int Dim>
 PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int vertex) {
@@ -63,10 +63,10 @@ PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int 
   return there;
 }
 
-/// A walk that crosses so many faces goes in a circle.
-inline constexpr int most_crossings = 10000;
+/// A point that crosses so many faces in one step moves in a circle.
+inline constexpr int max_crossings = 10000;
 
-/// Stops a walk that does not come to an end; `id` is the point's.
+/// Throws NumericalError for a point that crosses faces without end; `id`: of the point.
 template <int Dim>
 [[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {
   std::ostringstream message;

@@ -84,7 +84,7 @@ int walk(const Grid<Dim>& grid, const WalkField<Dim>& field, PointPlace<Dim>& pl
          double duration, long id) {
   std::array<bool, Dim + 1> held{};
   double remaining = duration;
-  for (int crossing = 0; crossing < most_crossings; ++crossing) {
+  for (int crossing = 0; crossing < max_crossings; ++crossing) {
     const int e = place.element;
     const auto rate_at = [&](const Barycentric<Dim>& at) {
       return rates<Dim>(grid, e, along_walls(grid, e, velocity_at(grid, field, e, at), held));

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Moves points through a mesh with a velocity that is linear in each element, from face to face.
+/// Moves points through a mesh, from face to face, with a velocity that is linear in each element.
 
 #include <vector>
 
@@ -21,8 +21,8 @@ struct WalkField {
 
 /// Walks `place` for `duration` seconds. Within an element the path is straight, at the velocity of
 /// its midpoint (second order). At an impervious face the point slides along it. Returns the outer
-/// face by which it left, with the place on that face, or -1. Throws NumericalError when the walk
-/// does not come to an end; `id` is for the message.
+/// face by which it left, with the place on that face, or -1. Throws NumericalError when the point
+/// crosses faces without end; `id` is for the message.
 template <int Dim>
 int walk(const Grid<Dim>& grid, const WalkField<Dim>& field, PointPlace<Dim>& place,
          double duration, long id);

@@ -8,8 +8,8 @@
 namespace suffuse {
 
 /// Holds the lock (flock) until destroyed or until the process ends, however that happens. Where
-/// the file system knows no locks nobody is kept out. A folder that it made and that has got
-/// nothing else is removed again.
+/// the file system knows no locks no other solver is kept out. A folder that it made and that has
+/// got nothing else is removed again.
 class FolderLock {
  public:
   FolderLock() = default;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Names within a results folder, shared by its writer and its reader.
+/// Names of the files in a results folder, and of the groups in them.
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a pass of the solver costs.
+/// Measures the time that a pass of the solver takes.
 
 #include <chrono>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
-/// From where a run that was stopped can go on: the state that a snapshot, or the checkpoint of an
-/// interrupted run, keeps beside what it shows. Layout: docs/file-formats.md.
+/// The state from which a stopped run can go on, kept in snapshots and in the checkpoint of an
+/// interrupted run. Layout: docs/file-formats.md.
 
 #include <cstdint>
 #include <optional>

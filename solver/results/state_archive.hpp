@@ -1,7 +1,7 @@
 #pragma once
 
-/// The state of a run as bytes, for a later process to go on from. Each class that has a history
-/// lists it once, for both ways:
+/// Writes the state of a run to bytes and reads it back, so that a later process can go on. Each
+/// class that has a history lists its members once, for both directions:
 ///
 ///     void archive(StateArchive& archive) { archive(pressure_, velocity_, last_dt_); }
 ///
@@ -46,7 +46,7 @@ class StateArchive {
     return std::move(bytes_);
   }
 
-  /// What is given back does not belong to who asks for it. Throws FileError.
+  /// The bytes do not fit the members. Throws FileError.
   [[noreturn]] static void misfit() {
     throw FileError("the state of the run does not fit this program and case");
   }

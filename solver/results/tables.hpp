@@ -1,7 +1,7 @@
 #pragma once
 
-/// The three tables of a run. Each row type lists its columns once; writer, reader and the post
-/// stage all go by that list.
+/// The three tables of a run: history, ledger and regions. Each row type lists its columns once,
+/// for writer, reader and the post stage.
 
 #include <array>
 #include <string_view>
@@ -19,8 +19,8 @@ struct HistoryRow {
   double t = 0.0;
   double dt = 0.0;             ///< step of the flow in force, s
   double porosity_mean = 0.0;  ///< volume mean over eroding regions, or over all soil
-  double flux_in = 0.0;        ///< liquid entering through all boundaries
-  double flux_out = 0.0;       ///< liquid leaving through all boundaries
+  double flux_in = 0.0;        ///< liquid that enters through all boundaries
+  double flux_out = 0.0;       ///< liquid that leaves through all boundaries
   double liquid_points = 0.0;
   double empty_elements = 0.0;
   double empty_elements_total = 0.0;
@@ -41,9 +41,10 @@ struct HistoryRow {
   /// Implicit: how far pressures lie outside the range of their boundary and initial values, over
   /// that range; 0 where gravity or a prescribed flux leaves them without such bounds.
   double pressure_overshoot = 0.0;
+  double turbidity_out = 0.0;  ///< mass of fines per volume of the leaving liquid, g/l
 };
 
-inline constexpr std::array<Column<HistoryRow>, 18> history_columns{{
+inline constexpr std::array<Column<HistoryRow>, 19> history_columns{{
     {"t", &HistoryRow::t},
     {"dt", &HistoryRow::dt},
     {"porosity_mean", &HistoryRow::porosity_mean},
@@ -62,6 +63,7 @@ inline constexpr std::array<Column<HistoryRow>, 18> history_columns{{
     {"pressure_scatter", &HistoryRow::pressure_scatter},
     {"eos_error", &HistoryRow::eos_error},
     {"pressure_overshoot", &HistoryRow::pressure_overshoot},
+    {"turbidity_out", &HistoryRow::turbidity_out},
 }};
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross
@@ -71,15 +73,15 @@ struct LedgerRow {
   double solid = 0.0;     ///< all solid in place: skeleton and erodible
   double erodible = 0.0;  ///< solid in place that can still erode
   double water = 0.0;
-  double fines = 0.0;   ///< fluidised grains in the model
-  double eroded = 0.0;  ///< grains eroded since the start
+  double fines = 0.0;   ///< fluidised fines in the model
+  double eroded = 0.0;  ///< fines eroded since the start
   double water_in = 0.0;
   double fines_in = 0.0;
   double water_out = 0.0;
   double fines_out = 0.0;
   double residual_water = 0.0;   ///< relative to the initial water
   double residual_grains = 0.0;  ///< relative to the initial grains (solid and fluidised)
-  /// Double-point: grains eroded where no liquid point is near, waiting at nodes for one.
+  /// Double-point: fines eroded where no liquid point is near, waiting at nodes for one.
   double pending = 0.0;
   double points = 0.0;  ///< liquid points, and how many entered and left since the start
   double points_in = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What this program was built from.
+/// Versions of this program and of the libraries it was built with.
 
 #include <map>
 #include <string>

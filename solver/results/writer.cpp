@@ -79,7 +79,7 @@ bool is_own_snapshot(const std::string& name) {
   return std::regex_match(name, own);
 }
 
-/// A solver had hardly begun when it was stopped, or nobody has.
+/// A solver was stopped as soon as it had started, or none has started.
 bool nothing_but_a_lock(const std::string& folder) {
   return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename().string();
@@ -256,7 +256,7 @@ void check_results_folder(const std::string& folder, const std::string& scene) {
                       ": is not empty and holds no results of suffuse-solver; "
                       "not touched: choose another folder or empty it");
     }
-    // A run that has just begun has not said yet whose it is.
+    // A run that has just started has not written its scene yet.
     const OrderedJson about = info.value("scene", OrderedJson());
     const OrderedJson there = about.is_object() ? about.value("name", OrderedJson()) : about;
     if (!there.is_string() || there == scene) return;

@@ -55,7 +55,7 @@ struct RunInfo {
   long elements = 0;
   int threads = 1;
   double wall_seconds = 0.0;  ///< of this process, as those of the passes
-  /// s; nothing in a run that began at the start
+  /// s; nothing in a run from the start
   std::optional<double> resumed_at;
   double memory_bytes = 0.0;  ///< largest resident set so far
   std::vector<PassTiming> passes;
@@ -68,7 +68,7 @@ struct RunInfo {
 class GrowingTable {
  public:
   GrowingTable() = default;
-  /// Begins anew with this line.
+  /// A new file with this line.
   GrowingTable(std::string path, const std::string& names);
   /// Goes on behind the first `rows` lines after the names; drops the others.
   GrowingTable(std::string path, long rows);

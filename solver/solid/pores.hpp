@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the pores of each element hold, now and as erosion will have made them.
+/// Porosity, water and fines in the pores of each element: now, and forecast from erosion.
 
 #include <vector>
 
@@ -27,7 +27,7 @@ ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>&
 template <int Dim>
 ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid);
 
-/// The pores at times to come, as erosion will have made them before fines have moved. Keeps
+/// Forecast of the pores: erosion up to a later time, before fines have moved. Keeps
 /// references to the skeleton and the grid; holds until the skeleton changes.
 template <int Dim>
 class PoreForecast {

@@ -10,9 +10,9 @@
 namespace suffuse {
 namespace {
 
-/// Free water resists the flow so much less than the most conductive soil: next to nothing, and
-/// steady flow through it is still one linear system.
-constexpr double free_water_ease = 1e4;
+/// Conductivity of free water over that of the most conductive soil: high enough to resist next to
+/// nothing, and steady flow through it is still one linear system.
+constexpr double free_water_ratio = 1e4;
 
 Soil free_water(const Scene& scene) {
   Soil water;
@@ -20,7 +20,7 @@ Soil free_water(const Scene& scene) {
   water.skeleton_fraction = 0.0;
   water.conductivity = 0.0;
   for (const Soil& soil : scene.soils) {
-    water.conductivity = std::max(water.conductivity, free_water_ease * soil.conductivity);
+    water.conductivity = std::max(water.conductivity, free_water_ratio * soil.conductivity);
   }
   return water;
 }
@@ -90,7 +90,7 @@ TimeSpan SoilMap<Dim>::erosion_span() const {
   for (int p = 0; p < points_.size(); ++p) {
     const ErosionModel& model = erosion_of_element(points_.element[p]);
     if (!suffuse::erodes(model)) continue;
-    span.begin = std::min(span.begin, model.start);
+    span.start = std::min(span.start, model.start);
     const bool waits_for_liquid =
         soil_of_element(points_.element[p]).erosion.empty_elements == EmptyElements::dry;
     const double gone = exhaustion_time(model, initial_porosity(p)) * (1.0 + round_off);

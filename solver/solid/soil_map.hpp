@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which soil fills each element and each solid point, how it erodes, and when. The same through
-/// the whole run, whatever the solid does.
+/// Which soil fills each element and each solid point, how it erodes, and when. Constant through a
+/// run.
 
 #include <limits>
 #include <memory>
@@ -14,14 +14,14 @@ namespace suffuse {
 
 /// s
 struct TimeSpan {
-  double begin = -std::numeric_limits<double>::infinity();
+  double start = -std::numeric_limits<double>::infinity();
   double end = std::numeric_limits<double>::infinity();
 
   static constexpr TimeSpan never() {
     return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   }
   /// Whether any of the time from `from` to `to` lies within.
-  [[nodiscard]] bool meets(double from, double to) const { return to > begin && from < end; }
+  [[nodiscard]] bool meets(double from, double to) const { return to > start && from < end; }
 };
 
 /// Free water (double-point) is there as a soil of porosity 1 without solid points.

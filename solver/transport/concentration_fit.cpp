@@ -7,10 +7,10 @@
 namespace suffuse {
 namespace {
 
-constexpr int most_rounds = 4;
+constexpr int max_rounds = 4;
 /// Smallest over largest eigenvalue of the normal matrix, in lengths of the element, that still
 /// tells a slope: a few points spread over a tenth of the element.
-constexpr double least_spread = 1e-3;
+constexpr double min_spread = 1e-3;
 
 template <int Dim>
 using Row = Eigen::Matrix<double, Dim + 1, 1>;
@@ -59,7 +59,7 @@ ElementField<Dim> concentration_fit(const Grid<Dim>& grid, const LiquidPoints<Di
     std::vector<int> patch{e};
     std::size_t taken = 0;
     std::size_t ring = 0;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
       const std::size_t ring_begin = ring;
       ring = patch.size();
       add_neighbours(grid, patch, ring_begin);
@@ -72,7 +72,7 @@ ElementField<Dim> concentration_fit(const Grid<Dim>& grid, const LiquidPoints<Di
       }
       if (normal(0, 0) <= 0.0) continue;
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim + 1, Dim + 1>> solver(normal);
-      if (solver.eigenvalues()[0] > least_spread * solver.eigenvalues()[Dim]) {
+      if (solver.eigenvalues()[0] > min_spread * solver.eigenvalues()[Dim]) {
         function = normal.ldlt().solve(load);
         break;
       }

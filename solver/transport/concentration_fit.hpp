@@ -1,6 +1,6 @@
 #pragma once
 
-/// The concentration between liquid points, for output.
+/// Fits a concentration field to liquid points, for output.
 
 #include "grid/element_field.hpp"
 #include "transport/liquid_points.hpp"

@@ -178,8 +178,8 @@ double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
       share[k] =
           total - Dim * (FieldNodes<Dim>::far_vertex * total + FieldNodes<Dim>::spread * pores[k]);
     }
-    // Pores that differ too much have no useful weights. The smallest in the place of all leave
-    // grains out, and then every face has the same share.
+    // Pores that differ too much have no useful weights: every face then gets the share of the
+    // smallest.
     if (*std::min_element(share.begin(), share.end()) < 0.25 * smallest) share.fill(smallest);
     double allowed = infinity;
     for (int k = 0; k <= Dim; ++k) {
@@ -202,7 +202,7 @@ void EulerianTransport<Dim>::start(const FinesState<Dim>& state,
   scratch.outflow.resize(elements);
   scratch.upwind.resize(elements);
   scratch.stage_fines.resize(elements);
-  scratch.grains_out.resize(elements);
+  scratch.fines_out.resize(elements);
   scratch.mean.resize(elements);
   scratch.allowed.resize(grid_.mesh.node_count());
   for (std::size_t o = 0; o < outer_faces_.size(); ++o) {
@@ -213,7 +213,7 @@ void EulerianTransport<Dim>::start(const FinesState<Dim>& state,
   for_each_index(elements, threads_, [&](int e) {
     find_concentration<Dim>(state.fines_volume[e], state.pore_volume[e],
                             &scratch.at_vertices[vertices * static_cast<std::size_t>(e)]);
-    scratch.grains_out[e] = {};
+    scratch.fines_out[e] = {};
     for (int k = 0; k <= Dim; ++k) {
       const double outflow = grid_.element_face_sign[e][k] * face_volume[grid_.element_face[e][k]];
       const int neighbour = sides_[e].neighbour[k];
@@ -245,13 +245,13 @@ void EulerianTransport<Dim>::face_concentration(const FinesState<Dim>& state,
 }
 
 template <int Dim>
-void EulerianTransport<Dim>::grains_crossed(const TransportScratch<Dim>& scratch,
-                                            std::vector<double>& result) const {
+void EulerianTransport<Dim>::fines_crossed(const TransportScratch<Dim>& scratch,
+                                           std::vector<double>& result) const {
   result.resize(grid_.face_count());
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     for (int k = 0; k <= Dim; ++k) {
       if (grid_.element_face_sign[e][k] < 0.0) continue;
-      result[grid_.element_face[e][k]] = scratch.grains_out[e][k];
+      result[grid_.element_face[e][k]] = scratch.fines_out[e][k];
     }
   });
 }
@@ -355,9 +355,9 @@ void EulerianTransport<Dim>::advance(FinesState<Dim>& state, const ElementField<
   const auto moved = [&](int e) {
     const double* c = &scratch.at_vertices[(Dim + 1) * static_cast<std::size_t>(e)];
     return gain<Dim>(c, scratch.outflow[e], scratch.at_vertices, scratch.upwind[e],
-                     scratch.grains_out[e]);
+                     scratch.fines_out[e]);
   };
-  const auto look_at = [&](int e, const ElementValues<Dim>& volume) {
+  const auto update_at = [&](int e, const ElementValues<Dim>& volume) {
     find_concentration<Dim>(volume, pores[e],
                             &scratch.next_at_vertices[(Dim + 1) * static_cast<std::size_t>(e)]);
     scratch.mean[e] = element_sum<Dim>(volume) / element_sum<Dim>(pores[e]);
@@ -371,13 +371,13 @@ void EulerianTransport<Dim>::advance(FinesState<Dim>& state, const ElementField<
       }
       stage[e][j] = fines[e][j] + change[j];
     }
-    look_at(e, stage[e]);
+    update_at(e, stage[e]);
   });
   limit_stage(pores, stage, scratch);
   for_each_index(elements, threads_, [&](int e) {
     const ElementValues<Dim> change = moved(e);
     for (int j = 0; j <= Dim; ++j) fines[e][j] = 0.5 * (fines[e][j] + (stage[e][j] + change[j]));
-    look_at(e, fines[e]);
+    update_at(e, fines[e]);
   });
   limit_stage(pores, fines, scratch);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Fluidised grains of the single-point formulation: concentration as a discontinuous linear field,
-/// carried by the face volumes of the flow. Conserves grains to round-off (Eq. 3 of the paper,
+/// Fluidised fines of the single-point formulation: concentration as a discontinuous linear field,
+/// carried by the face volumes of the flow. Conserves fines to round-off (Eq. 3 of the paper,
 /// corrected, in conservative form).
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace suffuse {
 
-/// Pore volume and the volume of fluidised grains in it, per element and field node, m3.
+/// Pore volume and the volume of fluidised fines in it, per element and field node, m3.
 template <int Dim>
 struct FinesState {
   ElementField<Dim> pore_volume;
@@ -29,7 +29,7 @@ struct ConcentrationRange {
   double high;
 };
 
-/// What steps of transport work with. Whoever takes them keeps it: steps allocate nothing then.
+/// Working memory of a step. The caller keeps it, so that steps allocate nothing.
 template <int Dim>
 struct TransportScratch {
   /// Outflow through the element's sides in one step, m3; side k lies opposite vertex k.
@@ -42,7 +42,7 @@ struct TransportScratch {
   ElementField<Dim> stage_fines;            ///< after the first stage, as in FinesState, m3
   std::vector<double> mean;                 ///< concentration, per element
   std::vector<ConcentrationRange> allowed;  ///< per mesh node
-  ElementField<Dim> grains_out;             ///< through the element's sides since `start`, m3
+  ElementField<Dim> fines_out;              ///< through the element's sides since `start`, m3
 };
 
 /// Two-stage strong-stability-preserving Runge-Kutta over upwind face fluxes, concentration limited
@@ -62,15 +62,15 @@ class EulerianTransport {
   [[nodiscard]] double steps_allowed(const FinesState<Dim>& state,
                                      const std::vector<double>& face_volume) const;
 
-  /// Begins an interval of steps with `face_volume` m3 of liquid through each face in each.
+  /// Starts an interval of steps with `face_volume` m3 of liquid through each face in each.
   void start(const FinesState<Dim>& state, const std::vector<double>& face_volume,
              TransportScratch<Dim>& scratch) const;
-  /// Moves the state by one step in which `eroded` m3 of grains join the liquid (empty: none).
+  /// Moves the state by one step in which `eroded` m3 of fines join the liquid (empty: none).
   /// Throws NumericalError where an element's mean concentration leaves [0, 1).
   void advance(FinesState<Dim>& state, const ElementField<Dim>& eroded,
                TransportScratch<Dim>& scratch) const;
-  /// Volume of grains that crossed each face since `start`, m3.
-  void grains_crossed(const TransportScratch<Dim>& scratch, std::vector<double>& result) const;
+  /// Volume of fines that crossed each face since `start`, m3.
+  void fines_crossed(const TransportScratch<Dim>& scratch, std::vector<double>& result) const;
 
   /// Brings concentrations at the vertices within the means of the elements around them and, at an
   /// inlet, the concentration that enters; an element's mean does not change. `advance` leaves its
@@ -86,7 +86,7 @@ class EulerianTransport {
   /// The faces of an element as its own loop needs them: side k lies opposite vertex k, and its
   /// nodes are the vertices that follow k, in that order.
   struct Sides {
-    /// Element across; at the outer boundary -1 less the number of the face among the outer ones.
+    /// Element across; at the outer boundary -1 minus the number of the face among the outer ones.
     std::array<int, Dim + 1> neighbour;
     /// Where the side's nodes stand among the neighbour's vertices.
     std::array<std::array<std::uint8_t, Dim>, Dim + 1> theirs;

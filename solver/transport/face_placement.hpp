@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where on a face of an element points come in: spread like the flux through it.
+/// Places on a face of an element where points are injected: spread like the flux through it.
 
 #include <array>
 

@@ -60,12 +60,12 @@ double FieldTransport<Dim>::longest_step(const std::vector<double>& face_rate) c
 }
 
 template <int Dim>
-std::vector<TransportStep> FieldTransport<Dim>::start_interval(double begin,
+std::vector<TransportStep> FieldTransport<Dim>::start_interval(double start,
                                                                const FlowProgress& flow) {
   carries_ = flow.end > fines_from_;
-  if (!carries_) return {{begin, flow.end, 1.0}};
+  if (!carries_) return {{start, flow.end, 1.0}};
   const double allowed = transport_safety * scheme_.steps_allowed(state_, flow.volumes.liquid);
-  const std::vector<TransportStep> steps = equal_steps(begin, flow.end, step_count(allowed));
+  const std::vector<TransportStep> steps = equal_steps(start, flow.end, step_count(allowed));
   std::vector<double> step_volume = flow.volumes.liquid;
   if (steps.size() > 1) {
     for (double& volume : step_volume) volume *= steps.front().share;
@@ -89,7 +89,7 @@ void FieldTransport<Dim>::advance(const TransportStep& /*step*/, const FaceVolum
 template <int Dim>
 std::vector<double> FieldTransport<Dim>::crossed() const {
   std::vector<double> result(grid_.face_count(), 0.0);
-  if (carries_) scheme_.grains_crossed(scratch_, result);
+  if (carries_) scheme_.fines_crossed(scratch_, result);
   return result;
 }
 

@@ -19,7 +19,7 @@ class FieldTransport final : public Transport<Dim> {
   [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
     return {.steps = 32.0, .pore_growth = 2e-3};
   }
-  [[nodiscard]] std::vector<TransportStep> start_interval(double begin,
+  [[nodiscard]] std::vector<TransportStep> start_interval(double start,
                                                           const FlowProgress& flow) override;
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& exchange, const std::vector<double>& pressure) override;

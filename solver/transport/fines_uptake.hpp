@@ -14,7 +14,7 @@ struct FinesUptake {
   std::array<double, Dim + 1> barycentric;  ///< half-way through the element
   /// What keeps (1 - c) n_L of the point as it is, m3.
   double own_volume;
-  int region;         ///< whose liquid receives it
+  int region;         ///< the region whose liquid receives it
   double mass = 0.0;  ///< what it came to, kg
 };
 

@@ -9,23 +9,23 @@ namespace suffuse {
 namespace {
 
 template <class Values>
-void take(Values& values, const std::vector<int>& order) {
+void reorder(Values& values, const std::vector<int>& order) {
   if (values.empty()) return;
-  Values taken(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) taken[i] = values[order[i]];
-  values = std::move(taken);
+  Values ordered(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) ordered[i] = values[order[i]];
+  values = std::move(ordered);
 }
 
 /// Points become those at `order`, in that order.
 template <int Dim>
 void rearrange(LiquidPoints<Dim>& points, const std::vector<int>& order) {
-  take(points.element, order);
-  take(points.barycentric, order);
-  take(points.water_mass, order);
-  take(points.fines_mass, order);
-  take(points.id, order);
-  take(points.pressure, order);
-  take(points.velocity, order);
+  reorder(points.element, order);
+  reorder(points.barycentric, order);
+  reorder(points.water_mass, order);
+  reorder(points.fines_mass, order);
+  reorder(points.id, order);
+  reorder(points.pressure, order);
+  reorder(points.velocity, order);
 }
 
 std::vector<int> begins(const std::vector<int>& element, int element_count) {

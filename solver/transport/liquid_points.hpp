@@ -9,8 +9,8 @@
 
 namespace suffuse {
 
-/// Structure of arrays, sorted by element. Water and grains are what a point is; its volume
-/// follows.
+/// Structure of arrays, sorted by element. A point is a mass of water and one of fines;
+/// its volume follows.
 template <int Dim>
 struct LiquidPoints {
   std::vector<int> element;

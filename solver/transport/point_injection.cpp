@@ -36,6 +36,25 @@ double hashed(std::uint64_t seed, std::uint64_t face, std::uint64_t number, std:
 }  // namespace
 
 template <int Dim>
+InjectionSettings injection_settings(const Case<Dim>& c, const Grid<Dim>& grid) {
+  const MaterialPoints<Dim>& points = c.liquid_points;
+  std::vector<double> volume(grid.mesh.element_count(), 0.0);
+  std::vector<int> count(grid.mesh.element_count(), 0);
+  for (int p = 0; p < points.size(); ++p) {
+    volume[points.element[p]] += points.volume[p];
+    ++count[points.element[p]];
+  }
+  InjectionSettings result;
+  result.random = c.document.scene.points.seeding == Seeding::random;
+  result.seed = c.document.scene.points.seed;
+  for (const int e : grid.face_left) {
+    result.point_volume.push_back(volume[e] / count[e]);
+    result.points_per_element.push_back(count[e]);
+  }
+  return result;
+}
+
+template <int Dim>
 PointInjection<Dim>::PointInjection(const Grid<Dim>& grid,
                                     const std::vector<FaceCondition>& conditions,
                                     InjectionSettings settings, LiquidDensities densities,
@@ -52,7 +71,7 @@ PointInjection<Dim>::PointInjection(const Grid<Dim>& grid,
 }
 
 template <int Dim>
-InflowAccount PointInjection<Dim>::nothing_entered(long next_id) const {
+InflowAccount PointInjection<Dim>::initial_account(long next_id) const {
   InflowAccount account;
   account.next_id = next_id;
   account.injected.assign(grid_.face_count(), 0);
@@ -148,6 +167,7 @@ auto PointInjection<Dim>::content(const InjectedPoint<Dim>& point, double elemen
           concentration * volume * densities_.grain};
 }
 
+template InjectionSettings injection_settings(const Case<2>&, const Grid<2>&);
 template class PointInjection<2>;
 template class PointInjection<3>;
 

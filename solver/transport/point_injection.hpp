@@ -22,7 +22,7 @@ struct InflowAccount {
   void archive(auto& archive) { archive(volume, injected, next_id); }
 };
 
-/// A point that comes in.
+/// A point that enters the model.
 template <int Dim>
 struct InjectedPoint {
   PointPlace<Dim> place;
@@ -31,15 +31,20 @@ struct InjectedPoint {
   double share;  ///< of the step that had passed
 };
 
-/// How injected points are spread over the liquid that enters.
+/// How large injected points are, and how they are spread over the liquid that flows in.
 struct InjectionSettings {
   std::vector<double> point_volume;  ///< per face: liquid volume of one point, m3
   /// Per face: points that fill the element behind it.
   std::vector<int> points_per_element;
-  /// Each element's worth of points at random in the liquid that fills it; else evenly.
+  /// Points of one element's volume of inflow come at random times in it; else evenly.
   bool random = false;
   int seed = 1;
 };
+
+/// Points as large as those that fill the element behind each face at the start, spread as the
+/// scene's `points.seeding` says.
+template <int Dim>
+InjectionSettings injection_settings(const Case<Dim>& c, const Grid<Dim>& grid);
 
 template <int Dim>
 class PointInjection {
@@ -47,23 +52,24 @@ class PointInjection {
   PointInjection(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
                  InjectionSettings settings, LiquidDensities densities, double bulk_modulus);
 
-  /// The account before anything came in. Faces take turns.
-  [[nodiscard]] InflowAccount nothing_entered(long next_id) const;
+  /// The account at the start. Faces differ in what is missing to their first point, so that they
+  /// inject in turn.
+  [[nodiscard]] InflowAccount initial_account(long next_id) const;
 
   /// Outer faces that are not impervious, ascending: where points come in and leave.
   [[nodiscard]] const std::vector<int>& open_faces() const { return open_faces_; }
   /// Per face.
   [[nodiscard]] const std::vector<unsigned char>& is_open() const { return is_open_; }
 
-  /// Puts into `points` those whose volume has come in during a step, in the order in which it was
-  /// complete. `volume`: of liquid per face in the step, along its normal, m3. `node_flux`: m/s,
-  /// spreads them along a face; empty: evenly. Throws NumericalError when a face would take more
-  /// points than any flow brings.
+  /// Appends to `points` each point whose volume has flowed in completely during a step, in the
+  /// order of completion. `volume`: of liquid per face in the step, along its normal, m3.
+  /// `node_flux`: m/s, spreads them along a face; empty: evenly. Throws NumericalError when a face
+  /// would take more points than any flow brings.
   void inject(InflowAccount& account, const std::vector<double>& volume,
               const VectorField<Dim>& node_flux, std::vector<InjectedPoint<Dim>>& points) const;
 
-  /// What a point brings along: the concentration of its boundary, and the water that its element's
-  /// pressure packs into its volume.
+  /// Masses of an injected point, from the concentration of its boundary and the density of water
+  /// at the pressure of its element, Pa.
   struct Content {
     double water_mass;  ///< kg
     double fines_mass;  ///< kg
@@ -71,7 +77,7 @@ class PointInjection {
   [[nodiscard]] Content content(const InjectedPoint<Dim>& point, double element_pressure) const;
 
  private:
-  /// How many points' volumes must have come in through a face for its point `number`.
+  /// How many points' volumes must have flowed in through a face for its point `number`.
   [[nodiscard]] double volumes_at_injection(int face, long number) const;
   [[nodiscard]] PointPlace<Dim> place_on_face(int face, long number,
                                               const VectorField<Dim>& node_flux) const;

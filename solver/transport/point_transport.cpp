@@ -62,13 +62,13 @@ void PointTransport<Dim>::book(const typename FinesTransfer<Dim>::Result& transf
   }
 }
 
-double checked_step_count(double allowed, double begin, double duration) {
+double checked_step_count(double allowed, double start, double duration) {
   // Liquid that needs more steps goes nowhere sensible.
   constexpr double max_steps = 1e4;
   const double count = step_count(allowed);
   if (!(count <= max_steps)) {
     std::ostringstream message;
-    message << "the flow has run away: at t = " << begin
+    message << "the flow has run away: at t = " << start
             << " s liquid would cross thousands of elements in " << duration << " s";
     throw NumericalError(message.str());
   }

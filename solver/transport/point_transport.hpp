@@ -1,7 +1,6 @@
 #pragma once
 
-/// Liquid as material points (double-point formulation): what both ways of moving them share, and
-/// what the formulation asks of them.
+/// Liquid as material points (double-point formulation): what both strategies of moving them share.
 
 #include "results/tables.hpp"
 #include "solid/skeleton.hpp"
@@ -59,7 +58,7 @@ class PointTransport : public Transport<Dim> {
   /// Liquid volume of each point, m3; `pressure` per element, Pa.
   [[nodiscard]] virtual std::vector<double> point_volume(
       const LiquidPoints<Dim>& points, const std::vector<double>& pressure) const = 0;
-  /// What this strategy alone can say of the flow.
+  /// Columns of the history that this strategy alone knows.
   virtual void describe(const FlowState<Dim>& /*flow*/, HistoryRow& /*row*/) const {}
 
   /// Of this interval.
@@ -97,6 +96,6 @@ class PointTransport : public Transport<Dim> {
 
 /// Steps of transport over an interval in which points may cross the share `allowed` of it at a
 /// time. Throws NumericalError where these would be far too many.
-double checked_step_count(double allowed, double begin, double duration);
+double checked_step_count(double allowed, double start, double duration);
 
 }  // namespace suffuse

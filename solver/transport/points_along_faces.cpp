@@ -30,7 +30,7 @@ PointsAlongFaces<Dim>::PointsAlongFaces(const Grid<Dim>& grid, const Skeleton<Di
                           threads),
       points_(clean_liquid(places, pressure, densities, bulk_modulus)),
       begins_(element_begins(points_, grid.mesh.element_count())) {
-  this->inflow_ = this->injection_.nothing_entered(points_.size());
+  this->inflow_ = this->injection_.initial_account(points_.size());
 }
 
 template <int Dim>
@@ -90,13 +90,13 @@ double PointsAlongFaces<Dim>::longest_step(const std::vector<double>& face_rate)
 }
 
 template <int Dim>
-std::vector<TransportStep> PointsAlongFaces<Dim>::start_interval(double begin,
+std::vector<TransportStep> PointsAlongFaces<Dim>::start_interval(double start,
                                                                  const FlowProgress& flow) {
   this->start_crossings();
   porosity_ = this->solid_.element_porosity();
   // In shares of the interval, as these volumes are those of all of it.
   const double allowed = longest_step(flow.volumes.liquid);
-  return equal_steps(begin, flow.end, checked_step_count(allowed, begin, flow.end - begin));
+  return equal_steps(start, flow.end, checked_step_count(allowed, start, flow.end - start));
 }
 
 template <int Dim>
@@ -116,10 +116,8 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
   if (erodes || this->has_pending()) {
     const PassTimer timer(this->fines_timing_);
     ++this->fines_timing_.calls;
-    const std::vector<double> nothing(erodes ? 0 : this->solid_.porosity().size(), 0.0);
-    this->book(this->transfer_.transfer_along_paths(erodes ? exchange : nothing,
-                                                    point_volume(points_, pressure), points_,
-                                                    paths.uptakes, this->pending_));
+    this->book(this->transfer_.transfer_along_paths(exchange, point_volume(points_, pressure),
+                                                    points_, paths.uptakes, this->pending_));
   }
   const PassTimer timer(this->movement_timing_);
   settle(paths);
@@ -130,7 +128,7 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
 template <int Dim>
 void PointsAlongFaces<Dim>::inject(const std::vector<double>& volume,
                                    const std::vector<double>& pressure, Paths& paths,
-                                   std::vector<double>& begin) {
+                                   std::vector<double>& start) {
   std::vector<InjectedPoint<Dim>> injected;
   this->injection_.inject(this->inflow_, volume, {}, injected);
   for (const InjectedPoint<Dim>& point : injected) {
@@ -142,7 +140,7 @@ void PointsAlongFaces<Dim>::inject(const std::vector<double>& volume,
     points_.fines_mass.push_back(fines_mass);
     points_.id.push_back(this->inflow_.next_id++);
     paths.from.push_back(-1);
-    begin.push_back(point.share);
+    start.push_back(point.share);
   }
 }
 
@@ -155,8 +153,8 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
   for (const int e : points_.element) {
     paths.from.push_back(this->grid_.mesh.element_region[e]);
   }
-  std::vector<double> begin(points_.element.size(), 0.0);
-  inject(volume, pressure, paths, begin);
+  std::vector<double> start(points_.element.size(), 0.0);
+  inject(volume, pressure, paths, start);
   paths.fines = points_.fines_mass;
 
   const FaceWalkField<Dim> field{volume, porosity_, porosity_end};
@@ -172,7 +170,7 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
       std::vector<FacePassage<Dim>> passages;
       const int end = std::min(count, (block + 1) * points_together);
       for (int p = block * points_together; p < end; ++p) {
-        follow_point(p, begin[p], field, pressure[points_.element[p]], passages, paths,
+        follow_point(p, start[p], field, pressure[points_.element[p]], passages, paths,
                      uptakes[block]);
       }
     } catch (...) {
@@ -192,7 +190,7 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
 }
 
 template <int Dim>
-void PointsAlongFaces<Dim>::follow_point(int p, double begin, const FaceWalkField<Dim>& field,
+void PointsAlongFaces<Dim>::follow_point(int p, double start, const FaceWalkField<Dim>& field,
                                          double pressure, std::vector<FacePassage<Dim>>& passages,
                                          Paths& paths, std::vector<FinesUptake<Dim>>& uptakes) {
   const auto& region = this->grid_.mesh.element_region;
@@ -201,7 +199,7 @@ void PointsAlongFaces<Dim>::follow_point(int p, double begin, const FaceWalkFiel
   PointPlace<Dim> place = points_.place(p);
   passages.clear();
   paths.left_by[p] =
-      walk_along_faces(this->grid_, field, place, begin, 1.0, points_.id[p], passages);
+      walk_along_faces(this->grid_, field, place, start, 1.0, points_.id[p], passages);
   points_.element[p] = place.element;
   points_.barycentric[p] = place.barycentric;
   for (const FacePassage<Dim>& passage : passages) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Liquid points that follow the volumes through faces (double-point default): exactly along the
-/// flux of each element, from face to face, taking up fines on the way.
+/// flux of each element, from face to face, taking up fines along the path.
 
 #include "grid/face_walk.hpp"
 #include "transport/point_transport.hpp"
@@ -18,7 +18,7 @@ class PointsAlongFaces final : public PointTransport<Dim> {
                    const MaterialPoints<Dim>& places, const std::vector<double>& pressure);
 
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
-  [[nodiscard]] std::vector<TransportStep> start_interval(double begin,
+  [[nodiscard]] std::vector<TransportStep> start_interval(double start,
                                                           const FlowProgress& flow) override;
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& exchange, const std::vector<double>& pressure) override;
@@ -50,19 +50,19 @@ class PointsAlongFaces final : public PointTransport<Dim> {
     return begins_[element + 1] > begins_[element];
   }
   void inject(const std::vector<double>& volume, const std::vector<double>& pressure, Paths& paths,
-              std::vector<double>& begin);
+              std::vector<double>& start);
   /// Moves every point: injected ones from the moment at which they come in, those that leave until
   /// then.
   [[nodiscard]] Paths follow(const std::vector<double>& volume,
                              const std::vector<double>& porosity_end,
                              const std::vector<double>& pressure);
   /// The same for one point; appends what it takes up.
-  void follow_point(int p, double begin, const FaceWalkField<Dim>& field, double pressure,
+  void follow_point(int p, double start, const FaceWalkField<Dim>& field, double pressure,
                     std::vector<FacePassage<Dim>>& passages, Paths& paths,
                     std::vector<FinesUptake<Dim>>& uptakes);
-  /// Takes out points that left, once all have their fines, and books who changed region. What a
-  /// point took up in the region that it came from it carries across, the rest it receives where it
-  /// goes; one that leaves the model first crosses into its last region.
+  /// Removes points that left, once all have their fines, and books changes of region. Fines taken
+  /// up in the first region cross its border with the point; the others are received in the last. A
+  /// point that leaves the model crosses into its last region first.
   void settle(const Paths& paths);
 
   LiquidPoints<Dim> points_;

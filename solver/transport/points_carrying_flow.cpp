@@ -30,7 +30,7 @@ PointsCarryingFlow<Dim>::PointsCarryingFlow(const Grid<Dim>& grid, const Skeleto
     liquid.pressure.push_back(flow.pressure()[liquid.element[p]]);
     liquid.velocity.push_back(interpolate(grid, liquid.place(p), flow.scheme().velocity()));
   }
-  this->inflow_ = this->injection_.nothing_entered(liquid.size());
+  this->inflow_ = this->injection_.initial_account(liquid.size());
   points_.blocks().fill(liquid, grid.mesh.element_count());
 }
 
@@ -45,7 +45,7 @@ FlowProgress PointsCarryingFlow<Dim>::drive(FlowSolver<Dim>& /*flow*/,
                                             const FlowInterval<Dim>& interval) {
   this->start_crossings();
   const auto steps = flow_.plan_steps(interval);
-  porosity_ = interval.pores.at(0.5 * (steps.begin + steps.end)).porosity;
+  porosity_ = interval.pores.at(0.5 * (steps.start + steps.end)).porosity;
   for (long s = 0; s < steps.count; ++s) {
     points_to_grid();
     flow_.step(steps.start_of(s), steps.dt);
@@ -127,9 +127,8 @@ void PointsCarryingFlow<Dim>::advance(const TransportStep& /*step*/, const FaceV
   if (exchange.empty() && !this->has_pending()) return;
   const PassTimer timer(this->fines_timing_);
   ++this->fines_timing_.calls;
-  const std::vector<double> nothing(exchange.empty() ? this->solid_.porosity().size() : 0, 0.0);
-  this->book(this->transfer_.transfer(exchange.empty() ? nothing : exchange, porosity_,
-                                      this->densities_, points_.blocks(), this->pending_));
+  this->book(this->transfer_.transfer(exchange, porosity_, this->densities_, points_.blocks(),
+                                      this->pending_));
 }
 
 template <int Dim>

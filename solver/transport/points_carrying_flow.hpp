@@ -19,16 +19,17 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
                      InjectionSettings injection, LiquidDensities densities, double bulk_modulus,
                      int threads, const MaterialPoints<Dim>& places);
 
-  /// Pores grow by little: a point that comes in takes its part in what the whole interval eroded.
+  /// Pores grow by little in an interval, as an injected point takes up its part of what the whole
+  /// interval eroded.
   [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
     return {.steps = 1.0, .pore_growth = 2e-4};
   }
   /// Runs the flow that this was made for; points move with each of its steps.
   FlowProgress drive(FlowSolver<Dim>& flow, const FlowInterval<Dim>& interval) override;
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
-  [[nodiscard]] std::vector<TransportStep> start_interval(double begin,
+  [[nodiscard]] std::vector<TransportStep> start_interval(double start,
                                                           const FlowProgress& flow) override {
-    return {{begin, flow.end, 1.0}};
+    return {{start, flow.end, 1.0}};
   }
   /// Hands the fines to the points, which have moved already.
   void advance(const TransportStep& step, const FaceVolumes& volumes,
@@ -64,7 +65,7 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
   PassTiming exchange_timing_{"exchange of points and nodes", 0, 0.0};
 
   // Of one step; kept, so that steps allocate nothing.
-  std::vector<double> pressure_before_;  ///< per element, that the step began with, Pa
+  std::vector<double> pressure_before_;  ///< per element, that the step started with, Pa
   VectorField<Dim> node_flux_;           ///< m/s
   std::vector<double> entered_;          ///< per open face, m3
   std::vector<InjectedPoint<Dim>> injected_;

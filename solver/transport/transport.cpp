@@ -5,11 +5,11 @@
 
 namespace suffuse {
 
-std::vector<TransportStep> equal_steps(double begin, double end, double count) {
+std::vector<TransportStep> equal_steps(double start, double end, double count) {
   std::vector<TransportStep> steps;
-  double from = begin;
+  double from = start;
   for (double s = 1.0; s <= count; ++s) {
-    const double to = s == count ? end : begin + (end - begin) * s / count;
+    const double to = s == count ? end : start + (end - start) * s / count;
     steps.push_back({from, to, 1.0 / count});
     from = to;
   }

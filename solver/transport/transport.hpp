@@ -1,8 +1,8 @@
 #pragma once
 
-/// How liquid and the fines in it get on while the flow goes: as a field on the mesh, as points
-/// along the volumes that cross faces, or as points that carry the flow themselves. A formulation
-/// holds one of these strategies.
+/// Moves liquid and the fines in it with the flow. Three strategies share this interface: a field
+/// on the mesh, points along the volumes that cross faces, and points that carry the flow
+/// themselves.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace suffuse {
 
 /// A step of transport: a part of an interval of the flow.
 struct TransportStep {
-  double begin = 0.0;  ///< s
+  double start = 0.0;  ///< s
   double end = 0.0;    ///< s
   double share = 1.0;  ///< of the volumes that cross faces in the interval
 };
@@ -40,7 +40,7 @@ class Transport {
   [[nodiscard]] virtual Coupling coupling() const = 0;
   /// Starts on the interval that the flow has crossed. Returns the steps that make it up, in their
   /// order. Throws NumericalError where these would be far too many.
-  [[nodiscard]] virtual std::vector<TransportStep> start_interval(double begin,
+  [[nodiscard]] virtual std::vector<TransportStep> start_interval(double start,
                                                                   const FlowProgress& flow) = 0;
   /// One of them. `exchange`: fines that each solid point gives to the liquid in it, m3; empty
   /// where none can. `pressure`: per element, Pa. Throws NumericalError.
@@ -57,11 +57,10 @@ class Transport {
 inline constexpr double transport_safety = 0.9;
 
 /// An interval in `count` equal steps.
-std::vector<TransportStep> equal_steps(double begin, double end, double count);
+std::vector<TransportStep> equal_steps(double start, double end, double count);
 
-/// Steps over an interval of which one may take the share `allowed` (safety included). Intervals
-/// are often cut to a whole number of steps: a share that is off by little, as the flow may be,
-/// must not ask for one more. The safety has room for it.
+/// Number of steps over an interval when one may be the share `allowed` of it (safety included).
+/// Rounds down within 1 %, which the safety covers: intervals are often cut to whole steps.
 double step_count(double allowed);
 
 }  // namespace suffuse

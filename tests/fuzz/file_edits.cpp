@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of a dataset that an edit makes.
-constexpr hsize_t most_values = 4096;
-constexpr int most_edits = 64;
+constexpr hsize_t max_values = 4096;
+constexpr int max_edits = 64;
 
 /// An HDF5 identifier that closes itself.
 class Id {
@@ -72,7 +72,7 @@ class Words {
 hsize_t product(const std::vector<hsize_t>& extents) {
   hsize_t all = 1;
   for (const hsize_t extent : extents) {
-    if (extent != 0 && all > most_values / extent) return most_values + 1;
+    if (extent != 0 && all > max_values / extent) return max_values + 1;
     all *= extent;
   }
   return all;
@@ -135,10 +135,10 @@ bool exists(hid_t file, const std::string& name) {
 std::vector<char> stored_bytes(hid_t set, hid_t type) {
   const Id space(H5Dget_space(set), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
-  if (count <= 0 || count > static_cast<hssize_t>(most_values)) return {};
+  if (count <= 0 || count > static_cast<hssize_t>(max_values)) return {};
   if (H5Tdetect_class(type, H5T_VLEN) > 0 || H5Tis_variable_str(type) > 0) return {};
   const std::size_t size = H5Tget_size(type);
-  if (size > most_values * 16) return {};
+  if (size > max_values * 16) return {};
   std::vector<char> bytes(static_cast<std::size_t>(count) * size);
   if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0) bytes.clear();
   return bytes;
@@ -242,7 +242,7 @@ void remake(hid_t file, const std::string& name, const std::string& type_name,
   const Id type = type_name.empty() ? Id(new_type, H5Tclose) : named_type(type_name);
   const Id space = extents.empty() ? Id(new_space, H5Sclose) : simple_space(extents);
   if (!type.valid() || !space.valid()) return;
-  if (H5Sget_simple_extent_npoints(space) > static_cast<hssize_t>(most_values)) return;
+  if (H5Sget_simple_extent_npoints(space) > static_cast<hssize_t>(max_values)) return;
   make_dataset(file, name, type, space, bytes);
 }
 
@@ -315,7 +315,7 @@ void add_override(hid_t file, const std::string& text) {
       all.emplace_back(bytes.data() + at, strnlen(bytes.data() + at, size));
     }
   }
-  if (all.size() >= most_edits) return;
+  if (all.size() >= max_edits) return;
   all.push_back(text);
   std::size_t longest = 1;
   for (const std::string& each : all) longest = std::max(longest, each.size());
@@ -376,7 +376,7 @@ bool edit_hdf5(hid_t file, const std::string& edit, Words& words) {
   } else if (edit == "shape") {
     const std::string name = words.word();
     const std::vector<hsize_t> extents = words.extents();
-    if (product(extents) <= most_values) remake(file, name, "", extents);
+    if (product(extents) <= max_values) remake(file, name, "", extents);
   } else if (edit == "claim") {
     claim(file, words);
   } else if (edit == "text") {
@@ -538,7 +538,7 @@ void apply_edits(const std::string& script, const std::string& folder, const std
   Editor editor(folder, file);
   std::istringstream lines(script);
   int count = 0;
-  for (std::string line; std::getline(lines, line) && count < most_edits; ++count) {
+  for (std::string line; std::getline(lines, line) && count < max_edits; ++count) {
     // Names end at a NUL for HDF5, but not for us.
     if (line.find('\0') == std::string::npos) editor.edit(line);
   }

@@ -5,7 +5,7 @@
 /// A script has one edit per line; what is no edit, or does not fit the files, is passed over. NAME
 /// is an object of an HDF5 file, `/mesh/nodes`; numbers wrap round at the ends of what they index.
 ///
-///     seed NAME                  which valid files to begin with, on the first line
+///     seed NAME                  which valid files to start from, on the first line
 ///     in FILE                    the edits that follow are to this file
 ///     value NAME I X             value I of a dataset becomes X, a number or a text
 ///     type NAME TYPE             the dataset anew, of another type: i8 u8 i32 u32 i64 u64 f32 f64

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Valid files that edits begin with, made once and kept in memory.
+/// Valid files that edits start from, made once and kept in memory.
 
 #include <map>
 #include <string>

@@ -9,7 +9,7 @@
 
 namespace suffuse::fuzz {
 
-/// A scene: TOML, in which the lines that begin with `#set ` are `--set` arguments as well.
+/// A scene: TOML, in which the lines that start with `#set ` are `--set` arguments as well.
 void try_scene(const std::string& input);
 
 /// A case file: a script of edits to a valid one (see file_edits.hpp), or the bytes of an HDF5

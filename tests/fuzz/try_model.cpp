@@ -10,16 +10,16 @@ namespace suffuse::fuzz {
 namespace {
 
 /// Runs that take long are no finding: they say how long beforehand (--explain).
-constexpr double most_steps = 2e4;
-constexpr double most_rows = 1e3;
-constexpr int most_intervals = 2;
+constexpr double max_steps = 2e4;
+constexpr double max_rows = 1e3;
+constexpr int max_intervals = 2;
 
 bool is_long(const Scene& scene, const Plan& plan) {
   const bool many_steps =
       (scene.time.scheme == FlowScheme::explicit_nodal || plan.flow.step_given) &&
-      scene.time.end > most_steps * plan.flow.step;
-  return many_steps || scene.time.end > most_rows * scene.output.every ||
-         scene.time.end > most_rows * scene.output.snapshot_every;
+      scene.time.end > max_steps * plan.flow.step;
+  return many_steps || scene.time.end > max_rows * scene.output.every ||
+         scene.time.end > max_rows * scene.output.snapshot_every;
 }
 
 /// The first intervals, with their outputs.
@@ -37,7 +37,7 @@ void run(const Case<2>& c, const Plan& plan) {
     if (due.snapshot) static_cast<void>(model->snapshot(flow));
   };
   output();
-  for (int i = 0; i < most_intervals && !schedule.finished(); ++i) {
+  for (int i = 0; i < max_intervals && !schedule.finished(); ++i) {
     model->advance(schedule.next());
     output();
     static_cast<void>(model->take_warnings());

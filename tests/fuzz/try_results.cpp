@@ -12,7 +12,7 @@
 namespace suffuse::fuzz {
 namespace {
 
-constexpr std::size_t most_snapshots = 3;
+constexpr std::size_t max_snapshots = 3;
 
 /// How many cells, nodes or points there are to have values.
 std::size_t entities(const ResultsReader& results, const Mesh<2>& mesh, const std::string& where,
@@ -49,7 +49,7 @@ void look_at(const ResultsReader& results) {
   require(std::ranges::is_sorted(results.times()), "times that do not ascend");
   const Mesh<2> mesh = results.mesh();
   const bool both = results.scene().scene.formulation == Formulation::double_point;
-  for (std::size_t i = 0; i < std::min(most_snapshots, results.times().size()); ++i) {
+  for (std::size_t i = 0; i < std::min(max_snapshots, results.times().size()); ++i) {
     for (const std::string where : {"cell", "node", "element_vertex", "solid", "liquid"}) {
       if (where == "liquid" && !both) continue;
       static_cast<void>(is_taken(folder, [&] { look_at_fields(results, mesh, i, where); }));

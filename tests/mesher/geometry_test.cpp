@@ -202,7 +202,7 @@ TEST(Column, IsInTheOrderOfHilbertsCurve) {
 const std::string all_layers =
     "{inflow=2, free_above=1, above=3, below=1, free_below=2, outflow=1}";
 
-/// Nodes, less edges, plus elements: 1 for a mesh in one piece without holes.
+/// Nodes minus edges plus elements: 1 for a mesh in one piece without holes.
 int euler_characteristic(const Mesh<2>& mesh) {
   std::set<std::pair<int, int>> edges;
   for (const auto& corners : mesh.elements) {

@@ -268,7 +268,7 @@ TEST(TimeFunction, is_linear_between_knots_and_constant_beyond) {
   EXPECT_FALSE(f.is_constant());
   EXPECT_EQ(f.smallest(), -1.0);
   EXPECT_EQ(f.largest(), 6.0);
-  EXPECT_EQ(f.knot_times(), (std::vector{1.0, 3.0, 4.0}));
+  EXPECT_EQ(f.breakpoints(), (std::vector{1.0, 3.0, 4.0}));
 }
 
 TEST(TimeFunction, is_constant_from_a_number_or_a_level_table) {

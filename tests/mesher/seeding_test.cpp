@@ -430,7 +430,7 @@ int cell_of(std::array<double, 3> at, int levels) {
   return cell;
 }
 
-/// Mean square of (points in one of 4^levels triangles, less their share).
+/// Mean square of (points in one of 4^levels triangles, minus their share).
 double count_variance(const std::vector<Sample>& elements, int levels) {
   const int cells = 1 << (2 * levels);
   double sum = 0.0;
@@ -443,7 +443,7 @@ double count_variance(const std::vector<Sample>& elements, int levels) {
   return sum / static_cast<double>(elements.size());
 }
 
-/// Root mean square over elements of (mean of a barycentric coordinate, less 1/3): the error of a
+/// Root mean square over elements of (mean of a barycentric coordinate, minus 1/3): the error of a
 /// linear function's mean.
 double linear_error(const std::vector<Sample>& elements) {
   double sum = 0.0;

@@ -52,9 +52,9 @@ class Column {
         solid_(grid_, soils_, TimeSpan::never(), threads),
         porosity_(solid_.element_porosity()),
         flow_(c, grid_, solid_, plan_.flow),
-        injection_(grid_, flow_.conditions(), injection_settings(), densities_,
+        injection_(grid_, flow_.conditions(), injection_settings(c, grid_), densities_,
                    c.document.scene.liquid.bulk_modulus),
-        inflow_(injection_.nothing_entered(c.liquid_points.size())),
+        inflow_(injection_.initial_account(c.liquid_points.size())),
         points_(grid_, densities_, threads),
         entered_(grid_.face_count(), 0.0) {
     PoreState pores;
@@ -75,7 +75,8 @@ class Column {
       points.water_mass.push_back(1000.0 * seeds.volume[p]);
       points.fines_mass.push_back(p % 5 * seeds.volume[p]);
       // What neither node nor element sees belongs to it too.
-      const Vector<2> velocity = interpolate(grid_, {seeds.element[p], seeds.barycentric[p]}, flow_.scheme().velocity());
+      const Vector<2> velocity =
+          interpolate(grid_, {seeds.element[p], seeds.barycentric[p]}, flow_.scheme().velocity());
       points.pressure.push_back(flow_.pressure()[seeds.element[p]] + 10.0 * std::sin(p));
       points.velocity.emplace_back((1.0 + 0.1 * std::sin(2.0 * p)) * velocity);
     }
@@ -154,21 +155,6 @@ class Column {
   long count = 0;
 
  private:
-  [[nodiscard]] InjectionSettings injection_settings() const {
-    std::vector<double> volume(grid_.mesh.element_count(), 0.0);
-    std::vector<int> points(grid_.mesh.element_count(), 0);
-    for (int p = 0; p < case_.liquid_points.size(); ++p) {
-      volume[case_.liquid_points.element[p]] += case_.liquid_points.volume[p];
-      ++points[case_.liquid_points.element[p]];
-    }
-    InjectionSettings result;
-    for (const int e : grid_.face_left) {
-      result.point_volume.push_back(volume[e] / points[e]);
-      result.points_per_element.push_back(points[e]);
-    }
-    return result;
-  }
-
   const Case<2>& case_;
   Plan plan_;
   Grid<2> grid_;

@@ -15,7 +15,7 @@
 namespace suffuse {
 
 namespace erosion {
-extern const ErosionLaw second_order;  // not in the list: as a law that somebody adds
+extern const ErosionLaw second_order;  // not in the list: as a law that is added
 }  // namespace erosion
 
 namespace {

@@ -63,7 +63,7 @@ struct Column {
       }
     }
     std::vector<double> crossed;
-    transport.grains_crossed(scratch, crossed);
+    transport.fines_crossed(scratch, crossed);
     for (int f = 0; f < grid.face_count(); ++f) {
       if (grid.is_outer(f)) in -= crossed[f];
     }

@@ -137,13 +137,13 @@ TEST(BoundaryValues, TouchNoFaceThatDoesNotChange) {
 /// of the flux with its grains; not 0, -1 and 30, and none of the level table.
 TEST(BoundaryValues, HaveEventsWithinTheRun) {
   const Column column({rising_pressure(), turning_flux(), level_velocity()});
-  EXPECT_EQ(column.values.events(), (std::vector{2.0, 4.0, 10.0}));
+  EXPECT_EQ(column.values.breakpoints(), (std::vector{2.0, 4.0, 10.0}));
 }
 
 TEST(BoundaryValues, DoNotVaryWhereAllAreLevel) {
   const Column column({model::pressure_on("top", 6000.0), level_velocity()});
   EXPECT_FALSE(column.values.vary());
-  EXPECT_TRUE(column.values.events().empty());
+  EXPECT_TRUE(column.values.breakpoints().empty());
   EXPECT_EQ(column.on("top", column.values.at(15.0)).value, 6000.0);
 }
 

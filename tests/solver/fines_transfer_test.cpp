@@ -244,7 +244,7 @@ TEST(FinesTransfer, AlongPathsNothingIsLost) {
     EXPECT_NEAR(c.fines() + c.pending_mass(), result.eroded[0], 1e-13);
     EXPECT_NEAR(c.fines(), result.received[0], 1e-13);
     if (way == MassTransfer::nodal) continue;
-    // By element: what it eroded, as long as anyone took grains there.
+    // By element: what it eroded, as long as a point took up fines there.
     std::vector<double> of_element(c.input.mesh.element_count(), 0.0);
     for (const FinesUptake<2>& take : takes) of_element[take.element] += take.mass;
     for (const FinesUptake<2>& take : takes) {

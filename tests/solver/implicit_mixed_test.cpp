@@ -188,7 +188,7 @@ double energy(const FlowModel& m, double modulus, bool inertia, const MixedState
 
 TEST(ImplicitMixed, EnergyDoesNotGrow) {
   double largest_growth = -1.0;
-  double least_kept = 1.0;
+  double min_kept = 1.0;
   for (const unsigned seed : {1U, 2U, 3U}) {
     FlowModel m(model::column_mesh(8, 8, 1.0, 1.0, model::jittered(0.03, seed)));
     Uniform uniform(seed);
@@ -218,7 +218,7 @@ TEST(ImplicitMixed, EnergyDoesNotGrow) {
               state = flow.step(state, dt, m.constant(flow)).end;
               const double now = energy(m, modulus, inertia, state);
               largest_growth = std::max(largest_growth, now / last - 1.0);
-              least_kept = std::min(least_kept, now / last);
+              min_kept = std::min(min_kept, now / last);
               EXPECT_LE(now, last * (1.0 + 1e-12));
               last = now;
             }
@@ -228,7 +228,7 @@ TEST(ImplicitMixed, EnergyDoesNotGrow) {
     }
   }
   std::cout << "energy: largest relative growth in a step " << largest_growth << ", least kept "
-            << least_kept << '\n';
+            << min_kept << '\n';
 }
 
 TEST(ImplicitMixed, QuadraticDragIsFulfilledInEveryElementHoweverItVaries) {
@@ -236,7 +236,7 @@ TEST(ImplicitMixed, QuadraticDragIsFulfilledInEveryElementHoweverItVaries) {
   // layer without quadratic drag.
   double worst = 0.0;
   double worst_imbalance = 0.0;
-  long most_solves = 0;
+  long max_solves = 0;
   for (const double scale : {1e5, 1e8, 1e11}) {
     for (const bool pressures : {true, false}) {
       FlowModel m(model::column_mesh(12, 12, 1.0, 1.0, model::jittered(0.02, 6)));
@@ -251,7 +251,7 @@ TEST(ImplicitMixed, QuadraticDragIsFulfilledInEveryElementHoweverItVaries) {
       m.set("left", pressures ? FaceKind::pressure : FaceKind::flux, pressures ? 0.0 : 1e-2);
       ImplicitMixed<2> flow(m.grid, {2e7, true, TimeStepping::second_order}, {0.0, -9.81});
       const auto steady = flow.steady(m.forcing);
-      most_solves = std::max(most_solves, flow.counts().solves);
+      max_solves = std::max(max_solves, flow.counts().solves);
       worst_imbalance = std::max(
           worst_imbalance,
           imbalance(m.grid, steady.face_flux, std::vector<double>(m.mesh.element_count(), 0.0)));
@@ -268,8 +268,8 @@ TEST(ImplicitMixed, QuadraticDragIsFulfilledInEveryElementHoweverItVaries) {
       }
     }
   }
-  std::cout << "quadratic drag: drag less push " << worst << " of the weight of water, imbalance "
-            << worst_imbalance << ", at most " << most_solves << " solves\n";
+  std::cout << "quadratic drag: drag minus push " << worst << " of the weight of water, imbalance "
+            << worst_imbalance << ", at most " << max_solves << " solves\n";
   EXPECT_LE(worst, 1e-10);
   EXPECT_LE(worst_imbalance, 1e-12);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The nodal scheme as its equations read, one loop per equation over all nodes, faces or elements:
-/// slow, plain, and what the solver's own loops are held against.
+/// slow and plain, to compare the solver's own loops with.
 
 #include <vector>
 
@@ -30,7 +30,10 @@ class NodalReference {
     operator_.constrain(velocity_);
     previous_velocity_ = velocity_;
   }
-  void reset_volumes() { volumes_.reset(operator_.grid().face_count()); }
+  void reset_volumes() {
+    volumes_.liquid.assign(operator_.grid().face_count(), 0.0);
+    volumes_.density_excess = volumes_.liquid;
+  }
 
   void step(double dt) {
     previous_velocity_ = velocity_;

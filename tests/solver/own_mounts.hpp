@@ -13,8 +13,8 @@
 
 namespace suffuse::test {
 
-/// Whether this process can mount what nobody else sees: as root, or as the root of a name space of
-/// its own, which it becomes if need be.
+/// Whether this process can mount a disk that no other process sees: as root, or as the root of a
+/// name space of its own, which it becomes if need be.
 inline bool can_mount() {
   static const bool can = [] {
     const uid_t user = ::geteuid();

@@ -29,8 +29,8 @@ struct Column {
         solid(grid, soils, {}, threads),
         conditions(face_conditions(input, grid)),
         pressure(input.mesh.element_count(), 0.0),
-        liquid(grid, solid, conditions, injection(), densities, bulk_modulus, threads,
-               input.liquid_points, pressure) {
+        liquid(grid, solid, conditions, injection_settings(input, grid), densities, bulk_modulus,
+               threads, input.liquid_points, pressure) {
     for (const Vector<2>& normal : grid.face_normal) {
       const bool vertical = std::abs(normal[1]) <= 1e-12 * normal.norm();
       face_rate.push_back(vertical ? 0.0 : -flux * normal[1]);
@@ -39,21 +39,6 @@ struct Column {
   Column(const Column&) = delete;
   Column& operator=(const Column&) = delete;
   ~Column() = default;
-
-  [[nodiscard]] InjectionSettings injection() const {
-    std::vector<double> volume(input.mesh.element_count(), 0.0);
-    std::vector<int> count(input.mesh.element_count(), 0);
-    for (int p = 0; p < input.liquid_points.size(); ++p) {
-      volume[input.liquid_points.element[p]] += input.liquid_points.volume[p];
-      ++count[input.liquid_points.element[p]];
-    }
-    InjectionSettings result;
-    for (const int e : grid.face_left) {
-      result.point_volume.push_back(volume[e] / count[e]);
-      result.points_per_element.push_back(count[e]);
-    }
-    return result;
-  }
 
   /// One step of transport, however long.
   void step(double dt) {

@@ -71,7 +71,7 @@ Record record(const Case<2>& c, const Plan& plan, const std::string& pass) {
 template <template <int> class Model>
 void expect_the_same(const Case<2>& c, const std::string& pass) {
   const Plan plan = make_plan(c, {});
-  EXPECT_EQ(plan.erosion_span.begin, 2.0);
+  EXPECT_EQ(plan.erosion_span.start, 2.0);
   EXPECT_NEAR(plan.erosion_span.end, 7.0, 1e-5);
   const Record with = record<Model>(c, plan, pass);
   const Record without = record<Model>(c, without_spans(plan), pass);
@@ -129,7 +129,7 @@ TEST(SkipInTime, OnlyWhatIsCertain) {
   for (const ErosionLaw* law :
        {erosion_law("logarithmic"), erosion_law("first-order"), erosion_law("flux")}) {
     scene.soils[0].erosion.law = law;
-    EXPECT_EQ(plan_of().erosion_span.begin, 2.0);
+    EXPECT_EQ(plan_of().erosion_span.start, 2.0);
     EXPECT_EQ(plan_of().erosion_span.end, infinity);
   }
 }

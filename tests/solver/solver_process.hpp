@@ -102,7 +102,7 @@ std::string difference(const std::string& results, const std::string& others);
 std::string contents(const std::string& folder);
 
 /// Everything wrong with a folder that a run has left at whatever moment: every snapshot that a
-/// series names is read whole, every table has whole rows, run.json says whose it is. Empty where
+/// series names is read whole, every table has whole rows, run.json names the scene. Empty where
 /// nothing is wrong.
 std::string flaws(const std::string& results);
 

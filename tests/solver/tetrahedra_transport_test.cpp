@@ -1,4 +1,4 @@
-/// Fluidised grains and points that come in, on tetrahedra.
+/// Fluidised fines and points that come in, on tetrahedra.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ struct Cube {
       transport.advance(state, {}, scratch);
       note_range();
     }
-    transport.grains_crossed(scratch, crossed);
+    transport.fines_crossed(scratch, crossed);
     double in = 0.0;
     for (int f = 0; f < grid.face_count(); ++f) in -= grid.is_outer(f) ? crossed[f] : 0.0;
     return in;
@@ -126,7 +126,7 @@ TEST(TetrahedraTransport, BothSidesOfAFaceFindTheSameGrains) {
       const int e = side == 0 ? s.grid.face_left[f] : s.grid.face_right[f];
       const auto& faces = s.grid.element_face[e];
       const auto k = std::find(faces.begin(), faces.end(), f) - faces.begin();
-      out.at(side) = s.scratch.grains_out[e][k];
+      out.at(side) = s.scratch.fines_out[e][k];
     }
     EXPECT_EQ(out[0], -out[1]);
     inner += out[0] != 0.0 ? 1 : 0;
@@ -285,7 +285,7 @@ TEST(TetrahedraPlacement, PointsComeInOnTheFaceThatLiquidEnters) {
     const InjectionSettings settings{std::vector<double>(grid.face_count(), 1.0),
                                      std::vector<int>(grid.face_count(), 4), random, 3};
     const PointInjection<3> injection(grid, conditions, settings, {1000.0, 2700.0}, 2e9);
-    InflowAccount account = injection.nothing_entered(0);
+    InflowAccount account = injection.initial_account(0);
     std::vector<InjectedPoint<3>> points;
     injection.inject(account, volume, {}, points);
     EXPECT_GE(points.size(), 48U * 49U);

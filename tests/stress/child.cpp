@@ -20,14 +20,14 @@ namespace {
 /// share.
 constexpr double most_waiting = 30.0;
 
-[[noreturn]] void become(std::vector<char*> words, const std::string& log, double most_seconds) {
+[[noreturn]] void become(std::vector<char*> words, const std::string& log, double max_seconds) {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   if (file >= 0) {
     dup2(file, STDOUT_FILENO);
     dup2(file, STDERR_FILENO);
     close(file);
   }
-  const auto whole_seconds = static_cast<rlim_t>(std::ceil(most_seconds));
+  const auto whole_seconds = static_cast<rlim_t>(std::ceil(max_seconds));
   const rlimit limit{whole_seconds, whole_seconds + 1};
   setrlimit(RLIMIT_CPU, &limit);
   words.push_back(nullptr);
@@ -38,7 +38,7 @@ constexpr double most_waiting = 30.0;
 }  // namespace
 
 ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& log,
-                   double most_seconds) {
+                   double max_seconds) {
   std::vector<std::string> copies = arguments;
   std::vector<char*> words;
   words.reserve(copies.size() + 1);
@@ -49,13 +49,13 @@ ChildEnd run_child(const std::vector<std::string>& arguments, const std::string&
   };
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no child process could be made");
-  if (child == 0) become(words, log, most_seconds);
+  if (child == 0) become(words, log, max_seconds);
 
   ChildEnd end;
   int status = 0;
   rusage used{};
   while (wait4(child, &status, WNOHANG, &used) == 0) {
-    if (!end.timed_out && seconds() > most_waiting * most_seconds) {
+    if (!end.timed_out && seconds() > most_waiting * max_seconds) {
       end.timed_out = true;
       kill(child, SIGKILL);
     }

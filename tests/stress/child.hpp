@@ -17,6 +17,6 @@ struct ChildEnd {
 
 /// `arguments` begins with the program; what it says goes through the file `log`.
 ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& log,
-                   double most_seconds);
+                   double max_seconds);
 
 }  // namespace suffuse::stress

@@ -1,6 +1,6 @@
 #pragma once
 
-/// From a scenario to a case, in the way suffuse-mesher goes.
+/// Makes a case from a scenario, as suffuse-mesher does.
 
 #include "stress/scenario.hpp"
 

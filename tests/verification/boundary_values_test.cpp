@@ -82,10 +82,10 @@ TEST(BoundaryPressure, MovesTheColumnAsItChanges) {
   EXPECT_LT(errors[1], 0.5 * 1e-5 / tau);
 }
 
-/// Largest error of the grains that entered, over all that did, against the integral of c q.
-/// `knots` are those of both and the times to look at.
-double error_of_entered_grains(FlowScheme scheme, double step, const TimeFunction& flux,
-                               const std::vector<double>& knots) {
+/// Largest error of the fines that flowed in, over all that did, against the integral of c q.
+/// `knots`: times of both tables, at which the error is measured.
+double error_of_fines_inflow(FlowScheme scheme, double step, const TimeFunction& flux,
+                             const std::vector<double>& knots) {
   Scene scene = model::paper_scene();
   scene.boundaries = {model::flux_on("top", 0.0), model::pressure_on("bottom", 0.0)};
   scene.boundaries[0].darcy_flux = flux;
@@ -112,16 +112,16 @@ double error_of_entered_grains(FlowScheme scheme, double step, const TimeFunctio
   return worst / (2700.0 * volume);
 }
 
-/// Within an interval between two meetings c counts with its mean: exact where either is constant,
+/// Within an interval of the flow c counts with its mean: exact where either is constant,
 /// else c' q' D^3 / 12 is missed in each interval of length D: 1000 steps of the explicit scheme at
 /// most, a step of the implicit one.
 void expect_the_integral(FlowScheme scheme, double step, double interval) {
   const std::vector<double> knots{0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 5.0};
-  const double constant = error_of_entered_grains(scheme, step, 0.012, knots);
+  const double constant = error_of_fines_inflow(scheme, step, 0.012, knots);
   const double changing =
-      error_of_entered_grains(scheme, step, TimeFunction(Knots{{1.0, 0.004}, {2.0, 0.012}}), knots);
-  std::cout << "grains that entered: largest error " << constant << " of all with a constant flux, "
-            << changing << " with one that changes\n";
+      error_of_fines_inflow(scheme, step, TimeFunction(Knots{{1.0, 0.004}, {2.0, 0.012}}), knots);
+  std::cout << "fines that flowed in: largest error " << constant
+            << " of all with a constant flux, " << changing << " with one that changes\n";
   EXPECT_LT(constant, 1e-6);
   const double both_change = 0.5;  // s, from 1 s to 1.5 s
   const double missed = 0.1 * 0.008 * interval * interval / 12.0 * both_change;

@@ -123,7 +123,7 @@ TEST(DoublePointFaces, ThePapersModeClosesItsBooksToo) {
 TEST(DoublePointFaces, InAFlowThatTurns) {
   // Water enters on the left and leaves at the top. Where the whole of a soil erodes at one rate,
   // c = 1 - n(t_in) / n(t) by any path, and when a point came in is known to within `every`
-  // by its number: whoever looks finds points numbered as the run itself does.
+  // by its number: every output numbers points as the run does.
   constexpr double every = 0.5;
   constexpr double end = 20.0;
   Scene scene = faces_scene(12, end);
@@ -137,7 +137,7 @@ TEST(DoublePointFaces, InAFlowThatTurns) {
 
   std::map<long, double> seen;  // first, by the point's number
   double worst = 0.0;
-  int born = 0;
+  int injected = 0;
   for (std::size_t k = 0; k < times.size(); ++k) {
     const LiquidPoints<2>& liquid = moments.states[k].liquid;
     const double n = porosity(times[k]);
@@ -150,11 +150,11 @@ TEST(DoublePointFaces, InAFlowThatTurns) {
       const double most = 1.0 - porosity(from_outside ? first - every : 0.0) / n;
       const double least = 1.0 - porosity(from_outside ? first : 0.0) / n;
       worst = std::max({worst, c - most, least - c});
-      born += from_outside ? 1 : 0;
+      injected += from_outside ? 1 : 0;
     }
   }
   std::cout << "in a flow that turns: c of any point at most " << worst << " off\n";
-  EXPECT_GE(born, 1000);
+  EXPECT_GE(injected, 1000);
   EXPECT_LE(worst, 1e-3);
 }
 

@@ -1,4 +1,4 @@
-/// Fluidised grains that liquid points carry, against exact profiles: physical masses, steady flow
+/// Fluidised fines that liquid points carry, against exact profiles: physical masses, steady flow
 /// of q = 0.012 m/s from the first step, clean water from above.
 
 #include <gtest/gtest.h>
@@ -135,7 +135,7 @@ TEST(DoublePointFines, FluidisedMassInTheSpecimen) {
               << " %, at the exact pore volume " << 100.0 * worst.worst_concentration
               << " %, of the field between points " << 100.0 * worst.worst_field << " %\n";
   }
-  // Grains come and go with whole points, and the specimen never holds exactly as many as its pores
+  // Fines come and go with whole points, and the specimen never holds exactly as many as its pores
   // are worth, least of all behind layers.
   EXPECT_LE(alone.worst_mass, 0.012);
   EXPECT_LE(alone.worst_concentration, 0.006);
@@ -180,8 +180,8 @@ TEST(DoublePointFines, ErrorIsThatOfCompressibleWater) {
     errors.push_back(error_of(columns, fines_scene(12, 60.0)));
     std::cout << columns << " columns: error of c " << errors.back() << '\n';
   }
-  // The exact solution is incompressible, and water that expands by p/K = 3e-4 on its way down is not:
-  // that much of c at the outlet is left on any mesh.
+  // The exact solution is incompressible, and water that expands by p/K = 3e-4 on its way down is
+  // not: that much of c at the outlet is left on any mesh.
   for (const double error : errors) EXPECT_LE(error, 5e-5);
 }
 

@@ -84,7 +84,7 @@ TEST_P(DoublePointLong, FortyPoreVolumesLeaveThePointsAsTheyWere) {
 
 INSTANTIATE_TEST_SUITE_P(Meshes, DoublePointLong, ::testing::Values("regular", "jittered", "free"));
 
-/// Positions in ascending order, whatever the order in which points were born.
+/// Positions in ascending order, whatever the order in which points were injected.
 std::vector<std::array<double, 2>> positions(const model::ModelState<DoublePoint>& state,
                                              const Mesh<2>& mesh) {
   std::vector<std::array<double, 2>> result;
@@ -96,7 +96,7 @@ std::vector<std::array<double, 2>> positions(const model::ModelState<DoublePoint
   return result;
 }
 
-TEST(DoublePointBirths, DoNotDependOnTheStep) {
+TEST(DoublePointInjection, DoNotDependOnTheStep) {
   for (const Seeding seeding : {Seeding::low_discrepancy, Seeding::random}) {
     std::vector<std::vector<std::array<double, 2>>> seen;
     // Every point of the start has left by then.
@@ -118,7 +118,7 @@ TEST(DoublePointBirths, DoNotDependOnTheStep) {
       worst =
           std::max(worst, std::hypot(seen[0][k][0] - seen[1][k][0], seen[0][k][1] - seen[1][k][1]));
     }
-    std::cout << "births with steps of 0.05 s and 0.013 s: " << seen[0].size()
+    std::cout << "injected points with steps of 0.05 s and 0.013 s: " << seen[0].size()
               << " points, positions differ by " << worst << " m at most\n";
     EXPECT_LE(worst, 1e-9);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What double-point verification shares: the paper's way of doing it and where the specimen is.
+/// What double-point tests share: the settings of the paper, and where the specimen is.
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 namespace suffuse::model {
 
-/// As the paper has it: as many points in every element, at random; grains go to the points of
+/// As the paper has it: as many points in every element, at random; fines go to the points of
 /// their own element, and where there are none nothing erodes.
 inline void use_paper_mode(Scene& scene, int seed = 1) {
   scene.points.seeding = Seeding::random;

@@ -51,7 +51,7 @@ TEST(ErgunFlux, IsTheRootOfErgunsEquationAndStaysThere) {
   double worst = 0.0;
   double worst_later = 0.0;
   double worst_uneven = 0.0;
-  double least_share = 1.0;
+  double min_share = 1.0;
   for (const auto& row : read_reference("ergun.csv")) {
     const double expected = row.number("q_ergun");
     const Fluxes one = fluxes_of<model::ModelRun>(
@@ -63,14 +63,14 @@ TEST(ErgunFlux, IsTheRootOfErgunsEquationAndStaysThere) {
     worst = std::max(worst, std::abs(one.start / expected - 1.0));
     worst_later = std::max(worst_later, std::abs(one.later / expected - 1.0));
     worst_uneven = std::max(worst_uneven, std::abs(one.uneven / expected));
-    least_share = std::min(least_share, expected / row.number("q_darcy"));
+    min_share = std::min(min_share, expected / row.number("q_darcy"));
     ++compared;
   }
   EXPECT_GE(compared, 18);
-  EXPECT_LE(least_share, 0.2) << "some were to be far from Darcy's";
-  std::cout << "Ergun: " << compared << " fluxes down to " << least_share
+  EXPECT_LE(min_share, 0.2) << "some were to be far from Darcy's";
+  std::cout << "Ergun: " << compared << " fluxes down to " << min_share
             << " of Darcy's, largest relative error " << worst << " at the start, " << worst_later
-            << " after 3000 steps, in less out " << worst_uneven << '\n';
+            << " after 3000 steps, in minus out " << worst_uneven << '\n';
 }
 
 TEST(ErgunFlux, IsTheSameInTheDoublePointFormulation) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Fluidised grains in a column that clean water enters at uniform Darcy flux q, by
+/// Fluidised fines in a column that clean water enters at uniform Darcy flux q, by
 /// characteristics: D ln(1 - c)/Dt = -phi_e / n_L along a path of the liquid. Integrated with small
 /// steps from the law and the initial porosity; nothing of the solver is in it.
 

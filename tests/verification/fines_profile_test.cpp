@@ -1,4 +1,4 @@
-/// Fluidised grains against exact profiles: physical masses (no mass scaling), steady flow of
+/// Fluidised fines against exact profiles: physical masses (no mass scaling), steady flow of
 /// q = 0.012 m/s from the first step, clean water from above. With the explicit scheme, and with
 /// the implicit one in steps of its own choice and of one second.
 

@@ -58,7 +58,7 @@ class FlowColumn {
     }
     return sum;
   }
-  /// L2 norm of pressure less `amplitude` sin(pi y), by the rule of the field nodes.
+  /// L2 norm of pressure minus `amplitude` sin(pi y), by the rule of the field nodes.
   [[nodiscard]] double pressure_error(double amplitude) const {
     double sum = 0.0;
     for (std::size_t e = 0; e < grid_.volume.size(); ++e) {

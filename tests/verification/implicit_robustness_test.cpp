@@ -40,7 +40,7 @@ Case<2> case_of(const Scene& scene) {
 struct HardScene {
   const char* name;
   std::function<void(Scene&)> change;
-  long most_steps;
+  long max_steps;
 };
 
 std::ostream& operator<<(std::ostream& out, const HardScene& scene) {
@@ -125,7 +125,7 @@ void runs_to_its_end(Formulation formulation) {
   }
   for (const double n : moments.states.back().porosity) EXPECT_LE(n, 0.4 + 1e-12);
   std::cout << run.steps() << " steps\n";
-  EXPECT_LE(run.steps(), hard.most_steps);
+  EXPECT_LE(run.steps(), hard.max_steps);
   EXPECT_LE(run.worst_residual(), 1e-12);
 }
 

@@ -252,7 +252,7 @@ TEST(FluxLaw, ErosionFollowsAFluxThatChanges) {
   }
 }
 
-TEST(Events, KinksOfBoundaryValuesAndErosionAreHitExactly) {
+TEST(Breakpoints, KinksOfBoundaryValuesAndErosionAreHitExactly) {
   // Inflow with its kinks at odd times, erosion with its start and end at others: with every one
   // hit, what enters and what erodes is exact.
   Scene scene = implicit_scene(20.0);

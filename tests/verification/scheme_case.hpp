@@ -1,6 +1,6 @@
 #pragma once
 
-/// Ways to step the flow, for tests that every one of them must pass.
+/// Schemes of the flow and their settings, for tests that each of them must pass.
 
 #include <ostream>
 
