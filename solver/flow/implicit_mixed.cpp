@@ -16,48 +16,16 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Alexander's gamma: both stages last gamma dt, which makes their matrices alike.
 constexpr double stage_share = 1.0 - 0.5 * std::numbers::sqrt2;
 
-template <int Dim>
-std::vector<Vector<Dim>> part_of_way(const std::vector<Vector<Dim>>& from,
-                                     const std::vector<Vector<Dim>>& to, double share) {
-  std::vector<Vector<Dim>> result(from.size());
-  for (std::size_t e = 0; e < from.size(); ++e) result[e] = from[e] + share * (to[e] - from[e]);
-  return result;
-}
-
-template <int Dim>
-double largest_norm(const std::vector<Vector<Dim>>& field) {
-  double largest = 0.0;
-  for (const Vector<Dim>& v : field) largest = std::max(largest, v.norm());
-  return largest;
-}
-
 }  // namespace
 
 template <int Dim>
 ImplicitMixed<Dim>::ImplicitMixed(const Grid<Dim>& grid, ImplicitSettings settings,
                                   Vector<Dim> gravity)
-    : grid_(grid), settings_(settings), gravity_(std::move(gravity)) {
-  const int elements = grid.mesh.element_count();
+    : grid_(grid),
+      settings_(settings),
+      gravity_(std::move(gravity)),
+      matrix_(grid, settings.threads) {
   for (const Vector<Dim>& normal : grid.face_normal) face_area_.push_back(normal.norm());
-  normal_products_.resize(elements);
-  for (int e = 0; e < elements; ++e) {
-    // Rows add up to zero, as pressure alone moves nothing: better so than by round-off.
-    auto& products = normal_products_[e];
-    for (int a = 0; a <= Dim; ++a) {
-      products[a][a] = 0.0;
-      for (int b = 0; b < a; ++b) {
-        products[a][b] = products[b][a] =
-            outward_normal(e, a).dot(outward_normal(e, b)) / grid.volume[e];
-      }
-    }
-    for (int a = 0; a <= Dim; ++a) {
-      double others = 0.0;
-      for (int b = 0; b <= Dim; ++b) {
-        if (b != a) others += products[a][b];
-      }
-      products[a][a] = -others;
-    }
-  }
 }
 
 template <int Dim>
@@ -81,7 +49,7 @@ template <int Dim>
 void ImplicitMixed<Dim>::archive(StateArchive& archive,
                                  const std::vector<FaceCondition>& conditions) {
   set_up(conditions);
-  solver_->archive(archive, matrix_);
+  solver_->archive(archive, matrix_.values());
   correction_->archive(archive);
   archive(earlier_counts_, rise_rate_, flux_scale_, last_steady_, last_steady_flux_);
 }
@@ -95,13 +63,7 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
   const int faces = grid_.face_count();
   kinds_.clear();
   for (const FaceCondition& c : conditions) kinds_.push_back(c.kind);
-  unknown_.assign(faces, -1);
-  unknowns_ = 0;
-  for (int f = 0; f < faces; ++f) {
-    if (kinds_[f] != FaceKind::pressure) unknown_[f] = unknowns_++;
-  }
-
-  lay_out_matrix();
+  matrix_.lay_out(kinds_);
   earlier_counts_ = counts();
   solver_.emplace(settings_.threads);
   correction_.emplace(grid_, conditions);
@@ -110,41 +72,6 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
   last_steady_.face_pressure.assign(faces, 0.0);
   last_steady_.velocity.assign(grid_.mesh.element_count(), Vector<Dim>::Zero());
   last_steady_flux_ = last_steady_.velocity;
-}
-
-template <int Dim>
-void ImplicitMixed<Dim>::lay_out_matrix() {
-  const int elements = grid_.mesh.element_count();
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int e = 0; e < elements; ++e) {
-    for (const int f : grid_.element_face[e]) {
-      for (const int g : grid_.element_face[e]) {
-        if (unknown_[f] >= 0 && unknown_[g] >= 0) {
-          entries.emplace_back(unknown_[f], unknown_[g], 1.0);
-        }
-      }
-    }
-  }
-  matrix_.resize(unknowns_, unknowns_);
-  matrix_.setFromTriplets(entries.begin(), entries.end());
-  matrix_.makeCompressed();
-
-  const auto position = [&](int row, int column) {
-    const int* inner = matrix_.innerIndexPtr();
-    const int* first = inner + matrix_.outerIndexPtr()[column];
-    const int* last = inner + matrix_.outerIndexPtr()[column + 1];
-    return static_cast<int>(std::lower_bound(first, last, row) - inner);
-  };
-  position_.resize(elements);
-  for (int e = 0; e < elements; ++e) {
-    for (int a = 0; a <= Dim; ++a) {
-      for (int b = 0; b <= Dim; ++b) {
-        const int row = unknown_[grid_.element_face[e][a]];
-        const int column = unknown_[grid_.element_face[e][b]];
-        position_[e][a][b] = row >= 0 && column >= 0 ? position(row, column) : -1;
-      }
-    }
-  }
 }
 
 template <int Dim>
@@ -167,44 +94,9 @@ Vector<Dim> ImplicitMixed<Dim>::pressure_gradient(int e, const std::vector<doubl
   for (int k = 1; k <= Dim; ++k) {
     const double difference =
         (reference[faces[k]] - reference[faces[0]]) + (rise[faces[k]] - rise[faces[0]]);
-    sum += difference * outward_normal(e, k);
+    sum += difference * grid_.outward_normal(e, k);
   }
   return sum / grid_.volume[e];
-}
-
-template <int Dim>
-void ImplicitMixed<Dim>::assemble() {
-  // An entry beside the diagonal belongs to the one element that has both faces; to those on the
-  // diagonal both neighbours of the face add.
-  const MomentumLaw& law = work_.law;
-  double* values = matrix_.valuePtr();
-  const auto entry = [&](int e, int a, int b) {
-    double product = normal_products_[e][a][b];
-    if (!law.direction.empty()) {
-      const Vector<Dim>& direction = law.direction[e];
-      product -= direction.dot(outward_normal(e, a)) * direction.dot(outward_normal(e, b)) /
-                 grid_.volume[e];
-    }
-    return product * law.mobility[e];
-  };
-  for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
-    for (int a = 0; a <= Dim; ++a) {
-      for (int b = 0; b <= Dim; ++b) {
-        if (a != b && position_[e][a][b] >= 0) values[position_[e][a][b]] = entry(e, a, b);
-      }
-    }
-  });
-  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
-    if (unknown_[f] < 0) return;
-    const auto diagonal = [&](int e) {
-      const int k = side_of(e, f);
-      return entry(e, k, k) + work_.storage[e];
-    };
-    const int left = grid_.face_left[f];
-    const int k = side_of(left, f);
-    values[position_[left][k][k]] =
-        grid_.is_outer(f) ? diagonal(left) : diagonal(left) + diagonal(grid_.face_right[f]);
-  });
 }
 
 template <int Dim>
@@ -219,9 +111,7 @@ void ImplicitMixed<Dim>::FacePressure::move_reference(const std::vector<double>&
 
 template <int Dim>
 double ImplicitMixed<Dim>::conductance_of(int e) const {
-  double largest = 0.0;
-  for (int k = 0; k <= Dim; ++k) largest = std::max(largest, normal_products_[e][k][k]);
-  return work_.law.mobility[e] * largest;
+  return work_.law.mobility[e] * matrix_.largest_product(e);
 }
 
 template <int Dim>
@@ -231,11 +121,12 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
   w.known_rise.resize(grid_.face_count());
   w.face_push.resize(elements);
   w.round_off.resize(elements);
-  w.load.resize(unknowns_);
-  w.guess.resize(unknowns_);
-  w.tolerance.resize(unknowns_);
-  for_each_index(grid_.face_count(), settings_.threads,
-                 [&](int f) { w.known_rise[f] = unknown_[f] < 0 ? w.pressure.rise[f] : 0.0; });
+  w.load.resize(matrix_.unknowns());
+  w.guess.resize(matrix_.unknowns());
+  w.tolerance.resize(matrix_.unknowns());
+  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
+    w.known_rise[f] = matrix_.unknown(f) < 0 ? w.pressure.rise[f] : 0.0;
+  });
   for_each_index(elements, settings_.threads, [&](int e) {
     const Vector<Dim> gradient = pressure_gradient(e, w.pressure.reference, w.known_rise);
     Vector<Dim> push = w.law.drive[e] - gradient;
@@ -246,7 +137,7 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
     w.round_off[e] = 2.0 * epsilon * w.law.mobility[e] * (w.law.drive[e].norm() + gradient.norm());
   });
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
-    const int row = unknown_[f];
+    const int row = matrix_.unknown(f);
     if (row < 0) return;
     w.guess[row] = w.pressure.rise[f];
     w.load[row] = kinds_[f] != FaceKind::interior ? prescribed_inflow(forcing, f) : 0.0;
@@ -254,7 +145,7 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
     w.tolerance[row] = 1e-13 * flux_scale_;
     for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
       if (e < 0) continue;
-      w.load[row] += w.face_push[e].dot(outward_normal(e, side_of(e, f))) +
+      w.load[row] += w.face_push[e].dot(grid_.outward_normal(e, grid_.side_of(e, f))) +
                      w.net_source[e] / (Dim + 1) - w.storage[e] * w.pressure.offset[f];
       w.tolerance[row] += w.round_off[e] * face_area_[f];
     }
@@ -263,20 +154,17 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
 
 template <int Dim>
 void ImplicitMixed<Dim>::solve_pressure(const FlowForcing<Dim>& forcing) {
-  assemble();
+  matrix_.assemble(work_.law, work_.storage);
   find_load(forcing);
 
-  // Where nothing holds the level, a pressure that is free to choose is chosen: with its diagonal
-  // doubled the rise there is zero, as the rest of the system adds up to zero.
   for (const int e : correction_->sealed_root()) {
-    if (work_.storage[e] > 0.0) continue;
-    matrix_.valuePtr()[position_[e][0][0]] *= 2.0;
+    if (work_.storage[e] == 0.0) matrix_.hold_level(e);
   }
 
   const Eigen::VectorXd solution =
-      solver_->solve({matrix_, work_.load, work_.guess, work_.tolerance});
+      solver_->solve({matrix_.values(), work_.load, work_.guess, work_.tolerance});
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
-    if (unknown_[f] >= 0) work_.pressure.rise[f] = solution[unknown_[f]];
+    if (matrix_.unknown(f) >= 0) work_.pressure.rise[f] = solution[matrix_.unknown(f)];
   });
 }
 
@@ -373,7 +261,7 @@ void ImplicitMixed<Dim>::guess_pressure(const MixedState<Dim>& base, double dura
 
 template <int Dim>
 void ImplicitMixed<Dim>::find_flux(Field& flux, Field& push) const {
-  const MomentumLaw& law = work_.law;
+  const MomentumLaw<Dim>& law = work_.law;
   const int elements = grid_.mesh.element_count();
   flux.resize(elements);
   push.resize(elements);
@@ -417,120 +305,6 @@ void ImplicitMixed<Dim>::solve_linear(const MixedState<Dim>& base,
   w.pressure.move_reference(base.face_pressure);
   solve_pressure(forcing);
   find_flux(w.flux, w.push);
-}
-
-template <int Dim>
-void ImplicitMixed<Dim>::linearise_about(const Field& flux,
-                                         const std::vector<double>& quadratic_drag) {
-  Work& w = work_;
-  for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
-    const double speed = flux[e].norm();
-    const double secant = quadratic_drag[e] * speed;
-    w.law.mobility[e] = 1.0 / (w.resistance[e] + secant);
-    w.law.drive[e] = w.drive[e] + secant * flux[e];
-    w.law.direction[e] = Vector<Dim>::Zero();
-    if (secant > 0.0) {
-      w.law.direction[e] = std::sqrt(secant / (w.resistance[e] + 2.0 * secant)) / speed * flux[e];
-    }
-  });
-}
-
-template <int Dim>
-double ImplicitMixed<Dim>::momentum_error(const Field& flux, const Field& push,
-                                          const std::vector<double>& quadratic_drag) const {
-  double sum = 0.0;
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const double resistance = work_.resistance[e] + quadratic_drag[e] * flux[e].norm();
-    const double weight = grid_.volume[e] * work_.law.mobility[e];
-    sum += weight * (resistance * flux[e] - push[e]).squaredNorm();
-  }
-  return std::sqrt(sum);
-}
-
-template <int Dim>
-typename ImplicitMixed<Dim>::FluxChange ImplicitMixed<Dim>::flux_change(
-    const Field& new_flux, const Field& new_push) const {
-  const Work& w = work_;
-  FluxChange result{0.0, largest_norm<Dim>(new_flux), true};
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    double rise = 0.0;
-    double area = 0.0;
-    for (const int f : grid_.element_face[e]) {
-      rise = std::max(rise, std::abs(w.pressure.rise[f]));
-      area = std::max(area, face_area_[f]);
-    }
-    const double round_off =
-        epsilon * (conductance_of(e) * rise / area +
-                   w.law.mobility[e] * (w.law.drive[e].norm() + new_push[e].norm()));
-    const double here = (new_flux[e] - w.flux[e]).norm();
-    if (here > 1e-12 * result.largest_flux + 16.0 * round_off) result.is_round_off = false;
-    result.largest = std::max(result.largest, here);
-  }
-  return result;
-}
-
-template <int Dim>
-double ImplicitMixed<Dim>::damp(Field& new_flux, Field& new_push,
-                                const std::vector<double>& quadratic_drag) const {
-  constexpr double min_share = 1e-3;
-  const double error = momentum_error(work_.flux, work_.push, quadratic_drag);
-  double share = 1.0;
-  while (share > min_share) {
-    Field part_flux = part_of_way<Dim>(work_.flux, new_flux, share);
-    Field part_push = part_of_way<Dim>(work_.push, new_push, share);
-    if (momentum_error(part_flux, part_push, quadratic_drag) <= error) {
-      new_flux = std::move(part_flux);
-      new_push = std::move(part_push);
-      break;
-    }
-    share *= 0.5;
-  }
-  return share;
-}
-
-template <int Dim>
-void ImplicitMixed<Dim>::solve_quadratic(const MixedState<Dim>& base,
-                                         const FlowForcing<Dim>& forcing, const Field& flux_guess) {
-  // Continuity is linear, so after the first iteration only momentum is left to fulfil.
-  constexpr int max_iterations = 100;
-  Work& w = work_;
-  const int elements = grid_.mesh.element_count();
-  const std::vector<double>& quadratic_drag = forcing.coefficients.quadratic_drag;
-  w.law.mobility.resize(elements);
-  w.law.direction.resize(elements);
-  w.law.drive.resize(elements);
-  w.flux = flux_guess;
-  w.push = w.drive;
-  Field new_flux;
-  Field new_push;
-  double last_change = std::numeric_limits<double>::infinity();
-  for (int iteration = 0;; ++iteration) {
-    linearise_about(w.flux, quadratic_drag);
-    if (iteration > 0) w.pressure.move_reference(base.face_pressure);
-    solve_pressure(forcing);
-    find_flux(new_flux, new_push);
-
-    const FluxChange change = flux_change(new_flux, new_push);
-    // A small change that no longer halves is round-off that spread through the mesh.
-    const bool stagnates =
-        change.largest <= 1e-6 * change.largest_flux && change.largest > 0.5 * last_change;
-    if (change.is_round_off || stagnates) {
-      w.flux.swap(new_flux);
-      return;
-    }
-    if (iteration == max_iterations) {
-      std::ostringstream text;
-      text << "the flow with quadratic drag did not converge in " << max_iterations
-           << " iterations of Newton's method: the flux still changes by " << change.largest
-           << " m/s of " << change.largest_flux << " m/s";
-      throw NumericalError(text.str());
-    }
-    // The first step is never shortened: it is the one that fulfils continuity.
-    const double share = iteration > 0 ? damp(new_flux, new_push, quadratic_drag) : 1.0;
-    last_change = share == 1.0 ? change.largest : std::numeric_limits<double>::infinity();
-    w.flux.swap(new_flux);
-    w.push.swap(new_push);
-  }
 }
 
 template <int Dim>
@@ -588,9 +362,9 @@ void ImplicitMixed<Dim>::find_face_flux(const FlowForcing<Dim>& forcing, Stage& 
     const int left = grid_.face_left[f];
     const int right = grid_.face_right[f];
     const int e = right < 0 || w.conductance[left] <= w.conductance[right] ? left : right;
-    const int k = side_of(e, f);
+    const int k = grid_.side_of(e, f);
     stage.face_flux[f] = grid_.element_face_sign[e][k] *
-                         (w.flux[e].dot(outward_normal(e, k)) - w.storage[e] * stage.rise[f] +
+                         (w.flux[e].dot(grid_.outward_normal(e, k)) - w.storage[e] * stage.rise[f] +
                           w.net_source[e] / (Dim + 1));
   });
   correction_->follow(w.conductance);

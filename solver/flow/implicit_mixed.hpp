@@ -17,6 +17,7 @@
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "flow/flux_correction.hpp"
+#include "flow/mixed_matrix.hpp"
 #include "grid/grid.hpp"
 #include "linear/lagged_preconditioner.hpp"
 
@@ -95,13 +96,6 @@ class ImplicitMixed {
     std::vector<double> face_flux;
     std::vector<double> flux_through;
   };
-  /// The linear law a = mobility (drive - grad p) of each element, with the mobility
-  /// scalar (I - direction direction^T).
-  struct MomentumLaw {
-    std::vector<double> mobility;
-    std::vector<Vector<Dim>> direction;
-    std::vector<Vector<Dim>> drive;
-  };
   /// Pressures at face centres as a sum, base + offset + rise, so that small changes of large
   /// pressures have all their digits; offset = reference - base.
   struct FacePressure {
@@ -120,7 +114,7 @@ class ImplicitMixed {
     std::vector<double> storage;     ///< per face of the element, m3/(s Pa)
     std::vector<double> net_source;  ///< outflow asked for, m3/s
     std::vector<double> surplus;     ///< of inflow and sources of each sealed piece, m3/s
-    MomentumLaw law;
+    MomentumLaw<Dim> law;
     FacePressure pressure;
     Field flux;  ///< per element, m/s
     Field push;  ///< drive minus pressure gradient, Pa/m
@@ -137,7 +131,6 @@ class ImplicitMixed {
   };
 
   void set_up(const std::vector<FaceCondition>& conditions);
-  void lay_out_matrix();
   Stage solve_stage(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
                     const Field& flux_guess);
   /// Linear resistance, drive and storage of each element. Throws NumericalError.
@@ -173,34 +166,21 @@ class ImplicitMixed {
   void find_face_flux(const FlowForcing<Dim>& forcing, Stage& stage);
   /// Solves for the pressures with the law of the moment. At prescribed pressures `rise` is known.
   void solve_pressure(const FlowForcing<Dim>& forcing);
-  void assemble();
   void find_load(const FlowForcing<Dim>& forcing);
 
-  [[nodiscard]] Vector<Dim> outward_normal(int e, int k) const {
-    return grid_.element_face_sign[e][k] * grid_.face_normal[grid_.element_face[e][k]];
-  }
   /// Inward flux prescribed at a face, m3/s.
   [[nodiscard]] double prescribed_inflow(const FlowForcing<Dim>& forcing, int face) const;
   [[nodiscard]] Vector<Dim> pressure_gradient(int e, const std::vector<double>& reference,
                                               const std::vector<double>& rise) const;
   /// Flux per pressure, m3/(s Pa), of the element's largest face.
   [[nodiscard]] double conductance_of(int e) const;
-  [[nodiscard]] int side_of(int e, int face) const {
-    const auto& faces = grid_.element_face[e];
-    return static_cast<int>(std::find(faces.begin(), faces.end(), face) - faces.begin());
-  }
 
   const Grid<Dim>& grid_;
   ImplicitSettings settings_;
   Vector<Dim> gravity_;
 
   std::vector<FaceKind> kinds_;  ///< everything below is set up for these
-  std::vector<int> unknown_;     ///< per face, -1 where the pressure is prescribed
-  int unknowns_ = 0;
-  Eigen::SparseMatrix<double> matrix_;
-  /// Per element, where entry (a, b) of its own matrix goes among the values; -1 for none.
-  std::vector<std::array<std::array<int, Dim + 1>, Dim + 1>> position_;
-  std::vector<std::array<std::array<double, Dim + 1>, Dim + 1>> normal_products_;  ///< N.N / volume
+  MixedMatrix<Dim> matrix_;
   std::vector<double> face_area_;
   std::optional<LaggedPreconditioner> solver_;
   std::optional<FluxCorrection<Dim>> correction_;

@@ -3,6 +3,7 @@
 /// The mesh with its faces, volumes, gradients and neighbours, made once from the mesh. Local face
 /// k of an element lies opposite its vertex k.
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -19,6 +20,15 @@ struct Grid {
   [[nodiscard]] Vector<Dim> face_centre(int face) const;
   [[nodiscard]] bool is_outer(int face) const { return face_right[face] < 0; }
   [[nodiscard]] int face_count() const { return static_cast<int>(face_left.size()); }
+  /// Normal of an element's local face `k`, times its area, pointing out of the element.
+  [[nodiscard]] Vector<Dim> outward_normal(int element, int k) const {
+    return element_face_sign[element][k] * face_normal[element_face[element][k]];
+  }
+  /// Local number of a face in an element that has it.
+  [[nodiscard]] int side_of(int element, int face) const {
+    const auto& faces = element_face[element];
+    return static_cast<int>(std::find(faces.begin(), faces.end(), face) - faces.begin());
+  }
   /// Element beyond local face `k` of an element, -1 at the outer boundary.
   [[nodiscard]] int across(int element, int k) const {
     const int f = element_face[element][k];

@@ -1,0 +1,60 @@
+#pragma once
+
+/// The matrix of the mixed elements: symmetric, with an unknown for each face whose pressure is not
+/// prescribed. Its entries are T N_a . N_b / V of each element, plus storage on the diagonal.
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <vector>
+
+#include "flow/face_conditions.hpp"
+#include "flow/flow.hpp"
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+/// The linear law q = mobility (I - direction direction^T) (drive - grad p) of each element.
+template <int Dim>
+struct MomentumLaw {
+  std::vector<double> mobility;  ///< T, m3 s/kg
+  VectorField<Dim> direction;    ///< of fast flow; empty where no soil has quadratic drag
+  VectorField<Dim> drive;        ///< Pa/m
+};
+
+template <int Dim>
+class MixedMatrix {
+ public:
+  MixedMatrix(const Grid<Dim>& grid, int threads);
+
+  /// Numbers the unknowns and lays out the pattern. `kinds`: per face.
+  void lay_out(const std::vector<FaceKind>& kinds);
+  [[nodiscard]] int unknowns() const { return unknowns_; }
+  /// Number of a face's unknown; -1 where its pressure is prescribed.
+  [[nodiscard]] int unknown(int face) const { return unknown_[face]; }
+
+  /// Values for a law and for the storage of each element at each of its faces, m3/(s Pa).
+  void assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage);
+  /// Doubles the diagonal at the first face of an element, where nothing else holds the level of
+  /// the pressure: its rise is then zero, as the rest of the system adds up to zero.
+  void hold_level(int element) { values_.valuePtr()[position_[element][0][0]] *= 2.0; }
+  [[nodiscard]] const Eigen::SparseMatrix<double>& values() const { return values_; }
+
+  /// Largest N . N / V of an element, 1/m2 times m2.
+  [[nodiscard]] double largest_product(int element) const;
+
+ private:
+  template <class Value>
+  using PerEntry = std::vector<std::array<std::array<Value, Dim + 1>, Dim + 1>>;
+
+  [[nodiscard]] double entry(const MomentumLaw<Dim>& law, int e, int a, int b) const;
+
+  const Grid<Dim>& grid_;
+  int threads_;
+  std::vector<int> unknown_;
+  int unknowns_ = 0;
+  Eigen::SparseMatrix<double> values_;
+  PerEntry<int> position_;     ///< where an element's entry goes among the values; -1 for none
+  PerEntry<double> products_;  ///< N_a . N_b / V
+};
+
+}  // namespace suffuse
