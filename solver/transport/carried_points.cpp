@@ -8,6 +8,8 @@ namespace {
 
 /// Elements that one thread handles together.
 constexpr int elements_together = 64;
+/// Elements between the one whose points move and the one whose points are fetched from memory.
+constexpr int elements_ahead = 4;
 /// Below this many elements a loop is over before other threads are awake.
 constexpr int worth_threads_of_points = 512;
 
@@ -168,6 +170,7 @@ void CarriedPoints<Dim>::grid_to_points(const FlowChange<Dim>& change, const Wal
     try {
       const int end = std::min(elements, (k + 1) * elements_together);
       for (int e = k * elements_together; e < end; ++e) {
+        blocks_.prefetch(e + elements_ahead);
         if (blocks_.count(e) == 0) continue;
         move_points(e, element_step(e, change, field, duration), field, duration, departures);
       }

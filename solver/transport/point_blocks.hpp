@@ -50,6 +50,12 @@ class PointBlocks {
   [[nodiscard]] const std::vector<CarriedPoint<Dim>>& of(int element) const {
     return blocks_[element];
   }
+  /// Brings the points of an element into the cache, if there is such an element: blocks that moved
+  /// are where no processor expects them.
+  void prefetch(int element) const {
+    if (element >= element_count()) return;
+    for (const CarriedPoint<Dim>& point : blocks_[element]) __builtin_prefetch(&point, 1);
+  }
 
   [[nodiscard]] double water_mass(int element, int slot) const {
     return blocks_[element][slot].water_mass;
