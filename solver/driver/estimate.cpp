@@ -12,57 +12,12 @@
 #include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/stopwatch.hpp"
+#include "driver/trial_course.hpp"
 #include "results/number_text.hpp"
 #include "results/writer.hpp"
 
 namespace suffuse {
 namespace {
-
-/// How far a trial was at the end of an interval.
-struct Mark {
-  double time = 0.0;  ///< simulated, s
-  double steps = 0.0;
-  double seconds = 0.0;  ///< of wall time
-};
-
-/// Steps per simulated second.
-double step_rate(const Mark& from, const Mark& to) {
-  return (to.steps - from.steps) / (to.time - from.time);
-}
-
-/// The course of a trial: its start and the end of every interval.
-struct Course {
-  std::vector<Mark> marks;
-
-  /// The last mark that is not after `time`.
-  [[nodiscard]] const Mark& at(double time) const {
-    const auto after = std::upper_bound(marks.begin(), marks.end(), time,
-                                        [](double t, const Mark& mark) { return t < mark.time; });
-    return *std::prev(after);
-  }
-  [[nodiscard]] const Mark& last() const { return marks.back(); }
-  /// The start of the later half. What comes before is not like what is to come.
-  [[nodiscard]] const Mark& half() const { return at(0.5 * last().time); }
-
-  /// Steps from the end of the trial to `end`. While the time doubles, steps grow by as much as in
-  /// the later half of the trial, until they are `longest`.
-  [[nodiscard]] double steps_to_go(double longest, double end) const {
-    const Mark& quarter = at(0.5 * half().time);
-    double rate = step_rate(half(), last());
-    const bool shows_growth = half().steps > quarter.steps;
-    const double change =
-        shows_growth ? std::clamp(rate / step_rate(quarter, half()), 0.5, 1.0) : 1.0;
-    double steps = 0.0;
-    for (double t = last().time; t < end; t *= 2.0) {
-      rate *= change;
-      steps += std::max(rate, 1.0 / longest) * std::min(t, end - t);
-    }
-    return steps;
-  }
-  [[nodiscard]] double seconds_per_step() const {
-    return (last().seconds - half().seconds) / (last().steps - half().steps);
-  }
-};
 
 double folder_size(const std::filesystem::path& folder) {
   double sum = 0.0;
@@ -106,7 +61,7 @@ class Trial final : public OutputSink<Dim> {
     result.trial_seconds = watch_.seconds();
     return result;
   }
-  [[nodiscard]] const Course& course() const { return course_; }
+  [[nodiscard]] const TrialCourse& course() const { return course_; }
 
   void warn(const std::string& /*text*/) override {}
   void write_row(const FlowState<Dim>& flow) override {
@@ -132,7 +87,7 @@ class Trial final : public OutputSink<Dim> {
 
   /// The files of the run and the time to write them, as for the last state. Throws FileError.
   void add_files(Estimate& result) {
-    result.rows = loop_.schedule().rows().count();
+    const long rows = loop_.schedule().rows().count();
     result.snapshots = loop_.schedule().snapshots().count();
     const ScratchFolder folder("suffuse-estimate");
     ResultsWriter<Dim> writer(folder.path().string(), case_);
@@ -147,7 +102,7 @@ class Trial final : public OutputSink<Dim> {
       seconds += static_cast<double>(count) * watch.seconds();
       bytes += static_cast<double>(count) * (folder_size(folder.path()) - before);
     };
-    add(result.rows, [&] {
+    add(rows, [&] {
       writer.append_history(loop_.model().history_row(flow));
       writer.append_ledger(loop_.model().ledger());
       writer.append_regions(loop_.model().region_rows());
@@ -166,7 +121,7 @@ class Trial final : public OutputSink<Dim> {
   Stopwatch watch_;
   RunLoop<Dim> loop_;
   RowChecks checks_;
-  Course course_;
+  TrialCourse course_;
 };
 
 std::string counted(long count, const std::string& one) {
@@ -178,7 +133,7 @@ std::string counted(long count, const std::string& one) {
 template <int Dim>
 Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget) {
   Estimate first;
-  Course start_up;
+  TrialCourse start_up;
   {
     Trial<Dim> trial(c, plan, budget);
     first = trial.run();

@@ -23,7 +23,6 @@ struct Estimate {
   /// The results folder, bytes; NaN where no file could be written to measure it.
   double disk = std::numeric_limits<double>::quiet_NaN();
   long snapshots = 0;
-  long rows = 0;  ///< of each table
 
   // What it rests on.
   long trial_steps = 0;
