@@ -4,6 +4,7 @@
 /// k of an element lies opposite its vertex k.
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "case/mesh.hpp"
@@ -46,5 +47,9 @@ struct Grid {
   std::vector<int> node_element_begin;
   std::vector<int> node_element;
 };
+
+/// "element 5 at (0.1 0.2)", with the centroid, for messages.
+template <int Dim>
+std::string element_text(const Grid<Dim>& grid, int element);
 
 }  // namespace suffuse
