@@ -141,9 +141,8 @@ void ExplicitFlow<Dim>::check_step(double time) {
   const StabilityLimit limit = current_limit(step_);
   if (step_ <= limit.step) return;
   std::ostringstream message;
-  message << "the stability limit fell to " << limit.step << " s at t = " << time << " s (element "
-          << limit.element << " at ("
-          << element_centroid(this->grid().mesh, limit.element).transpose() << "))";
+  message << "the stability limit fell to " << limit.step << " s at t = " << time << " s ("
+          << element_text(this->grid(), limit.element) << ")";
   if (step_given_) {
     message << ", below time.step = " << step_ << " s; take a shorter step or leave it out";
     throw NumericalError(message.str());
@@ -227,13 +226,7 @@ void ExplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
   std::vector<double> pressure(water_mass.size());
   for (std::size_t e = 0; e < pressure.size(); ++e) {
     const double ratio = water_mass[e] / (liquid.density * this->coefficients_.water_volume[e]);
-    if (!(ratio > 0.0)) {
-      std::ostringstream message;
-      message << "element " << e << " at ("
-              << element_centroid(this->grid().mesh, static_cast<int>(e)).transpose()
-              << ") has no water left at t = " << time << " s";
-      throw NumericalError(message.str());
-    }
+    if (!(ratio > 0.0)) this->refuse_dry(static_cast<int>(e), time);
     pressure[e] = pressure_from_density_ratio(ratio, liquid.bulk_modulus);
   }
   scheme_.set_pressure(std::move(pressure));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "case/errors.hpp"
 #include "grid/compensated_sum.hpp"
 #include "grid/parallel.hpp"
 #include "physics/drag.hpp"
@@ -56,6 +57,13 @@ double FlowSolver<Dim>::next_breakpoint(double start, double latest) const {
     if (time > start && !is_same_time(time, start)) return std::min(time, latest);
   }
   return latest;
+}
+
+template <int Dim>
+void FlowSolver<Dim>::refuse_dry(int element, double time) const {
+  std::ostringstream message;
+  message << element_text(grid_, element) << " has no water left at t = " << time << " s";
+  throw NumericalError(message.str());
 }
 
 template <int Dim>

@@ -134,6 +134,8 @@ class FlowSolver {
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; at a prescribed pressure, that pressure.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
+  /// Throws NumericalError: all water has gone from the element.
+  [[noreturn]] void refuse_dry(int element, double time) const;
   /// Adds a warning, which the next `take_warnings` returns.
   void warn(std::string text) { warnings_.push_back(std::move(text)); }
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "case/errors.hpp"
 #include "flow/implicit_settings.hpp"
@@ -205,13 +204,7 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
   for (std::size_t e = 0; e < water_mass.size(); ++e) {
     const double fills =
         water_mass[e] / (liquid.density * density_ratio(pressure_[e], liquid.bulk_modulus));
-    if (!(fills > 0.0)) {
-      std::ostringstream message;
-      message << "element " << e << " at ("
-              << element_centroid(this->grid().mesh, static_cast<int>(e)).transpose()
-              << ") has no water left at t = " << time << " s";
-      throw NumericalError(message.str());
-    }
+    if (!(fills > 0.0)) this->refuse_dry(static_cast<int>(e), time);
     mismatch[e] = fills - volume[e];
     eos_error_ = std::max(eos_error_, std::abs(mismatch[e]) / volume[e]);
   }

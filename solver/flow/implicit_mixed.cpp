@@ -189,9 +189,8 @@ void ImplicitMixed<Dim>::find_resistance(const MixedState<Dim>& base, double dur
   if (wrong == w.resistance.end()) return;
   const auto e = static_cast<int>(wrong - w.resistance.begin());
   std::ostringstream text;
-  const Vector<Dim> at = element_centroid(grid_.mesh, e);
-  text << "the liquid must meet resistance everywhere; element " << e << " at (" << at.transpose()
-       << ") has " << *wrong << " kg/(m3 s) per flux";
+  text << "the liquid must meet resistance everywhere; " << element_text(grid_, e) << " has "
+       << *wrong << " kg/(m3 s) per flux";
   throw NumericalError(text.str());
 }
 

@@ -9,31 +9,37 @@ Field scalar(const char* name, const char* unit, int components = 1) {
   return {name, unit, components, {}};
 }
 
+std::vector<Field> pore_fields(int components) {
+  std::vector<Field> fields;
+  for (const char* name : {"porosity", "concentration", "fines_fraction", "water_fraction"}) {
+    fields.push_back(scalar(name, "1", components));
+  }
+  return fields;
+}
+
+/// Adds the values of one element or vertex to `pore_fields`.
+void add_values(std::vector<Field>& fields, double n, double c, double n_f) {
+  fields[0].values.push_back(n);
+  fields[1].values.push_back(c);
+  fields[2].values.push_back(n_f);
+  fields[3].values.push_back(n - n_f);
+}
+
 /// Means of elements, and their linear functions at the vertices.
 template <int Dim>
 void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesState<Dim>& liquid,
                Snapshot& result) {
   using Nodes = FieldNodes<Dim>;
-  Field porosity = scalar("porosity", "1");
-  Field concentration = scalar("concentration", "1");
-  Field fines = scalar("fines_fraction", "1");
-  Field water = scalar("water_fraction", "1");
+  result.cell = pore_fields(1);
+  result.element_vertex = pore_fields(Dim + 1);
   Field erodible = scalar("erodible_fraction", "1");
-  Field vertex_porosity = scalar("porosity", "1", Dim + 1);
-  Field vertex_concentration = scalar("concentration", "1", Dim + 1);
-  Field vertex_fines = scalar("fines_fraction", "1", Dim + 1);
-  Field vertex_water = scalar("water_fraction", "1", Dim + 1);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const ElementValues<Dim>& pores = liquid.pore_volume[e];
     const ElementValues<Dim>& volume = liquid.fines_volume[e];
     const double pore_sum = element_sum<Dim>(pores);
     const double fines_sum = element_sum<Dim>(volume);
     const double n = pore_sum / grid.volume[e];
-    const double n_f = fines_sum / grid.volume[e];
-    porosity.values.push_back(n);
-    concentration.values.push_back(fines_sum / pore_sum);
-    fines.values.push_back(n_f);
-    water.values.push_back(n - n_f);
+    add_values(result.cell, n, fines_sum / pore_sum, fines_sum / grid.volume[e]);
     erodible.values.push_back(solid.soils().soil_of_element(e).porosity_max() - n);
 
     const double node_volume = grid.volume[e] / (Dim + 1);
@@ -49,16 +55,10 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
     const auto f_vertex = Nodes::at_vertices(f_node);
     const auto c_vertex = Nodes::at_vertices(c_node);
     for (int k = 0; k <= Dim; ++k) {
-      vertex_porosity.values.push_back(n_vertex[k]);
-      vertex_fines.values.push_back(f_vertex[k]);
-      vertex_water.values.push_back(n_vertex[k] - f_vertex[k]);
-      vertex_concentration.values.push_back(c_vertex[k]);
+      add_values(result.element_vertex, n_vertex[k], c_vertex[k], f_vertex[k]);
     }
   }
-  result.cell = {std::move(porosity), std::move(concentration), std::move(fines), std::move(water),
-                 std::move(erodible)};
-  result.element_vertex = {std::move(vertex_porosity), std::move(vertex_concentration),
-                           std::move(vertex_fines), std::move(vertex_water)};
+  result.cell.push_back(std::move(erodible));
 }
 
 template <int Dim>

@@ -37,12 +37,8 @@ SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
   update_flow();
   this->flow_->start();
   this->start_flux_history();
-  const LiquidProperties& liquid = this->scene().liquid;
   water_mass_.resize(this->grid_.mesh.element_count());
-  for (std::size_t e = 0; e < water_mass_.size(); ++e) {
-    water_mass_[e] = liquid.density * this->flow_->coefficients().water_volume[e] *
-                     density_ratio(this->flow_->pressure()[e], liquid.bulk_modulus);
-  }
+  follow_pressure();
   this->masses_.open(stored());
 }
 
@@ -107,18 +103,23 @@ void SinglePoint<Dim>::book(const FaceVolumes& volumes) {
 }
 
 template <int Dim>
+void SinglePoint<Dim>::follow_pressure() {
+  const LiquidProperties& liquid = this->scene().liquid;
+  for (std::size_t e = 0; e < water_mass_.size(); ++e) {
+    water_mass_[e] = liquid.density * this->flow_->coefficients().water_volume[e] *
+                     density_ratio(this->flow_->pressure()[e], liquid.bulk_modulus);
+  }
+}
+
+template <int Dim>
 void SinglePoint<Dim>::match_masses() {
   const PassTimer timer(water_timing_);
   if (this->scene().flow.porosity_gradient_term) {
     // The masses are what is conserved; the pressure follows from them.
     this->flow_->match_masses(this->time_, water_mass_);
-    return;
-  }
-  // Without the third term of Eq. 2 strain alone is integrated, and the mass made to follow it.
-  const LiquidProperties& liquid = this->scene().liquid;
-  for (std::size_t e = 0; e < water_mass_.size(); ++e) {
-    water_mass_[e] = liquid.density * this->flow_->coefficients().water_volume[e] *
-                     density_ratio(this->flow_->pressure()[e], liquid.bulk_modulus);
+  } else {
+    // Without the third term of Eq. 2 strain alone is integrated, and the mass made to follow it.
+    follow_pressure();
   }
 }
 

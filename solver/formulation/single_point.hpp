@@ -32,6 +32,8 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
   void book(const FaceVolumes& volumes);
   /// The flow takes the pores as they are now.
   void update_flow();
+  /// Sets the water masses that fit the pressures.
+  void follow_pressure();
   /// Water masses and pressures agree after this.
   void match_masses();
 

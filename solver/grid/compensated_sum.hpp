@@ -27,11 +27,4 @@ class CompensatedSum {
   double correction_ = 0.0;
 };
 
-/// Compensated sum of a range.
-double compensated_sum(const auto& values) {
-  CompensatedSum sum;
-  for (const double v : values) sum.add(v);
-  return sum.value();
-}
-
 }  // namespace suffuse

@@ -26,6 +26,15 @@ struct FieldNodes {
   static constexpr double far_vertex = Dim == 2 ? 1.0 / 6.0 : 0.13819660112501051518;
   static constexpr double spread = near_vertex - far_vertex;
 
+  /// Position of field node j of an element, m.
+  static Vector<Dim> position(const Mesh<Dim>& mesh, int element, int j) {
+    Vector<Dim> x = Vector<Dim>::Zero();
+    for (int k = 0; k <= Dim; ++k) {
+      x += (k == j ? near_vertex : far_vertex) * mesh.nodes[mesh.elements[element][k]];
+    }
+    return x;
+  }
+
   /// Value of basis function j where the barycentric coordinate j is `coordinate`.
   static constexpr double basis(double coordinate) { return (coordinate - far_vertex) / spread; }
 

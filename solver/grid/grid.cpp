@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <sstream>
 
 namespace suffuse {
 namespace {
@@ -116,7 +117,17 @@ Vector<Dim> Grid<Dim>::face_centre(int face) const {
   return sum / Dim;
 }
 
+template <int Dim>
+std::string element_text(const Grid<Dim>& grid, int element) {
+  std::ostringstream text;
+  text << "element " << element << " at (" << element_centroid(grid.mesh, element).transpose()
+       << ")";
+  return text.str();
+}
+
 template struct Grid<2>;
 template struct Grid<3>;
+template std::string element_text(const Grid<2>&, int);
+template std::string element_text(const Grid<3>&, int);
 
 }  // namespace suffuse

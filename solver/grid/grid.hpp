@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "case/mesh.hpp"
@@ -56,5 +57,9 @@ struct Grid {
   std::vector<int> node_element_begin;
   std::vector<int> node_element;
 };
+
+/// "element 5 at (0.1 0.2)", with the centroid, for messages.
+template <int Dim>
+std::string element_text(const Grid<Dim>& grid, int element);
 
 }  // namespace suffuse

@@ -46,13 +46,12 @@ void put_on_face(std::array<double, Count>& at, int vertex) {
   for (double& share : at) share /= sum;
 }
 
-/// The same place in the element on the other side of the inner face opposite local vertex `vertex`, on
-/// which it lies.
+/// The same place in the element on the other side of the inner face opposite local vertex
+/// `vertex`, on which it lies.
 template <int Dim>
 PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int vertex) {
   const int e = place.element;
-  const int f = grid.element_face[e][vertex];
-  PointPlace<Dim> there{grid.face_left[f] == e ? grid.face_right[f] : grid.face_left[f], {}};
+  PointPlace<Dim> there{grid.across(e, vertex), {}};
   for (int a = 0; a <= Dim; ++a) {
     for (int b = 0; b <= Dim; ++b) {
       if (grid.mesh.elements[there.element][b] == grid.mesh.elements[e][a] && a != vertex) {

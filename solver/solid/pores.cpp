@@ -12,11 +12,7 @@ ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>&
   ElementField<Dim> result(grid.mesh.element_count());
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     for (int j = 0; j <= Dim; ++j) {
-      Vector<Dim> x = Vector<Dim>::Zero();
-      for (int k = 0; k <= Dim; ++k) {
-        const double weight = k == j ? FieldNodes<Dim>::near_vertex : FieldNodes<Dim>::far_vertex;
-        x += weight * grid.mesh.nodes[grid.mesh.elements[e][k]];
-      }
+      const Vector<Dim> x = FieldNodes<Dim>::position(grid.mesh, e, j);
       result[e][j] = grid.volume[e] / (Dim + 1) * soils.soil_of_element(e).initial_porosity(x);
     }
   }

@@ -31,9 +31,9 @@ void add_neighbours(const Grid<Dim>& grid, std::vector<int>& patch, std::size_t 
   const std::size_t end = patch.size();
   for (std::size_t i = begin; i < end; ++i) {
     const int e = patch[i];
-    for (const int f : grid.element_face[e]) {
-      if (grid.is_outer(f)) continue;
-      const int next = grid.face_left[f] == e ? grid.face_right[f] : grid.face_left[f];
+    for (int k = 0; k <= Dim; ++k) {
+      const int next = grid.across(e, k);
+      if (next < 0) continue;
       const auto& region = grid.mesh.element_region;
       const bool known = std::find(patch.begin(), patch.end(), next) != patch.end();
       if (!known && region[next] == region[e]) patch.push_back(next);
@@ -79,11 +79,7 @@ ElementField<Dim> concentration_fit(const Grid<Dim>& grid, const LiquidPoints<Di
       function[0] = load[0] / normal(0, 0);
     }
     for (int j = 0; j <= Dim; ++j) {
-      Vector<Dim> x = Vector<Dim>::Zero();
-      for (int k = 0; k <= Dim; ++k) {
-        const double weight = k == j ? FieldNodes<Dim>::near_vertex : FieldNodes<Dim>::far_vertex;
-        x += weight * grid.mesh.nodes[grid.mesh.elements[e][k]];
-      }
+      const Vector<Dim> x = FieldNodes<Dim>::position(grid.mesh, e, j);
       result[e][j] = function.dot(row_at<Dim>(x, centre, size));
     }
   }

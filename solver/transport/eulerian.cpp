@@ -151,9 +151,7 @@ EulerianTransport<Dim>::EulerianTransport(const Grid<Dim>& grid,
     Sides& sides = sides_[e];
     for (int k = 0; k <= Dim; ++k) {
       const int f = grid.element_face[e][k];
-      sides.neighbour[k] = grid.is_outer(f)         ? -1 - outer[f]
-                           : grid.face_left[f] == e ? grid.face_right[f]
-                                                    : grid.face_left[f];
+      sides.neighbour[k] = grid.is_outer(f) ? -1 - outer[f] : grid.across(e, k);
       sides.theirs[k] = {};
       if (sides.neighbour[k] < 0) continue;
       for (int a = 0; a < Dim; ++a) {
@@ -307,9 +305,8 @@ void EulerianTransport<Dim>::refuse_impossible(const std::vector<double>& mean) 
   const auto first = std::find_if_not(mean.begin(), mean.end(), possible);
   const auto e = static_cast<int>(first - mean.begin());
   std::ostringstream message;
-  const Vector<Dim> x = element_centroid(grid_.mesh, e);
-  message << "concentration of fluidised grains left [0, 1): " << *first << " in element " << e
-          << " at (" << x.transpose() << ")";
+  message << "concentration of fluidised grains left [0, 1): " << *first << " in "
+          << element_text(grid_, e);
   throw NumericalError(message.str());
 }
 
@@ -330,19 +327,6 @@ void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& pores, Element
     }
   });
   scratch.at_vertices.swap(scratch.next_at_vertices);
-}
-
-template <int Dim>
-void EulerianTransport<Dim>::limit(FinesState<Dim>& state,
-                                   const std::vector<double>& face_volume) const {
-  TransportScratch<Dim> scratch;
-  start(state, face_volume, scratch);
-  scratch.next_at_vertices = scratch.at_vertices;
-  for (std::size_t e = 0; e < scratch.mean.size(); ++e) {
-    scratch.mean[e] =
-        element_sum<Dim>(state.fines_volume[e]) / element_sum<Dim>(state.pore_volume[e]);
-  }
-  limit_stage(state.pore_volume, state.fines_volume, scratch);
 }
 
 template <int Dim>

@@ -66,16 +66,13 @@ class EulerianTransport {
   void start(const FinesState<Dim>& state, const std::vector<double>& face_volume,
              TransportScratch<Dim>& scratch) const;
   /// Moves the state by one step in which `eroded` m3 of fines join the liquid (empty: none).
-  /// Throws NumericalError where an element's mean concentration leaves [0, 1).
+  /// Leaves concentrations at the vertices within the means of the elements around them and, at an
+  /// inlet, the concentration that enters; expects the state so. Throws NumericalError where an
+  /// element's mean concentration leaves [0, 1).
   void advance(FinesState<Dim>& state, const ElementField<Dim>& eroded,
                TransportScratch<Dim>& scratch) const;
   /// Volume of fines that crossed each face since `start`, m3.
   void fines_crossed(const TransportScratch<Dim>& scratch, std::vector<double>& result) const;
-
-  /// Brings concentrations at the vertices within the means of the elements around them and, at an
-  /// inlet, the concentration that enters; an element's mean does not change. `advance` leaves its
-  /// state limited and expects it so.
-  void limit(FinesState<Dim>& state, const std::vector<double>& face_volume) const;
 
   /// Mean concentration, weighted with pore volume, of the liquid that crosses each face when it
   /// runs along `face_volume`.

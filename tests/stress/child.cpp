@@ -18,7 +18,7 @@ namespace {
 
 /// A program that waits for what never comes takes no time: it is ended after so many times its
 /// share.
-constexpr double most_waiting = 30.0;
+constexpr double max_waiting = 30.0;
 
 [[noreturn]] void become(std::vector<char*> words, const std::string& log, double max_seconds) {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -55,7 +55,7 @@ ChildEnd run_child(const std::vector<std::string>& arguments, const std::string&
   int status = 0;
   rusage used{};
   while (wait4(child, &status, WNOHANG, &used) == 0) {
-    if (!end.timed_out && seconds() > most_waiting * max_seconds) {
+    if (!end.timed_out && seconds() > max_waiting * max_seconds) {
       end.timed_out = true;
       kill(child, SIGKILL);
     }

@@ -14,9 +14,9 @@ namespace {
 
 constexpr unsigned seeds = 20;
 /// Of the energy at the start: sums of a few hundred terms over some thousand steps.
-constexpr double most_drift = 1e-11;
+constexpr double max_drift = 1e-11;
 /// Of the energy before a step.
-constexpr double most_growth = 1e-12;
+constexpr double max_growth = 1e-12;
 
 struct Box {
   model::BoxSettings settings;
@@ -67,7 +67,7 @@ class EnergySweep {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.residual = conserves ? change.drift : std::max(0.0, change.growth);
     const bool holds =
-        change.finite && (conserves ? change.drift <= most_drift : change.growth <= most_growth);
+        change.finite && (conserves ? change.drift <= max_drift : change.growth <= max_growth);
     result.verdict = holds ? "pass" : "failed";
     if (!holds) {
       std::ostringstream text;

@@ -22,13 +22,13 @@ constexpr double round_off = 1e-12;
 constexpr double no_grains = 1e-13;
 /// Pressures that a wave may reach where pressures alone drive, over their range: twice for each
 /// reflection. A step that is too long goes beyond in no time.
-constexpr double most_waves = 10.0;
+constexpr double max_waves = 10.0;
 /// Of the pressure where it is promised to stay within its bounds.
-constexpr double most_overshoot = 1e-10;
+constexpr double max_overshoot = 1e-10;
 /// Of a discharge that is known, with the default tolerance of 1e-3.
-constexpr double most_discharge_error = 3e-3;
+constexpr double max_discharge_error = 3e-3;
 /// Of a mean porosity that is known.
-constexpr double most_porosity_error = 1e-9;
+constexpr double max_porosity_error = 1e-9;
 
 std::string shown(double value) {
   std::ostringstream text;
@@ -182,7 +182,7 @@ class Judge {
     check_concentration(j_.concentration_min, j_.concentration_max, "history.csv");
     j_.volume_defect = largest("volume_defect");
     j_.overshoot = largest("pressure_overshoot");
-    expect(!j_.bounded || j_.overshoot <= most_overshoot,
+    expect(!j_.bounded || j_.overshoot <= max_overshoot,
            "pressure_overshoot = " + shown(j_.overshoot) + " where pressures have bounds");
     check_waves(*std::ranges::min_element(history.column("pressure_min")), largest("pressure_max"));
     const std::vector<double>& t = history.column("t");
@@ -192,7 +192,7 @@ class Judge {
     if (scenario_.discharge && ended_well && !is_explicit(scenario_.scheme)) {
       const double out = history.column("flux_out").back();
       j_.discharge_error = std::abs(out / *scenario_.discharge - 1.0);
-      expect(j_.discharge_error <= most_discharge_error,
+      expect(j_.discharge_error <= max_discharge_error,
              "the discharge is " + shown(out) + " m3/s; expected " + shown(*scenario_.discharge));
     }
   }
@@ -210,7 +210,7 @@ class Judge {
     }
     // At rest there is the round-off of the equation of state.
     const double range = high - low + round_off * scene_.liquid.bulk_modulus;
-    expect(lowest >= low - most_waves * range && highest <= high + most_waves * range,
+    expect(lowest >= low - max_waves * range && highest <= high + max_waves * range,
            "pressures from " + shown(lowest) + " to " + shown(highest) +
                " Pa where boundaries have " + shown(low) + " to " + shown(high));
   }
@@ -221,7 +221,7 @@ class Judge {
     for (std::size_t i = 0; i < t.size(); ++i) {
       j_.porosity_error = std::max(j_.porosity_error, std::abs(mean[i] - exact.at(t[i])));
     }
-    expect(j_.porosity_error <= most_porosity_error,
+    expect(j_.porosity_error <= max_porosity_error,
            "mean porosity is off by " + shown(j_.porosity_error));
   }
 

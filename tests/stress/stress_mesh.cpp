@@ -51,7 +51,7 @@ void name_regions(Mesh<2>& mesh, const std::function<std::string(const Vector<2>
 }
 
 void jitter_nodes(Mesh<2>& mesh, double amount, unsigned seed) {
-  constexpr double least_left = 0.1;
+  constexpr double min_left = 0.1;
   Random random(seed);
   const std::vector<bool> outside = nodes_outside(mesh);
   std::vector<double> before;
@@ -64,7 +64,7 @@ void jitter_nodes(Mesh<2>& mesh, double amount, unsigned seed) {
     if (outside[i]) continue;
     Vector<2> step(random.between(-amount, amount), random.between(-amount, amount));
     const Vector<2> home = mesh.nodes[i];
-    const auto is_flat = [&](int e) { return element_volume(mesh, e) < least_left * before[e]; };
+    const auto is_flat = [&](int e) { return element_volume(mesh, e) < min_left * before[e]; };
     mesh.nodes[i] = home + step;
     while (std::ranges::any_of(around[i], is_flat) && step.norm() > 1e-6 * amount) {
       step *= 0.5;
