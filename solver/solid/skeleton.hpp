@@ -1,7 +1,7 @@
 #pragma once
 
-/// The solid phase as an interface for the rest of the solver: soil at material points, of which a part can
-/// erode into the liquid. The skeleton that stays in place is `RigidSkeleton`.
+/// The solid phase as an interface for the rest of the solver: soil at material points, of which a
+/// part can erode into the liquid. The skeleton that stays in place is `RigidSkeleton`.
 
 #include <memory>
 #include <vector>

@@ -9,8 +9,8 @@
 
 #include "mesher/temporary_folder.hpp"
 #include "results/layout.hpp"
-#include "results/writer.hpp"
 #include "results/state_archive.hpp"
+#include "results/writer.hpp"
 
 namespace suffuse {
 namespace {
