@@ -10,16 +10,19 @@ namespace suffuse {
 
 template <int Dim>
 void DoublePoint<Dim>::advance(double latest) {
+  // Flow, as far as erosion and transport can follow (momentum, Eq. 4).
   const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
   const FlowProgress flow =
       liquid_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
+  // Erosion (Eqs. 1, 6, 7) and the points that carry water and fines (Eq. 5).
   for (const TransportStep& step : liquid_->start_interval(start, flow)) {
     const std::vector<double>& exchange = this->erode(step, liquid_->waiting());
     liquid_->advance(step, flow.volumes, exchange, this->flow_->pressure());
   }
   this->time_ = flow.end;
+  // Masses that crossed borders with the points.
   this->masses_.book(liquid_->crossings());
   this->flow_->warn_of_unstated_inflow(this->time_, flow.volumes.liquid);
   update_flow(pores());

@@ -11,16 +11,19 @@ namespace suffuse {
 
 template <int Dim>
 void SinglePoint<Dim>::advance(double latest) {
+  // Flow, as far as erosion and transport can follow (momentum, Eq. 2).
   const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
   const FlowProgress flow =
       fines_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
+  // Erosion (Eqs. 1, 6, 7) and transport (Eq. 3), with the volumes that crossed faces.
   for (const TransportStep& step : fines_->start_interval(start, flow)) {
     const std::vector<double>& exchange = this->erode(step, {});
     fines_->advance(step, flow.volumes, exchange, this->flow_->pressure());
   }
   this->time_ = flow.end;
+  // Masses, and the pressures that follow from them.
   book(flow.volumes);
   update_flow();
   match_masses();
