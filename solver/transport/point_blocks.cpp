@@ -57,7 +57,7 @@ int PointBlocks<Dim>::size() const {
 template <int Dim>
 CarriedPoint<Dim> PointBlocks<Dim>::remove(int element, int slot) {
   auto& block = blocks_[element];
-  const CarriedPoint<Dim> removed = block[slot];
+  CarriedPoint<Dim> removed = block[slot];
   block[slot] = block.back();
   block.pop_back();
   return removed;
