@@ -65,7 +65,7 @@ std::vector<TransportStep> FieldTransport<Dim>::start_interval(double start,
   carries_ = flow.end > fines_from_;
   if (!carries_) return {{start, flow.end, 1.0}};
   const double allowed = transport_safety * scheme_.steps_allowed(state_, flow.volumes.liquid);
-  const std::vector<TransportStep> steps = equal_steps(start, flow.end, step_count(allowed));
+  std::vector<TransportStep> steps = equal_steps(start, flow.end, step_count(allowed));
   std::vector<double> step_volume = flow.volumes.liquid;
   if (steps.size() > 1) {
     for (double& volume : step_volume) volume *= steps.front().share;
