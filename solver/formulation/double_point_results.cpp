@@ -50,7 +50,7 @@ double volume_defect(const Grid<Dim>& grid, const LiquidPoints<Dim>& points,
 template <int Dim>
 HistoryRow DoublePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
   HistoryRow row = this->common_history(flow);
-  const LiquidPoints<Dim> points = liquid_->points();
+  const LiquidPoints<Dim>& points = liquid_->points();
   row.liquid_points = points.size();
   row.empty_elements = liquid_->empty_elements();
   row.empty_elements_total = liquid_->empty_elements_total();
@@ -84,7 +84,7 @@ std::vector<double> DoublePoint<Dim>::concentrations(const LiquidPoints<Dim>& po
 template <int Dim>
 std::vector<Stored> DoublePoint<Dim>::stored() const {
   std::vector<StoredSums> sums = this->solid_masses();
-  const LiquidPoints<Dim> points = liquid_->points();
+  const LiquidPoints<Dim>& points = liquid_->points();
   for (int p = 0; p < points.size(); ++p) {
     const int region = this->grid_.mesh.element_region[points.element[p]];
     for (StoredSums* sum : {&sums[0], &sums[region + 1]}) {
@@ -100,7 +100,7 @@ std::vector<Stored> DoublePoint<Dim>::stored() const {
 template <int Dim>
 Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
   const Grid<Dim>& grid = this->grid_;
-  const LiquidPoints<Dim> points = liquid_->points();
+  const LiquidPoints<Dim>& points = liquid_->points();
   const std::vector<int> begins = element_begins(points, grid.mesh.element_count());
   std::vector<double> volume = liquid_->point_volume(points, flow.pressure);
   std::vector<double> concentration = concentrations(points, volume);

@@ -43,8 +43,8 @@ class PointTransport : public Transport<Dim> {
     return {.steps = 4.0, .pore_growth = 1e-3};
   }
 
-  /// Sorted by element.
-  [[nodiscard]] virtual LiquidPoints<Dim> points() const = 0;
+  /// Sorted by element. The reference holds until the next interval.
+  [[nodiscard]] virtual const LiquidPoints<Dim>& points() const = 0;
   [[nodiscard]] virtual int size() const = 0;
   [[nodiscard]] virtual LiquidContent content() const = 0;
   /// Elements whose solid waits for liquid before it erodes, 1 for each; empty where none does.

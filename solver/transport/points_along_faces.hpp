@@ -23,7 +23,7 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& exchange, const std::vector<double>& pressure) override;
 
-  [[nodiscard]] LiquidPoints<Dim> points() const override { return points_; }
+  [[nodiscard]] const LiquidPoints<Dim>& points() const override { return points_; }
   [[nodiscard]] int size() const override { return points_.size(); }
   [[nodiscard]] LiquidContent content() const override;
   [[nodiscard]] std::vector<double> point_pressure(const LiquidPoints<Dim>& points,

@@ -38,12 +38,14 @@ template <int Dim>
 void PointsCarryingFlow<Dim>::archive(StateArchive& archive) {
   PointTransport<Dim>::archive(archive);
   archive(points_.blocks(), exchange_timing_);
+  output_points_ = {};
 }
 
 template <int Dim>
 FlowProgress PointsCarryingFlow<Dim>::drive(FlowSolver<Dim>& /*flow*/,
                                             const FlowInterval<Dim>& interval) {
   this->start_crossings();
+  output_points_ = {};
   const auto steps = flow_.plan_steps(interval);
   porosity_ = interval.pores.at(0.5 * (steps.start + steps.end)).porosity;
   for (long s = 0; s < steps.count; ++s) {
@@ -125,6 +127,7 @@ void PointsCarryingFlow<Dim>::advance(const TransportStep& /*step*/, const FaceV
                                       const std::vector<double>& exchange,
                                       const std::vector<double>& /*pressure*/) {
   if (exchange.empty() && !this->has_pending()) return;
+  output_points_ = {};
   const PassTimer timer(this->fines_timing_);
   ++this->fines_timing_.calls;
   this->book(this->transfer_.transfer(exchange, porosity_, this->densities_, points_.blocks(),
@@ -167,7 +170,7 @@ std::vector<double> PointsCarryingFlow<Dim>::point_volume(
 template <int Dim>
 void PointsCarryingFlow<Dim>::describe(const FlowState<Dim>& flow, HistoryRow& row) const {
   // The pressures of the points about the smooth field of the nodes.
-  const LiquidPoints<Dim> points = this->points();
+  const LiquidPoints<Dim>& points = this->points();
   const std::vector<double> volume = point_volume(points, flow.pressure);
   double square = 0.0;
   double sum = 0.0;

@@ -35,7 +35,10 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& exchange, const std::vector<double>& pressure) override;
 
-  [[nodiscard]] LiquidPoints<Dim> points() const override { return points_.blocks().points(); }
+  [[nodiscard]] const LiquidPoints<Dim>& points() const override {
+    if (output_points_.size() == 0) output_points_ = points_.blocks().points();
+    return output_points_;
+  }
   [[nodiscard]] int size() const override { return points_.blocks().size(); }
   [[nodiscard]] LiquidContent content() const override;
   [[nodiscard]] std::vector<double> point_pressure(const LiquidPoints<Dim>& points,
@@ -61,6 +64,8 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
 
   ExplicitFlow<Dim>& flow_;
   CarriedPoints<Dim> points_;
+  /// The same sorted for outputs; made when asked for, empty once the points change.
+  mutable LiquidPoints<Dim> output_points_;
   std::vector<double> porosity_;  ///< per element, in the middle of the interval
   PassTiming exchange_timing_{"exchange of points and nodes", 0, 0.0};
 
