@@ -5,6 +5,7 @@
 /// SI units throughout.
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "case/time_function.hpp"
 #include "physics/conductivity/conductivity_law.hpp"
 #include "physics/erosion/erosion_law.hpp"
+#include "physics/retention/retention_law.hpp"
 
 namespace suffuse {
 
@@ -23,6 +25,8 @@ enum class TimeStepping { second_order, monotone };
 enum class DragIntegration { explicit_drag, implicit_drag };
 enum class InitialFlow { rest, steady };
 enum class Seeding { gauss, random, low_discrepancy };
+/// What a boundary with a head does above its water level.
+enum class DryPart { seepage, impervious, suction };
 enum class SoilDrag { darcy, ergun };
 enum class MassTransfer { nodal, element };
 enum class EmptyElements { wet, dry };
@@ -89,11 +93,18 @@ struct Soil {
   std::array<double, 3> porosity_origin{};    ///< m
   double skeleton_fraction = unset;           ///< n_C
   double grain_density = unset;               ///< rho_s, kg/m3
-  double conductivity = unset;                ///< k at the initial porosity, m/s
+  double conductivity = unset;                ///< k at the initial porosity, along bedding, m/s
+  double conductivity_across = unset;         ///< across bedding, m/s; unset: the same
+  double bedding = 0.0;                       ///< angle of bedding from the x-axis, degrees
+  RetentionModel retention;                   ///< without a law: saturated at any pressure
   const ConductivityLaw* conductivity_law = conductivity_laws().front();  ///< never null
   SoilDrag drag = SoilDrag::darcy;
   ErosionSettings erosion;
 
+  /// k across over k along bedding.
+  [[nodiscard]] double anisotropy() const {
+    return std::isnan(conductivity_across) ? 1.0 : conductivity_across / conductivity;
+  }
   /// n_L,max = 1 - n_C
   [[nodiscard]] double porosity_max() const { return 1.0 - skeleton_fraction; }
   [[nodiscard]] ErosionModel erosion_model() const {
@@ -110,14 +121,39 @@ struct Soil {
   }
 };
 
-/// What holds on one named boundary: at most one of the three flow conditions.
+/// What holds on one named boundary, or at one well: at most one flow condition.
 struct BoundaryCondition {
+  std::string key;  ///< of its entry in the scene: `boundary[0]`, `well[0]`
   std::string on;
   std::optional<TimeFunction> pressure;  ///< Pa
   std::optional<TimeFunction>
       velocity;  ///< intrinsic liquid velocity, positive into the model, m/s
   std::optional<TimeFunction> darcy_flux;     ///< volume flux, positive into the model, m/s
+  /// m above the datum; without gravity the excess head.
+  std::optional<TimeFunction> head;
+  DryPart dry = DryPart::seepage;
+  bool seepage_face = false;  ///< air outside: lets water out at p = 0, none in
+  /// Volume flux that enters as far as the soil takes it in at p = 0, m/s.
+  std::optional<TimeFunction> rain;
+  /// Of a well: volume of liquid per second that enters through all its faces, m3/s per m.
+  std::optional<TimeFunction> rate;
   std::optional<TimeFunction> concentration;  ///< c of the liquid that enters
+};
+
+/// A wall without thickness on a named curve inside the mesh.
+struct Wall {
+  std::string on;
+  double conductance = 0.0;  ///< flux per difference of head across it, 1/s
+};
+
+/// A line along which the discharge is recorded.
+struct OutputSection {
+  std::array<double, 3> from{};  ///< m
+  std::array<double, 3> to{};    ///< m
+};
+
+struct OutputProbe {
+  std::array<double, 3> at{};  ///< m
 };
 
 struct TimeSettings {
@@ -144,6 +180,8 @@ struct FlowSettings {
 struct OutputSettings {
   double every = unset;           ///< s between rows of the tables and, by default, snapshots
   double snapshot_every = unset;  ///< s between snapshots
+  std::vector<OutputProbe> probes;
+  std::vector<OutputSection> sections;
 };
 
 struct Scene {
@@ -154,9 +192,12 @@ struct Scene {
   PointSettings points;
   LiquidProperties liquid;
   std::vector<Soil> soils;
-  std::vector<BoundaryCondition> boundaries;
+  std::vector<BoundaryCondition> boundaries;  ///< then the wells
+  std::vector<Wall> walls;
   std::array<double, 3> gravity{};  ///< m/s2
   InitialFlow initial_flow = InitialFlow::rest;
+  /// Of the liquid at rest, m above the datum: as given, or that of the head boundaries at t = 0.
+  std::optional<double> water_level;
   FlowSettings flow;
   TimeSettings time;
   OutputSettings output;

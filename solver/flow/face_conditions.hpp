@@ -17,6 +17,9 @@ enum class FaceKind : unsigned char {
   pressure,  ///< value: Pa
   velocity,  ///< value: intrinsic liquid velocity into the model, m/s
   flux,      ///< value: Darcy flux into the model, m/s
+  /// Air outside: p <= 0, and a Darcy flux of at most `value` (m/s, >= 0) into the model; at least
+  /// one of the two at its limit. Zero: a seepage face; else rain.
+  seepage,
 };
 
 struct FaceCondition {
@@ -25,9 +28,11 @@ struct FaceCondition {
   double concentration = 0.0;        ///< c of liquid that enters
   bool concentration_given = false;  ///< by the scene; else clean water enters, with a warning
   int boundary = -1;                 ///< index of the scene's boundary entry
+  /// The kind may change during the run: an implicit flow keeps an unknown for the face.
+  bool switches = false;
 
-  /// Values alone: the scene restores the rest.
-  void archive(auto& archive) { archive(value, concentration); }
+  /// What may change: the scene restores the rest.
+  void archive(auto& archive) { archive(kind, value, concentration); }
   /// Whether the flux through the face is prescribed; at a wall it is zero.
   [[nodiscard]] bool fixes_flux() const {
     return kind == FaceKind::wall || kind == FaceKind::velocity || kind == FaceKind::flux;

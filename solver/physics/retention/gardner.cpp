@@ -1,0 +1,34 @@
+/// S_e and k_r fall exponentially with suction (Gardner, Soil Sci. 85 (1958) 228): the flow equation
+/// becomes linear, so exact solutions exist.
+
+#include <array>
+#include <cmath>
+
+#include "physics/retention/retention_law.hpp"
+
+namespace suffuse::retention {
+namespace {
+
+double saturation(const RetentionParameters& p, double psi) {
+  return std::exp(p.alpha * psi);
+}
+
+double capacity(const RetentionParameters& p, double psi) {
+  return p.alpha * std::exp(p.alpha * psi);
+}
+
+constexpr std::array parameters{
+    RetentionParameter{"alpha", "alpha", "1/m",
+                       "Reciprocal of the suction head at which the pores empty.", 0.0,
+                       &RetentionParameters::alpha}};
+
+}  // namespace
+
+extern const RetentionLaw gardner{.word = "gardner",
+                                  .description = "S_e = k_r = exp(alpha psi)",
+                                  .parameters = parameters,
+                                  .saturation = saturation,
+                                  .capacity = capacity,
+                                  .relative_conductivity = saturation};
+
+}  // namespace suffuse::retention

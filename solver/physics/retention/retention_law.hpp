@@ -1,0 +1,77 @@
+#pragma once
+
+/// Retention laws: how much liquid the pores of a soil hold under suction, and how well the soil
+/// then conducts. Each law is one file of this folder; docs/contributing.md says how to add one.
+
+#include <span>
+#include <string_view>
+
+namespace suffuse {
+
+struct RetentionLaw;
+
+/// Numbers that some retention laws ask for. A law declares those that it uses.
+struct RetentionParameters {
+  double alpha = 0.0;  ///< reciprocal of the suction head at which pores empty, 1/m
+  double n = 0.0;      ///< how narrow the distribution of pore sizes is
+};
+
+/// One soil's law with its numbers. The pressure head psi = p / (rho_w g), m, is negative under
+/// suction. S = S_r + (1 - S_r) S_e is the liquid per pore volume.
+struct RetentionModel {
+  const RetentionLaw* law = nullptr;  ///< null: saturated at any pressure
+  double residual_saturation = 0.0;   ///< S_r
+  RetentionParameters parameters = {};
+
+  /// S; 1 where psi >= 0.
+  [[nodiscard]] double saturation(double psi) const;
+  /// dS/dpsi, 1/m; 0 where psi >= 0.
+  [[nodiscard]] double capacity(double psi) const;
+  /// k_r, conductivity over that of the saturated soil; 1 where psi >= 0.
+  [[nodiscard]] double relative_conductivity(double psi) const;
+};
+
+/// A number that a law asks the scene for, under `[soil.NAME.retention]`. It has no default.
+struct RetentionParameter {
+  std::string_view key;
+  std::string_view symbol;
+  std::string_view unit;
+  std::string_view sentence;  ///< for the scene reference
+  double above;               ///< the value is larger than this
+  double RetentionParameters::*value = nullptr;
+};
+
+/// A law, as its file declares it. Its functions are called with psi < 0.
+struct RetentionLaw {
+  std::string_view word;         ///< what `model` is in a scene
+  std::string_view description;  ///< S_e and k_r, for the scene reference
+  std::span<const RetentionParameter> parameters;
+  /// S_e
+  double (*saturation)(const RetentionParameters& parameters, double psi);
+  /// dS_e/dpsi, 1/m
+  double (*capacity)(const RetentionParameters& parameters, double psi);
+  /// k_r
+  double (*relative_conductivity)(const RetentionParameters& parameters, double psi);
+};
+
+/// Every law there is, in the order of the scene reference: the order in physics/CMakeLists.txt.
+std::span<const RetentionLaw* const> retention_laws();
+/// The law that a scene calls `word`. Throws std::invalid_argument where there is none.
+const RetentionLaw* retention_law(std::string_view word);
+
+inline double RetentionModel::saturation(double psi) const {
+  if (law == nullptr || psi >= 0.0) return 1.0;
+  return residual_saturation + (1.0 - residual_saturation) * law->saturation(parameters, psi);
+}
+
+inline double RetentionModel::capacity(double psi) const {
+  if (law == nullptr || psi >= 0.0) return 0.0;
+  return (1.0 - residual_saturation) * law->capacity(parameters, psi);
+}
+
+inline double RetentionModel::relative_conductivity(double psi) const {
+  if (law == nullptr || psi >= 0.0) return 1.0;
+  return law->relative_conductivity(parameters, psi);
+}
+
+}  // namespace suffuse
