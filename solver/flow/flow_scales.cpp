@@ -40,6 +40,7 @@ bool is_obtuse(const Grid<Dim>& grid, int e) {
 void FlowScales::include(const std::vector<double>& face_pressure,
                          const std::vector<double>& face_flux) {
   if (!flux_known) flux = std::max(flux, largest_magnitude(face_flux));
+  flux_sum = std::max(flux_sum, sum_of_magnitudes(face_flux));
   const auto [low, high] = std::ranges::minmax(face_pressure);
   pressure = std::max(pressure, high - low);
 }
@@ -77,9 +78,10 @@ FlowScales find_scales(ImplicitMixed<Dim>& scheme, const FlowForcing<Dim>& at_st
         high = std::max(high, condition.value);
       }
       prescribes_flux |= condition.fixes_flux() && condition.value != 0.0;
+      prescribes_flux |= condition.kind == FaceKind::seepage;
     }
     try {
-      const MixedStep<Dim> steady = scheme.steady(forcing);
+      const MixedStep<Dim> steady = scheme.saturated_steady(forcing);
       scales.include(steady.end.face_pressure, steady.face_flux);
     } catch (const NumericalError&) {
       // Boundaries that prescribe fluxes alone may have no steady flow: then the flow itself sets
@@ -114,6 +116,10 @@ void raise_over_round_off(FlowScales& scales, const Grid<Dim>& grid,
     flux = std::max({flux, mobility * pressure * grid.volume[e] * steepest * steepest,
                      limits.nothing * coefficients.water_volume[e] / end});
   }
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    scales.pore_volume += coefficients.porosity[e] * grid.volume[e];
+  }
+  scales.flux_sum = std::max(scales.flux_sum, flux * std::sqrt(grid.face_count()));
   scales.pressure = std::max(scales.pressure, pressure);
   scales.flux_known = scales.flux > flux;
   scales.flux = std::max(scales.flux, flux);

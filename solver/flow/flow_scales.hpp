@@ -16,9 +16,11 @@
 namespace suffuse {
 
 struct FlowScales {
-  double flux = 0.0;        ///< largest through a face, m3/s
-  double pressure = 0.0;    ///< largest minus smallest at the faces, Pa
-  bool flux_known = false;  ///< from the boundary conditions; else the flow sets it as it goes
+  double flux = 0.0;         ///< largest through a face, m3/s
+  double pressure = 0.0;     ///< largest minus smallest at the faces, Pa
+  double flux_sum = 0.0;     ///< largest sum over all faces, m3/s
+  double pore_volume = 0.0;  ///< of the model, m3
+  bool flux_known = false;   ///< from the boundary conditions; else the flow sets it as it goes
   /// Prescribed pressures alone drive the flow: pressures stay between these two, Pa.
   bool has_bounds = false;
   double min_pressure = 0.0;
@@ -33,7 +35,8 @@ struct FlowScales {
   [[nodiscard]] double overshoot(const std::vector<double>& face_pressure) const;
 
   void archive(auto& archive) {
-    archive(flux, pressure, flux_known, has_bounds, min_pressure, max_pressure);
+    archive(flux, pressure, flux_sum, pore_volume, flux_known, has_bounds, min_pressure,
+            max_pressure);
   }
 };
 

@@ -74,6 +74,20 @@ Vector<Dim> FlowSolver<Dim>::gravity() const {
 }
 
 template <int Dim>
+std::vector<double> FlowSolver<Dim>::pressure_at_rest() const {
+  std::vector<double> result(grid_.face_count(), 0.0);
+  if (!scene_.water_level) return result;
+  const Vector<Dim> g = gravity();
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    // z = -x.g / |g| against gravity; without gravity the level is an excess head.
+    const double weight = g.norm() > 0.0 ? g.norm() : conductivity_gravity;
+    result[f] =
+        scene_.liquid.density * (weight * *scene_.water_level + g.dot(grid_.face_centre(f)));
+  }
+  return result;
+}
+
+template <int Dim>
 void FlowSolver<Dim>::update(double time, const PoreState& pores,
                              const std::vector<double>& face_concentration) {
   coefficients_ = coefficients_of(time, pores, face_concentration);

@@ -31,6 +31,7 @@ struct FlowState {
   std::vector<double> node_pressure;  ///< per node, Pa
   VectorField<Dim> velocity;          ///< per node, intrinsic, m/s
   std::vector<double> face_flux;      ///< along each face's normal, m3/s
+  std::vector<double> saturation;     ///< per element; empty where all soil is saturated
   double eos_error = 0.0;             ///< see HistoryRow
   double pressure_overshoot = 0.0;    ///< see HistoryRow
 };
@@ -50,6 +51,8 @@ struct FlowProgress {
   double dt = 0.0;      ///< length of the last one, s
   double end = 0.0;     ///< of the interval, s: its latest end, or before where the flow chose so
   FaceVolumes volumes;  ///< that crossed the faces since its start
+  /// Per element: volume of air that liquid has displaced, m3; empty where all soil is saturated.
+  std::vector<double> displaced_air = {};
 };
 
 /// How the plan of a run wants the flow stepped.
@@ -99,6 +102,8 @@ class FlowSolver {
 
   /// Pressure per element, Pa.
   [[nodiscard]] virtual const std::vector<double>& pressure() const = 0;
+  /// Volume of air per element, m3; empty where all soil is saturated.
+  [[nodiscard]] virtual std::vector<double> air() const { return {}; }
   /// Makes pressures follow the masses of water, which are what is conserved (single-point): at
   /// once, or over the next steps. `water_mass` per element, kg; `time` in s.
   virtual void match_masses(double time, const std::vector<double>& water_mass) = 0;
@@ -134,6 +139,8 @@ class FlowSolver {
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; at a prescribed pressure, that pressure.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
+  /// Pressure of the liquid at rest at each face's centre, Pa.
+  [[nodiscard]] std::vector<double> pressure_at_rest() const;
   /// Throws NumericalError: all water has gone from the element.
   [[noreturn]] void refuse_dry(int element, double time) const;
   /// Adds a warning, which the next `take_warnings` returns.

@@ -33,6 +33,12 @@ inline double largest_magnitude(const std::vector<double>& values) {
   return result;
 }
 
+inline double sum_of_magnitudes(const std::vector<double>& values) {
+  double result = 0.0;
+  for (const double v : values) result += std::abs(v);
+  return result;
+}
+
 /// The largest |a_i - b_i|; both have the same length.
 inline double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double result = 0.0;

@@ -21,14 +21,15 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
                                 const Skeleton<Dim>& solid, const FlowOptions& options)
     : FlowSolver<Dim>(c, grid, solid, options.threads),
       options_(options),
-      scheme_(grid, scheme_settings(this->scene(), options), this->gravity()),
+      scheme_(grid, scheme_settings(this->scene(), options), this->gravity(),
+              flow_soils(this->scene(), solid.soils())),
       has_gravity_(this->gravity().norm() > 0.0),
       follows_pores_(depends_on_pores(this->scene(), this->conditions_, options) || has_gravity_),
-      control_(step_settings(this->scene(), options, follows_pores_,
+      control_(step_settings(this->scene(), options, follows_pores_, this->conditions_,
                              this->boundary_values().breakpoints())),
       blending_(blending_settings(this->scene(), options, follows_pores_)),
-      reuse_({options.reuse_steady, this->scene().time.tolerance, has_gravity_,
-              has_condition(this->conditions_, FaceKind::velocity)}) {}
+      reuse_({options.reuse_steady && !scheme_.has_retention(), this->scene().time.tolerance,
+              has_gravity_, has_condition(this->conditions_, FaceKind::velocity)}) {}
 
 template <int Dim>
 FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
@@ -38,7 +39,8 @@ FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
   const double end = dt < until - interval.start ? interval.start + dt : until;
   FlowProgress progress{1, dt, end,
                         face_volumes(this->grid(), now_.state.face_pressure, pressure_, step,
-                                     this->scene().liquid.bulk_modulus, this->threads())};
+                                     this->scene().liquid.bulk_modulus, this->threads()),
+                        displaced_air(now_.state.air, step.end.air)};
   remember(std::move(step), dt);
   this->update_boundary_values(interval.start, end);
   if (contains_time(this->breakpoints(), end)) {
@@ -56,15 +58,31 @@ MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interva
     find_forcing(interval, dt);
     std::vector<const FlowForcing<Dim>*> stages;
     for (const FlowForcing<Dim>& forcing : forcing_) stages.push_back(&forcing);
-    MixedStep<Dim> step = scheme_.step(now_.state, dt, stages);
     ++solving_.calls;
+    std::optional<MixedStep<Dim>> tried = try_step(interval.start, dt, stages);
+    if (!tried) continue;
+    MixedStep<Dim>& step = *tried;
     const double error = control_.has_given_step() ? 0.0 : error_of(step, interval.start, dt);
     if (!control_.accept(interval.start, error, previous_.has_value(), dt)) continue;
+    if (scheme_.iterations() > limits.slow_iterations) control_.hold(dt);
 
     if (relaxation_.active()) relaxation_.set_source(forcing_.back().source);
     blending_.record(forcing_.back().coefficients);
     if (follows_pores_) blending_.expect(coefficients_at(interval, interval.start + dt));
-    return step;
+    return std::move(step);
+  }
+}
+
+template <int Dim>
+std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::try_step(
+    double start, double& dt, const std::vector<const FlowForcing<Dim>*>& stages) {
+  try {
+    return scheme_.step(now_.state, dt, stages);
+  } catch (const NotConverged& error) {
+    const double whole = this->scene().time.end;
+    if (dt < limits.min_unsolved_step * whole) throw NumericalError(error.what());
+    control_.reject(start, dt);
+    return std::nullopt;
   }
 }
 
@@ -96,13 +114,29 @@ FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>
 
 template <int Dim>
 double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, double dt) const {
-  const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
   const MixedFlow<Dim>* previous = previous_ ? &*previous_ : nullptr;
-  return control_.error(start, dt,
-                        {{previous != nullptr ? &previous->flux_through : nullptr,
-                          now_.flux_through, step.flux_through, flux_scale},
-                         {previous != nullptr ? &previous->state.face_pressure : nullptr,
-                          now_.state.face_pressure, step.end.face_pressure, scales_.pressure}});
+  using Span = std::span<const double>;
+  const auto before = [&](const auto& field) { return previous ? field(*previous) : Span(); };
+  const auto flux = [](const MixedFlow<Dim>& flow) { return Span(flow.flux_through); };
+  if (scheme_.is_nonlinear()) {
+    // Fronts and seepage faces are sharp: what counts is the volume that is misplaced.
+    const auto air = [](const MixedState<Dim>& state) {
+      return state.air.empty() ? Span()
+                               : Span(state.air.front().data(), state.air.size() * (Dim + 1));
+    };
+    const auto air_of = [&](const MixedFlow<Dim>& flow) { return air(flow.state); };
+    const double flux_scale = std::max(scales_.flux_sum, sum_of_magnitudes(step.flux_through));
+    return control_.error(
+        start, dt,
+        {{before(flux), now_.flux_through, step.flux_through, flux_scale, true},
+         {before(air_of), air(now_.state), air(step.end), scales_.pore_volume, true}});
+  }
+  const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
+  const auto pressure = [](const MixedFlow<Dim>& flow) { return Span(flow.state.face_pressure); };
+  return control_.error(
+      start, dt,
+      {{before(flux), now_.flux_through, step.flux_through, flux_scale},
+       {before(pressure), now_.state.face_pressure, step.end.face_pressure, scales_.pressure}});
 }
 
 template <int Dim>
@@ -161,7 +195,7 @@ void ImplicitFlow<Dim>::reuse_if_steady(double time) {
   }
   reuse_.start(this->coefficients_);
   blending_.record(this->coefficients_);
-  set_flow(std::move(steady));
+  replace_flow(std::move(steady));
   pressure_ = element_pressure_now();
 }
 
@@ -177,7 +211,7 @@ void ImplicitFlow<Dim>::update_steady_flow() {
   }
   relaxation_.set_source(std::move(source));
   // Element pressures follow with the next step: the mismatch is that at the present ones.
-  set_flow(std::move(steady));
+  replace_flow(std::move(steady));
 }
 
 template <int Dim>
@@ -218,13 +252,15 @@ template <int Dim>
 void ImplicitFlow<Dim>::start() {
   const Grid<Dim>& grid = this->grid();
   const Scene& scene = this->scene();
-  now_ = flow_at_rest(grid, this->conditions_);
+  now_ = flow_at_rest(grid, this->conditions_, this->pressure_at_rest());
   const FlowForcing<Dim> forcing{this->coefficients_, this->conditions_, {}};
   scales_ = find_scales(scheme_, forcing, this->boundary_values(), scene.time.end, has_gravity_);
   // Water without compressibility and inertia has no start-up: it flows at once.
-  const bool at_once = std::isinf(scene.liquid.bulk_modulus) && !options_.inertia;
+  const bool at_once =
+      std::isinf(scene.liquid.bulk_modulus) && !options_.inertia && !scheme_.has_retention();
   const bool at_rest = scene.initial_flow != InitialFlow::steady && !at_once;
-  if (!at_rest) set_flow(scheme_.steady(forcing));
+  if (!at_rest) now_ = end_of(scheme_.steady(forcing));
+  now_.state.air = scheme_.air_at(now_.state.face_pressure, this->coefficients_.porosity);
   pressure_ = element_pressure_now();
   if (!at_once) scales_.include_in_bounds(now_.state.face_pressure);
   scales_.include(now_.state.face_pressure, now_.face_flux);
@@ -250,12 +286,23 @@ double ImplicitFlow<Dim>::filling_time() const {
 }
 
 template <int Dim>
+std::vector<double> ImplicitFlow<Dim>::air() const {
+  std::vector<double> result;
+  for (const ElementValues<Dim>& sides : now_.state.air) result.push_back(element_sum<Dim>(sides));
+  return result;
+}
+
+template <int Dim>
 FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
   FlowState<Dim> result;
   result.time = time;
   result.dt = control_.last_step() > 0.0 ? control_.last_step() : control_.next_step();
   result.pressure = pressure_;
   result.face_flux = now_.face_flux;
+  for (std::size_t e = 0; e < now_.state.air.size(); ++e) {
+    const double pores = this->coefficients_.porosity[e] * this->grid().volume[e];
+    result.saturation.push_back(1.0 - element_sum<Dim>(now_.state.air[e]) / pores);
+  }
   result.eos_error = eos_error_;
   result.pressure_overshoot = scales_.overshoot(now_.state.face_pressure);
   NodalFields<Dim> nodes =

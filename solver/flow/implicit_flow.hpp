@@ -35,6 +35,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   }
 
   [[nodiscard]] const std::vector<double>& pressure() const override { return pressure_; }
+  [[nodiscard]] std::vector<double> air() const override;
   /// Where an element's water does not fit its pores at its pressure, the next steps let it out.
   void match_masses(double time, const std::vector<double>& water_mass) override;
 
@@ -50,6 +51,9 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Tries steps from the start of the interval, the first of `dt` seconds, until one is accurate
   /// enough; `dt` becomes its length.
   [[nodiscard]] MixedStep<Dim> accepted_step(const FlowInterval<Dim>& interval, double& dt);
+  /// A step, or nothing and a shorter `dt` where its iteration does not converge.
+  [[nodiscard]] std::optional<MixedStep<Dim>> try_step(
+      double start, double& dt, const std::vector<const FlowForcing<Dim>*>& stages);
   /// Coefficients, boundary values and sources at each stage of a step of `dt`.
   void find_forcing(const FlowInterval<Dim>& interval, double dt);
   /// Coefficients at a time within the interval, as erosion will have made them.
@@ -67,7 +71,11 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Solves the steady flow again where its sources have changed; stops to reuse it where that
   /// changes the flow by too much.
   void update_steady_flow();
-  void set_flow(MixedStep<Dim> steady) { now_ = end_of(std::move(steady)); }
+  /// Takes the pressures and fluxes of a steady flow; the air stays where it is.
+  void replace_flow(MixedStep<Dim> steady) {
+    steady.end.air = std::move(now_.state.air);
+    now_ = end_of(std::move(steady));
+  }
   [[nodiscard]] std::vector<double> element_pressure_now() const {
     return element_pressure(this->grid(), now_.state.face_pressure, this->threads());
   }

@@ -20,10 +20,11 @@ constexpr double stage_share = 1.0 - 0.5 * std::numbers::sqrt2;
 
 template <int Dim>
 ImplicitMixed<Dim>::ImplicitMixed(const Grid<Dim>& grid, ImplicitSettings settings,
-                                  Vector<Dim> gravity)
+                                  Vector<Dim> gravity, FlowSoils<Dim> soils)
     : grid_(grid),
       settings_(settings),
       gravity_(std::move(gravity)),
+      soils_(std::move(soils)),
       matrix_(grid, settings.threads) {
   for (const Vector<Dim>& normal : grid.face_normal) face_area_.push_back(normal.norm());
 }
@@ -49,6 +50,8 @@ template <int Dim>
 void ImplicitMixed<Dim>::archive(StateArchive& archive,
                                  const std::vector<FaceCondition>& conditions) {
   set_up(conditions);
+  archive(open_, corrected_);
+  if (archive.restores() && !switching_.empty()) set_up_correction();
   solver_->archive(archive, matrix_.values());
   correction_->archive(archive);
   archive(earlier_counts_, rise_rate_, flux_scale_, last_steady_, last_steady_flux_);
@@ -56,17 +59,31 @@ void ImplicitMixed<Dim>::archive(StateArchive& archive,
 
 template <int Dim>
 void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
-  const auto same_kind = [](FaceKind kind, const FaceCondition& c) { return kind == c.kind; };
+  // Faces whose kind may change count as one kind, which has an unknown.
+  const auto lasting = [](const FaceCondition& c) {
+    return c.switches ? FaceKind::seepage : c.kind;
+  };
+  const auto same_kind = [&](FaceKind kind, const FaceCondition& c) { return kind == lasting(c); };
   if (std::equal(kinds_.begin(), kinds_.end(), conditions.begin(), conditions.end(), same_kind)) {
     return;
   }
   const int faces = grid_.face_count();
   kinds_.clear();
-  for (const FaceCondition& c : conditions) kinds_.push_back(c.kind);
+  switching_.clear();
+  for (const FaceCondition& c : conditions) {
+    if (c.switches) switching_.push_back(static_cast<int>(kinds_.size()));
+    kinds_.push_back(lasting(c));
+  }
   matrix_.lay_out(kinds_);
   earlier_counts_ = counts();
   solver_.emplace(settings_.threads);
-  correction_.emplace(grid_, conditions);
+  work_.conditions = conditions;
+  open_.assign(faces, 0);
+  corrected_.assign(faces, 0);
+  for (int f = 0; f < faces; ++f) {
+    corrected_[f] = conditions[f].kind == FaceKind::pressure ? 1 : 0;
+  }
+  set_up_correction();
   rise_rate_.assign(faces, 0.0);
   flux_scale_ = 0.0;
   last_steady_.face_pressure.assign(faces, 0.0);
@@ -75,8 +92,17 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
 }
 
 template <int Dim>
+void ImplicitMixed<Dim>::set_up_correction() {
+  std::vector<FaceCondition> held(corrected_.size());
+  for (std::size_t f = 0; f < held.size(); ++f) {
+    held[f].kind = corrected_[f] != 0 ? FaceKind::pressure : FaceKind::wall;
+  }
+  correction_.emplace(grid_, held);
+}
+
+template <int Dim>
 double ImplicitMixed<Dim>::prescribed_inflow(const FlowForcing<Dim>& forcing, int face) const {
-  const FaceCondition& condition = forcing.conditions[face];
+  const FaceCondition& condition = work_.conditions[face];
   if (condition.kind == FaceKind::wall) return 0.0;
   double inward = condition.value;
   if (condition.kind == FaceKind::velocity) {
@@ -124,9 +150,8 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
   w.load.resize(matrix_.unknowns());
   w.guess.resize(matrix_.unknowns());
   w.tolerance.resize(matrix_.unknowns());
-  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
-    w.known_rise[f] = matrix_.unknown(f) < 0 ? w.pressure.rise[f] : 0.0;
-  });
+  for_each_index(grid_.face_count(), settings_.threads,
+                 [&](int f) { w.known_rise[f] = is_held(f) ? w.pressure.rise[f] : 0.0; });
   for_each_index(elements, settings_.threads, [&](int e) {
     const Vector<Dim> gradient = pressure_gradient(e, w.pressure.reference, w.known_rise);
     Vector<Dim> push = w.law.drive[e] - gradient;
@@ -140,13 +165,15 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
     const int row = matrix_.unknown(f);
     if (row < 0) return;
     w.guess[row] = w.pressure.rise[f];
-    w.load[row] = kinds_[f] != FaceKind::interior ? prescribed_inflow(forcing, f) : 0.0;
+    w.load[row] = grid_.is_outer(f) ? prescribed_inflow(forcing, f) : 0.0;
     // Residuals need be no smaller than the round-off of the load, nor than this share of the flux.
     w.tolerance[row] = 1e-13 * flux_scale_;
     for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
       if (e < 0) continue;
-      w.load[row] += w.face_push[e].dot(grid_.outward_normal(e, grid_.side_of(e, f))) +
-                     w.net_source[e] / (Dim + 1) - w.storage[e] * w.pressure.offset[f];
+      const int k = grid_.side_of(e, f);
+      w.load[row] += w.face_push[e].dot(grid_.outward_normal(e, k)) + w.net_source[e] / (Dim + 1) -
+                     w.storage[e] * w.pressure.offset[f];
+      if (!w.displaced.empty()) w.load[row] -= w.displaced[e][k];
       w.tolerance[row] += w.round_off[e] * face_area_[f];
     }
   });
@@ -154,17 +181,26 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
 
 template <int Dim>
 void ImplicitMixed<Dim>::solve_pressure(const FlowForcing<Dim>& forcing) {
-  matrix_.assemble(work_.law, work_.storage);
+  matrix_.assemble(work_.law, work_.storage, work_.side_storage);
   find_load(forcing);
 
-  for (const int e : correction_->sealed_root()) {
-    if (work_.storage[e] == 0.0) matrix_.hold_level(e);
+  if (is_nonlinear()) {
+    for (const int e : work_.level_elements) matrix_.hold_level(e);
+  } else {
+    for (const int e : correction_->sealed_root()) {
+      if (work_.storage[e] == 0.0) matrix_.hold_level(e);
+    }
+  }
+  for (const int f : switching_) {
+    if (!is_held(f)) continue;
+    const int row = matrix_.unknown(f);
+    work_.load[row] = matrix_.uncouple(f) * work_.pressure.rise[f];
   }
 
   const Eigen::VectorXd solution =
       solver_->solve({matrix_.values(), work_.load, work_.guess, work_.tolerance});
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
-    if (matrix_.unknown(f) >= 0) work_.pressure.rise[f] = solution[matrix_.unknown(f)];
+    if (!is_held(f)) work_.pressure.rise[f] = solution[matrix_.unknown(f)];
   });
 }
 
@@ -205,7 +241,8 @@ void ImplicitMixed<Dim>::balance_sealed_pieces(const FlowForcing<Dim>& forcing) 
     w.net_source = forcing.source;
   }
   w.surplus.assign(pieces, 0.0);
-  if (pieces == 0) return;
+  // Retention and seepage faces take up what enters.
+  if (pieces == 0 || is_nonlinear()) return;
 
   const std::vector<int>& piece = correction_->sealed_piece();
   std::vector<double> gross(pieces, 0.0);
@@ -242,16 +279,15 @@ void ImplicitMixed<Dim>::balance_sealed_pieces(const FlowForcing<Dim>& forcing) 
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::guess_pressure(const MixedState<Dim>& base, double duration,
-                                        const FlowForcing<Dim>& forcing) {
+void ImplicitMixed<Dim>::guess_pressure(const MixedState<Dim>& base, double duration) {
   FacePressure& pressure = work_.pressure;
   const int faces = grid_.face_count();
   pressure.reference = base.face_pressure;
   pressure.offset.assign(faces, 0.0);
   pressure.rise.resize(faces);
   for_each_index(faces, settings_.threads, [&](int f) {
-    if (kinds_[f] == FaceKind::pressure) {
-      pressure.rise[f] = forcing.conditions[f].value - base.face_pressure[f];
+    if (is_held(f)) {
+      pressure.rise[f] = work_.conditions[f].value - base.face_pressure[f];
     } else {
       pressure.rise[f] = std::isfinite(duration) ? rise_rate_[f] * duration : 0.0;
     }
@@ -280,7 +316,7 @@ void ImplicitMixed<Dim>::solve_linear(const MixedState<Dim>& base,
   Work& w = work_;
   const int elements = grid_.mesh.element_count();
   w.law.mobility.resize(elements);
-  w.law.direction.clear();
+  w.law.direction = soils_.bedding;
   w.law.drive = w.drive;
   for_each_index(elements, settings_.threads,
                  [&](int e) { w.law.mobility[e] = 1.0 / w.resistance[e]; });
@@ -336,10 +372,12 @@ void ImplicitMixed<Dim>::level_sealed_pieces(const MixedState<Dim>& base,
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::find_face_flux(const FlowForcing<Dim>& forcing, Stage& stage) {
+void ImplicitMixed<Dim>::find_face_flux(const MixedState<Dim>& base, double duration,
+                                        const FlowForcing<Dim>& forcing, Stage& stage) {
   Work& w = work_;
   const int elements = grid_.mesh.element_count();
   const int faces = grid_.face_count();
+  const bool displaces = !w.displaced.empty();
   w.conductance.resize(elements);
   w.net_outflow.resize(elements);
   for_each_index(elements, settings_.threads, [&](int e) {
@@ -347,14 +385,25 @@ void ImplicitMixed<Dim>::find_face_flux(const FlowForcing<Dim>& forcing, Stage& 
     if (!w.law.direction.empty()) trace -= w.law.direction[e].squaredNorm();
     w.conductance[e] = w.law.mobility[e] * trace / grid_.volume[e];
     w.net_outflow[e] = w.net_source[e];
-    for (const int f : grid_.element_face[e]) w.net_outflow[e] -= w.storage[e] * stage.rise[f];
+    for (int k = 0; k <= Dim; ++k) {
+      const int f = grid_.element_face[e][k];
+      w.net_outflow[e] -= w.storage[e] * stage.rise[f];
+      if (!displaces) continue;
+      const double pressure = stage.state.face_pressure[f];
+      w.displaced[e][k] = displacement_rate(base, duration, forcing, e, k, pressure);
+      w.net_outflow[e] -= w.displaced[e][k];
+    }
   });
+  const auto stored = [&](int e, int k) {
+    const double compressed = w.storage[e] * stage.rise[grid_.element_face[e][k]];
+    return displaces ? compressed + w.displaced[e][k] : compressed;
+  };
 
   // From the side that conducts less, where pressures give fluxes with more digits.
   stage.face_flux.resize(faces);
   stage.flux_through.resize(faces);
   for_each_index(faces, settings_.threads, [&](int f) {
-    if (forcing.conditions[f].fixes_flux()) {
+    if (w.conditions[f].fixes_flux()) {
       stage.face_flux[f] = -prescribed_inflow(forcing, f);
       return;
     }
@@ -362,17 +411,17 @@ void ImplicitMixed<Dim>::find_face_flux(const FlowForcing<Dim>& forcing, Stage& 
     const int right = grid_.face_right[f];
     const int e = right < 0 || w.conductance[left] <= w.conductance[right] ? left : right;
     const int k = grid_.side_of(e, f);
-    stage.face_flux[f] = grid_.element_face_sign[e][k] *
-                         (w.flux[e].dot(grid_.outward_normal(e, k)) - w.storage[e] * stage.rise[f] +
-                          w.net_source[e] / (Dim + 1));
+    stage.face_flux[f] =
+        grid_.element_face_sign[e][k] *
+        (w.flux[e].dot(grid_.outward_normal(e, k)) - stored(e, k) + w.net_source[e] / (Dim + 1));
   });
   correction_->follow(w.conductance);
   correction_->correct(stage.face_flux, w.net_outflow);
   for_each_index(faces, settings_.threads, [&](int f) {
     stage.flux_through[f] = stage.face_flux[f];
-    if (kinds_[f] == FaceKind::pressure) {
-      stage.flux_through[f] += w.storage[grid_.face_left[f]] * stage.rise[f];
-    }
+    if (!is_held(f)) return;
+    const int e = grid_.face_left[f];
+    stage.flux_through[f] += stored(e, grid_.side_of(e, f));
   });
 }
 
@@ -385,9 +434,13 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
   const int faces = grid_.face_count();
   const bool quadratic = !forcing.coefficients.quadratic_drag.empty();
   find_resistance(base, duration, forcing);
+  resolve_conditions(forcing);
   balance_sealed_pieces(forcing);
-  guess_pressure(base, duration, forcing);
-  if (quadratic) {
+  guess_pressure(base, duration);
+  iterations_ = 1;
+  if (is_nonlinear()) {
+    solve_nonlinear(base, duration, forcing);
+  } else if (quadratic) {
     solve_quadratic(base, forcing, flux_guess);
   } else {
     solve_linear(base, forcing);
@@ -397,18 +450,18 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
   stage.rise.resize(faces);
   for_each_index(faces, settings_.threads,
                  [&](int f) { stage.rise[f] = work_.pressure.offset[f] + work_.pressure.rise[f]; });
-  level_sealed_pieces(base, stage.rise);
-  find_face_flux(forcing, stage);
-
-  flux_scale_ = largest_of(faces, settings_.threads, 0.0,
-                           [&](int f) { return std::abs(stage.face_flux[f]); });
+  if (!is_nonlinear()) level_sealed_pieces(base, stage.rise);
   stage.state.face_pressure.resize(faces);
   for_each_index(faces, settings_.threads, [&](int f) {
     if (std::isfinite(duration)) rise_rate_[f] = stage.rise[f] / duration;
-    stage.state.face_pressure[f] = kinds_[f] == FaceKind::pressure
-                                       ? forcing.conditions[f].value
-                                       : base.face_pressure[f] + stage.rise[f];
+    stage.state.face_pressure[f] =
+        is_held(f) ? work_.conditions[f].value : base.face_pressure[f] + stage.rise[f];
   });
+  find_face_flux(base, duration, forcing, stage);
+  if (!work_.displaced.empty()) settle_air(base, duration, forcing, stage);
+
+  flux_scale_ = largest_of(faces, settings_.threads, 0.0,
+                           [&](int f) { return std::abs(stage.face_flux[f]); });
   stage.state.velocity.resize(elements);
   for_each_index(elements, settings_.threads, [&](int e) {
     stage.state.velocity[e] = work_.flux[e] / forcing.coefficients.porosity[e];
@@ -444,6 +497,10 @@ MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& start, double dt,
   for (int f = 0; f < grid_.face_count(); ++f) base.face_pressure[f] += ahead * first.rise[f];
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     base.velocity[e] += ahead * (first.state.velocity[e] - start.velocity[e]);
+    if (start.air.empty()) continue;
+    for (int k = 0; k <= Dim; ++k) {
+      base.air[e][k] += ahead * (first.state.air[e][k] - start.air[e][k]);
+    }
   }
   Stage second =
       solve_stage(base, duration, late, flux_of(first.state.velocity, late.coefficients));
@@ -458,8 +515,9 @@ MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& start, double dt,
 template <int Dim>
 MixedStep<Dim> ImplicitMixed<Dim>::steady(const FlowForcing<Dim>& forcing) {
   set_up(forcing.conditions);
-  Stage stage = solve_stage(last_steady_, std::numeric_limits<double>::infinity(), forcing,
-                            last_steady_flux_);
+  constexpr double forever = std::numeric_limits<double>::infinity();
+  Stage stage = is_nonlinear() ? nonlinear_steady(forcing)
+                               : solve_stage(last_steady_, forever, forcing, last_steady_flux_);
   last_steady_ = stage.state;
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     last_steady_flux_[e] = forcing.coefficients.porosity[e] * stage.state.velocity[e];

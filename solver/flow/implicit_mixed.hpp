@@ -6,16 +6,22 @@
 /// 493). With the porosity n, intrinsic velocity v, q = n v and momentum divided by n:
 ///
 ///   rho_L dv/dt = -grad p + rho_L g - (drag / n) q - b |q| q
-///   (water_volume / volume / K) dp/dt + div q = source
+///   (water_volume / volume / K) dp/dt + dn(S - 1)/dt + div q = source
+///
+/// Air, n (1 - S) per volume, gives way to liquid where a soil has a retention law; k_r / k is then
+/// part of the mobility. Storage is lumped at the faces, with S at their pressures (Younes, Ackerer
+/// and Lehmann, Int. J. Numer. Methods Eng. 66 (2006) 1069).
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "case/errors.hpp"
 #include "case/scene.hpp"
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
+#include "flow/flow_soils.hpp"
 #include "flow/flux_correction.hpp"
 #include "flow/mixed_matrix.hpp"
 #include "grid/grid.hpp"
@@ -34,8 +40,10 @@ template <int Dim>
 struct MixedState {
   std::vector<double> face_pressure;  ///< at face centres, Pa
   std::vector<Vector<Dim>> velocity;  ///< mean of each element, intrinsic, m/s
+  /// Volume of air in the share of each side of an element, m3; empty where all soil is saturated.
+  ElementField<Dim> air = {};
 
-  void archive(auto& archive) { archive(face_pressure, velocity); }
+  void archive(auto& archive) { archive(face_pressure, velocity, air); }
 };
 
 /// What drives the flow at one moment.
@@ -45,6 +53,12 @@ struct FlowForcing {
   std::vector<FaceCondition> conditions;  ///< per face
   /// Per element: liquid that leaves it beyond what it stores, m3/s. Empty where there is none.
   std::vector<double> source;
+};
+
+/// The nonlinear iteration of a step did not converge: a shorter one may.
+class NotConverged : public NumericalError {
+ public:
+  using NumericalError::NumericalError;
 };
 
 template <int Dim>
@@ -63,7 +77,8 @@ struct MixedStep {
 template <int Dim>
 class ImplicitMixed {
  public:
-  ImplicitMixed(const Grid<Dim>& grid, ImplicitSettings settings, Vector<Dim> gravity);
+  ImplicitMixed(const Grid<Dim>& grid, ImplicitSettings settings, Vector<Dim> gravity,
+                FlowSoils<Dim> soils = {});
   ImplicitMixed(const ImplicitMixed&) = delete;
   ImplicitMixed& operator=(const ImplicitMixed&) = delete;
 
@@ -75,12 +90,24 @@ class ImplicitMixed {
   /// state holds that. Water stores (water_volume / K) dp/dt with the volume of each stage. Where
   /// water does not compress and no pressure is prescribed the first face of the piece has p = 0,
   /// and prescribed inflow and sources must cancel. Throws NumericalError when they do not, when an
-  /// element has no resistance, or when Newton's method for the quadratic drag does not converge.
+  /// element has no resistance, or when Newton's method for the quadratic drag does not converge;
+  /// NotConverged when the iteration of retention and seepage faces does not.
   MixedStep<Dim> step(const MixedState<Dim>& start, double dt,
                       const std::vector<const FlowForcing<Dim>*>& forcing);
 
   /// Steady state, without inertia and storage: face_flux as rates; face_volume stays empty.
   MixedStep<Dim> steady(const FlowForcing<Dim>& forcing);
+  /// The same with every soil saturated at any pressure: a flow as large as it can be.
+  MixedStep<Dim> saturated_steady(const FlowForcing<Dim>& forcing);
+
+  /// Air in the elements at these pressures, m3. `porosity` per element.
+  [[nodiscard]] ElementField<Dim> air_at(const std::vector<double>& face_pressure,
+                                         const std::vector<double>& porosity) const;
+  [[nodiscard]] bool has_retention() const { return !ignore_retention_ && !soils_.saturated(); }
+  /// Whether steps iterate over retention or seepage faces.
+  [[nodiscard]] bool is_nonlinear() const { return has_retention() || !switching_.empty(); }
+  /// Of the last step: how often its system was solved.
+  [[nodiscard]] int iterations() const { return iterations_; }
 
   /// Of all calls so far.
   [[nodiscard]] SolveCounts counts() const;
@@ -109,15 +136,20 @@ class ImplicitMixed {
   using Field = std::vector<Vector<Dim>>;
   /// What one stage works with; kept, so that stages allocate only what they return.
   struct Work {
-    std::vector<double> resistance;  ///< linear, per flux, kg/(m3 s)
-    Field drive;                     ///< without pressure, Pa/m
-    std::vector<double> storage;     ///< per face of the element, m3/(s Pa)
-    std::vector<double> net_source;  ///< outflow asked for, m3/s
-    std::vector<double> surplus;     ///< of inflow and sources of each sealed piece, m3/s
+    std::vector<double> resistance;         ///< linear, per flux, kg/(m3 s)
+    Field drive;                            ///< without pressure, Pa/m
+    std::vector<FaceCondition> conditions;  ///< seepage faces as they are: a pressure or a flux
+    std::vector<double> storage;            ///< per face of the element, m3/(s Pa)
+    std::vector<double> net_source;         ///< outflow asked for, m3/s
+    std::vector<double> surplus;            ///< of inflow and sources of each sealed piece, m3/s
     MomentumLaw<Dim> law;
     FacePressure pressure;
     Field flux;  ///< per element, m/s
     Field push;  ///< drive minus pressure gradient, Pa/m
+    // Of the air that gives way to liquid; empty where all soil is saturated.
+    ElementField<Dim> side_storage;   ///< slope of the rate with pressure, m3/(s Pa)
+    ElementField<Dim> displaced;      ///< rate at the pressures of the reference, m3/s
+    std::vector<int> level_elements;  ///< whose first face holds the level of a sealed piece
     // Of the linear system.
     Field face_push;                ///< what an element drives without the unknown rises, m/s
     std::vector<double> round_off;  ///< of it, m/s
@@ -138,8 +170,7 @@ class ImplicitMixed {
                        const FlowForcing<Dim>& forcing);
   /// What no pressure boundary can take up must cancel where no water is stored either.
   void balance_sealed_pieces(const FlowForcing<Dim>& forcing);
-  void guess_pressure(const MixedState<Dim>& base, double duration,
-                      const FlowForcing<Dim>& forcing);
+  void guess_pressure(const MixedState<Dim>& base, double duration);
   void solve_linear(const MixedState<Dim>& base, const FlowForcing<Dim>& forcing);
   /// Newton's method on flux and pressure together.
   void solve_quadratic(const MixedState<Dim>& base, const FlowForcing<Dim>& forcing,
@@ -163,13 +194,66 @@ class ImplicitMixed {
                                       const std::vector<double>& quadratic_drag) const;
   /// The water that a sealed piece stores takes up what enters it.
   void level_sealed_pieces(const MixedState<Dim>& base, std::vector<double>& rise) const;
-  void find_face_flux(const FlowForcing<Dim>& forcing, Stage& stage);
+  void find_face_flux(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
+                      Stage& stage);
+
+  // Of retention and seepage faces: nonlinear_flow.cpp.
+
+  /// Iterates over pressures, conductivities and the set of seepage faces that let water out.
+  void solve_nonlinear(const MixedState<Dim>& base, double duration,
+                       const FlowForcing<Dim>& forcing);
+  /// Conditions of the stage, with seepage faces as the last stage left them.
+  void resolve_conditions(const FlowForcing<Dim>& forcing);
+  void resolve(const FaceCondition& condition, int face);
+  /// Mobility, and what air gives way, about the pressures of the reference.
+  void linearise_retention(const MixedState<Dim>& base, double duration,
+                           const FlowForcing<Dim>& forcing);
+  /// Rate at which liquid takes the place of air in the share of a side, m3/s.
+  [[nodiscard]] double displacement_rate(const MixedState<Dim>& base, double duration,
+                                         const FlowForcing<Dim>& forcing, int e, int k,
+                                         double pressure) const;
+  /// k_r of an element, the mean of those at its faces.
+  [[nodiscard]] double relative_conductivity(int e, const std::vector<double>& reference,
+                                             const std::vector<double>& rise) const;
+  /// What the linear system of the last iteration missed, as a flux through a face, m3/s.
+  [[nodiscard]] double linearisation_error(const MixedState<Dim>& base, double duration,
+                                           const FlowForcing<Dim>& forcing) const;
+  /// Flux out of the element that the pressures of the last iteration ask for, m3/s.
+  [[nodiscard]] double flux_out(int e, int k) const;
+  /// The flux correction and its pieces are those of the faces that are held now.
+  void follow_held_faces();
+  /// Whether storage holds the level of the pressure in a sealed piece.
+  [[nodiscard]] bool is_level_held(int piece) const;
+  /// Where nothing holds the level of the pressure, its highest seepage face opens.
+  void hold_levels(const FlowForcing<Dim>& forcing);
+  /// Pressures below this are zero to a seepage face, Pa.
+  [[nodiscard]] double pressure_accuracy() const;
+  [[nodiscard]] double largest_area(int e) const {
+    double largest = 0.0;
+    for (const int f : grid_.element_face[e]) largest = std::max(largest, face_area_[f]);
+    return largest;
+  }
+  /// Opens and closes seepage faces. Returns whether any changed.
+  bool switch_faces(const FlowForcing<Dim>& forcing, double flux_tolerance,
+                    double pressure_tolerance);
+  /// Stores the air that the fluxes leave in each element, to the last digit.
+  void settle_air(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
+                  Stage& stage) const;
+  /// What flows through a side of a saturated element under gravity alone, m3/s.
+  [[nodiscard]] double gravity_flux(int e, const FlowCoefficients<Dim>& c) const;
+  /// The steady state of a nonlinear flow, by steps of growing length.
+  Stage nonlinear_steady(const FlowForcing<Dim>& forcing);
   /// Solves for the pressures with the law of the moment. At prescribed pressures `rise` is known.
   void solve_pressure(const FlowForcing<Dim>& forcing);
   void find_load(const FlowForcing<Dim>& forcing);
 
   /// Inward flux prescribed at a face, m3/s.
   [[nodiscard]] double prescribed_inflow(const FlowForcing<Dim>& forcing, int face) const;
+  /// Whether the pressure at a face is prescribed in this stage.
+  [[nodiscard]] bool is_held(int face) const {
+    return work_.conditions[face].kind == FaceKind::pressure;
+  }
+  void set_up_correction();
   [[nodiscard]] Vector<Dim> pressure_gradient(int e, const std::vector<double>& reference,
                                               const std::vector<double>& rise) const;
   /// Flux per pressure, m3/(s Pa), of the element's largest face.
@@ -179,7 +263,14 @@ class ImplicitMixed {
   ImplicitSettings settings_;
   Vector<Dim> gravity_;
 
+  FlowSoils<Dim> soils_;
+  bool ignore_retention_ = false;
+
   std::vector<FaceKind> kinds_;  ///< everything below is set up for these
+  std::vector<int> switching_;   ///< faces whose kind may change
+  std::vector<char> open_;       ///< per face: a seepage face that lets water out
+  std::vector<char> corrected_;  ///< per face: held in the flux correction as it stands
+  int iterations_ = 0;
   MixedMatrix<Dim> matrix_;
   std::vector<double> face_area_;
   std::optional<LaggedPreconditioner> solver_;

@@ -28,6 +28,7 @@ ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options)
 }
 
 StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool follows_pores,
+                           const std::vector<FaceCondition>& conditions,
                            const std::vector<double>& kinks) {
   StepSettings settings;
   settings.tolerance = scene.time.tolerance;
@@ -36,6 +37,9 @@ StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool 
   settings.unnoticed = options.unnoticed;
   settings.length_alone_changes_matrix = !follows_pores;
   settings.kinks = kinks;
+  settings.crosses_jumps =
+      std::ranges::any_of(conditions, &FaceCondition::switches) ||
+      std::ranges::any_of(scene.soils, [](const Soil& s) { return s.retention.law != nullptr; });
   settings.threads = options.threads;
   return settings;
 }

@@ -23,6 +23,7 @@ ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options)
 
 /// `kinks`: times at which boundary values may have one, s.
 StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool follows_pores,
+                           const std::vector<FaceCondition>& conditions,
                            const std::vector<double>& kinks);
 
 BlendingSettings blending_settings(const Scene& scene, const FlowOptions& options,

@@ -15,6 +15,12 @@ struct ImplicitThresholds {
   double min_shrinkage = 0.1;
   /// The longest step that may replace a rejected one, in lengths of that one.
   double max_retry = 0.9;
+  /// The step that replaces one whose iteration did not converge, in lengths of that one.
+  double unsolved_shrinkage = 0.25;
+  /// A step below this share of the run whose iteration does not converge ends the run.
+  double min_unsolved_step = 1e-9;
+  /// No step grows after one whose iteration took more solutions than this.
+  int slow_iterations = 25;
   /// The next step's length, in lengths of the step whose error is expected to equal the tolerance.
   double safety = 0.85;
   /// Where the length alone changes the matrix, a step grows by at least this factor or not at all:

@@ -27,9 +27,21 @@ MixedFlow<Dim> end_of(MixedStep<Dim> step) {
   return {std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
 }
 
-/// Water at rest under no pressure but those prescribed at faces.
+/// Water at rest under these pressures, per face, and those prescribed at faces, Pa.
 template <int Dim>
-MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions);
+MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                            std::vector<double> pressure);
+
+/// Volume of air that has left each element between two states, m3; empty where there is none.
+template <std::size_t Sides>
+std::vector<double> displaced_air(const std::vector<std::array<double, Sides>>& before,
+                                  const std::vector<std::array<double, Sides>>& after) {
+  std::vector<double> result(before.size(), 0.0);
+  for (std::size_t e = 0; e < before.size(); ++e) {
+    for (std::size_t k = 0; k < Sides; ++k) result[e] += before[e][k] - after[e][k];
+  }
+  return result;
+}
 
 /// Mean pressure of each element, Pa, of the pressures at its faces.
 template <int Dim>

@@ -81,7 +81,8 @@ double MixedMatrix<Dim>::entry(const MomentumLaw<Dim>& law, int e, int a, int b)
 }
 
 template <int Dim>
-void MixedMatrix<Dim>::assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage) {
+void MixedMatrix<Dim>::assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage,
+                                const ElementField<Dim>& side_storage) {
   // An entry beside the diagonal belongs to the one element that has both faces; to those on the
   // diagonal both neighbours of the face add.
   double* values = values_.valuePtr();
@@ -96,13 +97,30 @@ void MixedMatrix<Dim>::assemble(const MomentumLaw<Dim>& law, const std::vector<d
     if (unknown_[f] < 0) return;
     const auto diagonal = [&](int e) {
       const int k = grid_.side_of(e, f);
-      return entry(law, e, k, k) + storage[e];
+      const double stored = side_storage.empty() ? storage[e] : storage[e] + side_storage[e][k];
+      return entry(law, e, k, k) + stored;
     };
     const int left = grid_.face_left[f];
     const int k = grid_.side_of(left, f);
     values[position_[left][k][k]] =
         grid_.is_outer(f) ? diagonal(left) : diagonal(left) + diagonal(grid_.face_right[f]);
   });
+}
+
+template <int Dim>
+double MixedMatrix<Dim>::uncouple(int face) {
+  double* values = values_.valuePtr();
+  double diagonal = 0.0;
+  for (const int e : {grid_.face_left[face], grid_.face_right[face]}) {
+    if (e < 0) continue;
+    const int k = grid_.side_of(e, face);
+    diagonal = values[position_[e][k][k]];
+    for (int b = 0; b <= Dim; ++b) {
+      if (b == k || position_[e][k][b] < 0) continue;
+      values[position_[e][k][b]] = values[position_[e][b][k]] = 0.0;
+    }
+  }
+  return diagonal;
 }
 
 template <int Dim>

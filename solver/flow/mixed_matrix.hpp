@@ -1,7 +1,8 @@
 #pragma once
 
 /// The matrix of the mixed elements: symmetric, with an unknown for each face whose pressure is not
-/// prescribed. Its entries are T N_a . N_b / V of each element, plus storage on the diagonal.
+/// prescribed throughout. Its entries are T N_a . N_b / V of each element, plus storage on the
+/// diagonal.
 
 #include <Eigen/SparseCore>
 #include <array>
@@ -9,6 +10,7 @@
 
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
+#include "grid/element_field.hpp"
 #include "grid/grid.hpp"
 
 namespace suffuse {
@@ -26,14 +28,19 @@ class MixedMatrix {
  public:
   MixedMatrix(const Grid<Dim>& grid, int threads);
 
-  /// Numbers the unknowns and lays out the pattern. `kinds`: per face.
+  /// Numbers the unknowns and lays out the pattern. `kinds`: per face, for the whole run.
   void lay_out(const std::vector<FaceKind>& kinds);
   [[nodiscard]] int unknowns() const { return unknowns_; }
-  /// Number of a face's unknown; -1 where its pressure is prescribed.
+  /// Number of a face's unknown; -1 where its pressure is prescribed throughout.
   [[nodiscard]] int unknown(int face) const { return unknown_[face]; }
 
-  /// Values for a law and for the storage of each element at each of its faces, m3/(s Pa).
-  void assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage);
+  /// Values for a law and for the storage of each element at each of its faces, m3/(s Pa):
+  /// `storage` per element, and beside it `side_storage` per side of an element (may be empty).
+  void assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage,
+                const ElementField<Dim>& side_storage = {});
+  /// Makes the unknown of a face one of its own, uncoupled from the others, whose value the right
+  /// side decides. Returns its diagonal entry.
+  double uncouple(int face);
   /// Doubles the diagonal at the first face of an element, where nothing else holds the level of
   /// the pressure: its rise is then zero, as the rest of the system adds up to zero.
   void hold_level(int element) { values_.valuePtr()[position_[element][0][0]] *= 2.0; }

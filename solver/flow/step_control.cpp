@@ -23,11 +23,13 @@ void StepControl::start(double first_step, bool smooth) {
 
 bool StepControl::is_jump(double start, double dt) const {
   if (!(dt <= limits.jump * settings_.end / settings_.tolerance)) return false;
-  return contains_time(settings_.kinks, start) && contains_time(settings_.kinks, start + dt);
+  const bool starts_at_kink = start == 0.0 || contains_time(settings_.kinks, start);
+  return starts_at_kink && contains_time(settings_.kinks, start + dt);
 }
 
 double StepControl::propose(double start, double until, double longest) {
   shortened_ = false;
+  rejected_dt_ = 0.0;
   const double left = until - start;
   if (settings_.given_step) {
     // The given step is the longest one: what is left is divided evenly.
@@ -47,14 +49,20 @@ double StepControl::error(double start, double dt,
   double error = 0.0;
   for (const ControlledField& field : fields) {
     if (!(field.scale > 0.0)) continue;
-    const double ahead = field.previous != nullptr ? dt / last_ : 0.0;
-    const std::vector<double>& now = field.start;
-    const double distance =
-        largest_of(static_cast<int>(now.size()), settings_.threads, 0.0, [&](int i) {
-          const double predicted =
-              field.previous != nullptr ? now[i] + ahead * (now[i] - (*field.previous)[i]) : now[i];
-          return std::abs(field.end[i] - predicted);
-        });
+    const bool predicts = !field.previous.empty();
+    const double ahead = predicts ? dt / last_ : 0.0;
+    const auto distance_at = [&](int i) {
+      const double now = field.start[i];
+      const double predicted = predicts ? now + ahead * (now - field.previous[i]) : now;
+      return std::abs(field.end[i] - predicted);
+    };
+    const auto count = static_cast<int>(field.start.size());
+    double distance = 0.0;
+    if (field.summed) {
+      for (int i = 0; i < count; ++i) distance += distance_at(i);
+    } else {
+      distance = largest_of(count, settings_.threads, 0.0, distance_at);
+    }
     error = std::max(error, distance / field.scale);
   }
   // Oscillations within a time that goes unnoticed move next to nothing.
@@ -77,18 +85,39 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
     next_ = !shortened_ && wanted >= 1.0 ? std::max(next, next_) : next;
     return true;
   }
+  // Half of the fall that a smooth field would show is too little.
+  const bool jumps = settings_.crosses_jumps && rejected_dt_ > 0.0 &&
+                     error > 0.5 * rejected_error_ * (1.0 + dt / rejected_dt_);
+  if (jumps) {
+    next_ = dt;
+    return true;
+  }
   ++rejected_;
   shortened_ = true;
+  rejected_dt_ = dt;
+  rejected_error_ = error;
   dt *= std::clamp(wanted, limits.min_shrinkage, limits.max_retry);
-  if (!(dt > limits.min_step_of_time * start) || dt < limits.min_step_of_run * settings_.end) {
-    std::ostringstream message;
-    message << "no step is short enough for time.tolerance = " << settings_.tolerance
-            << " at t = " << start
-            << " s: something that drives or resists the flow changes at once; take a larger "
-               "tolerance or give time.step";
-    throw NumericalError(message.str());
-  }
+  refuse_too_short(start, dt);
   return false;
+}
+
+void StepControl::reject(double start, double& dt) {
+  ++rejected_;
+  shortened_ = true;
+  rejected_dt_ = 0.0;
+  dt *= limits.unsolved_shrinkage;
+  next_ = dt;
+  refuse_too_short(start, dt);
+}
+
+void StepControl::refuse_too_short(double start, double dt) const {
+  if (dt > limits.min_step_of_time * start && dt >= limits.min_step_of_run * settings_.end) return;
+  std::ostringstream message;
+  message << "no step is short enough for time.tolerance = " << settings_.tolerance
+          << " at t = " << start
+          << " s: something that drives or resists the flow changes at once; take a larger "
+             "tolerance or give time.step";
+  throw NumericalError(message.str());
 }
 
 void StepControl::finish(double dt) {

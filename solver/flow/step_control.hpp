@@ -6,7 +6,9 @@
 /// (dt^2 |y''| / 2, Hairer and Wanner, Solving Ordinary Differential Equations II). Knows values at
 /// the ends of steps, and nothing of the equations behind them.
 
+#include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,15 +26,19 @@ struct StepSettings {
   /// Times at which boundary values may have a kink, ascending, s. Two of them close together are a
   /// jump, which one step crosses.
   std::vector<double> kinks;
+  /// Fields may jump: a step whose error does not fall with its length is accepted. Seepage faces
+  /// open and close at once, and no step is short enough for that.
+  bool crosses_jumps = false;
   int threads = 1;
 };
 
 /// A field whose error decides on the length of steps, as it is at the ends of steps.
 struct ControlledField {
-  const std::vector<double>* previous;  ///< at the start of the last step; null: predicts nothing
-  const std::vector<double>& start;     ///< at the start of this step
-  const std::vector<double>& end;       ///< at its end
-  double scale;                         ///< errors are relative to this; zero: it has no error
+  std::span<const double> previous;  ///< at the start of the last step; empty: predicts nothing
+  std::span<const double> start;     ///< at the start of this step
+  std::span<const double> end;       ///< at its end
+  double scale;                      ///< errors are relative to this; zero: it has no error
+  bool summed = false;  ///< the error is the sum of all values' errors, not the largest
 };
 
 class StepControl {
@@ -54,6 +60,10 @@ class StepControl {
   /// shortens `dt`. `predicted`: a state before the start was part of the estimate. Throws
   /// NumericalError when the step would become too short to change the time.
   [[nodiscard]] bool accept(double start, double error, bool predicted, double& dt);
+  /// The step of `dt` from `start` has no result: shortens it. Throws as `accept` does.
+  void reject(double start, double& dt);
+  /// The next step is no longer than this one.
+  void hold(double dt) { next_ = std::min(next_, dt); }
   /// A step of `dt` seconds is over.
   void finish(double dt);
 
@@ -74,6 +84,8 @@ class StepControl {
 
  private:
   [[nodiscard]] bool is_jump(double start, double dt) const;
+  /// Throws NumericalError where a step has become too short to change the time.
+  void refuse_too_short(double start, double dt) const;
 
   StepSettings settings_;
   double last_ = 0.0;
@@ -81,6 +93,9 @@ class StepControl {
   bool smooth_ = true;
   long rejected_ = 0;
   bool shortened_ = false;  ///< the step at hand has been rejected before
+  // Of its last rejected attempt.
+  double rejected_dt_ = 0.0;
+  double rejected_error_ = 0.0;
 };
 
 }  // namespace suffuse

@@ -106,11 +106,11 @@ Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
   std::vector<double> concentration = concentrations(points, volume);
 
   FinesState<Dim> between_points;
-  between_points.pore_volume = pore_field(grid, *this->solid_);
+  between_points.liquid_volume = pore_field(grid, *this->solid_);
   between_points.fines_volume = concentration_fit(grid, points, begins, volume, concentration);
   for (std::size_t e = 0; e < between_points.fines_volume.size(); ++e) {
     for (int j = 0; j <= Dim; ++j) {
-      between_points.fines_volume[e][j] *= between_points.pore_volume[e][j];
+      between_points.fines_volume[e][j] *= between_points.liquid_volume[e][j];
     }
   }
   Snapshot result = element_snapshot(grid, *this->solid_, between_points, flow, this->steps());

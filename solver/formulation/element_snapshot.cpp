@@ -17,29 +17,31 @@ std::vector<Field> pore_fields(int components) {
   return fields;
 }
 
-/// Adds the values of one element or vertex to `pore_fields`.
-void add_values(std::vector<Field>& fields, double n, double c, double n_f) {
+/// Adds the values of one element or vertex to `pore_fields`; `wet`: liquid per volume, n S.
+void add_values(std::vector<Field>& fields, double n, double wet, double c, double n_f) {
   fields[0].values.push_back(n);
   fields[1].values.push_back(c);
   fields[2].values.push_back(n_f);
-  fields[3].values.push_back(n - n_f);
+  fields[3].values.push_back(wet - n_f);
 }
 
 /// Means of elements, and their linear functions at the vertices.
 template <int Dim>
 void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesState<Dim>& liquid,
-               Snapshot& result) {
+               const std::vector<double>& saturation, Snapshot& result) {
   using Nodes = FieldNodes<Dim>;
   result.cell = pore_fields(1);
   result.element_vertex = pore_fields(Dim + 1);
   Field erodible = scalar("erodible_fraction", "1");
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const ElementValues<Dim>& pores = liquid.pore_volume[e];
+    const ElementValues<Dim>& wet = liquid.liquid_volume[e];
+    const double filled = saturation.empty() ? 1.0 : saturation[e];
     const ElementValues<Dim>& volume = liquid.fines_volume[e];
-    const double pore_sum = element_sum<Dim>(pores);
+    const double wet_sum = element_sum<Dim>(wet);
     const double fines_sum = element_sum<Dim>(volume);
-    const double n = pore_sum / grid.volume[e];
-    add_values(result.cell, n, fines_sum / pore_sum, fines_sum / grid.volume[e]);
+    const double n_wet = wet_sum / grid.volume[e];
+    const double n = n_wet / filled;
+    add_values(result.cell, n, n_wet, fines_sum / wet_sum, fines_sum / grid.volume[e]);
     erodible.values.push_back(solid.soils().soil_of_element(e).porosity_max() - n);
 
     const double node_volume = grid.volume[e] / (Dim + 1);
@@ -47,15 +49,16 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
     ElementValues<Dim> f_node;
     ElementValues<Dim> c_node;
     for (int j = 0; j <= Dim; ++j) {
-      n_node[j] = pores[j] / node_volume;
+      n_node[j] = wet[j] / node_volume;
       f_node[j] = volume[j] / node_volume;
-      c_node[j] = volume[j] / pores[j];
+      c_node[j] = volume[j] / wet[j];
     }
     const auto n_vertex = Nodes::at_vertices(n_node);
     const auto f_vertex = Nodes::at_vertices(f_node);
     const auto c_vertex = Nodes::at_vertices(c_node);
     for (int k = 0; k <= Dim; ++k) {
-      add_values(result.element_vertex, n_vertex[k], c_vertex[k], f_vertex[k]);
+      add_values(result.element_vertex, n_vertex[k] / filled, n_vertex[k], c_vertex[k],
+                 f_vertex[k]);
     }
   }
   result.cell.push_back(std::move(erodible));
@@ -94,7 +97,7 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
     ElementValues<Dim> c_node;
     ElementValues<Dim> f_node;
     for (int j = 0; j <= Dim; ++j) {
-      c_node[j] = liquid.fines_volume[e][j] / liquid.pore_volume[e][j];
+      c_node[j] = liquid.fines_volume[e][j] / liquid.liquid_volume[e][j];
       f_node[j] = liquid.fines_volume[e][j] / (grid.volume[e] / (Dim + 1));
     }
     solid_fraction.values.push_back(1.0 - n);
@@ -122,7 +125,7 @@ Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   Snapshot result;
   result.time = flow.time;
   result.step = step;
-  add_pores(grid, solid, liquid, result);
+  add_pores(grid, solid, liquid, flow.saturation, result);
   add_flow(grid, flow, result);
   add_solid_points(grid, solid, liquid, flow, result);
   return result;

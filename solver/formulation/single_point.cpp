@@ -23,6 +23,7 @@ void SinglePoint<Dim>::advance(double latest) {
     fines_->advance(step, flow.volumes, exchange, this->flow_->pressure());
   }
   this->time_ = flow.end;
+  air_ = this->flow_->air();
   // Masses, and the pressures that follow from them.
   book(flow.volumes);
   update_flow();
@@ -39,6 +40,11 @@ SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
       options.flow.threads);
   update_flow();
   this->flow_->start();
+  air_ = this->flow_->air();
+  if (!air_.empty()) {
+    fines_->start(air_);
+    update_flow();
+  }
   this->start_flux_history();
   water_mass_.resize(this->grid_.mesh.element_count());
   follow_pressure();
@@ -49,6 +55,7 @@ template <int Dim>
 void SinglePoint<Dim>::archive(StateArchive& archive) {
   TwoPhaseModel<Dim>::archive(archive);
   archive(*fines_, water_mass_, water_timing_);
+  if (archive.restores()) air_ = this->flow_->air();
 }
 
 template <int Dim>
@@ -60,12 +67,14 @@ PoreState SinglePoint<Dim>::pores() const {
   result.water_volume.resize(elements);
   result.concentration.resize(elements);
   for_each_index(elements, this->threads(), [&](int e) {
-    const double pores = element_sum<Dim>(state.pore_volume[e]);
+    const double liquid = element_sum<Dim>(state.liquid_volume[e]);
     const double fines = element_sum<Dim>(state.fines_volume[e]);
+    const double pores = air_.empty() ? liquid : liquid + air_[e];
     result.porosity[e] = pores / this->grid_.volume[e];
-    result.water_volume[e] = pores - fines;
-    result.concentration[e] = fines / pores;
+    result.water_volume[e] = liquid - fines;
+    result.concentration[e] = fines / liquid;
   });
+  result.air_volume = air_;
   if (this->soils_.erodes_by_flux()) result.flux = this->element_flux_magnitude();
   return result;
 }
@@ -143,7 +152,7 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
   const FinesState<Dim>& state = fines_->state();
   for (std::size_t e = 0; e < state.fines_volume.size(); ++e) {
     for (int j = 0; j <= Dim; ++j) {
-      const double c = state.fines_volume[e][j] / state.pore_volume[e][j];
+      const double c = state.fines_volume[e][j] / state.liquid_volume[e][j];
       row.concentration_min = std::min(row.concentration_min, c);
       row.concentration_max = std::max(row.concentration_max, c);
     }

@@ -46,8 +46,10 @@ PoreState PoreForecast<Dim>::at(double time) const {
       growth += soils.points().volume[p] * (after[p] - before[p]);
     }
     const double porosity = now_.porosity[e] + growth / grid_.volume[e];
-    // The water stays what it is: (1 - c) n does not change.
-    result.concentration[e] = 1.0 - (1.0 - now_.concentration[e]) * now_.porosity[e] / porosity;
+    // The water stays what it is: (1 - c) n S does not change.
+    const double air = now_.air_volume.empty() ? 0.0 : now_.air_volume[e] / grid_.volume[e];
+    result.concentration[e] =
+        1.0 - (1.0 - now_.concentration[e]) * (now_.porosity[e] - air) / (porosity - air);
     result.porosity[e] = porosity;
   });
   return result;

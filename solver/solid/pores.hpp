@@ -14,8 +14,9 @@ namespace suffuse {
 /// Per element.
 struct PoreState {
   std::vector<double> porosity;       ///< n_L
-  std::vector<double> water_volume;   ///< pore volume minus fluidised fines, m3
+  std::vector<double> water_volume;   ///< liquid minus fluidised fines, m3
   std::vector<double> concentration;  ///< c
+  std::vector<double> air_volume;     ///< m3; empty where all soil is saturated
   std::vector<double> flux;           ///< |q|, m/s; may be empty where no soil erodes by it
 };
 

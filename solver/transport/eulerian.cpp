@@ -168,7 +168,7 @@ double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
   // An element's mean is a sum of its face means with these weights; a face may take away no more
   // than its own share, or the mean could turn negative (Zhang & Shu 2010).
   return smallest_of(grid_.mesh.element_count(), threads_, infinity, [&](int e) {
-    const ElementValues<Dim>& pores = state.pore_volume[e];
+    const ElementValues<Dim>& pores = state.liquid_volume[e];
     const double total = element_sum<Dim>(pores);
     const double smallest = *std::min_element(pores.begin(), pores.end());
     ElementValues<Dim> share;
@@ -209,7 +209,7 @@ void EulerianTransport<Dim>::start(const FinesState<Dim>& state,
         conditions_[outer_faces_[o]].concentration;
   }
   for_each_index(elements, threads_, [&](int e) {
-    find_concentration<Dim>(state.fines_volume[e], state.pore_volume[e],
+    find_concentration<Dim>(state.fines_volume[e], state.liquid_volume[e],
                             &scratch.at_vertices[vertices * static_cast<std::size_t>(e)]);
     scratch.fines_out[e] = {};
     for (int k = 0; k <= Dim; ++k) {
@@ -311,7 +311,7 @@ void EulerianTransport<Dim>::refuse_impossible(const std::vector<double>& mean) 
 }
 
 template <int Dim>
-void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& pores, ElementField<Dim>& fines,
+void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& liquid, ElementField<Dim>& fines,
                                          TransportScratch<Dim>& scratch) const {
   refuse_impossible(scratch.mean);
   find_allowed(scratch);
@@ -322,7 +322,7 @@ void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& pores, Element
     const double mean = scratch.mean[e];
     const double kept = share_kept<Dim>(at_vertices, mean, nodes, scratch.allowed);
     for (int j = 0; j <= Dim; ++j) {
-      fines[e][j] = pores[e][j] * (mean + kept * (fines[e][j] / pores[e][j] - mean));
+      fines[e][j] = liquid[e][j] * (mean + kept * (fines[e][j] / liquid[e][j] - mean));
       at_vertices[j] = mean + kept * (at_vertices[j] - mean);
     }
   });
@@ -331,9 +331,10 @@ void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& pores, Element
 
 template <int Dim>
 void EulerianTransport<Dim>::advance(FinesState<Dim>& state, const ElementField<Dim>& eroded,
+                                     const std::vector<double>& gained,
                                      TransportScratch<Dim>& scratch) const {
   const int elements = grid_.mesh.element_count();
-  ElementField<Dim>& pores = state.pore_volume;
+  ElementField<Dim>& liquid = state.liquid_volume;
   ElementField<Dim>& fines = state.fines_volume;
   ElementField<Dim>& stage = scratch.stage_fines;
   const auto moved = [&](int e) {
@@ -342,28 +343,29 @@ void EulerianTransport<Dim>::advance(FinesState<Dim>& state, const ElementField<
                      scratch.fines_out[e]);
   };
   const auto update_at = [&](int e, const ElementValues<Dim>& volume) {
-    find_concentration<Dim>(volume, pores[e],
+    find_concentration<Dim>(volume, liquid[e],
                             &scratch.next_at_vertices[(Dim + 1) * static_cast<std::size_t>(e)]);
-    scratch.mean[e] = element_sum<Dim>(volume) / element_sum<Dim>(pores[e]);
+    scratch.mean[e] = element_sum<Dim>(volume) / element_sum<Dim>(liquid[e]);
   };
   for_each_index(elements, threads_, [&](int e) {
     const ElementValues<Dim> change = moved(e);
+    if (!gained.empty()) add_liquid<Dim>(liquid[e], gained[e]);
     for (int j = 0; j <= Dim; ++j) {
       if (!eroded.empty()) {
-        pores[e][j] += eroded[e][j];
+        liquid[e][j] += eroded[e][j];
         fines[e][j] += eroded[e][j];
       }
       stage[e][j] = fines[e][j] + change[j];
     }
     update_at(e, stage[e]);
   });
-  limit_stage(pores, stage, scratch);
+  limit_stage(liquid, stage, scratch);
   for_each_index(elements, threads_, [&](int e) {
     const ElementValues<Dim> change = moved(e);
     for (int j = 0; j <= Dim; ++j) fines[e][j] = 0.5 * (fines[e][j] + (stage[e][j] + change[j]));
     update_at(e, fines[e]);
   });
-  limit_stage(pores, fines, scratch);
+  limit_stage(liquid, fines, scratch);
 }
 
 template class EulerianTransport<2>;

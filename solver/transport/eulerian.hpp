@@ -14,14 +14,22 @@
 
 namespace suffuse {
 
-/// Pore volume and the volume of fluidised fines in it, per element and field node, m3.
+/// Volume of liquid (that of the pores, where no air is in them) and of fluidised fines in it, per
+/// element and field node, m3.
 template <int Dim>
 struct FinesState {
-  ElementField<Dim> pore_volume;
+  ElementField<Dim> liquid_volume;
   ElementField<Dim> fines_volume;
 
-  void archive(auto& archive) { archive(pore_volume, fines_volume); }
+  void archive(auto& archive) { archive(liquid_volume, fines_volume); }
 };
+
+/// Adds a volume of liquid to an element, spread as the liquid there lies.
+template <int Dim>
+void add_liquid(ElementValues<Dim>& liquid, double volume) {
+  const double growth = 1.0 + volume / element_sum<Dim>(liquid);
+  for (double& at_node : liquid) at_node *= growth;
+}
 
 /// Range of concentrations.
 struct ConcentrationRange {
@@ -65,17 +73,18 @@ class EulerianTransport {
   /// Starts an interval of steps with `face_volume` m3 of liquid through each face in each.
   void start(const FinesState<Dim>& state, const std::vector<double>& face_volume,
              TransportScratch<Dim>& scratch) const;
-  /// Moves the state by one step in which `eroded` m3 of fines join the liquid (empty: none).
+  /// Moves the state by one step in which `eroded` m3 of fines join the liquid (empty: none), and
+  /// elements gain `gained` m3 of liquid by the flow (empty: none).
   /// Leaves concentrations at the vertices within the means of the elements around them and, at an
   /// inlet, the concentration that enters; expects the state so. Throws NumericalError where an
   /// element's mean concentration leaves [0, 1).
   void advance(FinesState<Dim>& state, const ElementField<Dim>& eroded,
-               TransportScratch<Dim>& scratch) const;
+               const std::vector<double>& gained, TransportScratch<Dim>& scratch) const;
   /// Volume of fines that crossed each face since `start`, m3.
   void fines_crossed(const TransportScratch<Dim>& scratch, std::vector<double>& result) const;
 
-  /// Mean concentration, weighted with pore volume, of the liquid that crosses each face when it
-  /// runs along `face_volume`.
+  /// Mean concentration, weighted with the volume of liquid, of the liquid that crosses each face
+  /// when it runs along `face_volume`.
   void face_concentration(const FinesState<Dim>& state, const std::vector<double>& face_volume,
                           TransportScratch<Dim>& scratch, std::vector<double>& result) const;
 
@@ -95,7 +104,7 @@ class EulerianTransport {
   };
 
   /// Limits the fines of a stage whose means are known; leaves its values at the vertices.
-  void limit_stage(const ElementField<Dim>& pores, ElementField<Dim>& fines,
+  void limit_stage(const ElementField<Dim>& liquid, ElementField<Dim>& fines,
                    TransportScratch<Dim>& scratch) const;
   /// Throws NumericalError.
   void refuse_impossible(const std::vector<double>& mean) const;

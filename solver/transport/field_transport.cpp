@@ -5,6 +5,16 @@
 #include "grid/parallel.hpp"
 
 namespace suffuse {
+namespace {
+
+/// Adds liquid to each element, spread as the liquid there lies.
+template <int Dim>
+void gain(FinesState<Dim>& state, const std::vector<double>& gained) {
+  for (std::size_t e = 0; e < gained.size(); ++e)
+    add_liquid<Dim>(state.liquid_volume[e], gained[e]);
+}
+
+}  // namespace
 
 template <int Dim>
 FieldTransport<Dim>::FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
@@ -15,7 +25,7 @@ FieldTransport<Dim>::FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& s
       fines_from_(fines_from),
       threads_(threads),
       scheme_(grid, conditions, threads) {
-  state_.pore_volume = initial_pore_volume(grid, soils);
+  state_.liquid_volume = initial_pore_volume(grid, soils);
   state_.fines_volume.assign(grid.mesh.element_count(), ElementValues<Dim>{});
   find_basis();
 }
@@ -55,6 +65,13 @@ void FieldTransport<Dim>::spread(const std::vector<double>& exchange,
 }
 
 template <int Dim>
+void FieldTransport<Dim>::start(const std::vector<double>& air) {
+  std::vector<double> missing(air.size());
+  for (std::size_t e = 0; e < air.size(); ++e) missing[e] = -air[e];
+  gain(state_, missing);
+}
+
+template <int Dim>
 double FieldTransport<Dim>::longest_step(const std::vector<double>& face_rate) const {
   return transport_safety * scheme_.steps_allowed(state_, face_rate);
 }
@@ -63,12 +80,24 @@ template <int Dim>
 std::vector<TransportStep> FieldTransport<Dim>::start_interval(double start,
                                                                const FlowProgress& flow) {
   carries_ = flow.end > fines_from_;
-  if (!carries_) return {{start, flow.end, 1.0}};
-  const double allowed = transport_safety * scheme_.steps_allowed(state_, flow.volumes.liquid);
-  std::vector<TransportStep> steps = equal_steps(start, flow.end, step_count(allowed));
+  gained_ = flow.displaced_air;
+  if (!carries_) {
+    gain(state_, gained_);
+    return {{start, flow.end, 1.0}};
+  }
+  double allowed = scheme_.steps_allowed(state_, flow.volumes.liquid);
+  if (!gained_.empty()) {
+    // Where liquid drains, what is left in the end limits the step.
+    FinesState<Dim> after = state_;
+    gain(after, gained_);
+    allowed = std::min(allowed, scheme_.steps_allowed(after, flow.volumes.liquid));
+  }
+  std::vector<TransportStep> steps =
+      equal_steps(start, flow.end, step_count(transport_safety * allowed));
   std::vector<double> step_volume = flow.volumes.liquid;
   if (steps.size() > 1) {
     for (double& volume : step_volume) volume *= steps.front().share;
+    for (double& volume : gained_) volume *= steps.front().share;
   }
   scheme_.start(state_, step_volume, scratch_);
   return steps;
@@ -83,7 +112,7 @@ void FieldTransport<Dim>::advance(const TransportStep& /*step*/, const FaceVolum
   ++timing_.calls;
   eroded_.clear();
   if (!exchange.empty()) spread(exchange, eroded_);
-  scheme_.advance(state_, eroded_, scratch_);
+  scheme_.advance(state_, eroded_, gained_, scratch_);
 }
 
 template <int Dim>

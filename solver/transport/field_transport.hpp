@@ -27,6 +27,8 @@ class FieldTransport final : public Transport<Dim> {
   void archive(StateArchive& archive) override { archive(state_, timing_); }
   [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
 
+  /// The liquid that is there when the run starts: without this air, m3 per element.
+  void start(const std::vector<double>& air);
   [[nodiscard]] const FinesState<Dim>& state() const { return state_; }
   /// Volume of fines that crossed each face in this interval, m3.
   [[nodiscard]] std::vector<double> crossed() const;
@@ -46,7 +48,8 @@ class FieldTransport final : public Transport<Dim> {
   int threads_;
   EulerianTransport<Dim> scheme_;
   FinesState<Dim> state_;
-  bool carries_ = false;  ///< fines in this interval
+  bool carries_ = false;        ///< fines in this interval
+  std::vector<double> gained_;  ///< liquid per element and step of transport, m3; may be empty
   /// Values of the element's basis functions at its points; only of the first element's points
   /// where they lie alike in every element that has any.
   std::vector<ElementValues<Dim>> basis_;

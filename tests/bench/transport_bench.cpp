@@ -23,8 +23,8 @@ struct Column {
         soils(c),
         skeleton(grid, soils, {}, threads),
         transport(grid, conditions, threads) {
-    state.pore_volume = initial_pore_volume(grid, soils);
-    state.fines_volume = state.pore_volume;
+    state.liquid_volume = initial_pore_volume(grid, soils);
+    state.fines_volume = state.liquid_volume;
     for (int e = 0; e < grid.mesh.element_count(); ++e) {
       const Vector<2> x = element_centroid(grid.mesh, e);
       for (double& v : state.fines_volume[e]) v *= 0.2 + 0.1 * std::sin(7.0 * x[0] + 5.0 * x[1]);
@@ -70,7 +70,7 @@ void Transport(benchmark::State& bench) {
   ElementField<2> eroded(column.grid.mesh.element_count(), ElementValues<2>{});
   column.transport.start(column.state, column.volume, scratch);
   for ([[maybe_unused]] const auto step : bench) {
-    column.transport.advance(column.state, eroded, scratch);
+    column.transport.advance(column.state, eroded, {}, scratch);
   }
   constexpr double gain = 24 + 24 + 24 + 48;          // vertices, outflow, upwind, grains out
   constexpr double first = gain + 24 + 48 + 48 + 24;  // eroded, pores, fines, stage

@@ -19,11 +19,11 @@ struct Column {
         grid(c.mesh),
         conditions(face_conditions(c, grid)),
         transport(grid, conditions) {
-    state.pore_volume.resize(c.mesh.element_count());
+    state.liquid_volume.resize(c.mesh.element_count());
     state.fines_volume.assign(c.mesh.element_count(), ElementValues<2>{});
     nothing_eroded.assign(c.mesh.element_count(), ElementValues<2>{});
     for (int e = 0; e < c.mesh.element_count(); ++e) {
-      state.pore_volume[e].fill(0.3 * grid.volume[e] / 3.0);
+      state.liquid_volume[e].fill(0.3 * grid.volume[e] / 3.0);
     }
     // Uniform downward flux: exactly divergence-free.
     for (int f = 0; f < grid.face_count(); ++f) {
@@ -53,10 +53,10 @@ struct Column {
     TransportScratch<2> scratch;
     transport.start(state, part, scratch);
     for (int s = 0; s < steps; ++s) {
-      transport.advance(state, nothing_eroded, scratch);
+      transport.advance(state, nothing_eroded, {}, scratch);
       for (std::size_t e = 0; e < state.fines_volume.size(); ++e) {
         for (int j = 0; j < 3; ++j) {
-          const double c_node = state.fines_volume[e][j] / state.pore_volume[e][j];
+          const double c_node = state.fines_volume[e][j] / state.liquid_volume[e][j];
           lowest = std::min(lowest, c_node);
           highest = std::max(highest, c_node);
         }
@@ -88,7 +88,7 @@ Mesh<2> distorted() {
 TEST(EulerianTransport, KeepsAConstantConcentration) {
   Column s(distorted(), 0.2);
   for (std::size_t e = 0; e < s.state.fines_volume.size(); ++e) {
-    for (int j = 0; j < 3; ++j) s.state.fines_volume[e][j] = 0.2 * s.state.pore_volume[e][j];
+    for (int j = 0; j < 3; ++j) s.state.fines_volume[e][j] = 0.2 * s.state.liquid_volume[e][j];
   }
   s.run(20.0);
   EXPECT_NEAR(s.lowest, 0.2, 1e-13);
@@ -123,18 +123,18 @@ TEST(EulerianTransport, ASmoothProfileIsSecondOrder) {
     };
     for (int e = 0; e < s.c.mesh.element_count(); ++e) {
       for (int j = 0; j < 3; ++j) {
-        s.state.fines_volume[e][j] = s.state.pore_volume[e][j] * bump(node_height(e, j));
+        s.state.fines_volume[e][j] = s.state.liquid_volume[e][j] * bump(node_height(e, j));
       }
     }
     // A step in which nothing flows leaves the profile limited.
     TransportScratch<2> scratch;
     s.transport.start(s.state, std::vector<double>(s.volume.size(), 0.0), scratch);
-    s.transport.advance(s.state, {}, scratch);
+    s.transport.advance(s.state, {}, {}, scratch);
     s.run(10.0);
     double error = 0.0;
     for (int e = 0; e < s.c.mesh.element_count(); ++e) {
       for (int j = 0; j < 3; ++j) {
-        const double c = s.state.fines_volume[e][j] / s.state.pore_volume[e][j];
+        const double c = s.state.fines_volume[e][j] / s.state.liquid_volume[e][j];
         error += s.grid.volume[e] / 3.0 * std::abs(c - bump(node_height(e, j) + 0.4));
       }
     }

@@ -24,10 +24,10 @@ struct Cube {
         grid(c.mesh),
         conditions(face_conditions(c, grid)),
         transport(grid, conditions) {
-    state.pore_volume.resize(c.mesh.element_count());
+    state.liquid_volume.resize(c.mesh.element_count());
     state.fines_volume.assign(c.mesh.element_count(), ElementValues<3>{});
     for (int e = 0; e < c.mesh.element_count(); ++e) {
-      state.pore_volume[e].fill(0.3 * grid.volume[e] / 4.0);
+      state.liquid_volume[e].fill(0.3 * grid.volume[e] / 4.0);
     }
     set_flux({0.0, 0.0, -flux});
   }
@@ -61,7 +61,7 @@ struct Cube {
     for (double& v : part) v *= time / steps;
     transport.start(state, part, scratch);
     for (int s = 0; s < steps; ++s) {
-      transport.advance(state, {}, scratch);
+      transport.advance(state, {}, {}, scratch);
       note_range();
     }
     transport.fines_crossed(scratch, crossed);
@@ -72,8 +72,8 @@ struct Cube {
   void note_range() {
     for (std::size_t e = 0; e < state.fines_volume.size(); ++e) {
       for (int j = 0; j < 4; ++j) {
-        lowest = std::min(lowest, state.fines_volume[e][j] / state.pore_volume[e][j]);
-        highest = std::max(highest, state.fines_volume[e][j] / state.pore_volume[e][j]);
+        lowest = std::min(lowest, state.fines_volume[e][j] / state.liquid_volume[e][j]);
+        highest = std::max(highest, state.fines_volume[e][j] / state.liquid_volume[e][j]);
       }
     }
   }
@@ -97,7 +97,7 @@ Mesh<3> rough_mesh(int cells) {
 TEST(TetrahedraTransport, KeepsAConstantConcentration) {
   Cube s(rough_mesh(4), 0.2);
   for (std::size_t e = 0; e < s.state.fines_volume.size(); ++e) {
-    for (int j = 0; j < 4; ++j) s.state.fines_volume[e][j] = 0.2 * s.state.pore_volume[e][j];
+    for (int j = 0; j < 4; ++j) s.state.fines_volume[e][j] = 0.2 * s.state.liquid_volume[e][j];
   }
   s.run(20.0);
   EXPECT_NEAR(s.lowest, 0.2, 1e-13);
@@ -143,7 +143,7 @@ TEST(TetrahedraTransport, StepsAsLongAsAllowedTakeNoMoreThanThereIs) {
   for (const double contrast : {1.2, 2.0, 10.0}) {
     for (int state = 0; state < 2000; ++state) {
       const int e = state % s.grid.mesh.element_count();
-      s.state.pore_volume.assign(s.state.pore_volume.size(), {1.0, 1.0, 1.0, 1.0});
+      s.state.liquid_volume.assign(s.state.liquid_volume.size(), {1.0, 1.0, 1.0, 1.0});
       s.state.fines_volume.assign(s.state.fines_volume.size(), {});
       s.volume.assign(s.grid.face_count(), 0.0);
       ElementValues<3> at_vertices;
@@ -151,8 +151,8 @@ TEST(TetrahedraTransport, StepsAsLongAsAllowedTakeNoMoreThanThereIs) {
       for (double& c : at_vertices) sum += c = uniform() > 0.3 ? 0.02 : 0.0;
       for (int j = 0; j < 4; ++j) {
         const double c = FieldNodes<3>::far_vertex * sum + FieldNodes<3>::spread * at_vertices[j];
-        s.state.pore_volume[e][j] = uniform() > 0.0 ? contrast : 1.0;
-        s.state.fines_volume[e][j] = s.state.pore_volume[e][j] * c;
+        s.state.liquid_volume[e][j] = uniform() > 0.0 ? contrast : 1.0;
+        s.state.fines_volume[e][j] = s.state.liquid_volume[e][j] * c;
         s.volume[s.grid.element_face[e][j]] =
             s.grid.element_face_sign[e][j] * (uniform() > 0.0 ? 1.0 : -0.1);
       }
@@ -160,7 +160,7 @@ TEST(TetrahedraTransport, StepsAsLongAsAllowedTakeNoMoreThanThereIs) {
       if (!std::isfinite(allowed)) continue;
       for (double& v : s.volume) v *= allowed;
       s.transport.start(s.state, s.volume, s.scratch);
-      ASSERT_NO_THROW(s.transport.advance(s.state, {}, s.scratch)) << contrast << ' ' << state;
+      ASSERT_NO_THROW(s.transport.advance(s.state, {}, {}, s.scratch)) << contrast << ' ' << state;
     }
   }
 }
@@ -188,16 +188,16 @@ TEST(TetrahedraTransport, ASmoothProfileIsSecondOrder) {
       }
     };
     for_each_node([&](int e, int j, double z) {
-      s.state.fines_volume[e][j] = s.state.pore_volume[e][j] * bump(z);
+      s.state.fines_volume[e][j] = s.state.liquid_volume[e][j] * bump(z);
     });
     // A step in which nothing flows leaves the profile limited.
     TransportScratch<3> scratch;
     s.transport.start(s.state, std::vector<double>(s.volume.size(), 0.0), scratch);
-    s.transport.advance(s.state, {}, scratch);
+    s.transport.advance(s.state, {}, {}, scratch);
     s.run(10.0);
     double error = 0.0;
     for_each_node([&](int e, int j, double z) {
-      const double found = s.state.fines_volume[e][j] / s.state.pore_volume[e][j];
+      const double found = s.state.fines_volume[e][j] / s.state.liquid_volume[e][j];
       error += s.grid.volume[e] / 4.0 * std::abs(found - bump(z + 0.4)) / (width * width);
     });
     errors.push_back(error);

@@ -108,7 +108,7 @@ TEST(EquationOfState, PressureIsThatOfTheMasses) {
   const std::vector<double> pressure = run.model().flow_state().pressure;
   for (std::size_t e = 0; e < pressure.size(); ++e) {
     const double water =
-        element_sum<2>(liquid.pore_volume[e]) - element_sum<2>(liquid.fines_volume[e]);
+        element_sum<2>(liquid.liquid_volume[e]) - element_sum<2>(liquid.fines_volume[e]);
     const double expected =
         scene.liquid.bulk_modulus * std::log(run.model().water_mass()[e] / (1000.0 * water));
     EXPECT_NEAR(pressure[e], expected, 1e-6);

@@ -54,7 +54,7 @@ double relative_error(const Mesh<2>& mesh, const model::ModelState<SinglePoint>&
   for (int e = 0; e < mesh.element_count(); ++e) {
     for (int j = 0; j < 3; ++j) {
       const double x = node_depth(mesh, e, j);
-      const double c = state.liquid.fines_volume[e][j] / state.liquid.pore_volume[e][j];
+      const double c = state.liquid.fines_volume[e][j] / state.liquid.liquid_volume[e][j];
       scale += std::abs(exact(x));
       if (std::abs(x - kink) > margin) error += std::abs(c - exact(x));
     }
@@ -88,7 +88,7 @@ double value_at_depth(const Mesh<2>& mesh, const model::ModelState<SinglePoint>&
     const Eigen::Vector3d lambda = a.inverse() * Eigen::Vector3d(1.0, centre[0], y);
     ElementValues<2> c;
     for (int j = 0; j < 3; ++j) {
-      c[j] = state.liquid.fines_volume[e][j] / state.liquid.pore_volume[e][j];
+      c[j] = state.liquid.fines_volume[e][j] / state.liquid.liquid_volume[e][j];
     }
     sum += FieldNodes<2>::value(c, {lambda[0], lambda[1], lambda[2]});
     ++count;

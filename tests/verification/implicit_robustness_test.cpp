@@ -208,7 +208,7 @@ TEST(HeavyLiquid, FlowsAsItsWeightTellsIt) {
       double weight = 0.0;  // per area
       for (int e = 0; e < grid.mesh.element_count(); ++e) {
         const double c =
-            element_sum<2>(liquid.fines_volume[e]) / element_sum<2>(liquid.pore_volume[e]);
+            element_sum<2>(liquid.fines_volume[e]) / element_sum<2>(liquid.liquid_volume[e]);
         weight += grid.volume[e] / 0.5 * (1000.0 + c * 1700.0) * 9.81;
       }
       const double flux = 2e-2 / 9810.0 * (6000.0 + weight);

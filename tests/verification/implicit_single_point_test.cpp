@@ -66,8 +66,8 @@ double fines_at_depth(const Mesh<2>& mesh, const model::ModelState<SinglePoint>&
     ElementValues<2> c;
     double volume = 0.0;
     for (int j = 0; j < 3; ++j) {
-      c[j] = state.liquid.fines_volume[e][j] / state.liquid.pore_volume[e][j];
-      volume += state.liquid.pore_volume[e][j];
+      c[j] = state.liquid.fines_volume[e][j] / state.liquid.liquid_volume[e][j];
+      volume += state.liquid.liquid_volume[e][j];
     }
     // Each element has one horizontal edge: its fields do not vary across, so the value at depth x
     // lies on the line from that edge to the opposite vertex.

@@ -208,7 +208,7 @@ double mean_error(const Mesh<3>& mesh, const FinesState<3>& liquid,
         depth -= (k == j ? FieldNodes<3>::near_vertex : FieldNodes<3>::far_vertex) *
                  mesh.nodes[mesh.elements[e][k]][2];
       }
-      const double c = liquid.fines_volume[e][j] / liquid.pore_volume[e][j];
+      const double c = liquid.fines_volume[e][j] / liquid.liquid_volume[e][j];
       error += element_volume(mesh, e) * std::abs(c - exact_at_depth(depth));
       volume += element_volume(mesh, e);
     }

@@ -1,5 +1,5 @@
-/// S_e and k_r fall exponentially with suction (Gardner, Soil Sci. 85 (1958) 228): the flow equation
-/// becomes linear, so exact solutions exist.
+/// S_e and k_r fall exponentially with suction (Gardner, Soil Sci. 85 (1958) 228): the flow
+/// equation becomes linear, so exact solutions exist.
 
 #include <array>
 #include <cmath>
@@ -17,10 +17,9 @@ double capacity(const RetentionParameters& p, double psi) {
   return p.alpha * std::exp(p.alpha * psi);
 }
 
-constexpr std::array parameters{
-    RetentionParameter{"alpha", "alpha", "1/m",
-                       "Reciprocal of the suction head at which the pores empty.", 0.0,
-                       &RetentionParameters::alpha}};
+constexpr std::array parameters{RetentionParameter{
+    "alpha", "alpha", "1/m", "Reciprocal of the suction head at which the pores empty.", 0.0,
+    &RetentionParameters::alpha}};
 
 }  // namespace
 

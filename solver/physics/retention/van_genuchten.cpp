@@ -38,8 +38,9 @@ constexpr std::array parameters{
 
 extern const RetentionLaw van_genuchten{
     .word = "van-genuchten",
-    .description = "S_e = (1 + (-alpha psi)^n)^(-m) with m = 1 - 1/n and k_r = S_e^(1/2) (1 - (1 - "
-                   "S_e^(1/m))^m)^2",
+    .description =
+        "S_e = (1 + (-alpha psi)^n)^(-m) with m = 1 - 1/n and k_r = S_e^(1/2) (1 - (1 - "
+        "S_e^(1/m))^m)^2",
     .parameters = parameters,
     .saturation = saturation,
     .capacity = capacity,

@@ -1,0 +1,37 @@
+#pragma once
+
+/// What the soils are to the flow and stays so through a run: retention and bedding, per element.
+
+#include <vector>
+
+#include "flow/flow.hpp"
+#include "physics/retention/retention_law.hpp"
+#include "solid/soil_map.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+struct FlowSoils {
+  std::vector<RetentionModel> retention;  ///< per element; empty: saturated at any pressure
+  double head_per_pressure = 0.0;         ///< 1 / (rho_w 9.81 m/s2), m/Pa
+  /// Per element: across the bedding, of length sqrt(1 - k_across / k_along); empty where every
+  /// soil conducts alike in all directions.
+  VectorField<Dim> bedding;
+
+  [[nodiscard]] bool saturated() const { return retention.empty(); }
+  /// S and k_r of an element's soil at a pressure in Pa, and dS/dp, 1/Pa.
+  [[nodiscard]] double saturation(int e, double pressure) const {
+    return retention[e].saturation(pressure * head_per_pressure);
+  }
+  [[nodiscard]] double capacity(int e, double pressure) const {
+    return retention[e].capacity(pressure * head_per_pressure) * head_per_pressure;
+  }
+  [[nodiscard]] double relative_conductivity(int e, double pressure) const {
+    return retention[e].relative_conductivity(pressure * head_per_pressure);
+  }
+};
+
+template <int Dim>
+FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils);
+
+}  // namespace suffuse
