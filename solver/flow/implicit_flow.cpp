@@ -125,7 +125,9 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
                                : Span(state.air.front().data(), state.air.size() * (Dim + 1));
     };
     const auto air_of = [&](const MixedFlow<Dim>& flow) { return air(flow.state); };
-    const double flux_scale = std::max(scales_.flux_sum, sum_of_magnitudes(step.flux_through));
+    const double largest = std::max(scales_.flux_sum, sum_of_magnitudes(step.flux_through));
+    const double passing = limits.passing_flux * this->scene().time.end;
+    const double flux_scale = largest * (1.0 + passing / dt);
     return control_.error(
         start, dt,
         {{before(flux), now_.flux_through, step.flux_through, flux_scale, true},

@@ -289,7 +289,8 @@ void ImplicitMixed<Dim>::guess_pressure(const MixedState<Dim>& base, double dura
     if (is_held(f)) {
       pressure.rise[f] = work_.conditions[f].value - base.face_pressure[f];
     } else {
-      pressure.rise[f] = std::isfinite(duration) ? rise_rate_[f] * duration : 0.0;
+      pressure.rise[f] =
+          std::isfinite(duration) && !has_retention() ? rise_rate_[f] * duration : 0.0;
     }
   });
 }

@@ -19,6 +19,7 @@
 
 #include "case/errors.hpp"
 #include "case/scene.hpp"
+#include "flow/anderson.hpp"
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "flow/flow_soils.hpp"
@@ -147,9 +148,10 @@ class ImplicitMixed {
     Field flux;  ///< per element, m/s
     Field push;  ///< drive minus pressure gradient, Pa/m
     // Of the air that gives way to liquid; empty where all soil is saturated.
-    ElementField<Dim> side_storage;   ///< slope of the rate with pressure, m3/(s Pa)
-    ElementField<Dim> displaced;      ///< rate at the pressures of the reference, m3/s
-    std::vector<int> level_elements;  ///< whose first face holds the level of a sealed piece
+    ElementField<Dim> side_storage;    ///< slope of the rate with pressure, m3/(s Pa)
+    ElementField<Dim> displaced;       ///< rate at the pressures of the reference, m3/s
+    std::vector<double> displaced_at;  ///< those pressures, per face, Pa
+    std::vector<int> level_elements;   ///< whose first face holds the level of a sealed piece
     // Of the linear system.
     Field face_push;                ///< what an element drives without the unknown rises, m/s
     std::vector<double> round_off;  ///< of it, m/s
@@ -220,6 +222,8 @@ class ImplicitMixed {
                                            const FlowForcing<Dim>& forcing) const;
   /// Flux out of the element that the pressures of the last iteration ask for, m3/s.
   [[nodiscard]] double flux_out(int e, int k) const;
+  /// Where the next iteration starts: Anderson's mixture of the results so far, or since `anew`.
+  void mix(bool anew);
   /// The flux correction and its pieces are those of the faces that are held now.
   void follow_held_faces();
   /// Whether storage holds the level of the pressure in a sealed piece.
@@ -271,6 +275,7 @@ class ImplicitMixed {
   std::vector<char> open_;       ///< per face: a seepage face that lets water out
   std::vector<char> corrected_;  ///< per face: held in the flux correction as it stands
   int iterations_ = 0;
+  AndersonMixing mixing_;
   MixedMatrix<Dim> matrix_;
   std::vector<double> face_area_;
   std::optional<LaggedPreconditioner> solver_;

@@ -39,6 +39,10 @@ struct ImplicitThresholds {
   /// A step below this share of the run is too short.
   double min_step_of_run = 1e-20;
 
+  /// Errors of fluxes in unsaturated soil that last for less than this share of the run count by
+  /// the volume that they misplace: on a coarse mesh a front moves by fits and starts.
+  double passing_flux = 0.01;
+
   // Fading of a difference over steps (MassRelaxation and CoefficientBlending).
 
   /// The time in which a step closes a difference is the longest of recent steps, where each later

@@ -20,7 +20,7 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int max_iterations = 60;
 /// What the linear system misses may be this share of the largest flux.
-constexpr double flux_accuracy = 1e-7;
+constexpr double flux_accuracy = 1e-6;
 
 }  // namespace
 
@@ -80,18 +80,26 @@ void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double
                                              const FlowForcing<Dim>& forcing) {
   Work& w = work_;
   const std::vector<double>& pressure = w.pressure.reference;
+  if (iterations_ == 1) w.displaced_at.assign(pressure.size(), 0.0);
   for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
     double conducts = 0.0;
     const double share = forcing.coefficients.porosity[e] * grid_.volume[e] / (Dim + 1);
     for (int k = 0; k <= Dim; ++k) {
       const double p = pressure[grid_.element_face[e][k]];
       conducts += soils_.relative_conductivity(e, p) / (Dim + 1);
+      const double before = w.displaced_at[grid_.element_face[e][k]];
+      const double last = w.displaced[e][k];
       w.displaced[e][k] = displacement_rate(base, duration, forcing, e, k, p);
-      w.side_storage[e][k] =
-          std::isfinite(duration) ? share * soils_.capacity(e, p) / duration : 0.0;
+      double slope = std::isfinite(duration) ? share * soils_.capacity(e, p) / duration : 0.0;
+      // Between two pressures of which one is saturated the tangents lead to and fro.
+      if (iterations_ > 1 && p != before) {
+        slope = std::max(slope, (w.displaced[e][k] - last) / (p - before));
+      }
+      w.side_storage[e][k] = slope;
     }
     w.law.mobility[e] = conducts / w.resistance[e];
   });
+  w.displaced_at = pressure;
 }
 
 template <int Dim>
@@ -201,9 +209,12 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   for (int e = 0; e < elements; ++e) w.law.mobility[e] = 1.0 / w.resistance[e];
   // Round-off of what gravity drives and of the contents of the elements.
   const double round_off = epsilon * largest_of(elements, settings_.threads, 0.0, [&](int e) {
-    const double pores = forcing.coefficients.porosity[e] * grid_.volume[e];
-    return gravity_flux(e, forcing.coefficients) + pores / duration;
-  });
+                             const double pores =
+                                 forcing.coefficients.porosity[e] * grid_.volume[e];
+                             return gravity_flux(e, forcing.coefficients) + pores / duration;
+                           });
+  double last_error = std::numeric_limits<double>::infinity();
+  mixing_.reset();
   for (iterations_ = 1;; ++iterations_) {
     w.pressure.move_reference(base.face_pressure);
     if (has_retention()) linearise_retention(base, duration, forcing);
@@ -214,7 +225,11 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
     for (const int f : switching_) {
       if (is_held(f)) w.pressure.rise[f] = w.conditions[f].value - w.pressure.reference[f];
     }
-    solve_pressure(forcing);
+    try {
+      solve_pressure(forcing);
+    } catch (const NumericalError& error) {
+      throw NotConverged(error.what());
+    }
     find_flux(w.flux, w.push);
 
     const double scale = largest_of(elements, settings_.threads, 0.0, [&](int e) {
@@ -227,8 +242,10 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
     const double allowed = flux_accuracy * scale + 16.0 * round_off;
     const bool switched = switch_faces(forcing, allowed, pressure_accuracy());
     const double error = has_retention() ? linearisation_error(base, duration, forcing) : 0.0;
-    if (getenv("SUFFUSE_DEBUG")) fprintf(stderr, "dt %.3g it %d error %.3g allowed %.3g scale %.3g sw %d\n", duration, iterations_, error, allowed, scale, switched);
     if (!switched && error <= allowed) return;
+    // Results that lead astray are worth nothing to the mixture.
+    mix(switched || error > last_error);
+    last_error = error;
     if (!std::isfinite(error) || iterations_ == max_iterations) {
       std::ostringstream text;
       text << "the iteration of the flow did not converge in " << iterations_
@@ -237,6 +254,29 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
       throw NotConverged(text.str());
     }
   }
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::mix(bool anew) {
+  Work& w = work_;
+  if (anew) mixing_.reset();
+  if (!has_retention()) return;
+  const int unknowns = matrix_.unknowns();
+  Eigen::VectorXd pressure(unknowns);
+  Eigen::VectorXd change(unknowns);
+  Eigen::VectorXd weight(unknowns);
+  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
+    const int row = matrix_.unknown(f);
+    if (row < 0) return;
+    pressure[row] = w.pressure.reference[f] + w.pressure.rise[f];
+    change[row] = w.pressure.rise[f];
+    weight[row] = matrix_.values().coeff(row, row);
+  });
+  const Eigen::VectorXd next = mixing_.next(pressure, change, weight);
+  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
+    const int row = matrix_.unknown(f);
+    if (row >= 0 && !is_held(f)) w.pressure.rise[f] = next[row] - w.pressure.reference[f];
+  });
 }
 
 template <int Dim>

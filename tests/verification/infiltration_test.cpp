@@ -72,5 +72,63 @@ TEST(Infiltration, FollowsSrivastavaAndYeh) {
   }
 }
 
+RetentionModel van_genuchten(double alpha, double n, double residual) {
+  RetentionModel model;
+  model.law = retention_law("van-genuchten");
+  model.residual_saturation = residual;
+  model.parameters = {alpha, n};
+  return model;
+}
+
+TEST(Absorption, FollowsBruceAndKlute) {
+  const auto rows = read_reference("absorption-van-genuchten.csv");
+  for (const int cells : {50, 100, 200}) {
+    Scene scene = column_scene();
+    scene.gravity = {};
+    scene.soils[0].retention = van_genuchten(3.0, 2.0, 0.15);
+    const double psi_wet = -std::pow(std::pow(0.95, -2.0) - 1.0, 0.5) / 3.0;
+    const double psi_dry = -std::pow(std::pow(0.30, -2.0) - 1.0, 0.5) / 3.0;
+    scene.water_level = psi_dry;
+    scene.time.end = 20000.0;
+    scene.boundaries = {model::pressure_on("left", psi_wet * 9810.0)};
+    model::ModelRun run(model::make_case(model::column_mesh(cells, 1, 1.0, 1.0 / cells), scene));
+    const auto moments = run.run({20000.0});
+    const FlowState<2>& flow = moments.flows.back();
+    double worst = 0.0;
+    for (const auto& row : rows) {
+      const double x = row.number("phi") * std::sqrt(20000.0) * cells;
+      if (x > cells - 1) continue;
+      const int i = static_cast<int>(x);
+      const auto effective = [&](int node) {
+        return scene.soils[0].retention.law->saturation(scene.soils[0].retention.parameters,
+                                                        flow.node_pressure[node] / 9810.0);
+      };
+      const double found = std::lerp(effective(i), effective(i + 1), x - i);
+      worst = std::max(worst, std::abs(found - row.number("S_e")));
+    }
+    double entered = 0.0;
+    const LedgerRow ledger = run.model().ledger();
+    entered = (ledger.water_in - ledger.water_out) / 1000.0 * cells;
+    std::cout << cells << " cells: " << worst << ", sorptivity "
+              << entered / std::sqrt(20000.0) / 4.75403e-4 - 1.0 << ", " << run.steps()
+              << " steps\n";
+  }
+}
+
+TEST(Ponding, OfDrySand) {
+  for (const int cells : {10, 50, 100}) {
+    Scene scene = column_scene();
+    scene.soils[0].retention = van_genuchten(14.5, 2.68, 0.10);
+    scene.soils[0].conductivity = 8.25e-5;
+    scene.water_level = -10.0;
+    scene.time.end = 3600.0;
+    scene.boundaries = {model::pressure_on("top", 981.0)};
+    model::ModelRun run(model::make_case(model::column_mesh(1, cells, 1.0 / cells, 1.0), scene));
+    const auto moments = run.run({3600.0});
+    std::cout << cells << " cells: " << run.steps() << " steps\n";
+    for (const auto& p : run.model().passes()) std::cout << "  " << p.name << ' ' << p.calls << '\n';
+  }
+}
+
 }  // namespace
 }  // namespace suffuse
