@@ -127,7 +127,7 @@ class SceneCheck {
     const auto& conditions = document_.scene.boundaries;
     std::map<std::array<int, Dim>, std::string> covered;  // by the condition of that name
     for (std::size_t i = 0; i < conditions.size(); ++i) {
-      const std::string key = "boundary[" + std::to_string(i) + "].on";
+      const std::string key = conditions[i].key + ".on";
       const auto found = std::ranges::find(names, conditions[i].on);
       if (found == names.end()) {
         report(key, in_quotes(conditions[i].on), "a boundary of the mesh: " + quoted_list(names),
