@@ -17,6 +17,7 @@
 #include "geometry_scan.hpp"
 #include "gmsh_session.hpp"
 #include "hilbert_order.hpp"
+#include "inner_cuts.hpp"
 #include "mesh_extraction.hpp"
 #include "point_sizes.hpp"
 
@@ -271,7 +272,8 @@ Geometry build_geometry(const SceneDocument& document) {
   }
   place_problems(document, extracted.problems);
   if (extracted.comparable) {
-    std::ranges::move(scene_problems(document, extracted.mesh),
+    const std::vector<std::string> inner = cut_walls_and_wells(document, extracted, result.notes);
+    std::ranges::move(scene_problems(document, extracted.mesh, inner),
                       std::back_inserter(extracted.problems));
   }
   const bool lacks_names = !extracted.problems.empty() && extracted.mesh.boundaries.empty();

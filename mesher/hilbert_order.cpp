@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case/faces.hpp"
+#include "case/slit.hpp"
 
 namespace suffuse {
 
@@ -51,6 +52,23 @@ std::vector<int> element_order(const Mesh<Dim>& mesh) {
   order.reserve(keys.size());
   for (const auto& [position, element] : keys) order.push_back(element);
   return order;
+}
+
+/// By nodes. The two sides of a slit stay together.
+template <int Dim>
+void sort_faces(BoundarySet<Dim>& set, bool in_pairs) {
+  if (!in_pairs) {
+    std::ranges::sort(set.faces);
+    return;
+  }
+  std::vector<std::array<std::array<int, Dim>, 2>> pairs;
+  for (std::size_t i = 0; i < set.faces.size(); i += 2) {
+    const auto [first, second] = std::minmax({set.faces[i], set.faces[i + 1]});
+    pairs.push_back({first, second});
+  }
+  std::ranges::sort(pairs);
+  set.faces.clear();
+  for (const auto& pair : pairs) set.faces.insert(set.faces.end(), pair.begin(), pair.end());
 }
 
 }  // namespace
@@ -113,7 +131,7 @@ Mesh<Dim> in_hilbert_order(const Mesh<Dim>& mesh) {
       for (int& node : face) node = new_number[node];
       face = face_key<Dim>(face);
     }
-    std::ranges::sort(set.faces);
+    sort_faces(set, is_slit(ordered, set));
   }
   return ordered;
 }

@@ -60,6 +60,9 @@ bool same_file(const std::string& a, const std::string& b) {
 void check_outputs(const Arguments& arguments, const SceneDocument& document) {
   std::vector<std::string> inputs{arguments.scene};
   if (!document.scene.geometry.file.empty()) inputs.push_back(geometry_path(document));
+  for (const auto& [name, text] : document.files) {
+    inputs.push_back(file_beside_scene(document.path, name));
+  }
   for (const std::string& input : inputs) {
     if (same_file(output_path(arguments), input)) {
       throw InputError("-o " + output_path(arguments) + " would overwrite an input; name another");

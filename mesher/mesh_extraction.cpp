@@ -104,6 +104,7 @@ class Extraction {
     check_hanging_nodes(outer);
     check_parts(outer);
     read_boundaries();
+    read_points();
     return std::move(result_);
   }
 
@@ -604,14 +605,16 @@ class Extraction {
         report("physical curve \"" + group.name + "\" without edges",
                "a boundary that is not empty");
       }
-      mesh().boundaries.push_back({group.name, outer_edges(group.name, edges, faces)});
+      add_curve(group.name, edges, faces);
     }
   }
 
-  std::vector<std::array<int, 2>> outer_edges(const std::string& name, const Elements& edges,
-                                              const FaceTable<2>& faces) {
+  /// A curve is a boundary, or lies inside the mesh as a whole.
+  void add_curve(const std::string& name, const Elements& edges, const FaceTable<2>& faces) {
+    std::set<std::array<int, 2>> outer;
+    std::set<std::array<int, 2>> inner;
+    std::vector<const std::vector<Tag>*> inner_tags;
     Kind kind(result_.problems, "a boundary of outer edges only");
-    std::set<std::array<int, 2>> unique;
     for (const auto& nodes : edges.nodes) {
       const auto first = index_.find(nodes[0]);
       const auto second = index_.find(nodes[1]);
@@ -619,14 +622,39 @@ class Extraction {
       const std::array<int, 2> edge =
           known ? face_key<2>({first->second, second->second}) : std::array<int, 2>{-1, -1};
       const int owners = known ? faces.owners(edge) : 0;
-      if (owners == 1) {
-        unique.insert(edge);
-      } else {
+      if (owners == 0) {
         kind.add("physical curve \"" + name + "\" with an edge at " + place_of(nodes) +
-                 (owners == 0 ? " that no triangle has" : " that lies inside the mesh"));
+                 " that no triangle has");
       }
+      if (owners == 1) outer.insert(edge);
+      if (owners > 1 && inner.insert(edge).second) inner_tags.push_back(&nodes);
     }
-    return {unique.begin(), unique.end()};
+    if (outer.empty() && !inner.empty()) {
+      result_.inner_curves.push_back({name, {inner.begin(), inner.end()}});
+      return;
+    }
+    for (const auto* nodes : inner_tags) {
+      kind.add("physical curve \"" + name + "\" with an edge at " + place_of(*nodes) +
+               " that lies inside the mesh");
+    }
+    mesh().boundaries.push_back({name, {outer.begin(), outer.end()}});
+  }
+
+  /// Points without a name, or off the mesh, are of no use to anybody: they may be there for
+  /// something else.
+  void read_points() {
+    gmsh::vectorpair pairs;
+    gmsh::model::getPhysicalGroups(pairs, 0);
+    for (const auto& [ignored, tag] : pairs) {
+      std::string name;
+      gmsh::model::getPhysicalName(0, tag, name);
+      std::vector<Tag> nodes;
+      std::vector<double> coordinates;
+      gmsh::model::mesh::getNodesForPhysicalGroup(0, tag, nodes, coordinates);
+      if (name.empty() || !is_plain_name(name) || nodes.size() != 1) continue;
+      const auto node = index_.find(nodes.front());
+      if (node != index_.end()) result_.points.push_back({name, node->second});
+    }
   }
 
   ExtractedMesh result_;

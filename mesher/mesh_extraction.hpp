@@ -10,10 +10,20 @@
 
 namespace suffuse {
 
+/// A physical point at a node of the mesh.
+struct NamedNode {
+  std::string name;
+  int node = -1;
+};
+
 struct ExtractedMesh {
   /// Physical surfaces are its regions, physical curves its boundaries; nodes that no triangle uses
   /// are left out. Complete only when there are no problems.
   Mesh<2> mesh;
+  /// Physical curves that lie inside the mesh: what a wall or a well may name.
+  std::vector<BoundarySet<2>> inner_curves;
+  /// Physical points that are nodes of the mesh: what a well may name.
+  std::vector<NamedNode> points;
   /// What is wrong with it: `found` and `expected` only, the caller knows where the mesh came from.
   std::vector<InputProblem> problems;
   /// Clockwise triangles that were turned round.

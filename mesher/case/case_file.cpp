@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -82,6 +83,15 @@ void write_scene(Hdf5File& file, const SceneDocument& document) {
   file.write_text("/scene/text", document.text);
   file.write_text("/scene/path", document.path);
   file.write_texts("/scene/overrides", document.overrides);
+  if (document.files.empty()) return;
+  std::vector<std::string> names;
+  std::vector<std::string> texts;
+  for (const auto& [name, text] : document.files) {
+    names.push_back(name);
+    texts.push_back(text);
+  }
+  file.write_texts("/scene/file_names", names);
+  file.write_texts("/scene/file_texts", texts);
 }
 
 /// Reads one case file; knows its name, so that every complaint carries it.
@@ -139,7 +149,8 @@ class CaseReader {
     const std::string text = file_.read_text("/scene/text");
     const std::string path = file_.read_text("/scene/path");
     try {
-      SceneDocument document = parse_scene(text, path, file_.read_texts("/scene/overrides"));
+      SceneDocument document =
+          parse_scene(text, path, file_.read_texts("/scene/overrides"), scene_files());
       std::vector<InputProblem> problems = scene_problems(document, mesh);
       if (!problems.empty()) throw InputError(std::move(problems));
       return document;
@@ -152,6 +163,17 @@ class CaseReader {
   [[noreturn]] void fail(const std::string& object, const std::string& what) const {
     throw FileError(file_.path() + ": " + object + ": " + what +
                     "; write the case file anew with suffuse-mesher");
+  }
+
+  /// Texts of the files that the scene names; without them there are no data sets.
+  [[nodiscard]] std::map<std::string, std::string> scene_files() const {
+    if (!file_.exists("/scene/file_names")) return {};
+    const std::vector<std::string> names = file_.read_texts("/scene/file_names");
+    const std::vector<std::string> texts = file_.read_texts("/scene/file_texts");
+    if (names.size() != texts.size()) fail("/scene/file_texts", "expected one text per name");
+    std::map<std::string, std::string> files;
+    for (std::size_t i = 0; i < names.size(); ++i) files.emplace(names[i], texts[i]);
+    return files;
   }
 
   template <std::size_t Columns, class Value>

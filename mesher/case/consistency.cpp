@@ -1,11 +1,14 @@
 #include "case/consistency.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "case/closest_name.hpp"
 #include "case/faces.hpp"
 #include "case/short_number.hpp"
+#include "case/slit.hpp"
 
 namespace suffuse {
 
@@ -13,6 +16,9 @@ namespace {
 
 /// Round-off of n_0 + gradient . (x - origin), so that a gradient may end exactly on a bound.
 constexpr double porosity_round_off = 1e-12;
+
+/// Round-off of a place on the border of the mesh, relative to an element.
+constexpr double on_the_edge = 1e-9;
 
 std::string in_quotes(const std::string& name) {
   return '"' + name + '"';
@@ -28,14 +34,25 @@ std::string place(const Vector<Dim>& x) {
 template <int Dim>
 class SceneCheck {
  public:
-  SceneCheck(const SceneDocument& document, const Mesh<Dim>& mesh)
-      : document_(document), mesh_(mesh) {}
+  SceneCheck(const SceneDocument& document, const Mesh<Dim>& mesh,
+             const std::vector<std::string>& inner)
+      : document_(document), mesh_(mesh), inner_(inner) {
+    for (const auto& set : mesh.boundaries) {
+      (is_slit(mesh, set) ? slit_ : outer_).push_back(set.name);
+    }
+    for (const std::string& name : slit_) {
+      if (std::ranges::find(inner_, name) == inner_.end()) inner_.push_back(name);
+    }
+  }
 
   std::vector<InputProblem> run() {
     check_directions();
     check_soils();
     check_regions();
     check_boundaries();
+    check_walls();
+    check_explicit_heads();
+    check_outputs();
     return std::move(problems_);
   }
 
@@ -122,20 +139,144 @@ class SceneCheck {
   }
 
   void check_boundaries() {
-    std::vector<std::string> names;
-    for (const auto& set : mesh_.boundaries) names.push_back(set.name);
-    const auto& conditions = document_.scene.boundaries;
     std::map<std::array<int, Dim>, std::string> covered;  // by the condition of that name
-    for (std::size_t i = 0; i < conditions.size(); ++i) {
-      const std::string key = "boundary[" + std::to_string(i) + "].on";
-      const auto found = std::ranges::find(names, conditions[i].on);
-      if (found == names.end()) {
-        report(key, in_quotes(conditions[i].on), "a boundary of the mesh: " + quoted_list(names),
-               suggest(conditions[i].on, names));
-      } else {
-        cover(covered, key, mesh_.boundaries[static_cast<std::size_t>(found - names.begin())]);
+    for (const BoundaryCondition& condition : document_.scene.boundaries) {
+      const std::string key = condition.key + ".on";
+      const bool fits = condition.key.starts_with("well")
+                            ? check_inner(key, condition.on, "a curve or a point inside the mesh")
+                            : check_outer(key, condition.on);
+      const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);
+      if (fits && set != mesh_.boundaries.end()) cover(covered, key, *set);
+    }
+  }
+
+  bool check_outer(const std::string& key, const std::string& name) {
+    if (std::ranges::find(outer_, name) != outer_.end()) return true;
+    const bool inside = std::ranges::find(inner_, name) != inner_.end();
+    report(key, in_quotes(name) + (inside ? ", which lies inside the mesh" : ""),
+           "a boundary of the mesh: " + quoted_list(outer_) +
+               (inside ? "; what lies inside is for [[wall]] and [[well]]" : ""),
+           inside ? "" : suggest(name, outer_));
+    return false;
+  }
+
+  /// What is not cut although it is there has been reported.
+  bool check_inner(const std::string& key, const std::string& name, const std::string& what) {
+    if (std::ranges::find(inner_, name) != inner_.end()) return true;
+    const bool outer = std::ranges::find(outer_, name) != outer_.end();
+    const std::string names =
+        inner_.empty() ? "; there is none with a name" : ": " + quoted_list(inner_);
+    report(key, in_quotes(name) + (outer ? ", an outer boundary" : ""), what + names,
+           outer ? "" : suggest(name, inner_));
+    return false;
+  }
+
+  void check_walls() {
+    for (std::size_t i = 0; i < document_.scene.walls.size(); ++i) {
+      check_inner("wall[" + std::to_string(i) + "].on", document_.scene.walls[i].on,
+                  "a curve inside the mesh");
+    }
+  }
+
+  /// A face that the water level passes changes its kind, which the explicit scheme cannot do.
+  void check_explicit_heads() {
+    const Scene& scene = document_.scene;
+    Vector<Dim> up;
+    for (int d = 0; d < Dim; ++d) up[d] = -scene.gravity[d];
+    if (scene.time.scheme != FlowScheme::explicit_nodal || up.norm() == 0.0) return;
+    up.normalize();
+    for (const BoundaryCondition& condition : scene.boundaries) {
+      if (!condition.head || condition.dry == DryPart::suction) continue;
+      const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);
+      if (set == mesh_.boundaries.end()) continue;
+      double top = -std::numeric_limits<double>::infinity();
+      for (const auto& face : set->faces) top = std::max(top, up.dot(centre(face)));
+      const double lowest = condition.head->range(0.0, scene.time.end).first;
+      if (lowest > top) continue;
+      const bool from_file = !document_.where.contains(condition.key + ".head");
+      report(condition.key + (from_file ? ".file" : ".head"),
+             "a head of " + short_number(lowest) + " m with scheme = \"explicit\"",
+             "a head above " + short_number(top) + " m, the highest face of " +
+                 in_quotes(condition.on) +
+                 ", at all times, or scheme = \"implicit\": what is above the water changes there");
+    }
+  }
+
+  void check_outputs() {
+    const OutputSettings& output = document_.scene.output;
+    for (std::size_t i = 0; i < output.probes.size(); ++i) {
+      const std::string key = "output.probe[" + std::to_string(i) + "].at";
+      check_two_dimensional(key, output.probes[i].at);
+      const Vector<Dim> x = position(output.probes[i].at);
+      if (!lies_in_mesh(x)) report(key, place<Dim>(x), "a point of the mesh" + box());
+    }
+    for (std::size_t i = 0; i < output.sections.size(); ++i) {
+      const std::string entry = "output.section[" + std::to_string(i) + "]";
+      const OutputSection& section = output.sections[i];
+      check_two_dimensional(entry + ".from", section.from);
+      check_two_dimensional(entry + ".to", section.to);
+      if constexpr (Dim == 2) {
+        if (section.from == section.to || crosses_mesh(section)) continue;
+        report(entry,
+               "a line from " + place<Dim>(position(section.from)) + " to " +
+                   place<Dim>(position(section.to)),
+               "a line that meets the mesh" + box());
       }
     }
+  }
+
+  [[nodiscard]] static Vector<Dim> position(const std::array<double, 3>& x) {
+    Vector<Dim> result;
+    for (int d = 0; d < Dim; ++d) result[d] = x[d];
+    return result;
+  }
+
+  [[nodiscard]] std::string box() const {
+    Vector<Dim> low = mesh_.nodes.front();
+    Vector<Dim> high = low;
+    for (const Vector<Dim>& x : mesh_.nodes) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    return ", which lies between " + place<Dim>(low) + " and " + place<Dim>(high);
+  }
+
+  [[nodiscard]] bool lies_in_mesh(const Vector<Dim>& x) const {
+    for (const auto& corners : mesh_.elements) {
+      Eigen::Matrix<double, Dim, Dim> edges;
+      for (int d = 0; d < Dim; ++d) {
+        edges.col(d) = mesh_.nodes[corners[d + 1]] - mesh_.nodes[corners[0]];
+      }
+      const Vector<Dim> share = edges.inverse() * (x - mesh_.nodes[corners[0]]);
+      if (share.minCoeff() >= -on_the_edge && share.sum() <= 1.0 + on_the_edge) return true;
+    }
+    return false;
+  }
+
+  /// Whether a part of the line lies in some element: it is clipped at each of its edges.
+  [[nodiscard]] bool crosses_mesh(const OutputSection& section) const {
+    const Vector<Dim> from = position(section.from);
+    const Vector<Dim> along = position(section.to) - from;
+    for (const auto& corners : mesh_.elements) {
+      Eigen::Matrix<double, Dim, Dim> edges;
+      for (int d = 0; d < Dim; ++d) {
+        edges.col(d) = mesh_.nodes[corners[d + 1]] - mesh_.nodes[corners[0]];
+      }
+      const Eigen::Matrix<double, Dim, Dim> inverse = edges.inverse();
+      const Vector<Dim> share = inverse * (from - mesh_.nodes[corners[0]]);
+      const Vector<Dim> slope = inverse * along;
+      double first = 0.0;
+      double last = 1.0;
+      const auto clip = [&](double start, double change) {  // where start + s change >= 0
+        if (change > 0.0) first = std::max(first, -start / change);
+        if (change < 0.0) last = std::min(last, -start / change);
+        if (change == 0.0 && start < 0.0) last = -1.0;
+      };
+      for (int d = 0; d < Dim; ++d) clip(share[d], slope[d]);
+      clip(1.0 - share.sum(), -slope.sum());
+      if (first < last) return true;
+    }
+    return false;
   }
 
   void cover(std::map<std::array<int, Dim>, std::string>& covered, const std::string& key,
@@ -143,28 +284,38 @@ class SceneCheck {
     for (const auto& face : set.faces) {
       const auto [entry, is_new] = covered.emplace(face_key<Dim>(face), set.name);
       if (is_new) continue;
-      Vector<Dim> centre = Vector<Dim>::Zero();
-      for (int node : face) centre += mesh_.nodes[node] / Dim;
       report(key, in_quotes(set.name),
              "a boundary that shares no face with " + in_quotes(entry->second) +
-                 "; both have the one at " + place<Dim>(centre));
+                 "; both have the one at " + place<Dim>(centre(face)));
       return;
     }
   }
 
+  [[nodiscard]] Vector<Dim> centre(const std::array<int, Dim>& face) const {
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (const int node : face) sum += mesh_.nodes[node] / Dim;
+    return sum;
+  }
+
   const SceneDocument& document_;
   const Mesh<Dim>& mesh_;
+  std::vector<std::string> inner_;  ///< curves and points inside the mesh, cut or not
+  std::vector<std::string> outer_;  ///< boundaries
+  std::vector<std::string> slit_;   ///< curves and points that are cut
   std::vector<InputProblem> problems_;
 };
 
 }  // namespace
 
 template <int Dim>
-std::vector<InputProblem> scene_problems(const SceneDocument& document, const Mesh<Dim>& mesh) {
-  return SceneCheck<Dim>(document, mesh).run();
+std::vector<InputProblem> scene_problems(const SceneDocument& document, const Mesh<Dim>& mesh,
+                                         const std::vector<std::string>& inner) {
+  return SceneCheck<Dim>(document, mesh, inner).run();
 }
 
-template std::vector<InputProblem> scene_problems<2>(const SceneDocument&, const Mesh<2>&);
-template std::vector<InputProblem> scene_problems<3>(const SceneDocument&, const Mesh<3>&);
+template std::vector<InputProblem> scene_problems<2>(const SceneDocument&, const Mesh<2>&,
+                                                     const std::vector<std::string>&);
+template std::vector<InputProblem> scene_problems<3>(const SceneDocument&, const Mesh<3>&,
+                                                     const std::vector<std::string>&);
 
 }  // namespace suffuse

@@ -3,8 +3,28 @@
 namespace suffuse {
 namespace {
 
-bool asks_for(const ErosionLaw& law, std::string_view key) {
-  return std::ranges::any_of(law.parameters, [&](const auto& p) { return p.key == key; });
+/// Every parameter that some law asks for, each key once.
+template <class Parameter, class Law>
+std::vector<Parameter> parameters_of(std::span<const Law* const> laws) {
+  std::vector<Parameter> all;
+  for (const Law* law : laws) {
+    for (const Parameter& own : law->parameters) {
+      const bool known = std::ranges::any_of(all, [&](const auto& p) { return p.key == own.key; });
+      if (!known) all.push_back(own);
+    }
+  }
+  return all;
+}
+
+/// Words of the laws that ask for a key.
+template <class Law>
+std::vector<std::string> words_with(std::span<const Law* const> laws, std::string_view key) {
+  std::vector<std::string> words;
+  for (const Law* law : laws) {
+    const auto asks = [&](const auto& p) { return p.key == key; };
+    if (std::ranges::any_of(law->parameters, asks)) words.emplace_back(law->word);
+  }
+  return words;
 }
 
 }  // namespace
@@ -40,22 +60,19 @@ std::string rate_unit() {
 }
 
 std::vector<ErosionParameter> erosion_parameters() {
-  std::vector<ErosionParameter> all;
-  for (const ErosionLaw* law : erosion_laws()) {
-    for (const ErosionParameter& own : law->parameters) {
-      const bool known = std::ranges::any_of(all, [&](const auto& p) { return p.key == own.key; });
-      if (!known) all.push_back(own);
-    }
-  }
-  return all;
+  return parameters_of<ErosionParameter>(erosion_laws());
 }
 
 std::vector<std::string> laws_with_parameter(std::string_view key) {
-  std::vector<std::string> words;
-  for (const ErosionLaw* law : erosion_laws()) {
-    if (asks_for(*law, key)) words.emplace_back(law->word);
-  }
-  return words;
+  return words_with(erosion_laws(), key);
+}
+
+std::vector<RetentionParameter> retention_parameters() {
+  return parameters_of<RetentionParameter>(retention_laws());
+}
+
+std::vector<std::string> laws_with_retention_parameter(std::string_view key) {
+  return words_with(retention_laws(), key);
 }
 
 }  // namespace suffuse

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/erosion/erosion_law.hpp"
+#include "physics/retention/retention_law.hpp"
 
 namespace suffuse {
 
@@ -33,5 +34,9 @@ std::string rate_unit();
 std::vector<ErosionParameter> erosion_parameters();
 /// Words of the erosion laws that ask for this key.
 std::vector<std::string> laws_with_parameter(std::string_view key);
+
+/// The same of the retention laws.
+std::vector<RetentionParameter> retention_parameters();
+std::vector<std::string> laws_with_retention_parameter(std::string_view key);
 
 }  // namespace suffuse

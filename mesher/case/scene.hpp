@@ -1,7 +1,7 @@
 #pragma once
 
 /// The scene as the programs use it: typed, checked, defaults filled in. Keys, bounds and units are
-/// declared in `scene_schema.cpp`; `docs/scene-reference.md` is generated from there.
+/// declared in `scene_keys.cpp`; `docs/scene-reference.md` is generated from there.
 /// SI units throughout.
 
 #include <array>
@@ -128,7 +128,7 @@ struct BoundaryCondition {
   std::optional<TimeFunction> pressure;  ///< Pa
   std::optional<TimeFunction>
       velocity;  ///< intrinsic liquid velocity, positive into the model, m/s
-  std::optional<TimeFunction> darcy_flux;     ///< volume flux, positive into the model, m/s
+  std::optional<TimeFunction> darcy_flux;  ///< volume flux, positive into the model, m/s
   /// m above the datum; without gravity the excess head.
   std::optional<TimeFunction> head;
   DryPart dry = DryPart::seepage;
@@ -222,6 +222,9 @@ struct SceneDocument {
   /// `FILE:LINE` (or `--set KEY=VALUE`) of every key that was given, by dotted key; entries of
   /// [[boundary]] are `boundary[0].on` and so on, tables are there under their own name.
   std::map<std::string, std::string> where;
+  /// Text of each table that a boundary takes from a file, by the file's name in the scene: the
+  /// next stage reads the same numbers, wherever it runs.
+  std::map<std::string, std::string> files;
 
   /// Where `key` was given, or else where the nearest enclosing table was, or the file's name.
   [[nodiscard]] std::string locate(const std::string& key) const;
@@ -231,9 +234,14 @@ struct SceneDocument {
 /// problem found otherwise.
 SceneDocument read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// The same from text already at hand; `path` is used in messages only.
+/// The same from text already at hand, with the texts of the files that the scene names; `path` is
+/// used in messages only.
 SceneDocument parse_scene(const std::string& text, const std::string& path,
-                          const std::vector<std::string>& overrides = {});
+                          const std::vector<std::string>& overrides = {},
+                          const std::map<std::string, std::string>& files = {});
+
+/// Path of a file that a scene names relative to its own folder.
+std::string file_beside_scene(const std::string& scene, const std::string& name);
 
 /// docs/scene-reference.md, generated from the schema.
 std::string scene_reference_markdown();

@@ -115,6 +115,37 @@ class Checks {
              "n_0 + n_C <= 1", {table + ".porosity"});
     }
     check_erosion(soil, table + ".erosion");
+    check_retention(soil, table + ".retention");
+    if (given(table + ".bedding") && !given(table + ".like") && given(table + ".conductivity") &&
+        !refused(table + ".conductivity") && std::isnan(soil.conductivity_across)) {
+      report(table + ".bedding", "an angle of bedding and one conductivity",
+             "conductivity = [along, across], or no such key", {table + ".conductivity"});
+    }
+  }
+
+  void check_retention(const Soil& soil, const std::string& table) const {
+    for (const std::string& name : scene_children("soil.*.retention")) {
+      if (!given(joined(table, name))) continue;
+      require(table + ".model", "soil.*.retention.model", "as " + name + " is given",
+              joined(table, name));
+      break;
+    }
+    if (!given(table + ".model") || refused(table + ".model")) return;
+    const RetentionLaw* law = soil.retention.law;
+    const bool inherited = given(table_of(soil) + ".like");
+    for (const RetentionParameter& parameter : retention_parameters()) {
+      const std::string pattern = "soil.*.retention." + std::string(parameter.key);
+      const std::string key = joined(table, std::string(parameter.key));
+      std::vector<std::string> laws = laws_with_retention_parameter(parameter.key);
+      if (law && std::ranges::find(laws, law->word) != laws.end()) {
+        require(key, pattern, "for model = " + shown_value(std::string(law->word)),
+                table + ".model");
+      } else if (given(key) && !inherited) {
+        for (std::string& word : laws) word = shown_value(word);
+        report(key, "a key of another model", "model = " + listed(laws) + ", or no such key",
+               {table + ".model"});
+      }
+    }
   }
 
   void check_erosion(const Soil& soil, const std::string& table) const {
@@ -274,38 +305,78 @@ class Checks {
 
   void check_boundaries() const {
     std::map<std::string, std::string> first_entry;  // by the boundary's name
-    for (std::size_t i = 0; i < scene_.boundaries.size(); ++i) {
-      const std::string entry = "boundary[" + std::to_string(i) + "]";
-      const BoundaryCondition& boundary = scene_.boundaries[i];
-      check_boundary(boundary, entry);
-      if (boundary.on.empty()) continue;
-      const auto [earlier, is_new] = first_entry.emplace(boundary.on, entry);
+    const auto check_name = [&](const std::string& entry, const std::string& name) {
+      if (name.empty()) return;
+      const auto [earlier, is_new] = first_entry.emplace(name, entry);
       if (!is_new) {
-        report(entry + ".on", shown_value(boundary.on) + ", as in " + earlier->second,
-               "one entry per boundary", {earlier->second + ".on"});
+        report(entry + ".on", shown_value(name) + ", as in " + earlier->second,
+               entry.starts_with("boundary") && earlier->second.starts_with("boundary")
+                   ? "one entry per boundary"
+                   : "one boundary, wall or well of a name",
+               {earlier->second + ".on"});
       }
+    };
+    for (const BoundaryCondition& boundary : scene_.boundaries) {
+      check_boundary(boundary);
+      check_name(boundary.key, boundary.on);
+    }
+    for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
+      check_name("wall[" + std::to_string(i) + "]", scene_.walls[i].on);
     }
   }
 
-  void check_boundary(const BoundaryCondition& boundary, const std::string& entry) const {
+  /// Keys that say how liquid moves through a boundary or a well.
+  [[nodiscard]] static std::vector<std::string> flow_keys(const BoundaryCondition& boundary) {
+    if (boundary.key.starts_with("well")) return {"head", "rate", "seepage_face"};
+    return {"pressure", "velocity", "darcy_flux", "head", "file", "seepage_face", "rain"};
+  }
+
+  void check_boundary(const BoundaryCondition& boundary) const {
+    const std::string& entry = boundary.key;
+    const std::vector<std::string> all = flow_keys(boundary);
+    const std::string one_of = "one of " + listed(all, "and");
     std::vector<std::string> conditions;
     std::vector<std::string> keys;
-    for (const std::string name : {"pressure", "velocity", "darcy_flux"}) {
+    for (const std::string& name : all) {
       if (!given(joined(entry, name))) continue;
+      if (name == "seepage_face" && !boundary.seepage_face && !refused(joined(entry, name))) {
+        continue;  // `seepage_face = false` says nothing
+      }
       conditions.push_back(name);
       keys.push_back(joined(entry, name));
     }
-    if (conditions.size() > 1) {
-      report(entry, listed(conditions, "and"), "one of pressure, velocity and darcy_flux", keys);
-    }
+    if (conditions.size() > 1) report(entry, listed(conditions, "and"), one_of, keys);
     if (conditions.empty()) {
       const bool concentration = given(entry + ".concentration");
       report(entry, concentration ? "a concentration and no flow" : "no condition",
-             "one of pressure, velocity and darcy_flux; a boundary without is impervious and needs "
-             "no entry");
+             entry.starts_with("well")
+                 ? one_of
+                 : one_of + "; a boundary without is impervious and needs no entry");
     }
+    check_dry(entry);
+    if (boundary.seepage_face && boundary.concentration) {
+      report(entry + ".concentration",
+             "a concentration where no liquid enters, seepage_face = true", "no concentration",
+             {joined(entry, "seepage_face")});
+    }
+    check_outflow(boundary.rate, "rate", boundary, entry);
     check_outflow(boundary.velocity, "velocity", boundary, entry);
     check_outflow(boundary.darcy_flux, "darcy_flux", boundary, entry);
+  }
+
+  void check_dry(const std::string& entry) const {
+    const std::string key = joined(entry, "dry");
+    if (!given(key)) return;
+    if (!given(joined(entry, "head")) && !given(joined(entry, "file"))) {
+      report(key, "a key of a head without one", "head or file beside it, or no such key");
+    } else if (!has_gravity() && !refused("gravity")) {
+      report(key, "a part above the water level without gravity",
+             "gravity, as in gravity = [0.0, -9.81], or no such key", {"gravity"});
+    }
+  }
+
+  [[nodiscard]] bool has_gravity() const {
+    return std::ranges::any_of(scene_.gravity, [](double g) { return g != 0.0; });
   }
 
   [[nodiscard]] static std::string shown_range(const TimeFunction& f) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* introduction = R"(# Scene reference
 
-<!-- Generated from mesher/case/scene_schema.cpp. To change it, change that and run
+<!-- Generated from mesher/case/scene_keys.cpp. To change it, change that and run
      suffuse-mesher --scene-reference > docs/scene-reference.md -->
 
 A scene is a [TOML](https://toml.io) file that `suffuse-mesher` turns into a case. Units are SI. Where
@@ -113,6 +113,8 @@ std::string type_of(const SceneKey& key) {
       return listed(all);
     case ValueKind::number:
       return key.infinite_allowed ? "number or `inf`" : "number";
+    case ValueKind::number_or_pair:
+      return "number, or pair `[along, across]`";
     case ValueKind::time_function:
       return "number, or pairs `[[t, value], ...]`";
     case ValueKind::integer:

@@ -1,7 +1,8 @@
 #pragma once
 
 /// Every key of a scene, declared once: what it may be, what it means and where it is kept.
-/// Checking, `--set`, suggestions and docs/scene-reference.md all follow these declarations.
+/// The declarations are in `scene_keys.cpp`. Checking, `--set`, suggestions and
+/// docs/scene-reference.md all follow these declarations.
 
 #include <cstdint>
 #include <functional>
@@ -21,7 +22,16 @@ using Rows = std::vector<std::vector<double>>;
 /// arrays of numbers.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, Rows>;
 
-enum class ValueKind { text, word, number, integer, boolean, vector, time_function };
+enum class ValueKind {
+  text,
+  word,
+  number,
+  number_or_pair,
+  integer,
+  boolean,
+  vector,
+  time_function
+};
 
 struct Bound {
   double value = 0.0;
@@ -54,6 +64,9 @@ struct SceneKey {
   /// What is wrong with a table of values against time, where one entry of it is: `t = 3 after
   /// t = 5`. Empty where the value as a whole is to be quoted.
   [[nodiscard]] std::string fault(const Value& value) const;
+
+ private:
+  [[nodiscard]] std::optional<Value> accept_number(const Value& value) const;
 };
 
 /// A table of the scene, for the reference.

@@ -18,15 +18,16 @@ std::size_t nearness_limit(const std::string& word) {
 /// is what they share.
 std::string concrete(std::string pattern, const std::string& table,
                      const std::string& table_pattern, const std::string& soil) {
-  for (const std::string group : {"soil.*", "boundary[]"}) {
+  for (const std::string group :
+       {"soil.*", "boundary[]", "wall[]", "well[]", "output.probe[]", "output.section[]"}) {
     if (!pattern.starts_with(group)) continue;
     if (table_pattern.starts_with(group)) {
       // What follows the group has no wildcard, so it is as long in the table as in its pattern.
       const std::size_t below = table_pattern.size() - group.size();
       return table.substr(0, table.size() - below) + pattern.substr(group.size());
     }
-    return (group == "soil.*" ? joined("soil", soil) : "boundary[0]") +
-           pattern.substr(group.size());
+    const std::string first = group.substr(0, group.size() - 1) + "0]";
+    return (group == "soil.*" ? joined("soil", soil) : first) + pattern.substr(group.size());
   }
   return pattern;
 }

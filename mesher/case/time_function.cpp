@@ -32,6 +32,16 @@ double TimeFunction::largest() const {
   return std::ranges::max(knots, {}, by_value).second;
 }
 
+std::pair<double, double> TimeFunction::range(double begin, double end) const {
+  auto [low, high] = std::minmax({value(begin), value(end)});
+  for (const auto& [time, value] : knots) {
+    if (time < begin || time > end) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  return {low, high};
+}
+
 std::vector<double> TimeFunction::breakpoints() const {
   std::vector<double> times;
   for (const auto& [time, value] : knots) times.push_back(time);

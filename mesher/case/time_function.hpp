@@ -19,6 +19,8 @@ struct TimeFunction {
   [[nodiscard]] bool is_constant() const;
   [[nodiscard]] double smallest() const;
   [[nodiscard]] double largest() const;
+  /// Smallest and largest value in [begin, end].
+  [[nodiscard]] std::pair<double, double> range(double begin, double end) const;
   [[nodiscard]] std::vector<double> breakpoints() const;
 
   friend bool operator==(const TimeFunction&, const TimeFunction&) = default;

@@ -39,12 +39,21 @@ struct FaceCondition {
   }
 };
 
+/// What the condition of a face depends on beside its boundary's entry in the scene.
+struct FaceSurroundings {
+  double unit_weight = 0.0;  ///< pressure per head: rho_w |g|, with 9.81 m/s2 without gravity, N/m3
+  bool gravity = false;
+  double height = 0.0;  ///< z of the face's centre against gravity, m
+  double area = 0.0;    ///< of the whole boundary, m2
+};
+
 /// The condition of each face of the grid, with its values at t = 0. Throws InputError when a
 /// condition names no boundary of the mesh or two conditions share a face.
 template <int Dim>
 std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& grid);
 
-/// Boundary conditions whose values change in time; their kinds do not.
+/// Boundary conditions whose values change in time. The kind changes with them where the level of a
+/// head passes a face: such faces have `switches`.
 template <int Dim>
 class BoundaryValues {
  public:
@@ -62,7 +71,7 @@ class BoundaryValues {
   /// Whether any value changes in time.
   [[nodiscard]] bool vary() const { return !varying_.empty(); }
   /// Times at which a value that changes may have a kink, in (0, end), s: ascending, each once.
-  /// Between two of them every value is linear in time.
+  /// Between two of them every value is linear in time, while the level of a head passes no face.
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
 
  private:
@@ -70,6 +79,7 @@ class BoundaryValues {
     BoundaryCondition boundary;
     int index = -1;  ///< of the scene's boundary entry
     std::vector<int> faces;
+    std::vector<FaceSurroundings> around;  ///< of each of the faces
   };
 
   std::vector<FaceCondition> initial_;

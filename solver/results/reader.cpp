@@ -200,7 +200,8 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
     regions_ = info.at("regions").get<std::vector<std::string>>();
     const auto& scene = info.at("scene");
     scene_ = parse_scene(scene.at("text").get<std::string>(), scene.at("path").get<std::string>(),
-                         scene.at("overrides").get<std::vector<std::string>>());
+                         scene.at("overrides").get<std::vector<std::string>>(),
+                         scene.value("files", std::map<std::string, std::string>{}));
   } catch (const Json::exception& error) {
     throw FileError(path + ": is incomplete: " + error.what());
   } catch (const InputError& error) {

@@ -115,6 +115,10 @@ std::string digest_of(const Case<Dim>& c) {
   Digest digest;
   digest.add(c.document.text);
   for (const std::string& change : c.document.overrides) digest.add(change);
+  for (const auto& [name, text] : c.document.files) {
+    digest.add(name);
+    digest.add(text);
+  }
   for (const Vector<Dim>& node : c.mesh.nodes) digest.add(node.data(), sizeof(double) * Dim);
   digest.add(c.mesh.elements);
   digest.add(c.mesh.element_region);

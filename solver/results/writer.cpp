@@ -425,6 +425,7 @@ void ResultsWriter<Dim>::write_run_info(const RunInfo& info) {
        {{"name", document.scene.name},
         {"path", document.path},
         {"overrides", document.overrides},
+        {"files", document.files},
         {"text", document.text}}},
       {"versions", versions()},
   };

@@ -12,10 +12,13 @@ using Knots = std::vector<std::pair<double, double>>;
 /// A column under a pressure that rises from 0 to 6 kPa between 2 s and 10 s, with a flux at the
 /// foot that turns, grains that come with it, and a level table on the left.
 struct Column {
-  explicit Column(std::vector<BoundaryCondition> boundaries)
-      : c(make(std::move(boundaries))), grid(c.mesh), values(c, grid) {}
-  static Case<2> make(std::vector<BoundaryCondition> boundaries) {
+  explicit Column(std::vector<BoundaryCondition> boundaries,
+                  const std::array<double, 3>& gravity = {})
+      : c(make(std::move(boundaries), gravity)), grid(c.mesh), values(c, grid) {}
+  static Case<2> make(std::vector<BoundaryCondition> boundaries,
+                      const std::array<double, 3>& gravity) {
     Scene scene = model::paper_scene();
+    scene.gravity = gravity;
     scene.time.end = 20.0;
     scene.boundaries = std::move(boundaries);
     return model::make_case(model::column_mesh(3, 2), scene);
@@ -36,6 +39,17 @@ struct Column {
       }
     }
     return found ? *found : FaceCondition{};
+  }
+
+  /// The conditions of a boundary's faces, in the order of the mesh.
+  [[nodiscard]] std::vector<FaceCondition> all_on(
+      const std::string& name, const std::vector<FaceCondition>& conditions) const {
+    std::vector<FaceCondition> result;
+    for (const auto& set : c.mesh.boundaries) {
+      if (set.name != name) continue;
+      for (const auto& nodes : set.faces) result.push_back(conditions[grid.find_face(nodes)]);
+    }
+    return result;
   }
 
   Case<2> c;
@@ -145,6 +159,147 @@ TEST(BoundaryValues, DoNotVaryWhereAllAreLevel) {
   EXPECT_FALSE(column.values.vary());
   EXPECT_TRUE(column.values.breakpoints().empty());
   EXPECT_EQ(column.on("top", column.values.at(15.0)).value, 6000.0);
+}
+
+constexpr std::array<double, 3> downwards{0.0, -10.0, 0.0};
+
+BoundaryCondition head_on(const std::string& name, const TimeFunction& head,
+                          DryPart dry = DryPart::seepage) {
+  BoundaryCondition b;
+  b.on = name;
+  b.head = head;
+  b.dry = dry;
+  return b;
+}
+
+/// The left side has two faces, with centres at z = 0.25 and 0.75: rho_w |g| = 10 kN/m3.
+TEST(HeadBoundary, is_hydrostatic_below_its_level_and_a_seepage_face_above) {
+  const Column column({head_on("left", 0.5)}, downwards);
+  const auto faces = column.all_on("left", column.values.at(0.0));
+  ASSERT_EQ(faces.size(), 2U);
+  EXPECT_EQ(faces[0].kind, FaceKind::pressure);
+  EXPECT_NEAR(faces[0].value, 2500.0, 1e-9);
+  EXPECT_FALSE(faces[0].switches);  // always below the level
+  EXPECT_EQ(faces[1].kind, FaceKind::seepage);
+  EXPECT_EQ(faces[1].value, 0.0);
+  EXPECT_TRUE(faces[1].switches);
+  EXPECT_FALSE(column.values.vary());
+}
+
+TEST(HeadBoundary, may_be_impervious_or_under_suction_above_its_level) {
+  const Column walled({head_on("left", 0.5, DryPart::impervious)}, downwards);
+  const auto wall = walled.all_on("left", walled.values.at(0.0));
+  EXPECT_EQ(wall[0].kind, FaceKind::pressure);
+  EXPECT_EQ(wall[1].kind, FaceKind::wall);
+  EXPECT_FALSE(wall[1].switches);  // for the whole run
+  EXPECT_EQ(wall[1].boundary, 0);
+  const Column sucking({head_on("left", 0.5, DryPart::suction)}, downwards);
+  const auto suction = sucking.all_on("left", sucking.values.at(0.0));
+  EXPECT_EQ(suction[1].kind, FaceKind::pressure);
+  EXPECT_NEAR(suction[1].value, -2500.0, 1e-9);
+  EXPECT_FALSE(suction[1].switches);
+}
+
+/// The level rises from 0 at t = 0 to 1 m at 10 s and falls to 0.5 m at 30 s, after the end at 20
+/// s.
+TEST(HeadBoundary, switches_the_faces_that_its_level_passes) {
+  for (const DryPart dry : {DryPart::seepage, DryPart::impervious}) {
+    const TimeFunction flood(Knots{{0.0, 0.0}, {10.0, 1.0}, {30.0, 0.5}});
+    const Column column({head_on("left", flood, dry)}, downwards);
+    const FaceKind above = dry == DryPart::seepage ? FaceKind::seepage : FaceKind::wall;
+    auto conditions = column.values.at(0.0);
+    for (const auto& face : column.all_on("left", conditions)) {
+      EXPECT_EQ(face.kind, above);
+      EXPECT_TRUE(face.switches);
+    }
+    column.values.update(5.0, conditions);
+    const auto half = column.all_on("left", conditions);
+    EXPECT_EQ(half[0].kind, FaceKind::pressure);
+    EXPECT_NEAR(half[0].value, 2500.0, 1e-9);
+    EXPECT_EQ(half[1].kind, above);
+    EXPECT_EQ(half[1].value, 0.0);
+    column.values.update(20.0, conditions);
+    const auto falling = column.all_on("left", conditions);
+    EXPECT_EQ(falling[1].kind, above);  // level with its centre
+    EXPECT_TRUE(falling[1].switches);
+    column.values.update(15.0, conditions);
+    const auto high = column.all_on("left", conditions);
+    EXPECT_EQ(high[1].kind, FaceKind::pressure);
+    EXPECT_NEAR(high[1].value, 1250.0, 1e-9);
+    EXPECT_EQ(column.values.breakpoints(), std::vector{10.0});
+  }
+}
+
+/// Level with the centre of a face: no pressure there either way, so it is dry.
+TEST(HeadBoundary, leaves_a_face_at_its_level_dry) {
+  const Column column({head_on("left", 0.75)}, downwards);
+  EXPECT_EQ(column.all_on("left", column.values.at(0.0))[1].kind, FaceKind::seepage);
+  const Column top({head_on("top", 1.0)}, downwards);
+  EXPECT_EQ(top.on("top", top.values.at(0.0)).kind, FaceKind::seepage);
+}
+
+/// z is the height against gravity, wherever that points: here x, and the left side is level.
+TEST(HeadBoundary, measures_heights_against_gravity) {
+  const Column column({head_on("left", 2.0), head_on("top", 2.0)}, {-4.0, 0.0, 0.0});
+  const auto left = column.all_on("left", column.values.at(0.0));
+  EXPECT_NEAR(left[0].value, 4000.0 * 2.0, 1e-9);
+  EXPECT_NEAR(left[1].value, 4000.0 * 2.0, 1e-9);
+  const auto top = column.all_on("top", column.values.at(0.0));  // centres at x = 1/6, 1/2, 5/6
+  ASSERT_EQ(top.size(), 3U);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(top[i].value, 4000.0 * (2.0 - (2 * i + 1) / 6.0), 1e-9) << i;
+  }
+}
+
+TEST(HeadBoundary, is_an_excess_head_without_gravity) {
+  const Column column({head_on("left", TimeFunction(Knots{{0.0, -1.0}, {10.0, 3.0}}))});
+  for (const double time : {0.0, 5.0, 10.0}) {
+    const FaceCondition now = column.on("left", column.values.at(time));
+    EXPECT_EQ(now.kind, FaceKind::pressure);
+    EXPECT_NEAR(now.value, 9810.0 * (-1.0 + 0.4 * time), 1e-9);
+    EXPECT_FALSE(now.switches);
+  }
+}
+
+TEST(SeepageFace, lets_out_and_rain_comes_in) {
+  BoundaryCondition drain;
+  drain.on = "right";
+  drain.seepage_face = true;
+  BoundaryCondition rain;
+  rain.on = "top";
+  rain.rain = TimeFunction(Knots{{0.0, 0.0}, {10.0, 2e-6}});
+  const Column column({drain, rain}, downwards);
+  auto conditions = column.values.at(0.0);
+  EXPECT_EQ(column.on("right", conditions).kind, FaceKind::seepage);
+  EXPECT_EQ(column.on("right", conditions).value, 0.0);
+  EXPECT_TRUE(column.on("right", conditions).switches);
+  column.values.update(5.0, conditions);
+  EXPECT_EQ(column.on("top", conditions).kind, FaceKind::seepage);
+  EXPECT_NEAR(column.on("top", conditions).value, 1e-6, 1e-20);
+  EXPECT_TRUE(column.on("top", conditions).switches);
+}
+
+/// Faces of different lengths share a rate by their lengths: the flux is the same.
+TEST(Well, spreads_its_rate_over_its_faces) {
+  BoundaryCondition well;
+  well.on = "top";
+  well.key = "well[0]";
+  well.rate = TimeFunction(Knots{{0.0, -0.5}, {10.0, 1.5}});
+  Case<2> c = Column::make({well}, {});
+  c.mesh = model::column_mesh(
+      3, 2, 2.0, 1.0, [](const Vector<2>& x) { return Vector<2>(x[0] * x[0] / 2.0, x[1]); });
+  const Grid<2> grid(c.mesh);
+  const BoundaryValues<2> values(c, grid);
+  for (const double time : {0.0, 5.0}) {
+    const auto conditions = values.at(time);
+    double rate = 0.0;
+    for (const auto& nodes : c.mesh.boundaries[0].faces) {
+      const int f = grid.find_face(nodes);
+      EXPECT_EQ(conditions[f].kind, FaceKind::flux);
+      rate += conditions[f].value * grid.face_normal[f].norm();
+    }
+    EXPECT_NEAR(rate, time == 0.0 ? -0.5 : 0.5, 1e-15);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,510 @@
+#include "case/law_texts.hpp"
+#include "case/scene_declaration.hpp"
+
+namespace suffuse {
+namespace {
+
+using namespace declaration;
+
+/// A number of rows of elements beside the specimen.
+auto rows(int LayerSettings::*member) {
+  return at(&Scene::geometry, &GeometrySettings::layers, member);
+}
+
+/// The laws that there are, as meanings of their words.
+template <class Law>
+std::vector<std::pair<std::string, const Law*>> by_word(std::span<const Law* const> laws) {
+  std::vector<std::pair<std::string, const Law*>> meanings;
+  for (const Law* law : laws) meanings.emplace_back(law->word, law);
+  return meanings;
+}
+
+std::string no_erosion_word() {
+  return shown_value(std::string(no_erosion()->word));
+}
+
+/// A number that only some erosion laws ask for.
+Declaration erosion_parameter(const ErosionParameter& parameter) {
+  const auto access = [value = parameter.value](Scene& scene, std::size_t i) -> double& {
+    return scene.soils[i].erosion.parameters.*value;
+  };
+  const std::string laws = listed(laws_with_parameter(parameter.key));
+  return key("soil.*.erosion." + std::string(parameter.key), access,
+             std::string(parameter.sentence) + " With the law " + laws + " only.")
+      .named(std::string(parameter.symbol))
+      .in(std::string(parameter.unit))
+      .at_least(0.0)
+      .otherwise(ErosionParameters{}.*parameter.value);
+}
+
+/// A number that only some retention laws ask for. It has no default.
+Declaration retention_parameter(const RetentionParameter& parameter) {
+  const auto access = [value = parameter.value](Scene& scene, std::size_t i) -> double& {
+    return scene.soils[i].retention.parameters.*value;
+  };
+  const std::string laws = listed(laws_with_retention_parameter(parameter.key), "and");
+  return key("soil.*.retention." + std::string(parameter.key), access,
+             std::string(parameter.sentence) + " Of the model " + laws + ".")
+      .named(std::string(parameter.symbol))
+      .in(std::string(parameter.unit))
+      .above(parameter.above)
+      .otherwise_as("required by its model");
+}
+
+/// The laws, and the word for none of them, which a soil may need that is `like` another.
+std::vector<std::pair<std::string, const RetentionLaw*>> retention_meanings() {
+  auto meanings = by_word(retention_laws());
+  meanings.insert(meanings.begin(), {"none", nullptr});
+  return meanings;
+}
+
+/// One number in all directions, or one along and one across bedding.
+Declaration conductivity() {
+  Declaration d = key("soil.*.conductivity", in_soil(&Soil::conductivity),
+                      "Hydraulic conductivity at the initial porosity, for g = 9.81 m/s2: the same "
+                      "in all directions, or along and across bedding.");
+  d.kind = ValueKind::number_or_pair;
+  d.store = [](Scene& scene, std::size_t i, const Value& value) {
+    const auto* pair = std::get_if<std::vector<double>>(&value);
+    scene.soils[i].conductivity = pair ? pair->front() : std::get<double>(value);
+    scene.soils[i].conductivity_across = pair ? pair->back() : unset;
+  };
+  return d;
+}
+
+/// Rows of elements in a layer of the column.
+Declaration layer(const char* pattern, int LayerSettings::*member, const char* sentence) {
+  return key(pattern, rows(member), sentence).at_least(0).at_most(1000).otherwise(0);
+}
+
+/// A key the reader itself acts on; the scene keeps nothing of it.
+Declaration instruction(const char* pattern, const char* sentence) {
+  Declaration d;
+  d.pattern = pattern;
+  d.kind = ValueKind::text;
+  d.sentence = sentence;
+  d.store = [](Scene&, std::size_t, const Value&) {};
+  return d;
+}
+
+// NOLINTNEXTLINE(readability-function-size): one list, which is read from top to bottom
+std::vector<SceneKey> declare_keys() {
+  using Geometry = GeometrySettings;
+  using Layers = LayerSettings;
+  using Points = PointSettings;
+  using Liquid = LiquidProperties;
+  using Boundary = BoundaryCondition;
+  return {
+      key("name", at(&Scene::name), "What the run is called in figures and reports.")
+          .otherwise_as("the file's name"),
+      choice("formulation", at(&Scene::formulation),
+             {{"single-point", Formulation::single_point},
+              {"double-point", Formulation::double_point}},
+             "How the two phases are carried: in one set of material points that follows the "
+             "solid, or in two, of which the second follows the liquid and carries the fluidised "
+             "grains.")
+          .mandatory(),
+      key("gravity", at(&Scene::gravity),
+          "Acceleration of gravity. Without it p is the pressure in excess of the hydrostatic one.")
+          .named("g")
+          .in("m/s2")
+          .otherwise(std::vector{0.0, 0.0}),
+
+      key("geometry.file", at(&Scene::geometry, &Geometry::file),
+          "Your own .geo, .msh or .step file, relative to the scene; its physical groups name "
+          "regions and boundaries.")
+          .otherwise_as("required without `shape`"),
+      choice("geometry.shape", at(&Scene::geometry, &Geometry::shape), {{"column", "column"}},
+             "A built-in geometry. A column has the region `specimen`, whose lower left corner is "
+             "the origin, and the boundaries `top`, `bottom`, `left` and `right`.")
+          .otherwise_as("required without `file`"),
+      key("geometry.width", at(&Scene::geometry, &Geometry::width), "Width of the column.")
+          .in("m")
+          .above(0.0)
+          .otherwise_as("required with `shape`"),
+      key("geometry.height", at(&Scene::geometry, &Geometry::height), "Height of the specimen.")
+          .in("m")
+          .above(0.0)
+          .otherwise_as("required with `shape`"),
+
+      layer("geometry.layers.inflow", &Layers::inflow,
+            "Free water on top, region `inflow`: liquid enters there, through the boundary "
+            "`inflow`, which takes the place of `top`."),
+      layer("geometry.layers.free_above", &Layers::free_above,
+            "Free water above the upper buffer, region `free_above`."),
+      layer("geometry.layers.above", &Layers::above,
+            "Soil on top of the specimen, region `buffer`."),
+      layer("geometry.layers.below", &Layers::below,
+            "Soil beneath the specimen, region `buffer` too."),
+      layer("geometry.layers.free_below", &Layers::free_below,
+            "Free water below the lower buffer, region `free_below`."),
+      layer("geometry.layers.outflow", &Layers::outflow,
+            "Free water at the foot, region `outflow`: liquid leaves there, through the boundary "
+            "`outflow`, which takes the place of `bottom`."),
+
+      key("mesh.size", at(&Scene::mesh, &MeshSettings::size),
+          "Size of the elements; with a .geo or .step file the largest size, and the one where the "
+          "file "
+          "gives none.")
+          .named("h")
+          .in("m")
+          .above(0.0)
+          .otherwise_as("required with `shape`"),
+      choice("mesh.structure", at(&Scene::mesh, &MeshSettings::structure),
+             {{"regular", MeshStructure::regular},
+              {"crossed", MeshStructure::crossed},
+              {"free", MeshStructure::free}},
+             "Two right triangles per square; four triangles per quadrangle, cut along its "
+             "diagonals; or Gmsh's unstructured triangles. The explicit scheme follows flows that "
+             "turn on crossed meshes only.")
+          .otherwise_as("`\"regular\"`; with `file`, `\"crossed\"`"),
+
+      key("points.solid_per_element", at(&Scene::points, &Points::solid_per_element),
+          "Solid material points in each triangle, at its Gauss points.")
+          .one_of({1, 3, 6, 12})
+          .otherwise(3),
+      key("points.jitter", at(&Scene::points, &Points::jitter),
+          "How far solid points are moved off the Gauss positions, as a fraction of the element "
+          "size.")
+          .at_least(0.0)
+          .at_most(0.5)
+          .otherwise(0.0),
+      key("points.seed", at(&Scene::points, &Points::seed),
+          "Seed of the jitter and of random seeding: the same seed gives the same points.")
+          .at_least(0)
+          .otherwise(1),
+      key("points.liquid_per_element", at(&Scene::points, &Points::liquid_per_element),
+          "Liquid material points in each triangle; with `equal_volume` in a mean triangle of the "
+          "soil that erodes, at the start. With `seeding = \"gauss\"` 1, 3, 6 or 12. Double-point "
+          "only.")
+          .at_least(1)
+          .at_most(1000)
+          .otherwise(12),
+      choice("points.seeding", at(&Scene::points, &Points::seeding),
+             {{"gauss", Seeding::gauss},
+              {"random", Seeding::random},
+              {"low-discrepancy", Seeding::low_discrepancy}},
+             "Where liquid points start: at Gauss points, whose volumes differ as their weights "
+             "do; anywhere by chance; or spread as evenly as can be, without repeating a pattern. "
+             "Double-point only.")
+          .otherwise("low-discrepancy"),
+      key("points.equal_volume", at(&Scene::points, &Points::equal_volume),
+          "Liquid points stand for equal volumes, up to rounding to whole points: an element with "
+          "more liquid has more of them. Otherwise each element has the same number, as it always "
+          "has of Gauss points. Double-point only.")
+          .otherwise_as("`true`; with `seeding = \"gauss\"`, `false`"),
+
+      key("liquid.density", at(&Scene::liquid, &Liquid::density), "Density of the water.")
+          .named("rho_w")
+          .in("kg/m3")
+          .above(0.0)
+          .mandatory(),
+      key("liquid.bulk_modulus", at(&Scene::liquid, &Liquid::bulk_modulus),
+          "Bulk modulus of the water; the explicit scheme needs a finite one. `inf`: "
+          "incompressible.")
+          .named("K")
+          .in("Pa")
+          .above(0.0)
+          .or_infinite()
+          .mandatory(),
+      key("liquid.viscosity", at(&Scene::liquid, &Liquid::viscosity),
+          "Dynamic viscosity of the water.")
+          .named("mu")
+          .in("Pa s")
+          .above(0.0)
+          .mandatory(),
+
+      instruction("soil.*.like",
+                  "Another soil that every key not given here is taken from, erosion included.")
+          .otherwise_as("none"),
+      key("soil.*.porosity", in_soil(&Soil::porosity),
+          "Initial porosity; with a gradient, its value at `porosity_origin`.")
+          .named("n_0")
+          .above(0.0)
+          .below(1.0)
+          .mandatory(),
+      key("soil.*.porosity_gradient", in_soil(&Soil::porosity_gradient),
+          "Gradient of the initial porosity: n_0(x) = porosity + gradient . (x - origin).")
+          .named("grad n_0")
+          .in("1/m")
+          .otherwise(std::vector{0.0, 0.0}),
+      key("soil.*.porosity_origin", in_soil(&Soil::porosity_origin),
+          "Where the initial porosity is `porosity`, for the gradient.")
+          .in("m")
+          .otherwise(std::vector{0.0, 0.0}),
+      key("soil.*.skeleton_fraction", in_soil(&Soil::skeleton_fraction),
+          "Volume fraction of the coarse grains, which never erode; n_0 + n_C <= 1.")
+          .named("n_C")
+          .above(0.0)
+          .below(1.0)
+          .mandatory(),
+      key("soil.*.grain_density", in_soil(&Soil::grain_density), "Density of the grains.")
+          .named("rho_s")
+          .in("kg/m3")
+          .above(0.0)
+          .mandatory(),
+      conductivity().named("k").in("m/s").above(0.0).mandatory(),
+      key("soil.*.bedding", in_soil(&Soil::bedding),
+          "Angle of the bedding from the x-axis, counter-clockwise. With a pair of conductivities "
+          "only.")
+          .in("degrees")
+          .at_least(-180.0)
+          .at_most(180.0)
+          .otherwise(0.0),
+
+      choice(
+          "soil.*.conductivity_law", in_soil(&Soil::conductivity_law), by_word(conductivity_laws()),
+          "How conductivity follows porosity: " +
+              chained(texts_of(conductivity_laws(), &ConductivityLaw::description), ", ", ", or ") +
+              ".")
+          .otherwise(std::string(conductivity_laws().front()->word)),
+      choice("soil.*.drag", in_soil(&Soil::drag),
+             {{"darcy", SoilDrag::darcy}, {"ergun", SoilDrag::ergun}},
+             "Resistance to the flow: Darcy's, or Ergun's, which also grows with the square of the "
+             "flux and has Darcy's `conductivity` at small fluxes.")
+          .otherwise("darcy"),
+
+      choice("soil.*.erosion.law", in_erosion(&ErosionSettings::law), by_word(erosion_laws()),
+             chained(texts_of(erosion_laws(), &ErosionLaw::equation), "; ", "; ") + ".")
+          .named("phi_e")
+          .otherwise_as("`" + no_erosion_word() + "`; required with any other erosion key"),
+      key("soil.*.erosion.rate", in_erosion(&ErosionSettings::rate),
+          "Rate of the law: " + listed(rate_symbols()) + ".")
+          .named(chained(rate_symbols(), ", ", ", "))
+          .in(rate_unit())
+          .at_least(0.0)
+          .otherwise_as("required unless `law = " + no_erosion_word() + "`"),
+      key("soil.*.erosion.start", in_erosion(&ErosionSettings::start), "When erosion starts.")
+          .named("t_0")
+          .in("s")
+          .at_least(0.0)
+          .otherwise(0.0),
+      key("soil.*.erosion.momentum_transfer", in_erosion(&ErosionSettings::momentum_transfer),
+          "Keep rho_s phi_e (v_L - v_S), the momentum eroded grains take up, in the liquid's "
+          "momentum.")
+          .otherwise(false),
+      choice("soil.*.erosion.mass_transfer", in_erosion(&ErosionSettings::mass_transfer),
+             {{"nodal", MassTransfer::nodal}, {"element", MassTransfer::element}},
+             "Which liquid points take up eroded grains: those around, through the nodes, by their "
+             "volumes; or those in the same element, in equal shares. Double-point only.")
+          .otherwise("nodal"),
+      choice("soil.*.erosion.empty_elements", in_erosion(&ErosionSettings::empty_elements),
+             {{"wet", EmptyElements::wet}, {"dry", EmptyElements::dry}},
+             "An element that has no liquid point for the moment: erodes like any other, as its "
+             "pores are full all the same; or does not erode. Double-point only.")
+          .otherwise("wet"),
+
+      choice("soil.*.retention.model", in_retention(&RetentionModel::law), retention_meanings(),
+             chained(texts_of(retention_laws(), &RetentionLaw::description), "; ", "; ") +
+                 "; or saturated at any pressure.")
+          .otherwise_as("`\"none\"`; required with any other retention key"),
+      key("soil.*.retention.residual_saturation",
+          in_retention(&RetentionModel::residual_saturation),
+          "Liquid per pore volume that stays at any suction.")
+          .named("S_r")
+          .at_least(0.0)
+          .below(1.0)
+          .otherwise(0.0),
+
+      key("boundary[].on", on_boundary(&Boundary::on), "Name of the boundary.").mandatory(),
+      key("boundary[].pressure", on_boundary(&Boundary::pressure), "Pore pressure there.")
+          .named("p")
+          .in("Pa")
+          .otherwise_as("none"),
+      key("boundary[].velocity", on_boundary(&Boundary::velocity),
+          "Intrinsic liquid velocity normal to the boundary, positive into the model.")
+          .named("v_L")
+          .in("m/s")
+          .otherwise_as("none"),
+      key("boundary[].darcy_flux", on_boundary(&Boundary::darcy_flux),
+          "Volume flux of liquid normal to the boundary, positive into the model.")
+          .named("q")
+          .in("m/s")
+          .otherwise_as("none"),
+      key("boundary[].head", on_boundary(&Boundary::head),
+          "Head of the water outside: its level above the datum. Without gravity p = rho_w g H "
+          "with g = 9.81 m/s2, the excess head.")
+          .named("H")
+          .in("m")
+          .otherwise_as("none"),
+      instruction("boundary[].file",
+                  "Table of the head in place of `head`: a CSV file, relative to the scene, with "
+                  "the columns t (s) and head (m) and the header line `t,head`.")
+          .otherwise_as("none"),
+      choice("boundary[].dry", on_boundary(&Boundary::dry),
+             {{"seepage", DryPart::seepage},
+              {"impervious", DryPart::impervious},
+              {"suction", DryPart::suction}},
+             "What holds above the water level of `head`: a seepage face; no flow; or the suction "
+             "rho_w g (H - z). Under gravity only.")
+          .otherwise("seepage"),
+      key("boundary[].seepage_face", on_boundary(&Boundary::seepage_face),
+          "Air outside: lets water out at p = 0, and none in.")
+          .otherwise(false),
+      key("boundary[].rain", on_boundary(&Boundary::rain),
+          "Volume flux of rain normal to the boundary, of which the soil takes in as much as it "
+          "can at p = 0; the rest runs off.")
+          .in("m/s")
+          .at_least(0.0)
+          .otherwise_as("none"),
+      key("boundary[].concentration", on_boundary(&Boundary::concentration),
+          "Fluidised grains per volume of the liquid that enters.")
+          .named("c")
+          .at_least(0.0)
+          .below(1.0)
+          .otherwise_as("clean liquid"),
+
+      key("wall[].on", in_list(&Scene::walls, &Wall::on),
+          "Name of a curve inside the mesh, along which the mesh is cut.")
+          .mandatory(),
+      key("wall[].conductance", in_list(&Scene::walls, &Wall::conductance),
+          "Flux through the wall per difference of head across it: conductivity over thickness.")
+          .in("1/s")
+          .at_least(0.0)
+          .otherwise(0.0),
+
+      key("well[].on", on_boundary(&Boundary::on),
+          "Name of a curve or a point inside the mesh. At a point the mesh is cut along two edges, "
+          "2 a long in all, that lie nearly in line: a well of radius a/2, about half an element.")
+          .mandatory(),
+      key("well[].head", on_boundary(&Boundary::head),
+          "Head in the well. Above its level the well is a seepage face.")
+          .named("H")
+          .in("m")
+          .otherwise_as("none"),
+      key("well[].rate", on_boundary(&Boundary::rate),
+          "Volume that enters the model through all of the well per time, per metre of thickness: "
+          "negative for a well that is pumped.")
+          .named("Q")
+          .in("m3/s")
+          .otherwise_as("none"),
+      key("well[].seepage_face", on_boundary(&Boundary::seepage_face),
+          "A drain pipe: lets water out at p = 0, and none in.")
+          .otherwise(false),
+      key("well[].concentration", on_boundary(&Boundary::concentration),
+          "Fluidised grains per volume of the liquid that enters.")
+          .named("c")
+          .at_least(0.0)
+          .below(1.0)
+          .otherwise_as("clean liquid"),
+
+      choice("initial.flow", at(&Scene::initial_flow),
+             {{"rest", InitialFlow::rest}, {"steady", InitialFlow::steady}},
+             "Flow at the start: at rest, or steady under the boundary conditions.")
+          .otherwise("rest"),
+      key("initial.water_level", at(&Scene::water_level),
+          "Level of the liquid at rest, p = rho_w g (level - z), with suction above it. Without "
+          "gravity p = rho_w g level everywhere, with g = 9.81 m/s2.")
+          .in("m")
+          .otherwise_as("the head of the boundaries that have one at t = 0; where they differ or "
+                        "there is none, p = 0 without gravity, **required** under gravity at rest"),
+
+      key("flow.porosity_gradient_term", at(&Scene::flow, &FlowSettings::porosity_gradient_term),
+          "Keep (v_L - v_S) . grad n_L in the balance of water. Without it water is lost wherever "
+          "porosity varies: for comparison only, with the explicit scheme, and not in double-point "
+          "scenes.")
+          .otherwise(true),
+      choice("flow.integration", at(&Scene::flow, &FlowSettings::integration),
+             {{"mixed", PressureIntegration::mixed},
+              {"material-point", PressureIntegration::material_point}},
+             "Where the pressure lives: one per element; or at the liquid points, which then carry "
+             "the velocity too. Double-point only; at points with the explicit scheme only.")
+          .otherwise("mixed"),
+
+      key("time.end", at(&Scene::time, &TimeSettings::end), "When the run ends.")
+          .named("T")
+          .in("s")
+          .above(0.0)
+          .mandatory(),
+      choice("time.scheme", at(&Scene::time, &TimeSettings::scheme),
+             {{"implicit", FlowScheme::implicit_mixed}, {"explicit", FlowScheme::explicit_nodal}},
+             "How the flow is stepped: implicit, with fluxes through faces and pressures of "
+             "elements; or explicit, with velocities at nodes.")
+          .otherwise("implicit"),
+      key("time.step", at(&Scene::time, &TimeSettings::step),
+          "Longest time step. The stretch from one output to the next, and to a time at which "
+          "erosion or a "
+          "boundary value changes its course, is divided into equal steps: 0.0851 s and an output "
+          "every second "
+          "make 12 steps of 0.0833 s. Column `dt` of history.csv shows the step.")
+          .named("dt")
+          .in("s")
+          .above(0.0)
+          .otherwise_as("explicit: 0.9 of the stability limit; implicit: chosen by `tolerance`"),
+      choice("time.stepping", at(&Scene::time, &TimeSettings::stepping),
+             {{"second-order", TimeStepping::second_order}, {"monotone", TimeStepping::monotone}},
+             "Second order in time; or backward Euler, whose pressures stay within those at the "
+             "boundaries on meshes without obtuse angles. Implicit only.")
+          .otherwise("second-order"),
+      key("time.inertia", at(&Scene::time, &TimeSettings::inertia),
+          "Keep the liquid's inertia. Implicit only.")
+          .otherwise_as("decided from the scene: left out where the time in which flow settles, "
+                        "k/(n g), is below 1 % of a given step, or below `tolerance` times `end`; "
+                        "where it is kept, waves shorter than that are not followed one by one"),
+      key("time.tolerance", at(&Scene::time, &TimeSettings::tolerance),
+          "Bound of the local error of a step, relative: of fluxes, of pressures, of what erodes. "
+          "Implicit only, and not with `step`.")
+          .above(0.0)
+          .at_most(0.1)
+          .otherwise(1e-3),
+      key("time.mass_scaling", at(&Scene::time, &TimeSettings::mass_scaling),
+          "Factor on the liquid's inertia that allows larger steps and slows the flow's start-up. "
+          "Explicit only.")
+          .named("S")
+          .at_least(1.0)
+          .otherwise(1.0),
+      choice("time.drag", at(&Scene::time, &TimeSettings::drag),
+             {{"explicit", DragIntegration::explicit_drag},
+              {"implicit", DragIntegration::implicit_drag}},
+             "How Darcy's drag is stepped within the explicit scheme. Explicit only.")
+          .otherwise("explicit"),
+
+      key("output.every", at(&Scene::output, &OutputSettings::every),
+          "Time between rows of the tables. A row is the state at the end of a step: every output "
+          "ends one.")
+          .in("s")
+          .above(0.0)
+          .mandatory(),
+      key("output.snapshot_every", at(&Scene::output, &OutputSettings::snapshot_every),
+          "Time between snapshots of the whole state; not below `every`. A snapshot ends a step, "
+          "as a row does.")
+          .in("s")
+          .above(0.0)
+          .otherwise_as("`output.every`"),
+      key("output.probe[].at", in_output(&OutputSettings::probes, &OutputProbe::at),
+          "Where pressure and flux are recorded, inside the mesh.")
+          .in("m")
+          .mandatory(),
+      key("output.section[].from", in_output(&OutputSettings::sections, &OutputSection::from),
+          "Where a line begins through which the discharge is recorded, positive from its left to "
+          "its right as one looks along it.")
+          .in("m")
+          .mandatory(),
+      key("output.section[].to", in_output(&OutputSettings::sections, &OutputSection::to),
+          "Where the line ends.")
+          .in("m")
+          .mandatory(),
+  };
+}
+
+}  // namespace
+
+const std::vector<SceneKey>& scene_keys() {
+  static const std::vector<SceneKey> keys = [] {
+    std::vector<SceneKey> all = declare_keys();
+    const auto insert_after = [&](const std::string& pattern, std::vector<SceneKey> of_laws) {
+      const auto place = std::ranges::find(all, pattern, &SceneKey::pattern) + 1;
+      all.insert(place, of_laws.begin(), of_laws.end());
+    };
+    std::vector<SceneKey> of_erosion;
+    for (const auto& p : erosion_parameters()) of_erosion.push_back(erosion_parameter(p));
+    insert_after("soil.*.erosion.rate", std::move(of_erosion));
+    std::vector<SceneKey> of_retention;
+    for (const auto& p : retention_parameters()) of_retention.push_back(retention_parameter(p));
+    insert_after("soil.*.retention.model", std::move(of_retention));
+    return all;
+  }();
+  return keys;
+}
+
+}  // namespace suffuse
