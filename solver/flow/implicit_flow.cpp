@@ -255,6 +255,7 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
   result.time = time;
   result.dt = control_.last_step() > 0.0 ? control_.last_step() : control_.next_step();
   result.pressure = pressure_;
+  result.face_pressure = now_.state.face_pressure;
   result.face_flux = now_.face_flux;
   result.eos_error = eos_error_;
   result.pressure_overshoot = scales_.overshoot(now_.state.face_pressure);
