@@ -104,8 +104,7 @@ class Trial final : public OutputSink<Dim> {
     };
     add(rows, [&] {
       writer.append_history(loop_.model().history_row(flow));
-      writer.append_ledger(loop_.model().ledger());
-      writer.append_regions(loop_.model().region_rows());
+      append_tables(writer, loop_.model(), flow);
     });
     add(result.snapshots, [&] {
       Snapshot snapshot = loop_.model().snapshot(flow);

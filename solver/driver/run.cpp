@@ -91,8 +91,7 @@ class Run final : public OutputSink<Dim> {
     const HistoryRow row = loop_.model().history_row(flow);
     for (const std::string& warning : checks_.check(row)) warn(warning);
     writer_.append_history(row);
-    writer_.append_ledger(loop_.model().ledger());
-    writer_.append_regions(loop_.model().region_rows());
+    append_tables(writer_, loop_.model(), flow);
   }
 
   void write_snapshot(const FlowState<Dim>& flow) override {

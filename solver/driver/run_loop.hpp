@@ -11,6 +11,7 @@
 #include "formulation/two_phase_model.hpp"
 #include "results/restart_point.hpp"
 #include "results/state_archive.hpp"
+#include "results/writer.hpp"
 
 namespace suffuse {
 
@@ -28,6 +29,17 @@ class OutputSink {
   /// After every interval, with its output. The loop ends where this is false.
   virtual bool continue_after_interval() = 0;
 };
+
+/// A row of every table but the history.
+template <int Dim>
+void append_tables(ResultsWriter<Dim>& writer, const TwoPhaseModel<Dim>& model,
+                   const FlowState<Dim>& flow) {
+  writer.append_ledger(model.ledger());
+  writer.append_regions(model.region_rows());
+  writer.append_boundaries(model.boundary_rows(flow));
+  writer.append_probes(model.probe_rows(flow));
+  writer.append_sections(model.section_rows(flow));
+}
 
 template <int Dim>
 class RunLoop {

@@ -15,7 +15,8 @@ template <int Dim>
 FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
                           const SolverOptions& options) {
   const bool has_liquid = c.document.scene.formulation == Formulation::double_point;
-  FoundRestart found = newest_restart_point(folder, has_liquid, c.mesh.region_names.size());
+  FoundRestart found = newest_restart_point(
+      folder, has_liquid, table_files(c.document.scene, c.mesh.region_names.size()));
   if (!found.point) return found;
   const auto refuse = [&](const std::string& what, const std::string& how) {
     throw InputError(folder + ": cannot be resumed: it holds the results of " + what + "; " + how +

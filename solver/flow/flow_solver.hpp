@@ -29,11 +29,14 @@ struct FlowState {
   double dt = 0.0;                    ///< of the last step, or of the first before it, s
   std::vector<double> pressure;       ///< per element, Pa
   std::vector<double> node_pressure;  ///< per node, Pa
-  VectorField<Dim> velocity;          ///< per node, intrinsic, m/s
-  std::vector<double> face_flux;      ///< along each face's normal, m3/s
-  std::vector<double> saturation;     ///< per element; empty where all soil is saturated
-  double eos_error = 0.0;             ///< see HistoryRow
-  double pressure_overshoot = 0.0;    ///< see HistoryRow
+  /// Per face, Pa: the pressure in an element is the linear field of those of its faces. Empty
+  /// where the flow has none; then node pressures count.
+  std::vector<double> face_pressure;
+  std::vector<double> saturation;   ///< S per element; empty where every soil is saturated
+  VectorField<Dim> velocity;        ///< per node, intrinsic, m/s
+  std::vector<double> face_flux;    ///< along each face's normal, m3/s
+  double eos_error = 0.0;           ///< see HistoryRow
+  double pressure_overshoot = 0.0;  ///< see HistoryRow
 };
 
 /// A coupling interval: the flow advances through it alone, then erosion and transport follow.

@@ -300,6 +300,7 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
   result.time = time;
   result.dt = control_.last_step() > 0.0 ? control_.last_step() : control_.next_step();
   result.pressure = pressure_;
+  result.face_pressure = now_.state.face_pressure;
   result.face_flux = now_.face_flux;
   for (std::size_t e = 0; e < now_.state.air.size(); ++e) {
     const double pores = this->coefficients_.porosity[e] * this->grid().volume[e];

@@ -98,6 +98,21 @@ std::vector<Stored> DoublePoint<Dim>::stored() const {
 }
 
 template <int Dim>
+FinesState<Dim> DoublePoint<Dim>::fines_state(const FlowState<Dim>& flow) const {
+  const Grid<Dim>& grid = this->grid_;
+  const LiquidPoints<Dim>& points = liquid_->points();
+  const std::vector<double> volume = liquid_->point_volume(points, flow.pressure);
+  FinesState<Dim> result{
+      pore_field(grid, *this->solid_),
+      concentration_fit(grid, points, element_begins(points, grid.mesh.element_count()), volume,
+                        concentrations(points, volume))};
+  for (std::size_t e = 0; e < result.fines_volume.size(); ++e) {
+    for (int j = 0; j <= Dim; ++j) result.fines_volume[e][j] *= result.liquid_volume[e][j];
+  }
+  return result;
+}
+
+template <int Dim>
 Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
   const Grid<Dim>& grid = this->grid_;
   const LiquidPoints<Dim>& points = liquid_->points();
@@ -105,15 +120,8 @@ Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
   std::vector<double> volume = liquid_->point_volume(points, flow.pressure);
   std::vector<double> concentration = concentrations(points, volume);
 
-  FinesState<Dim> between_points;
-  between_points.liquid_volume = pore_field(grid, *this->solid_);
-  between_points.fines_volume = concentration_fit(grid, points, begins, volume, concentration);
-  for (std::size_t e = 0; e < between_points.fines_volume.size(); ++e) {
-    for (int j = 0; j <= Dim; ++j) {
-      between_points.fines_volume[e][j] *= between_points.liquid_volume[e][j];
-    }
-  }
-  Snapshot result = element_snapshot(grid, *this->solid_, between_points, flow, this->steps());
+  Snapshot result =
+      element_snapshot(grid, *this->solid_, fines_state(flow), flow, this->scene(), this->steps());
 
   Field saturation{"saturation_state", "1", 1, {}};
   Field count{"liquid_points", "1", 1, {}};
@@ -158,6 +166,7 @@ Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
 
 template HistoryRow DoublePoint<2>::history_row(const FlowState<2>&) const;
 template std::vector<Stored> DoublePoint<2>::stored() const;
+template FinesState<2> DoublePoint<2>::fines_state(const FlowState<2>&) const;
 template Snapshot DoublePoint<2>::snapshot(const FlowState<2>&) const;
 
 }  // namespace suffuse

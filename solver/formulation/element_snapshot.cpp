@@ -1,6 +1,9 @@
 #include "formulation/element_snapshot.hpp"
 
+#include <algorithm>
+
 #include "grid/face_flux.hpp"
+#include "physics/head.hpp"
 
 namespace suffuse {
 namespace {
@@ -65,7 +68,8 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
 }
 
 template <int Dim>
-void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, Snapshot& result) {
+void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Scene& scene,
+              Snapshot& result) {
   const auto vectors = [](const char* name, const VectorField<Dim>& from) {
     Field field{name, "m/s", Dim, {}};
     for (const Vector<Dim>& v : from) field.values.insert(field.values.end(), v.begin(), v.end());
@@ -77,6 +81,15 @@ void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, Snapshot& resul
       {"region", "1", 1, {grid.mesh.element_region.begin(), grid.mesh.element_region.end()}});
   result.node = {vectors("liquid_velocity", flow.velocity),
                  {"pressure", "Pa", 1, flow.node_pressure}};
+  if (!flow.saturation.empty()) result.cell.push_back({"saturation", "1", 1, flow.saturation});
+  if (std::ranges::none_of(scene.gravity, [](double g) { return g != 0.0; })) return;
+  Field head = scalar("head", "m");
+  const double weight = unit_weight(scene.liquid.density, scene.gravity);
+  for (int i = 0; i < grid.mesh.node_count(); ++i) {
+    head.values.push_back(flow.node_pressure[i] / weight +
+                          height(grid.mesh.nodes[i], scene.gravity));
+  }
+  result.node.push_back(std::move(head));
 }
 
 template <int Dim>
@@ -121,19 +134,20 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
 
 template <int Dim>
 Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
-                          const FinesState<Dim>& liquid, const FlowState<Dim>& flow, long step) {
+                          const FinesState<Dim>& liquid, const FlowState<Dim>& flow,
+                          const Scene& scene, long step) {
   Snapshot result;
   result.time = flow.time;
   result.step = step;
   add_pores(grid, solid, liquid, flow.saturation, result);
-  add_flow(grid, flow, result);
+  add_flow(grid, flow, scene, result);
   add_solid_points(grid, solid, liquid, flow, result);
   return result;
 }
 
 template Snapshot element_snapshot(const Grid<2>&, const Skeleton<2>&, const FinesState<2>&,
-                                   const FlowState<2>&, long);
+                                   const FlowState<2>&, const Scene&, long);
 template Snapshot element_snapshot(const Grid<3>&, const Skeleton<3>&, const FinesState<3>&,
-                                   const FlowState<3>&, long);
+                                   const FlowState<3>&, const Scene&, long);
 
 }  // namespace suffuse

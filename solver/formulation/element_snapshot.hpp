@@ -11,9 +11,10 @@
 namespace suffuse {
 
 /// `liquid`: pores and fines in them, per element and field node; `step`: number of flow steps so
-/// far.
+/// far. Heads at nodes come with gravity, saturations of elements where the flow has them.
 template <int Dim>
 Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
-                          const FinesState<Dim>& liquid, const FlowState<Dim>& flow, long step);
+                          const FinesState<Dim>& liquid, const FlowState<Dim>& flow,
+                          const Scene& scene, long step);
 
 }  // namespace suffuse

@@ -49,8 +49,11 @@ std::vector<Stored> totals(const std::vector<StoredSums>& sums) {
 }
 
 template <int Dim>
-MassAccounts<Dim>::MassAccounts(const Grid<Dim>& grid)
-    : grid_(grid), faces_(grid.mesh.region_names.size() + 1), crossed_(faces_.size()) {
+MassAccounts<Dim>::MassAccounts(const Case<Dim>& c, const Grid<Dim>& grid)
+    : grid_(grid),
+      faces_(grid.mesh.region_names.size() + 1),
+      crossed_(faces_.size()),
+      boundaries_(c, grid) {
   for (int f = 0; f < grid.face_count(); ++f) {
     const int left = grid.mesh.element_region[grid.face_left[f]];
     if (grid.is_outer(f)) {
@@ -73,6 +76,9 @@ void MassAccounts<Dim>::book(const std::vector<double>& water, const std::vector
       book_one(sign * water[face], sum.water_in, sum.water_out);
       book_one(sign * fines[face], sum.fines_in, sum.fines_out);
     }
+  }
+  for (const OutwardFace& outer : faces_[0]) {
+    boundaries_.book(outer.face, water[outer.face], fines[outer.face]);
   }
 }
 
@@ -102,6 +108,10 @@ void MassAccounts<Dim>::book(const PointCrossing& point) {
   CrossedSums& to = crossed_[point.to + 1];
   point.from < 0 ? enter(from) : leave(from);
   point.to < 0 ? leave(to) : enter(to);
+  if (point.entered_by >= 0) {
+    boundaries_.book(point.entered_by, -point.water_mass, -point.fines_mass);
+  }
+  if (point.left_by >= 0) boundaries_.book(point.left_by, point.water_mass, point.fines_mass);
 }
 
 template <int Dim>

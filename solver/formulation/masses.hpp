@@ -1,11 +1,13 @@
 #pragma once
 
-/// The masses of water and fines: what is stored and what crossed which boundary, for the whole
-/// model (account 0) and for each region r (account r + 1). The ledger of the results is made here.
+/// The masses of water and fines: what is stored and what crossed which border, for the whole
+/// model (account 0) and for each region r (account r + 1), and what crossed each boundary of the
+/// scene. The ledger of the results is made here.
 
 #include <array>
 #include <vector>
 
+#include "formulation/boundary_accounts.hpp"
 #include "grid/compensated_sum.hpp"
 #include "grid/grid.hpp"
 #include "results/tables.hpp"
@@ -66,7 +68,8 @@ struct CrossedSums {
 template <int Dim>
 class MassAccounts {
  public:
-  explicit MassAccounts(const Grid<Dim>& grid);
+  /// Throws as `face_conditions` does.
+  MassAccounts(const Case<Dim>& c, const Grid<Dim>& grid);
 
   [[nodiscard]] std::size_t count() const { return faces_.size(); }
   /// What is stored at the start, per account.
@@ -76,14 +79,18 @@ class MassAccounts {
   void book(const std::vector<double>& water, const std::vector<double>& fines);
   /// Books points that changed their region, and fines that did.
   void book(const RegionCrossings& crossings);
+  /// Books volumes of liquid that crossed each face along its normal, m3: of the flow, which points
+  /// follow with a delay.
+  void book_liquid(const std::vector<double>& volumes) { boundaries_.book_liquid(volumes); }
 
   /// `stored` per account.
   [[nodiscard]] LedgerRow ledger(double time, const std::vector<Stored>& stored) const;
   [[nodiscard]] std::vector<RegionRow> region_rows(double time, const std::vector<Stored>& stored,
                                                    const SoilMap<Dim>& soils,
                                                    double grain_density) const;
+  [[nodiscard]] const BoundaryAccounts<Dim>& boundaries() const { return boundaries_; }
 
-  void archive(auto& archive) { archive(crossed_); }
+  void archive(auto& archive) { archive(crossed_, boundaries_); }
 
  private:
   struct OutwardFace {
@@ -95,6 +102,7 @@ class MassAccounts {
   const Grid<Dim>& grid_;
   std::vector<std::vector<OutwardFace>> faces_;  ///< that bound each account
   std::vector<CrossedSums> crossed_;             ///< per account
+  BoundaryAccounts<Dim> boundaries_;
   std::vector<Stored> initial_;
 };
 

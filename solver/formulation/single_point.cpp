@@ -177,7 +177,8 @@ std::vector<Stored> SinglePoint<Dim>::stored() const {
 
 template <int Dim>
 Snapshot SinglePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
-  return element_snapshot(this->grid_, *this->solid_, fines_->state(), flow, this->steps());
+  return element_snapshot(this->grid_, *this->solid_, fines_->state(), flow, this->scene(),
+                          this->steps());
 }
 
 template <int Dim>

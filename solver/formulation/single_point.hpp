@@ -27,6 +27,9 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
  private:
   [[nodiscard]] const Transport<Dim>& transport() const override { return *fines_; }
   [[nodiscard]] PoreState pores() const override;
+  [[nodiscard]] FinesState<Dim> fines_state(const FlowState<Dim>& /*flow*/) const override {
+    return fines_->state();
+  }
   [[nodiscard]] std::vector<Stored> stored() const override;
   /// Books the water and the fines that crossed faces in an interval of the flow.
   void book(const FaceVolumes& volumes);

@@ -15,7 +15,8 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
       solid_(make_skeleton(grid_, soils_,
                            options.erosion ? options.erosion_span : TimeSpan::never(),
                            options.flow.threads)),
-      masses_(grid_),
+      masses_(c, grid_),
+      observations_(c, grid_),
       grain_density_(c.document.scene.soils.front().grain_density) {
   flux_history_.mean.assign(grid_.face_count(), 0.0);
   flux_history_.end = flux_history_.mean;
@@ -23,7 +24,8 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
 
 template <int Dim>
 void TwoPhaseModel<Dim>::archive(StateArchive& archive) {
-  archive(*solid_, *flow_, masses_, time_, flux_history_, last_dt_, steps_, erosion_timing_);
+  archive(*solid_, *flow_, masses_, observations_, time_, flux_history_, last_dt_, steps_,
+          erosion_timing_);
 }
 
 template <int Dim>
@@ -71,6 +73,8 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   flux_history_.mean = per_time(flow.volumes.liquid, flux_history_.duration);
   flux_history_.end = soils_.erodes_by_flux() ? flow_->face_flux(flow.end) : flux_history_.mean;
   erosion_flux_ = erosion_flux(grid_, soils_, flux_history_.mean, threads());
+  masses_.book_liquid(flow.volumes.liquid);
+  observations_.book_liquid(flow.volumes.liquid);
   steps_ += flow.steps;
   last_dt_ = flow.dt;
 }
@@ -94,6 +98,22 @@ LedgerRow TwoPhaseModel<Dim>::ledger() const {
 template <int Dim>
 std::vector<RegionRow> TwoPhaseModel<Dim>::region_rows() const {
   return masses_.region_rows(time_, stored(), soils_, grain_density_);
+}
+
+template <int Dim>
+std::vector<BoundaryRow> TwoPhaseModel<Dim>::boundary_rows(const FlowState<Dim>& flow) const {
+  return masses_.boundaries().rows(time_, flow.face_flux);
+}
+
+template <int Dim>
+std::vector<ProbeRow> TwoPhaseModel<Dim>::probe_rows(const FlowState<Dim>& flow) const {
+  if (!observations_.has_probes()) return {};
+  return observations_.probe_rows(flow, fines_state(flow));
+}
+
+template <int Dim>
+std::vector<SectionRow> TwoPhaseModel<Dim>::section_rows(const FlowState<Dim>& flow) const {
+  return observations_.section_rows(flow);
 }
 
 template <int Dim>

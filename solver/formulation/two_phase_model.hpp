@@ -10,6 +10,7 @@
 
 #include "flow/flow_solver.hpp"
 #include "formulation/masses.hpp"
+#include "formulation/observations.hpp"
 #include "results/writer.hpp"
 #include "solid/pores.hpp"
 #include "transport/transport.hpp"
@@ -54,6 +55,9 @@ class TwoPhaseModel {
   [[nodiscard]] virtual HistoryRow history_row(const FlowState<Dim>& flow) const = 0;
   [[nodiscard]] LedgerRow ledger() const;
   [[nodiscard]] std::vector<RegionRow> region_rows() const;
+  [[nodiscard]] std::vector<BoundaryRow> boundary_rows(const FlowState<Dim>& flow) const;
+  [[nodiscard]] std::vector<ProbeRow> probe_rows(const FlowState<Dim>& flow) const;
+  [[nodiscard]] std::vector<SectionRow> section_rows(const FlowState<Dim>& flow) const;
   [[nodiscard]] virtual Snapshot snapshot(const FlowState<Dim>& flow) const = 0;
 
   /// Everything that intervals to come depend on: what is restored goes on as if it had not been
@@ -69,6 +73,8 @@ class TwoPhaseModel {
   /// How liquid and fines are carried.
   [[nodiscard]] virtual const Transport<Dim>& transport() const = 0;
   [[nodiscard]] virtual PoreState pores() const = 0;
+  /// Pores and fines in them, as results have them.
+  [[nodiscard]] virtual FinesState<Dim> fines_state(const FlowState<Dim>& flow) const = 0;
   /// Masses inside the model, then inside each region.
   [[nodiscard]] virtual std::vector<Stored> stored() const = 0;
 
@@ -101,6 +107,7 @@ class TwoPhaseModel {
   std::unique_ptr<Skeleton<Dim>> solid_;
   std::unique_ptr<FlowSolver<Dim>> flow_;  ///< made by each formulation
   MassAccounts<Dim> masses_;
+  Observations<Dim> observations_;
   double grain_density_;
   double time_ = 0.0;
 

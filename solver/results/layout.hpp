@@ -16,6 +16,9 @@ inline constexpr const char* case_copy = "case.h5";
 inline constexpr const char* history = "history.csv";
 inline constexpr const char* ledger = "ledger.csv";
 inline constexpr const char* regions = "regions.csv";
+inline constexpr const char* boundaries = "boundaries.csv";
+inline constexpr const char* probes = "probes.csv";
+inline constexpr const char* sections = "sections.csv";
 inline constexpr const char* snapshots = "snapshots";
 /// Of a run that was stopped between snapshots.
 inline constexpr const char* checkpoint = "checkpoint.hdf";

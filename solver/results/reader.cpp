@@ -13,6 +13,7 @@
 #include "case/regular_file.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
+#include "results/table_files.hpp"
 #include "results/vtkhdf.hpp"
 
 namespace suffuse {
@@ -99,18 +100,14 @@ Series read_series(const std::string& folder, const std::string& kind) {
   return series;
 }
 
-/// The cells of a line, which may end as lines do elsewhere.
-std::vector<std::string> split(std::string line) {
-  if (line.ends_with('\r')) line.pop_back();
-  std::vector<std::string> cells;
-  std::size_t begin = 0;
-  for (std::size_t comma = line.find(','); comma != std::string::npos;
-       comma = line.find(',', begin)) {
-    cells.push_back(line.substr(begin, comma - begin));
-    begin = comma + 1;
+void append_row(Table& table, const std::vector<std::string>& cells, const std::string& where) {
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const auto value = parse_number(cells[k]);
+    if (!value) {
+      throw FileError(where + table.names[k] + ": got '" + cells[k] + "'; expected a number");
+    }
+    table.columns[k].push_back(*value);
   }
-  cells.push_back(line.substr(begin));
-  return cells;
 }
 
 constexpr const char* points_dataset = "/VTKHDF/Points";
@@ -146,30 +143,44 @@ const std::vector<double>& Table::column(const std::string& name) const {
 }
 
 Table read_table(const std::string& path) {
+  return read_tables(path, "").front().table;
+}
+
+std::vector<NamedTable> read_tables(const std::string& path, const std::string& by) {
   std::ifstream in = open_file(path);
   std::string line;
   if (!std::getline(in, line)) throw FileError(path + ":1: got nothing; expected a line of names");
-  Table table;
-  table.names = split(line);
-  table.columns.resize(table.names.size());
+  const std::vector<std::string> names = csv_cells(line);
+  const auto key = std::ranges::find(names, by) - names.begin();
+  if (!by.empty() && key == std::ssize(names)) {
+    throw FileError(path + ":1: got no column " + by);
+  }
+  Table empty;
+  for (const std::string& name : names) {
+    if (by.empty() || name != by) empty.names.push_back(name);
+  }
+  empty.columns.resize(empty.names.size());
+  std::vector<NamedTable> tables;
+  if (by.empty()) tables.push_back({"", empty});
   for (int number = 2; std::getline(in, line); ++number) {
     // A row being written at this moment has no end of line yet: it is not there.
     if (in.eof()) break;
-    const auto cells = split(line);
+    auto cells = csv_cells(line);
     const std::string where = path + ":" + std::to_string(number) + ": ";
-    if (cells.size() != table.names.size()) {
+    if (cells.size() != names.size()) {
       throw FileError(where + "got " + std::to_string(cells.size()) + " columns; expected " +
-                      std::to_string(table.names.size()));
+                      std::to_string(names.size()));
     }
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      const auto value = parse_number(cells[k]);
-      if (!value) {
-        throw FileError(where + table.names[k] + ": got '" + cells[k] + "'; expected a number");
-      }
-      table.columns[k].push_back(*value);
+    std::string name;
+    if (!by.empty()) {
+      name = cells[key];
+      cells.erase(cells.begin() + key);
     }
+    auto found = std::ranges::find(tables, name, &NamedTable::name);
+    if (found == tables.end()) found = tables.insert(found, {name, empty});
+    append_row(found->table, cells, where);
   }
-  return table;
+  return tables;
 }
 
 void write_table(const std::string& path, const Table& table) {
@@ -237,6 +248,16 @@ Table ResultsReader::ledger() const {
 }
 Table ResultsReader::region_ledgers() const {
   return read_table(layout::in_folder(folder_, layout::regions));
+}
+
+std::vector<NamedTable> ResultsReader::boundaries() const {
+  return read_tables(layout::in_folder(folder_, layout::boundaries), "boundary");
+}
+Table ResultsReader::probes() const {
+  return read_table(layout::in_folder(folder_, layout::probes));
+}
+Table ResultsReader::sections() const {
+  return read_table(layout::in_folder(folder_, layout::sections));
 }
 
 std::string ResultsReader::snapshot_path(const std::string& kind, std::size_t index) const {

@@ -28,6 +28,15 @@ struct Table {
 /// Reads a CSV file of numbers with one line of names. Throws FileError with file and line.
 Table read_table(const std::string& path);
 
+/// The rows of a table that share a value of a column of text.
+struct NamedTable {
+  std::string name;  ///< the value
+  Table table;       ///< the other columns
+};
+/// Reads a CSV file of numbers but for the column `by`, whose values come in the order of their
+/// first rows. Throws FileError with file and line.
+std::vector<NamedTable> read_tables(const std::string& path, const std::string& by);
+
 /// Writes numbers so that they read back exactly.
 void write_table(const std::string& path, const Table& table);
 
@@ -46,6 +55,11 @@ class ResultsReader {
   [[nodiscard]] Table history() const;
   [[nodiscard]] Table ledger() const;
   [[nodiscard]] Table region_ledgers() const;
+  /// One table for each boundary that has a condition.
+  [[nodiscard]] std::vector<NamedTable> boundaries() const;
+  /// Throws FileError where the scene has no probes; likewise the next.
+  [[nodiscard]] Table probes() const;
+  [[nodiscard]] Table sections() const;
 
   /// Times of the snapshots, ascending.
   [[nodiscard]] const std::vector<double>& times() const { return times_; }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the bytes of a state: to be raised whenever an `archive` changes what it lists.
-constexpr std::int64_t state_layout = 3;
+constexpr std::int64_t state_layout = 4;
 
 /// FNV-1a (Fowler, Noll, Vo) on eight bytes at a time, with what that leaves out of the low bits
 /// mixed in.
@@ -76,6 +77,19 @@ long rows_in(const std::string& path) {
     lines += std::count(block.data(), block.data() + in.gcount(), '\n');
   }
   return lines - 1;
+}
+
+/// Output times of which every table has all its rows.
+long output_times_in(const std::string& folder, const std::vector<TableFile>& tables) {
+  long times = std::numeric_limits<long>::max();
+  for (const TableFile& table : tables) {
+    const long rows = rows_in(layout::in_folder(folder, table.name));
+    // A table may have no rows at all, but it has its names.
+    times = std::min(times, table.lines_per_time > 0 ? rows / table.lines_per_time
+                            : rows < 0               ? rows
+                                                     : times);
+  }
+  return times;
 }
 
 /// How many of the first snapshots have all their files, whole. Says which the first is that has
@@ -171,13 +185,10 @@ std::optional<RestartPoint> read_restart_point(const std::string& path) {
 }
 
 FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_files,
-                                  std::size_t regions) {
+                                  const std::vector<TableFile>& tables) {
   FoundRestart found;
   const long whole = whole_snapshots(folder, has_liquid_files, found.damage);
-  const long rows =
-      std::min({rows_in(layout::in_folder(folder, layout::history)),
-                rows_in(layout::in_folder(folder, layout::ledger)),
-                rows_in(layout::in_folder(folder, layout::regions)) / static_cast<long>(regions)});
+  const long rows = output_times_in(folder, tables);
   found.holds_results = whole > 0 || rows > 1 || !found.damage.empty();
   const auto usable_point = [&](const std::string& path) -> std::optional<RestartPoint> {
     if (!fs::exists(path)) return std::nullopt;

@@ -10,12 +10,13 @@
 
 #include "case/case_file.hpp"
 #include "case/hdf5_io.hpp"
+#include "results/table_files.hpp"
 
 namespace suffuse {
 
 struct RestartPoint {
   double time = 0.0;   ///< that the state is of, s; not before the snapshot's
-  long rows = 0;       ///< of history.csv by then; of ledger.csv likewise
+  long rows = 0;       ///< of history.csv by then; output times in every table
   long snapshots = 0;  ///< by then, the one that holds this included
   bool no_skip = false;
   std::string case_digest;          ///< see `digest_of`
@@ -48,7 +49,7 @@ struct FoundRestart {
 
 /// The last point of the run in `folder` whose snapshots and tables are all there.
 FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_files,
-                                  std::size_t regions);
+                                  const std::vector<TableFile>& tables);
 
 /// Whether the folder holds the results of a finished run.
 bool is_finished(const std::string& folder);

@@ -1,9 +1,10 @@
 #pragma once
 
-/// The three tables of a run: history, ledger and regions. Each row type lists its columns once,
-/// for writer, reader and the post stage.
+/// The tables of a run: history, ledger, regions and boundaries, and probes and sections where the
+/// scene has any. Each row type lists its columns once, for writer, reader and the post stage.
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -115,5 +116,75 @@ struct RegionRow {
   double porosity_mean = 0.0;
   LedgerRow ledger;
 };
+
+/// boundaries.csv: what crossed one entry of the scene's boundaries. Masses in kg and volumes in m3
+/// since the start (per metre of thickness in 2D). `boundary`, its name, stands behind `t`.
+struct BoundaryRow {
+  double t = 0.0;
+  std::string boundary;
+  double water_in = 0.0;
+  double water_out = 0.0;
+  double fines_in = 0.0;
+  double fines_out = 0.0;
+  double liquid_in = 0.0;   ///< volume of liquid, as the flow moves it
+  double liquid_out = 0.0;  ///< likewise
+  double discharge = 0.0;   ///< liquid out minus in at this moment, m3/s
+};
+
+inline constexpr std::array<Column<BoundaryRow>, 8> boundary_columns{{
+    {"t", &BoundaryRow::t},
+    {"water_in", &BoundaryRow::water_in},
+    {"water_out", &BoundaryRow::water_out},
+    {"fines_in", &BoundaryRow::fines_in},
+    {"fines_out", &BoundaryRow::fines_out},
+    {"liquid_in", &BoundaryRow::liquid_in},
+    {"liquid_out", &BoundaryRow::liquid_out},
+    {"discharge", &BoundaryRow::discharge},
+}};
+
+/// probes.csv: the state at a place that the scene names.
+struct ProbeRow {
+  double t = 0.0;
+  double probe = 0.0;  ///< its number in the scene, from zero
+  double x = 0.0;      ///< m
+  double y = 0.0;      ///< m
+  double pressure = 0.0;
+  double head = 0.0;  ///< p / (rho_w g) + z; without gravity p / (rho_w 9.81), m
+  double saturation = 1.0;
+  double porosity = 0.0;
+  double concentration = 0.0;
+  double flux_x = 0.0;  ///< Darcy flux, m/s
+  double flux_y = 0.0;
+};
+
+inline constexpr std::array<Column<ProbeRow>, 11> probe_columns{{
+    {"t", &ProbeRow::t},
+    {"probe", &ProbeRow::probe},
+    {"x", &ProbeRow::x},
+    {"y", &ProbeRow::y},
+    {"pressure", &ProbeRow::pressure},
+    {"head", &ProbeRow::head},
+    {"saturation", &ProbeRow::saturation},
+    {"porosity", &ProbeRow::porosity},
+    {"concentration", &ProbeRow::concentration},
+    {"flux_x", &ProbeRow::flux_x},
+    {"flux_y", &ProbeRow::flux_y},
+}};
+
+/// sections.csv: the liquid that crosses a line that the scene names, positive from its left to its
+/// right as seen by somebody who walks from `from` to `to`.
+struct SectionRow {
+  double t = 0.0;
+  double section = 0.0;    ///< its number in the scene, from zero
+  double discharge = 0.0;  ///< at this moment, m3/s
+  double volume = 0.0;     ///< of liquid since the start, m3
+};
+
+inline constexpr std::array<Column<SectionRow>, 4> section_columns{{
+    {"t", &SectionRow::t},
+    {"section", &SectionRow::section},
+    {"discharge", &SectionRow::discharge},
+    {"volume", &SectionRow::volume},
+}};
 
 }  // namespace suffuse

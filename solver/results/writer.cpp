@@ -15,7 +15,6 @@
 #include "case/hdf5_io.hpp"
 #include "case/regular_file.hpp"
 #include "results/layout.hpp"
-#include "results/number_text.hpp"
 #include "results/versions.hpp"
 #include "results/vtkhdf.hpp"
 
@@ -70,7 +69,7 @@ OrderedJson run_info_in(const std::string& folder) {
 /// Files that a run writes beside run.json and the lock.
 bool is_own_file(const std::string& name) {
   static const std::regex own(
-      R"((case\.h5|checkpoint\.hdf|(history|ledger|regions)\.csv|(mesh|solid|liquid)\.hdf\.series)(\.tmp)?|\.case\.\d+\.part\.h5)");
+      R"((case\.h5|checkpoint\.hdf|(history|ledger|regions|boundaries|probes|sections)\.csv|(mesh|solid|liquid)\.hdf\.series)(\.tmp)?|\.case\.\d+\.part\.h5)");
   return std::regex_match(name, own);
 }
 
@@ -129,37 +128,6 @@ void remove_later_snapshots(const std::string& folder, long count) {
   } catch (const fs::filesystem_error& error) {
     throw FileError(folder + ": " + error.code().message());
   }
-}
-
-template <class Columns>
-std::string header_line(const Columns& columns) {
-  std::string line;
-  for (const auto& [name, member] : columns) {
-    if (!line.empty()) line += ',';
-    line += name;
-  }
-  return line;
-}
-
-template <class Row, class Columns>
-std::string row_line(const Row& row, const Columns& columns) {
-  std::string line;
-  for (const auto& [name, member] : columns) {
-    if (!line.empty()) line += ',';
-    line += number_text(row.*member);
-  }
-  return line;
-}
-
-std::string regions_header() {
-  return "t,region,porosity_mean" + header_line(ledger_columns).substr(1);
-}
-
-std::string region_line(const RegionRow& row) {
-  const std::string ledger = row_line(row.ledger, ledger_columns);
-  const auto comma = ledger.find(',');
-  return ledger.substr(0, comma) + ',' + std::to_string(row.region) + ',' +
-         number_text(row.porosity_mean) + ledger.substr(comma);
 }
 
 template <int Dim>
@@ -280,20 +248,25 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c)
 
 template <int Dim>
 ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock)
-    : folder_(folder), case_(c), lock_(std::move(lock)) {
+    : folder_(folder),
+      case_(c),
+      lock_(std::move(lock)),
+      files_(table_files(c.document.scene, c.mesh.region_names.size())) {
   write_run_info(RunInfo{});
   remove_earlier_run(folder);
   write_case(layout::in_folder(folder, layout::case_copy), c);
-  history_ = {layout::in_folder(folder, layout::history), header_line(history_columns)};
-  ledger_ = {layout::in_folder(folder, layout::ledger), header_line(ledger_columns)};
-  regions_ = {layout::in_folder(folder, layout::regions), regions_header()};
+  for (const TableFile& file : files_) {
+    tables_.emplace_back(layout::in_folder(folder, file.name), file.header);
+  }
 }
 
 template <int Dim>
 ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock,
                                   const RestartPoint& point)
-    : folder_(folder), case_(c), lock_(std::move(lock)) {
-  const auto regions = static_cast<long>(c.mesh.region_names.size());
+    : folder_(folder),
+      case_(c),
+      lock_(std::move(lock)),
+      files_(table_files(c.document.scene, c.mesh.region_names.size())) {
   const std::string case_copy = layout::in_folder(folder, layout::case_copy);
   if (!fs::exists(case_copy)) write_case(case_copy, c);
   continue_series(mesh_series_, point.snapshots);
@@ -302,26 +275,49 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c,
     continue_series(liquid_series_, point.snapshots);
   }
   remove_later_snapshots(folder, point.snapshots);
-  history_ = {layout::in_folder(folder, layout::history), point.rows};
-  ledger_ = {layout::in_folder(folder, layout::ledger), point.rows};
-  regions_ = {layout::in_folder(folder, layout::regions), regions * point.rows};
+  for (const TableFile& file : files_) {
+    tables_.emplace_back(layout::in_folder(folder, file.name), file.lines_per_time * point.rows);
+  }
+}
+
+template <int Dim>
+template <class Row>
+void ResultsWriter<Dim>::append(const char* name, std::span<const Row> rows) {
+  std::string lines;
+  for (const Row& row : rows) lines += table_line(row);
+  for (std::size_t k = 0; k < files_.size(); ++k) {
+    if (files_[k].name == name) tables_[k].append(lines);
+  }
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_history(const HistoryRow& row) {
-  history_.append(row_line(row, history_columns) + "\n");
+  append(layout::history, std::span(&row, 1));
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_ledger(const LedgerRow& row) {
-  ledger_.append(row_line(row, ledger_columns) + "\n");
+  append(layout::ledger, std::span(&row, 1));
 }
 
 template <int Dim>
 void ResultsWriter<Dim>::append_regions(std::span<const RegionRow> rows) {
-  std::string lines;
-  for (const auto& row : rows) lines += region_line(row) + "\n";
-  regions_.append(lines);
+  append(layout::regions, rows);
+}
+
+template <int Dim>
+void ResultsWriter<Dim>::append_boundaries(std::span<const BoundaryRow> rows) {
+  append(layout::boundaries, rows);
+}
+
+template <int Dim>
+void ResultsWriter<Dim>::append_probes(std::span<const ProbeRow> rows) {
+  append(layout::probes, rows);
+}
+
+template <int Dim>
+void ResultsWriter<Dim>::append_sections(std::span<const SectionRow> rows) {
+  append(layout::sections, rows);
 }
 
 template <int Dim>

@@ -2,7 +2,8 @@
 
 /// Writes the results folder of a run. Layout: docs/file-formats.md.
 ///
-///     NAME.results/run.json  history.csv  ledger.csv  regions.csv
+///     NAME.results/run.json  history.csv  ledger.csv  regions.csv  boundaries.csv
+///     NAME.results/probes.csv  sections.csv   where the scene has any
 ///     NAME.results/mesh.hdf.series  solid.hdf.series  liquid.hdf.series
 ///     NAME.results/snapshots/mesh_000000.hdf  solid_000000.hdf  liquid_000000.hdf  ...
 ///     NAME.results/checkpoint.hdf             where a run was stopped between snapshots
@@ -17,7 +18,7 @@
 #include "results/folder_lock.hpp"
 #include "results/pass_timer.hpp"
 #include "results/restart_point.hpp"
-#include "results/tables.hpp"
+#include "results/table_files.hpp"
 
 namespace suffuse {
 
@@ -106,6 +107,9 @@ class ResultsWriter {
   void append_history(const HistoryRow& row);
   void append_ledger(const LedgerRow& row);
   void append_regions(std::span<const RegionRow> rows);
+  void append_boundaries(std::span<const BoundaryRow> rows);
+  void append_probes(std::span<const ProbeRow> rows);
+  void append_sections(std::span<const SectionRow> rows);
   /// Hand it over where there are many points.
   void write_snapshot(Snapshot snapshot);
   /// Where a run stops between snapshots, or would lose much if it were stopped.
@@ -124,13 +128,15 @@ class ResultsWriter {
   static void extend(Series& series, const std::string& file, double time);
   void write_series(const Series& series) const;
   void continue_series(Series& series, long snapshots);
+  /// Lines of the table of this name.
+  template <class Row>
+  void append(const char* name, std::span<const Row> rows);
 
   std::string folder_;
   const Case<Dim>& case_;
   FolderLock lock_;
-  GrowingTable history_;
-  GrowingTable ledger_;
-  GrowingTable regions_;
+  std::vector<TableFile> files_;
+  std::vector<GrowingTable> tables_;  ///< one for each of `files_`
   Series mesh_series_{"mesh", 0, ""};
   Series solid_series_{"solid", 0, ""};
   Series liquid_series_{"liquid", 0, ""};

@@ -130,8 +130,8 @@ void CarriedPoints<Dim>::move_points(int element, const ElementStep& step,
     point.pressure += step.pressure_gain;
     const bool leaves = std::ranges::min(all_coordinates<Dim>(after)) <= 0.0;
     if (leaves) {
-      send({element, before}, blocks_.remove(element, slot), grid_.mesh.element_region[element],
-           field, duration, departures);
+      send({element, before}, blocks_.remove(element, slot),
+           {grid_.mesh.element_region[element], -1}, field, duration, departures);
     } else {
       point.at = after;
     }
@@ -139,15 +139,15 @@ void CarriedPoints<Dim>::move_points(int element, const ElementStep& step,
 }
 
 template <int Dim>
-void CarriedPoints<Dim>::send(PointPlace<Dim> place, CarriedPoint<Dim> point, int from_region,
+void CarriedPoints<Dim>::send(PointPlace<Dim> place, CarriedPoint<Dim> point, Origin origin,
                               const WalkField<Dim>& field, double time,
                               Departures& departures) const {
   const int left_by = walk(grid_, field, place, time, point.id);
   const int to_region = left_by >= 0 ? -1 : grid_.mesh.element_region[place.element];
-  if (from_region != to_region || left_by >= 0) {
+  if (origin.region != to_region || left_by >= 0) {
     // A point that enters and leaves at once counts in both directions.
     departures.crossings.push_back(
-        {from_region, to_region, left_by, point.water_mass, point.fines_mass});
+        {origin.region, to_region, origin.entered_by, left_by, point.water_mass, point.fines_mass});
   }
   if (left_by >= 0) return;
   std::copy_n(place.barycentric.begin(), Dim, point.at.begin());
@@ -182,7 +182,7 @@ void CarriedPoints<Dim>::grid_to_points(const FlowChange<Dim>& change, const Wal
   from_outside.travellers.clear();
   from_outside.crossings.clear();
   for (const ArrivingPoint<Dim>& newcomer : arriving) {
-    send(newcomer.place, newcomer.point, -1, field, newcomer.time, from_outside);
+    send(newcomer.place, newcomer.point, {-1, newcomer.face}, field, newcomer.time, from_outside);
   }
   for (const Departures& departures : departures_) {
     if (departures.failure) std::rethrow_exception(departures.failure);

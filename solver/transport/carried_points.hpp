@@ -29,13 +29,15 @@ struct ArrivingPoint {
   PointPlace<Dim> place;
   CarriedPoint<Dim> point;
   double time;
+  int face;  ///< by which it enters
 };
 
 /// A point that changed its region; -1 is outside.
 struct CarriedCrossing {
   int from;
   int to;
-  int left_by;  ///< outer face, -1 for none
+  int entered_by;  ///< outer face, -1 for none
+  int left_by;     ///< likewise
   double water_mass;
   double fines_mass;
 };
@@ -91,7 +93,12 @@ class CarriedPoints {
   void points_to_corners(int element, double& pressure);
   void move_points(int element, const ElementStep& step, const WalkField<Dim>& field,
                    double duration, Departures& departures);
-  void send(PointPlace<Dim> place, CarriedPoint<Dim> point, int from_region,
+  /// Where a point comes from in a step.
+  struct Origin {
+    int region;      ///< -1: outside
+    int entered_by;  ///< outer face, -1 for none
+  };
+  void send(PointPlace<Dim> place, CarriedPoint<Dim> point, Origin origin,
             const WalkField<Dim>& field, double time, Departures& departures) const;
   void put_into_elements();
 

@@ -14,6 +14,8 @@ namespace suffuse {
 struct PointCrossing {
   int from;
   int to;
+  int entered_by;     ///< outer face, -1: none
+  int left_by;        ///< likewise
   double water_mass;  ///< kg
   double fines_mass;  ///< kg
 };

@@ -140,6 +140,7 @@ void PointsAlongFaces<Dim>::inject(const std::vector<double>& volume,
     points_.fines_mass.push_back(fines_mass);
     points_.id.push_back(this->inflow_.next_id++);
     paths.from.push_back(-1);
+    paths.entered_by.push_back(point.face);
     start.push_back(point.share);
   }
 }
@@ -219,16 +220,19 @@ void PointsAlongFaces<Dim>::settle(const Paths& paths) {
     if (uptake.region == paths.from[uptake.point]) carried[uptake.point] += uptake.mass;
   }
   auto& crossings = this->crossings_.points;
+  const int first_injected = count - static_cast<int>(paths.entered_by.size());
   std::vector<unsigned char> keep(count, 1);
   for (int p = 0; p < count; ++p) {
     const int last = region[points_.element[p]];
     if (paths.from[p] != last) {
-      crossings.push_back({paths.from[p], last, points_.water_mass[p], carried[p]});
+      const int face = p < first_injected ? -1 : paths.entered_by[p - first_injected];
+      crossings.push_back({paths.from[p], last, face, -1, points_.water_mass[p], carried[p]});
     }
     if (paths.left_by[p] < 0) continue;
     keep[p] = 0;
-    crossings.push_back({last, -1, points_.water_mass[p], points_.fines_mass[p]});
-    this->inflow_.volume[paths.left_by[p]] +=
+    const int face = paths.left_by[p];
+    crossings.push_back({last, -1, -1, face, points_.water_mass[p], points_.fines_mass[p]});
+    this->inflow_.volume[face] +=
         liquid_volume(points_.water_mass[p], points_.fines_mass[p], this->densities_, 1.0);
   }
   keep_points(points_, keep);

@@ -40,9 +40,10 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   /// Where points went in a step. Those that left are still among them, in their last element; the
   /// injected ones are at the end.
   struct Paths {
-    std::vector<int> from;      ///< region at the start of the step, -1: outside
-    std::vector<int> left_by;   ///< outer face, -1: none
-    std::vector<double> fines;  ///< of each point before it took any up, kg
+    std::vector<int> from;        ///< region at the start of the step, -1: outside
+    std::vector<int> entered_by;  ///< outer face, of the injected ones only
+    std::vector<int> left_by;     ///< outer face, -1: none
+    std::vector<double> fines;    ///< of each point before it took any up, kg
     std::vector<FinesUptake<Dim>> uptakes;
   };
 

@@ -80,7 +80,8 @@ void PointsCarryingFlow<Dim>::grid_to_points(double dt) {
       {scheme.previous_velocity(), scheme.velocity(), pressure_before_, scheme.pressure()},
       {node_flux_, porosity_, this->injection_.is_open()}, dt, arriving_, moved_);
   for (const CarriedCrossing& point : moved_) {
-    this->crossings_.points.push_back({point.from, point.to, point.water_mass, point.fines_mass});
+    this->crossings_.points.push_back({point.from, point.to, point.entered_by, point.left_by,
+                                       point.water_mass, point.fines_mass});
     if (point.left_by < 0) continue;
     this->inflow_.volume[point.left_by] +=
         liquid_volume(point.water_mass, point.fines_mass, this->densities_, 1.0);
@@ -104,7 +105,7 @@ void PointsCarryingFlow<Dim>::inject(double dt) {
     point.water_mass = water_mass;
     point.fines_mass = fines_mass;
     point.id = this->inflow_.next_id++;
-    arriving_.push_back({injected.place, point, (1.0 - injected.share) * dt});
+    arriving_.push_back({injected.place, point, (1.0 - injected.share) * dt, injected.face});
   }
 }
 

@@ -65,8 +65,9 @@ void go_on(const std::string& folder) {
   check_results_folder(folder, scene.name);
   static_cast<void>(is_finished(folder));
   FolderLock lock = lock_for_results(folder, scene.name);
-  const FoundRestart found = newest_restart_point(
-      folder, scene.formulation == Formulation::double_point, c.mesh.region_names.size());
+  const FoundRestart found =
+      newest_restart_point(folder, scene.formulation == Formulation::double_point,
+                           table_files(scene, c.mesh.region_names.size()));
   if (!found.point) return;
   ResultsWriter<2> writer(folder, c, std::move(lock), *found.point);
   writer.append_history({});

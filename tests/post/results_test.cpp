@@ -97,6 +97,55 @@ TEST(Results, TablesReadBackExactly) {
   EXPECT_EQ(regions.column("residual_grains").front(), 1e-17);
 }
 
+TEST(Results, BoundariesReadBackByNameWhateverTheName) {
+  const ScratchFolder scratch;
+  Case<2> c = unit_square_case();
+  c.document.scene.boundaries[1].on = "toe, \"left\"";
+  ResultsWriter<2> writer(scratch / "run.results", c);
+  const std::vector<BoundaryRow> rows{
+      {0.1, "top", 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0},
+      {0.1, "toe, \"left\"", 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, std::nextafter(0.3, 1.0)}};
+  writer.append_boundaries(rows);
+  writer.append_boundaries(rows);
+  EXPECT_TRUE(file_text(scratch / "run.results/boundaries.csv")
+                  .starts_with("t,boundary,water_in,water_out,fines_in,fines_out,liquid_in,"
+                               "liquid_out,discharge\n0.1,top,1,2,3,4,5,6,7\n"
+                               "0.1,\"toe, \"\"left\"\"\",8,9,"));
+  const auto read = ResultsReader(scratch / "run.results").boundaries();
+  ASSERT_EQ(read.size(), 2U);
+  for (std::size_t b = 0; b < 2; ++b) {
+    EXPECT_EQ(read[b].name, rows[b].boundary);
+    EXPECT_EQ(read[b].table.rows(), 2U);
+    for (const auto& [name, member] : boundary_columns) {
+      EXPECT_EQ(read[b].table.column(std::string(name)).back(), rows[b].*member) << name;
+    }
+  }
+  EXPECT_THROW(read_tables(scratch / "run.results/ledger.csv", "boundary"), FileError);
+}
+
+TEST(Results, ProbesAndSectionsAreThereWhereTheSceneHasThem) {
+  const ScratchFolder scratch;
+  Case<2> c = unit_square_case();
+  { const ResultsWriter<2> none(scratch / "none.results", c); }
+  EXPECT_FALSE(fs::exists(scratch / "none.results/probes.csv"));
+  EXPECT_FALSE(fs::exists(scratch / "none.results/sections.csv"));
+  c.document.scene.output.probes.resize(2);
+  c.document.scene.output.sections.resize(1);
+  ResultsWriter<2> writer(scratch / "run.results", c);
+  const ProbeRow probe{0.1, 1.0, 0.25, 0.5, -9.5, 1.5, 0.75, 0.3, 0.01, 1e-6, -1.0 / 3.0};
+  writer.append_probes(std::span(&probe, 1));
+  const SectionRow section{0.1, 0.0, 1.0 / 7.0, -2.5};
+  writer.append_sections(std::span(&section, 1));
+  const ResultsReader reader(scratch / "run.results");
+  EXPECT_EQ(reader.probes().names.size(), probe_columns.size());
+  for (const auto& [name, member] : probe_columns) {
+    EXPECT_EQ(reader.probes().column(std::string(name)).front(), probe.*member) << name;
+  }
+  for (const auto& [name, member] : section_columns) {
+    EXPECT_EQ(reader.sections().column(std::string(name)).front(), section.*member) << name;
+  }
+}
+
 TEST(Results, HistoryBeginsWithTheDocumentedColumns) {
   const ScratchFolder scratch;
   write_synthetic_results(scratch / "run.results");

@@ -149,6 +149,11 @@ void write_rows(ResultsWriter<2>& writer, double end, const PorosityAt& porosity
     writer.append_ledger(row);
     const RegionRow region{0, porosity, row};
     writer.append_regions(std::span(&region, 1));
+    const double fines = row.fines_out / 2700.0;
+    const std::array<BoundaryRow, 2> boundaries{
+        {{t, "top", row.water_in, 0.0, 0.0, 0.0, 0.004 * t, 0.0, -0.004},
+         {t, "bottom", 0.0, row.water_out, 0.0, row.fines_out, 0.0, 0.004 * t + fines, 0.005}}};
+    writer.append_boundaries(boundaries);
   }
 }
 
@@ -362,6 +367,11 @@ inline void write_results(const std::string& folder) {
     const std::array<RegionRow, 4> rows{
         {{0, 1.0, still}, {1, 0.3, still}, {2, porosity(t), ledger_at(t, 0.0)}, {3, 1.0, still}}};
     writer.append_regions(rows);
+    const LedgerRow all = ledger_at(t, 5.0);
+    const std::array<BoundaryRow, 2> boundaries{
+        {{t, "inflow", all.water_in, 0.0, 0.0, 0.0, flux * t, 0.0, -flux},
+         {t, "outflow", 0.0, all.water_out, 0.0, all.fines_out, 0.0, flux * t, flux}}};
+    writer.append_boundaries(boundaries);
   }
   long step = 0;
   for (const double t : {0.0, 10.0, 40.0}) writer.write_snapshot(snapshot(c, t, step++));

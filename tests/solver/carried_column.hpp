@@ -128,7 +128,8 @@ class Column {
                            water_mass,
                            fines_mass,
                            inflow.next_id++},
-                          (1.0 - in.share) * dt});
+                          (1.0 - in.share) * dt,
+                          in.face});
     }
     return arriving;
   }

@@ -78,7 +78,7 @@ class PlainLiquid {
       points.element[p] = place.element;
       points.barycentric[p] = place.barycentric;
       if (left_by < 0) continue;
-      Column::account_for({from[p], to, left_by, points.water_mass[p], points.fines_mass[p]},
+      Column::account_for({from[p], to, -1, left_by, points.water_mass[p], points.fines_mass[p]},
                           inflow_);
     }
     keep_points(points, keep);

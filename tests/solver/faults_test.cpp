@@ -213,7 +213,8 @@ TEST_F(Fault, ResultsOfAnotherSceneAreNotTouched) {
 }
 
 TEST_F(Fault, APipeInThePlaceOfAFileIsNotWaitedFor) {
-  for (const char* name : {layout::run_info, layout::history, layout::ledger, layout::regions}) {
+  for (const char* name :
+       {layout::run_info, layout::history, layout::ledger, layout::regions, layout::boundaries}) {
     SCOPED_TRACE(name);
     const std::string folder = place_.path("piped");
     fs::remove_all(folder);

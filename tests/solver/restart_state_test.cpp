@@ -221,6 +221,28 @@ TEST(GrowingTable, GoesOnBehindTheRowsThatAreKept) {
   EXPECT_EQ(read_file(path), "t\n0\n");
 }
 
+/// As in the folder of a run that was stopped while it wrote.
+TEST(RestartPoint, NeedsItsRowsInEveryTable) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("");
+  const std::vector<TableFile> tables{
+      {"history.csv", "", 1}, {"boundaries.csv", "", 3}, {"probes.csv", "", 0}};
+  {
+    Hdf5File file(folder.file("checkpoint.hdf"), Hdf5File::Mode::create);
+    RestartPoint point = example_point();
+    point.rows = 2;
+    point.snapshots = 0;
+    write_restart_point(file, point);
+  }
+  folder.write("history.csv", "t\n0\n1\n2\n");
+  folder.write("boundaries.csv", "t\n0\n0\n0\n1\n1\n1\n2\n");
+  EXPECT_FALSE(newest_restart_point(path, false, tables).point) << "a table is missing";
+  folder.write("probes.csv", "t\n");
+  EXPECT_TRUE(newest_restart_point(path, false, tables).point);
+  folder.write("boundaries.csv", "t\n0\n0\n0\n1\n1\n1");
+  EXPECT_FALSE(newest_restart_point(path, false, tables).point) << "a row is not ended";
+}
+
 TEST(GrowingTable, NoticesThatItsFileIsNoLongerThere) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.csv");

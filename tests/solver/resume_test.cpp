@@ -225,7 +225,7 @@ TEST_F(ResumedRun, WithoutAnythingThereItBeginsAnew) {
   expect_same_when_resumed(empty);
   // Killed before the first snapshot was complete.
   std::string folder = stopped_after(-1);
-  for (const char* table : {layout::history, layout::ledger, layout::regions}) {
+  for (const char* table : {layout::history, layout::ledger, layout::regions, layout::boundaries}) {
     fs::resize_file(folder + "/" + table, test::read_file(folder + "/" + table).find('\n') + 1);
   }
   for (const char* kind : {"mesh", "solid", "liquid"}) {
@@ -335,6 +335,8 @@ const std::vector<Damage>& damages() {
        [](const std::string& folder) { cut_rows(folder + "/history.csv", 24); }},
       {"regions_too_short",
        [](const std::string& folder) { cut_rows(folder + "/regions.csv", 24 * 4 + 1); }},
+      {"boundaries_too_short",
+       [](const std::string& folder) { cut_rows(folder + "/boundaries.csv", 24 * 2 + 1); }},
       {"row_not_ended",
        [](const std::string& folder) {
          const std::string path = folder + "/ledger.csv";

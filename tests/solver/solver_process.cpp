@@ -288,13 +288,15 @@ std::string flaws(const std::string& results) {
   try {
     const ResultsReader reader(results);
     read_snapshots(reader);
-    for (const char* table : {layout::history, layout::ledger, layout::regions}) {
+    for (const char* table :
+         {layout::history, layout::ledger, layout::regions, layout::boundaries}) {
       const std::string text = read_file(layout::in_folder(results, table));
       if (!text.ends_with('\n')) found += std::string(table) + " ends within a row\n";
     }
     static_cast<void>(reader.history());
     static_cast<void>(reader.ledger());
     static_cast<void>(reader.region_ledgers());
+    static_cast<void>(reader.boundaries());
   } catch (const std::exception& error) {
     found += std::string(error.what()) + "\n";
   }

@@ -1,0 +1,59 @@
+#pragma once
+
+/// What crossed each boundary of the scene since the start: masses of water and fines, and the
+/// volume of liquid as the flow moves it. Rows of boundaries.csv are made here.
+
+#include <vector>
+
+#include "case/case_file.hpp"
+#include "grid/compensated_sum.hpp"
+#include "grid/grid.hpp"
+#include "results/tables.hpp"
+
+namespace suffuse {
+
+/// A sum of what left and one of what entered.
+struct BothWays {
+  static constexpr bool has_no_gaps = true;  ///< see StateArchive
+  CompensatedSum in, out;
+
+  void add(double outward) {
+    if (outward > 0.0) out.add(outward);
+    if (outward < 0.0) in.add(-outward);
+  }
+};
+
+template <int Dim>
+class BoundaryAccounts {
+ public:
+  /// An account for each of `booked_boundaries`. Throws as `face_conditions` does.
+  BoundaryAccounts(const Case<Dim>& c, const Grid<Dim>& grid);
+
+  /// Masses that left through an outer face, kg; negative: entered.
+  void book(int face, double water, double fines);
+  /// Volumes of liquid along the faces' normals, m3, in one interval of the flow.
+  void book_liquid(const std::vector<double>& volumes);
+
+  /// `face_flux`: along the faces' normals, at this moment, m3/s.
+  [[nodiscard]] std::vector<BoundaryRow> rows(double time,
+                                              const std::vector<double>& face_flux) const;
+
+  void archive(auto& archive) { archive(sums_); }
+
+ private:
+  struct Sums {
+    static constexpr bool has_no_gaps = true;
+    BothWays water, fines, liquid;
+  };
+  struct AccountFace {
+    int face;
+    int account;
+  };
+
+  std::vector<std::string> names_;
+  std::vector<AccountFace> faces_;  ///< outer faces that have an account, ascending
+  std::vector<int> account_;        ///< per face, -1: none
+  std::vector<Sums> sums_;
+};
+
+}  // namespace suffuse

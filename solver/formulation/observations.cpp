@@ -1,0 +1,131 @@
+#include "formulation/observations.hpp"
+
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "physics/head.hpp"
+
+namespace suffuse {
+namespace {
+
+template <int Dim>
+Vector<Dim> vector_of(const std::array<double, 3>& x) {
+  Vector<Dim> result;
+  for (int d = 0; d < Dim; ++d) result[d] = x[d];
+  return result;
+}
+
+template <int Dim>
+std::string text_of(const Vector<Dim>& x) {
+  std::ostringstream text;
+  text << '[' << x[0];
+  for (int d = 1; d < Dim; ++d) text << ", " << x[d];
+  text << ']';
+  return text.str();
+}
+
+InputProblem problem(const SceneDocument& document, const std::string& key,
+                     const std::string& found, const std::string& expected) {
+  return {document.locate(key), key, found, expected, ""};
+}
+
+}  // namespace
+
+template <int Dim>
+Observations<Dim>::Observations(const Case<Dim>& c, const Grid<Dim>& grid)
+    : scene_(c.document.scene), grid_(grid) {
+  std::vector<InputProblem> problems;
+  const OutputSettings& output = scene_.output;
+  for (std::size_t i = 0; i < output.probes.size(); ++i) {
+    const Vector<Dim> at = vector_of<Dim>(output.probes[i].at);
+    if (const auto place = find_place(grid, at)) {
+      probes_.push_back(*place);
+    } else {
+      problems.push_back(problem(c.document, "output.probe[" + std::to_string(i) + "].at",
+                                 text_of<Dim>(at), "a place in the mesh"));
+    }
+  }
+  for (std::size_t i = 0; i < output.sections.size(); ++i) {
+    const Vector<Dim> from = vector_of<Dim>(output.sections[i].from);
+    const Vector<Dim> to = vector_of<Dim>(output.sections[i].to);
+    const std::string key = "output.section[" + std::to_string(i) + "]";
+    const std::string found = text_of<Dim>(from) + " to " + text_of<Dim>(to);
+    if constexpr (Dim == 2) {
+      sections_.emplace_back(grid, from, to);
+      if (sections_.back().length() > 0.0) continue;
+      problems.push_back(problem(c.document, key, found, "a line through the mesh"));
+    } else {
+      problems.push_back(problem(c.document, key, found, "no section in three dimensions"));
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  volumes_.resize(sections_.size());
+}
+
+template <int Dim>
+void Observations<Dim>::book_liquid(const std::vector<double>& volumes) {
+  for (std::size_t i = 0; i < sections_.size(); ++i) volumes_[i].add(sections_[i].across(volumes));
+}
+
+template <int Dim>
+std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
+                                                    const FinesState<Dim>& liquid) const {
+  const double weight = unit_weight(scene_.liquid.density, scene_.gravity);
+  std::vector<ProbeRow> rows;
+  for (std::size_t i = 0; i < probes_.size(); ++i) {
+    const PointPlace<Dim>& place = probes_[i];
+    const int e = place.element;
+    // Where the scene wants it, to the last digit.
+    const auto x = vector_of<Dim>(scene_.output.probes[i].at);
+    ElementValues<Dim> porosity;
+    ElementValues<Dim> concentration;
+    for (int j = 0; j <= Dim; ++j) {
+      porosity[j] = liquid.liquid_volume[e][j] / (grid_.volume[e] / (Dim + 1));
+      concentration[j] = liquid.fines_volume[e][j] / liquid.liquid_volume[e][j];
+    }
+    const Vector<Dim> flux = flux_at(grid_, flow.face_flux, e, x);
+    ProbeRow row;
+    row.t = flow.time;
+    row.probe = static_cast<double>(i);
+    row.x = x[0];
+    row.y = x[1];
+    row.pressure = pressure_at(grid_, flow, place);
+    row.head = row.pressure / weight + height(x, scene_.gravity);
+    row.saturation = flow.saturation.empty() ? 1.0 : flow.saturation[e];
+    row.porosity = FieldNodes<Dim>::value(porosity, place.barycentric) / row.saturation;
+    row.concentration = FieldNodes<Dim>::value(concentration, place.barycentric);
+    row.flux_x = flux[0];
+    row.flux_y = flux[1];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+template <int Dim>
+std::vector<SectionRow> Observations<Dim>::section_rows(const FlowState<Dim>& flow) const {
+  std::vector<SectionRow> rows;
+  for (std::size_t i = 0; i < sections_.size(); ++i) {
+    rows.push_back({flow.time, static_cast<double>(i), sections_[i].across(flow.face_flux),
+                    volumes_[i].value()});
+  }
+  return rows;
+}
+
+template <int Dim>
+double pressure_at(const Grid<Dim>& grid, const FlowState<Dim>& flow,
+                   const PointPlace<Dim>& place) {
+  if (flow.face_pressure.empty()) return interpolate(grid, place, flow.node_pressure);
+  double result = 0.0;
+  for (int k = 0; k <= Dim; ++k) {
+    result += flow.face_pressure[grid.element_face[place.element][k]] *
+              (1.0 - Dim * place.barycentric[k]);
+  }
+  return result;
+}
+
+template class Observations<2>;
+template class Observations<3>;
+template double pressure_at(const Grid<2>&, const FlowState<2>&, const PointPlace<2>&);
+template double pressure_at(const Grid<3>&, const FlowState<3>&, const PointPlace<3>&);
+
+}  // namespace suffuse

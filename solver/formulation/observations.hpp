@@ -1,0 +1,47 @@
+#pragma once
+
+/// What the scene wants recorded at places within the model: the state at probes and the liquid
+/// that crosses sections. Rows of probes.csv and sections.csv are made here.
+
+#include <vector>
+
+#include "case/case_file.hpp"
+#include "flow/flow_solver.hpp"
+#include "grid/compensated_sum.hpp"
+#include "grid/section_line.hpp"
+#include "transport/eulerian.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class Observations {
+ public:
+  /// Throws InputError where a probe is outside the mesh or a section misses it. Keeps references
+  /// to the case and the grid.
+  Observations(const Case<Dim>& c, const Grid<Dim>& grid);
+
+  /// Volumes of liquid along the faces' normals, m3, in one interval of the flow.
+  void book_liquid(const std::vector<double>& volumes);
+
+  [[nodiscard]] bool has_probes() const { return !probes_.empty(); }
+  /// `liquid`: pores and fines in them.
+  [[nodiscard]] std::vector<ProbeRow> probe_rows(const FlowState<Dim>& flow,
+                                                 const FinesState<Dim>& liquid) const;
+  [[nodiscard]] std::vector<SectionRow> section_rows(const FlowState<Dim>& flow) const;
+
+  void archive(auto& archive) { archive(volumes_); }
+
+ private:
+  const Scene& scene_;
+  const Grid<Dim>& grid_;
+  std::vector<PointPlace<Dim>> probes_;
+  std::vector<SectionLine> sections_;    ///< in two dimensions
+  std::vector<CompensatedSum> volumes_;  ///< since the start, per section, m3
+};
+
+/// Pressure at a place, Pa: of the linear field of the element's face pressures, or of that of the
+/// node pressures where the flow has none at faces.
+template <int Dim>
+double pressure_at(const Grid<Dim>& grid, const FlowState<Dim>& flow, const PointPlace<Dim>& place);
+
+}  // namespace suffuse

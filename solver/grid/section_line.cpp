@@ -1,0 +1,122 @@
+#include "grid/section_line.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "grid/compensated_sum.hpp"
+
+namespace suffuse {
+namespace {
+
+/// A place so little outside an element, in barycentric coordinates, is on its boundary.
+constexpr double on_boundary = 1e-9;
+
+template <int Dim>
+std::array<double, Dim + 1> barycentric(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
+  std::array<double, Dim + 1> result;
+  for (int k = 0; k <= Dim; ++k) {
+    // The vertex after this one has the coordinate 0.
+    const Vector<Dim>& foot = grid.mesh.nodes[grid.mesh.elements[element][(k + 1) % (Dim + 1)]];
+    result[k] = grid.shape_gradient[element][k].dot(x - foot);
+  }
+  return result;
+}
+
+/// The coordinates of both ends of a line in an element that the line may touch.
+struct Candidate {
+  int element;
+  std::array<double, 3> from;
+  std::array<double, 3> to;
+
+  /// The smallest coordinate at a share of the line.
+  [[nodiscard]] double depth(double share) const {
+    double least = 1.0;
+    for (int k = 0; k < 3; ++k) {
+      least = std::min(least, from[k] + share * (to[k] - from[k]));
+    }
+    return least;
+  }
+  /// Whether the line comes within `on_boundary` of the element.
+  [[nodiscard]] bool touches() const {
+    double begin = 0.0;
+    double end = 1.0;
+    for (int k = 0; k < 3; ++k) {
+      const double a = from[k] + on_boundary;
+      const double b = to[k] + on_boundary;
+      if (a < 0.0 && b < 0.0) return false;
+      if (a < 0.0) begin = std::max(begin, a / (a - b));
+      if (b < 0.0) end = std::min(end, a / (a - b));
+    }
+    return begin <= end;
+  }
+};
+
+/// Shares of the line at which it crosses the sides of elements, ascending, both ends included.
+std::vector<double> crossing_shares(const std::vector<Candidate>& candidates) {
+  std::vector<double> shares{0.0, 1.0};
+  for (const Candidate& c : candidates) {
+    for (int k = 0; k < 3; ++k) {
+      if ((c.from[k] < 0.0) == (c.to[k] < 0.0)) continue;
+      shares.push_back(c.from[k] / (c.from[k] - c.to[k]));
+    }
+  }
+  std::ranges::sort(shares);
+  return shares;
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<PointPlace<Dim>> find_place(const Grid<Dim>& grid, const Vector<Dim>& x) {
+  std::optional<PointPlace<Dim>> found;
+  double deepest = -on_boundary;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const std::array<double, Dim + 1> at = barycentric(grid, e, x);
+    const double depth = std::ranges::min(at);
+    if (found ? depth <= deepest : depth < deepest) continue;
+    deepest = depth;
+    found = PointPlace<Dim>{e, at};
+  }
+  return found;
+}
+
+SectionLine::SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vector<2>& to) {
+  std::vector<Candidate> candidates;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const Candidate c{e, barycentric(grid, e, from), barycentric(grid, e, to)};
+    if (c.touches()) candidates.push_back(c);
+  }
+  const std::vector<double> shares = crossing_shares(candidates);
+  const Vector<2> way = to - from;
+  const Vector<2> rightward(way[1], -way[0]);  // as long as the line
+  std::map<int, double> weights;
+  for (std::size_t i = 0; i + 1 < shares.size(); ++i) {
+    const double part = shares[i + 1] - shares[i];
+    const double middle = 0.5 * (shares[i] + shares[i + 1]);
+    if (part <= 0.0) continue;
+    // One element for each piece, though a line along faces has two at hand.
+    const auto best = std::ranges::max_element(candidates, {},
+                                               [&](const Candidate& c) { return c.depth(middle); });
+    if (best == candidates.end() || best->depth(middle) < -on_boundary) continue;
+    const int e = best->element;
+    const Vector<2> x = from + middle * way;
+    for (int k = 0; k < 3; ++k) {
+      const Vector<2> arm = x - grid.mesh.nodes[grid.mesh.elements[e][k]];
+      weights[grid.element_face[e][k]] +=
+          grid.element_face_sign[e][k] * part * arm.dot(rightward) / (2.0 * grid.volume[e]);
+    }
+    length_ += part * way.norm();
+  }
+  for (const auto& [face, weight] : weights) weights_.push_back({face, weight});
+}
+
+double SectionLine::across(const std::vector<double>& face_values) const {
+  CompensatedSum sum;
+  for (const auto& [face, weight] : weights_) sum.add(weight * face_values[face]);
+  return sum.value();
+}
+
+template std::optional<PointPlace<2>> find_place(const Grid<2>&, const Vector<2>&);
+template std::optional<PointPlace<3>> find_place(const Grid<3>&, const Vector<3>&);
+
+}  // namespace suffuse

@@ -1,0 +1,39 @@
+#pragma once
+
+/// Where places and lines lie in a mesh, and the liquid that crosses a line.
+
+#include <optional>
+#include <vector>
+
+#include "grid/point_place.hpp"
+
+namespace suffuse {
+
+/// The element that holds a place; of several that share it, the first of those in which it lies
+/// deepest. Nothing where it is outside the mesh.
+template <int Dim>
+std::optional<PointPlace<Dim>> find_place(const Grid<Dim>& grid, const Vector<Dim>& x);
+
+/// A straight line through the mesh, as a sum over faces: the flux in an element is linear
+/// (`flux_at`), so the midpoint of each piece of the line gives exactly what crosses the piece.
+/// Where the line runs along faces, each stretch counts once; parts outside the mesh count nothing.
+class SectionLine {
+ public:
+  SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vector<2>& to);
+
+  /// Length within the mesh, m.
+  [[nodiscard]] double length() const { return length_; }
+  /// What crosses the line from its left to its right, as seen by somebody who walks from `from` to
+  /// `to`. `face_values`: along each face's normal, m3/s or m3; the result has their unit.
+  [[nodiscard]] double across(const std::vector<double>& face_values) const;
+
+ private:
+  struct FaceWeight {
+    int face;
+    double weight;
+  };
+  std::vector<FaceWeight> weights_;  ///< by face
+  double length_ = 0.0;
+};
+
+}  // namespace suffuse
