@@ -148,7 +148,10 @@ class ImplicitMixed {
     Field flux;  ///< per element, m/s
     Field push;  ///< drive minus pressure gradient, Pa/m
     // Of the air that gives way to liquid; empty where all soil is saturated.
-    ElementField<Dim> side_storage;    ///< slope of the rate with pressure, m3/(s Pa)
+    ElementField<Dim> side_storage;  ///< slope of the rate with pressure, m3/(s Pa)
+    /// Part of it that stands for conductivity: an element that water enters conducts better as it
+    /// becomes wet, which limits how its pressure rises, m3/(s Pa).
+    ElementField<Dim> wetting_slope;
     ElementField<Dim> displaced;       ///< rate at the pressures of the reference, m3/s
     std::vector<double> displaced_at;  ///< those pressures, per face, Pa
     std::vector<int> level_elements;   ///< whose first face holds the level of a sealed piece
@@ -210,6 +213,8 @@ class ImplicitMixed {
   /// Mobility, and what air gives way, about the pressures of the reference.
   void linearise_retention(const MixedState<Dim>& base, double duration,
                            const FlowForcing<Dim>& forcing);
+  /// Adds to the slopes of an element what its conductivity gains where water enters.
+  void find_wetting_slope(int e);
   /// Rate at which liquid takes the place of air in the share of a side, m3/s.
   [[nodiscard]] double displacement_rate(const MixedState<Dim>& base, double duration,
                                          const FlowForcing<Dim>& forcing, int e, int k,
@@ -224,6 +229,8 @@ class ImplicitMixed {
   [[nodiscard]] double flux_out(int e, int k) const;
   /// Where the next iteration starts: Anderson's mixture of the results so far, or since `anew`.
   void mix(bool anew);
+  /// Takes this share of the last change of the pressures.
+  void damp_change(double share);
   /// The flux correction and its pieces are those of the faces that are held now.
   void follow_held_faces();
   /// Whether storage holds the level of the pressure in a sealed piece.

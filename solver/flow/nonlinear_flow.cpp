@@ -21,6 +21,10 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int max_iterations = 60;
 /// What the linear system misses may be this share of the largest flux.
 constexpr double flux_accuracy = 1e-6;
+/// From here on faces switch, and iterations are mixed.
+constexpr double near_solution = 0.1;
+/// Of a change of pressures that is taken at least.
+constexpr double min_share = 0.25;
 
 }  // namespace
 
@@ -98,8 +102,28 @@ void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double
       w.side_storage[e][k] = slope;
     }
     w.law.mobility[e] = conducts / w.resistance[e];
+    find_wetting_slope(e);
   });
   w.displaced_at = pressure;
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::find_wetting_slope(int e) {
+  Work& w = work_;
+  Vector<Dim> push = w.drive[e] - pressure_gradient(e, w.pressure.reference, w.pressure.rise);
+  if (!w.law.direction.empty()) push -= w.law.direction[e] * w.law.direction[e].dot(push);
+  for (int k = 0; k <= Dim; ++k) {
+    const double inflow = -push.dot(grid_.outward_normal(e, k)) / w.resistance[e];
+    const double p = w.pressure.reference[grid_.element_face[e][k]];
+    w.wetting_slope[e][k] = 0.0;
+    if (!(inflow > 0.0) || p > 0.0) continue;
+    const double near = 1.0 - 0.01 * p;  // Pa
+    const double slope =
+        (soils_.relative_conductivity(e, p + near) - soils_.relative_conductivity(e, p - near)) /
+        (2.0 * near);
+    w.wetting_slope[e][k] = inflow * slope / (Dim + 1);
+    w.side_storage[e][k] += w.wetting_slope[e][k];
+  }
 }
 
 template <int Dim>
@@ -206,6 +230,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   w.law.drive = w.drive;
   w.displaced.resize(has_retention() ? elements : 0);
   w.side_storage.resize(w.displaced.size());
+  w.wetting_slope.resize(w.displaced.size());
   for (int e = 0; e < elements; ++e) w.law.mobility[e] = 1.0 / w.resistance[e];
   // Round-off of what gravity drives and of the contents of the elements.
   const double round_off = epsilon * largest_of(elements, settings_.threads, 0.0, [&](int e) {
@@ -213,6 +238,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
                                  forcing.coefficients.porosity[e] * grid_.volume[e];
                              return gravity_flux(e, forcing.coefficients) + pores / duration;
                            });
+  double share = 1.0;
   double last_error = std::numeric_limits<double>::infinity();
   mixing_.reset();
   for (iterations_ = 1;; ++iterations_) {
@@ -240,11 +266,20 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
       return largest;
     });
     const double allowed = flux_accuracy * scale + 16.0 * round_off;
-    const bool switched = switch_faces(forcing, allowed, pressure_accuracy());
     const double error = has_retention() ? linearisation_error(base, duration, forcing) : 0.0;
+    const bool switched =
+        error <= near_solution * scale && switch_faces(forcing, allowed, pressure_accuracy());
     if (!switched && error <= allowed) return;
-    // Results that lead astray are worth nothing to the mixture.
-    mix(switched || error > last_error);
+    // Far from the solution, mixtures lead astray, and whole changes may lead to and fro.
+    const bool near = error <= near_solution * scale;
+    if (error > 0.8 * last_error) share = std::max(0.5 * share, min_share);
+    if (error < 0.5 * last_error) share = std::min(1.5 * share, 1.0);
+    if (near && !switched) {
+      mix(error > last_error);
+    } else {
+      mixing_.reset();
+      damp_change(share);
+    }
     last_error = error;
     if (!std::isfinite(error) || iterations_ == max_iterations) {
       std::ostringstream text;
@@ -277,6 +312,14 @@ void ImplicitMixed<Dim>::mix(bool anew) {
     const int row = matrix_.unknown(f);
     if (row >= 0 && !is_held(f)) w.pressure.rise[f] = next[row] - w.pressure.reference[f];
   });
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::damp_change(double share) {
+  if (share == 1.0 || !has_retention()) return;
+  for (std::size_t f = 0; f < kinds_.size(); ++f) {
+    if (!is_held(static_cast<int>(f))) work_.pressure.rise[f] *= share;
+  }
 }
 
 template <int Dim>
