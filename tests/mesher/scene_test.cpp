@@ -229,7 +229,6 @@ TEST(Scene, takes_a_threshold_with_the_flux_law_only) {
   EXPECT_EQ(scene_of(least, with_threshold).soils[1].erosion.law, erosion_law("first-order"));
 }
 
-
 TEST(Scene, takes_boundary_values_in_time) {
   const Scene scene = scene_of(least + R"([[boundary]]
 on = "top"
