@@ -47,6 +47,10 @@ std::string condition_text(const BoundaryCondition& b) {
   if (b.pressure) add("pressure " + range_text(*b.pressure) + " Pa");
   if (b.velocity) add("velocity " + range_text(*b.velocity) + " m/s");
   if (b.darcy_flux) add("Darcy flux " + range_text(*b.darcy_flux) + " m/s");
+  if (b.head) add("head " + range_text(*b.head) + " m");
+  if (b.seepage_face) add("seepage face");
+  if (b.rain) add("rain " + range_text(*b.rain) + " m/s");
+  if (b.rate) add("rate " + range_text(*b.rate) + " m3/s");
   const double enters =
       std::max(b.velocity.value_or(0.0).largest(), b.darcy_flux.value_or(0.0).largest());
   if (b.concentration || enters > 0.0) add("c = " + range_text(b.concentration.value_or(0.0)));

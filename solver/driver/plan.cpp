@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "case/scene_schema.hpp"
 #include "flow/nodal_operator.hpp"
 #include "physics/drag.hpp"
 #include "physics/liquid.hpp"
@@ -90,12 +91,15 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
 }
 
 /// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero.
-/// For incompressible water they must do so at all times.
+/// For incompressible water they must do so at all times, unless soil that is not full stores
+/// liquid.
 template <int Dim>
 void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
                                  const SoilMap<Dim>& soils, const BoundaryValues<Dim>& values) {
   const Scene& scene = c.document.scene;
-  const bool stiff = std::isinf(scene.liquid.bulk_modulus);
+  const bool stores = std::any_of(scene.soils.begin(), scene.soils.end(),
+                                  [](const Soil& soil) { return soil.retention.law != nullptr; });
+  const bool stiff = std::isinf(scene.liquid.bulk_modulus) && !stores;
   // For incompressible water as strict as the implicit scheme.
   const double round_off = stiff ? 1e-9 : 1e-6;
   const bool steady = scene.initial_flow == InitialFlow::steady;
@@ -110,9 +114,10 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
     double net = 0.0;
     double gross = 0.0;
     for (int f = 0; f < grid.face_count(); ++f) {
-      if (conditions[f].kind == FaceKind::pressure) return;
+      const FaceKind kind = conditions[f].kind;
+      if (kind == FaceKind::pressure || kind == FaceKind::seepage) return;  // lets the rest out
       double flux = grid.face_normal[f].norm() * conditions[f].value;
-      if (conditions[f].kind == FaceKind::velocity) {
+      if (kind == FaceKind::velocity) {
         if (time > 0.0 || !steady) return;  // the flux depends on the porosity by then
         flux *= soils.soil_of_element(grid.face_left[f]).initial_porosity(grid.face_centre(f));
       }
@@ -350,7 +355,7 @@ void warn_of_pressures_on_slopes(const Case<Dim>& c, const Grid<Dim>& grid,
     const double pressure = boundary.pressure->value(0.0);
     const double mean = moment / area;
     plan.warnings.push_back(
-        boundary.key + ".pressure: " + short_text(pressure) + " Pa all over \"" + boundary.on +
+        boundary.key + ".pressure: " + shown_number(pressure) + " Pa all over \"" + boundary.on +
         "\", which rises from z = " + short_text(lowest) + " m to " + short_text(highest) +
         " m: water that stands there has one head, not one pressure; head = " +
         short_text(pressure / (scene.liquid.density * g) + mean) +

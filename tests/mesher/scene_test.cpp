@@ -740,6 +740,36 @@ TEST(SceneReference, has_an_example_that_works) {
   EXPECT_EQ(problems_of(reference.substr(begin, reference.find("```\n", begin) - begin)), "");
 }
 
+/// Each part, put into a scene with gravity that lacks it.
+TEST(SceneReference, has_parts_of_scenes_that_work) {
+  const std::string soil = "porosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700\n";
+  const std::string before =
+      "formulation = \"single-point\"\ngravity = [0.0, -9.81]\ngeometry = {file = \"dam.geo\"}\n"
+      "liquid = {density = 1000, bulk_modulus = inf, viscosity = 1e-3}\ntime = {end = 100}\n"
+      "output.every = 1\n";
+  const std::string reference = scene_reference_markdown();
+  const std::string fence = "```toml\n";
+  int parts = 0;
+  for (std::size_t begin = reference.find(fence, reference.find("## Examples of seepage"));
+       begin != std::string::npos; begin = reference.find(fence, begin + 1)) {
+    const std::size_t start = begin + fence.size();
+    std::string part = reference.substr(start, reference.find("```\n", start) - start);
+    const std::string heading = "[soil.body]\n";
+    if (const std::size_t at = part.find(heading); at != std::string::npos) {
+      part.insert(at + heading.size(), soil);
+    } else {
+      part += heading + "conductivity = 1e-5\n" + soil;
+    }
+    try {
+      parse_scene(before + part, "scene.toml", {}, {{"flood.csv", "t,head\n0,1\n"}});
+    } catch (const InputError& error) {
+      ADD_FAILURE() << part << error.what();
+    }
+    ++parts;
+  }
+  EXPECT_EQ(parts, 9);
+}
+
 std::string repeated(const std::string& text, int times) {
   std::string all;
   for (int i = 0; i < times; ++i) all += text;
