@@ -23,10 +23,10 @@ namespace {
 constexpr Color black{0.0, 0.0, 0.0};
 constexpr Color white{1.0, 1.0, 1.0};
 constexpr Color water_blue{0.0, 0.27, 0.53};
-constexpr Color water_tint{0.82, 0.91, 0.98};
+constexpr Color water_tint{0.91, 0.96, 1.0};
 constexpr float max_width = 1000.0F;
 constexpr float max_height = 800.0F;
-constexpr float top_room = 115.0F;
+constexpr float top_room = 100.0F;
 constexpr float gap = 40.0F;
 constexpr float bar_width = 30.0F;
 constexpr float bar_room = 190.0F;
@@ -146,7 +146,9 @@ void paint_level_label(vtkContext2D& painter, const Sheet& sheet,
   }
 }
 
-void paint_equipotentials(vtkContext2D& painter, const Sheet& sheet) {
+/// `hidden`: lines that are drawn over these, which labels keep clear of.
+void paint_equipotentials(vtkContext2D& painter, const Sheet& sheet,
+                          const std::vector<Polyline>& hidden) {
   if (!sheet.map.saturation.empty()) return;
   std::vector<std::vector<Polyline>> lines;
   for (std::size_t k = 1; k + 1 < sheet.levels.size(); ++k) {
@@ -156,6 +158,13 @@ void paint_equipotentials(vtkContext2D& painter, const Sheet& sheet) {
     }
   }
   std::vector<LabelBox> taken;
+  constexpr double apart = 8.0;  // pixels
+  for (const Polyline& line : hidden) {
+    const double count = std::ceil(sheet.view.scale() * length(line) / apart);
+    for (double k = 0.0; k <= count; ++k) {
+      taken.push_back({sheet.view.pixel(place_on(line, k / count)), {2.0, 2.0}});
+    }
+  }
   for (std::size_t k = 0; k < lines.size(); ++k) {
     paint_level_label(painter, sheet, lines[k], sheet.levels[k + 1], taken);
   }
@@ -217,7 +226,8 @@ void paint_bar(vtkContext2D& painter, const Sheet& sheet, float left, float bott
              Anchor::center, 90.0);
 }
 
-std::vector<Curve> legend_rows(const SeepageMap& map, bool has_phreatic_line) {
+std::vector<Curve> legend_rows(const SeepageMap& map, bool has_equipotentials,
+                               bool has_phreatic_line) {
   std::vector<Curve> rows;
   const auto add = [&](const char* label, const Color& color, float width) {
     Curve row;
@@ -226,9 +236,9 @@ std::vector<Curve> legend_rows(const SeepageMap& map, bool has_phreatic_line) {
     row.width = width;
     rows.push_back(row);
   };
-  if (map.saturation.empty()) add("equipotential, head in m", black, line_width);
+  if (has_equipotentials) add("equipotential, head in m", black, line_width);
   if (has_phreatic_line) add("phreatic line, p = 0", water_blue, phreatic_width);
-  if (!map.water.empty()) add("water level outside, head in m", water_blue, 2.5F);
+  if (!map.water.empty()) add("water level outside, with its head", water_blue, 2.5F);
   return rows;
 }
 
@@ -301,27 +311,32 @@ std::vector<double> band_levels(double low, double high) {
     return {low - room, high + room};
   }
   std::vector<double> levels = round_ticks(low, high);
-  // round_ticks covers the ends; a band beyond them would be empty.
-  while (levels.size() > 2 && levels[1] <= low) levels.erase(levels.begin());
-  while (levels.size() > 2 && levels[levels.size() - 2] >= high) levels.pop_back();
-  if (levels.size() > 7) return levels;
-  std::vector<double> finer;
-  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-    finer.insert(finer.end(), {levels[k], 0.5 * (levels[k] + levels[k + 1])});
+  if (levels.size() < 8) {
+    std::vector<double> finer;
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+      finer.insert(finer.end(), {levels[k], 0.5 * (levels[k] + levels[k + 1])});
+    }
+    finer.push_back(levels.back());
+    levels = std::move(finer);
   }
-  finer.push_back(levels.back());
-  return finer;
+  // Bands in which no value lies.
+  const double slack = 1e-9 * (high - low);
+  while (levels.size() > 2 && levels[1] <= low + slack) levels.erase(levels.begin());
+  while (levels.size() > 2 && levels[levels.size() - 2] >= high - slack) levels.pop_back();
+  return levels;
 }
 
 void draw_seepage_map(const SeepageMap& map, const std::string& path) {
   const std::vector<Polyline> phreatic = phreatic_lines(map);
-  const std::vector<Curve> rows = legend_rows(map, !phreatic.empty());
-  const float legend_height = legend_row * static_cast<float>(rows.size());
   const auto& shown = map.saturation.empty() ? map.head : map.saturation;
   const auto [low, high] = std::ranges::minmax(shown);
-  const double full = map.saturation.empty() ? high : 1.0;
-  const Sheet sheet{map, view_of(map, axes_bottom + legend_height),
-                    band_levels(std::min(low, full - (map.saturation.empty() ? 0.0 : 0.1)), full)};
+  const bool of_heads = map.saturation.empty();
+  const std::vector<double> levels =
+      of_heads ? band_levels(low, high) : band_levels(std::min(low, 0.9), 1.0);
+  const std::vector<Curve> rows =
+      legend_rows(map, of_heads && levels.size() > 2, !phreatic.empty());
+  const float legend_height = legend_row * static_cast<float>(rows.size());
+  const Sheet sheet{map, view_of(map, axes_bottom + legend_height), levels};
   const ModelView& view = sheet.view;
   const float right = view.left() + view.width() + gap;
   const float bar_height = std::max(view.height(), min_bar_height);
@@ -334,7 +349,7 @@ void draw_seepage_map(const SeepageMap& map, const std::string& path) {
       paint_outside_water(painter, sheet);
       paint_bands(painter, sheet);
       paint_edges(painter, view, map.mesh, region_edges(map.mesh), {0.25, 0.25, 0.25}, 1.0F);
-      paint_equipotentials(painter, sheet);
+      paint_equipotentials(painter, sheet, phreatic);
       paint_edges(painter, view, map.mesh, outer_edges(map.mesh), black, 1.5F);
       for (const Polyline& line : phreatic) {
         paint_polyline(painter, view, line, white, phreatic_width + 3.0F);

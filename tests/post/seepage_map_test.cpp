@@ -202,7 +202,7 @@ TEST(SeepageMap, HasItsTextsLinesAndColours) {
   EXPECT_EQ(svg.find("<image"), std::string::npos);
   for (const auto* text : {"dam, t = 0 s", "head h (m)", "x (m)", "y (m)", ">6 m<", ">1 m<",
                            "equipotential, head in m", "phreatic line, p = 0",
-                           "water level outside, head in m", ">4<", ">2.5<"}) {
+                           "water level outside, with its head", ">4<", ">2.5<"}) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   }
   draw_seepage_map(map, scratch / "head.png");
@@ -217,7 +217,7 @@ TEST(SeepageMap, HasItsTextsLinesAndColours) {
   };
   // Water outside is light; within, the head falls from bright to dark, in print without colour
   // too.
-  testing::expect_color(at(2.0, 4.0), {0.82, 0.91, 0.98}, "water upstream");
+  testing::expect_color(at(2.0, 4.0), {0.91, 0.96, 1.0}, "water upstream");
   EXPECT_GT(grey(at(8.0, 1.0)), grey(at(21.0, 0.7)) + 40.0);
   EXPECT_GT(grey(at(21.0, 0.7)), grey(at(33.8, 0.3)) + 20.0);
   // On the phreatic line, at half the way.
