@@ -272,7 +272,7 @@ Geometry build_geometry(const SceneDocument& document) {
   }
   place_problems(document, extracted.problems);
   if (extracted.comparable) {
-    const std::vector<std::string> inner = cut_walls_and_wells(document, extracted, result.notes);
+    const InnerNames inner = cut_walls_and_wells(document, extracted, result.notes);
     std::ranges::move(scene_problems(document, extracted.mesh, inner),
                       std::back_inserter(extracted.problems));
   }

@@ -26,7 +26,7 @@ class InnerCuts {
   InnerCuts(const SceneDocument& document, ExtractedMesh& extracted)
       : document_(document), extracted_(extracted) {}
 
-  std::vector<std::string> run(std::vector<std::string>& notes) {
+  InnerNames run(std::vector<std::string>& notes) {
     const Scene& scene = document_.scene;
     for (std::size_t i = 0; i < scene.walls.size(); ++i) {
       const std::string key = "wall[" + std::to_string(i) + "].on";
@@ -41,14 +41,14 @@ class InnerCuts {
     }
     for (const BoundaryCondition* well : at_points) cut_point(well->key + ".on", well->on);
     open_all();
-    std::vector<std::string> names;
+    InnerNames names;
     for (const auto& curve : extracted_.inner_curves) {
-      names.push_back(curve.name);
+      names.curves.push_back(curve.name);
       if (key_of_.contains(curve.name) || named_by_boundary(curve.name)) continue;
       notes.push_back("the curve \"" + curve.name +
                       "\" lies inside the mesh and no wall or well names it: it does nothing");
     }
-    for (const NamedNode& point : extracted_.points) names.push_back(point.name);
+    for (const NamedNode& point : extracted_.points) names.points.push_back(point.name);
     return names;
   }
 
@@ -174,9 +174,8 @@ class InnerCuts {
 
 }  // namespace
 
-std::vector<std::string> cut_walls_and_wells(const SceneDocument& document,
-                                             ExtractedMesh& extracted,
-                                             std::vector<std::string>& notes) {
+InnerNames cut_walls_and_wells(const SceneDocument& document, ExtractedMesh& extracted,
+                               std::vector<std::string>& notes) {
   return InnerCuts(document, extracted).run(notes);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "case/consistency.hpp"
 #include "case/scene.hpp"
 #include "mesh_extraction.hpp"
 
@@ -12,9 +13,8 @@ namespace suffuse {
 
 /// Cuts the mesh along each inner curve that a wall or a well names, and at each point that a well
 /// names: along two edges there that lie most nearly in line. Adds problems, and a note for each
-/// inner curve that nothing names. Returns the names of all curves and points inside the mesh.
-std::vector<std::string> cut_walls_and_wells(const SceneDocument& document,
-                                             ExtractedMesh& extracted,
-                                             std::vector<std::string>& notes);
+/// inner curve that nothing names. Returns the names of all curves and points.
+InnerNames cut_walls_and_wells(const SceneDocument& document, ExtractedMesh& extracted,
+                               std::vector<std::string>& notes);
 
 }  // namespace suffuse

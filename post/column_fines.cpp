@@ -67,6 +67,10 @@ std::optional<Ends> find_ends(const Scene& scene, const Mesh<2>& mesh) {
   }
   Ends ends;
   for (const auto& condition : scene.boundaries) {
+    // Where these let liquid through, and how much, depends on the flow.
+    if (condition.head || condition.seepage_face || condition.rain || condition.rate) {
+      return std::nullopt;
+    }
     if (!has_flow(condition)) continue;
     const auto boundary = std::ranges::find(mesh.boundaries, condition.on, &BoundarySet<2>::name);
     if (boundary == mesh.boundaries.end() || boundary->faces.empty()) return std::nullopt;

@@ -53,7 +53,8 @@ std::string symbol_of(const std::string& name) {
       {"porosity", "n_L"},          {"solid_fraction", "n_S"}, {"skeleton_fraction", "n_C"},
       {"erodible_fraction", "n_e"}, {"fines_fraction", "n_f"}, {"water_fraction", "n_w"},
       {"concentration", "c"},       {"erosion_rate", "phi_e"}, {"pressure", "p"},
-      {"liquid_velocity", "v_L"},   {"darcy_flux", "q"}};
+      {"liquid_velocity", "v_L"},   {"darcy_flux", "q"},       {"head", "h"},
+      {"saturation", "S"}};
   const auto found = symbols.find(name);
   return found == symbols.end() ? "" : " " + found->second;
 }
@@ -111,6 +112,24 @@ ScalarField read_scalar(const ResultsReader& results, std::size_t index, const F
 std::string field_label(const FieldPlace& place, const ScalarField& field) {
   return (field.is_vector ? "magnitude of " : "") + place.name + symbol_of(place.name) + " (" +
          (field.unit == "1" || field.unit.empty() ? "-" : field.unit) + ")";
+}
+
+std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time) {
+  const auto& times = results.times();
+  if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  if (!time) return times.size() - 1;
+  const auto distance = [&](double t) { return std::abs(t - *time); };
+  return static_cast<std::size_t>(std::ranges::min_element(times, {}, distance) - times.begin());
+}
+
+std::string snapshot_title(const ResultsReader& results, std::size_t index,
+                           const std::optional<double>& asked) {
+  const double t = results.times()[index];
+  std::string title = results.scene().scene.name + ", t = " + tick_text(t) + " s";
+  if (asked && std::abs(*asked - t) > 1e-9 * std::max(1.0, std::abs(t))) {
+    title += " (snapshot nearest to " + tick_text(*asked) + " s)";
+  }
+  return title;
 }
 
 std::vector<Category> categories(const ResultsReader& results, const FieldPlace& place) {

@@ -40,6 +40,12 @@ ScalarField read_scalar(const ResultsReader& results, std::size_t index, const F
 /// "concentration c (-)", "magnitude of darcy_flux q (m/s)"
 std::string field_label(const FieldPlace& place, const ScalarField& field);
 
+/// The snapshot nearest to a time, s, or the last. Throws FileError where there is none yet.
+std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time);
+/// "NAME, t = 12 s", with the time asked for where the snapshot has another.
+std::string snapshot_title(const ResultsReader& results, std::size_t index,
+                           const std::optional<double>& asked);
+
 /// One value of a field whose values stand for kinds, with its name and colour.
 struct Category {
   double value;

@@ -1,18 +1,20 @@
 #include "figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "boundary_figures.hpp"
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "flow_figures.hpp"
 #include "model_sketch.hpp"
+#include "results/number_text.hpp"
+#include "seepage_map.hpp"
 #include "soil_figures.hpp"
 
 namespace suffuse {
 namespace {
-
-const std::string model_name = "model";
 
 using Runs = std::vector<ResultsReader>;
 using FigureMaker = std::vector<Chart> (*)(const Runs&);
@@ -29,14 +31,33 @@ const std::map<std::string, FigureMaker>& figure_makers() {
       {"empty-elements", [](const Runs& runs) { return std::vector{empty_elements_chart(runs)}; }},
       {"flux", [](const Runs& runs) { return std::vector{flux_chart(runs)}; }},
       {"outflow", outflow_charts},
+      {"boundaries", boundary_charts},
       {"comparison", comparison}};
+  return makers;
+}
+
+/// Draws a picture of one run, at a time where it has one.
+using PictureMaker = void (*)(const ResultsReader&, const std::string&,
+                              const std::optional<double>&);
+
+const std::map<std::string, PictureMaker>& picture_makers() {
+  using Time = std::optional<double>;
+  static const std::map<std::string, PictureMaker> makers{
+      {"model", [](const ResultsReader& run, const std::string& path,
+                   const Time&) { draw_model_sketch(run, path); }},
+      {"head", [](const ResultsReader& run, const std::string& path,
+                  const Time& time) { draw_seepage_map(head_map(run, time), path); }},
+      {"saturation", [](const ResultsReader& run, const std::string& path, const Time& time) {
+         draw_seepage_map(saturation_map(run, time), path);
+       }}};
   return makers;
 }
 
 }  // namespace
 
 std::vector<std::string> figure_names() {
-  std::vector<std::string> names{model_name};
+  std::vector<std::string> names;
+  for (const auto& [name, maker] : picture_makers()) names.push_back(name);
   for (const auto& [name, maker] : figure_makers()) names.push_back(name);
   std::ranges::sort(names);
   return names;
@@ -53,17 +74,28 @@ std::vector<Chart> make_figure(const std::string& name, const std::vector<Result
 }
 
 void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs,
-                 const std::string& path) {
-  if (name != model_name) {
+                 const std::string& path, const std::optional<double>& time) {
+  const auto picture = picture_makers().find(name);
+  const bool is_map = name == "head" || name == "saturation";
+  if (time && !is_map) {
+    throw InputError(std::vector{
+        InputProblem{"suffuse-post figure " + name, "--time", number_text(*time),
+                     "no time: it is for the figures \"head\" and \"saturation\"", ""}});
+  }
+  if (time && !std::isfinite(*time)) {
+    throw InputError(std::vector{InputProblem{"suffuse-post figure " + name, "--time",
+                                              number_text(*time), "a time in seconds", ""}});
+  }
+  if (picture == picture_makers().end()) {
     draw_charts(make_figure(name, runs), path);
     return;
   }
   if (runs.size() != 1) {
     throw InputError(
-        std::vector{InputProblem{"suffuse-post figure model", "RESULTS",
+        std::vector{InputProblem{"suffuse-post figure " + name, "RESULTS",
                                  std::to_string(runs.size()) + " folders", "one", ""}});
   }
-  draw_model_sketch(runs.front(), path);
+  picture->second(runs.front(), path, time);
 }
 
 }  // namespace suffuse

@@ -2,6 +2,7 @@
 
 /// The figures of `suffuse-post figure`, by name.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,18 +11,20 @@
 
 namespace suffuse {
 
-/// Names of all figures, sorted.
+/// Names of all figures, sorted. Some are no charts but pictures of one run: "model", the sketch of
+/// its model (model_sketch.hpp), "head" and "saturation" (seepage_map.hpp).
 std::vector<std::string> figure_names();
 
 /// The charts of a figure, drawn side by side: "porosity", "masses", "solid-mass"
-/// (soil_figures.hpp), "outflow", "empty-elements", "flux" (flow_figures.hpp), and "comparison":
+/// (soil_figures.hpp), "outflow", "empty-elements", "flux" (flow_figures.hpp), "boundaries"
+/// (boundary_figures.hpp), and "comparison":
 /// porosity, masses and concentration of the outflow in one picture. Throws InputError for other
 /// names.
 std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs);
 
-/// Draws one of these figures, or "model", the sketch of one run's model (model_sketch.hpp). Throws
-/// InputError, FileError.
+/// Draws any figure. `time`, s, is that of the snapshot of a map, the last without it. Throws
+/// InputError, also for a time that the figure has no use for; FileError.
 void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs,
-                 const std::string& path);
+                 const std::string& path, const std::optional<double>& time = {});
 
 }  // namespace suffuse

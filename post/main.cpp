@@ -7,6 +7,7 @@
 #include <iostream>
 #include <optional>
 
+#include "boundary_figures.hpp"
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "export.hpp"
@@ -80,6 +81,14 @@ void history(const Options& options) {
   if (!options.csv.empty()) write_csv(results, options.csv, results.history());
 }
 
+void boundaries(const Options& options) {
+  const ResultsReader results(options.results);
+  std::cout << boundaries_text(results);
+  if (options.csv.empty()) return;
+  refuse_inside(results, "--csv", options.csv);
+  write_tables(options.csv, "boundary", results.boundaries());
+}
+
 void sample_line(const Options& options) {
   const SampleLine line = parse_line(options.line);
   const auto fields = parse_field_names(options.fields);
@@ -104,7 +113,7 @@ void figure(const Options& options) {
   picture_format(options.output);
   const auto runs = all_runs(options);
   for (const auto& run : runs) refuse_inside(run, "-o", options.output);
-  draw_figure(options.figure, runs, options.output);
+  draw_figure(options.figure, runs, options.output, options.render_time);
 }
 
 void render_field(const Options& options) {
@@ -156,6 +165,11 @@ void add_balance_commands(CLI::App& app, Options& o, Action& chosen) {
   command = add_command(app, chosen, "history", "Range of every quantity over the run", history);
   add_results(command, o);
   command->add_option("--csv", o.csv, "write the whole history here")->type_name("FILE");
+
+  command = add_command(app, chosen, "boundaries",
+                        "What crossed each boundary: water, fines, discharge", boundaries);
+  add_results(command, o);
+  command->add_option("--csv", o.csv, "write the whole table here")->type_name("FILE");
 }
 
 void add_value_commands(CLI::App& app, Options& o, Action& chosen) {
@@ -199,6 +213,9 @@ void add_picture_commands(CLI::App& app, Options& o, Action& chosen) {
   command = add_command(app, chosen, "figure", "A figure of one or more runs", figure);
   command->add_option("NAME", o.figure, "one of " + quoted_list(figure_names()))->required();
   command->add_option("RESULTS", o.all_results, "results folders")->required()->type_name("FOLDER");
+  command->add_option(
+      "--time", o.render_time,
+      "of \"head\" and \"saturation\", s: the nearest snapshot; without it the last");
   command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");

@@ -40,17 +40,30 @@ std::string range_text(const TimeFunction& f) {
   return f.is_constant() ? smallest : smallest + " to " + number_text(f.largest());
 }
 
-/// The conditions on a boundary; empty where it is impervious.
+/// The conditions on a boundary, or at a well; empty where it is impervious.
 std::string condition_text(const BoundaryCondition& b) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (b.pressure) add("pressure " + range_text(*b.pressure) + " Pa");
   if (b.velocity) add("velocity " + range_text(*b.velocity) + " m/s");
   if (b.darcy_flux) add("Darcy flux " + range_text(*b.darcy_flux) + " m/s");
+  if (b.head) add("head " + range_text(*b.head) + " m");
+  if (b.seepage_face) add("seepage face");
+  if (b.rain) add("rain " + range_text(*b.rain) + " m/s");
+  if (b.rate) add("rate " + range_text(*b.rate) + " m3/s");
   const double enters =
       std::max(b.velocity.value_or(0.0).largest(), b.darcy_flux.value_or(0.0).largest());
   if (b.concentration || enters > 0.0) add("c = " + range_text(b.concentration.value_or(0.0)));
   return text;
+}
+
+/// What the scene says of a named boundary; empty where it is impervious.
+std::string text_of(const Scene& scene, const std::string& name) {
+  const auto condition = std::ranges::find(scene.boundaries, name, &BoundaryCondition::on);
+  if (condition != scene.boundaries.end()) return condition_text(*condition);
+  const auto wall = std::ranges::find(scene.walls, name, &Wall::on);
+  if (wall == scene.walls.end() || wall->conductance == 0.0) return "";
+  return "wall, conductance " + number_text(wall->conductance) + " 1/s";
 }
 
 /// Outer edges that belong to no named boundary.
@@ -139,8 +152,10 @@ std::string region_label(const Scene& scene, const std::string& region) {
 }
 
 std::vector<SketchedBoundary> sketched_boundaries(const ResultsReader& run) {
-  const Mesh<2> mesh = run.mesh();
-  const auto& conditions = run.scene().scene.boundaries;
+  return sketched_boundaries(run.mesh(), run.scene().scene);
+}
+
+std::vector<SketchedBoundary> sketched_boundaries(const Mesh<2>& mesh, const Scene& scene) {
   std::vector<SketchedBoundary> found;
   SketchedBoundary impervious;
   const auto add_impervious = [&](const std::string& name,
@@ -149,8 +164,7 @@ std::vector<SketchedBoundary> sketched_boundaries(const ResultsReader& run) {
     impervious.edges.insert(impervious.edges.end(), edges.begin(), edges.end());
   };
   for (const auto& boundary : mesh.boundaries) {
-    const auto condition = std::ranges::find(conditions, boundary.name, &BoundaryCondition::on);
-    const std::string text = condition == conditions.end() ? "" : condition_text(*condition);
+    const std::string text = text_of(scene, boundary.name);
     if (text.empty()) {
       add_impervious(boundary.name, boundary.faces);
     } else {

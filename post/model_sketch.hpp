@@ -19,6 +19,7 @@ struct SketchedBoundary {
 /// The named boundaries in the order of the mesh. All impervious ones are joined into one, which
 /// comes last; outer edges without a name belong to it as "unnamed".
 std::vector<SketchedBoundary> sketched_boundaries(const ResultsReader& run);
+std::vector<SketchedBoundary> sketched_boundaries(const Mesh<2>& mesh, const Scene& scene);
 
 /// The legend's text for a region: "specimen: soil, erodes (constant law)", "inflow: free water".
 std::string region_label(const Scene& scene, const std::string& region);

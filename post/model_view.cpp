@@ -70,6 +70,16 @@ ModelView::ModelView(const Mesh<2>& mesh, float left, float bottom, float max_wi
     low_ = low_.cwiseMin(node);
     high_ = high_.cwiseMax(node);
   }
+  fit(max_width, max_height);
+}
+
+ModelView::ModelView(const Vector<2>& low, const Vector<2>& high, float left, float bottom,
+                     float max_width, float max_height)
+    : low_(low), high_(high), origin_(left, bottom) {
+  fit(max_width, max_height);
+}
+
+void ModelView::fit(float max_width, float max_height) {
   const Vector<2> size = high_ - low_;
   scale_ = std::min(max_width / size[0], max_height / size[1]);
 }

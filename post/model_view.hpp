@@ -19,6 +19,9 @@ class ModelView {
   /// Fits the mesh into a box with lower left corner (left, bottom) and the given largest size; the
   /// mesh touches the left and bottom sides. All in pixels.
   ModelView(const Mesh<2>& mesh, float left, float bottom, float max_width, float max_height);
+  /// The same with the corners of what is fitted, m.
+  ModelView(const Vector<2>& low, const Vector<2>& high, float left, float bottom, float max_width,
+            float max_height);
 
   [[nodiscard]] Vector<2> pixel(const Vector<2>& x) const { return origin_ + scale_ * (x - low_); }
   [[nodiscard]] float left() const { return static_cast<float>(origin_[0]); }
@@ -32,6 +35,8 @@ class ModelView {
   void paint_axes(vtkContext2D& painter) const;
 
  private:
+  void fit(float max_width, float max_height);
+
   Vector<2> low_;
   Vector<2> high_;
   Vector<2> origin_;

@@ -1,13 +1,7 @@
 #include "render.hpp"
 
 #include <vtkBrush.h>
-#include <vtkCellArray.h>
-#include <vtkMapper.h>
-#include <vtkNew.h>
 #include <vtkPen.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +11,7 @@
 
 #include "case/errors.hpp"
 #include "color_map.hpp"
+#include "colored_triangles.hpp"
 #include "field_view.hpp"
 #include "model_view.hpp"
 #include "picture.hpp"
@@ -65,28 +60,11 @@ struct Frame {
   Scale scale;
 };
 
-std::size_t nearest_snapshot(const std::vector<double>& times, double t) {
-  const auto distance = [&](double time) { return std::abs(time - t); };
-  return static_cast<std::size_t>(std::ranges::min_element(times, {}, distance) - times.begin());
-}
-
-/// "NAME, t = 12 s", with the time asked for where the snapshot has another.
-std::string title_of(const ResultsReader& results, std::size_t index,
-                     const std::optional<double>& asked) {
-  const double t = results.times()[index];
-  std::string title = results.scene().scene.name + ", t = " + tick_text(t) + " s";
-  if (asked && std::abs(*asked - t) > 1e-9 * std::max(1.0, std::abs(t))) {
-    title += " (snapshot nearest to " + tick_text(*asked) + " s)";
-  }
-  return title;
-}
-
 std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
                                           const RenderRequest& request) {
   const auto& times = results.times();
+  if (!request.all) return {snapshot_at(results, request.time)};
   if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
-  if (request.time) return {nearest_snapshot(times, *request.time)};
-  if (!request.all) return {times.size() - 1};
   std::vector<std::size_t> every;
   for (std::size_t i = 0; i < times.size(); ++i) every.push_back(i);
   return every;
@@ -125,41 +103,6 @@ Scale make_scale(const ResultsReader& results, const std::vector<std::size_t>& s
   scale.range = {low, high};
   return scale;
 }
-
-unsigned char byte_of(double value) {
-  return static_cast<unsigned char>(std::lround(255.0 * value));
-}
-
-/// Triangles with a colour at each corner.
-class ColoredTriangles {
- public:
-  void add(const std::array<Vector<2>, 3>& corners, const std::array<Color, 3>& colors) {
-    triangles_->InsertNextCell(3);
-    for (int a = 0; a < 3; ++a) {
-      triangles_->InsertCellPoint(
-          points_->InsertNextPoint(corners.at(a)[0], corners.at(a)[1], 0.0));
-      const auto& color = colors.at(a);
-      const unsigned char bytes[4] = {byte_of(color[0]), byte_of(color[1]), byte_of(color[2]), 255};
-      colors_->InsertNextTypedTuple(bytes);
-    }
-  }
-  void paint(vtkContext2D& painter) {
-    grid_->SetPoints(points_);
-    grid_->SetPolys(triangles_);
-    painter.DrawPolyData(0.0F, 0.0F, grid_, colors_, VTK_SCALAR_MODE_USE_POINT_DATA);
-  }
-
- private:
-  static vtkNew<vtkUnsignedCharArray> rgba() {
-    vtkNew<vtkUnsignedCharArray> array;
-    array->SetNumberOfComponents(4);
-    return array;
-  }
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> triangles_;
-  vtkNew<vtkPolyData> grid_;
-  vtkNew<vtkUnsignedCharArray> colors_ = rgba();
-};
 
 /// Values of a frame at the corners of an element.
 std::array<double, 3> corner_values(const Frame& frame, const Mesh<2>& mesh, int element) {
@@ -358,7 +301,7 @@ std::vector<std::string> render(const ResultsReader& results, const RenderReques
     const ScalarField field = read_scalar(results, index, place);
     frame.values = field.values;
     frame.label = field_label(place, field);
-    frame.title = title_of(results, index, request.time);
+    frame.title = snapshot_title(results, index, request.time);
     if (place.where == "solid" || place.where == "liquid") {
       frame.positions = results.point_positions(index, place.where);
     }

@@ -77,6 +77,10 @@ std::vector<RunStyle> run_styles(const std::vector<ResultsReader>& runs) {
   return styles;
 }
 
+RunStyle curve_style(std::size_t number) {
+  return style_of(number, all_markers, all_colors);
+}
+
 std::vector<std::string> run_labels(const std::vector<ResultsReader>& runs) {
   std::vector<std::string> labels;
   const bool mixed = is_mixed(runs);

@@ -21,6 +21,9 @@ struct RunStyle {
 /// circles or squares, double-point runs warm colours and diamonds or targets.
 std::vector<RunStyle> run_styles(const std::vector<ResultsReader>& runs);
 
+/// The style of a curve that stands for something else than a run, by its number.
+RunStyle curve_style(std::size_t number);
+
 /// The name of the results folder, without its path and without `.results`.
 std::string folder_name(const ResultsReader& run);
 

@@ -34,15 +34,19 @@ std::string place(const Vector<Dim>& x) {
 template <int Dim>
 class SceneCheck {
  public:
-  SceneCheck(const SceneDocument& document, const Mesh<Dim>& mesh,
-             const std::vector<std::string>& inner)
-      : document_(document), mesh_(mesh), inner_(inner) {
+  SceneCheck(const SceneDocument& document, const Mesh<Dim>& mesh, const InnerNames& inner)
+      : document_(document), mesh_(mesh), curves_(inner.curves) {
     for (const auto& set : mesh.boundaries) {
       (is_slit(mesh, set) ? slit_ : outer_).push_back(set.name);
     }
+    const auto knows = [](const std::vector<std::string>& names, const std::string& name) {
+      return std::ranges::find(names, name) != names.end();
+    };
     for (const std::string& name : slit_) {
-      if (std::ranges::find(inner_, name) == inner_.end()) inner_.push_back(name);
+      if (!knows(inner.points, name) && !knows(curves_, name)) curves_.push_back(name);
     }
+    inner_ = curves_;
+    inner_.insert(inner_.end(), inner.points.begin(), inner.points.end());
   }
 
   std::vector<InputProblem> run() {
@@ -143,7 +147,7 @@ class SceneCheck {
     for (const BoundaryCondition& condition : document_.scene.boundaries) {
       const std::string key = condition.key + ".on";
       const bool fits = condition.key.starts_with("well")
-                            ? check_inner(key, condition.on, "a curve or a point inside the mesh")
+                            ? check_inner(key, condition.on, "a curve or a point", inner_)
                             : check_outer(key, condition.on);
       const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);
       if (fits && set != mesh_.boundaries.end()) cover(covered, key, *set);
@@ -161,20 +165,21 @@ class SceneCheck {
   }
 
   /// What is not cut although it is there has been reported.
-  bool check_inner(const std::string& key, const std::string& name, const std::string& what) {
+  bool check_inner(const std::string& key, const std::string& name, const std::string& what,
+                   const std::vector<std::string>& names) {
     if (std::ranges::find(inner_, name) != inner_.end()) return true;
     const bool outer = std::ranges::find(outer_, name) != outer_.end();
-    const std::string names =
-        inner_.empty() ? "; there is none with a name" : ": " + quoted_list(inner_);
-    report(key, in_quotes(name) + (outer ? ", an outer boundary" : ""), what + names,
-           outer ? "" : suggest(name, inner_));
+    report(key, in_quotes(name) + (outer ? ", an outer boundary" : ""),
+           what + " inside the mesh" +
+               (names.empty() ? "; there is none with a name" : ": " + quoted_list(names)),
+           outer ? "" : suggest(name, names));
     return false;
   }
 
   void check_walls() {
     for (std::size_t i = 0; i < document_.scene.walls.size(); ++i) {
-      check_inner("wall[" + std::to_string(i) + "].on", document_.scene.walls[i].on,
-                  "a curve inside the mesh");
+      check_inner("wall[" + std::to_string(i) + "].on", document_.scene.walls[i].on, "a curve",
+                  curves_);
     }
   }
 
@@ -299,9 +304,10 @@ class SceneCheck {
 
   const SceneDocument& document_;
   const Mesh<Dim>& mesh_;
-  std::vector<std::string> inner_;  ///< curves and points inside the mesh, cut or not
-  std::vector<std::string> outer_;  ///< boundaries
-  std::vector<std::string> slit_;   ///< curves and points that are cut
+  std::vector<std::string> curves_;  ///< inside the mesh, cut or not
+  std::vector<std::string> inner_;   ///< these and points
+  std::vector<std::string> outer_;   ///< boundaries
+  std::vector<std::string> slit_;    ///< curves and points that are cut
   std::vector<InputProblem> problems_;
 };
 
@@ -309,13 +315,13 @@ class SceneCheck {
 
 template <int Dim>
 std::vector<InputProblem> scene_problems(const SceneDocument& document, const Mesh<Dim>& mesh,
-                                         const std::vector<std::string>& inner) {
+                                         const InnerNames& inner) {
   return SceneCheck<Dim>(document, mesh, inner).run();
 }
 
 template std::vector<InputProblem> scene_problems<2>(const SceneDocument&, const Mesh<2>&,
-                                                     const std::vector<std::string>&);
+                                                     const InnerNames&);
 template std::vector<InputProblem> scene_problems<3>(const SceneDocument&, const Mesh<3>&,
-                                                     const std::vector<std::string>&);
+                                                     const InnerNames&);
 
 }  // namespace suffuse

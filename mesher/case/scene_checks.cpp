@@ -6,6 +6,7 @@
 
 #include "case/law_texts.hpp"
 #include "case/scene_schema.hpp"
+#include "case/seepage_checks.hpp"
 
 namespace suffuse {
 namespace {
@@ -115,37 +116,6 @@ class Checks {
              "n_0 + n_C <= 1", {table + ".porosity"});
     }
     check_erosion(soil, table + ".erosion");
-    check_retention(soil, table + ".retention");
-    if (given(table + ".bedding") && !given(table + ".like") && given(table + ".conductivity") &&
-        !refused(table + ".conductivity") && std::isnan(soil.conductivity_across)) {
-      report(table + ".bedding", "an angle of bedding and one conductivity",
-             "conductivity = [along, across], or no such key", {table + ".conductivity"});
-    }
-  }
-
-  void check_retention(const Soil& soil, const std::string& table) const {
-    for (const std::string& name : scene_children("soil.*.retention")) {
-      if (!given(joined(table, name))) continue;
-      require(table + ".model", "soil.*.retention.model", "as " + name + " is given",
-              joined(table, name));
-      break;
-    }
-    if (!given(table + ".model") || refused(table + ".model")) return;
-    const RetentionLaw* law = soil.retention.law;
-    const bool inherited = given(table_of(soil) + ".like");
-    for (const RetentionParameter& parameter : retention_parameters()) {
-      const std::string pattern = "soil.*.retention." + std::string(parameter.key);
-      const std::string key = joined(table, std::string(parameter.key));
-      std::vector<std::string> laws = laws_with_retention_parameter(parameter.key);
-      if (law && std::ranges::find(laws, law->word) != laws.end()) {
-        require(key, pattern, "for model = " + shown_value(std::string(law->word)),
-                table + ".model");
-      } else if (given(key) && !inherited) {
-        for (std::string& word : laws) word = shown_value(word);
-        report(key, "a key of another model", "model = " + listed(laws) + ", or no such key",
-               {table + ".model"});
-      }
-    }
   }
 
   void check_erosion(const Soil& soil, const std::string& table) const {
@@ -353,7 +323,6 @@ class Checks {
                  ? one_of
                  : one_of + "; a boundary without is impervious and needs no entry");
     }
-    check_dry(entry);
     if (boundary.seepage_face && boundary.concentration) {
       report(entry + ".concentration",
              "a concentration where no liquid enters, seepage_face = true", "no concentration",
@@ -362,21 +331,6 @@ class Checks {
     check_outflow(boundary.rate, "rate", boundary, entry);
     check_outflow(boundary.velocity, "velocity", boundary, entry);
     check_outflow(boundary.darcy_flux, "darcy_flux", boundary, entry);
-  }
-
-  void check_dry(const std::string& entry) const {
-    const std::string key = joined(entry, "dry");
-    if (!given(key)) return;
-    if (!given(joined(entry, "head")) && !given(joined(entry, "file"))) {
-      report(key, "a key of a head without one", "head or file beside it, or no such key");
-    } else if (!has_gravity() && !refused("gravity")) {
-      report(key, "a part above the water level without gravity",
-             "gravity, as in gravity = [0.0, -9.81], or no such key", {"gravity"});
-    }
-  }
-
-  [[nodiscard]] bool has_gravity() const {
-    return std::ranges::any_of(scene_.gravity, [](double g) { return g != 0.0; });
   }
 
   [[nodiscard]] static std::string shown_range(const TimeFunction& f) {
@@ -422,6 +376,7 @@ class Checks {
 
 void check_scene(const Scene& scene, const SceneInquiry& inquiry) {
   Checks(scene, inquiry).run();
+  check_seepage(scene, inquiry);
 }
 
 }  // namespace suffuse

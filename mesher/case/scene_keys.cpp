@@ -365,7 +365,9 @@ std::vector<SceneKey> declare_keys() {
 
       key("well[].on", on_boundary(&Boundary::on),
           "Name of a curve or a point inside the mesh. At a point the mesh is cut along two edges, "
-          "2 a long in all, that lie nearly in line: a well of radius a/2, about half an element.")
+          "2 a long in all, that lie nearly in line: a well of radius a/2. The mesher shows the "
+          "length "
+          "of both sides, 4 a, an eighth of which is the radius.")
           .mandatory(),
       key("well[].head", on_boundary(&Boundary::head),
           "Head in the well. Above its level the well is a seepage face.")

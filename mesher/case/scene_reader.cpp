@@ -112,11 +112,14 @@ class SceneReader {
     report(place_of(key), key, "nothing", expected);
   }
 
-  /// Reports a contradiction at its key, or at the last `--set` that has to do with it.
+  /// Reports a contradiction at its key, or at the last `--set` that has to do with it. A key whose
+  /// table is not there either is reported where the first of the others is.
   void report(const Contradiction& contradiction) {
     Place place = place_of(contradiction.key);
     for (const std::string& key : contradiction.others) {
-      if (const Place other = place_of(key); other.source > place.source) place = other;
+      const Place other = place_of(key);
+      const bool nowhere = place.source == 0 && place.line == 0;
+      if (other.source > place.source || nowhere) place = other;
     }
     report(place, contradiction.key, contradiction.found, contradiction.expected);
   }

@@ -1,3 +1,4 @@
+#include <array>
 #include <sstream>
 
 #include "case/scene.hpp"
@@ -91,6 +92,138 @@ every = 1.0
 ```
 )";
 
+/// A part of a scene that shows what some keys are for.
+struct Example {
+  const char* title;
+  const char* sentence;
+  const char* text;
+};
+
+/// Each completes a scene with gravity, in which the soil is called `body`; scene_test reads them.
+constexpr std::array examples{
+    Example{
+        "Reservoir and tailwater",
+        "Hydrostatic pressure below each water level, however the boundary slopes; a seepage face "
+        "above it. At the start the flow is steady.",
+        R"([[boundary]]
+on   = "upstream"
+head = [[0.0, 2.0], [86400.0, 5.0]]   # rises within a day
+
+[[boundary]]
+on   = "tailwater"
+head = 0.5
+
+[initial]
+flow = "steady"
+)"},
+    Example{
+        "A flood from a table",
+        "`flood.csv` lies beside the scene and begins with the line `t,head`. Above the river the "
+        "bank is paved.",
+        R"([[boundary]]
+on   = "bank"
+file = "flood.csv"
+dry  = "impervious"
+
+[initial]
+water_level = 1.2
+)"},
+    Example{
+        "Landside slope",
+        "Water comes out where the soil is full and its pressure is that of the air. None enters.",
+        R"([[boundary]]
+on           = "landside"
+seepage_face = true
+
+[initial]
+water_level = 0.0
+)"},
+    Example{
+        "Rain on unsaturated soil",
+        "The soil takes in what it can at p = 0; the rest runs off. At the start there is suction "
+        "above the water table.",
+        R"([[boundary]]
+on   = "crest"
+rain = [[0.0, 0.0], [3600.0, 5e-6]]
+
+[soil.body.retention]
+model               = "van-genuchten"
+alpha               = 2.0
+n                   = 1.6
+residual_saturation = 0.1
+
+[initial]
+water_level = -1.0
+)"},
+    Example{
+        "Laboratory column",
+        "A pressure above, and below what a pump draws out: one of `velocity` and `darcy_flux`.",
+        R"([[boundary]]
+on            = "top"
+pressure      = 6.0e3
+concentration = 0.0
+
+[[boundary]]
+on         = "bottom"
+darcy_flux = -1e-4
+
+[initial]
+water_level = 1.0
+)"},
+    Example{
+        "Sheet pile and slurry wall",
+        "`pile` and `slurry` are physical curves inside the mesh, embedded in a surface (`Curve{6} "
+        "In Surface{1};`) or between two. The slurry wall is 0.6 m thick, of 1e-9 m/s.",
+        R"([[wall]]
+on = "pile"
+
+[[wall]]
+on          = "slurry"
+conductance = 1.7e-9      # 1e-9 m/s / 0.6 m
+
+[initial]
+water_level = 0.0
+)"},
+    Example{
+        "Wells and drains",
+        "`pump` is a physical point inside the mesh (`Point{7} In Surface{1};`), the others are "
+        "curves.",
+        R"([[well]]
+on   = "pump"
+rate = [[0.0, 0.0], [60.0, -2e-5]]    # m3/s per m; negative: out of the soil
+
+[[well]]
+on   = "relief"
+head = 1.5
+
+[[well]]
+on           = "pipe"
+seepage_face = true       # a drain
+
+[initial]
+water_level = 2.0
+)"},
+    Example{"Bedding", "Ten times as conductive along layers that rise by 15 degrees to the right.",
+            R"([soil.body]
+conductivity = [1e-5, 1e-6]
+bedding      = 15.0
+
+[initial]
+water_level = 0.0
+)"},
+    Example{"What to record",
+            "Pressure at a piezometer, and the discharge through a vertical line.",
+            R"([[output.probe]]
+at = [12.0, -1.5]
+
+[[output.section]]
+from = [10.0, -6.0]
+to   = [10.0, 0.0]
+
+[initial]
+water_level = 0.0
+)"}};
+
 /// A cell of a Markdown table; `-` when there is nothing to say.
 std::string cell(const std::string& text) {
   if (text.empty()) return "-";
@@ -156,6 +289,13 @@ std::string scene_reference_markdown() {
   out << introduction;
   for (const SceneSection& section : scene_sections()) write_section(out, section);
   out << example;
+  out << "\n## Examples of seepage\n\nParts of scenes under gravity, as in `gravity = [0.0, "
+         "-9.81]`.\n";
+  for (const Example& part : examples) {
+    out << "\n### " << part.title << "\n\n"
+        << part.sentence << "\n\n```toml\n"
+        << part.text << "```\n";
+  }
   return out.str();
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "case/scene_schema.hpp"
 #include "flow/nodal_operator.hpp"
 #include "physics/drag.hpp"
 #include "physics/liquid.hpp"
@@ -90,12 +91,15 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
 }
 
 /// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero.
-/// For incompressible water they must do so at all times.
+/// For incompressible water they must do so at all times, unless soil that is not full stores
+/// liquid.
 template <int Dim>
 void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
                                  const SoilMap<Dim>& soils, const BoundaryValues<Dim>& values) {
   const Scene& scene = c.document.scene;
-  const bool stiff = std::isinf(scene.liquid.bulk_modulus);
+  const bool stores = std::any_of(scene.soils.begin(), scene.soils.end(),
+                                  [](const Soil& soil) { return soil.retention.law != nullptr; });
+  const bool stiff = std::isinf(scene.liquid.bulk_modulus) && !stores;
   // For incompressible water as strict as the implicit scheme.
   const double round_off = stiff ? 1e-9 : 1e-6;
   const bool steady = scene.initial_flow == InitialFlow::steady;
@@ -110,9 +114,10 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
     double net = 0.0;
     double gross = 0.0;
     for (int f = 0; f < grid.face_count(); ++f) {
-      if (conditions[f].kind == FaceKind::pressure) return;
+      const FaceKind kind = conditions[f].kind;
+      if (kind == FaceKind::pressure || kind == FaceKind::seepage) return;  // lets the rest out
       double flux = grid.face_normal[f].norm() * conditions[f].value;
-      if (conditions[f].kind == FaceKind::velocity) {
+      if (kind == FaceKind::velocity) {
         if (time > 0.0 || !steady) return;  // the flux depends on the porosity by then
         flux *= soils.soil_of_element(grid.face_left[f]).initial_porosity(grid.face_centre(f));
       }
@@ -318,6 +323,46 @@ void warn_of_free_water_with_inertia(const Case<Dim>& c, Plan& plan) {
       "take time.inertia = false unless that is what you look for");
 }
 
+/// One pressure all over a boundary that rises is no water that stands there: most likely a head
+/// was meant.
+template <int Dim>
+void warn_of_pressures_on_slopes(const Case<Dim>& c, const Grid<Dim>& grid,
+                                 const std::vector<FaceCondition>& conditions, Plan& plan) {
+  const Scene& scene = c.document.scene;
+  Vector<Dim> up;
+  for (int d = 0; d < Dim; ++d) up[d] = -scene.gravity[d];
+  const double g = up.norm();
+  if (g == 0.0) return;
+  up /= g;
+  const double level = 1e-9 * extent(c.mesh).norm();
+  for (int b = 0; b < static_cast<int>(scene.boundaries.size()); ++b) {
+    const BoundaryCondition& boundary = scene.boundaries[b];
+    if (!boundary.pressure) continue;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    double area = 0.0;
+    double moment = 0.0;
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (conditions[f].boundary != b) continue;
+      for (const int node : grid.face_nodes[f]) {
+        lowest = std::min(lowest, up.dot(c.mesh.nodes[node]));
+        highest = std::max(highest, up.dot(c.mesh.nodes[node]));
+      }
+      area += grid.face_normal[f].norm();
+      moment += grid.face_normal[f].norm() * up.dot(grid.face_centre(f));
+    }
+    if (!(highest - lowest > level)) continue;
+    const double pressure = boundary.pressure->value(0.0);
+    const double mean = moment / area;
+    plan.warnings.push_back(
+        boundary.key + ".pressure: " + shown_number(pressure) + " Pa all over \"" + boundary.on +
+        "\", which rises from z = " + short_text(lowest) + " m to " + short_text(highest) +
+        " m: water that stands there has one head, not one pressure; head = " +
+        short_text(pressure / (scene.liquid.density * g) + mean) +
+        " has this pressure at mid-height, z = " + short_text(mean) + " m");
+  }
+}
+
 /// The step of the explicit scheme, checked against its stability limit.
 template <int Dim>
 void plan_explicit_step(const Case<Dim>& c, const Grid<Dim>& grid, const SoilMap<Dim>& soils,
@@ -376,6 +421,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
 
   if (options.no_skip && scene.flow.porosity_gradient_term) plan.erosion = plan.transport = true;
   warn_of_mass_scaling(scene, plan);
+  warn_of_pressures_on_slopes(c, grid, conditions, plan);
   find_speed_that_drag_follows(c, plan);
   describe(scene, options, plan);
   return plan;

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "case/case_file.hpp"
 #include "case/errors.hpp"
@@ -110,6 +109,32 @@ void append_row(Table& table, const std::vector<std::string>& cells, const std::
   }
 }
 
+std::vector<std::string> cells_of(const Table& table, std::size_t row) {
+  std::vector<std::string> cells;
+  for (const auto& column : table.columns) cells.push_back(number_text(column[row]));
+  return cells;
+}
+
+/// With commas; `second`, unless it is empty, comes behind the first cell.
+std::string joined(const std::vector<std::string>& cells, const std::string& second) {
+  std::string line;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    line += (k > 0 ? "," : "") + cells[k];
+    if (k == 0 && !second.empty()) line += "," + second;
+  }
+  return line;
+}
+
+void write_whole(const std::string& path, const std::string& text) {
+  PendingFile file(path);
+  {
+    std::ofstream out(file.temporary_path(), std::ios::binary);
+    out << text << std::flush;
+    if (!out) throw FileError(path + ": cannot be written; is the disk full?");
+  }
+  file.commit();
+}
+
 constexpr const char* points_dataset = "/VTKHDF/Points";
 
 /// Rows of a table of so many columns.
@@ -184,22 +209,26 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
 }
 
 void write_table(const std::string& path, const Table& table) {
-  std::ostringstream text;
-  for (std::size_t k = 0; k < table.names.size(); ++k) text << (k ? "," : "") << table.names[k];
-  text << "\n";
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (std::size_t k = 0; k < table.columns.size(); ++k) {
-      text << (k ? "," : "") << number_text(table.columns[k][row]);
+  std::string text = joined(table.names, "") + "\n";
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    text += joined(cells_of(table, row), "") + "\n";
+  write_whole(path, text);
+}
+
+void write_tables(const std::string& path, const std::string& by,
+                  const std::vector<NamedTable>& tables) {
+  std::string text;
+  std::size_t rows = 0;
+  for (const auto& [name, table] : tables) {
+    if (text.empty()) text = joined(table.names, by) + "\n";
+    rows = std::max(rows, table.rows());
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (const auto& [name, table] : tables) {
+      if (row < table.rows()) text += joined(cells_of(table, row), csv_cell(name)) + "\n";
     }
-    text << "\n";
   }
-  PendingFile file(path);
-  {
-    std::ofstream out(file.temporary_path(), std::ios::binary);
-    out << text.str() << std::flush;
-    if (!out) throw FileError(path + ": cannot be written; is the disk full?");
-  }
-  file.commit();
+  write_whole(path, text);
 }
 
 ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {

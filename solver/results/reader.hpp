@@ -39,6 +39,9 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
 
 /// Writes numbers so that they read back exactly.
 void write_table(const std::string& path, const Table& table);
+/// The same of tables of equal columns, row by row, with the column `by` in the second place.
+void write_tables(const std::string& path, const std::string& by,
+                  const std::vector<NamedTable>& tables);
 
 /// A finished or running results folder.
 class ResultsReader {

@@ -70,7 +70,8 @@ const std::map<std::string, Files>& case_seeds() {
         {"double-point-carried", case_files(both, {soon, "flow.integration=material-point"})},
         {"double-point-implicit", case_files(both, {implicit})},
         {"single-point", case_files(single, {soon})},
-        {"single-point-implicit", case_files(single, {implicit, "gravity=[0.0,-9.81]"})}};
+        {"single-point-implicit",
+         case_files(single, {implicit, "gravity=[0.0,-9.81]", "initial.water_level=1.0"})}};
   }();
   return seeds;
 }

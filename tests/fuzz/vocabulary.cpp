@@ -33,6 +33,10 @@ std::vector<std::string> values_of(const SceneKey& key) {
       values.insert(values.end(), {"0.3", "0.999999", "1e-3", "1e-12", "1e-300", "5e-324", "1e3",
                                    "1e12", "1e300", "inf", "-inf", "10.0"});
       break;
+    case ValueKind::number_or_pair:
+      values.insert(values.end(), {"1e-5", "[1e-5, 1e-6]", "[1e-300, 1e300]", "[1, 0]", "[1]",
+                                   "[1, 2, 3]", "[]", "[inf, nan]"});
+      break;
     case ValueKind::integer:
       values.insert(values.end(), {"2", "7", "12", "1000000", "2147483647", "2147483648",
                                    "9223372036854775807", "-9223372036854775808"});
@@ -131,6 +135,21 @@ std::vector<std::string> scene_settings() {
     for (const std::string& place : places) {
       for (const std::string& value : values_of(key)) all.push_back(place + "=" + value);
     }
+  }
+  // Whole entries, of which keys one by one seldom make a scene that is right.
+  for (const std::string entry :
+       {R"(boundary[0]={on="top", head=[[0, 2], [5, 0.5]]})",
+        R"(boundary[1]={on="left", head=0.5, dry="suction"})",
+        R"(boundary[1]={on="right", seepage_face=true})", R"(boundary[0]={on="top", rain=1e-6})",
+        R"(boundary[0]={on="top", file="flood.csv"})", R"(well=[{on="left", rate=-1e-6}])",
+        R"(well=[{on="drain", head=1e300}])",
+        R"(wall=[{on="left"}, {on="pile", conductance=1e-8}])",
+        R"(soil.specimen.retention={model="van-genuchten", alpha=2, n=1.6})",
+        R"(soil.specimen.retention={model="gardner", alpha=1e300, residual_saturation=0.5})",
+        R"(gravity=[0, -9.81])", "initial={water_level=0.5}", "initial={water_level=-1e300}",
+        "output.probe=[{at=[0.5, 0.5]}, {at=[1e300, 0]}]",
+        "output.section=[{from=[0, 0], to=[1, 1]}, {from=[5, 5], to=[6, 6]}]"}) {
+    all.push_back(entry);
   }
   return all;
 }

@@ -84,6 +84,22 @@ TEST(CaseFile, ReadsBackExactlyWhatWasWritten) {
   EXPECT_EQ(read.document.scene.liquid.bulk_modulus, 2.0e7);
 }
 
+/// The case may have gone elsewhere, and the file may have changed.
+TEST(CaseFile, BringsTheTablesThatTheSceneNames) {
+  const TemporaryFolder folder;
+  Case<2> written = small_case();
+  const std::map<std::string, std::string> files{{"flood.csv", "t,head\n0,1\n10,2.5\n"}};
+  written.document = parse_scene(written.document.text, written.document.path,
+                                 {"boundary=[{on=\"top\", file=\"flood.csv\"}]"}, files);
+  write_case(folder.file("a.h5"), written);
+  const Case<2> read = read_case<2>(folder.file("a.h5"));
+  EXPECT_EQ(read.document.files, files);
+  const std::vector<std::pair<double, double>> knots{{0.0, 1.0}, {10.0, 2.5}};
+  EXPECT_EQ(read.document.scene.boundaries[0].head, TimeFunction(knots));
+  write_case(folder.file("b.h5"), small_case());
+  EXPECT_FALSE(Hdf5File(folder.file("b.h5"), Hdf5File::Mode::read).exists("/scene/file_names"));
+}
+
 TEST(CaseFile, ReadsBackLiquidPoints) {
   const TemporaryFolder folder;
   const Case<2> written = double_point_case();

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "case/errors.hpp"
+#include "case/slit.hpp"
 #include "gmsh_export.hpp"
 #include "gmsh_session.hpp"
 #include "hilbert_order.hpp"
@@ -762,12 +763,140 @@ TEST_F(UserFile, SizeFieldsOfTheFileHold) {
   }
 }
 
+const std::string pile_and_wells =
+    "[[wall]]\non = \"pile\"\n[[well]]\non = \"drain\"\nhead = 0.0\n"
+    "[[well]]\non = \"pump\"\nrate = -1e-6\n";
+
+double length_of(const Mesh<2>& mesh, const BoundarySet<2>& set) {
+  double length = 0.0;
+  for (const auto& face : set.faces) length += (mesh.nodes[face[0]] - mesh.nodes[face[1]]).norm();
+  return length;
+}
+
+TEST_F(UserFile, IsCutAlongWallsAndWells) {
+  for (const std::string structure : {"free", "crossed"}) {
+    const Geometry geometry = build_file("sheet_pile.geo", "0.25", pile_and_wells, structure);
+    const Mesh<2>& mesh = geometry.mesh;
+    for (const std::string name : {"pile", "drain", "pump"}) {
+      EXPECT_TRUE(is_slit(mesh, boundary(mesh, name))) << name << ", " << structure;
+    }
+    EXPECT_FALSE(is_slit(mesh, boundary(mesh, "left")));
+    EXPECT_NEAR(length_of(mesh, boundary(mesh, "pile")), 2.0, 1e-12);
+    EXPECT_NEAR(length_of(mesh, boundary(mesh, "drain")), std::sqrt(2.0), 1e-12);
+    EXPECT_EQ(boundary(mesh, "pump").faces.size(), 4U);
+    EXPECT_NEAR(length_of(mesh, boundary(mesh, "right")), 4.0, 1e-12);
+    for (const auto& face : boundary(mesh, "pile").faces) {
+      EXPECT_NEAR(mesh.nodes[face[0]][0], 0.0, 1e-12);
+      EXPECT_GE(mesh.nodes[face[0]][1], -1.0 - 1e-12);
+    }
+    const Vector<2> well(1.0, -0.5);
+    double nearest = 1.0;
+    for (const auto& face : boundary(mesh, "pump").faces) {
+      for (const int node : face) nearest = std::min(nearest, (mesh.nodes[node] - well).norm());
+    }
+    EXPECT_LT(nearest, 1e-12);
+    EXPECT_NEAR(areas_by_region(mesh)[0], 8.0, 1e-9);
+    EXPECT_EQ(geometry.notes,
+              std::vector<std::string>{"the curve \"old\" lies inside the mesh and no wall or well "
+                                       "names it: it does nothing"});
+  }
+}
+
+TEST_F(UserFile, WithCurvesInsideIsWhatItIsWithoutWhereNothingNamesThem) {
+  const Geometry geometry = build_file("sheet_pile.geo", "0.25");
+  EXPECT_EQ(geometry.mesh.boundaries.size(), 2U);
+  EXPECT_EQ(geometry.notes.size(), 3U);
+}
+
+TEST_F(UserFile, WrongNamesOfWallsAndWellsAreRefused) {
+  const auto message = [&](const std::string& more, const std::string& size = "0.25") {
+    return refusal([&] { build_file("sheet_pile.geo", size, more); });
+  };
+  const auto expect = [&](const std::string& more, const std::string& end,
+                          const std::string& size = "0.25") {
+    const std::string found = message(more, size);
+    EXPECT_TRUE(found.ends_with(end)) << found;
+    EXPECT_EQ(std::ranges::count(found, '\n'), 0) << found;
+  };
+  expect("[[wall]]\non = \"pyle\"\n",
+         "wall[0].on: got \"pyle\"; expected a curve inside the mesh: \"pile\", \"drain\" or "
+         "\"old\"; did you mean \"pile\"?");
+  expect("[[wall]]\non = \"left\"\n",
+         "wall[0].on: got \"left\", an outer boundary; expected a curve inside the mesh: \"pile\", "
+         "\"drain\" or \"old\"");
+  expect("[[well]]\non = \"pumpe\"\nhead = 0\n",
+         "well[0].on: got \"pumpe\"; expected a curve or a point inside the mesh: \"pile\", "
+         "\"drain\", \"old\", \"pump\", \"recharge\" or \"corner\"; did you mean \"pump\"?");
+  expect("[[wall]]\non = \"pump\"\n",
+         "wall[0].on: got \"pump\", a point; expected a curve inside the mesh");
+  expect("[[boundary]]\non = \"pile\"\npressure = 0\n",
+         "boundary[0].on: got \"pile\", which lies inside the mesh; expected a boundary of the "
+         "mesh: \"right\" or \"left\"; what lies inside is for [[wall]] and [[well]]");
+  expect("[[well]]\non = \"corner\"\nhead = 0\n",
+         "well[0].on: got \"corner\", a point at (2, 0) without two inner edges that no wall and "
+         "no other well has; expected a point in the soil, two elements or more off walls, wells "
+         "and boundaries");
+  expect("[[well]]\non = \"drain\"\nhead = 0\n",
+         "well[0].on: got \"drain\" with a single edge, at (1.25, -1.25), between two ends in the "
+         "soil; expected a curve of at least two edges: a smaller mesh.size there",
+         "5.0");
+}
+
+TEST_F(UserFile, ProbesAndSectionsLieInTheMesh) {
+  const std::string message = refusal([&] {
+    build_file("sheet_pile.geo", "0.25",
+               "[[output.probe]]\nat = [0.5, -0.5]\n[[output.probe]]\nat = [2.0, 0.0]\n"
+               "[[output.probe]]\nat = [0.5, 0.5]\n"
+               "[[output.section]]\nfrom = [-3, -1]\nto = [3, -1]\n"
+               "[[output.section]]\nfrom = [-3, 1]\nto = [3, 0.5]\n"
+               "[[output.section]]\nfrom = [1, -1, 0.1]\nto = [1.1, -1]\n");
+  });
+  const std::string box = ", which lies between (-2, -2) and (2, 0)";
+  EXPECT_NE(message.find("output.probe[2].at: got (0.5, 0.5); expected a point of the mesh" + box),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("output.section[1]: got a line from (-3, 1) to (3, 0.5); expected a line "
+                         "that meets the mesh" +
+                         box),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("output.section[2].from: got a third number, 0.1; expected two numbers"),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(std::ranges::count(message, '\n'), 2) << message;
+}
+
+TEST_F(UserFile, HeadsOfTheExplicitSchemeStayAboveTheirBoundary) {
+  const auto with_head = [](const std::string& head, const std::string& more = "") {
+    return "[[boundary]]\non = \"left\"\nhead = " + head + "\n" + more;
+  };
+  const auto build_with = [&](const std::string& more, const std::string& scheme) {
+    return build_geometry(
+        parse_scene(scene_text("[geometry]\nfile = \"sheet_pile.geo\"\n[mesh]\nsize = 0.5\n", more),
+                    folder_.file("scene.toml"),
+                    {"gravity=[0,-10]", "initial.flow=steady", "time.scheme=" + scheme}));
+  };
+  const std::string falling = "[[0, 2], [0.5, -0.5], [1, 2]]";
+  const std::string message = refusal([&] { build_with(with_head(falling), "explicit"); });
+  EXPECT_TRUE(
+      message.ends_with("boundary[0].head: got a head of -0.5 m with scheme = \"explicit\"; "
+                        "expected a head above 0 m, "
+                        "the highest face of \"left\", at all times, or scheme = \"implicit\": "
+                        "what is above the water "
+                        "changes there"))
+      << message;
+  EXPECT_NO_THROW(build_with(with_head(falling), "implicit"));
+  EXPECT_NO_THROW(build_with(with_head(falling, "dry = \"suction\"\n"), "explicit"));
+  EXPECT_NO_THROW(build_with(with_head("[[0, 2], [1, 0.5], [2, -1]]"), "explicit"));
+}
+
 TEST_F(UserFile, AThirdDirectionIsRefusedInThePlane) {
   const std::string text =
       "gravity = [0.0, 0.0, -9.81]\n" +
       scene_text("[geometry]\nfile = \"square.geo\"\n[mesh]\nsize = 0.5\n",
                  "porosity_gradient = [0.0, 0.0, 0.1]\nporosity_origin = [0.0, 0.0, 1.0]\n");
-  const SceneDocument scene = parse_scene(text, folder_.file("scene.toml"));
+  const SceneDocument scene =
+      parse_scene(text, folder_.file("scene.toml"), {"initial.water_level=1"});
   std::string message = refusal([&] { build_geometry(scene); });
   for (const auto& [key, value] : {std::pair{"gravity", "-9.81"},
                                    {"soil.specimen.porosity_gradient", "0.1"},

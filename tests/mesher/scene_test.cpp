@@ -1,6 +1,7 @@
 #include "case/scene.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,8 @@ namespace suffuse {
 namespace {
 
 namespace fs = std::filesystem;
+
+using Knots = std::vector<std::pair<double, double>>;
 
 const fs::path scenes = fs::path(SUFFUSE_TEST_DATA) / "scenes";
 
@@ -226,8 +229,6 @@ TEST(Scene, takes_a_threshold_with_the_flux_law_only) {
   EXPECT_EQ(scene_of(least, with_threshold).soils[1].erosion.law, erosion_law("first-order"));
 }
 
-using Knots = std::vector<std::pair<double, double>>;
-
 TEST(Scene, takes_boundary_values_in_time) {
   const Scene scene = scene_of(least + R"([[boundary]]
 on = "top"
@@ -414,11 +415,12 @@ TEST(Scene, accepts_fractions_that_add_up_to_one) {
 }
 
 TEST(Override, changes_and_adds_keys) {
-  const Scene scene = scene_of(
-      least, {"soil.specimen.erosion.rate=5e-3", "soil.specimen.erosion.law=first-order",
-              "time.end=10", "time.end = 20", "boundary[0].on=top", "boundary[0].pressure=3000",
-              "boundary[1]={on=\"bottom\", darcy_flux=-1e-3}", "gravity=[0, -9.81]", "name='a b'",
-              "time.drag=implicit", "soil.\"two words\".like=specimen"});
+  const Scene scene =
+      scene_of(least, {"soil.specimen.erosion.rate=5e-3", "soil.specimen.erosion.law=first-order",
+                       "time.end=10", "time.end = 20", "boundary[0].on=top",
+                       "boundary[0].pressure=3000", "boundary[1]={on=\"bottom\", darcy_flux=-1e-3}",
+                       "gravity=[0, -9.81]", "initial.water_level=2", "name='a b'",
+                       "time.drag=implicit", "soil.\"two words\".like=specimen"});
   EXPECT_EQ(scene.soils[0].erosion.law, erosion_law("first-order"));
   EXPECT_EQ(scene.soils[0].erosion.rate, 5e-3);
   EXPECT_EQ(scene.time.end, 20.0);
@@ -492,6 +494,198 @@ TEST(SceneFile, that_is_not_text_is_refused) {
             std::string::npos);
 }
 
+/// A scene with gravity that says all there is to say of seepage.
+const std::string seepage = R"(
+formulation = "single-point"
+gravity = [0.0, -9.81]
+geometry = {file = "dam.geo"}
+liquid = {density = 1000, bulk_modulus = inf, viscosity = 1e-3}
+time = {end = 100}
+initial = {flow = "steady"}
+[soil.body]
+porosity = 0.3
+skeleton_fraction = 0.6
+grain_density = 2700
+conductivity = [1e-5, 2e-6]
+bedding = 15
+retention = {model = "van-genuchten", alpha = 2.0, n = 1.6, residual_saturation = 0.1}
+[soil.filter]
+like = "body"
+conductivity = 1e-3
+retention = {model = "gardner", alpha = 5}
+[soil.rock]
+like = "body"
+retention.model = "none"
+[[boundary]]
+on = "upstream"
+head = [[0, 2], [86400, 5]]
+dry = "suction"
+[[boundary]]
+on = "landside"
+seepage_face = true
+[[boundary]]
+on = "crest"
+rain = 1e-7
+[[well]]
+on = "drain"
+seepage_face = true
+[[well]]
+on = "pump"
+rate = [[0, 0], [60, -1e-5]]
+[[well]]
+on = "recharge"
+head = 1.5
+concentration = 0.01
+[[wall]]
+on = "pile"
+[[wall]]
+on = "curtain"
+conductance = 1e-8
+[output]
+every = 10
+probe = [{at = [1, 2]}]
+[[output.section]]
+from = [0, 0]
+to = [0, 3]
+)";
+
+TEST(Seepage, reads_heads_faces_and_rain) {
+  const Scene scene = scene_of(seepage);
+  ASSERT_EQ(scene.boundaries.size(), 6U);
+  const BoundaryCondition& upstream = scene.boundaries[0];
+  EXPECT_EQ(upstream.key, "boundary[0]");
+  EXPECT_EQ(upstream.head, TimeFunction(Knots{{0.0, 2.0}, {86400.0, 5.0}}));
+  EXPECT_EQ(upstream.dry, DryPart::suction);
+  EXPECT_FALSE(upstream.seepage_face);
+  EXPECT_EQ(scene.boundaries[1].dry, DryPart::seepage);
+  EXPECT_TRUE(scene.boundaries[1].seepage_face);
+  EXPECT_EQ(scene.boundaries[2].rain, TimeFunction(1e-7));
+  EXPECT_EQ(scene.boundaries[2].key, "boundary[2]");
+}
+
+TEST(Seepage, reads_wells_behind_the_boundaries_and_walls_apart) {
+  const Scene scene = scene_of(seepage);
+  EXPECT_EQ(scene.boundaries[3].key, "well[0]");
+  EXPECT_EQ(scene.boundaries[3].on, "drain");
+  EXPECT_TRUE(scene.boundaries[3].seepage_face);
+  EXPECT_EQ(scene.boundaries[4].rate, TimeFunction(Knots{{0.0, 0.0}, {60.0, -1e-5}}));
+  EXPECT_EQ(scene.boundaries[5].key, "well[2]");
+  EXPECT_EQ(scene.boundaries[5].head, TimeFunction(1.5));
+  EXPECT_EQ(scene.boundaries[5].concentration, TimeFunction(0.01));
+  ASSERT_EQ(scene.walls.size(), 2U);
+  EXPECT_EQ(scene.walls[0].on, "pile");
+  EXPECT_EQ(scene.walls[0].conductance, 0.0);
+  EXPECT_EQ(scene.walls[1].conductance, 1e-8);
+}
+
+TEST(Seepage, reads_what_soils_do_under_suction_and_along_bedding) {
+  const Scene scene = scene_of(seepage);
+  const Soil& body = *scene.find_soil("body");
+  EXPECT_EQ(body.retention.law, retention_law("van-genuchten"));
+  EXPECT_EQ(body.retention.parameters.alpha, 2.0);
+  EXPECT_EQ(body.retention.parameters.n, 1.6);
+  EXPECT_EQ(body.retention.residual_saturation, 0.1);
+  EXPECT_EQ(body.conductivity, 1e-5);
+  EXPECT_EQ(body.conductivity_across, 2e-6);
+  EXPECT_NEAR(body.anisotropy(), 0.2, 1e-15);
+  EXPECT_EQ(body.bedding, 15.0);
+  const Soil& filter = *scene.find_soil("filter");
+  EXPECT_EQ(filter.retention.law, retention_law("gardner"));
+  EXPECT_EQ(filter.retention.parameters.alpha, 5.0);
+  EXPECT_EQ(filter.retention.residual_saturation, 0.1);  // like body's
+  EXPECT_EQ(filter.conductivity, 1e-3);
+  EXPECT_EQ(filter.anisotropy(), 1.0);
+  EXPECT_EQ(scene.find_soil("rock")->retention.law, nullptr);
+  EXPECT_EQ(scene_of(least).soils[0].retention.law, nullptr);
+  EXPECT_EQ(scene_of(least).soils[0].anisotropy(), 1.0);
+}
+
+TEST(Seepage, reads_probes_and_sections) {
+  const Scene scene = scene_of(seepage);
+  ASSERT_EQ(scene.output.probes.size(), 1U);
+  EXPECT_EQ(scene.output.probes[0].at, (std::array{1.0, 2.0, 0.0}));
+  ASSERT_EQ(scene.output.sections.size(), 1U);
+  EXPECT_EQ(scene.output.sections[0].to, (std::array{0.0, 3.0, 0.0}));
+}
+
+TEST(WaterLevel, is_that_of_the_heads_at_the_start) {
+  EXPECT_EQ(scene_of(seepage).water_level, 2.0);  // not that of the well
+  EXPECT_EQ(scene_of(seepage, {"initial.water_level=3"}).water_level, 3.0);
+  const std::string same = "boundary[1]={on=\"landside\", head=2.0000000005}";
+  EXPECT_EQ(scene_of(seepage, {same, "initial.flow=rest"}).water_level, 2.0);
+  const std::string other = "boundary[1]={on=\"landside\", head=2.00000001}";
+  EXPECT_EQ(scene_of(seepage, {other}).water_level, std::nullopt);
+  EXPECT_NE(problems_of(seepage, {other, "initial.flow=rest"}), "");
+  EXPECT_EQ(scene_of(least).water_level, std::nullopt);
+  EXPECT_EQ(scene_of(seepage, {"boundary=[]", "gravity=[0,0]", "initial.flow=rest"}).water_level,
+            std::nullopt);
+}
+
+TEST(Override, changes_entries_of_the_new_lists) {
+  const Scene scene =
+      scene_of(seepage, {"well[1].rate=-2e-5", "wall[1].conductance=0", "output.probe[0].at=[3, 4]",
+                         "output.probe[1].at=[5, 6]", "soil.body.retention.n=3"});
+  EXPECT_EQ(scene.boundaries[4].rate, TimeFunction(-2e-5));
+  EXPECT_EQ(scene.walls[1].conductance, 0.0);
+  ASSERT_EQ(scene.output.probes.size(), 2U);
+  EXPECT_EQ(scene.output.probes[1].at, (std::array{5.0, 6.0, 0.0}));
+  EXPECT_EQ(scene.soils[0].retention.parameters.n, 3.0);
+}
+
+/// A scene whose head stands in `flood.csv`, with that text.
+std::string problems_with_table(const std::string& table) {
+  try {
+    parse_scene(seepage, "folder/scene.toml", {"boundary[0]={on=\"upstream\", file=\"flood.csv\"}"},
+                {{"flood.csv", table}});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(TableFile, gives_the_head) {
+  const std::vector<std::string> overrides{"boundary[0]={on=\"upstream\", file=\"flood.csv\"}"};
+  const std::map<std::string, std::string> files{
+      {"flood.csv", "\xEF\xBB\xBFt, head\r\n0,2.5\r\n 3600 ,\t-1e0\r\n\r\n7200,3\r\n"}};
+  const SceneDocument document = parse_scene(seepage, "scene.toml", overrides, files);
+  EXPECT_EQ(document.scene.boundaries[0].head,
+            TimeFunction(Knots{{0.0, 2.5}, {3600.0, -1.0}, {7200.0, 3.0}}));
+  EXPECT_EQ(document.scene.water_level, 2.5);
+  EXPECT_EQ(document.files, files);
+}
+
+TEST(TableFile, is_read_beside_the_scene) {
+  const fs::path folder =
+      fs::temp_directory_path() / ("suffuse-table-" + std::to_string(::getpid()));
+  fs::create_directories(folder / "tables");
+  std::ofstream(folder / "scene.toml") << seepage;
+  std::ofstream(folder / "tables/flood.csv") << "t,head\n0,4\n";
+  const SceneDocument document =
+      read_scene((folder / "scene.toml").string(),
+                 {"boundary[0]={on=\"upstream\", file=\"tables/flood.csv\"}"});
+  EXPECT_EQ(document.scene.boundaries[0].head, TimeFunction(Knots{{0.0, 4.0}}));
+  EXPECT_EQ(document.files.at("tables/flood.csv"), "t,head\n0,4\n");
+  fs::remove_all(folder);
+}
+
+TEST(TableFile, that_is_wrong_is_refused_at_its_line) {
+  const std::string at = "folder/flood.csv:";
+  EXPECT_EQ(problems_with_table(""), at + "1: got no row; expected the header line t,head and at "
+                                          "least one row");
+  EXPECT_EQ(problems_with_table("t,head\n"), at + "1: got no row; expected the header line t,head "
+                                                  "and at least one row");
+  EXPECT_EQ(problems_with_table("0,2\n1,3\n"),
+            at + "1: got \"0,2\"; expected the header line t,head");
+  EXPECT_EQ(problems_with_table("t,head\n0,2\n1;3\n"),
+            at + "3: got \"1;3\"; expected two numbers t,head: a time in s and a head in m");
+  EXPECT_EQ(problems_with_table("t,head\n0,2\n1,3,4\n"),
+            at + "3: got \"1,3,4\"; expected two numbers t,head: a time in s and a head in m");
+  EXPECT_EQ(problems_with_table("t,head\n0,nan\n"),
+            at + "2: got \"0,nan\"; expected two numbers t,head: a time in s and a head in m");
+  EXPECT_EQ(problems_with_table("t,head\n5,2\n\n5,3\n"),
+            at + "4: got t = 5 after t = 5; expected times that ascend");
+}
+
 TEST(ClosestName, counts_letters_to_change) {
   EXPECT_EQ(edit_distance("porosity", "porosity"), 0U);
   EXPECT_EQ(edit_distance("Porosity", "porosity"), 0U);
@@ -544,6 +738,36 @@ TEST(SceneReference, has_an_example_that_works) {
   const std::string fence = "```toml\n";
   const std::size_t begin = reference.find(fence) + fence.size();
   EXPECT_EQ(problems_of(reference.substr(begin, reference.find("```\n", begin) - begin)), "");
+}
+
+/// Each part, put into a scene with gravity that lacks it.
+TEST(SceneReference, has_parts_of_scenes_that_work) {
+  const std::string soil = "porosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700\n";
+  const std::string before =
+      "formulation = \"single-point\"\ngravity = [0.0, -9.81]\ngeometry = {file = \"dam.geo\"}\n"
+      "liquid = {density = 1000, bulk_modulus = inf, viscosity = 1e-3}\ntime = {end = 100}\n"
+      "output.every = 1\n";
+  const std::string reference = scene_reference_markdown();
+  const std::string fence = "```toml\n";
+  int parts = 0;
+  for (std::size_t begin = reference.find(fence, reference.find("## Examples of seepage"));
+       begin != std::string::npos; begin = reference.find(fence, begin + 1)) {
+    const std::size_t start = begin + fence.size();
+    std::string part = reference.substr(start, reference.find("```\n", start) - start);
+    const std::string heading = "[soil.body]\n";
+    if (const std::size_t at = part.find(heading); at != std::string::npos) {
+      part.insert(at + heading.size(), soil);
+    } else {
+      part += heading + "conductivity = 1e-5\n" + soil;
+    }
+    try {
+      parse_scene(before + part, "scene.toml", {}, {{"flood.csv", "t,head\n0,1\n"}});
+    } catch (const InputError& error) {
+      ADD_FAILURE() << part << error.what();
+    }
+    ++parts;
+  }
+  EXPECT_EQ(parts, 9);
 }
 
 std::string repeated(const std::string& text, int times) {

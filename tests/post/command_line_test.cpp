@@ -97,10 +97,11 @@ TEST_F(PostCommand, NothingIsWrittenIntoTheResults) {
 }
 
 TEST_F(PostCommand, AMisspeltCommandIsNamed) {
-  expect_refusal("ledgr " + run, 2,
-                 "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"sample\", "
-                 "\"error\", \"render\", \"figure\", "
-                 "\"table\" or \"export\"; did you mean ledger?");
+  expect_refusal(
+      "ledgr " + run, 2,
+      "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"boundaries\", \"sample\", "
+      "\"error\", \"render\", \"figure\", "
+      "\"table\" or \"export\"; did you mean ledger?");
 }
 
 TEST_F(PostCommand, LedgerRefusesAResidual) {
@@ -169,6 +170,26 @@ TEST_F(PostCommand, HistoryPrintsAndCopies) {
   EXPECT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_NE(outcome.out.find("porosity_mean"), std::string::npos);
   EXPECT_EQ(file_text(scratch / "h.csv"), file_text(run + "/history.csv"));
+}
+
+TEST_F(PostCommand, BoundariesAreSummedUpAndWritten) {
+  const Outcome outcome = post("boundaries " + run + " --csv " + scratch / "b.csv");
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(outcome.out, run +
+                             ": done, since the start until t = 120 s, per metre of thickness\n"
+                             "            water in     water out      fines in     fines out     "
+                             "liquid in    liquid out     discharge\n"
+                             "                  kg            kg            kg            kg       "
+                             "     m3            m3          m3/s\n"
+                             "top              480             0             0             0       "
+                             "   0.48             0        -0.004\n"
+                             "bottom             0           480             0           270       "
+                             "      0          0.58         0.005\n"
+                             "all              480           480             0           270       "
+                             "   0.48          0.58         0.001\n");
+  EXPECT_EQ(file_text(scratch / "b.csv"), file_text(run + "/boundaries.csv"));
+  const std::string inside = run + "/b.csv";
+  EXPECT_EQ(post("boundaries " + run + " --csv " + inside).code, 2);
 }
 
 TEST_F(PostCommand, SampleWritesATable) {
@@ -320,9 +341,9 @@ TEST_F(PostCommand, EmptyFieldName) {
 TEST_F(PostCommand, UnknownFigure) {
   expect_refusal(
       "figure porosty " + run + " -o " + scratch / "f.png", 2,
-      "suffuse-post figure: NAME: got \"porosty\"; expected \"comparison\", "
-      "\"empty-elements\", \"flux\", \"masses\", \"model\", \"outflow\", \"porosity\" or "
-      "\"solid-mass\"; did you mean porosity?");
+      "suffuse-post figure: NAME: got \"porosty\"; expected \"boundaries\", "
+      "\"comparison\", \"empty-elements\", \"flux\", \"head\", \"masses\", \"model\", "
+      "\"outflow\", \"porosity\", \"saturation\" or \"solid-mass\"; did you mean porosity?");
   EXPECT_FALSE(fs::exists(scratch / "f.png"));
 }
 

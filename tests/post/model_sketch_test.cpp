@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
@@ -56,6 +58,26 @@ TEST(ModelSketch, ValuesThatChangeAreShownFromLeastToMost) {
   EXPECT_EQ(boundaries[1].label, "top: pressure 0 to 6000 Pa, c = 0.1 to 0.2");
   // Clean liquid enters for a while.
   EXPECT_EQ(boundaries[0].label, "bottom: Darcy flux -0.02 to 0.01 m/s, c = 0");
+}
+
+TEST(ModelSketch, NamesEveryConditionOfSeepage) {
+  const Case<2> c = testing::unit_square_case();
+  const auto label = [&](const std::function<void(BoundaryCondition&)>& set) {
+    Scene scene;
+    BoundaryCondition boundary;
+    boundary.on = "top";
+    set(boundary);
+    scene.boundaries = {boundary};
+    scene.walls = {{"bottom", 1e-6}};
+    const auto boundaries = sketched_boundaries(c.mesh, scene);
+    EXPECT_EQ(boundaries[0].label, "bottom: wall, conductance 1e-06 1/s");
+    return boundaries[1].label;
+  };
+  const TimeFunction flood({{0.0, 2.0}, {9.0, 5.0}});
+  EXPECT_EQ(label([&](BoundaryCondition& b) { b.head = flood; }), "top: head 2 to 5 m");
+  EXPECT_EQ(label([](BoundaryCondition& b) { b.seepage_face = true; }), "top: seepage face");
+  EXPECT_EQ(label([](BoundaryCondition& b) { b.rain = 1e-7; }), "top: rain 1e-07 m/s");
+  EXPECT_EQ(label([](BoundaryCondition& b) { b.rate = -2e-4; }), "top: rate -2e-04 m3/s");
 }
 
 TEST(ModelSketch, EdgesOfTheMeshAreBlackAndPointsRedOrBlue) {

@@ -56,6 +56,55 @@ TEST(Plan, StiffWaterNeedsFluxesThatAddUpAtAllTimes) {
   EXPECT_EQ(refusal(), "none");
 }
 
+/// What a seepage face lets out, and what soil that is not full stores, need not add up.
+TEST(Plan, StiffWaterMayLeaveThroughASeepageFaceOrFillPores) {
+  Scene scene = fluxes(0.01, 0.0);
+  scene.boundaries.pop_back();
+  scene.initial_flow = InitialFlow::rest;
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  const auto plan = [&] { make_plan(model::make_case(model::column_mesh(4, 4), scene), {}); };
+  EXPECT_THROW(plan(), InputError);
+  BoundaryCondition drain;
+  drain.on = "bottom";
+  drain.seepage_face = true;
+  scene.boundaries.push_back(drain);
+  EXPECT_NO_THROW(plan());
+  scene.boundaries.pop_back();
+  scene.soils[0].retention = {retention_law("gardner"), 0.1, {.alpha = 2.0}};
+  EXPECT_NO_THROW(plan());
+}
+
+std::string slope_warnings(const Scene& scene) {
+  std::string found;
+  for (const auto& text :
+       make_plan(model::make_case(model::column_mesh(2, 4), scene), {}).warnings) {
+    if (text.find("all over") != std::string::npos) found += text + '\n';
+  }
+  return found;
+}
+
+/// 20 kPa over a side of 1 m under 10 m/s2: a head of 2.5 m, 2 m above mid-height.
+TEST(Plan, WarnsOfOnePressureOnABoundaryThatRises) {
+  Scene scene = model::paper_scene();
+  scene.gravity = {0.0, -10.0, 0.0};
+  scene.boundaries = {model::pressure_on("left", 2e4), model::pressure_on("top", 0.0)};
+  scene.boundaries[0].key = "boundary[0]";
+  EXPECT_EQ(
+      slope_warnings(scene),
+      "boundary[0].pressure: 20000 Pa all over \"left\", which rises from z = 0 m to 1 m: "
+      "water that stands there has one head, not one pressure; head = 2.5 has this pressure at "
+      "mid-height, z = 0.5 m\n");
+  scene.gravity = {-10.0, 0.0, 0.0};  // the left is level then, the top is not
+  scene.boundaries[1].key = "boundary[1]";
+  EXPECT_EQ(slope_warnings(scene),
+            "boundary[1].pressure: 0 Pa all over \"top\", which rises from z = 0 m to 1 m: water "
+            "that stands there has one head, not one pressure; head = 0.5 has this pressure at "
+            "mid-height, z = 0.5 m\n");
+  scene.gravity = {};
+  EXPECT_EQ(slope_warnings(scene), "");
+}
+
 /// A point on a corner takes from the other two corners what it gives to its own, and more.
 TEST(Plan, PointsOnCornersMustLeavePoresElsewhere) {
   Scene scene = fluxes(0.01, -0.01);

@@ -108,7 +108,8 @@ std::vector<test::Mode> variants() {
       test::with(
           single, "inertia",
           {"time.inertia=true", "time.end=1.0", "output={every = 0.02, snapshot_every = 0.1}"}),
-      test::with(single, "gravity", {"gravity=[0.0, -9.81]", "time.stepping=monotone"}),
+      test::with(single, "gravity",
+                 {"gravity=[0.0, -9.81]", "initial.water_level=1.0", "time.stepping=monotone"}),
       test::with(single, "ergun", {"soil.specimen.drag=ergun"}),
       test::with(single, "boundary_values_in_time", {tables}),
       // The flow is solved once and kept; what erodes does not change it.

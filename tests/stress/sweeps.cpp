@@ -41,6 +41,9 @@ std::string pairs(const std::vector<std::pair<double, double>>& values) {
 }
 
 const std::string specimen = "soil.specimen.";
+const std::string gravity = "gravity=[0, -9.81]";
+/// The column is 1 m high: at rest p = 0 at its top.
+const std::string rest_level = "initial.water_level=1.0";
 const std::string top_flux = "boundary[0]={on=\"top\", darcy_flux=";
 
 Changes joined(Changes first, const Changes& second) {
@@ -588,7 +591,7 @@ Sweep density() {
                         Changes result{set("liquid.density", water),
                                        set("boundary[0].pressure", 6.0 * water),
                                        set(specimen + "grain_density", ratio * water)};
-                        if (heavy) result.emplace_back("gravity=[0, -9.81]");
+                        if (heavy) result.insert(result.end(), {gravity, rest_level});
                         if (momentum) {
                           result.emplace_back(specimen + "erosion.momentum_transfer=true");
                         }
@@ -678,10 +681,10 @@ Sweep stagnation() {
     with("equal pressures of 1e5", {"boundary[0].pressure=1e5", "boundary[1].pressure=1e5"}, every);
     with("equal pressures; steady", {"boundary[0].pressure=0", "initial.flow=steady"}, every);
     with("hydrostatic",
-         {"boundary[0].pressure=0", "boundary[1].pressure=9810", "gravity=[0, -9.81]"}, every);
+         {"boundary[0].pressure=0", "boundary[1].pressure=9810", gravity, rest_level}, every);
     with("no boundaries", {"boundary=[]"}, every);
     with("no boundaries; K infinite", {"boundary=[]", "liquid.bulk_modulus=inf"}, implicit_ones);
-    with("no boundaries; gravity", {"boundary=[]", "gravity=[0, -9.81]"}, every);
+    with("no boundaries; gravity", {"boundary=[]", gravity, rest_level}, every);
   }
   return sweep.done();
 }
@@ -828,7 +831,7 @@ Sweep laws() {
                     Changes result = erosion(law, span);
                     if (carman) result.emplace_back(specimen + "conductivity_law=kozeny-carman");
                     if (ergun) result.emplace_back(specimen + "drag=ergun");
-                    if (heavy) result.emplace_back("gravity=[0, -9.81]");
+                    if (heavy) result.insert(result.end(), {gravity, rest_level});
                     if (momentum) result.emplace_back(specimen + "erosion.momentum_transfer=true");
                     return result;
                   };
@@ -895,7 +898,9 @@ Sweep anything() {
               result.push_back(soil + text + "}");
             }
             result.push_back(set("liquid.bulk_modulus", random.decades(1e6, 1e9)));
-            if (random.chance(0.3)) result.emplace_back("gravity=[1, -9.81]");
+            if (random.chance(0.3)) {
+              result.insert(result.end(), {"gravity=[1, -9.81]", rest_level});
+            }
             const bool flux = random.chance(0.5);
             result.push_back(
                 "boundary[0]={on=\"top\", concentration=" + number(random.between(0.0, 0.6)) +

@@ -1,0 +1,35 @@
+// Soil 4 m wide and 2 m high under a sheet pile from its surface to half its depth, with a drain
+// between the soils, an old curve that nothing uses, and points.
+Point(1) = {-2, -2, 0};
+Point(2) = {2, -2, 0};
+Point(3) = {2, 0, 0};
+Point(4) = {0, 0, 0};
+Point(5) = {-2, 0, 0};
+Point(6) = {0, -1, 0};
+Point(7) = {1, -1.5, 0};
+Point(8) = {1.5, -1, 0};
+Point(9) = {1, -0.5, 0};
+Point(10) = {-1, -1, 0};
+Point(11) = {-1.5, -1.5, 0};
+Point(12) = {-0.5, -1.5, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 1};
+Line(6) = {4, 6};
+Line(7) = {7, 8};
+Line(8) = {11, 12};
+Curve Loop(1) = {1, 2, 3, 4, 5};
+Plane Surface(1) = {1};
+Curve{6, 7, 8} In Surface{1};
+Point{9, 10} In Surface{1};
+Physical Surface("specimen") = {1};
+Physical Curve("right") = {2, 3};
+Physical Curve("left") = {4, 5};
+Physical Curve("pile") = {6};
+Physical Curve("drain") = {7};
+Physical Curve("old") = {8};
+Physical Point("pump") = {9};
+Physical Point("recharge") = {10};
+Physical Point("corner") = {3};
