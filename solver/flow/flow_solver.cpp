@@ -143,8 +143,12 @@ void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) con
   std::vector<int> faces(node_pressure.size(), 0);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (conditions_[f].kind != FaceKind::pressure) continue;
+    // Water of one head stands over the face: pressures at its nodes differ from that at its
+    // centre.
+    const bool has_head = scene_.boundaries[conditions_[f].boundary].head.has_value();
+    const Vector<Dim> slope = has_head ? scene_.liquid.density * gravity() : Vector<Dim>::Zero();
     for (const int i : grid_.face_nodes[f]) {
-      prescribed[i] += conditions_[f].value;
+      prescribed[i] += conditions_[f].value + slope.dot(grid_.mesh.nodes[i] - grid_.face_centre(f));
       ++faces[i];
     }
   }

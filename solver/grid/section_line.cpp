@@ -1,6 +1,7 @@
 #include "grid/section_line.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "grid/compensated_sum.hpp"
@@ -35,6 +36,14 @@ struct Candidate {
       least = std::min(least, from[k] + share * (to[k] - from[k]));
     }
     return least;
+  }
+  /// Whether a piece of the line lies in the element or runs along its boundary, by the depth of
+  /// its middle. Short pieces that lead away from the boundary do neither.
+  [[nodiscard]] bool holds(double middle, double part) const {
+    constexpr double along = 1e-3;
+    double passed = 0.0;
+    for (int k = 0; k < 3; ++k) passed = std::max(passed, part * std::abs(to[k] - from[k]));
+    return depth(middle) >= -std::min(on_boundary, along * passed);
   }
   /// Whether the line comes within `on_boundary` of the element.
   [[nodiscard]] bool touches() const {
@@ -97,7 +106,7 @@ SectionLine::SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vecto
     // One element for each piece, though a line along faces has two at hand.
     const auto best = std::ranges::max_element(candidates, {},
                                                [&](const Candidate& c) { return c.depth(middle); });
-    if (best == candidates.end() || best->depth(middle) < -on_boundary) continue;
+    if (best == candidates.end() || !best->holds(middle, part)) continue;
     const int e = best->element;
     const Vector<2> x = from + middle * way;
     for (int k = 0; k < 3; ++k) {

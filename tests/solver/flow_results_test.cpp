@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "case/errors.hpp"
+#include "flow/face_conditions.hpp"
 #include "formulation/observations.hpp"
 #include "results/state_archive.hpp"
 #include "verification/model_run.hpp"
@@ -92,6 +93,21 @@ TEST_F(Sections, PartsOutsideCountNothing) {
   EXPECT_NEAR(beyond.across(flux), inside.across(flux), 1e-12);
   EXPECT_NEAR(beyond.length(), inside.length(), 1e-12);
   EXPECT_EQ(SectionLine(grid_, {2.0, 0.0}, {2.0, 1.0}).length(), 0.0);
+}
+
+TEST_F(Sections, ThatLeaveTheMeshAtANodeEndThere) {
+  // Mesh generators put nodes a little beside their places: faces are then almost along the line.
+  const auto move = [](const Vector<2>& x) {
+    return x[1] == 0.0 ? Vector<2>(x[0] + 6.6e-11, 0.0) : x;
+  };
+  const Mesh<2> mesh = column_mesh(9, 7, 1.0, 1.0, move);
+  const Grid<2> grid(mesh);
+  const std::vector<double> flux = fluxes_of(grid, stream_);
+  const SectionLine line(grid, {4.0 / 9.0, -1.0}, {4.0 / 9.0, 2.0});
+  EXPECT_NEAR(line.length(), 1.0, 1e-14);
+  // The stream function at the foot is that of a place 6.6e-11 of nine cells to the left.
+  const double foot = stream_[4] + 9.0 * 6.6e-11 * (stream_[3] - stream_[4]);
+  EXPECT_NEAR(line.across(flux), stream_[7 * 10 + 4] - foot, 1e-14);
 }
 
 TEST_F(Sections, OfLiquidThatSpreads) {
@@ -242,6 +258,28 @@ TEST_F(Probes, OfAnExplicitFlowTakeNodePressuresAndSaturationOfElements) {
   }
   // Of the cell second from the left and fourth from below the lower triangle.
   EXPECT_NEAR(rows[0].saturation, 0.01 * 2 * (3 * 6 + 1), 1e-12);
+}
+
+TEST(NodePressures, OnABoundaryWithAHeadAreThoseOfItsWater) {
+  Scene scene = conduit_scene();
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.boundaries.assign(2, {});
+  scene.boundaries[0].on = "left";
+  scene.boundaries[0].head = 4.0;
+  scene.boundaries[1].on = "right";
+  scene.boundaries[1].head = 3.0;
+  const Case<2> c = model::make_case(column_mesh(4, 4), scene);
+  const Grid<2> grid(c.mesh);
+  const int face = grid.find_face(c.mesh.boundaries[2].faces.front());
+  if (face_conditions(c, grid)[face].kind != FaceKind::pressure) GTEST_SKIP() << "no heads yet";
+  model::ModelRun run(c);
+  const FlowState<2> flow = run.run({1.0}).flows.front();
+  // At the corners too, where the boundary ends.
+  for (int i = 0; i < c.mesh.node_count(); ++i) {
+    const Vector<2>& x = c.mesh.nodes[i];
+    EXPECT_NEAR(flow.node_pressure[i] / 9810.0 + x[1], 4.0 - x[0], 1e-9) << x.transpose();
+  }
 }
 
 std::string refusal(const Scene& scene) {
