@@ -437,14 +437,17 @@ std::vector<SceneKey> declare_keys() {
              {{"second-order", TimeStepping::second_order}, {"monotone", TimeStepping::monotone}},
              "Second order in time; or backward Euler, whose pressures stay within those at the "
              "boundaries on meshes without obtuse angles. Implicit only.")
-          .otherwise("second-order"),
+          .otherwise_as("`\"second-order\"`; where a soil has a `retention`, `\"monotone\"`"),
       key("time.inertia", at(&Scene::time, &TimeSettings::inertia),
           "Keep the liquid's inertia. Implicit only.")
           .otherwise_as("decided from the scene: left out where the time in which flow settles, "
                         "k/(n g), is below 1 % of a given step, or below `tolerance` times `end`; "
                         "where it is kept, waves shorter than that are not followed one by one"),
       key("time.tolerance", at(&Scene::time, &TimeSettings::tolerance),
-          "Bound of the local error of a step, relative: of fluxes, of pressures, of what erodes. "
+          "Bound of the local error of a step, relative: of fluxes, of pressures, of what erodes; "
+          "where a soil has a `retention`, of the volume of liquid in a wrong place over the "
+          "volume of "
+          "all pores. "
           "Implicit only, and not with `step`.")
           .above(0.0)
           .at_most(0.1)

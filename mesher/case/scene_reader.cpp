@@ -460,6 +460,11 @@ class SceneReader {
 
   /// Defaults that depend on other keys.
   void complete() {
+    const bool retains = std::ranges::any_of(
+        scene_.soils, [](const Soil& soil) { return soil.retention.law != nullptr; });
+    if (!places_.contains("time.stepping") && retains) {
+      scene_.time.stepping = TimeStepping::monotone;
+    }
     if (!places_.contains("name")) scene_.name = std::filesystem::path(path_).stem().string();
     if (!places_.contains("output.snapshot_every")) {
       scene_.output.snapshot_every = scene_.output.every;

@@ -24,6 +24,12 @@ double largest_inflow_concentration(const Scene& scene) {
   return largest;
 }
 
+/// Whether air can be in the pores of some soil.
+bool retains_air(const Scene& scene) {
+  return std::ranges::any_of(scene.soils,
+                             [](const Soil& soil) { return soil.retention.law != nullptr; });
+}
+
 /// Coefficients at which the stability limit is smallest: the porosity at the end of the run and
 /// the smallest water fraction. Erosion turns solid into fines in the liquid, so n_w of a soil that
 /// erodes stays as it is at the start. A soil that does not erode may fill with the liquid that is
@@ -97,9 +103,7 @@ template <int Dim>
 void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
                                  const SoilMap<Dim>& soils, const BoundaryValues<Dim>& values) {
   const Scene& scene = c.document.scene;
-  const bool stores = std::any_of(scene.soils.begin(), scene.soils.end(),
-                                  [](const Soil& soil) { return soil.retention.law != nullptr; });
-  const bool stiff = std::isinf(scene.liquid.bulk_modulus) && !stores;
+  const bool stiff = std::isinf(scene.liquid.bulk_modulus) && !retains_air(scene);
   // For incompressible water as strict as the implicit scheme.
   const double round_off = stiff ? 1e-9 : 1e-6;
   const bool steady = scene.initial_flow == InitialFlow::steady;
@@ -236,12 +240,23 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
       std::string(monotone ? "monotone (first order)" : "second order") + " in time, steps " +
       (plan.flow.step_given ? "of " + short_text(plan.flow.step) + " s as given"
                             : "chosen for a local error of " + short_text(scene.time.tolerance)));
-  const std::string why = scene.time.inertia  ? "as the scene says"
-                          : plan.flow.inertia ? "too long to leave out"
-                                              : "too short to be noticed";
+  const std::string why = scene.time.inertia   ? "as the scene says"
+                          : retains_air(scene) ? "air gives way before it counts"
+                          : plan.flow.inertia  ? "too long to leave out"
+                                               : "too short to be noticed";
   say((plan.flow.inertia ? "run" : "skip") +
       std::string(": inertia of the liquid; drag stops it within ") +
       short_text(longest_relaxation(scene)) + " s, " + why);
+  if (retains_air(scene)) {
+    std::vector<std::string> soils;
+    for (const Soil& soil : scene.soils) {
+      if (soil.retention.law != nullptr) soils.push_back(soil.region);
+    }
+    say("run: air in the pores under suction, soils " + listed(soils, "and") +
+        "; each step iterates until fluxes fit contents and conductivities");
+    return;
+  }
+  say("skip: air in the pores, no soil has a retention");
   say(options.no_skip ? "run: the flow in every step (--no-skip)"
                       : "skip: the flow while it is steady and nothing that drives it changes");
 }
@@ -304,7 +319,8 @@ void plan_implicit_step(const Scene& scene, Plan& plan) {
   plan.flow.step = scene.time.step.value_or(unset);
   const double unnoticed =
       scene.time.step ? short_of_a_step * *scene.time.step : scene.time.tolerance * scene.time.end;
-  plan.flow.inertia = scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
+  plan.flow.inertia =
+      !retains_air(scene) && scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
   // Inertia is there for the start-up as a whole; the waves in it need not be followed.
   if (plan.flow.inertia && !scene.time.inertia) plan.flow.unnoticed = unnoticed;
 }

@@ -6,6 +6,7 @@
 
 #include "case/errors.hpp"
 #include "flow/locking.hpp"
+#include "flow/mixed_flow.hpp"
 #include "flow/steady_nodal.hpp"
 #include "grid/face_flux.hpp"
 #include "physics/liquid.hpp"
@@ -76,6 +77,7 @@ void ExplicitFlow<Dim>::start() {
       warn_of_locking(steady_flow(operator_).velocity);
     }
     scheme_.set_velocity(VectorField<Dim>(this->grid().mesh.node_count(), Vector<Dim>::Zero()));
+    scheme_.set_pressure(element_pressure(this->grid(), this->pressure_at_rest(), this->threads()));
     return;
   }
   NodalSteadyState<Dim> steady = steady_flow(operator_);

@@ -48,7 +48,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
 
 template <int Dim>
 void FlowSolver<Dim>::archive(StateArchive& archive) {
-  archive(conditions_, coefficients_, inflow_warned_, warnings_);
+  archive(conditions_, coefficients_, inflow_warned_, suction_warned_, warnings_);
 }
 
 template <int Dim>
@@ -146,7 +146,7 @@ void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) con
     // Water of one head stands over the face: pressures at its nodes differ from that at its
     // centre.
     const bool has_head = scene_.boundaries[conditions_[f].boundary].head.has_value();
-    const Vector<Dim> slope = has_head ? scene_.liquid.density * gravity() : Vector<Dim>::Zero();
+    const Vector<Dim> slope = (has_head ? scene_.liquid.density : 0.0) * gravity();
     for (const int i : grid_.face_nodes[f]) {
       prescribed[i] += conditions_[f].value + slope.dot(grid_.mesh.nodes[i] - grid_.face_centre(f));
       ++faces[i];
@@ -208,6 +208,27 @@ void FlowSolver<Dim>::warn_of_unstated_inflow(double time, const std::vector<dou
             << " s and the scene gives it no concentration: clean water is taken (concentration 0)";
     warn(message.str());
   }
+}
+
+template <int Dim>
+void FlowSolver<Dim>::warn_of_suction(double time) {
+  constexpr double noticed = -5000.0;  // Pa
+  if (suction_warned_ || gravity().norm() == 0.0) return;
+  const std::vector<double>& p = pressure();
+  int lowest = -1;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (p[e] >= noticed || soils_.soil_of_element(e).retention.law != nullptr) continue;
+    if (lowest < 0 || p[e] < p[lowest]) lowest = e;
+  }
+  if (lowest < 0) return;
+  suction_warned_ = true;
+  std::ostringstream message;
+  message.precision(3);
+  message << "soil \"" << soils_.soil_of_element(lowest).region << "\" is full of water under "
+          << "suction: " << p[lowest] << " Pa in " << element_text(grid_, lowest)
+          << " at t = " << time << " s; real soil drains and conducts less: give it a [soil."
+          << soils_.soil_of_element(lowest).region << ".retention]";
+  warn(message.str());
 }
 
 template class FlowSolver<2>;

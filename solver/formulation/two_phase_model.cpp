@@ -65,6 +65,7 @@ PoreForecast<Dim> TwoPhaseModel<Dim>::pore_forecast() const {
 template <int Dim>
 void TwoPhaseModel<Dim>::start_flux_history() {
   flux_history_.mean = flux_history_.end = flow_->face_flux(0.0);
+  flow_->warn_of_suction(0.0);
 }
 
 template <int Dim>
@@ -76,6 +77,7 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   masses_.book_liquid(flow.volumes.liquid);
   observations_.book_liquid(flow.volumes.liquid);
   steps_ += flow.steps;
+  flow_->warn_of_suction(flow.end);
   last_dt_ = flow.dt;
 }
 

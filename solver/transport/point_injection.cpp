@@ -65,7 +65,8 @@ PointInjection<Dim>::PointInjection(const Grid<Dim>& grid,
       densities_(densities),
       bulk_modulus_(bulk_modulus) {
   for (const FaceCondition& condition : conditions) {
-    is_open_.push_back(condition.kind != FaceKind::interior && condition.kind != FaceKind::wall);
+    const bool opens = condition.kind != FaceKind::interior && condition.kind != FaceKind::wall;
+    is_open_.push_back(opens || condition.switches);
     if (is_open_.back() != 0) open_faces_.push_back(static_cast<int>(is_open_.size()) - 1);
   }
 }
