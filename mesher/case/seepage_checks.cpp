@@ -91,6 +91,8 @@ class SeepageChecks {
     for (const BoundaryCondition& boundary : scene_.boundaries) {
       if (boundary.seepage_face) refuse(joined(boundary.key, "seepage_face"), "a seepage face");
       if (boundary.rain) refuse(joined(boundary.key, "rain"), "rain");
+      // A velocity at the tip of a well, one for both of its sides, cannot point to both.
+      if (boundary.rate) refuse(joined(boundary.key, "rate"), "a rate", "a head");
     }
     for (const Soil& soil : scene_.soils) {
       const std::string table = table_of(soil);

@@ -765,7 +765,7 @@ TEST_F(UserFile, SizeFieldsOfTheFileHold) {
 
 const std::string pile_and_wells =
     "[[wall]]\non = \"pile\"\n[[well]]\non = \"drain\"\nhead = 0.0\n"
-    "[[well]]\non = \"pump\"\nrate = -1e-6\n";
+    "[[well]]\non = \"pump\"\nhead = -1.0\n";
 
 double length_of(const Mesh<2>& mesh, const BoundarySet<2>& set) {
   double length = 0.0;
