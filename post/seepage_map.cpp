@@ -151,8 +151,12 @@ void paint_equipotentials(vtkContext2D& painter, const Sheet& sheet,
                           const std::vector<Polyline>& hidden) {
   if (!sheet.map.saturation.empty()) return;
   std::vector<std::vector<Polyline>> lines;
+  const double middle = 0.5 * (sheet.levels.front() + sheet.levels.back());
   for (std::size_t k = 1; k + 1 < sheet.levels.size(); ++k) {
-    lines.push_back(contour_lines(sheet.map.mesh, sheet.map.head, sheet.levels[k]));
+    // Boundaries often have a round head, up to round-off. A little further from the middle, the
+    // line does not run along them.
+    const double level = sheet.levels[k] + 1e-6 * (sheet.levels[k] - middle);
+    lines.push_back(contour_lines(sheet.map.mesh, sheet.map.head, level));
     for (const Polyline& line : lines.back()) {
       paint_polyline(painter, sheet.view, line, black, line_width);
     }
