@@ -146,11 +146,7 @@ void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) con
     // Water of one head stands over the face: pressures at its nodes differ from that at its
     // centre.
     const bool has_head = scene_.boundaries[conditions_[f].boundary].head.has_value();
-<<<<<<< HEAD
-    const Vector<Dim> slope = (has_head ? scene_.liquid.density : 0.0) * gravity();
-=======
     const double density = has_head ? scene_.liquid.density : 0.0;
->>>>>>> output
     for (const int i : grid_.face_nodes[f]) {
       prescribed[i] += conditions_[f].value +
                        density * gravity().dot(grid_.mesh.nodes[i] - grid_.face_centre(f));
