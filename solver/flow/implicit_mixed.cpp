@@ -38,11 +38,8 @@ std::vector<double> ImplicitMixed<Dim>::stages() const {
 template <int Dim>
 SolveCounts ImplicitMixed<Dim>::counts() const {
   SolveCounts result = earlier_counts_;
-  if (solver_) {
-    result.factorisations += solver_->counts().factorisations;
-    result.solves += solver_->counts().solves;
-    result.iterations += solver_->counts().iterations;
-  }
+  result += newton_.counts();
+  if (solver_) result += solver_->counts();
   return result;
 }
 
@@ -181,20 +178,11 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
 
 template <int Dim>
 void ImplicitMixed<Dim>::solve_pressure(const FlowForcing<Dim>& forcing) {
-  matrix_.assemble(work_.law, work_.storage, work_.side_storage);
+  matrix_.assemble(work_.law, work_.storage);
   find_load(forcing);
 
-  if (is_nonlinear()) {
-    for (const int e : work_.level_elements) matrix_.hold_level(e);
-  } else {
-    for (const int e : correction_->sealed_root()) {
-      if (work_.storage[e] == 0.0) matrix_.hold_level(e);
-    }
-  }
-  for (const int f : switching_) {
-    if (!is_held(f)) continue;
-    const int row = matrix_.unknown(f);
-    work_.load[row] = matrix_.uncouple(f) * work_.pressure.rise[f];
+  for (const int e : correction_->sealed_root()) {
+    if (work_.storage[e] == 0.0) matrix_.hold_level(e);
   }
 
   const Eigen::VectorXd solution =

@@ -19,7 +19,6 @@
 
 #include "case/errors.hpp"
 #include "case/scene.hpp"
-#include "flow/anderson.hpp"
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "flow/flow_soils.hpp"
@@ -27,6 +26,7 @@
 #include "flow/mixed_matrix.hpp"
 #include "grid/grid.hpp"
 #include "linear/lagged_preconditioner.hpp"
+#include "linear/newton_system.hpp"
 
 namespace suffuse {
 
@@ -149,11 +149,9 @@ class ImplicitMixed {
     Field push;  ///< drive minus pressure gradient, Pa/m
     // Of the air that gives way to liquid; empty where all soil is saturated.
     ElementField<Dim> side_storage;  ///< slope of the rate with pressure, m3/(s Pa)
-    /// Part of it that stands for conductivity: an element that water enters conducts better as it
-    /// becomes wet, which limits how its pressure rises, m3/(s Pa).
-    ElementField<Dim> wetting_slope;
+    ElementField<Dim> gain;            ///< dk_r/dp at a side over k_r of the element, 1/Pa
+    Eigen::VectorXd step;              ///< of Newton's method, per unknown, Pa
     ElementField<Dim> displaced;       ///< rate at the pressures of the reference, m3/s
-    std::vector<double> displaced_at;  ///< those pressures, per face, Pa
     std::vector<int> level_elements;   ///< whose first face holds the level of a sealed piece
     // Of the linear system.
     Field face_push;                ///< what an element drives without the unknown rises, m/s
@@ -210,27 +208,23 @@ class ImplicitMixed {
   /// Conditions of the stage, with seepage faces as the last stage left them.
   void resolve_conditions(const FlowForcing<Dim>& forcing);
   void resolve(const FaceCondition& condition, int face);
-  /// Mobility, and what air gives way, about the pressures of the reference.
+  /// Mobility, what air gives way, and their slopes at the pressures of the reference.
   void linearise_retention(const MixedState<Dim>& base, double duration,
                            const FlowForcing<Dim>& forcing);
-  /// Adds to the slopes of an element what its conductivity gains where water enters.
-  void find_wetting_slope(int e);
   /// Rate at which liquid takes the place of air in the share of a side, m3/s.
   [[nodiscard]] double displacement_rate(const MixedState<Dim>& base, double duration,
                                          const FlowForcing<Dim>& forcing, int e, int k,
                                          double pressure) const;
-  /// k_r of an element, the mean of those at its faces.
-  [[nodiscard]] double relative_conductivity(int e, const std::vector<double>& reference,
-                                             const std::vector<double>& rise) const;
-  /// What the linear system of the last iteration missed, as a flux through a face, m3/s.
-  [[nodiscard]] double linearisation_error(const MixedState<Dim>& base, double duration,
-                                           const FlowForcing<Dim>& forcing) const;
-  /// Flux out of the element that the pressures of the last iteration ask for, m3/s.
+  /// Conductivities, contents, fluxes and what is missing of the balance at the pressures reached.
+  void evaluate(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing);
+  /// Finds the step of Newton's method.
+  void solve_newton();
+  /// Takes this share of it.
+  void take_step(double share);
+  /// Through a side of an element, m3/s.
+  [[nodiscard]] double largest_flux() const;
+  /// Flux out of the element at the pressures reached, m3/s.
   [[nodiscard]] double flux_out(int e, int k) const;
-  /// Where the next iteration starts: Anderson's mixture of the results so far, or since `anew`.
-  void mix(bool anew);
-  /// Takes this share of the last change of the pressures.
-  void damp_change(double share);
   /// The flux correction and its pieces are those of the faces that are held now.
   void follow_held_faces();
   /// Whether storage holds the level of the pressure in a sealed piece.
@@ -282,7 +276,7 @@ class ImplicitMixed {
   std::vector<char> open_;       ///< per face: a seepage face that lets water out
   std::vector<char> corrected_;  ///< per face: held in the flux correction as it stands
   int iterations_ = 0;
-  AndersonMixing mixing_;
+  NewtonSystem newton_;
   MixedMatrix<Dim> matrix_;
   std::vector<double> face_area_;
   std::optional<LaggedPreconditioner> solver_;

@@ -124,6 +124,24 @@ double MixedMatrix<Dim>::uncouple(int face) {
 }
 
 template <int Dim>
+Eigen::SparseMatrix<double> MixedMatrix<Dim>::with_gain(
+    const ElementField<Dim>& flux, const ElementField<Dim>& gain,
+    const std::function<bool(int)>& held) const {
+  Eigen::SparseMatrix<double> result = values_;
+  double* values = result.valuePtr();
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const auto& faces = grid_.element_face[e];
+    for (int a = 0; a <= Dim; ++a) {
+      for (int b = 0; b <= Dim; ++b) {
+        if (position_[e][a][b] < 0 || held(faces[a]) || held(faces[b])) continue;
+        values[position_[e][a][b]] -= flux[e][a] * gain[e][b];
+      }
+    }
+  }
+  return result;
+}
+
+template <int Dim>
 double MixedMatrix<Dim>::largest_product(int element) const {
   double largest = 0.0;
   for (int k = 0; k <= Dim; ++k) largest = std::max(largest, products_[element][k][k]);

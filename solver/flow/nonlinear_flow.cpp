@@ -1,9 +1,6 @@
-/// The iteration of the mixed elements over what depends on the pressure itself: how much liquid
-/// soil under suction holds, how well it conducts, and which seepage faces let water out.
-///
-/// Modified Picard iteration (Celia, Bouloutas and Zarba, Water Resour. Res. 26 (1990) 1483):
-/// contents are linearised about the last pressures, conductivities are those of the last
-/// pressures. Every system is symmetric and positive definite.
+/// Newton's method of the mixed elements for what depends on the pressure itself: how much liquid
+/// soil under suction holds (in the mixed form of Celia, Bouloutas and Zarba, Water Resour. Res. 26
+/// (1990) 1483), how well it conducts, and which seepage faces let water out.
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +16,12 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int max_iterations = 60;
-/// What the linear system misses may be this share of the largest flux.
+/// What is left of the balance at a face may be this share of the largest flux.
 constexpr double flux_accuracy = 1e-6;
-/// From here on faces switch, and iterations are mixed.
+/// From here on seepage faces open and close.
 constexpr double near_solution = 0.1;
-/// Of a change of pressures that is taken at least.
-constexpr double min_share = 0.25;
+/// Of a step of Newton's method that is taken at least.
+constexpr double min_share = 1.0 / 16.0;
 
 }  // namespace
 
@@ -60,16 +57,6 @@ void ImplicitMixed<Dim>::resolve_conditions(const FlowForcing<Dim>& forcing) {
 }
 
 template <int Dim>
-double ImplicitMixed<Dim>::relative_conductivity(int e, const std::vector<double>& reference,
-                                                 const std::vector<double>& rise) const {
-  double sum = 0.0;
-  for (const int f : grid_.element_face[e]) {
-    sum += soils_.relative_conductivity(e, reference[f] + rise[f]);
-  }
-  return sum / (Dim + 1);
-}
-
-template <int Dim>
 double ImplicitMixed<Dim>::displacement_rate(const MixedState<Dim>& base, double duration,
                                              const FlowForcing<Dim>& forcing, int e, int k,
                                              double pressure) const {
@@ -84,77 +71,35 @@ void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double
                                              const FlowForcing<Dim>& forcing) {
   Work& w = work_;
   const std::vector<double>& pressure = w.pressure.reference;
-  if (iterations_ == 1) w.displaced_at.assign(pressure.size(), 0.0);
   for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
     double conducts = 0.0;
     const double share = forcing.coefficients.porosity[e] * grid_.volume[e] / (Dim + 1);
     for (int k = 0; k <= Dim; ++k) {
       const double p = pressure[grid_.element_face[e][k]];
       conducts += soils_.relative_conductivity(e, p) / (Dim + 1);
-      const double before = w.displaced_at[grid_.element_face[e][k]];
-      const double last = w.displaced[e][k];
       w.displaced[e][k] = displacement_rate(base, duration, forcing, e, k, p);
-      double slope = std::isfinite(duration) ? share * soils_.capacity(e, p) / duration : 0.0;
-      // Between two pressures of which one is saturated the tangents lead to and fro.
-      if (iterations_ > 1 && p != before) {
-        slope = std::max(slope, (w.displaced[e][k] - last) / (p - before));
-      }
-      w.side_storage[e][k] = slope;
+      w.side_storage[e][k] =
+          std::isfinite(duration) ? share * soils_.capacity(e, p) / duration : 0.0;
     }
     w.law.mobility[e] = conducts / w.resistance[e];
-    find_wetting_slope(e);
+    for (int k = 0; k <= Dim; ++k) {
+      // By differences over a little of the suction: at saturation the slope may be infinite.
+      const double p = pressure[grid_.element_face[e][k]];
+      const double near = 1.0 + 1e-3 * std::abs(p);  // Pa
+      const double rise = soils_.relative_conductivity(e, p + near) -
+                          soils_.relative_conductivity(e, p - near);
+      w.gain[e][k] = rise / (2.0 * near) / (Dim + 1) / conducts;
+    }
   });
-  w.displaced_at = pressure;
-}
-
-template <int Dim>
-void ImplicitMixed<Dim>::find_wetting_slope(int e) {
-  Work& w = work_;
-  Vector<Dim> push = w.drive[e] - pressure_gradient(e, w.pressure.reference, w.pressure.rise);
-  if (!w.law.direction.empty()) push -= w.law.direction[e] * w.law.direction[e].dot(push);
-  for (int k = 0; k <= Dim; ++k) {
-    const double inflow = -push.dot(grid_.outward_normal(e, k)) / w.resistance[e];
-    const double p = w.pressure.reference[grid_.element_face[e][k]];
-    w.wetting_slope[e][k] = 0.0;
-    if (!(inflow > 0.0) || p > 0.0) continue;
-    const double near = 1.0 - 0.01 * p;  // Pa
-    const double slope =
-        (soils_.relative_conductivity(e, p + near) - soils_.relative_conductivity(e, p - near)) /
-        (2.0 * near);
-    w.wetting_slope[e][k] = inflow * slope / (Dim + 1);
-    w.side_storage[e][k] += w.wetting_slope[e][k];
-  }
 }
 
 template <int Dim>
 double ImplicitMixed<Dim>::flux_out(int e, int k) const {
   const Work& w = work_;
   const int f = grid_.element_face[e][k];
-  const double rise = w.pressure.offset[f] + w.pressure.rise[f];
-  double stored = w.storage[e] * rise;
-  if (!w.displaced.empty()) stored += w.displaced[e][k] + w.side_storage[e][k] * w.pressure.rise[f];
+  double stored = w.storage[e] * (w.pressure.offset[f] + w.pressure.rise[f]);
+  if (!w.displaced.empty()) stored += w.displaced[e][k];
   return w.flux[e].dot(grid_.outward_normal(e, k)) - stored + w.net_source[e] / (Dim + 1);
-}
-
-template <int Dim>
-double ImplicitMixed<Dim>::linearisation_error(const MixedState<Dim>& base, double duration,
-                                               const FlowForcing<Dim>& forcing) const {
-  const Work& w = work_;
-  return largest_of(grid_.mesh.element_count(), settings_.threads, 0.0, [&](int e) {
-    const double conducts = w.law.mobility[e] * w.resistance[e];
-    const double change =
-        std::abs(relative_conductivity(e, w.pressure.reference, w.pressure.rise) / conducts - 1.0);
-    double error = 0.0;
-    for (int k = 0; k <= Dim; ++k) {
-      const int f = grid_.element_face[e][k];
-      const double pressure = w.pressure.reference[f] + w.pressure.rise[f];
-      const double linear = w.displaced[e][k] + w.side_storage[e][k] * w.pressure.rise[f];
-      const double content = displacement_rate(base, duration, forcing, e, k, pressure) - linear;
-      const double conduction = change * std::abs(w.flux[e].dot(grid_.outward_normal(e, k)));
-      error = std::max({error, std::abs(content), conduction});
-    }
-    return error;
-  });
 }
 
 template <int Dim>
@@ -221,105 +166,134 @@ void ImplicitMixed<Dim>::hold_levels(const FlowForcing<Dim>& forcing) {
 }
 
 template <int Dim>
+void ImplicitMixed<Dim>::solve_newton() {
+  Work& w = work_;
+  const auto assemble = [&](const ElementField<Dim>& side_storage) {
+    matrix_.assemble(w.law, w.storage, side_storage);
+    for (const int e : w.level_elements) matrix_.hold_level(e);
+    for (const int f : switching_) {
+      if (is_held(f)) matrix_.uncouple(f);
+    }
+  };
+  if (!has_retention()) {
+    assemble({});
+    newton_.factorise(matrix_.values());
+    newton_.solve(matrix_.values(), w.load, w.step);
+    return;
+  }
+  // A wetter element conducts better. Where water enters, that adds to the diagonal; the symmetric
+  // matrix with this alone is factored, the whole one is solved with it.
+  ElementField<Dim> flux(w.displaced.size());
+  ElementField<Dim> nearly = w.side_storage;
+  for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
+    for (int k = 0; k <= Dim; ++k) {
+      flux[e][k] = w.flux[e].dot(grid_.outward_normal(e, k));
+      nearly[e][k] += std::max(0.0, -flux[e][k] * w.gain[e][k]);
+    }
+  });
+  assemble(nearly);
+  newton_.factorise(matrix_.values());
+  assemble(w.side_storage);
+  const auto held = [&](int f) { return is_held(f); };
+  newton_.solve(matrix_.with_gain(flux, w.gain, held), w.load, w.step);
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::evaluate(const MixedState<Dim>& base, double duration,
+                                  const FlowForcing<Dim>& forcing) {
+  Work& w = work_;
+  w.level_elements.clear();
+  follow_held_faces();
+  for (const int f : switching_) {
+    if (is_held(f)) w.pressure.rise[f] = w.conditions[f].value - w.pressure.reference[f];
+  }
+  w.pressure.move_reference(base.face_pressure);
+  if (has_retention()) linearise_retention(base, duration, forcing);
+  hold_levels(forcing);
+  find_flux(w.flux, w.push);
+  find_load(forcing);
+  for (const int f : switching_) {
+    if (is_held(f)) w.load[matrix_.unknown(f)] = 0.0;
+  }
+}
+
+template <int Dim>
 void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double duration,
                                          const FlowForcing<Dim>& forcing) {
   Work& w = work_;
   const int elements = grid_.mesh.element_count();
-  w.law.mobility.resize(elements);
   w.law.direction = soils_.bedding;
   w.law.drive = w.drive;
-  w.displaced.resize(has_retention() ? elements : 0);
-  w.side_storage.resize(w.displaced.size());
-  w.wetting_slope.resize(w.displaced.size());
+  w.law.mobility.resize(elements);
   for (int e = 0; e < elements; ++e) w.law.mobility[e] = 1.0 / w.resistance[e];
+  for (ElementField<Dim>* field : {&w.displaced, &w.side_storage, &w.gain}) {
+    field->resize(has_retention() ? elements : 0);
+  }
   // Round-off of what gravity drives and of the contents of the elements.
   const double round_off = epsilon * largest_of(elements, settings_.threads, 0.0, [&](int e) {
-                             const double pores =
-                                 forcing.coefficients.porosity[e] * grid_.volume[e];
-                             return gravity_flux(e, forcing.coefficients) + pores / duration;
-                           });
+    const double pores = forcing.coefficients.porosity[e] * grid_.volume[e];
+    return gravity_flux(e, forcing.coefficients) + pores / duration;
+  });
   double share = 1.0;
-  double last_error = std::numeric_limits<double>::infinity();
-  mixing_.reset();
-  for (iterations_ = 1;; ++iterations_) {
-    w.pressure.move_reference(base.face_pressure);
-    if (has_retention()) linearise_retention(base, duration, forcing);
-    w.level_elements.clear();
-    follow_held_faces();
-    hold_levels(forcing);
-    follow_held_faces();
-    for (const int f : switching_) {
-      if (is_held(f)) w.pressure.rise[f] = w.conditions[f].value - w.pressure.reference[f];
+  double last_norm = std::numeric_limits<double>::infinity();
+  std::vector<double> from;
+  for (iterations_ = 0;; ++iterations_) {
+    evaluate(base, duration, forcing);
+    double norm = w.load.norm();
+    while (!(norm < last_norm) && share > min_share) {
+      // Back, and a shorter step.
+      share *= 0.5;
+      w.pressure.reference = from;
+      take_step(share);
+      evaluate(base, duration, forcing);
+      norm = w.load.norm();
     }
-    try {
-      solve_pressure(forcing);
-    } catch (const NumericalError& error) {
-      throw NotConverged(error.what());
-    }
-    find_flux(w.flux, w.push);
-
-    const double scale = largest_of(elements, settings_.threads, 0.0, [&](int e) {
-      double largest = 0.0;
-      for (int k = 0; k <= Dim; ++k) {
-        largest = std::max(largest, std::abs(w.flux[e].dot(grid_.outward_normal(e, k))));
-      }
-      return largest;
-    });
+    const double scale = largest_flux();
+    const double left = w.load.size() > 0 ? w.load.template lpNorm<Eigen::Infinity>() : 0.0;
     const double allowed = flux_accuracy * scale + 16.0 * round_off;
-    const double error = has_retention() ? linearisation_error(base, duration, forcing) : 0.0;
-    const bool switched =
-        error <= near_solution * scale && switch_faces(forcing, allowed, pressure_accuracy());
-    if (!switched && error <= allowed) return;
-    // Far from the solution, mixtures lead astray, and whole changes may lead to and fro.
-    const bool near = error <= near_solution * scale;
-    if (error > 0.8 * last_error) share = std::max(0.5 * share, min_share);
-    if (error < 0.5 * last_error) share = std::min(1.5 * share, 1.0);
-    if (near && !switched) {
-      mix(error > last_error);
-    } else {
-      mixing_.reset();
-      damp_change(share);
-    }
-    last_error = error;
-    if (!std::isfinite(error) || iterations_ == max_iterations) {
+    const bool switched = left <= near_solution * scale + allowed &&
+                          switch_faces(forcing, allowed, pressure_accuracy());
+    if (!switched && left <= allowed) { if (getenv("SUFFUSE_DEBUG")) fprintf(stderr, "dt %.3g it %d done\n", duration, iterations_); return; }
+    if (getenv("SUFFUSE_DEBUG")) fprintf(stderr, "dt %.3g it %d left %.3g allowed %.3g scale %.3g share %.3g sw %d\n", duration, iterations_, left, allowed, scale, share, switched);
+    if (!std::isfinite(left) || iterations_ == max_iterations) {
       std::ostringstream text;
       text << "the iteration of the flow did not converge in " << iterations_
-           << " solutions: it misses " << error << " m3/s through a face, of " << scale << " m3/s"
+           << " solutions: " << left << " m3/s are missing at a face, of " << scale << " m3/s"
            << (switched ? "; seepage faces keep opening and closing" : "");
       throw NotConverged(text.str());
     }
+    share = 1.0;
+    last_norm = norm;
+    if (switched) {
+      last_norm = std::numeric_limits<double>::infinity();
+      evaluate(base, duration, forcing);
+    }
+    from = w.pressure.reference;
+    try {
+      solve_newton();
+    } catch (const NumericalError& error) {
+      throw NotConverged(error.what());
+    }
+    take_step(share);
   }
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::mix(bool anew) {
-  Work& w = work_;
-  if (anew) mixing_.reset();
-  if (!has_retention()) return;
-  const int unknowns = matrix_.unknowns();
-  Eigen::VectorXd pressure(unknowns);
-  Eigen::VectorXd change(unknowns);
-  Eigen::VectorXd weight(unknowns);
+void ImplicitMixed<Dim>::take_step(double share) {
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
-    const int row = matrix_.unknown(f);
-    if (row < 0) return;
-    pressure[row] = w.pressure.reference[f] + w.pressure.rise[f];
-    change[row] = w.pressure.rise[f];
-    weight[row] = matrix_.values().coeff(row, row);
-  });
-  const Eigen::VectorXd next = mixing_.next(pressure, change, weight);
-  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
-    const int row = matrix_.unknown(f);
-    if (row >= 0 && !is_held(f)) w.pressure.rise[f] = next[row] - w.pressure.reference[f];
+    work_.pressure.rise[f] = is_held(f) ? 0.0 : share * work_.step[matrix_.unknown(f)];
   });
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::damp_change(double share) {
-  if (share == 1.0 || !has_retention()) return;
-  for (std::size_t f = 0; f < kinds_.size(); ++f) {
-    if (!is_held(static_cast<int>(f))) work_.pressure.rise[f] *= share;
-  }
+double ImplicitMixed<Dim>::largest_flux() const {
+  return largest_of(grid_.mesh.element_count(), settings_.threads, 0.0, [&](int e) {
+    double largest = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      largest = std::max(largest, std::abs(work_.flux[e].dot(grid_.outward_normal(e, k))));
+    }
+    return largest;
+  });
 }
 
 template <int Dim>

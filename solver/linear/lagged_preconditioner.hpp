@@ -18,6 +18,13 @@ struct SolveCounts {
   long factorisations = 0;
   long solves = 0;
   long iterations = 0;  ///< of conjugate gradients
+
+  SolveCounts& operator+=(const SolveCounts& more) {
+    factorisations += more.factorisations;
+    solves += more.solves;
+    iterations += more.iterations;
+    return *this;
+  }
 };
 
 /// When a matrix that has changed is factored anew. A factorisation costs about ten iterations.

@@ -19,7 +19,16 @@ double capacity(const RetentionParameters& p, double psi) {
   return m * p.n * (power / -psi) * std::pow(1.0 + power, -m - 1.0);
 }
 
+/// Below n = 2 Mualem's k_r falls with infinite slope at psi = 0, by what pores hold that do not
+/// exist: down to this head it falls along a straight line (Vogel, van Genuchten and Cislerova,
+/// Adv. Water Resour. 24 (2001) 133, who have S_e follow too), m.
+constexpr double smallest_suction = 0.02;
+
 double relative_conductivity(const RetentionParameters& p, double psi) {
+  if (p.n < 2.0 && psi > -smallest_suction) {
+    const double there = relative_conductivity(p, -smallest_suction);
+    return 1.0 + (1.0 - there) * psi / smallest_suction;
+  }
   const double m = 1.0 - 1.0 / p.n;
   const double power = std::pow(-p.alpha * psi, p.n);
   // 1 - (1 - S_e^(1/m))^m with S_e^(1/m) = 1 / (1 + power), without cancellation in dry soil.

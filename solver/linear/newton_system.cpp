@@ -1,0 +1,64 @@
+#include "linear/newton_system.hpp"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseLU>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double accuracy = 1e-9;  ///< of the residual, relative to the right-hand side
+constexpr int max_iterations = 60;
+
+/// The factor, as Eigen's iterations call a preconditioner.
+class FactorPreconditioner {
+ public:
+  template <class Matrix>
+  FactorPreconditioner& analyzePattern(const Matrix& /*matrix*/) {
+    return *this;
+  }
+  template <class Matrix>
+  FactorPreconditioner& factorize(const Matrix& /*matrix*/) {
+    return *this;
+  }
+  template <class Matrix>
+  FactorPreconditioner& compute(const Matrix& /*matrix*/) {
+    return *this;
+  }
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const {
+    Eigen::VectorXd x;
+    factor->solve(rhs, x);
+    return x;
+  }
+  [[nodiscard]] static Eigen::ComputationInfo info() { return Eigen::Success; }
+
+  Factor* factor = nullptr;
+};
+
+}  // namespace
+
+void NewtonSystem::factorise(const Eigen::SparseMatrix<double>& nearly) {
+  factor_.factorise(nearly);
+  ++counts_.factorisations;
+}
+
+void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+                         Eigen::VectorXd& x) {
+  ++counts_.solves;
+  Eigen::BiCGSTAB<Eigen::SparseMatrix<double>, FactorPreconditioner> iterations;
+  iterations.preconditioner().factor = &factor_;
+  iterations.setTolerance(accuracy);
+  iterations.setMaxIterations(max_iterations);
+  iterations.compute(matrix);
+  x = iterations.solve(rhs);
+  counts_.iterations += iterations.iterations();
+  if (iterations.info() == Eigen::Success && x.allFinite()) return;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> direct(matrix);
+  if (direct.info() == Eigen::Success) x = direct.solve(rhs);
+  if (direct.info() != Eigen::Success || !x.allFinite()) {
+    throw NumericalError("the pressures could not be solved for: the system is singular");
+  }
+}
+
+}  // namespace suffuse

@@ -1,0 +1,31 @@
+#pragma once
+
+/// Solves the systems of Newton's method, whose matrices differ from a symmetric positive definite
+/// one by little: by BiCGSTAB (van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631) with the
+/// factor of the symmetric one, or directly where that takes long.
+
+#include <Eigen/SparseCore>
+
+#include "linear/cholesky_factor.hpp"
+#include "linear/lagged_preconditioner.hpp"
+
+namespace suffuse {
+
+class NewtonSystem {
+ public:
+  /// The symmetric matrix, nearly the one to be solved; every call gets the same pattern. Throws
+  /// NumericalError when it is not positive definite.
+  void factorise(const Eigen::SparseMatrix<double>& nearly);
+
+  /// Sets x to the solution of matrix x = rhs. Throws NumericalError where there is none.
+  void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+             Eigen::VectorXd& x);
+
+  [[nodiscard]] const SolveCounts& counts() const { return counts_; }
+
+ private:
+  CholeskyFactor factor_;
+  SolveCounts counts_;
+};
+
+}  // namespace suffuse
