@@ -18,9 +18,10 @@ class AndersonMixing {
   }
 
   /// The next x after the result `g` with the residual `residual` = g - x, both weighted alike by
-  /// `weight` for the least squares. The first after a reset is `g` itself.
+  /// `weight` for the least squares. Of the residual that is left, it takes this share: the first
+  /// after a reset is x + share (g - x).
   Eigen::VectorXd next(const Eigen::VectorXd& g, const Eigen::VectorXd& residual,
-                       const Eigen::VectorXd& weight);
+                       const Eigen::VectorXd& weight, double share = 1.0);
 
  private:
   static constexpr std::size_t depth = 4;

@@ -92,7 +92,8 @@ class ImplicitMixed {
   /// water does not compress and no pressure is prescribed the first face of the piece has p = 0,
   /// and prescribed inflow and sources must cancel. Throws NumericalError when they do not, when an
   /// element has no resistance, or when Newton's method for the quadratic drag does not converge;
-  /// NotConverged when the iteration of retention and seepage faces does not.
+  /// NotConverged when the iteration of retention and seepage faces does not. Where that of second
+  /// order does not, under retention, the step is one of backward Euler.
   MixedStep<Dim> step(const MixedState<Dim>& start, double dt,
                       const std::vector<const FlowForcing<Dim>*>& forcing);
 
@@ -168,6 +169,13 @@ class ImplicitMixed {
   };
 
   void set_up(const std::vector<FaceCondition>& conditions);
+  /// A step of backward Euler, and one of Alexander's method.
+  MixedStep<Dim> one_stage(const MixedState<Dim>& start, double dt,
+                           const FlowForcing<Dim>& forcing);
+  MixedStep<Dim> two_stages(const MixedState<Dim>& start, double dt, const FlowForcing<Dim>& early,
+                            const FlowForcing<Dim>& late);
+  [[nodiscard]] Field flux_of(const Field& velocity,
+                              const FlowCoefficients<Dim>& coefficients) const;
   Stage solve_stage(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
                     const Field& flux_guess);
   /// Linear resistance, drive and storage of each element. Throws NumericalError.
@@ -228,9 +236,15 @@ class ImplicitMixed {
   /// Flux out of the element that the pressures of the last iteration ask for, m3/s.
   [[nodiscard]] double flux_out(int e, int k) const;
   /// Where the next iteration starts: Anderson's mixture of the results so far, or since `anew`.
-  void mix(bool anew);
+  /// Of their changes it takes this share.
+  void mix(bool anew, double share);
   /// Takes this share of the last change of the pressures.
   void damp_change(double share);
+  /// A pressure that would pass the one at which its soil's content changes fastest stops there:
+  /// from there Newton's method meets a content that is convex or concave, and finds its way; from
+  /// saturated or dry soil, whose content hardly changes, it would go any distance. Suction grows
+  /// by a factor at most.
+  void limit_change();
   /// The flux correction and its pieces are those of the faces that are held now.
   void follow_held_faces();
   /// Whether storage holds the level of the pressure in a sealed piece.

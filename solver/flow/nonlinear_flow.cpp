@@ -21,10 +21,16 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int max_iterations = 60;
 /// What the linear system misses may be this share of the largest flux.
 constexpr double flux_accuracy = 1e-6;
+/// From this iteration on, it may be this share: where a conductivity has next to no slope on one
+/// side of p = 0 and next to no end of it on the other, iterations lead to and fro.
+constexpr int patience = 20;
+constexpr double patient_accuracy = 1e-4;
 /// From here on faces switch, and iterations are mixed.
 constexpr double near_solution = 0.1;
 /// Of a change of pressures that is taken at least.
 constexpr double min_share = 0.25;
+/// In an iteration, suction grows by this factor of itself and a metre at most.
+constexpr double max_suction_growth = 10.0;
 
 }  // namespace
 
@@ -265,20 +271,23 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
       }
       return largest;
     });
-    const double allowed = flux_accuracy * scale + 16.0 * round_off;
+    const double accuracy = iterations_ < patience ? flux_accuracy : patient_accuracy;
+    const double allowed = accuracy * scale + 16.0 * round_off;
     const double error = has_retention() ? linearisation_error(base, duration, forcing) : 0.0;
     const bool switched =
         error <= near_solution * scale && switch_faces(forcing, allowed, pressure_accuracy());
     if (!switched && error <= allowed) return;
     // Far from the solution, mixtures lead astray, and whole changes may lead to and fro.
     const bool near = error <= near_solution * scale;
-    if (error > 0.8 * last_error) share = std::max(0.5 * share, min_share);
-    if (error < 0.5 * last_error) share = std::min(1.5 * share, 1.0);
+    const double growth = error / last_error;
+    if (growth < 1.0 - 0.5 * share) share = std::min(1.5 * share, 1.0);
+    if (growth > 1.0 - 0.1 * share) share = std::max(0.5 * share, min_share);
     if (near && !switched) {
-      mix(error > last_error);
+      mix(error > last_error, share);
     } else {
       mixing_.reset();
       damp_change(share);
+      limit_change();
     }
     last_error = error;
     if (!std::isfinite(error) || iterations_ == max_iterations) {
@@ -292,7 +301,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::mix(bool anew) {
+void ImplicitMixed<Dim>::mix(bool anew, double share) {
   Work& w = work_;
   if (anew) mixing_.reset();
   if (!has_retention()) return;
@@ -307,7 +316,7 @@ void ImplicitMixed<Dim>::mix(bool anew) {
     change[row] = w.pressure.rise[f];
     weight[row] = matrix_.values().coeff(row, row);
   });
-  const Eigen::VectorXd next = mixing_.next(pressure, change, weight);
+  const Eigen::VectorXd next = mixing_.next(pressure, change, weight, share);
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
     const int row = matrix_.unknown(f);
     if (row >= 0 && !is_held(f)) w.pressure.rise[f] = next[row] - w.pressure.reference[f];
@@ -320,6 +329,25 @@ void ImplicitMixed<Dim>::damp_change(double share) {
   for (std::size_t f = 0; f < kinds_.size(); ++f) {
     if (!is_held(static_cast<int>(f))) work_.pressure.rise[f] *= share;
   }
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::limit_change() {
+  if (!has_retention()) return;
+  FacePressure& pressure = work_.pressure;
+  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
+    if (is_held(f)) return;
+    for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
+      if (e < 0) continue;
+      const double steepest = soils_.steepest(e);
+      const double way = steepest - pressure.reference[f];
+      const bool passes = steepest < 0.0 && way != 0.0 && (way > 0.0) == (pressure.rise[f] > 0.0) &&
+                          std::abs(pressure.rise[f]) > std::abs(way);
+      if (passes) pressure.rise[f] = way;
+    }
+    const double suction = std::abs(pressure.reference[f]) + 1.0 / soils_.head_per_pressure;
+    pressure.rise[f] = std::max(pressure.rise[f], -max_suction_growth * suction);
+  });
 }
 
 template <int Dim>
@@ -402,10 +430,12 @@ template <int Dim>
 MixedStep<Dim> ImplicitMixed<Dim>::saturated_steady(const FlowForcing<Dim>& forcing) {
   if (soils_.saturated()) return steady(forcing);
   set_up(forcing.conditions);
+  const std::vector<char> open = open_;
   ignore_retention_ = true;
   Stage stage = solve_stage(last_steady_, std::numeric_limits<double>::infinity(), forcing,
                             last_steady_flux_);
   ignore_retention_ = false;
+  open_ = open;
   return {std::move(stage.state), {}, std::move(stage.face_flux), std::move(stage.flux_through)};
 }
 

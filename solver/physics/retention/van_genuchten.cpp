@@ -19,6 +19,10 @@ double capacity(const RetentionParameters& p, double psi) {
   return m * p.n * (power / -psi) * std::pow(1.0 + power, -m - 1.0);
 }
 
+double steepest(const RetentionParameters& p) {
+  return -std::pow(1.0 - 1.0 / p.n, 1.0 / p.n) / p.alpha;
+}
+
 double relative_conductivity(const RetentionParameters& p, double psi) {
   const double m = 1.0 - 1.0 / p.n;
   const double power = std::pow(-p.alpha * psi, p.n);
@@ -44,6 +48,7 @@ extern const RetentionLaw van_genuchten{
     .parameters = parameters,
     .saturation = saturation,
     .capacity = capacity,
+    .steepest = steepest,
     .relative_conductivity = relative_conductivity};
 
 }  // namespace suffuse::retention
