@@ -26,6 +26,11 @@ struct FlowSoils {
   [[nodiscard]] double capacity(int e, double pressure) const {
     return retention[e].capacity(pressure * head_per_pressure) * head_per_pressure;
   }
+  /// Pressure at which dS/dp is largest, Pa; 0 in soil that stays saturated.
+  [[nodiscard]] double steepest(int e) const {
+    const RetentionModel& model = retention[e];
+    return model.law ? model.law->steepest(model.parameters) / head_per_pressure : 0.0;
+  }
   [[nodiscard]] double relative_conductivity(int e, double pressure) const {
     return retention[e].relative_conductivity(pressure * head_per_pressure);
   }

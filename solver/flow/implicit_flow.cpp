@@ -329,6 +329,7 @@ std::vector<PassTiming> ImplicitFlow<Dim>::passes() const {
   const SolveCounts counts = scheme_.counts();
   return {solving_,
           {"flow, rejected steps", control_.rejected(), 0.0},
+          {"flow, systems solved", counts.solves, 0.0},
           {"flow, matrices factored", counts.factorisations, 0.0},
           {"flow, conjugate gradients", counts.iterations, 0.0},
           reusing_};

@@ -462,23 +462,40 @@ template <int Dim>
 MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& start, double dt,
                                         const std::vector<const FlowForcing<Dim>*>& forcing) {
   set_up(forcing.front()->conditions);
-  const auto flux_of = [&](const std::vector<Vector<Dim>>& velocity, const auto& coefficients) {
-    Field flux(velocity.size());
-    for (std::size_t e = 0; e < flux.size(); ++e) flux[e] = coefficients.porosity[e] * velocity[e];
-    return flux;
-  };
-  if (settings_.stepping == TimeStepping::monotone) {
-    const FlowForcing<Dim>& last = *forcing.at(0);
-    Stage stage = solve_stage(start, dt, last, flux_of(start.velocity, last.coefficients));
-    std::vector<double> volume = stage.face_flux;
-    for (double& v : volume) v *= dt;
-    return {std::move(stage.state), std::move(volume), std::move(stage.face_flux),
-            std::move(stage.flux_through)};
+  if (settings_.stepping == TimeStepping::monotone) return one_stage(start, dt, *forcing.back());
+  if (!has_retention()) return two_stages(start, dt, *forcing.front(), *forcing.back());
+  // The second stage starts from contents ahead of the first, which may be more than full or less
+  // than dry.
+  try {
+    return two_stages(start, dt, *forcing.front(), *forcing.back());
+  } catch (const NotConverged&) {
+    return one_stage(start, dt, *forcing.back());
   }
+}
 
+template <int Dim>
+typename ImplicitMixed<Dim>::Field ImplicitMixed<Dim>::flux_of(
+    const Field& velocity, const FlowCoefficients<Dim>& coefficients) const {
+  Field flux(velocity.size());
+  for (std::size_t e = 0; e < flux.size(); ++e) flux[e] = coefficients.porosity[e] * velocity[e];
+  return flux;
+}
+
+template <int Dim>
+MixedStep<Dim> ImplicitMixed<Dim>::one_stage(const MixedState<Dim>& start, double dt,
+                                             const FlowForcing<Dim>& forcing) {
+  Stage stage = solve_stage(start, dt, forcing, flux_of(start.velocity, forcing.coefficients));
+  std::vector<double> volume = stage.face_flux;
+  for (double& v : volume) v *= dt;
+  return {std::move(stage.state), std::move(volume), std::move(stage.face_flux),
+          std::move(stage.flux_through)};
+}
+
+template <int Dim>
+MixedStep<Dim> ImplicitMixed<Dim>::two_stages(const MixedState<Dim>& start, double dt,
+                                              const FlowForcing<Dim>& early,
+                                              const FlowForcing<Dim>& late) {
   const double duration = stage_share * dt;
-  const FlowForcing<Dim>& early = *forcing.at(0);
-  const FlowForcing<Dim>& late = *forcing.at(1);
   const Stage first =
       solve_stage(start, duration, early, flux_of(start.velocity, early.coefficients));
   constexpr double ahead = (1.0 - stage_share) / stage_share;

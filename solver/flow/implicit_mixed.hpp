@@ -92,7 +92,8 @@ class ImplicitMixed {
   /// water does not compress and no pressure is prescribed the first face of the piece has p = 0,
   /// and prescribed inflow and sources must cancel. Throws NumericalError when they do not, when an
   /// element has no resistance, or when Newton's method for the quadratic drag does not converge;
-  /// NotConverged when the iteration of retention and seepage faces does not.
+  /// NotConverged when the iteration of retention and seepage faces does not. Where that of second
+  /// order does not, under retention, the step is one of backward Euler.
   MixedStep<Dim> step(const MixedState<Dim>& start, double dt,
                       const std::vector<const FlowForcing<Dim>*>& forcing);
 
@@ -148,11 +149,11 @@ class ImplicitMixed {
     Field flux;  ///< per element, m/s
     Field push;  ///< drive minus pressure gradient, Pa/m
     // Of the air that gives way to liquid; empty where all soil is saturated.
-    ElementField<Dim> side_storage;  ///< slope of the rate with pressure, m3/(s Pa)
-    ElementField<Dim> gain;            ///< dk_r/dp at a side over k_r of the element, 1/Pa
-    Eigen::VectorXd step;              ///< of Newton's method, per unknown, Pa
-    ElementField<Dim> displaced;       ///< rate at the pressures of the reference, m3/s
-    std::vector<int> level_elements;   ///< whose first face holds the level of a sealed piece
+    ElementField<Dim> side_storage;   ///< slope of the rate with pressure, m3/(s Pa)
+    ElementField<Dim> gain;           ///< dk_r/dp at a side over k_r of the element, 1/Pa
+    Eigen::VectorXd step;             ///< of Newton's method, per unknown, Pa
+    ElementField<Dim> displaced;      ///< rate at the pressures of the reference, m3/s
+    std::vector<int> level_elements;  ///< whose first face holds the level of a sealed piece
     // Of the linear system.
     Field face_push;                ///< what an element drives without the unknown rises, m/s
     std::vector<double> round_off;  ///< of it, m/s
@@ -166,6 +167,13 @@ class ImplicitMixed {
   };
 
   void set_up(const std::vector<FaceCondition>& conditions);
+  /// A step of backward Euler, and one of Alexander's method.
+  MixedStep<Dim> one_stage(const MixedState<Dim>& start, double dt,
+                           const FlowForcing<Dim>& forcing);
+  MixedStep<Dim> two_stages(const MixedState<Dim>& start, double dt, const FlowForcing<Dim>& early,
+                            const FlowForcing<Dim>& late);
+  [[nodiscard]] Field flux_of(const Field& velocity,
+                              const FlowCoefficients<Dim>& coefficients) const;
   Stage solve_stage(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
                     const Field& flux_guess);
   /// Linear resistance, drive and storage of each element. Throws NumericalError.
@@ -225,6 +233,11 @@ class ImplicitMixed {
   [[nodiscard]] double largest_flux() const;
   /// Flux out of the element at the pressures reached, m3/s.
   [[nodiscard]] double flux_out(int e, int k) const;
+  /// A pressure that would pass the one at which its soil's content changes fastest stops there:
+  /// from there Newton's method meets a content that is convex or concave, and finds its way; from
+  /// saturated or dry soil, whose content hardly changes, it would go any distance. Suction grows
+  /// by a factor at most.
+  void limit_change();
   /// The flux correction and its pieces are those of the faces that are held now.
   void follow_held_faces();
   /// Whether storage holds the level of the pressure in a sealed piece.

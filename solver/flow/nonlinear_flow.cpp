@@ -22,6 +22,8 @@ constexpr double flux_accuracy = 1e-6;
 constexpr double near_solution = 0.1;
 /// Of a step of Newton's method that is taken at least.
 constexpr double min_share = 1.0 / 16.0;
+/// In an iteration, suction grows by this factor of itself and a metre at most.
+constexpr double max_suction_growth = 10.0;
 
 }  // namespace
 
@@ -86,8 +88,8 @@ void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double
       // By differences over a little of the suction: at saturation the slope may be infinite.
       const double p = pressure[grid_.element_face[e][k]];
       const double near = 1.0 + 1e-3 * std::abs(p);  // Pa
-      const double rise = soils_.relative_conductivity(e, p + near) -
-                          soils_.relative_conductivity(e, p - near);
+      const double rise =
+          soils_.relative_conductivity(e, p + near) - soils_.relative_conductivity(e, p - near);
       w.gain[e][k] = rise / (2.0 * near) / (Dim + 1) / conducts;
     }
   });
@@ -231,9 +233,10 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   }
   // Round-off of what gravity drives and of the contents of the elements.
   const double round_off = epsilon * largest_of(elements, settings_.threads, 0.0, [&](int e) {
-    const double pores = forcing.coefficients.porosity[e] * grid_.volume[e];
-    return gravity_flux(e, forcing.coefficients) + pores / duration;
-  });
+                             const double pores =
+                                 forcing.coefficients.porosity[e] * grid_.volume[e];
+                             return gravity_flux(e, forcing.coefficients) + pores / duration;
+                           });
   double share = 1.0;
   double last_norm = std::numeric_limits<double>::infinity();
   std::vector<double> from;
@@ -253,6 +256,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
     const double allowed = flux_accuracy * scale + 64.0 * round_off;
     const bool switched = left <= near_solution * scale + allowed &&
                           switch_faces(forcing, allowed, pressure_accuracy());
+    if (!switched && left <= allowed) return;
     if (!std::isfinite(left) || iterations_ == max_iterations) {
       std::ostringstream text;
       text << "the iteration of the flow did not converge in " << iterations_
@@ -281,6 +285,7 @@ void ImplicitMixed<Dim>::take_step(double share) {
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
     work_.pressure.rise[f] = is_held(f) ? 0.0 : share * work_.step[matrix_.unknown(f)];
   });
+  limit_change();
 }
 
 template <int Dim>
@@ -291,6 +296,25 @@ double ImplicitMixed<Dim>::largest_flux() const {
       largest = std::max(largest, std::abs(work_.flux[e].dot(grid_.outward_normal(e, k))));
     }
     return largest;
+  });
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::limit_change() {
+  if (!has_retention()) return;
+  FacePressure& pressure = work_.pressure;
+  for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
+    if (is_held(f)) return;
+    for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
+      if (e < 0) continue;
+      const double steepest = soils_.steepest(e);
+      const double way = steepest - pressure.reference[f];
+      const bool passes = steepest < 0.0 && way != 0.0 && (way > 0.0) == (pressure.rise[f] > 0.0) &&
+                          std::abs(pressure.rise[f]) > std::abs(way);
+      if (passes) pressure.rise[f] = way;
+    }
+    const double suction = std::abs(pressure.reference[f]) + 1.0 / soils_.head_per_pressure;
+    pressure.rise[f] = std::max(pressure.rise[f], -max_suction_growth * suction);
   });
 }
 
@@ -374,10 +398,12 @@ template <int Dim>
 MixedStep<Dim> ImplicitMixed<Dim>::saturated_steady(const FlowForcing<Dim>& forcing) {
   if (soils_.saturated()) return steady(forcing);
   set_up(forcing.conditions);
+  const std::vector<char> open = open_;
   ignore_retention_ = true;
   Stage stage = solve_stage(last_steady_, std::numeric_limits<double>::infinity(), forcing,
                             last_steady_flux_);
   ignore_retention_ = false;
+  open_ = open;
   return {std::move(stage.state), {}, std::move(stage.face_flux), std::move(stage.flux_through)};
 }
 

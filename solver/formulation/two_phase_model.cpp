@@ -53,7 +53,9 @@ template <int Dim>
 std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
   std::vector<double> result;
   result.reserve(grid_.mesh.elements.size());
-  for (const Vector<Dim>& q : element_flux(grid_, flux_history_.mean)) result.push_back(q.norm());
+  for (const Vector<Dim>& q : element_flux(grid_, flux_history_.mean)) {
+    result.push_back(soils_.eroding_flux(static_cast<int>(result.size()), q.norm()));
+  }
   return result;
 }
 

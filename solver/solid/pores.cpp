@@ -62,7 +62,9 @@ std::vector<double> erosion_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soil
   const MaterialPoints<Dim>& points = soils.points();
   std::vector<double> result(points.size());
   for_each_index(points.size(), threads, [&](int p) {
-    result[p] = flux_at(grid, face_rate, points.element[p], points.position(grid.mesh, p)).norm();
+    const int e = points.element[p];
+    const double flux = flux_at(grid, face_rate, e, points.position(grid.mesh, p)).norm();
+    result[p] = soils.eroding_flux(e, flux);
   });
   return result;
 }

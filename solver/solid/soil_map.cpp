@@ -14,6 +14,11 @@ namespace {
 /// nothing, and steady flow through it is still one linear system.
 constexpr double free_water_ratio = 1e4;
 
+/// Gradients below this are round-off, and so are fluxes below this share of what a gradient of one
+/// drives through the most conductive soil, which a tight neighbour passes on.
+constexpr double still_gradient = 1e-12;
+constexpr double still_share = 1e-15;
+
 Soil free_water(const Scene& scene) {
   Soil water;
   water.porosity = 1.0;
@@ -32,6 +37,7 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
     : mesh_(c.mesh),
       points_(c.solid_points),
       free_water_(std::make_shared<const Soil>(free_water(c.document.scene))) {
+  const double most_conductive = free_water_->conductivity / free_water_ratio;
   for (const std::string& region : mesh_.region_names) {
     const Soil* soil = c.document.scene.find_soil(region);
     if (soil == nullptr && c.document.scene.is_free_water(region)) soil = free_water_.get();
@@ -41,6 +47,8 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
     }
     soil_of_region_.push_back(soil);
     erosion_of_region_.push_back(soil->erosion_model());
+    const double across = soil->conductivity * std::min(soil->anisotropy(), 1.0);
+    still_flux_.push_back(still_gradient * across + still_share * most_conductive);
   }
   points_begin_.assign(mesh_.element_count() + 1, 0);
   for (const int e : points_.element) ++points_begin_[e + 1];

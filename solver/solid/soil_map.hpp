@@ -47,6 +47,11 @@ class SoilMap {
   [[nodiscard]] const ErosionModel& erosion_of_element(int element) const {
     return erosion_of_region_[mesh_.element_region[element]];
   }
+  /// A flux, m/s, as far as it can erode: the round-off of still water is no drive. Still water in
+  /// which the last digit eroded would not stay still, as fines are heavy.
+  [[nodiscard]] double eroding_flux(int element, double flux) const {
+    return flux <= still_flux_[mesh_.element_region[element]] ? 0.0 : flux;
+  }
   /// n_0 of a solid point.
   [[nodiscard]] double initial_porosity(int point) const {
     return soil_of_element(points_.element[point]).initial_porosity(points_.position(mesh_, point));
@@ -70,6 +75,7 @@ class SoilMap {
   std::shared_ptr<const Soil> free_water_;
   std::vector<const Soil*> soil_of_region_;
   std::vector<ErosionModel> erosion_of_region_;
+  std::vector<double> still_flux_;  ///< per region, of water that stands still, m/s
 };
 
 }  // namespace suffuse

@@ -131,6 +131,9 @@ class Judge {
     const Json info = Json::parse(in);
     j_.warnings = static_cast<int>(info.at("warnings").size());
     j_.steps = info.at("steps").get<double>();
+    for (const Json& pass : info.at("passes")) {
+      if (pass.at("name") == "flow, systems solved") j_.solutions = pass.at("calls").get<double>();
+    }
     for (const Json& sentence : info.at("plan")) {
       keeps_inertia_ |= sentence.get<std::string>().starts_with("run: inertia");
     }
@@ -454,7 +457,7 @@ Judgement judge_run(const Scenario& scenario, const Case<2>& c, const ChildEnd& 
 std::string table_head() {
   return "sweep,scheme,parameters,seed,verdict,exit_code,seconds,steps,warnings,residual,bounded,"
          "overshoot,concentration_min,concentration_max,fitted_min,volume_defect,porosity_error,"
-         "discharge_error,message";
+         "discharge_error,solutions,message";
 }
 
 std::string table_line(const std::string& sweep, const Scenario& scenario, const Judgement& j) {
@@ -465,7 +468,7 @@ std::string table_line(const std::string& sweep, const Scenario& scenario, const
        << j.steps << ',' << j.warnings << ',' << j.residual << ',' << j.bounded << ','
        << j.overshoot << ',' << j.concentration_min << ',' << j.concentration_max << ','
        << j.fitted_min << ',' << j.volume_defect << ',' << j.porosity_error << ','
-       << j.discharge_error << ',' << cell(j.message);
+       << j.discharge_error << ',' << j.solutions << ',' << cell(j.message);
   return line.str();
 }
 

@@ -25,6 +25,7 @@ struct Judgement {
   double discharge_error = 0.0;  ///< where it is known; relative
   double porosity_error = 0.0;   ///< of the mean porosity, where it is known
   double steps = 0.0;
+  double solutions = 0.0;  ///< of linear systems; implicit
   double seconds = 0.0;
 };
 

@@ -68,4 +68,7 @@ struct Sweep {
 /// All sweeps that run the programs.
 std::vector<Sweep> all_sweeps();
 
+/// Levees under floods and rain, of soils that need not be saturated.
+Sweep seepage_sweep();
+
 }  // namespace suffuse::stress

@@ -921,7 +921,7 @@ std::vector<Sweep> all_sweeps() {
   return {conductivity(), contrast(),      modulus(),    scaling(),    given_step(),
           porosity(),     porosity_jump(), thin_layer(), slivers(),    jitter(),
           points(),       density(),       reversal(),   stagnation(), drying(),
-          throughput(),   inflow(),        laws(),       anything()};
+          throughput(),   inflow(),        laws(),       anything(),   seepage_sweep()};
 }
 
 }  // namespace suffuse::stress

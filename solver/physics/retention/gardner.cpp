@@ -17,6 +17,10 @@ double capacity(const RetentionParameters& p, double psi) {
   return p.alpha * std::exp(p.alpha * psi);
 }
 
+double steepest(const RetentionParameters& p) {
+  return -1e-6 / p.alpha;  // just below 0, where it ends
+}
+
 constexpr std::array parameters{RetentionParameter{
     "alpha", "alpha", "1/m", "Reciprocal of the suction head at which the pores empty.", 0.0,
     &RetentionParameters::alpha}};
@@ -28,6 +32,7 @@ extern const RetentionLaw gardner{.word = "gardner",
                                   .parameters = parameters,
                                   .saturation = saturation,
                                   .capacity = capacity,
+                                  .steepest = steepest,
                                   .relative_conductivity = saturation};
 
 }  // namespace suffuse::retention

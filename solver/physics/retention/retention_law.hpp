@@ -50,6 +50,8 @@ struct RetentionLaw {
   double (*saturation)(const RetentionParameters& parameters, double psi);
   /// dS_e/dpsi, 1/m
   double (*capacity)(const RetentionParameters& parameters, double psi);
+  /// psi at which dS_e/dpsi is largest, m; below 0.
+  double (*steepest)(const RetentionParameters& parameters);
   /// k_r
   double (*relative_conductivity)(const RetentionParameters& parameters, double psi);
 };

@@ -19,6 +19,10 @@ double capacity(const RetentionParameters& p, double psi) {
   return m * p.n * (power / -psi) * std::pow(1.0 + power, -m - 1.0);
 }
 
+double steepest(const RetentionParameters& p) {
+  return -std::pow(1.0 - 1.0 / p.n, 1.0 / p.n) / p.alpha;
+}
+
 /// Below n = 2 Mualem's k_r falls with infinite slope at psi = 0, by what pores hold that do not
 /// exist: down to this head it falls along a straight line (Vogel, van Genuchten and Cislerova,
 /// Adv. Water Resour. 24 (2001) 133, who have S_e follow too), m.
@@ -53,6 +57,7 @@ extern const RetentionLaw van_genuchten{
     .parameters = parameters,
     .saturation = saturation,
     .capacity = capacity,
+    .steepest = steepest,
     .relative_conductivity = relative_conductivity};
 
 }  // namespace suffuse::retention
