@@ -38,8 +38,8 @@ std::vector<double> ImplicitMixed<Dim>::stages() const {
 template <int Dim>
 SolveCounts ImplicitMixed<Dim>::counts() const {
   SolveCounts result = earlier_counts_;
-  result += newton_.counts();
   if (solver_) result += solver_->counts();
+  if (newton_) result += newton_->counts();
   return result;
 }
 
@@ -74,6 +74,7 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
   matrix_.lay_out(kinds_);
   earlier_counts_ = counts();
   solver_.emplace(settings_.threads);
+  newton_.emplace();
   work_.conditions = conditions;
   open_.assign(faces, 0);
   corrected_.assign(faces, 0);

@@ -242,8 +242,9 @@ class ImplicitMixed {
   void follow_held_faces();
   /// Whether storage holds the level of the pressure in a sealed piece.
   [[nodiscard]] bool is_level_held(int piece) const;
-  /// Where nothing holds the level of the pressure, its highest seepage face opens.
-  void hold_levels(const FlowForcing<Dim>& forcing);
+  /// Where nothing holds the level of the pressure, its highest seepage face opens. Returns whether
+  /// any did.
+  bool hold_levels(const FlowForcing<Dim>& forcing);
   /// Pressures below this are zero to a seepage face, Pa.
   [[nodiscard]] double pressure_accuracy() const;
   [[nodiscard]] double largest_area(int e) const {
@@ -289,7 +290,7 @@ class ImplicitMixed {
   std::vector<char> open_;       ///< per face: a seepage face that lets water out
   std::vector<char> corrected_;  ///< per face: held in the flux correction as it stands
   int iterations_ = 0;
-  NewtonSystem newton_;
+  std::optional<NewtonSystem> newton_;
   MixedMatrix<Dim> matrix_;
   std::vector<double> face_area_;
   std::optional<LaggedPreconditioner> solver_;

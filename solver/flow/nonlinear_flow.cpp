@@ -16,8 +16,10 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int max_iterations = 60;
-/// What is left of the balance at a face may be this share of the largest flux.
+/// What is missing of the balance at a face may be this share of the largest flux, beside round-off
+/// of what gravity drives and of the contents of the elements.
 constexpr double flux_accuracy = 1e-6;
+constexpr double round_off_units = 64.0;
 /// From here on seepage faces open and close.
 constexpr double near_solution = 0.1;
 /// Of a step of Newton's method that is taken at least.
@@ -148,7 +150,8 @@ bool ImplicitMixed<Dim>::is_level_held(int piece) const {
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::hold_levels(const FlowForcing<Dim>& forcing) {
+bool ImplicitMixed<Dim>::hold_levels(const FlowForcing<Dim>& forcing) {
+  bool opened = false;
   for (int p = 0; p < correction_->sealed_piece_count(); ++p) {
     if (is_level_held(p)) continue;
     int highest = -1;
@@ -164,7 +167,9 @@ void ImplicitMixed<Dim>::hold_levels(const FlowForcing<Dim>& forcing) {
     }
     open_[highest] = 1;
     resolve(forcing.conditions[highest], highest);
+    opened = true;
   }
+  return opened;
 }
 
 template <int Dim>
@@ -179,8 +184,8 @@ void ImplicitMixed<Dim>::solve_newton() {
   };
   if (!has_retention()) {
     assemble({});
-    newton_.factorise(matrix_.values());
-    newton_.solve(matrix_.values(), w.load, w.step);
+    newton_->factorise(matrix_.values());
+    newton_->solve(matrix_.values(), w.load, w.step);
     return;
   }
   // A wetter element conducts better. Where water enters, that adds to the diagonal; the symmetric
@@ -194,10 +199,10 @@ void ImplicitMixed<Dim>::solve_newton() {
     }
   });
   assemble(nearly);
-  newton_.factorise(matrix_.values());
+  newton_->factorise(matrix_.values());
   assemble(w.side_storage);
   const auto held = [&](int f) { return is_held(f); };
-  newton_.solve(matrix_.with_gain(flux, w.gain, held), w.load, w.step);
+  newton_->solve(matrix_.with_gain(flux, w.gain, held), w.load, w.step);
 }
 
 template <int Dim>
@@ -211,7 +216,7 @@ void ImplicitMixed<Dim>::evaluate(const MixedState<Dim>& base, double duration,
   }
   w.pressure.move_reference(base.face_pressure);
   if (has_retention()) linearise_retention(base, duration, forcing);
-  hold_levels(forcing);
+  if (hold_levels(forcing)) return evaluate(base, duration, forcing);
   find_flux(w.flux, w.push);
   find_load(forcing);
   for (const int f : switching_) {
@@ -231,7 +236,6 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   for (ElementField<Dim>* field : {&w.displaced, &w.side_storage, &w.gain}) {
     field->resize(has_retention() ? elements : 0);
   }
-  // Round-off of what gravity drives and of the contents of the elements.
   const double round_off = epsilon * largest_of(elements, settings_.threads, 0.0, [&](int e) {
                              const double pores =
                                  forcing.coefficients.porosity[e] * grid_.volume[e];
@@ -253,7 +257,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
     }
     const double scale = largest_flux();
     const double left = w.load.size() > 0 ? w.load.template lpNorm<Eigen::Infinity>() : 0.0;
-    const double allowed = flux_accuracy * scale + 64.0 * round_off;
+    const double allowed = flux_accuracy * scale + round_off_units * round_off;
     const bool switched = left <= near_solution * scale + allowed &&
                           switch_faces(forcing, allowed, pressure_accuracy());
     if (!switched && left <= allowed) return;

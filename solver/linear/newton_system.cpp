@@ -39,7 +39,11 @@ class FactorPreconditioner {
 }  // namespace
 
 void NewtonSystem::factorise(const Eigen::SparseMatrix<double>& nearly) {
+  const Eigen::Map<const Eigen::VectorXd> values(nearly.valuePtr(), nearly.nonZeros());
+  if (values.size() == factored_.size() && values == factored_) return;
+  factored_.resize(0);
   factor_.factorise(nearly);
+  factored_ = values;
   ++counts_.factorisations;
 }
 

@@ -13,8 +13,8 @@ namespace suffuse {
 
 class NewtonSystem {
  public:
-  /// The symmetric matrix, nearly the one to be solved; every call gets the same pattern. Throws
-  /// NumericalError when it is not positive definite.
+  /// The symmetric matrix, nearly the one to be solved; with the values of the last call nothing is
+  /// done. Throws NumericalError when it is not positive definite.
   void factorise(const Eigen::SparseMatrix<double>& nearly);
 
   /// Sets x to the solution of matrix x = rhs. Throws NumericalError where there is none.
@@ -25,6 +25,7 @@ class NewtonSystem {
 
  private:
   CholeskyFactor factor_;
+  Eigen::VectorXd factored_;  ///< values of the matrix that is factored
   SolveCounts counts_;
 };
 
