@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "box_mesh.hpp"
 #include "case/slit.hpp"
 #include "flow/leaky_walls.hpp"
 #include "model_run.hpp"
@@ -74,11 +75,16 @@ TEST(LeakyWall, IsAResistanceInSeriesWithTheSoil) {
       Scene scene = column_scene({2e-4, 3e-7});
       scene.gravity = {0.0, gravity, 0.0};
       scene.walls = {wall_on("wall 0", conductance)};
+      // Water that is stored changes no steady flow.
+      Scene stores = scene;
+      stores.liquid.bulk_modulus = 2e9;
+      model::ModelRun stored(model::make_case(walled_column(8, {0.375}, width), stores));
       model::ModelRun run(model::make_case(walled_column(8, {0.375}, width), scene));
       // Under gravity the water above stands one metre higher.
       const double head = 0.6 + (gravity < 0.0 ? 1.0 : 0.0);
       const double exact = width * head / (0.375 / 2e-4 + 1.0 / conductance + 0.625 / 3e-7);
       EXPECT_NEAR(flux_through(run) / exact, 1.0, 1e-10) << conductance << ' ' << gravity;
+      EXPECT_NEAR(flux_through(stored) / exact, 1.0, 1e-10);
       const HistoryRow row = run.model().history_row(run.model().flow_state());
       EXPECT_NEAR(row.flux_out / exact, 1.0, 1e-10);
       run.run({10.0});
@@ -93,6 +99,39 @@ TEST(LeakyWall, IsAResistanceInSeriesWithTheSoil) {
       EXPECT_NEAR(boundaries[2].water_out / boundaries[1].water_out, 1.0, 1e-10);
     }
   }
+}
+
+TEST(LeakyWall, IsOneInThreeDimensionsToo) {
+  Mesh<3> mesh = model::box_mesh({3, 2, 4}, {0.75, 0.5, 1.0});
+  mesh.region_names = {"soil 0", "soil 1"};
+  BoundarySet<3> cut{"wall 0", {}};
+  const Grid<3> whole(mesh);
+  for (int f = 0; f < whole.face_count(); ++f) {
+    if (std::abs(whole.face_centre(f)[2] - 0.5) < 1e-9) cut.faces.push_back(whole.face_nodes[f]);
+  }
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    mesh.element_region[e] = element_centroid(mesh, e)[2] > 0.5 ? 1 : 0;
+  }
+  EXPECT_TRUE(slit(mesh, {cut}).empty());
+  Scene scene = column_scene({1e-3, 2e-4});
+  scene.liquid.bulk_modulus = 2e7;
+  scene.boundaries[0].concentration = 0.05;
+  scene.walls = {wall_on("wall 0", 1e-4)};
+  scene.soils[1].erosion = {erosion_law("first-order"), 1e-3, 0.0, false};
+  scene.time.end = 1000.0;
+  const Case<3> c = model::make_case(mesh, scene);
+  SinglePoint<3> run(c, make_plan(c, {}));
+  const double exact = 0.75 * 0.5 * 0.6 / (0.5 / 1e-3 + 1.0 / 1e-4 + 0.5 / 2e-4);
+  EXPECT_NEAR(run.history_row(run.flow_state()).flux_out / exact, 1.0, 1e-10);
+  while (run.time() < 1000.0) {
+    run.advance(1000.0);
+    for (const RegionRow& row : run.region_rows()) {
+      EXPECT_LE(std::abs(row.ledger.residual_water), 1e-12);
+      EXPECT_LE(std::abs(row.ledger.residual_grains), 1e-12);
+    }
+    EXPECT_LE(std::abs(run.ledger().residual_grains), 1e-12);
+  }
+  EXPECT_GT(run.region_rows()[0].ledger.fines_in, 0.0);
 }
 
 TEST(LeakyWall, ClosesNoRoomOfWaterThatIsNotStored) {
@@ -295,6 +334,68 @@ TEST(LeakyWall, TakesTheJumpOfGardnersProfile) {
     }
     coarse = error;
   }
+}
+
+TEST(LeakyWall, WetsDrySoilBehindIt) {
+  // A pond on a thin layer over a clogged sheet: what enters is held back by the sheet, whose
+  // conductance says how much passes at most.
+  const double conductance = 2e-7;
+  Scene scene = column_scene({1e-5, 1e-5});
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.time.stepping = TimeStepping::monotone;
+  scene.initial_flow = InitialFlow::rest;
+  scene.water_level = -1.0;
+  for (Soil& soil : scene.soils) {
+    soil.retention.law = retention_law("van-genuchten");
+    soil.retention.residual_saturation = 0.1;
+    soil.retention.parameters = {2.0, 1.8};
+  }
+  scene.boundaries = {model::pressure_on("top", 981.0)};
+  scene.boundaries[0].concentration = 0.05;
+  scene.walls = {wall_on("wall 0", conductance)};
+  scene.time.end = 40000.0;
+  const double width = 1.0 / 16;
+  model::ModelRun run(model::make_case(walled_column(16, {0.75}, width, 1), scene));
+  const double water = run.model().ledger().water;
+  double last = 0.0;
+  for (const double time : {10000.0, 20000.0, 40000.0}) {
+    run.run({time});
+    const auto rows = run.model().boundary_rows(run.model().flow_state());
+    // From the pond 0.35 m above the sheet into a suction of 1 to 2 m.
+    const double passed = rows[1].liquid_in - last;
+    last = rows[1].liquid_in;
+    const double duration = time == 40000.0 ? 20000.0 : 10000.0;
+    EXPECT_LT(passed, width * duration * conductance * (0.35 + 1.75)) << time;
+    EXPECT_GT(passed, width * duration * conductance * 0.35) << time;
+  }
+  EXPECT_GT(run.model().ledger().water, water);
+  EXPECT_LE(run.worst_residual(), 1e-12);
+  for (const RegionRow& row : run.model().region_rows()) {
+    EXPECT_LE(std::abs(row.ledger.residual_water), 1e-12);
+    EXPECT_LE(std::abs(row.ledger.residual_grains), 1e-12);
+  }
+  // Above the sheet all is full and nearly at rest, while soil below it is under suction.
+  const FlowState<2> flow = run.model().flow_state();
+  for (int e = 0; e < run.input().mesh.element_count(); ++e) {
+    const bool above = run.input().mesh.element_region[e] == 1;
+    EXPECT_EQ(flow.pressure[e] > 0.0, above);
+  }
+}
+
+TEST(LeakyWall, StandsInFastFlow) {
+  // Ergun's law in series with the wall: dp = L (a q + b q^2) + rho_w g q / C.
+  Scene scene = column_scene({2e-2, 2e-2});
+  for (Soil& soil : scene.soils) soil.drag = SoilDrag::ergun;
+  const double conductance = 5e-2;
+  scene.walls = {wall_on("wall 0", conductance)};
+  model::ModelRun run(model::make_case(walled_column(8, {0.5}), scene));
+  const double n = scene.soils[0].porosity;
+  const double size = ergun_grain_size(2e-2, n, 1000.0, 1e-3);
+  const double a = unit_weight / 2e-2 + unit_weight / conductance;
+  const double b = ergun_quadratic_drag(n, 1000.0, size);
+  const double exact = (std::sqrt(a * a + 4.0 * b * 5886.0) - a) / (2.0 * b);
+  EXPECT_LT(exact, 0.99 * 5886.0 / a) << "the quadratic drag counts";
+  EXPECT_NEAR(flux_through(run) / (0.25 * exact), 1.0, 1e-10);
 }
 
 TEST(LeakyWall, OneAndTwoThreadsGiveTheSameBitsAndARestoredRunToo) {
