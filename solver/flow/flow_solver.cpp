@@ -166,7 +166,7 @@ void FlowSolver<Dim>::describe(const FlowState<Dim>& state, HistoryRow& row) con
   CompensatedSum in;
   CompensatedSum out;
   for (int f = 0; f < grid_.face_count(); ++f) {
-    if (!grid_.is_outer(f)) continue;
+    if (!grid_.is_border(f)) continue;
     const double flux = state.face_flux[f];
     if (flux < 0.0) in.add(-flux);
     if (flux > 0.0) out.add(flux);

@@ -36,14 +36,17 @@ class DisjointSets {
 
 template <int Dim>
 FluxCorrection<Dim>::FluxCorrection(const Grid<Dim>& grid,
-                                    const std::vector<FaceCondition>& conditions)
-    : grid_(grid) {
+                                    const std::vector<FaceCondition>& conditions,
+                                    std::vector<LeakyFace> walls)
+    : grid_(grid), walls_(std::move(walls)) {
   const int elements = grid.mesh.element_count();
   DisjointSets pieces(elements + 1);
   for (int f = 0; f < grid.face_count(); ++f) {
-    if (grid.is_outer(f) && conditions[f].kind != FaceKind::pressure) continue;
+    if (grid.is_border(f) && conditions[f].kind != FaceKind::pressure) continue;
+    const int partner = grid.face_partner[f];
+    if (partner >= 0 && partner < f) continue;
     passable_.push_back(f);
-    pieces.join(grid.face_left[f], grid.is_outer(f) ? elements : grid.face_right[f]);
+    pieces.join(grid.face_left[f], grid.is_border(f) ? elements : grid.beyond(f));
   }
   std::vector<int> piece_of_set(elements + 1, -1);
   sealed_piece_.assign(elements, -1);
@@ -77,8 +80,11 @@ void FluxCorrection<Dim>::follow(const std::vector<double>& conductance) {
   std::vector<double> face_conductance(grid_.face_count());
   for (const int f : passable_) {
     double value = conductance[grid_.face_left[f]];
-    if (!grid_.is_outer(f)) value = std::min(value, conductance[grid_.face_right[f]]);
+    if (!grid_.is_border(f)) value = std::min(value, conductance[grid_.beyond(f)]);
     face_conductance[f] = value * grid_.face_normal[f].squaredNorm();
+  }
+  for (const LeakyFace& wall : walls_) {
+    face_conductance[wall.face] = std::min(face_conductance[wall.face], wall.conductance);
   }
   std::vector<int> by_conductance = passable_;
   std::stable_sort(by_conductance.begin(), by_conductance.end(),
@@ -86,16 +92,16 @@ void FluxCorrection<Dim>::follow(const std::vector<double>& conductance) {
   DisjointSets joined(elements + 1);
   std::vector<char> in_tree(grid_.face_count(), 0);
   for (const int f : by_conductance) {
-    if (joined.join(grid_.face_left[f], grid_.is_outer(f) ? elements : grid_.face_right[f])) {
-      in_tree[f] = 1;
-    }
+    if (!joined.join(grid_.face_left[f], grid_.is_border(f) ? elements : grid_.beyond(f))) continue;
+    in_tree[f] = 1;
+    if (grid_.face_partner[f] >= 0) in_tree[grid_.face_partner[f]] = 1;
   }
 
   drain_.assign(elements, -1);
   from_root_.clear();
   from_root_.reserve(elements);
   for (const int f : passable_) {
-    if (in_tree[f] != 0 && grid_.is_outer(f)) {
+    if (in_tree[f] != 0 && grid_.is_border(f)) {
       drain_[grid_.face_left[f]] = f;
       from_root_.push_back(grid_.face_left[f]);
     }
@@ -104,9 +110,10 @@ void FluxCorrection<Dim>::follow(const std::vector<double>& conductance) {
   for (std::size_t i = 0; i < from_root_.size(); ++i) {
     const int e = from_root_[i];
     for (const int f : grid_.element_face[e]) {
-      if (in_tree[f] == 0 || f == drain_[e] || grid_.is_outer(f)) continue;
-      const int next = grid_.face_left[f] == e ? grid_.face_right[f] : grid_.face_left[f];
-      drain_[next] = f;
+      if (in_tree[f] == 0 || f == drain_[e] || grid_.is_border(f)) continue;
+      const int next = grid_.face_left[f] == e ? grid_.beyond(f) : grid_.face_left[f];
+      const int partner = grid_.face_partner[f];
+      drain_[next] = partner < 0 ? f : partner;
       from_root_.push_back(next);
     }
   }
@@ -130,7 +137,8 @@ void FluxCorrection<Dim>::correct(std::vector<double>& face_flux,
     if (f < 0) continue;
     const bool is_left = grid_.face_left[f] == e;
     face_flux[f] -= is_left ? excess[e] : -excess[e];
-    const int receiver = is_left ? grid_.face_right[f] : grid_.face_left[f];
+    if (grid_.face_partner[f] >= 0) face_flux[grid_.face_partner[f]] = -face_flux[f];
+    const int receiver = is_left ? grid_.beyond(f) : grid_.face_left[f];
     if (receiver >= 0) excess[receiver] += excess[e];
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flow/face_conditions.hpp"
+#include "flow/leaky_walls.hpp"
 #include "grid/grid.hpp"
 
 namespace suffuse {
@@ -17,12 +18,15 @@ namespace suffuse {
 template <int Dim>
 class FluxCorrection {
  public:
-  /// The outside is reached through the faces with a prescribed pressure.
-  FluxCorrection(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions);
+  /// The outside is reached through the faces with a prescribed pressure. `walls`: the faces of the
+  /// grid that have partners.
+  FluxCorrection(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                 std::vector<LeakyFace> walls = {});
 
   /// Lays the tree along the best conductances. `conductance`: per element, mobility over volume,
-  /// in any unit. A tree stays while no two elements have changed relative to each other by more
-  /// than `stale_change`: any tree is right, a good one changes fluxes less.
+  /// 1/(m Pa s), or in any unit where there are no walls. A tree stays while no two elements have
+  /// changed relative to each other by more than `stale_change`: any tree is right, a good one
+  /// changes fluxes less.
   void follow(const std::vector<double>& conductance);
   static constexpr double stale_change = 10.0;
 
@@ -43,7 +47,8 @@ class FluxCorrection {
 
  private:
   const Grid<Dim>& grid_;
-  std::vector<int> passable_;  ///< interior and pressure faces
+  std::vector<LeakyFace> walls_;
+  std::vector<int> passable_;  ///< interior and pressure faces, and one side of each wall
   std::vector<int> sealed_piece_;
   std::vector<int> sealed_root_;
   std::vector<double> followed_;  ///< conductances the tree was laid for

@@ -20,11 +20,13 @@ constexpr double stage_share = 1.0 - 0.5 * std::numbers::sqrt2;
 
 template <int Dim>
 ImplicitMixed<Dim>::ImplicitMixed(const Grid<Dim>& grid, ImplicitSettings settings,
-                                  Vector<Dim> gravity, FlowSoils<Dim> soils)
+                                  Vector<Dim> gravity, FlowSoils<Dim> soils,
+                                  std::vector<LeakyFace> walls)
     : grid_(grid),
       settings_(settings),
       gravity_(std::move(gravity)),
       soils_(std::move(soils)),
+      walls_(std::move(walls)),
       matrix_(grid, settings.threads) {
   for (const Vector<Dim>& normal : grid.face_normal) face_area_.push_back(normal.norm());
 }
@@ -95,7 +97,7 @@ void ImplicitMixed<Dim>::set_up_correction() {
   for (std::size_t f = 0; f < held.size(); ++f) {
     held[f].kind = corrected_[f] != 0 ? FaceKind::pressure : FaceKind::wall;
   }
-  correction_.emplace(grid_, held);
+  correction_.emplace(grid_, held, walls_);
 }
 
 template <int Dim>
@@ -175,11 +177,13 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
       w.tolerance[row] += w.round_off[e] * face_area_[f];
     }
   });
+  add_walls_to_load();
 }
 
 template <int Dim>
 void ImplicitMixed<Dim>::solve_pressure(const FlowForcing<Dim>& forcing) {
   matrix_.assemble(work_.law, work_.storage);
+  for (const LeakyFace& wall : work_.walls) matrix_.couple(wall);
   find_load(forcing);
 
   for (const int e : correction_->sealed_root()) {
@@ -211,60 +215,15 @@ void ImplicitMixed<Dim>::find_resistance(const MixedState<Dim>& base, double dur
   });
   const auto wrong = std::find_if_not(w.resistance.begin(), w.resistance.end(),
                                       [](double r) { return r > 0.0 && std::isfinite(r); });
-  if (wrong == w.resistance.end()) return;
+  if (wrong == w.resistance.end()) {
+    find_wall_conductance();
+    return;
+  }
   const auto e = static_cast<int>(wrong - w.resistance.begin());
   std::ostringstream text;
   text << "the liquid must meet resistance everywhere; " << element_text(grid_, e) << " has "
        << *wrong << " kg/(m3 s) per flux";
   throw NumericalError(text.str());
-}
-
-template <int Dim>
-void ImplicitMixed<Dim>::balance_sealed_pieces(const FlowForcing<Dim>& forcing) {
-  Work& w = work_;
-  const int elements = grid_.mesh.element_count();
-  const auto pieces = static_cast<std::size_t>(correction_->sealed_piece_count());
-  if (forcing.source.empty()) {
-    w.net_source.assign(elements, 0.0);
-  } else {
-    w.net_source = forcing.source;
-  }
-  w.surplus.assign(pieces, 0.0);
-  // Retention and seepage faces take up what enters.
-  if (pieces == 0 || is_nonlinear()) return;
-
-  const std::vector<int>& piece = correction_->sealed_piece();
-  std::vector<double> gross(pieces, 0.0);
-  std::vector<double> volume(pieces, 0.0);
-  for (int e = 0; e < elements; ++e) {
-    if (piece[e] < 0) continue;
-    w.surplus[piece[e]] += w.net_source[e];
-    gross[piece[e]] += std::abs(w.net_source[e]);
-    volume[piece[e]] += grid_.volume[e];
-  }
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    const int p = piece[grid_.face_left[f]];
-    if (p < 0 || !grid_.is_outer(f)) continue;
-    w.surplus[p] += prescribed_inflow(forcing, f);
-    gross[p] += std::abs(prescribed_inflow(forcing, f));
-  }
-  for (std::size_t p = 0; p < pieces; ++p) {
-    if (w.storage[correction_->sealed_root()[p]] > 0.0) continue;
-    if (!(std::abs(w.surplus[p]) <= 1e-9 * gross[p])) {
-      std::ostringstream text;
-      text.precision(10);
-      text << "no boundary prescribes a pressure and water is not stored, so prescribed inflow "
-              "and sources must cancel; they add up to "
-           << w.surplus[p] << " m3/s, of " << gross[p] << " m3/s in all";
-      throw NumericalError(text.str());
-    }
-  }
-  // The round-off that remains is spread over the piece.
-  for (int e = 0; e < elements; ++e) {
-    if (piece[e] >= 0 && w.storage[correction_->sealed_root()[piece[e]]] == 0.0) {
-      w.net_source[e] -= w.surplus[piece[e]] * grid_.volume[e] / volume[piece[e]];
-    }
-  }
 }
 
 template <int Dim>
@@ -326,39 +285,10 @@ void ImplicitMixed<Dim>::solve_linear(const MixedState<Dim>& base,
   const double round_off = largest_of(elements, settings_.threads, 0.0, [&](int e) {
     return epsilon * conductance_of(e) * largest_face(e, w.pressure.rise);
   });
-  if (round_off <= 1e-12 * through) return;
+  if (std::max(round_off, wall_round_off()) <= 1e-12 * through) return;
   w.pressure.move_reference(base.face_pressure);
   solve_pressure(forcing);
   find_flux(w.flux, w.push);
-}
-
-template <int Dim>
-void ImplicitMixed<Dim>::level_sealed_pieces(const MixedState<Dim>& base,
-                                             std::vector<double>& rise) const {
-  // To the last digit where next to no storage hardly holds the level.
-  const auto pieces = static_cast<std::size_t>(correction_->sealed_piece_count());
-  if (pieces == 0) return;
-  const std::vector<int>& piece = correction_->sealed_piece();
-  std::vector<double> stored(pieces, 0.0);
-  std::vector<double> capacity(pieces, 0.0);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    if (piece[e] < 0) continue;
-    for (const int f : grid_.element_face[e]) stored[piece[e]] += work_.storage[e] * rise[f];
-    capacity[piece[e]] += (Dim + 1) * work_.storage[e];
-  }
-  std::vector<double> shift(pieces);
-  for (std::size_t p = 0; p < pieces; ++p) {
-    if (capacity[p] > 0.0) {
-      shift[p] = (work_.surplus[p] - stored[p]) / capacity[p];
-    } else {
-      const int held = grid_.element_face[correction_->sealed_root()[p]][0];
-      shift[p] = -(base.face_pressure[held] + rise[held]);
-    }
-  }
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    const int p = piece[grid_.face_left[f]];
-    if (p >= 0) rise[f] += shift[p];
-  }
 }
 
 template <int Dim>
@@ -388,6 +318,10 @@ void ImplicitMixed<Dim>::find_face_flux(const MixedState<Dim>& base, double dura
     const double compressed = w.storage[e] * stage.rise[grid_.element_face[e][k]];
     return displaces ? compressed + w.displaced[e][k] : compressed;
   };
+  const auto out_of = [&](int e, int f) {
+    const int k = grid_.side_of(e, f);
+    return w.flux[e].dot(grid_.outward_normal(e, k)) - stored(e, k) + w.net_source[e] / (Dim + 1);
+  };
 
   // From the side that conducts less, where pressures give fluxes with more digits.
   stage.face_flux.resize(faces);
@@ -400,11 +334,14 @@ void ImplicitMixed<Dim>::find_face_flux(const MixedState<Dim>& base, double dura
     const int left = grid_.face_left[f];
     const int right = grid_.face_right[f];
     const int e = right < 0 || w.conductance[left] <= w.conductance[right] ? left : right;
-    const int k = grid_.side_of(e, f);
-    stage.face_flux[f] =
-        grid_.element_face_sign[e][k] *
-        (w.flux[e].dot(grid_.outward_normal(e, k)) - stored(e, k) + w.net_source[e] / (Dim + 1));
+    stage.face_flux[f] = e == left ? out_of(e, f) : -out_of(e, f);
   });
+  for (const LeakyFace& wall : w.walls) {
+    const double flux = wall_flux(wall, out_of(grid_.face_left[wall.face], wall.face),
+                                  out_of(grid_.face_left[wall.partner], wall.partner));
+    stage.face_flux[wall.face] = flux;
+    stage.face_flux[wall.partner] = -flux;
+  }
   correction_->follow(w.conductance);
   correction_->correct(stage.face_flux, w.net_outflow);
   for_each_index(faces, settings_.threads, [&](int f) {

@@ -23,6 +23,7 @@
 #include "flow/flow.hpp"
 #include "flow/flow_soils.hpp"
 #include "flow/flux_correction.hpp"
+#include "flow/leaky_walls.hpp"
 #include "flow/mixed_matrix.hpp"
 #include "grid/grid.hpp"
 #include "linear/lagged_preconditioner.hpp"
@@ -79,7 +80,7 @@ template <int Dim>
 class ImplicitMixed {
  public:
   ImplicitMixed(const Grid<Dim>& grid, ImplicitSettings settings, Vector<Dim> gravity,
-                FlowSoils<Dim> soils = {});
+                FlowSoils<Dim> soils = {}, std::vector<LeakyFace> walls = {});
   ImplicitMixed(const ImplicitMixed&) = delete;
   ImplicitMixed& operator=(const ImplicitMixed&) = delete;
 
@@ -144,6 +145,7 @@ class ImplicitMixed {
     std::vector<double> storage;            ///< per face of the element, m3/(s Pa)
     std::vector<double> net_source;         ///< outflow asked for, m3/s
     std::vector<double> surplus;            ///< of inflow and sources of each sealed piece, m3/s
+    std::vector<LeakyFace> walls;           ///< conductance as the stage has it
     MomentumLaw<Dim> law;
     FacePressure pressure;
     Field flux;  ///< per element, m/s
@@ -207,6 +209,18 @@ class ImplicitMixed {
   void level_sealed_pieces(const MixedState<Dim>& base, std::vector<double>& rise) const;
   void find_face_flux(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
                       Stage& stage);
+
+  // Of walls that let liquid through: wall_flow.cpp.
+
+  /// Conductances of the walls of this stage.
+  void find_wall_conductance();
+  /// What flows between the two sides of a wall at the pressures of the reference.
+  void add_walls_to_load();
+  /// Largest round-off of what flows through a wall at these pressures, m3/s.
+  [[nodiscard]] double wall_round_off() const;
+  /// Flux into a wall, m3/s, which is also what leaves the elements on its two sides.
+  [[nodiscard]] double wall_flux(const LeakyFace& wall, double out_of_left,
+                                 double out_of_partner) const;
 
   // Of retention and seepage faces: nonlinear_flow.cpp.
 
@@ -283,6 +297,7 @@ class ImplicitMixed {
   Vector<Dim> gravity_;
 
   FlowSoils<Dim> soils_;
+  std::vector<LeakyFace> walls_;
   bool ignore_retention_ = false;
 
   std::vector<FaceKind> kinds_;  ///< everything below is set up for these

@@ -42,7 +42,7 @@ FaceVolumes face_volumes(const Grid<Dim>& grid, const std::vector<double>& start
   const std::vector<double> end = element_pressure(grid, step.end.face_pressure, threads);
   for_each_index(grid.face_count(), threads, [&](int f) {
     const double volume = step.face_volume[f];
-    const int from = volume < 0.0 ? grid.face_right[f] : grid.face_left[f];
+    const int from = volume < 0.0 ? grid.beyond(f) : grid.face_left[f];
     const double upwind = from >= 0 ? 0.5 * (start_element[from] + end[from])
                                     : 0.5 * (start_face[f] + step.end.face_pressure[f]);
     result.density_excess[f] = volume * std::expm1(upwind / bulk_modulus);

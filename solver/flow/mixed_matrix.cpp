@@ -47,16 +47,14 @@ void MixedMatrix<Dim>::lay_out(const std::vector<FaceKind>& kinds) {
       }
     }
   }
+  for (std::size_t f = 0; f < kinds.size(); ++f) {
+    const int partner = grid_.face_partner[f];
+    if (partner >= 0) entries.emplace_back(unknown_[f], unknown_[partner], 1.0);
+  }
   values_.resize(unknowns_, unknowns_);
   values_.setFromTriplets(entries.begin(), entries.end());
   values_.makeCompressed();
 
-  const auto position = [&](int row, int column) {
-    const int* inner = values_.innerIndexPtr();
-    const int* first = inner + values_.outerIndexPtr()[column];
-    const int* last = inner + values_.outerIndexPtr()[column + 1];
-    return static_cast<int>(std::lower_bound(first, last, row) - inner);
-  };
   position_.resize(elements);
   for (int e = 0; e < elements; ++e) {
     for (int a = 0; a <= Dim; ++a) {
@@ -67,6 +65,14 @@ void MixedMatrix<Dim>::lay_out(const std::vector<FaceKind>& kinds) {
       }
     }
   }
+}
+
+template <int Dim>
+int MixedMatrix<Dim>::position(int row, int column) const {
+  const int* inner = values_.innerIndexPtr();
+  const int* first = inner + values_.outerIndexPtr()[column];
+  const int* last = inner + values_.outerIndexPtr()[column + 1];
+  return static_cast<int>(std::lower_bound(first, last, row) - inner);
 }
 
 template <int Dim>
@@ -105,6 +111,16 @@ void MixedMatrix<Dim>::assemble(const MomentumLaw<Dim>& law, const std::vector<d
     values[position_[left][k][k]] =
         grid_.is_outer(f) ? diagonal(left) : diagonal(left) + diagonal(grid_.face_right[f]);
   });
+}
+
+template <int Dim>
+void MixedMatrix<Dim>::couple(const LeakyFace& wall) {
+  double* values = values_.valuePtr();
+  const int row = unknown_[wall.face];
+  const int column = unknown_[wall.partner];
+  values[position(row, row)] += wall.conductance;
+  values[position(column, column)] += wall.conductance;
+  values[position(row, column)] = values[position(column, row)] = -wall.conductance;
 }
 
 template <int Dim>

@@ -2,7 +2,7 @@
 
 /// The matrix of the mixed elements: symmetric, with an unknown for each face whose pressure is not
 /// prescribed throughout. Its entries are T N_a . N_b / V of each element, plus storage on the
-/// diagonal.
+/// diagonal. The two sides of a wall that lets liquid through are coupled by its conductance.
 
 #include <Eigen/SparseCore>
 #include <array>
@@ -11,6 +11,7 @@
 
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
+#include "flow/leaky_walls.hpp"
 #include "grid/element_field.hpp"
 #include "grid/grid.hpp"
 
@@ -39,6 +40,9 @@ class MixedMatrix {
   /// `storage` per element, and beside it `side_storage` per side of an element (may be empty).
   void assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage,
                 const ElementField<Dim>& side_storage = {});
+  /// Couples the faces of a wall, after `assemble`: conductance times the difference of their
+  /// pressures flows between them.
+  void couple(const LeakyFace& wall);
   /// Makes the unknown of a face one of its own, uncoupled from the others, whose value the right
   /// side decides. Returns its diagonal entry.
   double uncouple(int face);
@@ -60,6 +64,8 @@ class MixedMatrix {
   template <class Value>
   using PerEntry = std::vector<std::array<std::array<Value, Dim + 1>, Dim + 1>>;
 
+  /// Where an entry is among the values.
+  [[nodiscard]] int position(int row, int column) const;
   [[nodiscard]] double entry(const MomentumLaw<Dim>& law, int e, int a, int b) const;
 
   const Grid<Dim>& grid_;

@@ -177,6 +177,7 @@ void ImplicitMixed<Dim>::solve_newton() {
   Work& w = work_;
   const auto assemble = [&](const ElementField<Dim>& side_storage) {
     matrix_.assemble(w.law, w.storage, side_storage);
+    for (const LeakyFace& wall : w.walls) matrix_.couple(wall);
     for (const int e : w.level_elements) matrix_.hold_level(e);
     for (const int f : switching_) {
       if (is_held(f)) matrix_.uncouple(f);
@@ -257,7 +258,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
     }
     const double scale = largest_flux();
     const double left = w.load.size() > 0 ? w.load.template lpNorm<Eigen::Infinity>() : 0.0;
-    const double allowed = flux_accuracy * scale + round_off_units * round_off;
+    const double allowed = flux_accuracy * scale + round_off_units * (round_off + wall_round_off());
     const bool switched = left <= near_solution * scale + allowed &&
                           switch_faces(forcing, allowed, pressure_accuracy());
     if (!switched && left <= allowed) return;

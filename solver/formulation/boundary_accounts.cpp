@@ -36,6 +36,12 @@ void BoundaryAccounts<Dim>::book(int face, double water, double fines) {
 }
 
 template <int Dim>
+void BoundaryAccounts<Dim>::book(const std::vector<double>& water,
+                                 const std::vector<double>& fines) {
+  for (const AccountFace& outer : faces_) book(outer.face, water[outer.face], fines[outer.face]);
+}
+
+template <int Dim>
 void BoundaryAccounts<Dim>::book_liquid(const std::vector<double>& volumes) {
   for (const auto& [face, account] : faces_) sums_[account].liquid.add(volumes[face]);
 }

@@ -31,6 +31,8 @@ class BoundaryAccounts {
 
   /// Masses that left through an outer face, kg; negative: entered.
   void book(int face, double water, double fines);
+  /// The same along the normals of all faces.
+  void book(const std::vector<double>& water, const std::vector<double>& fines);
   /// Volumes of liquid along the faces' normals, m3, in one interval of the flow.
   void book_liquid(const std::vector<double>& volumes);
 

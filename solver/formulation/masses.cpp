@@ -56,15 +56,16 @@ MassAccounts<Dim>::MassAccounts(const Case<Dim>& c, const Grid<Dim>& grid)
       boundaries_(c, grid) {
   for (int f = 0; f < grid.face_count(); ++f) {
     const int left = grid.mesh.element_region[grid.face_left[f]];
-    if (grid.is_outer(f)) {
+    if (grid.is_border(f)) {
       faces_[0].push_back({f, 1.0});
       faces_[left + 1].push_back({f, 1.0});
       continue;
     }
-    const int right = grid.mesh.element_region[grid.face_right[f]];
+    const int right = grid.mesh.element_region[grid.beyond(f)];
     if (left == right) continue;
     faces_[left + 1].push_back({f, 1.0});
-    faces_[right + 1].push_back({f, -1.0});
+    // Across a wall the other region has a face of its own.
+    if (!grid.is_outer(f)) faces_[right + 1].push_back({f, -1.0});
   }
 }
 
@@ -77,9 +78,7 @@ void MassAccounts<Dim>::book(const std::vector<double>& water, const std::vector
       book_one(sign * fines[face], sum.fines_in, sum.fines_out);
     }
   }
-  for (const OutwardFace& outer : faces_[0]) {
-    boundaries_.book(outer.face, water[outer.face], fines[outer.face]);
-  }
+  boundaries_.book(water, fines);
 }
 
 template <int Dim>

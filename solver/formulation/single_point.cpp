@@ -143,7 +143,7 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
   CompensatedSum fines_out;
   for (int f = 0; f < this->grid_.face_count(); ++f) {
     const double flux = flow.face_flux[f];
-    if (this->grid_.is_outer(f) && flux > 0.0) fines_out.add(flux * concentration[f]);
+    if (this->grid_.is_border(f) && flux > 0.0) fines_out.add(flux * concentration[f]);
   }
   this->describe_outflow(fines_out.value(), row);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "flow/leaky_walls.hpp"
 #include "grid/face_flux.hpp"
 
 namespace suffuse {
@@ -10,7 +11,7 @@ template <int Dim>
 TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& options)
     : case_(c),
       options_(options),
-      grid_(c.mesh),
+      grid_(grid_with_walls(c)),
       soils_(c),
       solid_(make_skeleton(grid_, soils_,
                            options.erosion ? options.erosion_span : TimeSpan::never(),

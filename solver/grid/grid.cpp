@@ -97,8 +97,17 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in) : mesh(mesh_in) {
       element_face_sign[e][k] = is_new ? 1.0 : -1.0;
     }
   }
+  face_partner.assign(face_left.size(), -1);
   invert(face_nodes, mesh.node_count(), node_face_begin, node_face);
   invert(mesh.elements, mesh.node_count(), node_element_begin, node_element);
+}
+
+template <int Dim>
+void Grid<Dim>::join_faces(const std::vector<std::array<int, 2>>& pairs) {
+  for (const auto& [face, partner] : pairs) {
+    face_partner[face] = partner;
+    face_partner[partner] = face;
+  }
 }
 
 template <int Dim>

@@ -19,7 +19,17 @@ struct Grid {
   /// Face of the grid with exactly these nodes, in any order; -1 when there is none.
   [[nodiscard]] int find_face(std::array<int, Dim> nodes) const;
   [[nodiscard]] Vector<Dim> face_centre(int face) const;
+  /// Whether a face has one element. Sides of a wall are outer faces too.
   [[nodiscard]] bool is_outer(int face) const { return face_right[face] < 0; }
+  /// Whether nothing of the model lies beyond a face: an outer face without a partner.
+  [[nodiscard]] bool is_border(int face) const { return is_outer(face) && face_partner[face] < 0; }
+  /// Element beyond a face as seen from its left one, through a wall too; -1 at the border.
+  [[nodiscard]] int beyond(int face) const {
+    return face_partner[face] < 0 ? face_right[face] : face_left[face_partner[face]];
+  }
+  /// Makes each pair of outer faces, which lie at the same place, the two sides of a passage:
+  /// what leaves by one enters by the other.
+  void join_faces(const std::vector<std::array<int, 2>>& pairs);
   [[nodiscard]] int face_count() const { return static_cast<int>(face_left.size()); }
   /// Normal of an element's local face `k`, times its area, pointing out of the element.
   [[nodiscard]] Vector<Dim> outward_normal(int element, int k) const {
@@ -46,6 +56,7 @@ struct Grid {
   std::vector<int> face_left;   ///< element the normal points out of
   std::vector<int> face_right;  ///< element the normal points into, -1 at the outer boundary
   std::vector<Vector<Dim>> face_normal;  ///< times the face's area
+  std::vector<int> face_partner;  ///< the other side of a wall that lets liquid through, or -1
 
   std::vector<std::array<int, Dim + 1>> element_face;
   std::vector<std::array<double, Dim + 1>> element_face_sign;  ///< +1 where the normal points out

@@ -26,6 +26,17 @@ std::uint8_t position_in(const std::array<int, Dim + 1>& vertices, int node) {
                                    vertices.begin());
 }
 
+/// The node at the place of `node` on the other side of a face: itself, but across a wall.
+template <int Dim>
+int node_beyond(const Grid<Dim>& grid, int face, int node) {
+  const int partner = grid.face_partner[face];
+  if (partner < 0) return node;
+  const auto& nodes = grid.mesh.nodes;
+  return *std::ranges::min_element(grid.face_nodes[partner], {}, [&](int other) {
+    return (nodes[other] - nodes[node]).squaredNorm();
+  });
+}
+
 /// Concentration at the vertices of an element, written to `c`.
 template <int Dim>
 void find_concentration(const ElementValues<Dim>& fines, const ElementValues<Dim>& pores,
@@ -134,29 +145,54 @@ EulerianTransport<Dim>::EulerianTransport(const Grid<Dim>& grid,
                                           const std::vector<FaceCondition>& conditions, int threads)
     : grid_(grid), conditions_(conditions), threads_(threads), sides_(grid.mesh.elements.size()) {
   std::vector<int> outer(grid.face_count(), -1);
-  std::vector<int> place(grid.mesh.node_count(), -1);
   for (int f = 0; f < grid.face_count(); ++f) {
-    if (!grid.is_outer(f)) continue;
+    if (!grid.is_border(f)) continue;
     outer[f] = static_cast<int>(outer_faces_.size());
     outer_faces_.push_back(f);
-    for (const int i : grid.face_nodes[f]) {
-      if (place[i] < 0) {
-        place[i] = static_cast<int>(outer_nodes_.size());
-        outer_nodes_.push_back({i, {}});
-      }
-      outer_nodes_[place[i]].faces.push_back(outer[f]);
-    }
   }
+  find_nodes_of_sides();
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     Sides& sides = sides_[e];
     for (int k = 0; k <= Dim; ++k) {
       const int f = grid.element_face[e][k];
-      sides.neighbour[k] = grid.is_outer(f) ? -1 - outer[f] : grid.across(e, k);
+      const bool is_left = grid.face_left[f] == e;
+      const int next = is_left ? grid.beyond(f) : grid.face_left[f];
+      sides.neighbour[k] = next >= 0 ? next : -1 - outer[f];
       sides.theirs[k] = {};
-      if (sides.neighbour[k] < 0) continue;
+      if (next < 0) continue;
       for (int a = 0; a < Dim; ++a) {
         const int node = grid.mesh.elements[e][side_vertex<Dim>(k, a)];
-        sides.theirs[k][a] = position_in<Dim>(grid.mesh.elements[sides.neighbour[k]], node);
+        sides.theirs[k][a] =
+            position_in<Dim>(grid.mesh.elements[next], node_beyond<Dim>(grid, f, node));
+      }
+    }
+  }
+}
+
+template <int Dim>
+void EulerianTransport<Dim>::find_nodes_of_sides() {
+  std::vector<int> place(grid_.mesh.node_count(), -1);
+  const auto outer_node = [&](int i) -> OuterNode& {
+    if (place[i] < 0) {
+      place[i] = static_cast<int>(outer_nodes_.size());
+      outer_nodes_.push_back({i, {}, {}});
+    }
+    return outer_nodes_[place[i]];
+  };
+  for (std::size_t o = 0; o < outer_faces_.size(); ++o) {
+    for (const int i : grid_.face_nodes[outer_faces_[o]]) {
+      outer_node(i).faces.push_back(static_cast<int>(o));
+    }
+  }
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (grid_.face_partner[f] < 0) continue;
+    leaky_faces_.push_back(f);
+    for (const int i : grid_.face_nodes[f]) {
+      const int partner = node_beyond<Dim>(grid_, f, i);
+      std::vector<int>& partners = outer_node(i).partners;
+      // The tip of a wall is one node.
+      if (partner != i && std::ranges::find(partners, partner) == partners.end()) {
+        partners.push_back(partner);
       }
     }
   }
@@ -240,6 +276,15 @@ void EulerianTransport<Dim>::face_concentration(const FinesState<Dim>& state,
       result[grid_.element_face[e][k]] = sum / Dim;
     }
   });
+  agree_at_walls(result);
+}
+
+template <int Dim>
+void EulerianTransport<Dim>::agree_at_walls(std::vector<double>& concentration) const {
+  for (const int f : leaky_faces_) {
+    const int partner = grid_.face_partner[f];
+    if (partner > f) concentration[partner] = concentration[f];
+  }
 }
 
 template <int Dim>
@@ -267,7 +312,12 @@ ConcentrationRange EulerianTransport<Dim>::range_around(int node,
 template <int Dim>
 ConcentrationRange EulerianTransport<Dim>::range_at_boundary(
     const OuterNode& outer, const TransportScratch<Dim>& scratch) const {
-  const ConcentrationRange inside = range_around(outer.node, scratch.mean);
+  ConcentrationRange inside = range_around(outer.node, scratch.mean);
+  for (const int i : outer.partners) {
+    const ConcentrationRange across = range_around(i, scratch.mean);
+    include(inside, across.low);
+    include(inside, across.high);
+  }
   ConcentrationRange range = inside;
   for (const int o : outer.faces) {
     const int f = outer_faces_[o];

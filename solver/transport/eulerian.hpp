@@ -97,18 +97,22 @@ class EulerianTransport {
     /// Where the side's nodes stand among the neighbour's vertices.
     std::array<std::array<std::uint8_t, Dim>, Dim + 1> theirs;
   };
-  /// A mesh node on the outer boundary and the faces there.
+  /// A mesh node on the outer boundary or on a wall that lets liquid through.
   struct OuterNode {
     int node;
-    std::vector<int> faces;
+    std::vector<int> faces;     ///< faces of the outer boundary there, by number among these
+    std::vector<int> partners;  ///< nodes at the same place across a wall
   };
 
+  void find_nodes_of_sides();
   /// Limits the fines of a stage whose means are known; leaves its values at the vertices.
   void limit_stage(const ElementField<Dim>& liquid, ElementField<Dim>& fines,
                    TransportScratch<Dim>& scratch) const;
   /// Throws NumericalError.
   void refuse_impossible(const std::vector<double>& mean) const;
   void find_allowed(TransportScratch<Dim>& scratch) const;
+  /// Concentrations on both sides of a wall are one, whatever order their nodes have.
+  void agree_at_walls(std::vector<double>& concentration) const;
   /// Range of the means of the elements around a node.
   [[nodiscard]] ConcentrationRange range_around(int node, const std::vector<double>& mean) const;
   /// The same with what enters there, or may go on as it comes where liquid leaves.
@@ -118,9 +122,10 @@ class EulerianTransport {
   const Grid<Dim>& grid_;
   const std::vector<FaceCondition>& conditions_;
   int threads_;
-  std::vector<Sides> sides_;  ///< per element
-  std::vector<int> outer_faces_;
+  std::vector<Sides> sides_;      ///< per element
+  std::vector<int> outer_faces_;  ///< of the outer boundary: without the sides of leaky walls
   std::vector<OuterNode> outer_nodes_;
+  std::vector<int> leaky_faces_;  ///< faces that have a partner
 };
 
 }  // namespace suffuse

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/slit.hpp"
 #include "flow_model.hpp"
 
 namespace suffuse {
@@ -36,6 +37,47 @@ TEST(FluxCorrection, BalancesAnyFluxesAndLeavesPrescribedOnesAlone) {
     if (m.forcing.conditions[f].fixes_flux()) {
       EXPECT_EQ(flux[f], before[f]) << f;
     }
+  }
+}
+
+TEST(FluxCorrection, PassesWallsThatLetLiquidThrough) {
+  // Two rooms, of which the upper one has no outlet but the faces of the wall.
+  Mesh<2> mesh = model::column_mesh(3, 4);
+  std::vector<std::array<int, 2>> edges;
+  for (int i = 0; i < 3; ++i) edges.push_back({8 + i, 9 + i});
+  ASSERT_TRUE(slit(mesh, {BoundarySet<2>{"wall", edges}}).empty());
+  FlowModel m(mesh);
+  m.set("bottom", FaceKind::pressure, 0.0);
+  EXPECT_EQ(FluxCorrection<2>(m.grid, m.forcing.conditions).sealed_piece_count(), 1);
+
+  // The middle one of its faces conducts best.
+  const auto& sides = m.mesh.boundaries.back().faces;
+  std::vector<LeakyFace> walls;
+  std::vector<std::array<int, 2>> pairs;
+  for (int i = 0; i < 3; ++i) {
+    const auto [face, partner] =
+        std::minmax({m.grid.find_face(sides[2 * i]), m.grid.find_face(sides[2 * i + 1])});
+    walls.push_back({face, partner, i == 1 ? 1e-4 : 1e-6});
+    pairs.push_back({face, partner});
+  }
+  m.grid.join_faces(pairs);
+  FluxCorrection<2> correction(m.grid, m.forcing.conditions, walls);
+  EXPECT_EQ(correction.sealed_piece_count(), 0);
+  correction.follow(std::vector<double>(m.mesh.element_count(), 1.0));
+  std::vector<double> net_outflow(m.mesh.element_count());
+  double above = 0.0;
+  Uniform uniform(5);
+  for (int e = 0; e < m.mesh.element_count(); ++e) {
+    net_outflow[e] = uniform();
+    if (element_centroid(m.mesh, e)[1] > 0.5) above += net_outflow[e];
+  }
+  std::vector<double> flux(m.grid.face_count(), 0.0);
+  correction.correct(flux, net_outflow);
+  EXPECT_LE(imbalance(m.grid, flux, net_outflow), 1e-14);
+  for (const auto& [face, partner, conductance] : walls) {
+    EXPECT_EQ(flux[face], -flux[partner]);
+    const bool face_is_above = element_centroid(m.mesh, m.grid.face_left[face])[1] > 0.5;
+    EXPECT_NEAR(flux[face_is_above ? face : partner], conductance > 1e-5 ? above : 0.0, 1e-14);
   }
 }
 

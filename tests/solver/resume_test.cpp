@@ -116,6 +116,11 @@ std::vector<test::Mode> variants() {
       test::with(single, "kept_flow",
                  {"soil.specimen.conductivity_law=constant", "liquid.bulk_modulus=inf",
                   "soil.specimen.erosion={law = \"constant\", rate = 2e-2, start = 1.0}"}),
+      test::with(single, "leaky_wall",
+                 {R"(geometry={file = ")" SUFFUSE_TEST_DATA R"(/geometry/sheet_pile.geo"})",
+                  R"(boundary=[{on = "left", pressure = 6e3, concentration = 0.01}, )"
+                  R"({on = "right", pressure = 0.0, concentration = 0.0}])",
+                  R"(wall=[{on = "pile", conductance = 1e-2}])", "mesh.size=0.4"}),
       test::with(modes[0], "explicit_with_implicit_drag", {"time.drag=implicit"}),
       test::with(modes[3], "boundary_values_in_time_with_points",
                  {R"(boundary[0]={on = "inflow", darcy_flux = [[0.0, 0.0], [5.0, 0.02]]})"}),
