@@ -2,6 +2,7 @@
 
 /// What the soils are to the flow and stays so through a run: retention and bedding, per element.
 
+#include <algorithm>
 #include <vector>
 
 #include "flow/flow.hpp"
@@ -31,8 +32,10 @@ struct FlowSoils {
     const RetentionModel& model = retention[e];
     return model.law ? model.law->steepest(model.parameters) / head_per_pressure : 0.0;
   }
+  /// Not zero however dry the soil is: pressures are those of a linear system.
   [[nodiscard]] double relative_conductivity(int e, double pressure) const {
-    return retention[e].relative_conductivity(pressure * head_per_pressure);
+    constexpr double driest = 1e-20;
+    return std::max(retention[e].relative_conductivity(pressure * head_per_pressure), driest);
   }
 };
 

@@ -1,6 +1,7 @@
 #include "formulation/element_snapshot.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "grid/face_flux.hpp"
 #include "physics/head.hpp"
@@ -103,7 +104,8 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   Field rate = scalar("erosion_rate", "1/s");
   Field pressure = scalar("pressure", "Pa");
   const MaterialPoints<Dim>& points = solid.soils().points();
-  const std::vector<double> flux = erosion_flux(grid, solid.soils(), flow.face_flux, 1);
+  const std::vector<double> flux =
+      erosion_flux(grid, solid.soils(), flow.face_flux, std::numeric_limits<double>::infinity(), 1);
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
     const double n = solid.porosity()[p];

@@ -55,7 +55,8 @@ std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
   std::vector<double> result;
   result.reserve(grid_.mesh.elements.size());
   for (const Vector<Dim>& q : element_flux(grid_, flux_history_.mean)) {
-    result.push_back(soils_.eroding_flux(static_cast<int>(result.size()), q.norm()));
+    const auto e = static_cast<int>(result.size());
+    result.push_back(eroding_flux(grid_, soils_, e, q.norm(), flux_history_.duration));
   }
   return result;
 }
@@ -76,7 +77,8 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   flux_history_.duration = flow.end - start;
   flux_history_.mean = per_time(flow.volumes.liquid, flux_history_.duration);
   flux_history_.end = soils_.erodes_by_flux() ? flow_->face_flux(flow.end) : flux_history_.mean;
-  erosion_flux_ = erosion_flux(grid_, soils_, flux_history_.mean, threads());
+  erosion_flux_ =
+      erosion_flux(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
   masses_.book_liquid(flow.volumes.liquid);
   observations_.book_liquid(flow.volumes.liquid);
   steps_ += flow.steps;

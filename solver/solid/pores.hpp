@@ -54,10 +54,17 @@ class PoreForecast {
   int threads_;
 };
 
-/// |q| at the solid points, m/s, from volumes through faces per second; empty when no soil erodes
+/// |q| in an element as far as it can erode, m/s, from a mean over `duration`, s: neither the
+/// round-off of still water nor that of what the element holds is a drive.
+template <int Dim>
+double eroding_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element, double flux,
+                    double duration);
+
+/// The same at the solid points, from volumes through faces per second; empty when no soil erodes
 /// by it.
 template <int Dim>
 std::vector<double> erosion_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                 const std::vector<double>& face_rate, int threads);
+                                 const std::vector<double>& face_rate, double duration,
+                                 int threads);
 
 }  // namespace suffuse

@@ -1,0 +1,75 @@
+/// A pumped well in a disc: h2 - h1 = Q / (2 pi k) ln(r2 / r1).
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <numbers>
+
+#include "model_run.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double inner = 0.1;   // m
+constexpr double outer = 10.0;  // m
+constexpr double k = 1e-4;      // m/s
+constexpr double rate = 2e-4;   // m2/s, out of the whole disc
+
+/// A quarter of the disc: elements in rings whose radii grow by a constant factor.
+double error_in_head(int rings) {
+  Mesh<2> mesh = model::column_mesh(rings, rings, 1.0, 1.0, [](const Vector<2>& x) {
+    const double r = inner * std::pow(outer / inner, x[0]);
+    const double angle = 0.5 * std::numbers::pi * x[1];
+    return Vector<2>(r * std::cos(angle), r * std::sin(angle));
+  });
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.initial_flow = InitialFlow::steady;
+  scene.soils[0].conductivity = k;
+  BoundaryCondition well;
+  well.on = "left";
+  well.rate = TimeFunction(-0.25 * rate);
+  BoundaryCondition rim;
+  rim.on = "right";
+  rim.head = TimeFunction(0.0);
+  rim.concentration = 0.0;
+  scene.boundaries = {well, rim};
+  model::ModelRun run(model::make_case(std::move(mesh), scene));
+  const FlowState<2> flow = run.model().flow_state();
+  const Grid<2>& grid = run.model().grid();
+  // Between the well and a radius in the middle, as means over the faces there.
+  const auto head_at = [&](double x) {
+    double sum = 0.0;
+    int count = 0;
+    const double radius = inner * std::pow(outer / inner, x);
+    for (int f = 0; f < grid.face_count(); ++f) {
+      const auto& nodes = grid.face_nodes[f];
+      const auto on_circle = [&](int node) {
+        return std::abs(grid.mesh.nodes[node].norm() / radius - 1.0) < 1e-9;
+      };
+      if (!on_circle(nodes[0]) || !on_circle(nodes[1])) continue;
+      sum += flow.face_pressure[f] / 9810.0;
+      ++count;
+    }
+    return sum / count;
+  };
+  EXPECT_NEAR(run.state().history.flux_in, 0.25 * rate, 1e-12 * rate);
+  const double exact = rate / (2.0 * std::numbers::pi * k) * 0.5 * std::log(outer / inner);
+  return (head_at(0.5) - head_at(0.0)) / exact - 1.0;
+}
+
+TEST(Well, DrawsTheHeadDownByTheLogarithm) {
+  const double coarse = error_in_head(20);
+  const double fine = error_in_head(40);
+  const double order = std::log2(coarse / fine);
+  std::cout << "difference of heads off by " << coarse << ", " << fine << ", order " << order
+            << '\n';
+  EXPECT_LT(std::abs(fine), 5e-3);
+  EXPECT_GT(order, 1.8);
+}
+
+}  // namespace
+}  // namespace suffuse
