@@ -10,6 +10,7 @@
 #include "case/slit.hpp"
 #include "flow/leaky_walls.hpp"
 #include "model_run.hpp"
+#include "solver/flow_model.hpp"
 
 namespace suffuse {
 namespace {
@@ -68,6 +69,12 @@ double flux_through(model::ModelRun& run) {
   return run.model().history_row(run.model().flow_state()).flux_in;
 }
 
+ElementValues<2> concentration_of(const FinesState<2>& state, int e) {
+  ElementValues<2> result;
+  for (int j = 0; j < 3; ++j) result[j] = state.fines_volume[e][j] / state.liquid_volume[e][j];
+  return result;
+}
+
 TEST(LeakyWall, IsAResistanceInSeriesWithTheSoil) {
   const double width = 0.25;
   for (const double gravity : {0.0, -9.81}) {
@@ -97,6 +104,65 @@ TEST(LeakyWall, IsAResistanceInSeriesWithTheSoil) {
         EXPECT_NEAR(through / (10.0 * exact), 1.0, 1e-10);
       }
       EXPECT_NEAR(boundaries[2].water_out / boundaries[1].water_out, 1.0, 1e-10);
+    }
+  }
+}
+
+TEST(LeakyWall, HidesNoDigitOfTheFlux) {
+  // A wall that conducts far better than the soil, deep under water, solved at once.
+  const double conductance = 3e4;
+  model::FlowModel m(walled_column(8, {0.375}, 0.3, 5));
+  m.set_conductivity([](const Vector<2>& x) { return x[1] > 0.375 ? 3e-4 : 7e-4; });
+  m.set("top", FaceKind::pressure, 1e5 + 30000.0);
+  m.set("bottom", FaceKind::pressure, 1e5);
+  Scene scene;
+  scene.liquid.density = 1000.0;
+  scene.walls = {wall_on("wall 0", conductance)};
+  const std::vector<LeakyFace> walls = leaky_faces(model::make_case(m.mesh, scene), m.grid);
+  for (const LeakyFace& wall : walls) m.grid.join_faces({{wall.face, wall.partner}});
+  ImplicitMixed<2> flow(m.grid, {}, Vector<2>::Zero(), {}, walls);
+  const MixedStep<2> steady = flow.steady(m.forcing);
+  double flux = 0.0;
+  for (int f = 0; f < m.grid.face_count(); ++f) {
+    if (m.grid.is_border(f)) flux += std::max(0.0, steady.face_flux[f]);
+  }
+  const double resistance = 0.375 / 7e-4 + 1.0 / conductance + 0.625 / 3e-4;
+  EXPECT_NEAR(flux / (0.3 * 30000.0 / unit_weight / resistance), 1.0, 1e-12);
+}
+
+TEST(LeakyWall, HasOneConcentrationWhateverFlows) {
+  const Mesh<2> mesh = walled_column(4, {0.5});
+  Scene scene = column_scene({1e-3, 1e-3});
+  scene.walls = {wall_on("wall 0", 1e-3)};
+  const Case<2> c = model::make_case(mesh, scene);
+  const Grid<2> grid = grid_with_walls(c);
+  const std::vector<FaceCondition> conditions = face_conditions(c, grid);
+  const EulerianTransport<2> transport(grid, conditions);
+  FinesState<2> state;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    state.liquid_volume.push_back({1e-3, 1e-3, 1e-3});
+    state.fines_volume.push_back({1e-6 * e, 2e-6 * e, 4e-6 * e});
+  }
+  TransportScratch<2> scratch;
+  for (const double volume : {-1e-6, 0.0, 1e-6}) {
+    std::vector<double> volumes(grid.face_count(), 0.0);
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (grid.face_partner[f] > f) volumes[f] = -(volumes[grid.face_partner[f]] = volume);
+    }
+    std::vector<double> concentration;
+    transport.face_concentration(state, volumes, scratch, concentration);
+    for (int f = 0; f < grid.face_count(); ++f) {
+      const int partner = grid.face_partner[f];
+      if (partner < 0) continue;
+      EXPECT_EQ(concentration[f], concentration[partner]);
+      // That of the side from which liquid comes.
+      const int from = volumes[f] >= 0.0 ? f : partner;
+      if (volume == 0.0) continue;
+      const auto at_vertices =
+          FieldNodes<2>::at_vertices(concentration_of(state, grid.face_left[from]));
+      const int k = grid.side_of(grid.face_left[from], from);
+      EXPECT_NEAR(concentration[f], 0.5 * (at_vertices[(k + 1) % 3] + at_vertices[(k + 2) % 3]),
+                  1e-15);
     }
   }
 }
