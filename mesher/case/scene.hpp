@@ -101,6 +101,8 @@ struct Soil {
   SoilDrag drag = SoilDrag::darcy;
   ErosionSettings erosion;
 
+  /// Air can be in the pores.
+  [[nodiscard]] bool drains() const { return retention.law != nullptr; }
   /// k across over k along bedding.
   [[nodiscard]] double anisotropy() const {
     return std::isnan(conductivity_across) ? 1.0 : conductivity_across / conductivity;

@@ -460,11 +460,8 @@ class SceneReader {
 
   /// Defaults that depend on other keys.
   void complete() {
-    const bool retains = std::ranges::any_of(
-        scene_.soils, [](const Soil& soil) { return soil.retention.law != nullptr; });
-    if (!places_.contains("time.stepping") && retains) {
-      scene_.time.stepping = TimeStepping::monotone;
-    }
+    const bool drains = std::ranges::any_of(scene_.soils, &Soil::drains);
+    if (!places_.contains("time.stepping") && drains) scene_.time.stepping = TimeStepping::monotone;
     if (!places_.contains("name")) scene_.name = std::filesystem::path(path_).stem().string();
     if (!places_.contains("output.snapshot_every")) {
       scene_.output.snapshot_every = scene_.output.every;
