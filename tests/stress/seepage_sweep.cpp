@@ -87,8 +87,9 @@ std::string soil(Random& random, double conductivity, double end) {
     // Without flow, fines that erode into dry pores leave no room for the water.
     const bool by_flux = random.chance(0.5) || residual == 0.0;
     const double rate = random.decades(0.1, 10.0);
+    // Faster by flux, what erodes from unsaturated soil drives the flux that erodes it.
     text += std::string(", erosion = {law = \"") + (by_flux ? "flux" : "first-order") + "\", " +
-            entry("rate", by_flux ? rate / (conductivity * end) : rate / end) + "}";
+            entry("rate", by_flux ? std::min(rate / (conductivity * end), 10.0) : rate / end) + "}";
   }
   return text + "}";
 }
