@@ -125,8 +125,7 @@ class SeepageChecks {
   }
 
   void check_unsaturated() const {
-    const auto unsaturated = std::ranges::find_if(
-        scene_.soils, [](const Soil& soil) { return soil.retention.law != nullptr; });
+    const auto unsaturated = std::ranges::find_if(scene_.soils, &Soil::drains);
     if (unsaturated == scene_.soils.end()) return;
     const std::string retention = table_of(*unsaturated) + ".retention";
     for (const Soil& soil : scene_.soils) {

@@ -26,8 +26,7 @@ double largest_inflow_concentration(const Scene& scene) {
 
 /// Whether air can be in the pores of some soil.
 bool retains_air(const Scene& scene) {
-  return std::ranges::any_of(scene.soils,
-                             [](const Soil& soil) { return soil.retention.law != nullptr; });
+  return std::ranges::any_of(scene.soils, &Soil::drains);
 }
 
 /// Coefficients at which the stability limit is smallest: the porosity at the end of the run and

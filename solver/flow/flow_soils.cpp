@@ -25,8 +25,7 @@ template <int Dim>
 FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils) {
   FlowSoils<Dim> result;
   result.head_per_pressure = 1.0 / (scene.liquid.density * conductivity_gravity);
-  const bool retains = std::ranges::any_of(
-      scene.soils, [](const Soil& soil) { return soil.retention.law != nullptr; });
+  const bool retains = std::ranges::any_of(scene.soils, &Soil::drains);
   const bool layered =
       std::ranges::any_of(scene.soils, [](const Soil& soil) { return soil.anisotropy() != 1.0; });
   for (int e = 0; e < soils.mesh().element_count(); ++e) {

@@ -37,9 +37,8 @@ StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool 
   settings.unnoticed = options.unnoticed;
   settings.length_alone_changes_matrix = !follows_pores;
   settings.kinks = kinks;
-  settings.crosses_jumps =
-      std::ranges::any_of(conditions, &FaceCondition::switches) ||
-      std::ranges::any_of(scene.soils, [](const Soil& s) { return s.retention.law != nullptr; });
+  settings.crosses_jumps = std::ranges::any_of(conditions, &FaceCondition::switches) ||
+                           std::ranges::any_of(scene.soils, &Soil::drains);
   settings.threads = options.threads;
   return settings;
 }
