@@ -18,7 +18,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int max_iterations = 60;
 /// What is missing of the balance at a face may be this share of the largest flux, beside round-off
 /// of what gravity drives and of the contents of the elements.
-constexpr double flux_accuracy = 1e-6;
+constexpr double flux_accuracy = 1e-8;
 constexpr double round_off_units = 64.0;
 /// From here on seepage faces open and close.
 constexpr double near_solution = 0.1;
