@@ -52,6 +52,7 @@ void ImplicitMixed<Dim>::archive(StateArchive& archive,
   archive(open_, corrected_);
   if (archive.restores() && !switching_.empty()) set_up_correction();
   solver_->archive(archive, matrix_.values());
+  newton_->archive(archive, matrix_.values());
   correction_->archive(archive);
   archive(earlier_counts_, rise_rate_, flux_scale_, last_steady_, last_steady_flux_);
 }

@@ -65,4 +65,13 @@ void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const Eigen:
   }
 }
 
+void NewtonSystem::archive(StateArchive& archive, const Eigen::SparseMatrix<double>& pattern) {
+  archive(counts_, factored_);
+  if (!archive.restores() || factored_.size() == 0) return;
+  if (factored_.size() != pattern.nonZeros()) StateArchive::misfit();
+  Eigen::SparseMatrix<double> matrix = pattern;
+  Eigen::Map<Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()) = factored_;
+  factor_.factorise(matrix);
+}
+
 }  // namespace suffuse

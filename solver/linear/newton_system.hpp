@@ -8,6 +8,7 @@
 
 #include "linear/cholesky_factor.hpp"
 #include "linear/lagged_preconditioner.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -22,6 +23,10 @@ class NewtonSystem {
              Eigen::VectorXd& x);
 
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
+
+  /// The factor is made again, of the same values and thus with the same bits; `pattern` is that of
+  /// the matrices.
+  void archive(StateArchive& archive, const Eigen::SparseMatrix<double>& pattern);
 
  private:
   CholeskyFactor factor_;
