@@ -78,12 +78,12 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
   earlier_counts_ = counts();
   solver_.emplace(settings_.threads);
   newton_.emplace();
-  work_.conditions = conditions;
   open_.assign(faces, 0);
-  corrected_.assign(faces, 0);
+  held_.assign(faces, 0);
   for (int f = 0; f < faces; ++f) {
-    corrected_[f] = conditions[f].kind == FaceKind::pressure ? 1 : 0;
+    held_[f] = conditions[f].kind == FaceKind::pressure ? 1 : 0;
   }
+  corrected_ = held_;
   set_up_correction();
   rise_rate_.assign(faces, 0.0);
   flux_scale_ = 0.0;
@@ -103,10 +103,10 @@ void ImplicitMixed<Dim>::set_up_correction() {
 
 template <int Dim>
 double ImplicitMixed<Dim>::prescribed_inflow(const FlowForcing<Dim>& forcing, int face) const {
-  const FaceCondition& condition = work_.conditions[face];
-  if (condition.kind == FaceKind::wall) return 0.0;
-  double inward = condition.value;
-  if (condition.kind == FaceKind::velocity) {
+  const FaceCondition& prescribed = condition(face);
+  if (prescribed.kind == FaceKind::wall) return 0.0;
+  double inward = prescribed.value;
+  if (prescribed.kind == FaceKind::velocity) {
     inward *= forcing.coefficients.porosity[grid_.face_left[face]];
   }
   return inward * face_area_[face];
@@ -236,7 +236,7 @@ void ImplicitMixed<Dim>::guess_pressure(const MixedState<Dim>& base, double dura
   pressure.rise.resize(faces);
   for_each_index(faces, settings_.threads, [&](int f) {
     if (is_held(f)) {
-      pressure.rise[f] = work_.conditions[f].value - base.face_pressure[f];
+      pressure.rise[f] = condition(f).value - base.face_pressure[f];
     } else {
       pressure.rise[f] =
           std::isfinite(duration) && !has_retention() ? rise_rate_[f] * duration : 0.0;
@@ -328,7 +328,7 @@ void ImplicitMixed<Dim>::find_face_flux(const MixedState<Dim>& base, double dura
   stage.face_flux.resize(faces);
   stage.flux_through.resize(faces);
   for_each_index(faces, settings_.threads, [&](int f) {
-    if (w.conditions[f].fixes_flux()) {
+    if (condition(f).fixes_flux()) {
       stage.face_flux[f] = -prescribed_inflow(forcing, f);
       return;
     }
@@ -383,7 +383,7 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
   for_each_index(faces, settings_.threads, [&](int f) {
     if (std::isfinite(duration)) rise_rate_[f] = stage.rise[f] / duration;
     stage.state.face_pressure[f] =
-        is_held(f) ? work_.conditions[f].value : base.face_pressure[f] + stage.rise[f];
+        is_held(f) ? condition(f).value : base.face_pressure[f] + stage.rise[f];
   });
   find_face_flux(base, duration, forcing, stage);
   if (!work_.displaced.empty()) settle_air(base, duration, forcing, stage);

@@ -139,13 +139,16 @@ class ImplicitMixed {
   using Field = std::vector<Vector<Dim>>;
   /// What one stage works with; kept, so that stages allocate only what they return.
   struct Work {
-    std::vector<double> resistance;         ///< linear, per flux, kg/(m3 s)
-    Field drive;                            ///< without pressure, Pa/m
-    std::vector<FaceCondition> conditions;  ///< seepage faces as they are: a pressure or a flux
-    std::vector<double> storage;            ///< per face of the element, m3/(s Pa)
-    std::vector<double> net_source;         ///< outflow asked for, m3/s
-    std::vector<double> surplus;            ///< of inflow and sources of each sealed piece, m3/s
-    std::vector<LeakyFace> walls;           ///< conductance as the stage has it
+    std::vector<double> resistance;  ///< linear, per flux, kg/(m3 s)
+    Field drive;                     ///< without pressure, Pa/m
+    /// Of each face in this stage: those of the forcing, or with seepage faces as they are, a
+    /// pressure or a flux.
+    const std::vector<FaceCondition>* conditions = nullptr;
+    std::vector<FaceCondition> resolved;
+    std::vector<double> storage;     ///< per face of the element, m3/(s Pa)
+    std::vector<double> net_source;  ///< outflow asked for, m3/s
+    std::vector<double> surplus;     ///< of inflow and sources of each sealed piece, m3/s
+    std::vector<LeakyFace> walls;    ///< conductance as the stage has it
     MomentumLaw<Dim> law;
     FacePressure pressure;
     Field flux;  ///< per element, m/s
@@ -282,10 +285,9 @@ class ImplicitMixed {
 
   /// Inward flux prescribed at a face, m3/s.
   [[nodiscard]] double prescribed_inflow(const FlowForcing<Dim>& forcing, int face) const;
+  [[nodiscard]] const FaceCondition& condition(int face) const { return (*work_.conditions)[face]; }
   /// Whether the pressure at a face is prescribed in this stage.
-  [[nodiscard]] bool is_held(int face) const {
-    return work_.conditions[face].kind == FaceKind::pressure;
-  }
+  [[nodiscard]] bool is_held(int face) const { return held_[face] != 0; }
   void set_up_correction();
   [[nodiscard]] Vector<Dim> pressure_gradient(int e, const std::vector<double>& reference,
                                               const std::vector<double>& rise) const;
@@ -303,6 +305,7 @@ class ImplicitMixed {
   std::vector<FaceKind> kinds_;  ///< everything below is set up for these
   std::vector<int> switching_;   ///< faces whose kind may change
   std::vector<char> open_;       ///< per face: a seepage face that lets water out
+  std::vector<char> held_;       ///< per face: its pressure is prescribed in this stage
   std::vector<char> corrected_;  ///< per face: held in the flux correction as it stands
   int iterations_ = 0;
   std::optional<NewtonSystem> newton_;

@@ -46,17 +46,22 @@ ElementField<Dim> ImplicitMixed<Dim>::air_at(const std::vector<double>& face_pre
 
 template <int Dim>
 void ImplicitMixed<Dim>::resolve(const FaceCondition& condition, int face) {
-  FaceCondition& resolved = work_.conditions[face];
+  FaceCondition& resolved = work_.resolved[face];
   resolved = condition;
-  if (condition.kind != FaceKind::seepage) return;
-  const bool open = open_[face] != 0;
-  resolved.kind = open ? FaceKind::pressure : FaceKind::flux;
-  resolved.value = open ? 0.0 : condition.value;
+  if (condition.kind == FaceKind::seepage) {
+    const bool open = open_[face] != 0;
+    resolved.kind = open ? FaceKind::pressure : FaceKind::flux;
+    resolved.value = open ? 0.0 : condition.value;
+  }
+  held_[face] = resolved.kind == FaceKind::pressure ? 1 : 0;
 }
 
 template <int Dim>
 void ImplicitMixed<Dim>::resolve_conditions(const FlowForcing<Dim>& forcing) {
-  work_.conditions = forcing.conditions;
+  work_.conditions = &forcing.conditions;
+  if (switching_.empty()) return;
+  work_.resolved = forcing.conditions;
+  work_.conditions = &work_.resolved;
   for (const int f : switching_) resolve(forcing.conditions[f], f);
 }
 
@@ -213,7 +218,7 @@ void ImplicitMixed<Dim>::evaluate(const MixedState<Dim>& base, double duration,
   w.level_elements.clear();
   follow_held_faces();
   for (const int f : switching_) {
-    if (is_held(f)) w.pressure.rise[f] = w.conditions[f].value - w.pressure.reference[f];
+    if (is_held(f)) w.pressure.rise[f] = condition(f).value - w.pressure.reference[f];
   }
   w.pressure.move_reference(base.face_pressure);
   if (has_retention()) linearise_retention(base, duration, forcing);
