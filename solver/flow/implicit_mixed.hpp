@@ -242,7 +242,9 @@ class ImplicitMixed {
                                          double pressure) const;
   /// Conductivities, contents, fluxes and what is missing of the balance at the pressures reached.
   void evaluate(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing);
-  /// Finds the step of Newton's method.
+  /// Round-off of what gravity drives and of the contents of the elements, m3/s.
+  [[nodiscard]] double balance_round_off(double duration, const FlowForcing<Dim>& forcing) const;
+  /// Finds the step of Newton's method. Throws NotConverged.
   void solve_newton();
   /// Takes this share of it.
   void take_step(double share);

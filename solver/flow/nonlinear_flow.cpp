@@ -27,6 +27,14 @@ constexpr double min_share = 1.0 / 16.0;
 /// In an iteration, suction grows by this factor of itself and a metre at most.
 constexpr double max_suction_growth = 10.0;
 
+[[noreturn]] void refuse_unsettled(int iterations, double left, double scale, bool switched) {
+  std::ostringstream text;
+  text << "the iteration of the flow did not converge in " << iterations << " solutions: " << left
+       << " m3/s are missing at a face, of " << scale << " m3/s"
+       << (switched ? "; seepage faces keep opening and closing" : "");
+  throw NotConverged(text.str());
+}
+
 }  // namespace
 
 template <int Dim>
@@ -178,7 +186,7 @@ bool ImplicitMixed<Dim>::hold_levels(const FlowForcing<Dim>& forcing) {
 }
 
 template <int Dim>
-void ImplicitMixed<Dim>::solve_newton() {
+void ImplicitMixed<Dim>::solve_newton() try {
   Work& w = work_;
   const auto assemble = [&](const ElementField<Dim>& side_storage) {
     matrix_.assemble(w.law, w.storage, side_storage);
@@ -209,6 +217,8 @@ void ImplicitMixed<Dim>::solve_newton() {
   assemble(w.side_storage);
   const auto held = [&](int f) { return is_held(f); };
   newton_->solve(matrix_.with_gain(flux, w.gain, held), w.load, w.step);
+} catch (const NumericalError& error) {
+  throw NotConverged(error.what());
 }
 
 template <int Dim>
@@ -231,6 +241,16 @@ void ImplicitMixed<Dim>::evaluate(const MixedState<Dim>& base, double duration,
 }
 
 template <int Dim>
+double ImplicitMixed<Dim>::balance_round_off(double duration,
+                                             const FlowForcing<Dim>& forcing) const {
+  return round_off_units * epsilon *
+         largest_of(grid_.mesh.element_count(), settings_.threads, 0.0, [&](int e) {
+           const double pores = forcing.coefficients.porosity[e] * grid_.volume[e];
+           return gravity_flux(e, forcing.coefficients) + pores / duration;
+         });
+}
+
+template <int Dim>
 void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double duration,
                                          const FlowForcing<Dim>& forcing) {
   Work& w = work_;
@@ -242,11 +262,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   for (ElementField<Dim>* field : {&w.displaced, &w.side_storage, &w.gain}) {
     field->resize(has_retention() ? elements : 0);
   }
-  const double round_off = epsilon * largest_of(elements, settings_.threads, 0.0, [&](int e) {
-                             const double pores =
-                                 forcing.coefficients.porosity[e] * grid_.volume[e];
-                             return gravity_flux(e, forcing.coefficients) + pores / duration;
-                           });
+  const double round_off = balance_round_off(duration, forcing);
   double share = 1.0;
   double last_norm = std::numeric_limits<double>::infinity();
   std::vector<double> from;
@@ -263,29 +279,18 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
     }
     const double scale = largest_flux();
     const double left = w.load.size() > 0 ? w.load.template lpNorm<Eigen::Infinity>() : 0.0;
-    const double allowed = flux_accuracy * scale + round_off_units * (round_off + wall_round_off());
+    const double allowed = flux_accuracy * scale + round_off + round_off_units * wall_round_off();
     const bool switched = left <= near_solution * scale + allowed &&
                           switch_faces(forcing, allowed, pressure_accuracy());
     if (!switched && left <= allowed) return;
     if (!std::isfinite(left) || iterations_ == max_iterations) {
-      std::ostringstream text;
-      text << "the iteration of the flow did not converge in " << iterations_
-           << " solutions: " << left << " m3/s are missing at a face, of " << scale << " m3/s"
-           << (switched ? "; seepage faces keep opening and closing" : "");
-      throw NotConverged(text.str());
+      refuse_unsettled(iterations_, left, scale, switched);
     }
     share = 1.0;
-    last_norm = norm;
-    if (switched) {
-      last_norm = std::numeric_limits<double>::infinity();
-      evaluate(base, duration, forcing);
-    }
+    last_norm = switched ? std::numeric_limits<double>::infinity() : norm;
+    if (switched) evaluate(base, duration, forcing);
     from = w.pressure.reference;
-    try {
-      solve_newton();
-    } catch (const NumericalError& error) {
-      throw NotConverged(error.what());
-    }
+    solve_newton();
     take_step(share);
   }
 }

@@ -82,9 +82,8 @@ Integration integrate_decay(double tolerance) {
     std::vector<double> next;
     do {
       next = {now[0] / (1.0 + dt)};
-    } while (!control.accept(
-        time, control.error(time, dt, {{previous, now, next, 1.0}}),
-        !previous.empty(), dt));
+    } while (!control.accept(time, control.error(time, dt, {{previous, now, next, 1.0}}),
+                             !previous.empty(), dt));
     result.max_local_error =
         std::max(result.max_local_error, std::abs(next[0] - now[0] * std::exp(-dt)));
     control.finish(dt);
