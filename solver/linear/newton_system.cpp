@@ -15,7 +15,7 @@ constexpr int max_iterations = 60;
 class FactorPreconditioner {
  public:
   template <class Matrix>
-  FactorPreconditioner& analyzePattern(const Matrix& /*matrix*/) {
+  FactorPreconditioner& analyzePattern(const Matrix& /*matrix*/) {  // NOLINT: Eigen's name
     return *this;
   }
   template <class Matrix>
