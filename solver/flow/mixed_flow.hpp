@@ -30,7 +30,7 @@ MixedFlow<Dim> end_of(MixedStep<Dim> step) {
 /// Water at rest under these pressures, per face, and those prescribed at faces, Pa.
 template <int Dim>
 MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
-                            std::vector<double> pressure);
+                            const std::vector<double>& pressure);
 
 /// Volume of air that has left each element between two states, m3; empty where there is none.
 template <std::size_t Sides>
