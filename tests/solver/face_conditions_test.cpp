@@ -262,9 +262,7 @@ TEST(HeadBoundary, is_an_excess_head_without_gravity) {
 }
 
 TEST(SeepageFace, lets_out_and_rain_comes_in) {
-  BoundaryCondition drain;
-  drain.on = "right";
-  drain.seepage_face = true;
+  const BoundaryCondition drain = model::seepage_on("right");
   BoundaryCondition rain;
   rain.on = "top";
   rain.rain = TimeFunction(Knots{{0.0, 0.0}, {10.0, 2e-6}});

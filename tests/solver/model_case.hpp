@@ -11,6 +11,7 @@
 #include "grid/grid.hpp"
 #include "physics/drag.hpp"
 #include "physics/liquid.hpp"
+#include "physics/retention/retention_law.hpp"
 #include "seeding.hpp"
 
 namespace suffuse::model {
@@ -47,6 +48,22 @@ inline BoundaryCondition flux_on(const std::string& name, double flux) {
   b.darcy_flux = flux;
   b.concentration = 0.0;
   return b;
+}
+
+inline BoundaryCondition seepage_on(const std::string& name) {
+  BoundaryCondition b;
+  b.on = name;
+  b.seepage_face = true;
+  return b;
+}
+
+/// `alpha` in 1/m.
+inline RetentionModel gardner(double alpha, double residual_saturation = 0.1) {
+  return {retention_law("gardner"), residual_saturation, {.alpha = alpha}};
+}
+
+inline RetentionModel van_genuchten(double alpha, double n, double residual_saturation = 0.1) {
+  return {retention_law("van-genuchten"), residual_saturation, {.alpha = alpha, .n = n}};
 }
 
 /// [0, width] x [0, height] in nx x ny cells of two right triangles; boundaries top, bottom, left,

@@ -37,7 +37,7 @@ Scene dam_scene(double alpha, DryPart dry) {
   scene.gravity = {0.0, -9.81, 0.0};
   scene.initial_flow = InitialFlow::steady;
   scene.soils[0].conductivity = conductivity;
-  scene.soils[0].retention = {retention_law("gardner"), 0.1, {alpha, 0.0}};
+  scene.soils[0].retention = model::gardner(alpha);
   scene.boundaries = {head_on("left", upstream, dry), head_on("right", downstream, dry)};
   return scene;
 }

@@ -364,11 +364,7 @@ TEST(LeakyWall, TakesTheJumpOfGardnersProfile) {
     Scene scene = column_scene({conductivity, conductivity});
     scene.gravity = {0.0, -9.81, 0.0};
     scene.time.stepping = TimeStepping::monotone;
-    for (Soil& soil : scene.soils) {
-      soil.retention.law = retention_law("gardner");
-      soil.retention.residual_saturation = 0.1;
-      soil.retention.parameters.alpha = alpha;
-    }
+    for (Soil& soil : scene.soils) soil.retention = model::gardner(alpha);
     scene.boundaries[0] = model::flux_on("top", flux);
     scene.boundaries[1].concentration = 0.0;
     scene.walls = {wall_on("wall 0", conductance)};
@@ -411,11 +407,7 @@ TEST(LeakyWall, WetsDrySoilBehindIt) {
   scene.time.stepping = TimeStepping::monotone;
   scene.initial_flow = InitialFlow::rest;
   scene.water_level = -1.0;
-  for (Soil& soil : scene.soils) {
-    soil.retention.law = retention_law("van-genuchten");
-    soil.retention.residual_saturation = 0.1;
-    soil.retention.parameters = {2.0, 1.8};
-  }
+  for (Soil& soil : scene.soils) soil.retention = model::van_genuchten(2.0, 1.8);
   scene.boundaries = {model::pressure_on("top", 981.0)};
   scene.boundaries[0].concentration = 0.05;
   scene.walls = {wall_on("wall 0", conductance)};

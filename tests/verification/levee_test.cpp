@@ -55,7 +55,7 @@ Scene levee_scene(double bulk_modulus, TimeStepping stepping) {
   shell.conductivity = 1e-4;
   shell.conductivity_across = 2e-5;
   shell.bedding = 10.0;
-  shell.retention = {retention_law("van-genuchten"), 0.1, {3.0, 2.0}};
+  shell.retention = model::van_genuchten(3.0, 2.0);
   shell.erosion.law = erosion_law("flux");
   shell.erosion.rate = 2.0;
   Soil core = shell;
@@ -63,7 +63,7 @@ Scene levee_scene(double bulk_modulus, TimeStepping stepping) {
   core.conductivity = 1e-6;
   core.conductivity_across = unset;
   core.bedding = 0.0;
-  core.retention = {retention_law("gardner"), 0.15, {1.0, 0.0}};
+  core.retention = model::gardner(1.0, 0.15);
   core.erosion.law = erosion_law("first-order");
   core.erosion.rate = 1e-6;
   core.conductivity_law = conductivity_laws().back();

@@ -27,7 +27,7 @@ Scene confined_scene(bool retains) {
   soil.conductivity_law = conductivity_laws().back();
   soil.erosion.law = erosion_law("flux");
   soil.erosion.rate = 5.0;
-  if (retains) soil.retention = {retention_law("van-genuchten"), 0.1, {2.0, 1.6}};
+  if (retains) soil.retention = model::van_genuchten(2.0, 1.6);
   BoundaryCondition left;
   left.on = "left";
   left.head = TimeFunction({{0.0, 3.0}, {500.0, 4.0}});

@@ -16,10 +16,6 @@ constexpr double ten_days = 864000.0;  // s
 constexpr double level = 3.0;          // m, of the pond
 constexpr double stiff = std::numeric_limits<double>::infinity();
 
-RetentionModel van_genuchten(double alpha, double n) {
-  return {retention_law("van-genuchten"), 0.1, {alpha, n}};
-}
-
 BoundaryCondition head_on(const std::string& name, double head) {
   BoundaryCondition b;
   b.on = name;
@@ -91,16 +87,16 @@ Scene layered_scene(double bulk_modulus) {
   scene.water_level = 0.7;
   scene.boundaries = {head_on("left", 0.7)};
   Soil& low = scene.soils[0];
-  low.retention = van_genuchten(2.0, 1.6);
+  low.retention = model::van_genuchten(2.0, 1.6);
   Soil middle = low;
   middle.region = "middle";
   middle.porosity = 0.36;
   middle.conductivity = 1e-8;
-  middle.retention = van_genuchten(0.5, 1.2);
+  middle.retention = model::van_genuchten(0.5, 1.2);
   Soil high = low;
   high.region = "high";
   high.conductivity = 1e-2;
-  high.retention = van_genuchten(14.5, 2.68);
+  high.retention = model::van_genuchten(14.5, 2.68);
   scene.soils = {low, middle, high};
   return scene;
 }
