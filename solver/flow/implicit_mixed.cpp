@@ -361,6 +361,9 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::solve_stage(const MixedSt
   const int elements = grid_.mesh.element_count();
   const int faces = grid_.face_count();
   const bool quadratic = !forcing.coefficients.quadratic_drag.empty();
+  for (ElementField<Dim>* field : {&work_.displaced, &work_.side_storage, &work_.gain}) {
+    field->resize(has_retention() ? elements : 0);
+  }
   find_resistance(base, duration, forcing);
   resolve_conditions(forcing);
   balance_sealed_pieces(forcing);

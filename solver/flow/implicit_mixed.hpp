@@ -281,6 +281,8 @@ class ImplicitMixed {
   [[nodiscard]] double gravity_flux(int e, const FlowCoefficients<Dim>& c) const;
   /// The steady state of a nonlinear flow, by steps of growing length.
   Stage nonlinear_steady(const FlowForcing<Dim>& forcing);
+  /// The steady state with every soil saturated.
+  Stage saturated_stage(const FlowForcing<Dim>& forcing);
   /// Solves for the pressures with the law of the moment. At prescribed pressures `rise` is known.
   void solve_pressure(const FlowForcing<Dim>& forcing);
   void find_load(const FlowForcing<Dim>& forcing);

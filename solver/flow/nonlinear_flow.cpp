@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "case/errors.hpp"
 #include "flow/implicit_mixed.hpp"
@@ -34,6 +35,20 @@ constexpr double max_suction_growth = 10.0;
        << (switched ? "; seepage faces keep opening and closing" : "");
   throw NotConverged(text.str());
 }
+
+/// Puts back what a variable held, at the end of its scope.
+template <class Value>
+class Restored {
+ public:
+  explicit Restored(Value& variable) : variable_(variable), before_(variable) {}
+  ~Restored() { variable_ = std::move(before_); }
+  Restored(const Restored&) = delete;
+  Restored& operator=(const Restored&) = delete;
+
+ private:
+  Value& variable_;
+  Value before_;
+};
 
 }  // namespace
 
@@ -259,9 +274,6 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   w.law.drive = w.drive;
   w.law.mobility.resize(elements);
   for (int e = 0; e < elements; ++e) w.law.mobility[e] = 1.0 / w.resistance[e];
-  for (ElementField<Dim>* field : {&w.displaced, &w.side_storage, &w.gain}) {
-    field->resize(has_retention() ? elements : 0);
-  }
   const double round_off = balance_round_off(duration, forcing);
   double share = 1.0;
   double last_norm = std::numeric_limits<double>::infinity();
@@ -376,9 +388,7 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::nonlinear_steady(
 
   MixedState<Dim> state = last_steady_;
   if (state.air.empty()) {
-    ignore_retention_ = true;
-    state = solve_stage(last_steady_, forever, forcing, last_steady_flux_).state;
-    ignore_retention_ = false;
+    state = saturated_stage(forcing).state;
     state.air = air_at(state.face_pressure, forcing.coefficients.porosity);
   }
   // Steps of growing length, as from a saturated model that drains.
@@ -410,15 +420,20 @@ typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::nonlinear_steady(
 }
 
 template <int Dim>
+typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::saturated_stage(
+    const FlowForcing<Dim>& forcing) {
+  const Restored retention(ignore_retention_);
+  ignore_retention_ = true;
+  return solve_stage(last_steady_, std::numeric_limits<double>::infinity(), forcing,
+                     last_steady_flux_);
+}
+
+template <int Dim>
 MixedStep<Dim> ImplicitMixed<Dim>::saturated_steady(const FlowForcing<Dim>& forcing) {
   if (soils_.saturated()) return steady(forcing);
   set_up(forcing.conditions);
-  const std::vector<char> open = open_;
-  ignore_retention_ = true;
-  Stage stage = solve_stage(last_steady_, std::numeric_limits<double>::infinity(), forcing,
-                            last_steady_flux_);
-  ignore_retention_ = false;
-  open_ = open;
+  const Restored faces(open_);
+  Stage stage = saturated_stage(forcing);
   return {std::move(stage.state), {}, std::move(stage.face_flux), std::move(stage.flux_through)};
 }
 

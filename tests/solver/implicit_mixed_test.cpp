@@ -319,6 +319,29 @@ TEST(ImplicitMixed, WaterAtRestStaysAtRest) {
   }
 }
 
+/// Flow in the fullest soil is that of a flow that never had a retention, whatever drained before.
+TEST(ImplicitMixed, SaturatedFlowForgetsHowSoilDrains) {
+  FlowModel m(model::column_mesh(4, 8));
+  m.set("top", FaceKind::pressure, -2e3);
+  m.set("bottom", FaceKind::pressure, -1e3);
+  FlowSoils<2> soils;
+  soils.retention.assign(m.mesh.elements.size(), model::gardner(2.0));
+  soils.head_per_pressure = 1.0 / (1000.0 * conductivity_gravity);
+  const ImplicitSettings settings{infinite, false, TimeStepping::monotone};
+  ImplicitMixed<2> drains(m.grid, settings, {0.0, -9.81}, soils);
+  MixedState<2> start = m.rest(-1.5e3);
+  start.air = drains.air_at(start.face_pressure, m.forcing.coefficients.porosity);
+  drains.step(start, 1.0, m.constant(drains));
+  ImplicitMixed<2> full(m.grid, settings, {0.0, -9.81});
+  const auto found = drains.saturated_steady(m.forcing);
+  const auto expected = full.steady(m.forcing);
+  for (int f = 0; f < m.grid.face_count(); ++f) {
+    EXPECT_NEAR(found.face_flux[f], expected.face_flux[f], 1e-15) << f;
+    EXPECT_NEAR(found.end.face_pressure[f], expected.end.face_pressure[f], 1e-9) << f;
+  }
+  EXPECT_TRUE(drains.has_retention());
+}
+
 TEST(ImplicitMixed, SealedBoxStoresWhatIsPutIn) {
   // Nothing prescribes a pressure: the mean pressure follows from the volume alone, however stiff
   // the water and whatever the flow inside.

@@ -16,14 +16,6 @@ namespace {
 
 constexpr double stiff = std::numeric_limits<double>::infinity();
 
-RetentionModel gardner(double alpha, double residual) {
-  RetentionModel model;
-  model.law = retention_law("gardner");
-  model.residual_saturation = residual;
-  model.parameters.alpha = alpha;
-  return model;
-}
-
 Scene column_scene() {
   Scene scene = model::paper_scene();
   scene.time.scheme = FlowScheme::implicit_mixed;
@@ -39,7 +31,7 @@ Scene column_scene() {
 /// Theta 0.06 to 0.40, K 1e-5, alpha 1; steady under 0.1 K, then 0.9 K.
 Scene infiltration_scene() {
   Scene scene = column_scene();
-  scene.soils[0].retention = gardner(1.0, 0.15);
+  scene.soils[0].retention = model::gardner(1.0, 0.15);
   scene.initial_flow = InitialFlow::steady;
   scene.time.end = 72000.0;
   BoundaryCondition top = model::flux_on("top", 0.0);
@@ -131,7 +123,7 @@ TEST(SteadyProfile, AboveAWaterTableIsExact) {
     std::vector<double> errors;
     for (const int cells : {10, 20, 40}) {
       Scene scene = infiltration_scene();
-      scene.soils[0].retention = gardner(2.0, 0.15);
+      scene.soils[0].retention = model::gardner(2.0, 0.15);
       scene.boundaries[0].darcy_flux = TimeFunction(ratio * 1e-5);
       model::ModelRun run(model::make_case(model::column_mesh(1, cells, 1.0 / cells, 1.0), scene));
       const FlowState<2> flow = run.model().flow_state();
@@ -152,12 +144,19 @@ TEST(SteadyProfile, AboveAWaterTableIsExact) {
   }
 }
 
-RetentionModel van_genuchten(double alpha, double n, double residual) {
-  RetentionModel model;
-  model.law = retention_law("van-genuchten");
-  model.residual_saturation = residual;
-  model.parameters = {alpha, n};
-  return model;
+/// Rain on soil in a box, without an outlet and with water that does not compress: there is no
+/// steady flow, and what falls is what the pores take.
+TEST(Infiltration, FillsTheSoilOfASealedBox) {
+  Scene scene = column_scene();
+  scene.soils[0].retention = model::gardner(1.0);
+  scene.water_level = -2.0;
+  scene.time.end = 7200.0;
+  scene.boundaries = {model::flux_on("top", 1e-6)};
+  model::ModelRun run(model::make_case(model::column_mesh(1, 10, 0.1, 1.0), scene));
+  const auto moments = run.run({3600.0, 7200.0});
+  const auto water = [&](int i) { return moments.states[i].ledger.water; };
+  EXPECT_NEAR(water(1) - water(0), 1000.0 * 1e-6 * 0.1 * 3600.0, 1e-12);
+  EXPECT_LT(run.worst_residual(), 1e-12);
 }
 
 TEST(Absorption, FollowsBruceAndKlute) {
@@ -165,7 +164,7 @@ TEST(Absorption, FollowsBruceAndKlute) {
   for (const int cells : {50, 100, 200}) {
     Scene scene = column_scene();
     scene.gravity = {};
-    scene.soils[0].retention = van_genuchten(3.0, 2.0, 0.15);
+    scene.soils[0].retention = model::van_genuchten(3.0, 2.0, 0.15);
     const double psi_wet = -std::pow(std::pow(0.95, -2.0) - 1.0, 0.5) / 3.0;
     const double psi_dry = -std::pow(std::pow(0.30, -2.0) - 1.0, 0.5) / 3.0;
     scene.water_level = psi_dry;
@@ -201,7 +200,7 @@ TEST(Absorption, FollowsBruceAndKlute) {
 TEST(Ponding, OfDrySand) {
   for (const int cells : {10, 50, 100}) {
     Scene scene = column_scene();
-    scene.soils[0].retention = van_genuchten(14.5, 2.68, 0.10);
+    scene.soils[0].retention = model::van_genuchten(14.5, 2.68, 0.10);
     scene.soils[0].conductivity = 8.25e-5;
     scene.water_level = -10.0;
     scene.time.end = 3600.0;
@@ -239,7 +238,7 @@ TEST(Celia, MassesBalanceAtEveryStep) {
       scene.soils[0].porosity = 0.368;
       scene.soils[0].skeleton_fraction = 0.632;
       scene.soils[0].conductivity = 9.22e-5;
-      scene.soils[0].retention = van_genuchten(3.35, 2.0, 0.102 / 0.368);
+      scene.soils[0].retention = model::van_genuchten(3.35, 2.0, 0.102 / 0.368);
       scene.time.end = 86400.0;
       scene.time.step = step;
       scene.water_level = wets ? -10.0 : 0.6;
