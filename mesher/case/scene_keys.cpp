@@ -261,7 +261,8 @@ std::vector<SceneKey> declare_keys() {
       choice("soil.*.drag", in_soil(&Soil::drag),
              {{"darcy", SoilDrag::darcy}, {"ergun", SoilDrag::ergun}},
              "Resistance to the flow: Darcy's, or Ergun's, which also grows with the square of the "
-             "flux and has Darcy's `conductivity` at small fluxes.")
+             "flux and has Darcy's `conductivity` at small fluxes. Not beside a retention law, nor "
+             "beside boundaries whose faces open, close or fall dry.")
           .otherwise("darcy"),
 
       choice("soil.*.erosion.law", in_erosion(&ErosionSettings::law), by_word(erosion_laws()),

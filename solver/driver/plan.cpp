@@ -138,6 +138,21 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
   }
 }
 
+/// Where faces open, close or fall dry, the implicit flow iterates over them with linear drag.
+template <int Dim>
+void refuse_ergun_beside_switching_faces(const Case<Dim>& c,
+                                         const std::vector<FaceCondition>& conditions) {
+  const Scene& scene = c.document.scene;
+  const auto ergun = std::ranges::find(scene.soils, SoilDrag::ergun, &Soil::drag);
+  const auto face = std::ranges::find(conditions, true, &FaceCondition::switches);
+  if (ergun == scene.soils.end() || face == conditions.end()) return;
+  const BoundaryCondition& boundary = scene.boundaries[face->boundary];
+  const std::string name = boundary.seepage_face ? "seepage_face" : boundary.rain ? "rain" : "head";
+  const std::string key = joined("soil", shown_name(ergun->region)) + ".drag";
+  throw InputError({{c.document.locate(key), key, "\"ergun\" beside " + joined(boundary.key, name),
+                     "\"darcy\": where faces open, close or fall dry, drag is linear", ""}});
+}
+
 /// The volume that a point erodes is distributed over the field nodes of its element, and those far
 /// from the point get a negative share. The sum is right as long as each node keeps a pore volume.
 template <int Dim>
@@ -429,6 +444,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   if (scene.time.scheme == FlowScheme::explicit_nodal) {
     if constexpr (Dim == 2) plan_explicit_step(c, grid, soils, conditions, plan);
   } else {
+    refuse_ergun_beside_switching_faces(c, conditions);
     plan_implicit_step(scene, plan);
     plan.settling_time = settling_time(c);
     warn_of_free_water_with_inertia(c, plan);

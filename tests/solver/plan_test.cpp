@@ -65,14 +65,50 @@ TEST(Plan, StiffWaterMayLeaveThroughASeepageFaceOrFillPores) {
   scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
   const auto plan = [&] { make_plan(model::make_case(model::column_mesh(4, 4), scene), {}); };
   EXPECT_THROW(plan(), InputError);
-  BoundaryCondition drain;
-  drain.on = "bottom";
-  drain.seepage_face = true;
-  scene.boundaries.push_back(drain);
+  scene.boundaries.push_back(model::seepage_on("bottom"));
   EXPECT_NO_THROW(plan());
   scene.boundaries.pop_back();
-  scene.soils[0].retention = {retention_law("gardner"), 0.1, {.alpha = 2.0}};
+  scene.soils[0].retention = model::gardner(2.0);
   EXPECT_NO_THROW(plan());
+}
+
+/// The iteration over faces that switch knows no drag that grows with the square of the flux.
+TEST(Plan, ErgunsDragNeedsFacesThatStayAsTheyAre) {
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.water_level = 1.0;
+  scene.soils[0].drag = SoilDrag::ergun;
+  scene.boundaries = {BoundaryCondition{}, model::seepage_on("right")};
+  scene.boundaries[0].on = "left";
+  scene.boundaries[0].key = "boundary[0]";
+  scene.boundaries[1].key = "boundary[1]";
+  scene.boundaries[0].head = TimeFunction(1.5);
+  const auto refusal = [&]() -> std::string {
+    try {
+      make_plan(model::make_case(model::column_mesh(4, 4), scene), {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const auto beside = [](const std::string& key) {
+    return "model.toml: soil.specimen.drag: got \"ergun\" beside " + key +
+           "; expected \"darcy\": where faces open, close or fall dry, drag is linear";
+  };
+  EXPECT_EQ(refusal(), beside("boundary[1].seepage_face"));
+  scene.boundaries[1].seepage_face = false;
+  scene.boundaries[1].rain = TimeFunction(1e-6);
+  EXPECT_EQ(refusal(), beside("boundary[1].rain"));
+  scene.boundaries.pop_back();
+  EXPECT_EQ(refusal(), "none");
+  scene.boundaries[0].head = TimeFunction({{0.0, 1.5}, {10.0, 0.5}});
+  EXPECT_EQ(refusal(), beside("boundary[0].head"));
+  scene.boundaries[0].dry = DryPart::suction;
+  EXPECT_EQ(refusal(), "none");
+  scene.boundaries[0].dry = DryPart::impervious;
+  scene.soils[0].drag = SoilDrag::darcy;
+  EXPECT_EQ(refusal(), "none");
 }
 
 std::string slope_warnings(const Scene& scene) {
