@@ -264,7 +264,7 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
   if (retains_air(scene)) {
     std::vector<std::string> soils;
     for (const Soil& soil : scene.soils) {
-      if (soil.retention.law != nullptr) soils.push_back(soil.region);
+      if (soil.drains()) soils.push_back(soil.region);
     }
     say("run: air in the pores under suction, soils " + listed(soils, "and") +
         "; each step iterates until fluxes fit contents and conductivities");
