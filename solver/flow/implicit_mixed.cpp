@@ -275,21 +275,28 @@ void ImplicitMixed<Dim>::solve_linear(const MixedState<Dim>& base,
 
   // Pressures that rise a lot leave the round-off of the rise times the largest conductance, which
   // may be more than what flows through a tight soil: a second solution is rid of it.
-  const auto largest_face = [&](int e, const std::vector<double>& values) {
-    double largest = 0.0;
-    for (const int f : grid_.element_face[e]) largest = std::max(largest, std::abs(values[f]));
-    return largest;
-  };
   const double through = largest_of(elements, settings_.threads, 0.0, [&](int e) {
-    return w.flux[e].norm() * largest_face(e, face_area_);
+    return w.flux[e].norm() * largest_at_faces(e, face_area_);
   });
   const double round_off = largest_of(elements, settings_.threads, 0.0, [&](int e) {
-    return epsilon * conductance_of(e) * largest_face(e, w.pressure.rise);
+    return epsilon * conductance_of(e) * largest_at_faces(e, w.pressure.rise);
   });
   if (std::max(round_off, wall_round_off()) <= 1e-12 * through) return;
   w.pressure.move_reference(base.face_pressure);
   solve_pressure(forcing);
   find_flux(w.flux, w.push);
+}
+
+template <int Dim>
+double ImplicitMixed<Dim>::stored(int e, int k, double rise) const {
+  const double compressed = work_.storage[e] * rise;
+  return work_.displaced.empty() ? compressed : compressed + work_.displaced[e][k];
+}
+
+template <int Dim>
+double ImplicitMixed<Dim>::flux_out(int e, int k, double rise) const {
+  return work_.flux[e].dot(grid_.outward_normal(e, k)) - stored(e, k, rise) +
+         work_.net_source[e] / (Dim + 1);
 }
 
 template <int Dim>
@@ -315,14 +322,7 @@ void ImplicitMixed<Dim>::find_face_flux(const MixedState<Dim>& base, double dura
       w.net_outflow[e] -= w.displaced[e][k];
     }
   });
-  const auto stored = [&](int e, int k) {
-    const double compressed = w.storage[e] * stage.rise[grid_.element_face[e][k]];
-    return displaces ? compressed + w.displaced[e][k] : compressed;
-  };
-  const auto out_of = [&](int e, int f) {
-    const int k = grid_.side_of(e, f);
-    return w.flux[e].dot(grid_.outward_normal(e, k)) - stored(e, k) + w.net_source[e] / (Dim + 1);
-  };
+  const auto out_of = [&](int e, int f) { return flux_out(e, grid_.side_of(e, f), stage.rise[f]); };
 
   // From the side that conducts less, where pressures give fluxes with more digits.
   stage.face_flux.resize(faces);
@@ -349,7 +349,7 @@ void ImplicitMixed<Dim>::find_face_flux(const MixedState<Dim>& base, double dura
     stage.flux_through[f] = stage.face_flux[f];
     if (!is_held(f)) return;
     const int e = grid_.face_left[f];
-    stage.flux_through[f] += stored(e, grid_.side_of(e, f));
+    stage.flux_through[f] += stored(e, grid_.side_of(e, f), stage.rise[f]);
   });
 }
 

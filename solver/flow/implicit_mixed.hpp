@@ -13,6 +13,7 @@
 /// and Lehmann, Int. J. Numer. Methods Eng. 66 (2006) 1069).
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -210,6 +211,10 @@ class ImplicitMixed {
                                       const std::vector<double>& quadratic_drag) const;
   /// The water that a sealed piece stores takes up what enters it.
   void level_sealed_pieces(const MixedState<Dim>& base, std::vector<double>& rise) const;
+  /// What the share of a side stores in a stage in which its pressure rises by this, m3/s.
+  [[nodiscard]] double stored(int e, int k, double rise) const;
+  /// Flux out of the element through the side, m3/s.
+  [[nodiscard]] double flux_out(int e, int k, double rise) const;
   void find_face_flux(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
                       Stage& stage);
 
@@ -250,8 +255,6 @@ class ImplicitMixed {
   void take_step(double share);
   /// Through a side of an element, m3/s.
   [[nodiscard]] double largest_flux() const;
-  /// Flux out of the element at the pressures reached, m3/s.
-  [[nodiscard]] double flux_out(int e, int k) const;
   /// A pressure that would pass the one at which its soil's content changes fastest stops there:
   /// from there Newton's method meets a content that is convex or concave, and finds its way; from
   /// saturated or dry soil, whose content hardly changes, it would go any distance. Suction grows
@@ -264,11 +267,12 @@ class ImplicitMixed {
   /// Where nothing holds the level of the pressure, its highest seepage face opens. Returns whether
   /// any did.
   bool hold_levels(const FlowForcing<Dim>& forcing);
-  /// Pressures below this are zero to a seepage face, Pa.
+  /// Pressures below this are zero to a seepage face: 1e-9 of the largest pressure, Pa.
   [[nodiscard]] double pressure_accuracy() const;
-  [[nodiscard]] double largest_area(int e) const {
+  /// Largest magnitude at the faces of an element.
+  [[nodiscard]] double largest_at_faces(int e, const std::vector<double>& face_values) const {
     double largest = 0.0;
-    for (const int f : grid_.element_face[e]) largest = std::max(largest, face_area_[f]);
+    for (const int f : grid_.element_face[e]) largest = std::max(largest, std::abs(face_values[f]));
     return largest;
   }
   /// Opens and closes seepage faces. Returns whether any changed.

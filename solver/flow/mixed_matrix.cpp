@@ -124,33 +124,31 @@ void MixedMatrix<Dim>::couple(const LeakyFace& wall) {
 }
 
 template <int Dim>
-double MixedMatrix<Dim>::uncouple(int face) {
+void MixedMatrix<Dim>::uncouple(int face) {
   double* values = values_.valuePtr();
-  double diagonal = 0.0;
   for (const int e : {grid_.face_left[face], grid_.face_right[face]}) {
     if (e < 0) continue;
     const int k = grid_.side_of(e, face);
-    diagonal = values[position_[e][k][k]];
     for (int b = 0; b <= Dim; ++b) {
       if (b == k || position_[e][k][b] < 0) continue;
       values[position_[e][k][b]] = values[position_[e][b][k]] = 0.0;
     }
   }
-  return diagonal;
 }
 
 template <int Dim>
-Eigen::SparseMatrix<double> MixedMatrix<Dim>::with_gain(
-    const ElementField<Dim>& flux, const ElementField<Dim>& gain,
-    const std::function<bool(int)>& held) const {
+Eigen::SparseMatrix<double> MixedMatrix<Dim>::with_gain(const ElementField<Dim>& flux,
+                                                        const ElementField<Dim>& gain,
+                                                        const std::vector<char>& held) const {
   Eigen::SparseMatrix<double> result = values_;
   double* values = result.valuePtr();
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const auto& faces = grid_.element_face[e];
     for (int a = 0; a <= Dim; ++a) {
       for (int b = 0; b <= Dim; ++b) {
-        if (position_[e][a][b] < 0 || held(faces[a]) || held(faces[b])) continue;
-        values[position_[e][a][b]] -= flux[e][a] * gain[e][b];
+        if (position_[e][a][b] < 0 || held[faces[a]] != 0 || held[faces[b]] != 0) continue;
+        const double grows = flux[e][a] * gain[e][b];
+        values[position_[e][a][b]] -= a == b ? std::max(0.0, grows) : grows;
       }
     }
   }

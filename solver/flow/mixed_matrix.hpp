@@ -6,7 +6,6 @@
 
 #include <Eigen/SparseCore>
 #include <array>
-#include <functional>
 #include <vector>
 
 #include "flow/face_conditions.hpp"
@@ -44,14 +43,15 @@ class MixedMatrix {
   /// pressures flows between them.
   void couple(const LeakyFace& wall);
   /// Makes the unknown of a face one of its own, uncoupled from the others, whose value the right
-  /// side decides. Returns its diagonal entry.
-  double uncouple(int face);
+  /// side decides.
+  void uncouple(int face);
   /// The values, with what the conductivity of an element gains as the pressure at its sides rises:
-  /// `flux` out of it by each side, m3/s, grows by the share `gain` per pressure, 1/Pa. Faces that
-  /// are `held` keep their uncoupled rows. No longer symmetric.
+  /// `flux` out of it by each side, m3/s, grows by the share `gain` per pressure, 1/Pa. What that
+  /// adds to the diagonal, where liquid enters, was assembled already. Faces that are `held` keep
+  /// their uncoupled rows. No longer symmetric.
   [[nodiscard]] Eigen::SparseMatrix<double> with_gain(const ElementField<Dim>& flux,
                                                       const ElementField<Dim>& gain,
-                                                      const std::function<bool(int)>& held) const;
+                                                      const std::vector<char>& held) const;
   /// Doubles the diagonal at the first face of an element, where nothing else holds the level of
   /// the pressure: its rise is then zero, as the rest of the system adds up to zero.
   void hold_level(int element) { values_.valuePtr()[position_[element][0][0]] *= 2.0; }

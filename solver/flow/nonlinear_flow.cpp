@@ -126,15 +126,6 @@ void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double
 }
 
 template <int Dim>
-double ImplicitMixed<Dim>::flux_out(int e, int k) const {
-  const Work& w = work_;
-  const int f = grid_.element_face[e][k];
-  double stored = w.storage[e] * (w.pressure.offset[f] + w.pressure.rise[f]);
-  if (!w.displaced.empty()) stored += w.displaced[e][k];
-  return w.flux[e].dot(grid_.outward_normal(e, k)) - stored + w.net_source[e] / (Dim + 1);
-}
-
-template <int Dim>
 bool ImplicitMixed<Dim>::switch_faces(const FlowForcing<Dim>& forcing, double flux_tolerance,
                                       double pressure_tolerance) {
   bool switched = false;
@@ -142,9 +133,10 @@ bool ImplicitMixed<Dim>::switch_faces(const FlowForcing<Dim>& forcing, double fl
     const FaceCondition& condition = forcing.conditions[f];
     if (condition.kind != FaceKind::seepage) continue;
     const int e = grid_.face_left[f];
+    const double rise = work_.pressure.offset[f] + work_.pressure.rise[f];
     const bool takes_in_more =
         open_[f] != 0 &&
-        -flux_out(e, grid_.side_of(e, f)) > condition.value * face_area_[f] + flux_tolerance;
+        -flux_out(e, grid_.side_of(e, f), rise) > condition.value * face_area_[f] + flux_tolerance;
     const bool presses =
         open_[f] == 0 && work_.pressure.reference[f] + work_.pressure.rise[f] > pressure_tolerance;
     if (!takes_in_more && !presses) continue;
@@ -203,35 +195,28 @@ bool ImplicitMixed<Dim>::hold_levels(const FlowForcing<Dim>& forcing) {
 template <int Dim>
 void ImplicitMixed<Dim>::solve_newton() try {
   Work& w = work_;
-  const auto assemble = [&](const ElementField<Dim>& side_storage) {
-    matrix_.assemble(w.law, w.storage, side_storage);
-    for (const LeakyFace& wall : w.walls) matrix_.couple(wall);
-    for (const int e : w.level_elements) matrix_.hold_level(e);
-    for (const int f : switching_) {
-      if (is_held(f)) matrix_.uncouple(f);
-    }
-  };
-  if (!has_retention()) {
-    assemble({});
-    newton_->factorise(matrix_.values());
-    newton_->solve(matrix_.values(), w.load, w.step);
-    return;
-  }
   // A wetter element conducts better. Where water enters, that adds to the diagonal; the symmetric
   // matrix with this alone is factored, the whole one is solved with it.
   ElementField<Dim> flux(w.displaced.size());
-  ElementField<Dim> nearly = w.side_storage;
-  for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
+  ElementField<Dim> on_diagonal = w.side_storage;
+  for_each_index(static_cast<int>(flux.size()), settings_.threads, [&](int e) {
     for (int k = 0; k <= Dim; ++k) {
       flux[e][k] = w.flux[e].dot(grid_.outward_normal(e, k));
-      nearly[e][k] += std::max(0.0, -flux[e][k] * w.gain[e][k]);
+      on_diagonal[e][k] += std::max(0.0, -flux[e][k] * w.gain[e][k]);
     }
   });
-  assemble(nearly);
+  matrix_.assemble(w.law, w.storage, on_diagonal);
+  for (const LeakyFace& wall : w.walls) matrix_.couple(wall);
+  for (const int e : w.level_elements) matrix_.hold_level(e);
+  for (const int f : switching_) {
+    if (is_held(f)) matrix_.uncouple(f);
+  }
   newton_->factorise(matrix_.values());
-  assemble(w.side_storage);
-  const auto held = [&](int f) { return is_held(f); };
-  newton_->solve(matrix_.with_gain(flux, w.gain, held), w.load, w.step);
+  if (flux.empty()) {
+    newton_->solve(matrix_.values(), w.load, w.step);
+  } else {
+    newton_->solve(matrix_.with_gain(flux, w.gain, held_), w.load, w.step);
+  }
 } catch (const NumericalError& error) {
   throw NotConverged(error.what());
 }
@@ -347,7 +332,6 @@ void ImplicitMixed<Dim>::limit_change() {
 
 template <int Dim>
 double ImplicitMixed<Dim>::pressure_accuracy() const {
-  // Of the pressures that gravity makes in the smallest element, or of those there are.
   const FacePressure& pressure = work_.pressure;
   return 1e-9 * largest_of(grid_.face_count(), settings_.threads, 0.0, [&](int f) {
            return std::abs(pressure.reference[f]) + std::abs(pressure.rise[f]);
@@ -375,7 +359,8 @@ void ImplicitMixed<Dim>::settle_air(const MixedState<Dim>& base, double duration
 
 template <int Dim>
 double ImplicitMixed<Dim>::gravity_flux(int e, const FlowCoefficients<Dim>& c) const {
-  return c.mixture_density[e] * gravity_.norm() * c.porosity[e] / c.drag[e] * largest_area(e);
+  return c.mixture_density[e] * gravity_.norm() * c.porosity[e] / c.drag[e] *
+         largest_at_faces(e, face_area_);
 }
 
 template <int Dim>

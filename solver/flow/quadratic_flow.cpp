@@ -66,12 +66,8 @@ typename ImplicitMixed<Dim>::FluxChange ImplicitMixed<Dim>::flux_change(
   const Work& w = work_;
   FluxChange result{0.0, largest_norm<Dim>(new_flux), true};
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    double rise = 0.0;
-    double area = 0.0;
-    for (const int f : grid_.element_face[e]) {
-      rise = std::max(rise, std::abs(w.pressure.rise[f]));
-      area = std::max(area, face_area_[f]);
-    }
+    const double rise = largest_at_faces(e, w.pressure.rise);
+    const double area = largest_at_faces(e, face_area_);
     const double round_off =
         epsilon * (conductance_of(e) * rise / area +
                    w.law.mobility[e] * (w.law.drive[e].norm() + new_push[e].norm()));
