@@ -169,7 +169,7 @@ void add_balance_commands(CLI::App& app, Options& o, Action& chosen) {
   command = add_command(app, chosen, "boundaries",
                         "What crossed each boundary: water, fines, discharge", boundaries);
   add_results(command, o);
-  command->add_option("--csv", o.csv, "write the whole table here")->type_name("FILE");
+  command->add_option("--csv", o.csv, "write the rows of all boundaries here")->type_name("FILE");
 }
 
 void add_value_commands(CLI::App& app, Options& o, Action& chosen) {

@@ -472,8 +472,8 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .mandatory(),
       key("output.snapshot_every", at(&Scene::output, &OutputSettings::snapshot_every),
-          "Time between snapshots of the whole state; not below `every`. A snapshot ends a step, "
-          "as a row does.")
+          "Time between snapshots of the whole state; not below `every`. As for a row, a step "
+          "ends at the time of a snapshot.")
           .in("s")
           .above(0.0)
           .otherwise_as("`output.every`"),

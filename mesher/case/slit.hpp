@@ -26,7 +26,7 @@ struct JoinedFace {
 template <int Dim>
 std::vector<JoinedFace<Dim>> slit(Mesh<Dim>& mesh, const std::vector<BoundarySet<Dim>>& cuts);
 
-/// Whether the faces of a set are those that `slit` made: pairs with nodes at the same places.
+/// Whether `slit` made the faces of a set: they come in pairs with nodes at the same places.
 template <int Dim>
 bool is_slit(const Mesh<Dim>& mesh, const BoundarySet<Dim>& set);
 

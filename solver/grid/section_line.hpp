@@ -23,8 +23,8 @@ class SectionLine {
 
   /// Length within the mesh, m.
   [[nodiscard]] double length() const { return length_; }
-  /// What crosses the line from its left to its right, as seen by somebody who walks from `from` to
-  /// `to`. `face_values`: along each face's normal, m3/s or m3; the result has their unit.
+  /// What crosses the line from its left side to its right side, looking from `from` to `to`.
+  /// `face_values`: along each face's normal, m3/s or m3; the result has their unit.
   [[nodiscard]] double across(const std::vector<double>& face_values) const;
 
  private:

@@ -171,8 +171,8 @@ inline constexpr std::array<Column<ProbeRow>, 11> probe_columns{{
     {"flux_y", &ProbeRow::flux_y},
 }};
 
-/// sections.csv: the liquid that crosses a line that the scene names, positive from its left to its
-/// right as seen by somebody who walks from `from` to `to`.
+/// sections.csv: the liquid that crosses a line that the scene names, positive from its left side
+/// to its right side, looking from `from` to `to`.
 struct SectionRow {
   double t = 0.0;
   double section = 0.0;    ///< its number in the scene, from zero
