@@ -23,7 +23,6 @@ void SinglePoint<Dim>::advance(double latest) {
     fines_->advance(step, flow.volumes, exchange, this->flow_->pressure());
   }
   this->time_ = flow.end;
-  air_ = this->flow_->air();
   // Masses, and the pressures that follow from them.
   book(flow.volumes);
   update_flow();
@@ -40,9 +39,8 @@ SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
       options.flow.threads);
   update_flow();
   this->flow_->start();
-  air_ = this->flow_->air();
-  if (!air_.empty()) {
-    fines_->start(air_);
+  if (const std::vector<double> air = this->flow_->air(); !air.empty()) {
+    fines_->start(air);
     update_flow();
   }
   this->start_flux_history();
@@ -55,7 +53,6 @@ template <int Dim>
 void SinglePoint<Dim>::archive(StateArchive& archive) {
   TwoPhaseModel<Dim>::archive(archive);
   archive(*fines_, water_mass_, water_timing_);
-  if (archive.restores()) air_ = this->flow_->air();
 }
 
 template <int Dim>
@@ -63,18 +60,19 @@ PoreState SinglePoint<Dim>::pores() const {
   const FinesState<Dim>& state = fines_->state();
   const int elements = this->grid_.mesh.element_count();
   PoreState result;
+  result.air_volume = this->flow_->air();
+  const std::vector<double>& air = result.air_volume;
   result.porosity.resize(elements);
   result.water_volume.resize(elements);
   result.concentration.resize(elements);
   for_each_index(elements, this->threads(), [&](int e) {
     const double liquid = element_sum<Dim>(state.liquid_volume[e]);
     const double fines = element_sum<Dim>(state.fines_volume[e]);
-    const double pores = air_.empty() ? liquid : liquid + air_[e];
+    const double pores = air.empty() ? liquid : liquid + air[e];
     result.porosity[e] = pores / this->grid_.volume[e];
     result.water_volume[e] = liquid - fines;
     result.concentration[e] = fines / liquid;
   });
-  result.air_volume = air_;
   if (this->soils_.erodes_by_flux()) result.flux = this->element_flux_magnitude();
   return result;
 }

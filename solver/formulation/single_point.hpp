@@ -42,7 +42,6 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
 
   std::unique_ptr<FieldTransport<Dim>> fines_;
   std::vector<double> water_mass_;  ///< per element, kg
-  std::vector<double> air_;         ///< per element, m3; empty where all soil is saturated
   PassTiming water_timing_{"water masses and coefficients", 0, 0.0};
 };
 
