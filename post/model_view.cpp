@@ -103,6 +103,11 @@ void ModelView::paint_axes(vtkContext2D& painter) const {
              90.0);
 }
 
+void paint_title(vtkContext2D& painter, const std::string& title, int width, int height) {
+  paint_text(painter, title, PictureLayout::title_size, static_cast<float>(width) / 2.0F,
+             static_cast<float>(height) - 32.0F);
+}
+
 void paint_edges(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
                  const Edges& edges, const Color& color, float width) {
   if (edges.empty()) return;

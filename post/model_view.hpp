@@ -5,12 +5,32 @@
 
 #include <vtkContext2D.h>
 
+#include <string>
 #include <vector>
 
 #include "case/mesh.hpp"
 #include "chart.hpp"
 
 namespace suffuse {
+
+/// Layout of a picture of the model with a colour bar to its right, pixels.
+struct PictureLayout {
+  static constexpr float max_width = 1000.0F;  ///< of the model
+  static constexpr float max_height = 800.0F;
+  static constexpr float gap = 40.0F;  ///< between the model and the bar
+  static constexpr float bar_width = 30.0F;
+  static constexpr float min_bar_height = 340.0F;
+  static constexpr int title_size = 24;
+
+  /// Of a picture that holds the title with room beside it.
+  static float title_width(const std::string& title) {
+    constexpr float letter = 14.0F;
+    return letter * static_cast<float>(title.size()) + 2.0F * gap;
+  }
+};
+
+/// Paints the title of a picture of this size.
+void paint_title(vtkContext2D& painter, const std::string& title, int width, int height);
 
 /// Maps positions in metres to pixels, with one scale for both axes. Pixels count from the bottom
 /// left of the picture.

@@ -20,15 +20,11 @@
 namespace suffuse {
 namespace {
 
+using Layout = PictureLayout;
 const std::string command = "suffuse-post render";
 constexpr Color no_value{0.75, 0.75, 0.75};
 constexpr Color mesh_color{0.55, 0.55, 0.55};
-constexpr float max_width = 1000.0F;
-constexpr float max_height = 800.0F;
 constexpr float top_room = 70.0F;
-constexpr float gap = 40.0F;
-constexpr float bar_width = 30.0F;
-constexpr float min_bar_height = 340.0F;
 constexpr float bar_room = 215.0F;
 constexpr int bar_bands = 256;
 constexpr int max_triangles = 400'000;
@@ -185,7 +181,7 @@ void paint_bar(vtkContext2D& painter, const Frame& frame, float left, float bott
     const Color color = viridis((band + 0.5) / bar_bands);
     painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
     const float step = height / static_cast<float>(bar_bands);
-    painter.DrawRect(left, bottom + static_cast<float>(band) * step, bar_width, step);
+    painter.DrawRect(left, bottom + static_cast<float>(band) * step, Layout::bar_width, step);
   }
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
@@ -194,8 +190,8 @@ void paint_bar(vtkContext2D& painter, const Frame& frame, float left, float bott
   const double high = frame.scale.range[1];
   const auto mark = [&](double value, const std::string& text) {
     const float y = bottom + height * static_cast<float>((value - low) / (high - low));
-    painter.DrawLine(left + bar_width, y, left + bar_width + 8.0F, y);
-    paint_text(painter, text, 18, left + bar_width + 14.0F, y, Anchor::left);
+    painter.DrawLine(left + Layout::bar_width, y, left + Layout::bar_width + 8.0F, y);
+    paint_text(painter, text, 18, left + Layout::bar_width + 14.0F, y, Anchor::left);
   };
   mark(low, (frame.scale.exceeds_low ? "<= " : "") + end_text(low, high - low));
   mark(high, (frame.scale.exceeds_high ? ">= " : "") + end_text(high, high - low));
@@ -205,7 +201,7 @@ void paint_bar(vtkContext2D& painter, const Frame& frame, float left, float bott
       mark(tick, tick_text(tick));
     }
   }
-  paint_text(painter, frame.label, 20, left + bar_width + 150.0F, bottom + height / 2.0F,
+  paint_text(painter, frame.label, 20, left + Layout::bar_width + 150.0F, bottom + height / 2.0F,
              Anchor::center, 90.0);
 }
 
@@ -231,15 +227,15 @@ void paint_kinds(vtkContext2D& painter, const Frame& frame, float left, float to
 }
 
 void draw_frame(const Mesh<2>& mesh, const Frame& frame, const std::string& path) {
-  const ModelView view(mesh, axes_left, axes_bottom, max_width, max_height);
-  const float right = view.left() + view.width() + gap;
+  const ModelView view(mesh, axes_left, axes_bottom, Layout::max_width, Layout::max_height);
+  const float right = view.left() + view.width() + Layout::gap;
   const bool by_kind = !frame.scale.kinds.empty();
   const float side = by_kind ? kinds_width(frame) : bar_room;
-  // Wide enough for a long title over a narrow model: a letter of size 24 is about 14 pixels wide.
-  const float title = 14.0F * static_cast<float>(frame.title.size()) + 2.0F * gap;
+  // Wide enough for a long title over a narrow model.
+  const float title = Layout::title_width(frame.title);
   const auto width = static_cast<int>(std::max(right + side, title));
   const auto height =
-      static_cast<int>(view.bottom() + std::max(view.height(), min_bar_height) + top_room);
+      static_cast<int>(view.bottom() + std::max(view.height(), Layout::min_bar_height) + top_room);
   draw_picture(width, height, frame.title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
       const bool points =
@@ -248,12 +244,12 @@ void draw_frame(const Mesh<2>& mesh, const Frame& frame, const std::string& path
       paint_mesh(painter, view, mesh);
       if (points) paint_points(painter, view, mesh, frame);
       view.paint_axes(painter);
-      paint_text(painter, frame.title, 24, static_cast<float>(width) / 2.0F,
-                 static_cast<float>(height) - 32.0F);
+      paint_title(painter, frame.title, width, height);
       if (by_kind) {
         paint_kinds(painter, frame, right, view.bottom() + view.height());
       } else {
-        paint_bar(painter, frame, right, view.bottom(), std::max(view.height(), min_bar_height));
+        paint_bar(painter, frame, right, view.bottom(),
+                  std::max(view.height(), Layout::min_bar_height));
       }
     });
   });

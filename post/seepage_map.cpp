@@ -20,17 +20,13 @@
 namespace suffuse {
 namespace {
 
+using Layout = PictureLayout;
 constexpr Color black{0.0, 0.0, 0.0};
 constexpr Color white{1.0, 1.0, 1.0};
 constexpr Color water_blue{0.0, 0.27, 0.53};
 constexpr Color water_tint{0.91, 0.96, 1.0};
-constexpr float max_width = 1000.0F;
-constexpr float max_height = 800.0F;
 constexpr float top_room = 100.0F;
-constexpr float gap = 40.0F;
-constexpr float bar_width = 30.0F;
 constexpr float bar_room = 190.0F;
-constexpr float min_bar_height = 340.0F;
 constexpr float legend_row = 30.0F;
 constexpr float line_width = 1.2F;
 constexpr float phreatic_width = 3.5F;
@@ -215,19 +211,19 @@ void paint_bar(vtkContext2D& painter, const Sheet& sheet, float left, float bott
   for (std::size_t band = 0; band < bands; ++band) {
     const Color color = sheet.band_color(band);
     painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
-    painter.DrawRect(left, bottom + static_cast<float>(band) * step, bar_width, step);
+    painter.DrawRect(left, bottom + static_cast<float>(band) * step, Layout::bar_width, step);
   }
   std::size_t letters = 0;
   for (std::size_t k = 0; k <= bands; ++k) {
     const float y = bottom + static_cast<float>(k) * step;
     const std::string text = tick_text(sheet.levels[k]);
     letters = std::max(letters, text.size());
-    painter.DrawLine(left + bar_width, y, left + bar_width + 8.0F, y);
-    paint_text(painter, text, 18, left + bar_width + 14.0F, y, Anchor::left);
+    painter.DrawLine(left + Layout::bar_width, y, left + Layout::bar_width + 8.0F, y);
+    paint_text(painter, text, 18, left + Layout::bar_width + 14.0F, y, Anchor::left);
   }
   paint_text(painter, sheet.map.label, 20,
-             left + bar_width + 50.0F + 10.5F * static_cast<float>(letters), bottom + height / 2.0F,
-             Anchor::center, 90.0);
+             left + Layout::bar_width + 50.0F + 10.5F * static_cast<float>(letters),
+             bottom + height / 2.0F, Anchor::center, 90.0);
 }
 
 std::vector<Curve> legend_rows(const SeepageMap& map, bool has_equipotentials,
@@ -259,7 +255,7 @@ ModelView view_of(const SeepageMap& map, float bottom) {
     for (const auto& corners : water.body) std::ranges::for_each(corners, include);
     std::ranges::for_each(water.level, include);
   }
-  return {low, high, axes_left, bottom, max_width, max_height};
+  return {low, high, axes_left, bottom, Layout::max_width, Layout::max_height};
 }
 
 /// What both maps share.
@@ -342,10 +338,10 @@ void draw_seepage_map(const SeepageMap& map, const std::string& path) {
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const Sheet sheet{map, view_of(map, axes_bottom + legend_height), levels};
   const ModelView& view = sheet.view;
-  const float right = view.left() + view.width() + gap;
-  const float bar_height = std::max(view.height(), min_bar_height);
-  const float title = 14.0F * static_cast<float>(map.title.size()) + 2.0F * gap;
-  const float legend = view.left() + ChartLegend::width(rows) + gap;
+  const float right = view.left() + view.width() + Layout::gap;
+  const float bar_height = std::max(view.height(), Layout::min_bar_height);
+  const float title = Layout::title_width(map.title);
+  const float legend = view.left() + ChartLegend::width(rows) + Layout::gap;
   const auto width = static_cast<int>(std::max({right + bar_room, title, legend}));
   const auto height = static_cast<int>(view.bottom() + bar_height + top_room);
   draw_picture(width, height, map.title, path, [&](vtkContextScene& scene) {
@@ -363,8 +359,7 @@ void draw_seepage_map(const SeepageMap& map, const std::string& path) {
       }
       view.paint_axes(painter);
       paint_bar(painter, sheet, right, view.bottom(), bar_height);
-      paint_text(painter, map.title, 24, static_cast<float>(width) / 2.0F,
-                 static_cast<float>(height) - 32.0F);
+      paint_title(painter, map.title, width, height);
     });
     vtkNew<ChartLegend> lines;
     lines->place(view.left(), legend_height + 6.0F, legend_height, rows);
