@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/drag.hpp"
+
 namespace suffuse {
 namespace {
 
 constexpr int intervals = 2000;
-constexpr double gravity_of_conductivity =
-    9.81;  // k <-> kappa, gravity or not: physics of the scene
 
 /// One end of the column as the scene prescribes it.
 struct End {
@@ -115,7 +115,7 @@ double upward_flux(const Scene& scene, const Mesh<2>& mesh, const Ends& ends) {
   if (scene.gravity != std::array<double, 3>{}) return unset;
   const double head =
       (lasting(ends.low.condition->pressure) - lasting(ends.high.condition->pressure)) /
-      (scene.liquid.density * gravity_of_conductivity);
+      (scene.liquid.density * conductivity_gravity);
   return head / resistance(scene, mesh, scene.geometry.width);
 }
 

@@ -276,8 +276,7 @@ SeepageMap map_of(const ResultsReader& run, std::size_t index, const std::option
   }
   const double breadth = water_breadth * (high - low).maxCoeff();
   map.water = outside_water(map.mesh, scene, run.times()[index], breadth);
-  const bool heavy = std::ranges::any_of(scene.gravity, [](double g) { return g != 0.0; });
-  if (!heavy) map.pressure.clear();
+  if (!has_gravity(scene.gravity)) map.pressure.clear();
   return map;
 }
 

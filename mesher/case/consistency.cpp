@@ -9,6 +9,7 @@
 #include "case/faces.hpp"
 #include "case/short_number.hpp"
 #include "case/slit.hpp"
+#include "physics/head.hpp"
 
 namespace suffuse {
 
@@ -186,16 +187,13 @@ class SceneCheck {
   /// A face that the water level passes changes its kind, which the explicit scheme cannot do.
   void check_explicit_heads() {
     const Scene& scene = document_.scene;
-    Vector<Dim> up;
-    for (int d = 0; d < Dim; ++d) up[d] = -scene.gravity[d];
-    if (scene.time.scheme != FlowScheme::explicit_nodal || up.norm() == 0.0) return;
-    up.normalize();
+    if (scene.time.scheme != FlowScheme::explicit_nodal || !has_gravity(scene.gravity)) return;
     for (const BoundaryCondition& condition : scene.boundaries) {
       if (!condition.head || condition.dry == DryPart::suction) continue;
       const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);
       if (set == mesh_.boundaries.end()) continue;
       double top = -std::numeric_limits<double>::infinity();
-      for (const auto& face : set->faces) top = std::max(top, up.dot(centre(face)));
+      for (const auto& face : set->faces) top = std::max(top, height(centre(face), scene.gravity));
       const double lowest = condition.head->range(0.0, scene.time.end).first;
       if (lowest > top) continue;
       const bool from_file = !document_.where.contains(condition.key + ".head");

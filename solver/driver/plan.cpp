@@ -9,6 +9,7 @@
 #include "case/scene_schema.hpp"
 #include "flow/nodal_operator.hpp"
 #include "physics/drag.hpp"
+#include "physics/head.hpp"
 #include "physics/liquid.hpp"
 #include "results/number_text.hpp"
 #include "solid/pores.hpp"
@@ -315,9 +316,7 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
     }
   }
   say("skip: motion of the solid, the skeleton is rigid");
-  const bool gravity =
-      std::any_of(scene.gravity.begin(), scene.gravity.end(), [](double g) { return g != 0.0; });
-  say(gravity ? "run: gravity" : "skip: gravity, none is given");
+  say(has_gravity(scene.gravity) ? "run: gravity" : "skip: gravity, none is given");
   const auto outputs = [&](double every) {
     return short_text(std::ceil(scene.time.end / every * (1.0 - 1e-12)) + 1.0);
   };
@@ -359,11 +358,8 @@ template <int Dim>
 void warn_of_pressures_on_slopes(const Case<Dim>& c, const Grid<Dim>& grid,
                                  const std::vector<FaceCondition>& conditions, Plan& plan) {
   const Scene& scene = c.document.scene;
-  Vector<Dim> up;
-  for (int d = 0; d < Dim; ++d) up[d] = -scene.gravity[d];
-  const double g = up.norm();
-  if (g == 0.0) return;
-  up /= g;
+  if (!has_gravity(scene.gravity)) return;
+  const auto z = [&](const Vector<Dim>& x) { return height(x, scene.gravity); };
   const double level = 1e-9 * extent(c.mesh).norm();
   for (int b = 0; b < static_cast<int>(scene.boundaries.size()); ++b) {
     const BoundaryCondition& boundary = scene.boundaries[b];
@@ -375,11 +371,11 @@ void warn_of_pressures_on_slopes(const Case<Dim>& c, const Grid<Dim>& grid,
     for (int f = 0; f < grid.face_count(); ++f) {
       if (conditions[f].boundary != b) continue;
       for (const int node : grid.face_nodes[f]) {
-        lowest = std::min(lowest, up.dot(c.mesh.nodes[node]));
-        highest = std::max(highest, up.dot(c.mesh.nodes[node]));
+        lowest = std::min(lowest, z(c.mesh.nodes[node]));
+        highest = std::max(highest, z(c.mesh.nodes[node]));
       }
       area += grid.face_normal[f].norm();
-      moment += grid.face_normal[f].norm() * up.dot(grid.face_centre(f));
+      moment += grid.face_normal[f].norm() * z(grid.face_centre(f));
     }
     if (!(highest - lowest > level)) continue;
     const double pressure = boundary.pressure->value(0.0);
@@ -388,7 +384,7 @@ void warn_of_pressures_on_slopes(const Case<Dim>& c, const Grid<Dim>& grid,
         boundary.key + ".pressure: " + shown_number(pressure) + " Pa all over \"" + boundary.on +
         "\", which rises from z = " + short_text(lowest) + " m to " + short_text(highest) +
         " m: water that stands there has one head, not one pressure; head = " +
-        short_text(pressure / (scene.liquid.density * g) + mean) +
+        short_text(pressure / unit_weight(scene.liquid.density, scene.gravity) + mean) +
         " has this pressure at mid-height, z = " + short_text(mean) + " m");
   }
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "case/errors.hpp"
-#include "physics/drag.hpp"
+#include "physics/head.hpp"
 
 namespace suffuse {
 namespace {
@@ -82,17 +82,14 @@ std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
 template <int Dim>
 class Outside {
  public:
-  Outside(const Scene& scene, const Grid<Dim>& grid) : grid_(grid) {
-    for (int d = 0; d < Dim; ++d) up_[d] = -scene.gravity[d];
-    const double g = up_.norm();
-    gravity_ = g > 0.0;
-    if (gravity_) up_ /= g;
-    unit_weight_ = scene.liquid.density * (gravity_ ? g : conductivity_gravity);
-  }
+  Outside(const Scene& scene, const Grid<Dim>& grid)
+      : grid_(grid),
+        gravity_(scene.gravity),
+        unit_weight_(unit_weight(scene.liquid.density, scene.gravity)) {}
   [[nodiscard]] FaceSurroundings of(int face, double boundary_area) const {
     return {.unit_weight = unit_weight_,
-            .gravity = gravity_,
-            .height = up_.dot(grid_.face_centre(face)),
+            .gravity = has_gravity(gravity_),
+            .height = height(grid_.face_centre(face), gravity_),
             .area = boundary_area};
   }
   [[nodiscard]] double area_of(const std::vector<int>& faces) const {
@@ -103,9 +100,8 @@ class Outside {
 
  private:
   const Grid<Dim>& grid_;
-  Vector<Dim> up_ = Vector<Dim>::Zero();
-  double unit_weight_ = 0.0;
-  bool gravity_ = false;
+  std::array<double, 3> gravity_;
+  double unit_weight_;
 };
 
 /// Faces of the grid per boundary entry of the scene. Throws InputError.

@@ -9,6 +9,7 @@
 #include "grid/compensated_sum.hpp"
 #include "grid/parallel.hpp"
 #include "physics/drag.hpp"
+#include "physics/head.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {
@@ -77,12 +78,9 @@ template <int Dim>
 std::vector<double> FlowSolver<Dim>::pressure_at_rest() const {
   std::vector<double> result(grid_.face_count(), 0.0);
   if (!scene_.water_level) return result;
-  const Vector<Dim> g = gravity();
+  const double weight = unit_weight(scene_.liquid.density, scene_.gravity);
   for (int f = 0; f < grid_.face_count(); ++f) {
-    // z = -x.g / |g| against gravity; without gravity the level is an excess head.
-    const double weight = g.norm() > 0.0 ? g.norm() : conductivity_gravity;
-    result[f] =
-        scene_.liquid.density * (weight * *scene_.water_level + g.dot(grid_.face_centre(f)));
+    result[f] = weight * (*scene_.water_level - height(grid_.face_centre(f), scene_.gravity));
   }
   return result;
 }

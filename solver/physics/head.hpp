@@ -5,22 +5,29 @@
 #include <array>
 #include <cmath>
 
+#include "physics/drag.hpp"
+
 namespace suffuse {
 
-/// rho_w |g|, Pa/m; without gravity a head is an excess head of rho_w 9.81.
-inline double unit_weight(double water_density, const std::array<double, 3>& gravity) {
-  const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
-  return water_density * (g > 0.0 ? g : 9.81);
+inline bool has_gravity(const std::array<double, 3>& gravity) {
+  return gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] != 0.0;
 }
 
-/// z = -x . g / |g|, m; 0 without gravity. `x`: a position of 2 or 3 coordinates.
+/// rho_w |g|, Pa/m; without gravity a head is an excess head, with the g of conductivities.
+inline double unit_weight(double water_density, const std::array<double, 3>& gravity) {
+  const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
+  return water_density * (g > 0.0 ? g : conductivity_gravity);
+}
+
+/// z = -x . g / |g|, m, to the last digit where gravity is along an axis; 0 without gravity. `x`: a
+/// position of 2 or 3 coordinates.
 template <class Position>
 double height(const Position& x, const std::array<double, 3>& gravity) {
   const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
   if (!(g > 0.0)) return 0.0;
-  double along = 0.0;
-  for (int d = 0; d < static_cast<int>(x.size()); ++d) along += x[d] * gravity[d];
-  return -along / g;
+  double z = 0.0;
+  for (int d = 0; d < static_cast<int>(x.size()); ++d) z += x[d] * (-gravity[d] / g);
+  return z;
 }
 
 }  // namespace suffuse
