@@ -5,7 +5,7 @@
 #include <map>
 
 #include "case/law_texts.hpp"
-#include "case/scene_schema.hpp"
+#include "case/scene_check_base.hpp"
 #include "case/seepage_checks.hpp"
 
 namespace suffuse {
@@ -16,9 +16,9 @@ using Vector3 = std::array<double, 3>;
 /// Of each table. More is likelier a slip than intent, and would fill the disk.
 constexpr double max_rows = 1e6;
 
-class Checks {
+class Checks : private SceneCheckBase {
  public:
-  Checks(const Scene& scene, const SceneInquiry& inquiry) : scene_(scene), inquiry_(inquiry) {}
+  using SceneCheckBase::SceneCheckBase;
 
   void run() const {
     check_geometry();
@@ -34,19 +34,6 @@ class Checks {
   }
 
  private:
-  [[nodiscard]] bool given(const std::string& key) const { return inquiry_.given(key); }
-  [[nodiscard]] bool refused(const std::string& key) const { return inquiry_.refused(key); }
-  void report(const std::string& key, const std::string& found, const std::string& expected,
-              const std::vector<std::string>& others = {}) const {
-    inquiry_.report({.key = key, .found = found, .expected = expected, .others = others});
-  }
-  /// Reports `key` as missing, with what its declaration says and the other key that asks for it.
-  void require(const std::string& key, const std::string& pattern, const std::string& why,
-               const std::string& other) const {
-    if (given(key)) return;
-    report(key, "nothing", find_scene_key(pattern)->expected() + ", " + why, {other});
-  }
-
   void check_geometry() const {
     const bool file = given("geometry.file");
     const bool shape = given("geometry.shape");
@@ -101,10 +88,6 @@ class Checks {
       report(key, shown_value(std::vector(value.begin(), value.end())),
              "two numbers: a column is two-dimensional", {"geometry.shape"});
     }
-  }
-
-  [[nodiscard]] static std::string table_of(const Soil& soil) {
-    return joined("soil", shown_name(soil.region));
   }
 
   void check_soil(const Soil& soil) const {
@@ -367,9 +350,6 @@ class Checks {
              "at least output.every, " + shown_number(output.every) + " s", {"output.every"});
     }
   }
-
-  const Scene& scene_;
-  const SceneInquiry& inquiry_;
 };
 
 }  // namespace

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "case/law_texts.hpp"
-#include "case/scene_schema.hpp"
+#include "case/scene_check_base.hpp"
+#include "physics/head.hpp"
 
 namespace suffuse {
 namespace {
 
-class SeepageChecks {
+class SeepageChecks : private SceneCheckBase {
  public:
-  SeepageChecks(const Scene& scene, const SceneInquiry& inquiry)
-      : scene_(scene), inquiry_(inquiry) {}
+  using SceneCheckBase::SceneCheckBase;
 
   void run() const {
     for (const Soil& soil : scene_.soils) check_soil(soil, table_of(soil));
@@ -28,25 +28,6 @@ class SeepageChecks {
   }
 
  private:
-  [[nodiscard]] bool given(const std::string& key) const { return inquiry_.given(key); }
-  [[nodiscard]] bool refused(const std::string& key) const { return inquiry_.refused(key); }
-  void report(const std::string& key, const std::string& found, const std::string& expected,
-              const std::vector<std::string>& others = {}) const {
-    inquiry_.report({.key = key, .found = found, .expected = expected, .others = others});
-  }
-  /// Reports `key` as missing, with what its declaration says and the other key that asks for it.
-  void require(const std::string& key, const std::string& pattern, const std::string& why,
-               const std::string& other) const {
-    if (given(key)) return;
-    report(key, "nothing", find_scene_key(pattern)->expected() + ", " + why, {other});
-  }
-  [[nodiscard]] static std::string table_of(const Soil& soil) {
-    return joined("soil", shown_name(soil.region));
-  }
-  [[nodiscard]] bool has_gravity() const {
-    return std::ranges::any_of(scene_.gravity, [](double g) { return g != 0.0; });
-  }
-
   void check_soil(const Soil& soil, const std::string& table) const {
     check_retention(soil, table + ".retention");
     if (given(table + ".bedding") && !given(table + ".like") && given(table + ".conductivity") &&
@@ -151,8 +132,8 @@ class SeepageChecks {
   /// Liquid at rest under gravity has a level, which must be known: p = 0 everywhere is no rest.
   void check_start() const {
     const std::string key = "initial.water_level";
-    if (scene_.initial_flow != InitialFlow::rest || refused("initial.flow") || !has_gravity() ||
-        scene_.water_level || refused(key)) {
+    if (scene_.initial_flow != InitialFlow::rest || refused("initial.flow") ||
+        !has_gravity(scene_.gravity) || scene_.water_level || refused(key)) {
       return;
     }
     std::vector<std::string> heads;
@@ -189,14 +170,11 @@ class SeepageChecks {
     if (!given(key)) return;
     if (!given(joined(entry, "head")) && !given(joined(entry, "file"))) {
       report(key, "a key of a head without one", "head or file beside it, or no such key");
-    } else if (!has_gravity() && !refused("gravity")) {
+    } else if (!has_gravity(scene_.gravity) && !refused("gravity")) {
       report(key, "a part above the water level without gravity",
              "gravity, as in gravity = [0.0, -9.81], or no such key", {"gravity"});
     }
   }
-
-  const Scene& scene_;
-  const SceneInquiry& inquiry_;
 };
 
 }  // namespace
