@@ -1,6 +1,5 @@
 #include "sample.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,15 +48,6 @@ struct Place {
   int element;
   std::array<double, 3> barycentric;
 };
-
-std::array<double, 3> barycentric(const Mesh<2>& mesh, int element, const Vector<2>& x) {
-  const auto& corners = mesh.elements[element];
-  const Vector<2> a = mesh.nodes[corners[0]];
-  Eigen::Matrix2d edges;
-  edges << mesh.nodes[corners[1]] - a, mesh.nodes[corners[2]] - a;
-  const Vector<2> local = edges.inverse() * (x - a);
-  return {1.0 - local[0] - local[1], local[0], local[1]};
-}
 
 /// All elements that contain x, on their edges included; only those of soil where there are any.
 std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, const Vector<2>& x,

@@ -1,6 +1,5 @@
 #include "case/consistency.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -245,38 +244,25 @@ class SceneCheck {
   }
 
   [[nodiscard]] bool lies_in_mesh(const Vector<Dim>& x) const {
-    for (const auto& corners : mesh_.elements) {
-      Eigen::Matrix<double, Dim, Dim> edges;
-      for (int d = 0; d < Dim; ++d) {
-        edges.col(d) = mesh_.nodes[corners[d + 1]] - mesh_.nodes[corners[0]];
-      }
-      const Vector<Dim> share = edges.inverse() * (x - mesh_.nodes[corners[0]]);
-      if (share.minCoeff() >= -on_the_edge && share.sum() <= 1.0 + on_the_edge) return true;
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      if (std::ranges::min(barycentric(mesh_, e, x)) >= -on_the_edge) return true;
     }
     return false;
   }
 
   /// Whether a part of the line lies in some element: it is clipped at each of its edges.
   [[nodiscard]] bool crosses_mesh(const OutputSection& section) const {
-    const Vector<Dim> from = position(section.from);
-    const Vector<Dim> along = position(section.to) - from;
-    for (const auto& corners : mesh_.elements) {
-      Eigen::Matrix<double, Dim, Dim> edges;
-      for (int d = 0; d < Dim; ++d) {
-        edges.col(d) = mesh_.nodes[corners[d + 1]] - mesh_.nodes[corners[0]];
-      }
-      const Eigen::Matrix<double, Dim, Dim> inverse = edges.inverse();
-      const Vector<Dim> share = inverse * (from - mesh_.nodes[corners[0]]);
-      const Vector<Dim> slope = inverse * along;
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      const auto from = barycentric(mesh_, e, position(section.from));
+      const auto to = barycentric(mesh_, e, position(section.to));
       double first = 0.0;
       double last = 1.0;
-      const auto clip = [&](double start, double change) {  // where start + s change >= 0
-        if (change > 0.0) first = std::max(first, -start / change);
-        if (change < 0.0) last = std::min(last, -start / change);
-        if (change == 0.0 && start < 0.0) last = -1.0;
-      };
-      for (int d = 0; d < Dim; ++d) clip(share[d], slope[d]);
-      clip(1.0 - share.sum(), -slope.sum());
+      for (int k = 0; k <= Dim; ++k) {  // where from + s change >= 0
+        const double change = to[k] - from[k];
+        if (change > 0.0) first = std::max(first, -from[k] / change);
+        if (change < 0.0) last = std::min(last, -from[k] / change);
+        if (change == 0.0 && from[k] < 0.0) last = -1.0;
+      }
       if (first < last) return true;
     }
     return false;

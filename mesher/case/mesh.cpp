@@ -7,16 +7,25 @@
 #include <numbers>
 
 namespace suffuse {
+namespace {
 
+/// The edges from the first vertex to the others, one in a column.
 template <int Dim>
-double element_volume(const Mesh<Dim>& mesh, int element) {
+Eigen::Matrix<double, Dim, Dim> edge_matrix(const Mesh<Dim>& mesh, int element) {
   const auto& corners = mesh.elements[element];
   Eigen::Matrix<double, Dim, Dim> edges;
   for (int d = 0; d < Dim; ++d) {
     edges.col(d) = mesh.nodes[corners[d + 1]] - mesh.nodes[corners[0]];
   }
+  return edges;
+}
+
+}  // namespace
+
+template <int Dim>
+double element_volume(const Mesh<Dim>& mesh, int element) {
   constexpr double factorial = Dim == 2 ? 2.0 : 6.0;
-  return edges.determinant() / factorial;
+  return edge_matrix(mesh, element).determinant() / factorial;
 }
 
 template <int Dim>
@@ -24,6 +33,20 @@ Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element) {
   Vector<Dim> sum = Vector<Dim>::Zero();
   for (int node : mesh.elements[element]) sum += mesh.nodes[node];
   return sum / (Dim + 1);
+}
+
+template <int Dim>
+std::array<double, Dim + 1> barycentric(const Mesh<Dim>& mesh, int element, const Vector<Dim>& x) {
+  const Eigen::Matrix<double, Dim, Dim> gradients = edge_matrix(mesh, element).inverse();
+  std::array<double, Dim + 1> result;
+  for (int k = 1; k <= Dim; ++k) {
+    // The vertex after this one has the coordinate 0.
+    const Vector<Dim>& foot = mesh.nodes[mesh.elements[element][(k + 1) % (Dim + 1)]];
+    result[k] = gradients.row(k - 1).dot(x - foot);
+  }
+  const Vector<Dim>& foot = mesh.nodes[mesh.elements[element][1]];
+  result[0] = -gradients.colwise().sum().dot(x - foot);
+  return result;
 }
 
 template <int Dim>
@@ -54,6 +77,8 @@ template double element_volume<2>(const Mesh<2>&, int);
 template double element_volume<3>(const Mesh<3>&, int);
 template Vector<2> element_centroid<2>(const Mesh<2>&, int);
 template Vector<3> element_centroid<3>(const Mesh<3>&, int);
+template std::array<double, 3> barycentric<2>(const Mesh<2>&, int, const Vector<2>&);
+template std::array<double, 4> barycentric<3>(const Mesh<3>&, int, const Vector<3>&);
 template Vector<2> extent<2>(const Mesh<2>&);
 template Vector<3> extent<3>(const Mesh<3>&);
 

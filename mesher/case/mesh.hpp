@@ -40,6 +40,10 @@ double element_volume(const Mesh<Dim>& mesh, int element);
 template <int Dim>
 Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element);
 
+/// Barycentric coordinates of a place in an element; outside of it some are negative.
+template <int Dim>
+std::array<double, Dim + 1> barycentric(const Mesh<Dim>& mesh, int element, const Vector<Dim>& x);
+
 /// Lengths of the box around the mesh, m.
 template <int Dim>
 Vector<Dim> extent(const Mesh<Dim>& mesh);

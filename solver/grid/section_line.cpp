@@ -12,17 +12,6 @@ namespace {
 /// A place so little outside an element, in barycentric coordinates, is on its boundary.
 constexpr double on_boundary = 1e-9;
 
-template <int Dim>
-std::array<double, Dim + 1> barycentric(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
-  std::array<double, Dim + 1> result;
-  for (int k = 0; k <= Dim; ++k) {
-    // The vertex after this one has the coordinate 0.
-    const Vector<Dim>& foot = grid.mesh.nodes[grid.mesh.elements[element][(k + 1) % (Dim + 1)]];
-    result[k] = grid.shape_gradient[element][k].dot(x - foot);
-  }
-  return result;
-}
-
 /// The coordinates of both ends of a line in an element that the line may touch.
 struct Candidate {
   int element;
@@ -80,7 +69,7 @@ std::optional<PointPlace<Dim>> find_place(const Grid<Dim>& grid, const Vector<Di
   std::optional<PointPlace<Dim>> found;
   double deepest = -on_boundary;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const std::array<double, Dim + 1> at = barycentric(grid, e, x);
+    const std::array<double, Dim + 1> at = barycentric(grid.mesh, e, x);
     const double depth = std::ranges::min(at);
     if (found ? depth <= deepest : depth < deepest) continue;
     deepest = depth;
@@ -92,7 +81,7 @@ std::optional<PointPlace<Dim>> find_place(const Grid<Dim>& grid, const Vector<Di
 SectionLine::SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vector<2>& to) {
   std::vector<Candidate> candidates;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const Candidate c{e, barycentric(grid, e, from), barycentric(grid, e, to)};
+    const Candidate c{e, barycentric(grid.mesh, e, from), barycentric(grid.mesh, e, to)};
     if (c.touches()) candidates.push_back(c);
   }
   const std::vector<double> shares = crossing_shares(candidates);
