@@ -37,15 +37,15 @@ Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element) {
 
 template <int Dim>
 std::array<double, Dim + 1> barycentric(const Mesh<Dim>& mesh, int element, const Vector<Dim>& x) {
-  const Eigen::Matrix<double, Dim, Dim> gradients = edge_matrix(mesh, element).inverse();
+  Eigen::Matrix<double, Dim + 1, Dim> gradients;
+  gradients.template bottomRows<Dim>() = edge_matrix(mesh, element).inverse();
+  gradients.row(0) = -gradients.template bottomRows<Dim>().colwise().sum();
   std::array<double, Dim + 1> result;
-  for (int k = 1; k <= Dim; ++k) {
+  for (int k = 0; k <= Dim; ++k) {
     // The vertex after this one has the coordinate 0.
     const Vector<Dim>& foot = mesh.nodes[mesh.elements[element][(k + 1) % (Dim + 1)]];
-    result[k] = gradients.row(k - 1).dot(x - foot);
+    result[k] = gradients.row(k).dot(x - foot);
   }
-  const Vector<Dim>& foot = mesh.nodes[mesh.elements[element][1]];
-  result[0] = -gradients.colwise().sum().dot(x - foot);
   return result;
 }
 

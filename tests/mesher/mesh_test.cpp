@@ -39,6 +39,31 @@ TEST(Mesh, CentroidIsTheMeanOfTheCorners) {
   EXPECT_DOUBLE_EQ(centroid[1], 2.0);
 }
 
+TEST(Mesh, BarycentricCoordinatesAreSharesOfTheArea) {
+  const Mesh<2> mesh = triangle({1, 1}, {5, 1}, {2, 4});
+  for (int k = 0; k < 3; ++k) {
+    const auto at = barycentric(mesh, 0, mesh.nodes[k]);
+    for (int j = 0; j < 3; ++j) EXPECT_DOUBLE_EQ(at[j], j == k ? 1.0 : 0.0);
+  }
+  // The place replaces one vertex after the other.
+  for (const Vector<2>& x : {Vector<2>(2.0, 2.0), Vector<2>(4.0, 0.5), Vector<2>(-1.0, 3.0)}) {
+    const auto at = barycentric(mesh, 0, x);
+    for (int k = 0; k < 3; ++k) {
+      Mesh<2> part = mesh;
+      part.nodes[k] = x;
+      EXPECT_NEAR(at[k], element_volume(part, 0) / 6.0, 1e-15);
+    }
+  }
+  Mesh<3> corner;
+  corner.nodes = {{0, 0, 0}, {2, 0, 0}, {0, 4, 0}, {0, 0, 5}};
+  corner.elements = {{0, 1, 2, 3}};
+  const auto at = barycentric(corner, 0, Vector<3>(0.5, 1.0, -1.0));
+  EXPECT_NEAR(at[0], 1.0 - 0.25 - 0.25 + 0.2, 1e-15);
+  EXPECT_NEAR(at[1], 0.25, 1e-15);
+  EXPECT_NEAR(at[2], 0.25, 1e-15);
+  EXPECT_NEAR(at[3], -0.2, 1e-15);
+}
+
 TEST(Mesh, SmallestAngleOfKnownTriangles) {
   const double of_345 = std::atan(3.0 / 4.0) * 180.0 / std::numbers::pi;
   EXPECT_NEAR(smallest_angle(triangle({0, 0}, {4, 0}, {0, 3})), of_345, 1e-12);
