@@ -7,6 +7,7 @@
 #include "case/law_texts.hpp"
 #include "case/scene_schema.hpp"
 #include "case/seepage_checks.hpp"
+#include "case/soil_grading.hpp"
 
 namespace suffuse {
 namespace {
@@ -115,6 +116,7 @@ class Checks {
                  shown_number(soil.skeleton_fraction) + " > 1",
              "n_0 + n_C <= 1", {table + ".porosity"});
     }
+    check_grading_of(soil, table, inquiry_);
     check_erosion(soil, table + ".erosion");
   }
 
