@@ -156,10 +156,10 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
   double largest = 0.0;
   double at = unset;
   for (const double u : splits) {
-    if (u < start || u > end) continue;
+    if (u < start - round_off || u > end + round_off) continue;
     for (const End side : {End::fine, End::coarse}) {
       // Before the first split and behind the last there is none.
-      if (u == (side == End::fine ? start : end)) continue;
+      if (std::abs(u - (side == End::fine ? start : end)) <= round_off) continue;
       const double ratio = split_ratio(gradation, u, side);
       if (ratio <= largest * (1.0 + round_off)) continue;
       largest = ratio;
@@ -172,7 +172,7 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
           .value = largest,
           .at_finer = at,
           .known_from = start / 0.85,
-          .reason = "largest D'15/d'85 = " + digits(largest) + ", split at " + percent_text(at) +
+          .reason = "largest D'15/d'85 is " + digits(largest) + ", split at " + percent_text(at) +
                     "; above 4 is unstable"};
 }
 
@@ -188,8 +188,8 @@ GradingVerdict check_kenney_lau(const Gradation& gradation) {
           .value = found->ratio(),
           .at_finer = found->finer,
           .known_from = gradation.smallest_finer(),
-          .reason = "smallest H/F = " + digits(found->ratio()) +
-                    ", at F = " + percent_text(found->finer) + " of up to " + percent_text(limit) +
+          .reason = "smallest H/F up to F = " + percent_text(limit) + " is " +
+                    digits(found->ratio()) + ", at " + percent_text(found->finer) +
                     "; below 1 is unstable"};
 }
 
@@ -206,8 +206,9 @@ GradingVerdict check_li_fannin(const Gradation& gradation) {
           .value = value(*found),
           .at_finer = found->finer,
           .known_from = gradation.smallest_finer(),
-          .reason = "smallest H/min(F, 15 %) = " + digits(value(*found)) +
-                    ", at F = " + percent_text(found->finer) + "; below 1 is unstable"};
+          .reason = "smallest H/min(F, 15 %) up to F = " + percent_text(limit) + " is " +
+                    digits(value(*found)) + ", at " + percent_text(found->finer) +
+                    "; below 1 is unstable"};
 }
 
 GradingVerdict check_burenkova(const Gradation& gradation) {
