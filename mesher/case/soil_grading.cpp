@@ -29,7 +29,8 @@ void check_grading_of(const Soil& soil, const std::string& table, const SceneInq
   if (!fines_content(soil.gradation)) {
     report("nothing, and a gradation that does not tell F*: its finest point is at F = " +
                percent_text(soil.gradation.smallest_finer()),
-           "; or a gradation from F = " + percent_text(search_limit(soil.gradation)) + " on",
+           "; or a gradation that starts at F = " + percent_text(search_limit(soil.gradation)) +
+               " or below",
            table + ".gradation");
   }
   const bool uniform =

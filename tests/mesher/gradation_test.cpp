@@ -110,7 +110,7 @@ TEST_P(StraightLine, has_these_numbers) {
 INSTANTIATE_TEST_SUITE_P(Ratios, StraightLine, testing::Values(16.0, 30.0, 1e3, 2e4, 1e6));
 
 /// For a straight line D'15/d'85 > 4 and H < 15 % are the same statement: both are more than a
-/// factor 4 per 15 % (Chapuis 1992 has it of Kezdi's and of Sherard's criteria).
+/// factor 4 per 15 %.
 TEST(StraightLine, turns_unstable_by_kezdi_where_it_does_by_li_and_fannin) {
   const double critical = std::pow(4.0, 1.0 / 0.15);
   for (const double factor : {0.999, 1.001}) {
