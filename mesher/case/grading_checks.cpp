@@ -136,7 +136,8 @@ std::optional<FinesContent> fines_content(const Gradation& gradation) {
     }
   }
   if (!found) return std::nullopt;
-  return FinesContent{found->finer, found->size, found->ratio(), at_limit};
+  // Of the sizes of a gap the finest, which the fines have.
+  return FinesContent{found->finer, gradation.size(found->finer), found->ratio(), at_limit};
 }
 
 GradingVerdict check_kezdi(const Gradation& gradation) {

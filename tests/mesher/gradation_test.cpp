@@ -151,6 +151,7 @@ TEST(TwoLines, have_their_fines_below_the_gap) {
     ASSERT_TRUE(fines);
     EXPECT_NEAR(fines->finer, f, 1e-9) << f;
     EXPECT_EQ(fines->ratio, 0.0) << f;  // 4 d lies within the gap
+    EXPECT_NEAR(fines->size, lines.b, 1e-9) << f;
     EXPECT_FALSE(fines->at_limit) << f;
     for (const GradingVerdict& verdict :
          {check_kezdi(g), check_kenney_lau(g), check_li_fannin(g)}) {
