@@ -56,11 +56,15 @@ Curve curve_of(const GradedSoil& soil, std::size_t number) {
   const auto fines = fines_content(soil.gradation);
   Curve curve;
   curve.label = soil.name;
+  // To round-off: F* is often at a point of the curve.
+  constexpr double same = 1e-9;
   for (const GradationPoint& point : soil.gradation.points()) {
-    if (fines && curve.marked.empty() && fines->size <= point.size) {
+    if (fines && curve.marked.empty() && fines->size <= point.size * (1.0 + same)) {
       curve.marked = {curve.x.size()};
-      curve.x.push_back(fines->size);
-      curve.y.push_back(fines->finer);
+      if (fines->size < point.size * (1.0 - same)) {
+        curve.x.push_back(fines->size);
+        curve.y.push_back(fines->finer);
+      }
     }
     curve.x.push_back(point.size);
     curve.y.push_back(point.finer);
