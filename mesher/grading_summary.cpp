@@ -10,26 +10,19 @@
 namespace suffuse {
 namespace {
 
-/// Three digits, as of what a gradation says.
-std::string short_digits(double value) {
-  std::ostringstream text;
-  text << std::setprecision(3) << value;
-  return text.str();
-}
-
 std::string fines_line(const Gradation& gradation) {
   const auto fines = fines_content(gradation);
   if (!fines) {
     return "fines: F* cannot be told, the finest point is at F = " +
            percent_text(gradation.smallest_finer());
   }
-  return "fines: F* = " + percent_text(fines->finer) + " finer than " + short_digits(fines->size) +
-         " mm, where H/F = " + short_digits(fines->ratio) + " is smallest" +
+  return "fines: F* = " + percent_text(fines->finer) + " finer than " + three_digits(fines->size) +
+         " mm, where H/F = " + three_digits(fines->ratio) + " is smallest" +
          (fines->at_limit ? " within the search; there is no gap" : "");
 }
 
 std::string skeleton_line(const Soil& soil, bool given) {
-  const std::string value = "skeleton: n_C = " + short_digits(soil.skeleton_fraction);
+  const std::string value = "skeleton: n_C = " + three_digits(soil.skeleton_fraction);
   if (!given) return value + " = (1 - n_0)(1 - F*), as skeleton_fraction is not given";
   const double fines = 100.0 * (1.0 - soil.skeleton_fraction / (1.0 - soil.porosity));
   return value + " as given, fines of " + percent_text(fines);

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+
+#include "case/scene_schema.hpp"
 
 namespace suffuse {
 namespace {
@@ -65,13 +68,6 @@ const ShapePoint* smallest(const std::vector<ShapePoint>& points, double limit, 
     if (!found || value(point) <= value(*found) * (1.0 + round_off)) found = &point;
   }
   return found;
-}
-
-/// Three digits: gradations are not known better.
-std::string digits(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
 }
 
 GradingVerdict unknown(std::string check, const Gradation& gradation, const std::string& needed) {
@@ -173,8 +169,8 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
           .value = largest,
           .at_finer = at,
           .known_from = start / 0.85,
-          .reason = "largest D'15/d'85 is " + digits(largest) + ", split at " + percent_text(at) +
-                    "; above 4 is unstable"};
+          .reason = "largest D'15/d'85 is " + three_digits(largest) + ", split at " +
+                    percent_text(at) + "; above 4 is unstable"};
 }
 
 GradingVerdict check_kenney_lau(const Gradation& gradation) {
@@ -190,7 +186,7 @@ GradingVerdict check_kenney_lau(const Gradation& gradation) {
           .at_finer = found->finer,
           .known_from = gradation.smallest_finer(),
           .reason = "smallest H/F up to F = " + percent_text(limit) + " is " +
-                    digits(found->ratio()) + ", at " + percent_text(found->finer) +
+                    three_digits(found->ratio()) + ", at " + percent_text(found->finer) +
                     "; below 1 is unstable"};
 }
 
@@ -208,7 +204,7 @@ GradingVerdict check_li_fannin(const Gradation& gradation) {
           .at_finer = found->finer,
           .known_from = gradation.smallest_finer(),
           .reason = "smallest H/min(F, 15 %) up to F = " + percent_text(limit) + " is " +
-                    digits(value(*found)) + ", at " + percent_text(found->finer) +
+                    three_digits(value(*found)) + ", at " + percent_text(found->finer) +
                     "; below 1 is unstable"};
 }
 
@@ -221,8 +217,9 @@ GradingVerdict check_burenkova(const Gradation& gradation) {
   return {.check = check,
           .stability = low < h->upper && h->upper < high ? Stability::stable : Stability::unstable,
           .value = h->upper,
-          .reason = "d90/d60 = " + digits(h->upper) + ", d90/d15 = " + digits(h->whole) +
-                    "; between " + digits(low) + " and " + digits(high) + " is stable"};
+          .reason = "d90/d60 = " + three_digits(h->upper) +
+                    ", d90/d15 = " + three_digits(h->whole) + "; between " + three_digits(low) +
+                    " and " + three_digits(high) + " is stable"};
 }
 
 GradingVerdict check_wan_fell(const Gradation& gradation) {
@@ -242,8 +239,14 @@ std::vector<GradingVerdict> check_grading(const Gradation& gradation) {
           check_burenkova(gradation), check_wan_fell(gradation)};
 }
 
+std::string three_digits(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return shown_number(std::strtod(text.data(), nullptr));
+}
+
 std::string percent_text(double value) {
-  return digits(value) + " %";
+  return three_digits(value) + " %";
 }
 
 std::string stability_text(const GradingVerdict& verdict) {

@@ -321,6 +321,13 @@ TEST(Burenkova, is_stable_between_two_lines) {
   EXPECT_EQ(check_wan_fell(with(even + 0.01, 100.0)).stability, Stability::stable);
 }
 
+TEST(Digits, are_three) {
+  EXPECT_EQ(three_digits(1234.5), "1230");
+  EXPECT_EQ(three_digits(0.0860986), "0.0861");
+  EXPECT_EQ(three_digits(0.0), "0");
+  EXPECT_EQ(percent_text(99.97), "100 %");
+}
+
 // What the curve does not give.
 
 TEST(FinestPoint, leaves_unsaid_what_it_does_not_tell) {

@@ -112,6 +112,25 @@ TEST(GradationFigure, needs_a_gradation) {
   }
 }
 
+/// A straight line over log d from corner to corner of the axes goes through their middle.
+TEST(GradationFigure, has_sizes_on_a_logarithmic_axis) {
+  const ScratchFolder scratch;
+  const ResultsReader run =
+      run_with(scratch, "line", {"soil.specimen.gradation=[[0.1,0],[1,50],[10,100]]"});
+  draw_figure("gradation", {run}, scratch / "figure.png");
+  const Pixels pixels(scratch / "figure.png");
+  // The axes' rectangle is 720 by 630 pixels from (120, 90) on.
+  for (const double share : {0.25, 0.5, 0.75}) {
+    int darkest = 255;
+    for (int step = -2; step <= 2; ++step) {
+      const double x = 120.0 + 720.0 * (0.5 + (share - 0.5) / 1.05);
+      const double y = 90.0 + 630.0 * (0.5 + (share - 0.5) / 1.05) + step;
+      darkest = std::min(darkest, pixels.at({x, y})[0]);
+    }
+    EXPECT_LT(darkest, 100) << share;
+  }
+}
+
 TEST(GradationFigure, is_drawn_with_its_texts) {
   const ScratchFolder scratch;
   const std::vector<ResultsReader> runs{run_with(scratch, "dam", three_soils)};
