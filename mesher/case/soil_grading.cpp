@@ -6,6 +6,23 @@
 #include "case/scene_schema.hpp"
 
 namespace suffuse {
+namespace {
+
+// What the warnings say of a soil that `law` erodes.
+
+std::string stable(const GradingVerdict& verdict, const std::string& law) {
+  return "is " + stability_text(verdict) + " by " + verdict.check + ", but erosion.law = " + law +
+         " erodes it: fines of such a soil hardly move between its grains";
+}
+
+std::string load_bearing(const FinesContent& fines, const std::string& law) {
+  return "has " + percent_text(fines.finer) + " of fines, above " +
+         percent_text(load_bearing_fines) + ", but erosion.law = " + law +
+         " erodes them: they carry load, and a skeleton without them would settle, which a rigid "
+         "one does not";
+}
+
+}  // namespace
 
 void derive_skeletons(Scene& scene, const std::function<bool(const std::string& key)>& given) {
   for (Soil& soil : scene.soils) {
@@ -46,21 +63,14 @@ std::vector<std::string> grading_warnings(const SceneDocument& document) {
   std::vector<std::string> warnings;
   for (const Soil& soil : document.scene.soils) {
     if (soil.gradation.empty() || !soil.erosion.law->erodes()) continue;
-    const std::string key = "soil." + shown_name(soil.region) + ".gradation";
-    const std::string start = document.locate(key) + ": " + key + ": ";
-    const std::string erodes =
-        "but erosion.law = " + shown_value(std::string(soil.erosion.law->word)) + " erodes ";
+    const std::string key = joined(joined("soil", shown_name(soil.region)), "gradation");
+    const std::string start = document.locate(key).append(": ").append(key).append(": ");
+    const std::string law = shown_value(std::string(soil.erosion.law->word));
     const GradingVerdict verdict = check_li_fannin(soil.gradation);
-    if (verdict.stability == Stability::stable) {
-      warnings.push_back(start + "is " + stability_text(verdict) + " by " + verdict.check + ", " +
-                         erodes + "it: fines of such a soil hardly move between its grains");
-    }
+    if (verdict.stability == Stability::stable) warnings.push_back(start + stable(verdict, law));
     const auto fines = fines_content(soil.gradation);
     if (fines && fines->finer > load_bearing_fines) {
-      warnings.push_back(start + "has " + percent_text(fines->finer) + " of fines, above " +
-                         percent_text(load_bearing_fines) + ", " + erodes +
-                         "them: they carry load, and a skeleton without them would settle, which "
-                         "a rigid one does not");
+      warnings.push_back(start + load_bearing(*fines, law));
     }
   }
   return warnings;
