@@ -5,7 +5,6 @@
 
 #include "case/errors.hpp"
 #include "case/grading_checks.hpp"
-#include "results/number_text.hpp"
 #include "run_curves.hpp"
 
 namespace suffuse {
@@ -70,8 +69,8 @@ Curve curve_of(const GradedSoil& soil, std::size_t number) {
     curve.y.push_back(point.finer);
   }
   if (fines) {
-    curve.label += ": F* = " + percent_text(fines->finer) + " at " + short_text(fines->size) +
-                   " mm, H/F = " + short_text(fines->ratio);
+    curve.label += ": F* = " + percent_text(fines->finer) + " at " + three_digits(fines->size) +
+                   " mm, H/F = " + three_digits(fines->ratio);
   }
   curve.markers = fines.has_value();
   curve.joined = true;
@@ -82,20 +81,28 @@ Curve curve_of(const GradedSoil& soil, std::size_t number) {
   return curve;
 }
 
-/// A row for each check, a column for each soil.
+TextTable transposed(const TextTable& table) {
+  TextTable result(table.front().size());
+  for (const auto& row : table) {
+    for (std::size_t i = 0; i < row.size(); ++i) result[i].push_back(row[i]);
+  }
+  return result;
+}
+
+/// A row for each check and a column for each soil, or the other way round where soils are more
+/// than checks.
 TextTable verdicts_of(const std::vector<GradedSoil>& soils) {
-  TextTable table{{"internal stability"}};
+  TextTable by_soil{{"internal stability"}};
+  for (const GradingVerdict& verdict : check_grading(soils.front().gradation)) {
+    by_soil.front().push_back(verdict.check);
+  }
   for (const GradedSoil& soil : soils) {
-    const std::vector<GradingVerdict> verdicts = check_grading(soil.gradation);
-    table.front().push_back(soil.name);
-    table.resize(verdicts.size() + 1);
-    for (std::size_t i = 0; i < verdicts.size(); ++i) {
-      auto& row = table[i + 1];
-      if (row.empty()) row.push_back(verdicts[i].check);
-      row.push_back(stability_text(verdicts[i]));
+    auto& row = by_soil.emplace_back(std::vector{soil.name});
+    for (const GradingVerdict& verdict : check_grading(soil.gradation)) {
+      row.push_back(stability_text(verdict));
     }
   }
-  return table;
+  return by_soil.size() > by_soil.front().size() ? by_soil : transposed(by_soil);
 }
 
 }  // namespace

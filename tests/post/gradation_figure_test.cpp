@@ -88,6 +88,25 @@ TEST(GradationFigure, has_a_table_of_the_verdicts) {
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(chart.table[i], expected[i]);
 }
 
+/// A table of many columns would be wider than the chart.
+TEST(GradationFigure, has_a_row_for_each_of_many_soils) {
+  const ScratchFolder scratch;
+  std::vector<std::string> soils{gap};
+  for (const auto* name : {"a", "b", "c", "d", "e"}) {
+    soils.push_back(like(name, "[[0.2,0],[1,20],[4,60],[16,100]]"));
+  }
+  const Chart chart = gradation_chart({run_with(scratch, "layers", soils)});
+  ASSERT_EQ(chart.table.size(), 7U);
+  EXPECT_EQ(chart.table[0],
+            (std::vector<std::string>{"internal stability", "Kezdi (1979)", "Kenney and Lau (1986)",
+                                      "Li and Fannin (2008)", "Burenkova (1993)",
+                                      "Wan and Fell (2008)"}));
+  EXPECT_EQ(chart.table[1][0], "specimen");
+  EXPECT_EQ(chart.table[1][3], "unstable");
+  EXPECT_EQ(chart.table[6][0], "e");
+  EXPECT_EQ(chart.table[6][3], "stable");
+}
+
 TEST(GradationFigure, draws_equal_soils_of_several_runs_once) {
   const ScratchFolder scratch;
   const ResultsReader a = run_with(scratch, "a", {gap});
