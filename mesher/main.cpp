@@ -9,8 +9,10 @@
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "case/scene_schema.hpp"
+#include "case/soil_grading.hpp"
 #include "geometry.hpp"
 #include "gmsh_export.hpp"
+#include "grading_summary.hpp"
 #include "seeding.hpp"
 #include "summary.hpp"
 
@@ -26,14 +28,15 @@ struct Arguments {
   std::string output;
   std::string msh;
   std::vector<std::string> overrides;
+  bool check = false;
   bool version = false;
   bool scene_reference = false;
 };
 
 void refuse_unknown(const std::vector<std::string>& unknown) {
   if (unknown.empty()) return;
-  const std::vector<std::string> known{"--output",          "--set", "--msh", "--version",
-                                       "--scene-reference", "--help"};
+  const std::vector<std::string> known{
+      "--output", "--set", "--msh", "--check", "--version", "--scene-reference", "--help"};
   const std::string& first = unknown.front();
   const bool is_option = first.starts_with("-");
   const std::string name = first.substr(0, first.find('='));
@@ -105,20 +108,44 @@ Case<2> seed(const SceneDocument& document, Mesh<2> mesh) {
   return result;
 }
 
-void make_case(const Arguments& arguments) {
+SceneDocument scene_of(const Arguments& arguments) {
   if (arguments.scene.empty()) {
     throw InputError("a scene file is missing; expected suffuse-mesher SCENE.toml (see --help)");
   }
-  const SceneDocument document = read_scene(arguments.scene, arguments.overrides);
+  return read_scene(arguments.scene, arguments.overrides);
+}
+
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    std::cerr << program << ": warning: " << warning << '\n';
+  }
+}
+
+void check_gradings(const Arguments& arguments) {
+  for (const auto& [option, value] :
+       {std::pair("-o", arguments.output), std::pair("--msh", arguments.msh)}) {
+    if (value.empty()) continue;
+    throw InputError("--check with " + std::string(option) +
+                     ": it writes no file; expected one of the two");
+  }
+  const SceneDocument document = scene_of(arguments);
+  std::cout << grading_report(document);
+  warn(grading_warnings(document));
+}
+
+void make_case(const Arguments& arguments) {
+  const SceneDocument document = scene_of(arguments);
   check_outputs(arguments, document);
   Geometry geometry = build_geometry(document);
   const Case<2> result = seed(document, std::move(geometry.mesh));
   if (!arguments.msh.empty()) write_gmsh(arguments.msh, result.mesh);
   write_case(output_path(arguments), result);
 
-  std::cout << output_path(arguments) << '\n' << case_summary(result, geometry.notes);
+  std::cout << output_path(arguments) << '\n'
+            << case_summary(result, geometry.notes) << grading_summary(document);
   const std::string warning = angle_warning(result.mesh);
-  if (!warning.empty()) std::cerr << program << ": warning: " << warning << '\n';
+  if (!warning.empty()) warn({warning});
+  warn(grading_warnings(document));
 }
 
 std::string refuse_empty(const std::string& name) {
@@ -139,6 +166,8 @@ int run(int argc, char** argv) {
   app.add_option("--msh", arguments.msh, "also write the mesh for the Gmsh program")
       ->check(refuse_empty)
       ->type_name("FILE.msh");
+  app.add_flag("--check", arguments.check,
+               "only check the gradations of the soils, and write nothing");
   app.add_flag("--version", arguments.version, "print the version");
   app.add_flag("--scene-reference", arguments.scene_reference,
                "print the reference of all scene keys (Markdown)");
@@ -155,6 +184,8 @@ int run(int argc, char** argv) {
     std::cout << program << ' ' << SUFFUSE_VERSION << '\n';
   } else if (arguments.scene_reference) {
     std::cout << scene_reference_markdown();
+  } else if (arguments.check) {
+    check_gradings(arguments);
   } else {
     make_case(arguments);
   }

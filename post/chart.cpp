@@ -17,6 +17,7 @@
 #include <limits>
 
 #include "chart_legend.hpp"
+#include "chart_table.hpp"
 #include "picture.hpp"
 
 namespace suffuse {
@@ -123,7 +124,7 @@ void set_axis(vtkAxis& axis, const AxisTicks& ticks) {
 
 /// The axis that covers `values` of all curves and `extra`.
 AxisTicks axis_of(const Chart& chart, const std::vector<double> Curve::*values,
-                  const std::vector<double>& extra) {
+                  const std::vector<double>& extra, bool logarithmic) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   const auto include = [&](const std::vector<double>& all) {
@@ -134,16 +135,17 @@ AxisTicks axis_of(const Chart& chart, const std::vector<double> Curve::*values,
   };
   for (const auto& curve : chart.curves) include(curve.*values);
   include(extra);
-  if (chart.logarithmic) return low <= high ? logarithmic_axis(low, high) : logarithmic_axis(1, 10);
+  if (logarithmic) return low <= high ? logarithmic_axis(low, high) : logarithmic_axis(1, 10);
   return low <= high ? even_axis(low, high) : even_axis(0.0, 1.0);
 }
 
 /// A curve in the units that VTK draws in: logarithms on logarithmic axes.
 Curve drawn_curve(const Chart& chart, Curve curve) {
-  if (!chart.logarithmic) return curve;
-  for (auto* values : {&curve.x, &curve.y}) {
-    for (double& value : *values) value = std::log10(value);
-  }
+  const auto draw_logarithms = [](std::vector<double>& values) {
+    for (double& value : values) value = std::log10(value);
+  };
+  if (chart.logarithmic || chart.logarithmic_x) draw_logarithms(curve.x);
+  if (chart.logarithmic) draw_logarithms(curve.y);
   return curve;
 }
 
@@ -158,8 +160,10 @@ void add_chart(vtkContextScene& scene, const Chart& chart, float x, float y) {
   const float bottom = y + bottom_room;
   drawn->SetSize(vtkRectf(left, bottom, plot_width, plot_height));
   for (const auto& curve : chart.curves) add_curve(*drawn, drawn_curve(chart, curve));
-  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), axis_of(chart, &Curve::x, chart.extra_x));
-  set_axis(*drawn->GetAxis(vtkAxis::LEFT), axis_of(chart, &Curve::y, chart.extra_y));
+  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM),
+           axis_of(chart, &Curve::x, chart.extra_x, chart.logarithmic || chart.logarithmic_x));
+  set_axis(*drawn->GetAxis(vtkAxis::LEFT),
+           axis_of(chart, &Curve::y, chart.extra_y, chart.logarithmic));
   scene.AddItem(drawn);
   add_painted(scene, [chart, left, bottom](vtkContext2D& painter) {
     const float center = left + plot_width / 2.0F;
@@ -254,8 +258,10 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
   const float legend_top =
       (legend_in_cell ? 1.0F : static_cast<float>(lines)) * cell_height - top_room;
   const float height = static_cast<float>(lines) * cell_height;
+  const TextTable& table = charts.front().table;
+  const float legend_width = std::max(ChartLegend::width(rows), table_width(table));
   const float width =
-      std::max(legend_left + ChartLegend::width(rows) + margin,
+      std::max(legend_left + legend_width + margin,
                std::max(static_cast<float>(columns) * cell_width, float{min_width}));
   draw_picture(static_cast<int>(width), static_cast<int>(height), charts.front().title, path,
                [&](vtkContextScene& scene) {
@@ -265,8 +271,13 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
                              static_cast<float>(line) * cell_height);
                  }
                  vtkNew<ChartLegend> legend;
-                 legend->place(legend_left, legend_top, legend_top - margin, rows);
+                 legend->place(legend_left, legend_top, legend_top - margin - table_height(table),
+                               rows);
                  scene.AddItem(legend);
+                 const float table_top = legend_top - legend->height();
+                 add_painted(scene, [=](vtkContext2D& painter) {
+                   paint_table(painter, table, legend_left, table_top);
+                 });
                });
 }
 

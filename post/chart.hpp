@@ -30,6 +30,9 @@ struct Curve {
   [[nodiscard]] bool has_line() const { return joined || !markers; }
 };
 
+/// Rows of cells, the first row being the heading.
+using TextTable = std::vector<std::vector<std::string>>;
+
 /// One chart: what its axes say and the curves in it.
 struct Chart {
   std::string title;
@@ -39,6 +42,8 @@ struct Chart {
   bool logarithmic = false;       ///< both axes; all values must be positive
   std::vector<double> extra_x{};  ///< values that the axis covers too, beside those of the curves
   std::vector<double> extra_y{};
+  bool logarithmic_x = false;  ///< of the axes only this; all x must be positive
+  TextTable table{};           ///< beneath the legend; of several charts that of the first
 };
 
 /// Draws two charts side by side, three or more in rows of two, with one legend for all. The suffix

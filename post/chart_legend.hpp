@@ -30,6 +30,8 @@ class ChartLegend : public vtkContextItem {
   /// Sets the top left corner (pixels from the bottom left of the picture), the height available
   /// and the rows: the curves that have a label. Rows move closer where the height is too small.
   void place(float left, float top, float height, const std::vector<Curve>& curves);
+  /// Height of the rows in pixels, once placed.
+  [[nodiscard]] float height() const { return row_height_ * static_cast<float>(rows_.size()); }
   /// Width of the rows in pixels.
   static float width(const std::vector<Curve>& curves);
 

@@ -8,6 +8,7 @@
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "flow_figures.hpp"
+#include "gradation_figure.hpp"
 #include "model_sketch.hpp"
 #include "results/number_text.hpp"
 #include "seepage_map.hpp"
@@ -30,6 +31,7 @@ const std::map<std::string, FigureMaker>& figure_makers() {
       {"solid-mass", [](const Runs& runs) { return std::vector{solid_mass_chart(runs)}; }},
       {"empty-elements", [](const Runs& runs) { return std::vector{empty_elements_chart(runs)}; }},
       {"flux", [](const Runs& runs) { return std::vector{flux_chart(runs)}; }},
+      {"gradation", [](const Runs& runs) { return std::vector{gradation_chart(runs)}; }},
       {"outflow", outflow_charts},
       {"boundaries", boundary_charts},
       {"comparison", comparison}};

@@ -17,7 +17,7 @@ std::vector<std::string> figure_names();
 
 /// The charts of a figure, drawn side by side: "porosity", "masses", "solid-mass"
 /// (soil_figures.hpp), "outflow", "empty-elements", "flux" (flow_figures.hpp), "boundaries"
-/// (boundary_figures.hpp), and "comparison":
+/// (boundary_figures.hpp), "gradation" (gradation_figure.hpp), and "comparison":
 /// porosity, masses and concentration of the outflow in one picture. Throws InputError for other
 /// names.
 std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "case/gradation.hpp"
 #include "case/time_function.hpp"
 #include "physics/conductivity/conductivity_law.hpp"
 #include "physics/erosion/erosion_law.hpp"
@@ -91,7 +92,8 @@ struct Soil {
   double porosity = unset;                    ///< n_0 at `porosity_origin`
   std::array<double, 3> porosity_gradient{};  ///< 1/m: n_0(x) = porosity + gradient . (x - origin)
   std::array<double, 3> porosity_origin{};    ///< m
-  double skeleton_fraction = unset;           ///< n_C
+  double skeleton_fraction = unset;           ///< n_C; as given, or by the gradation
+  Gradation gradation;                        ///< empty: not given
   double grain_density = unset;               ///< rho_s, kg/m3
   double conductivity = unset;                ///< k at the initial porosity, along bedding, m/s
   double conductivity_across = unset;         ///< across bedding, m/s; unset: the same

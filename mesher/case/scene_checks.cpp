@@ -7,6 +7,7 @@
 #include "case/law_texts.hpp"
 #include "case/scene_check_base.hpp"
 #include "case/seepage_checks.hpp"
+#include "case/soil_grading.hpp"
 
 namespace suffuse {
 namespace {
@@ -98,6 +99,7 @@ class Checks : private SceneCheckBase {
                  shown_number(soil.skeleton_fraction) + " > 1",
              "n_0 + n_C <= 1", {table + ".porosity"});
     }
+    check_grading_of(soil, table, inquiry_);
     check_erosion(soil, table + ".erosion");
   }
 

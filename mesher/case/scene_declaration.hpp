@@ -98,6 +98,12 @@ inline void keep(std::array<double, 3>& member, const Value& value) {
   std::ranges::copy(std::get<std::vector<double>>(value), member.begin());
 }
 
+inline void keep(Gradation& member, const Value& value) {
+  std::vector<GradationPoint> points;
+  for (const auto& row : std::get<Rows>(value)) points.push_back({row[0], row[1]});
+  member = Gradation(std::move(points));
+}
+
 inline ValueKind kind_of(const double&) {
   return ValueKind::number;
 }
@@ -122,6 +128,9 @@ inline ValueKind kind_of(const std::string&) {
 inline ValueKind kind_of(const std::array<double, 3>&) {
   return ValueKind::vector;
 }
+inline ValueKind kind_of(const Gradation&) {
+  return ValueKind::gradation;
+}
 
 template <class Access>
 using MemberOf = std::remove_reference_t<std::invoke_result_t<Access, Scene&, std::size_t>>;
@@ -137,6 +146,11 @@ struct Declaration : SceneKey {
   Declaration&& or_infinite() && { return set(infinite_allowed, true); }
   Declaration&& one_of(std::vector<std::int64_t> all) && { return set(integers, std::move(all)); }
   Declaration&& mandatory() && { return set(required, true); }
+  /// Required where the table lacks the other key.
+  Declaration&& mandatory_without(const std::string& other) && {
+    unless = other;
+    return set(required, true);
+  }
   Declaration&& otherwise(Value value) && { return set(default_value, std::move(value)); }
   Declaration&& otherwise_as(std::string note) && { return set(default_note, std::move(note)); }
 

@@ -233,11 +233,19 @@ std::vector<SceneKey> declare_keys() {
           .in("m")
           .otherwise(std::vector{0.0, 0.0}),
       key("soil.*.skeleton_fraction", in_soil(&Soil::skeleton_fraction),
-          "Volume fraction of the coarse grains, which never erode; n_0 + n_C <= 1.")
+          "Volume fraction of the coarse grains, which never erode; n_0 + n_C <= 1. Without it the "
+          "fines are those that the gradation shows: n_C = (1 - n_0)(1 - F*), F* where H/F is "
+          "smallest.")
           .named("n_C")
           .above(0.0)
           .below(1.0)
-          .mandatory(),
+          .mandatory_without("gradation"),
+      key("soil.*.gradation", in_soil(&Soil::gradation),
+          "Sizes of the grains, linear over log d between points: whether fines can move between "
+          "the coarse grains, and how many are loose. The solver has no use for it but this.")
+          .named("F(d)")
+          .in("mm, %")
+          .otherwise_as("none"),
       key("soil.*.grain_density", in_soil(&Soil::grain_density), "Density of the grains.")
           .named("rho_s")
           .in("kg/m3")

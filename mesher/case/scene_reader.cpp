@@ -12,6 +12,7 @@
 #include "case/scene_checks.hpp"
 #include "case/scene_schema.hpp"
 #include "case/scene_tree.hpp"
+#include "case/soil_grading.hpp"
 #include "case/suggestion.hpp"
 #include "case/table_file.hpp"
 
@@ -398,9 +399,8 @@ class SceneReader {
         bind(declared, instance, declared.pattern.substr(group->first.size()));
       }
     }
-    if (!root_.find("soil")) {
-      report_missing("soil", "at least one table [soil.NAME], NAME being its region's");
-    }
+    if (root_.find("soil")) return;
+    report_missing("soil", "at least one table [soil.NAME], NAME being its region's");
   }
 
   /// \param path  of the key within the instance's table
@@ -416,7 +416,7 @@ class SceneReader {
     if (node) return;
     if (declared.default_value) declared.store(scene_, instance.index, *declared.default_value);
     const bool unknown = without_inheritance_.contains(instance.table->name);
-    if (declared.required && !unknown) {
+    if (declared.required && !unknown && !instance.table->find(declared.unless)) {
       report_missing(joined(instance.key, path), declared.expected());
     }
   }
@@ -470,6 +470,7 @@ class SceneReader {
       scene_.points.equal_volume = false;
     }
     if (!places_.contains("initial.water_level")) scene_.water_level = common_head();
+    derive_skeletons(scene_, [this](const auto& key) { return places_.contains(key); });
   }
 
   std::string path_;

@@ -250,6 +250,8 @@ std::string type_of(const SceneKey& key) {
       return "number, or pair `[along, across]`";
     case ValueKind::time_function:
       return "number, or pairs `[[t, value], ...]`";
+    case ValueKind::gradation:
+      return "pairs `[[d, F], ...]`";
     case ValueKind::integer:
       for (const std::int64_t integer : key.integers) all.push_back(std::to_string(integer));
       return all.empty() ? "integer" : listed(all);
@@ -262,6 +264,7 @@ std::string type_of(const SceneKey& key) {
 }
 
 std::string default_of(const SceneKey& key) {
+  if (!key.unless.empty()) return "required without " + code(key.unless);
   if (key.required) return "**required**";
   return key.default_value ? code(shown_value(*key.default_value)) : key.default_note;
 }

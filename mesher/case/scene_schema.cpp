@@ -151,6 +151,10 @@ std::string SceneKey::expected() const {
     case ValueKind::time_function:
       return "a number" + limits + measure + ", or pairs [[t, " + quantity_of(*this) +
              "], ...] of times (s, ascending) and such numbers";
+    case ValueKind::gradation:
+      return "at least 3 pairs [[d, F], ...] of sizes (1e-6 to 1e6 mm, ascending) and per cent "
+             "finer by mass "
+             "(0 to 100, never falling, 100 at the last)";
     case ValueKind::integer:
       for (const std::int64_t integer : integers) all.push_back(std::to_string(integer));
       return all.empty() ? "an integer" + limits : listed(all);
@@ -203,6 +207,9 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
         break;
       }
       return accept_number(value);
+    case ValueKind::gradation:
+      accepted = std::holds_alternative<Rows>(value) && fault(value).empty();
+      break;
     case ValueKind::number:
       return accept_number(value);
     case ValueKind::vector:
@@ -215,6 +222,7 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
 
 std::string SceneKey::fault(const Value& value) const {
   const auto* rows = std::get_if<Rows>(&value);
+  if (kind == ValueKind::gradation && rows) return gradation_fault(*rows);
   if (kind != ValueKind::time_function || !rows) return {};
   const std::vector<double>* earlier = nullptr;
   for (const std::vector<double>& row : *rows) {

@@ -30,7 +30,8 @@ enum class ValueKind {
   integer,
   boolean,
   vector,
-  time_function
+  time_function,
+  gradation
 };
 
 struct Bound {
@@ -51,6 +52,7 @@ struct SceneKey {
   std::vector<std::string> words;      ///< all there are, for ValueKind::word
   std::vector<std::int64_t> integers;  ///< all there are, or empty for any within the bounds
   bool required = false;
+  std::string unless;  ///< the other key of its table that stands in for a required one
   std::optional<Value> default_value;
   std::string default_note;  ///< what holds without the key, where that is no plain value
   /// Keeps an accepted value in the soil or boundary of this index, or in the scene itself.
@@ -61,8 +63,8 @@ struct SceneKey {
   [[nodiscard]] std::string expected() const;
   /// The value as `store` wants it, or nothing when it is not allowed here.
   [[nodiscard]] std::optional<Value> accept(const Value& value) const;
-  /// What is wrong with a table of values against time, where one entry of it is: `t = 3 after
-  /// t = 5`. Empty where the value as a whole is to be quoted.
+  /// What is wrong with a table of values against time, or with a gradation, where one entry of it
+  /// is: `t = 3 after t = 5`. Empty where the value as a whole is to be quoted.
   [[nodiscard]] std::string fault(const Value& value) const;
 
  private:

@@ -78,6 +78,93 @@ TEST_F(CommandLine, MakesADoublePointCase) {
   EXPECT_EQ(made.liquid_points.size(), 64 * 12 + 32 * 40);
 }
 
+constexpr const char* gap_graded = "soil.specimen.gradation=[[0.1,0],[0.6,15],[2.4,17.1],[10,100]]";
+
+constexpr const char* gap_graded_summary =
+    "  grading of specimen\n"
+    "    fines: F* = 15 % finer than 0.6 mm, where H/F = 0.14 is smallest\n"
+    "    skeleton: n_C = 0.6 as given, fines of 14.3 %\n"
+    "    Kezdi (1979)           unstable  largest D'15/d'85 is 18.7, split at 2.47 %; above 4 is "
+    "unstable\n"
+    "    Kenney and Lau (1986)  unstable  smallest H/F up to F = 30 % is 0.14, at 15 %; below 1 is "
+    "unstable\n"
+    "    Li and Fannin (2008)   unstable  smallest H/min(F, 15 %) up to F = 35 % is 0.14, at 15 %; "
+    "below 1 is unstable\n"
+    "    Burenkova (1993)       unstable  d90/d60 = 1.68, d90/d15 = 14; between 1.87 and 3.13 is "
+    "stable\n"
+    "    Wan and Fell (2008)    unstable  probability of being unstable 57.8 %\n";
+
+TEST_F(CommandLine, ChecksGradationsAndWritesNothing) {
+  const Outcome outcome = run("--check column.toml --set '" + std::string(gap_graded) + "'");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.text, "column.toml\n" + std::string(gap_graded_summary));
+  const Outcome without = run("column.toml --check");
+  EXPECT_EQ(without.code, 0);
+  EXPECT_EQ(without.text, "column.toml: no soil has a gradation, nothing to check\n");
+  EXPECT_EQ(folder_.count(), 1);
+}
+
+/// Nor does it need the geometry.
+TEST_F(CommandLine, ChecksGradationsOfASceneWithoutItsGeometry) {
+  folder_.write("dam.toml", test::scene_text("geometry.file = \"dam.geo\"\n"));
+  EXPECT_EQ(run("dam.toml --check").text, "dam.toml: no soil has a gradation, nothing to check\n");
+  EXPECT_EQ(run("dam.toml").code, 4);
+}
+
+TEST_F(CommandLine, SaysWhereTheSkeletonComesFrom) {
+  std::string scene = test::read_file(folder_.file("column.toml"));
+  const std::string line = "skeleton_fraction = 0.6\n";
+  scene.replace(scene.find(line), line.size(), "gradation = [[0.1,0],[0.5,15],[4,15],[8,100]]\n");
+  folder_.write("graded.toml", scene);
+  const Outcome outcome = run("graded.toml");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.text.find("  boundary right   1 m\n"
+                              "  grading of specimen\n"
+                              "    fines: F* = 15 % finer than 0.5 mm, where H/F = 0 is smallest\n"
+                              "    skeleton: n_C = 0.595 = (1 - n_0)(1 - F*), as skeleton_fraction "
+                              "is not given\n"),
+            std::string::npos)
+      << outcome.text;
+  const Case<2> made = read_case<2>(folder_.file("graded.case.h5"));
+  EXPECT_DOUBLE_EQ(made.document.scene.soils[0].skeleton_fraction, 0.7 * 0.85);
+}
+
+TEST_F(CommandLine, WarnsOfErosionThatTheGradationContradicts) {
+  const std::string erosion =
+      " --set soil.specimen.erosion.law=constant --set soil.specimen.erosion.rate=1e-3";
+  const auto warnings = [&](const std::string& gradation, const std::string& more) {
+    const std::string key = "--set 'soil.specimen.gradation=" + gradation + "' ";
+    const Outcome outcome = run("--check column.toml " + key + more);
+    EXPECT_EQ(outcome.code, 0);
+    const std::size_t begin = outcome.text.find("suffuse-mesher: ");
+    return begin == std::string::npos ? "" : outcome.text.substr(begin);
+  };
+  const std::string dense = "[[0.1,0],[1,50],[4,100]]";
+  EXPECT_EQ(warnings(dense, erosion),
+            "suffuse-mesher: warning: --set soil.specimen.gradation=" + dense +
+                ": soil.specimen.gradation: is stable by Li and Fannin (2008), but erosion.law = "
+                "\"constant\" erodes it: fines of such a soil hardly move between its grains\n");
+  const std::string floating = "[[0.01,0],[0.2,40],[1,40],[10,100]]";
+  EXPECT_EQ(warnings(floating, erosion),
+            "suffuse-mesher: warning: --set soil.specimen.gradation=" + floating +
+                ": soil.specimen.gradation: has 40 % of fines, above 35 %, but erosion.law = "
+                "\"constant\" erodes them: they carry load, and a skeleton without them would "
+                "settle, which a rigid one does not\n");
+  EXPECT_EQ(warnings("[[0.1,0],[0.6,15],[2.4,17.1],[10,100]]", erosion), "");
+  for (const std::string& gradation : {dense, floating}) EXPECT_EQ(warnings(gradation, ""), "");
+}
+
+TEST_F(CommandLine, WarnsWhenItMakesACaseToo) {
+  const Outcome outcome =
+      run("column.toml --set 'soil.specimen.gradation=[[0.1,0],[1,50],[4,100]]' --set "
+          "soil.specimen.erosion.law=constant --set soil.specimen.erosion.rate=1e-3");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(folder_.count(), 2);
+  EXPECT_NE(outcome.text.find("suffuse-mesher: warning: --set soil.specimen.gradation="),
+            std::string::npos)
+      << outcome.text;
+}
+
 TEST_F(CommandLine, RefusesMoreLiquidPointsThanAnyoneMeans) {
   // Elements of free water hold a thousand million times as much liquid as those of this soil.
   const Outcome outcome =
@@ -149,6 +236,14 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"column.toml -o", 2, "(see --help)"},
         Wrong{"column.toml -o column.toml", 2, "-o column.toml would overwrite an input"},
         Wrong{"column.toml --msh a.vtk", 2, "--msh: got a.vtk; expected a name that ends in .msh"},
+        Wrong{"column.toml --check -o a.h5", 2,
+              "--check with -o: it writes no file; expected one of the two"},
+        Wrong{"column.toml --check --msh a.msh", 2,
+              "--check with --msh: it writes no file; expected one of the two"},
+        Wrong{"--check", 2, "a scene file is missing; expected suffuse-mesher SCENE.toml"},
+        Wrong{"column.toml --chek", 2, "did you mean --check?"},
+        Wrong{"column.toml --check --set soil.specimen.gradation=[[1,100]]", 2,
+              "soil.specimen.gradation: got 1 point; expected at least 3 pairs"},
         Wrong{"column.toml -o a.msh --msh ./a.msh", 2, "-o and --msh name the same file ./a.msh"},
         Wrong{"column.toml --set mesh.sise=1", 2, "--set mesh.sise=1"},
         Wrong{"column.toml --set 'boundary[0].on=\"tip\"'", 2, "did you mean \"top\"?"},

@@ -397,6 +397,39 @@ erosion.law = "none"
   EXPECT_EQ(scene.find_soil("sand"), nullptr);
 }
 
+TEST(Gradation, stands_in_for_the_skeleton) {
+  const std::string gradation = "soil.specimen.gradation=[[0.1, 0], [0.5, 15], [4, 15], [8, 100]]";
+  const SceneDocument given = parse_scene(least, "a.toml", {gradation});
+  ASSERT_EQ(given.scene.soils[0].gradation.points().size(), 4U);
+  EXPECT_EQ(given.scene.soils[0].gradation.points()[1].size, 0.5);
+  EXPECT_EQ(given.scene.soils[0].gradation.points()[1].finer, 15.0);
+  EXPECT_EQ(given.scene.soils[0].skeleton_fraction, 0.6);
+
+  std::string without = least;
+  const std::string line = "skeleton_fraction = 0.6\n";
+  without.erase(without.find(line), line.size());
+  const SceneDocument derived = parse_scene(without, "a.toml", {gradation});
+  EXPECT_DOUBLE_EQ(derived.scene.soils[0].skeleton_fraction, (1.0 - 0.3) * (1.0 - 0.15));
+  EXPECT_FALSE(derived.where.contains("soil.specimen.skeleton_fraction"));
+  EXPECT_TRUE(scene_of(least).soils[0].gradation.empty());
+}
+
+/// With its own porosity a soil that is like another has its own skeleton.
+TEST(Gradation, is_inherited) {
+  std::string text = least;
+  const std::string line = "skeleton_fraction = 0.6\n";
+  text.replace(text.find(line), line.size(),
+               "gradation = [[0.1, 0], [0.5, 15], [4, 15], [8, 100]]\n");
+  const Scene scene = scene_of(text +
+                               "[soil.loose]\nlike = \"specimen\"\nporosity = 0.4\n"
+                               "[soil.own]\nlike = \"loose\"\nskeleton_fraction = 0.5\n");
+  ASSERT_EQ(scene.soils.size(), 3U);
+  EXPECT_DOUBLE_EQ(scene.soils[0].skeleton_fraction, 0.7 * 0.85);
+  EXPECT_DOUBLE_EQ(scene.soils[1].skeleton_fraction, 0.6 * 0.85);
+  EXPECT_EQ(scene.soils[2].skeleton_fraction, 0.5);
+  EXPECT_EQ(scene.soils[2].gradation.points().size(), 4U);
+}
+
 TEST(Scene, keeps_soils_in_the_order_of_the_file) {
   const Scene scene = scene_of(least + "[soil.b]\nlike = \"specimen\"\n[soil.a]\nlike = \"b\"\n");
   ASSERT_EQ(scene.soils.size(), 3U);

@@ -1,0 +1,50 @@
+#pragma once
+
+/// The gradation of a soil: how much of its grains, by mass, is finer than which size.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace suffuse {
+
+/// A point of the curve, such as a sieve gives.
+struct GradationPoint {
+  double size = 0.0;   ///< d, mm
+  double finer = 0.0;  ///< F, per cent by mass
+};
+
+/// Linear between points, in per cent over log d. Nothing is known below the first point, unless
+/// that is at 0 %.
+class Gradation {
+ public:
+  Gradation() = default;
+  /// \param points  as `gradation_fault` accepts them
+  explicit Gradation(std::vector<GradationPoint> points) : points_(std::move(points)) {}
+
+  [[nodiscard]] bool empty() const { return points_.empty(); }
+  [[nodiscard]] const std::vector<GradationPoint>& points() const { return points_; }
+
+  /// Of the first point, mm and per cent.
+  [[nodiscard]] double smallest_size() const { return points_.front().size; }
+  [[nodiscard]] double smallest_finer() const { return points_.front().finer; }
+
+  /// Which end of the sizes that have the same per cent: a gap in the grading is a level stretch.
+  enum class End { fine, coarse };
+
+  /// F at a size, per cent: 100 beyond the last point. The size must not be below the first.
+  [[nodiscard]] double finer(double size) const;
+  /// d of a percentage, mm. The percentage must not be below the first.
+  [[nodiscard]] double size(double finer, End end = End::fine) const;
+
+ private:
+  [[nodiscard]] double between(std::size_t i, double finer) const;
+
+  std::vector<GradationPoint> points_;
+};
+
+/// What is wrong with a table [[d, F], ...] as a gradation, where one entry of it is: `F = 60 % at
+/// d = 4 mm after F = 70 %`. Empty where it is right.
+std::string gradation_fault(const std::vector<std::vector<double>>& rows);
+
+}  // namespace suffuse

@@ -1,0 +1,18 @@
+#pragma once
+
+/// What suffuse-mesher prints about the gradations of a scene.
+
+#include <string>
+
+#include "case/scene.hpp"
+
+namespace suffuse {
+
+/// For each soil with a gradation: its fines, the skeleton and where that comes from, and a line
+/// for each check. Empty when there is none.
+std::string grading_summary(const SceneDocument& document);
+
+/// The same for `--check`, which says so when no soil has a gradation.
+std::string grading_report(const SceneDocument& document);
+
+}  // namespace suffuse
