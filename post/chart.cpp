@@ -258,7 +258,7 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
   const float legend_top =
       (legend_in_cell ? 1.0F : static_cast<float>(lines)) * cell_height - top_room;
   const float height = static_cast<float>(lines) * cell_height;
-  const TextTable& table = charts.front().table;
+  const ChartTable& table = charts.front().table;
   const float legend_width = std::max(ChartLegend::width(rows), table_width(table));
   const float width =
       std::max(legend_left + legend_width + margin,

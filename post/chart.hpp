@@ -31,7 +31,7 @@ struct Curve {
 };
 
 /// Rows of cells, the first row being the heading.
-using TextTable = std::vector<std::vector<std::string>>;
+using ChartTable = std::vector<std::vector<std::string>>;
 
 /// One chart: what its axes say and the curves in it.
 struct Chart {
@@ -43,7 +43,7 @@ struct Chart {
   std::vector<double> extra_x{};  ///< values that the axis covers too, beside those of the curves
   std::vector<double> extra_y{};
   bool logarithmic_x = false;  ///< of the axes only this; all x must be positive
-  TextTable table{};           ///< beneath the legend; of several charts that of the first
+  ChartTable table{};           ///< beneath the legend; of several charts that of the first
 };
 
 /// Draws two charts side by side, three or more in rows of two, with one legend for all. The suffix

@@ -16,7 +16,7 @@ constexpr int font_size = 18;
 /// Of the widest font that viewers use in place of Helvetica, pixels.
 constexpr float letter_width = 0.56F * font_size;
 
-std::vector<float> column_widths(const TextTable& table) {
+std::vector<float> column_widths(const ChartTable& table) {
   std::vector<float> widths;
   for (const auto& row : table) {
     widths.resize(std::max(widths.size(), row.size()), 0.0F);
@@ -30,17 +30,17 @@ std::vector<float> column_widths(const TextTable& table) {
 
 }  // namespace
 
-float table_width(const TextTable& table) {
+float table_width(const ChartTable& table) {
   float width = 0.0F;
   for (const float column : column_widths(table)) width += column;
   return std::max(0.0F, width - column_gap);
 }
 
-float table_height(const TextTable& table) {
+float table_height(const ChartTable& table) {
   return table.empty() ? 0.0F : room_above + row_height * static_cast<float>(table.size());
 }
 
-void paint_table(vtkContext2D& painter, const TextTable& table, float left, float top) {
+void paint_table(vtkContext2D& painter, const ChartTable& table, float left, float top) {
   const std::vector<float> widths = column_widths(table);
   float y = top - room_above - row_height / 2.0F;
   for (const auto& row : table) {

@@ -119,6 +119,13 @@ double upward_flux(const Scene& scene, const Mesh<2>& mesh, const Ends& ends) {
   return head / resistance(scene, mesh, scene.geometry.width);
 }
 
+/// Erosion goes at a rate that a constant flux and the solid alone decide.
+bool lasts(const Soil& soil) {
+  const ErosionModel model = soil.erosion_model();
+  return !model.drive->depends_on_conductivity && !depends_on_concentration(model) &&
+         !soil.deposition.deposits();
+}
+
 /// The only soil that erodes, if its porosity is uniform.
 const Soil* eroding_soil(const Scene& scene, const Mesh<2>& mesh) {
   const Soil* found = nullptr;
@@ -145,7 +152,7 @@ std::optional<ColumnFlow> column_flow(const ResultsReader& run) {
   const TimeFunction entering = inlet.condition->concentration.value_or(0.0);
   const bool clean = entering.smallest() == 0.0 && entering.largest() == 0.0;
   if (!(std::abs(upward) > 0.0) || !clean) return std::nullopt;
-  if (soil->erosion.law->exact_porosity == nullptr) return std::nullopt;
+  if (!lasts(*soil)) return std::nullopt;
   return ColumnFlow{*soil, soil->porosity, scene.geometry.height, scene.geometry.width,
                     std::abs(upward)};
 }

@@ -81,8 +81,8 @@ Curve curve_of(const GradedSoil& soil, std::size_t number) {
   return curve;
 }
 
-TextTable transposed(const TextTable& table) {
-  TextTable result(table.front().size());
+ChartTable transposed(const ChartTable& table) {
+  ChartTable result(table.front().size());
   for (const auto& row : table) {
     for (std::size_t i = 0; i < row.size(); ++i) result[i].push_back(row[i]);
   }
@@ -91,8 +91,8 @@ TextTable transposed(const TextTable& table) {
 
 /// A row for each check and a column for each soil, or the other way round where soils are more
 /// than checks.
-TextTable verdicts_of(const std::vector<GradedSoil>& soils) {
-  TextTable by_soil{{"internal stability"}};
+ChartTable verdicts_of(const std::vector<GradedSoil>& soils) {
+  ChartTable by_soil{{"internal stability"}};
   for (const GradingVerdict& verdict : check_grading(soils.front().gradation)) {
     by_soil.front().push_back(verdict.check);
   }

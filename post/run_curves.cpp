@@ -97,9 +97,9 @@ std::vector<std::string> run_labels(const std::vector<ResultsReader>& runs) {
 }
 
 std::string law_label(const Specimen& specimen) {
-  const auto& erosion = specimen.portions.front().soil.erosion;
+  const ErosionModel erosion = specimen.portions.front().soil.erosion_model();
   if (!erosion.law->erodes()) return "exact, no erosion";
-  return "exact, " + law_text(*erosion.law, number_text(erosion.rate));
+  return "exact, " + law_text(erosion, number_text(erosion.rate));
 }
 
 std::vector<double> exact_times(double end, const Specimen& specimen) {

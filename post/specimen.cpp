@@ -73,7 +73,7 @@ double integrate(const Specimen& specimen, double t,
 
 bool has_exact_porosity(const Specimen& specimen) {
   return std::ranges::all_of(specimen.portions, [](const Portion& p) {
-    return has_exact_porosity(p.soil.erosion_model());
+    return has_exact_porosity(p.soil.erosion_model()) && !p.soil.deposition.deposits();
   });
 }
 

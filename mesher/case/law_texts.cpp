@@ -27,6 +27,10 @@ std::vector<std::string> words_with(std::span<const Law* const> laws, std::strin
   return words;
 }
 
+std::string with_drive(const DriveLaw& drive, std::string_view unit) {
+  return '"' + std::string(drive.word) + "\": " + std::string(unit);
+}
+
 }  // namespace
 
 std::string chained(const std::vector<std::string>& texts, const std::string& separator,
@@ -48,23 +52,28 @@ std::vector<std::string> rate_symbols() {
 }
 
 std::string rate_unit() {
-  std::string common;
   std::vector<std::string> others;
-  for (const ErosionLaw* law : erosion_laws()) {
-    if (!law->erodes()) continue;
-    if (common.empty()) common = law->rate_unit;
-    if (law->rate_unit == common) continue;
-    others.push_back(std::string(law->rate_symbol) + ": " + std::string(law->rate_unit));
+  const std::string_view common = drive_laws().front()->rate_unit;
+  for (const DriveLaw* drive : drive_laws()) {
+    if (drive->rate_unit != common) others.push_back(with_drive(*drive, drive->rate_unit));
   }
-  return others.empty() ? common : common + " (" + chained(others, ", ", ", ") + ")";
+  return std::string(common) + " (" + chained(others, ", ", ", ") + ")";
 }
 
-std::vector<ErosionParameter> erosion_parameters() {
-  return parameters_of<ErosionParameter>(erosion_laws());
+std::string threshold_unit() {
+  std::vector<std::string> units;
+  for (const DriveLaw* drive : drive_laws()) {
+    if (drive->depends_on_flow()) units.push_back(with_drive(*drive, drive->unit));
+  }
+  return chained(units, ", ", ", ");
 }
 
-std::vector<std::string> laws_with_parameter(std::string_view key) {
-  return words_with(erosion_laws(), key);
+std::vector<ConductivityParameter> conductivity_parameters() {
+  return parameters_of<ConductivityParameter>(conductivity_laws());
+}
+
+std::vector<std::string> laws_with_conductivity_parameter(std::string_view key) {
+  return words_with(conductivity_laws(), key);
 }
 
 std::vector<RetentionParameter> retention_parameters() {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "physics/erosion/erosion_law.hpp"
+#include "physics/exchange.hpp"
 #include "physics/retention/retention_law.hpp"
 
 namespace suffuse {
@@ -27,13 +27,15 @@ std::string chained(const std::vector<std::string>& texts, const std::string& se
 
 /// Symbols of the rates: `alpha`, `beta`, ...
 std::vector<std::string> rate_symbols();
-/// Unit of the rates, that of the first law with the laws that differ: `1/s (lambda: 1/m)`.
+/// Unit of the rate, that of the first drive with those that differ: `1/s ("flux": 1/m)`.
 std::string rate_unit();
+/// Units of the threshold: `"flux": m/s, ...`.
+std::string threshold_unit();
 
-/// Every parameter that some erosion law asks for, each key once.
-std::vector<ErosionParameter> erosion_parameters();
-/// Words of the erosion laws that ask for this key.
-std::vector<std::string> laws_with_parameter(std::string_view key);
+/// Every parameter that some conductivity law asks for, each key once.
+std::vector<ConductivityParameter> conductivity_parameters();
+/// Words of the conductivity laws that ask for this key.
+std::vector<std::string> laws_with_conductivity_parameter(std::string_view key);
 
 /// The same of the retention laws.
 std::vector<RetentionParameter> retention_parameters();

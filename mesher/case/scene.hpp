@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,8 +14,7 @@
 
 #include "case/gradation.hpp"
 #include "case/time_function.hpp"
-#include "physics/conductivity/conductivity_law.hpp"
-#include "physics/erosion/erosion_law.hpp"
+#include "physics/exchange.hpp"
 #include "physics/retention/retention_law.hpp"
 
 namespace suffuse {
@@ -72,19 +72,23 @@ struct PointSettings {
 struct LiquidProperties {
   double density = unset;       ///< rho_w, kg/m3
   double bulk_modulus = unset;  ///< K, Pa; infinite: incompressible (implicit scheme only)
-  double viscosity = unset;     ///< mu, Pa s
+  double viscosity = unset;     ///< mu_0 without fines, Pa s
+  ViscosityModel viscosity_model{viscosity_laws().front(), 0.62};
 };
 
 struct ErosionSettings {
   const ErosionLaw* law = no_erosion();  ///< never null
-  double rate = 0.0;                     ///< in the unit of the law
+  double rate = 0.0;                     ///< in the unit of the drive
   double start = 0.0;                    ///< t_0, s
   bool momentum_transfer = false;        ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
   MassTransfer mass_transfer =
       MassTransfer::nodal;  ///< double-point: which points take up eroded fines
   EmptyElements empty_elements =
-      EmptyElements::wet;             ///< double-point: erode without liquid points?
-  ErosionParameters parameters = {};  ///< what the law asks for beside the rate
+      EmptyElements::wet;                        ///< double-point: erode without liquid points?
+  const DriveLaw* drive = drive_laws().front();  ///< never null
+  double threshold = 0.0;                        ///< D_cr, in the unit of the drive
+  ResidualFraction residual = {};                ///< n_e that stays
+  double critical_concentration = std::numeric_limits<double>::infinity();  ///< c_cr
 };
 
 struct Soil {
@@ -100,8 +104,10 @@ struct Soil {
   double bedding = 0.0;                       ///< angle of bedding from the x-axis, degrees
   RetentionModel retention;                   ///< without a law: saturated at any pressure
   const ConductivityLaw* conductivity_law = conductivity_laws().front();  ///< never null
+  ConductivityParameters conductivity_parameters;
   SoilDrag drag = SoilDrag::darcy;
   ErosionSettings erosion;
+  DepositionModel deposition;
 
   /// Air can be in the pores.
   [[nodiscard]] bool drains() const { return retention.law != nullptr; }
@@ -112,8 +118,20 @@ struct Soil {
   /// n_L,max = 1 - n_C
   [[nodiscard]] double porosity_max() const { return 1.0 - skeleton_fraction; }
   [[nodiscard]] ErosionModel erosion_model() const {
-    return {erosion.law, erosion.rate, erosion.start, porosity_max(), erosion.parameters};
+    return {.law = erosion.law,
+            .rate = erosion.rate,
+            .start = erosion.start,
+            .porosity_max = porosity_max(),
+            .drive = erosion.law->drive.empty() ? erosion.drive : drive_law(erosion.law->drive),
+            .threshold = erosion.threshold,
+            .residual = erosion.residual,
+            .critical_concentration = erosion.critical_concentration};
   }
+  [[nodiscard]] ConductivityModel conductivity_model() const {
+    return {conductivity_law, conductivity, skeleton_fraction, conductivity_parameters};
+  }
+  /// Fines can leave this soil, or be caught in it.
+  [[nodiscard]] bool exchanges() const { return erodes(erosion_model()) || deposition.deposits(); }
   /// n_0 at a position of 2 or 3 coordinates.
   template <class Position>
   [[nodiscard]] double initial_porosity(const Position& x) const {

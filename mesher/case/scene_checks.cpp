@@ -25,6 +25,7 @@ class Checks : private SceneCheckBase {
     check_geometry();
     if (given("geometry.shape")) check_column();
     for (const Soil& soil : scene_.soils) check_soil(soil);
+    check_viscosity();
     check_grains();
     check_boundaries();
     check_seeding();
@@ -101,6 +102,8 @@ class Checks : private SceneCheckBase {
     }
     check_grading_of(soil, table, inquiry_);
     check_erosion(soil, table + ".erosion");
+    check_deposition(soil, table + ".deposition");
+    check_conductivity_parameters(soil, table);
   }
 
   void check_erosion(const Soil& soil, const std::string& table) const {
@@ -115,20 +118,89 @@ class Checks : private SceneCheckBase {
       require(table + ".rate", "soil.*.erosion.rate",
               "as law is not " + shown_value(std::string(no_erosion()->word)), table + ".law");
     }
-    check_parameters(soil, table);
+    check_drive(soil, table);
   }
 
   /// What one law asks for may be inherited by a soil with another law, but not given to it.
-  void check_parameters(const Soil& soil, const std::string& table) const {
-    if (given(table_of(soil) + ".like") || !given(table + ".law") || refused(table + ".law"))
-      return;
-    for (const ErosionParameter& parameter : erosion_parameters()) {
-      const std::string key = joined(table, std::string(parameter.key));
-      std::vector<std::string> laws = laws_with_parameter(parameter.key);
-      if (!given(key) || std::ranges::find(laws, soil.erosion.law->word) != laws.end()) continue;
+  [[nodiscard]] bool inherits(const Soil& soil) const { return given(table_of(soil) + ".like"); }
+
+  void check_drive(const Soil& soil, const std::string& table) const {
+    const std::string drive_key = joined(table, "drive");
+    const std::string law_key = joined(table, "law");
+    if (refused(drive_key) || refused(law_key) || inherits(soil)) return;
+    const std::string_view own = soil.erosion.law->drive;
+    if (given(drive_key) && !own.empty() && soil.erosion.drive->word != own) {
+      report(drive_key, shown_value(std::string(soil.erosion.drive->word)),
+             shown_value(std::string(own)) +
+                 ", which law = " + shown_value(std::string(soil.erosion.law->word)) +
+                 " stands for, or law = \"first-order\"",
+             {law_key});
+    }
+    const std::string threshold_key = joined(table, "threshold");
+    if (!given(threshold_key) || soil.erosion_model().drive->depends_on_flow()) return;
+    std::vector<std::string> drives;
+    for (const DriveLaw* drive : drive_laws()) {
+      if (drive->depends_on_flow()) drives.push_back(shown_value(std::string(drive->word)));
+    }
+    report(threshold_key, "a threshold of the drive \"time\"",
+           "drive = " + listed(drives) + ", or no such key", {drive_key});
+  }
+
+  void check_deposition(const Soil& soil, const std::string& table) const {
+    const std::string coefficient = joined(table, "coefficient");
+    for (const std::string& name : scene_children("soil.*.deposition")) {
+      const std::string key = joined(table, name);
+      if (!given(key) || given(coefficient)) continue;
+      require(coefficient, "soil.*.deposition.coefficient", "as " + name + " is given", key);
+      break;
+    }
+    if (soil.deposition.porosity_min >= soil.porosity) {
+      report(joined(table, "porosity_min"),
+             "n_min = " + shown_number(soil.deposition.porosity_min) +
+                 " with n_0 = " + shown_number(soil.porosity),
+             "n_min < n_0", {joined(table_of(soil), "porosity")});
+    }
+  }
+
+  void check_conductivity_parameters(const Soil& soil, const std::string& table) const {
+    const std::string law_key = joined(table, "conductivity_law");
+    if (refused(law_key) || inherits(soil)) return;
+    for (const ConductivityParameter& parameter : conductivity_parameters()) {
+      const std::string name(parameter.key);
+      const std::string key = joined(table, name);
+      std::vector<std::string> laws = laws_with_conductivity_parameter(name);
+      const bool asks = std::ranges::find(laws, soil.conductivity_law->word) != laws.end();
+      if (asks && std::isnan(ConductivityParameters{}.*parameter.value)) {
+        require(key, "soil.*." + name,
+                "as conductivity_law is " + shown_value(std::string(soil.conductivity_law->word)),
+                law_key);
+      }
+      if (asks || !given(key)) continue;
       for (std::string& law : laws) law = shown_value(law);
-      report(key, "a key of another law", "law = " + listed(laws) + ", or no such key",
-             {table + ".law"});
+      report(key, "a key of another law", "conductivity_law = " + listed(laws) + ", or no such key",
+             {law_key});
+    }
+  }
+
+  void check_viscosity() const {
+    const ViscosityModel& viscosity = scene_.liquid.viscosity_model;
+    const std::string law_key = "liquid.viscosity_law";
+    const std::string key = "liquid.maximum_concentration";
+    if (refused(law_key) || refused(key)) return;
+    if (!viscosity.depends_on_concentration()) {
+      if (given(key)) {
+        report(key, "a key of another law", "viscosity_law = \"krieger-dougherty\", or no such key",
+               {law_key});
+      }
+      return;
+    }
+    for (const BoundaryCondition& boundary : scene_.boundaries) {
+      const double richest = boundary.concentration.value_or(0.0).largest();
+      if (richest < viscosity.maximum_concentration) continue;
+      report(joined(boundary.key, "concentration"), shown_value(richest),
+             "c < c_m = " + shown_number(viscosity.maximum_concentration) +
+                 ", at which the grains lock",
+             {given(key) ? key : law_key});
     }
   }
 
@@ -203,7 +275,7 @@ class Checks : private SceneCheckBase {
     const bool single_point = scene_.formulation == Formulation::single_point;
     if (scene_.flow.porosity_gradient_term || !single_point) return;
     const bool eroding = std::any_of(scene_.soils.begin(), scene_.soils.end(),
-                                     [](const Soil& soil) { return erodes(soil.erosion_model()); });
+                                     [](const Soil& soil) { return soil.exchanges(); });
     const bool fines_enter =
         std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(),
                     [](const auto& b) { return b.concentration.value_or(0.0).largest() > 0.0; });

@@ -42,6 +42,11 @@ auto in_erosion(Member ErosionSettings::*member) {
 }
 
 template <class Member>
+auto in_deposition(Member DepositionModel::*member) {
+  return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].deposition.*member; };
+}
+
+template <class Member>
 auto in_retention(Member RetentionModel::*member) {
   return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].retention.*member; };
 }
@@ -81,6 +86,14 @@ inline void keep(std::optional<TimeFunction>& member, const Value& value) {
   for (const auto& row : std::get<Rows>(value)) knots.emplace_back(row[0], row[1]);
   member = TimeFunction(std::move(knots));
 }
+inline void keep(ResidualFraction& member, const Value& value) {
+  member.pairs.clear();
+  if (const auto* constant = std::get_if<double>(&value)) {
+    member.pairs.emplace_back(0.0, *constant);
+    return;
+  }
+  for (const auto& row : std::get<Rows>(value)) member.pairs.emplace_back(row[0], row[1]);
+}
 inline void keep(int& member, const Value& value) {
   member = static_cast<int>(std::get<std::int64_t>(value));
 }
@@ -111,7 +124,10 @@ inline ValueKind kind_of(const std::optional<double>&) {
   return ValueKind::number;
 }
 inline ValueKind kind_of(const std::optional<TimeFunction>&) {
-  return ValueKind::time_function;
+  return ValueKind::function;
+}
+inline ValueKind kind_of(const ResidualFraction&) {
+  return ValueKind::function;
 }
 inline ValueKind kind_of(const int&) {
   return ValueKind::integer;
@@ -150,6 +166,11 @@ struct Declaration : SceneKey {
   Declaration&& mandatory_without(const std::string& other) && {
     unless = other;
     return set(required, true);
+  }
+  /// What a table of values goes by: `of_argument("|q|", "fluxes (m/s, ascending)")`.
+  Declaration&& of_argument(std::string letter, std::string in_words) && {
+    argument = std::move(letter);
+    return set(arguments, std::move(in_words));
   }
   Declaration&& otherwise(Value value) && { return set(default_value, std::move(value)); }
   Declaration&& otherwise_as(std::string note) && { return set(default_note, std::move(note)); }

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "case/law_texts.hpp"
 #include "case/scene_declaration.hpp"
 
@@ -5,6 +7,12 @@ namespace suffuse {
 namespace {
 
 using namespace declaration;
+
+/// Of the liquid's viscosity.
+template <class Member>
+auto in_viscosity(Member ViscosityModel::*member) {
+  return at(&Scene::liquid, &LiquidProperties::viscosity_model, member);
+}
 
 /// A number of rows of elements beside the specimen.
 auto rows(int LayerSettings::*member) {
@@ -23,18 +31,19 @@ std::string no_erosion_word() {
   return shown_value(std::string(no_erosion()->word));
 }
 
-/// A number that only some erosion laws ask for.
-Declaration erosion_parameter(const ErosionParameter& parameter) {
+/// A number that only some conductivity laws ask for.
+Declaration conductivity_parameter(const ConductivityParameter& parameter) {
   const auto access = [value = parameter.value](Scene& scene, std::size_t i) -> double& {
-    return scene.soils[i].erosion.parameters.*value;
+    return scene.soils[i].conductivity_parameters.*value;
   };
-  const std::string laws = listed(laws_with_parameter(parameter.key));
-  return key("soil.*.erosion." + std::string(parameter.key), access,
-             std::string(parameter.sentence) + " With the law " + laws + " only.")
-      .named(std::string(parameter.symbol))
-      .in(std::string(parameter.unit))
-      .at_least(0.0)
-      .otherwise(ErosionParameters{}.*parameter.value);
+  const std::string laws = listed(laws_with_conductivity_parameter(parameter.key), "and");
+  Declaration d = key("soil.*." + std::string(parameter.key), access,
+                      std::string(parameter.sentence) + " Of the law " + laws + ".")
+                      .named(std::string(parameter.symbol))
+                      .above(parameter.above);
+  const double standard = ConductivityParameters{}.*parameter.value;
+  return std::isnan(standard) ? std::move(d).otherwise_as("required by its law")
+                              : std::move(d).otherwise(standard);
 }
 
 /// A number that only some retention laws ask for. It has no default.
@@ -209,10 +218,21 @@ std::vector<SceneKey> declare_keys() {
           .mandatory(),
       key("liquid.viscosity", at(&Scene::liquid, &Liquid::viscosity),
           "Dynamic viscosity of the water.")
-          .named("mu")
+          .named("mu_0")
           .in("Pa s")
           .above(0.0)
           .mandatory(),
+      choice("liquid.viscosity_law", in_viscosity(&ViscosityModel::law), by_word(viscosity_laws()),
+             "How the viscosity of the liquid follows the fluidised grains in it: " +
+                 chained(texts_of(viscosity_laws(), &ViscosityLaw::description), "; ", "; or ") +
+                 ".")
+          .otherwise(std::string(viscosity_laws().front()->word)),
+      key("liquid.maximum_concentration", in_viscosity(&ViscosityModel::maximum_concentration),
+          "Concentration at which the grains lock. Of the law \"krieger-dougherty\".")
+          .named("c_m")
+          .above(0.0)
+          .below(1.0)
+          .otherwise(0.62),
 
       instruction("soil.*.like",
                   "Another soil that every key not given here is taken from, erosion included.")
@@ -278,11 +298,38 @@ std::vector<SceneKey> declare_keys() {
           .named("phi_e")
           .otherwise_as("`" + no_erosion_word() + "`; required with any other erosion key"),
       key("soil.*.erosion.rate", in_erosion(&ErosionSettings::rate),
-          "Rate of the law: " + listed(rate_symbols()) + ".")
+          "Rate of the law: " + listed(rate_symbols()) + ". Its unit is that of the drive.")
           .named(chained(rate_symbols(), ", ", ", "))
           .in(rate_unit())
           .at_least(0.0)
           .otherwise_as("required unless `law = " + no_erosion_word() + "`"),
+      choice("soil.*.erosion.drive", in_erosion(&ErosionSettings::drive), by_word(drive_laws()),
+             "What makes fines leave: " +
+                 chained(texts_of(drive_laws(), &DriveLaw::equation), "; ", "; ") +
+                 ". The law \"flux\" has its own.")
+          .named("D")
+          .otherwise(std::string(drive_laws().front()->word)),
+      key("soil.*.erosion.threshold", in_erosion(&ErosionSettings::threshold),
+          "Drive below which nothing erodes. Not with the drive \"time\".")
+          .named("D_cr")
+          .in(threshold_unit())
+          .at_least(0.0)
+          .otherwise(0.0),
+      key("soil.*.erosion.residual", in_erosion(&ErosionSettings::residual),
+          "Erodible fraction that stays whatever the drive: one number, or as it goes with the "
+          "flux, linear between the pairs.")
+          .named("n_e")
+          .of_argument("|q|", "fluxes (m/s, ascending)")
+          .at_least(0.0)
+          .below(1.0)
+          .otherwise(0.0),
+      key("soil.*.erosion.critical_concentration",
+          in_erosion(&ErosionSettings::critical_concentration),
+          "Concentration of the liquid at which nothing erodes any more.")
+          .named("c_cr")
+          .above(0.0)
+          .or_infinite()
+          .otherwise_as("`inf`"),
       key("soil.*.erosion.start", in_erosion(&ErosionSettings::start), "When erosion starts.")
           .named("t_0")
           .in("s")
@@ -302,6 +349,27 @@ std::vector<SceneKey> declare_keys() {
              "An element that has no liquid point for the moment: erodes like any other, as its "
              "pores are full all the same; or does not erode. Double-point only.")
           .otherwise("wet"),
+
+      key("soil.*.deposition.coefficient", in_deposition(&DepositionModel::coefficient),
+          "Share of the grains in the liquid that is caught per length of path.")
+          .named("lambda_d")
+          .in("1/m")
+          .at_least(0.0)
+          .otherwise_as("required with any other deposition key"),
+      key("soil.*.deposition.porosity_min", in_deposition(&DepositionModel::porosity_min),
+          "Porosity at which no room is left: what is caught goes with (n_L - n_min) / (n_0 - "
+          "n_min). Without it there is always room.")
+          .named("n_min")
+          .above(0.0)
+          .below(1.0)
+          .otherwise_as("none"),
+      key("soil.*.deposition.flux_max", in_deposition(&DepositionModel::flux_max),
+          "Flux from which on nothing is caught.")
+          .named("|q|")
+          .in("m/s")
+          .above(0.0)
+          .or_infinite()
+          .otherwise_as("`inf`"),
 
       choice("soil.*.retention.model", in_retention(&RetentionModel::law), retention_meanings(),
              chained(texts_of(retention_laws(), &RetentionLaw::description), "; ", "; ") +
@@ -510,9 +578,11 @@ const std::vector<SceneKey>& scene_keys() {
       const auto place = std::ranges::find(all, pattern, &SceneKey::pattern) + 1;
       all.insert(place, of_laws.begin(), of_laws.end());
     };
-    std::vector<SceneKey> of_erosion;
-    for (const auto& p : erosion_parameters()) of_erosion.push_back(erosion_parameter(p));
-    insert_after("soil.*.erosion.rate", std::move(of_erosion));
+    std::vector<SceneKey> of_conductivity;
+    for (const auto& p : conductivity_parameters()) {
+      of_conductivity.push_back(conductivity_parameter(p));
+    }
+    insert_after("soil.*.conductivity_law", std::move(of_conductivity));
     std::vector<SceneKey> of_retention;
     for (const auto& p : retention_parameters()) of_retention.push_back(retention_parameter(p));
     insert_after("soil.*.retention.model", std::move(of_retention));

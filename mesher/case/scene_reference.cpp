@@ -248,8 +248,8 @@ std::string type_of(const SceneKey& key) {
       return key.infinite_allowed ? "number or `inf`" : "number";
     case ValueKind::number_or_pair:
       return "number, or pair `[along, across]`";
-    case ValueKind::time_function:
-      return "number, or pairs `[[t, value], ...]`";
+    case ValueKind::function:
+      return "number, or pairs " + code("[[" + key.argument + ", value], ...]");
     case ValueKind::gradation:
       return "pairs `[[d, F], ...]`";
     case ValueKind::integer:

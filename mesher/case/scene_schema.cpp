@@ -58,7 +58,12 @@ const std::vector<SceneSection>& scene_sections() {
        "`inflow`, `outflow`, `free_above` and `free_below`, of a column or of your own file, need "
        "none: without a soil they are free water, n_L = 1."},
       {"soil.*.erosion", "[soil.NAME.erosion]",
-       "How fines of this soil turn into fluidised grains. n_L,max = 1 - n_C."},
+       "How fines of this soil turn into fluidised grains: phi_e = state . rate . <D - D_cr> . "
+       "<1 - c/c_cr>, <x> = max(x, 0). The state comes from the law, D is the drive. n_e = "
+       "n_L,max - n_L is what can erode, n_L,max = 1 - n_C; deposits join it."},
+      {"soil.*.deposition", "[soil.NAME.deposition]",
+       "How this soil catches fluidised grains: phi_d = lambda_d |q| c, times the room that is "
+       "left."},
       {"soil.*.retention", "[soil.NAME.retention]",
        "How much liquid the pores of this soil hold under suction, psi = p/(rho_w g) < 0, and how "
        "well it then conducts: S = S_r + (1 - S_r) S_e, conductivity k_r k. Without this table the "
@@ -148,9 +153,9 @@ std::string SceneKey::expected() const {
     case ValueKind::number_or_pair:
       return "a number" + limits + measure +
              ", or a pair of such numbers, along and across bedding";
-    case ValueKind::time_function:
-      return "a number" + limits + measure + ", or pairs [[t, " + quantity_of(*this) +
-             "], ...] of times (s, ascending) and such numbers";
+    case ValueKind::function:
+      return "a number" + limits + measure + ", or pairs [[" + argument + ", " +
+             quantity_of(*this) + "], ...] of " + arguments + " and such numbers";
     case ValueKind::gradation:
       return "at least 3 pairs [[d, F], ...] of sizes (1e-6 to 1e6 mm, ascending) and per cent "
              "finer by mass "
@@ -201,7 +206,7 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
         break;
       }
       return accept_number(value);
-    case ValueKind::time_function:
+    case ValueKind::function:
       if (const auto* rows = std::get_if<Rows>(&value)) {
         accepted = !rows->empty() && fault(value).empty();
         break;
@@ -223,16 +228,16 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
 std::string SceneKey::fault(const Value& value) const {
   const auto* rows = std::get_if<Rows>(&value);
   if (kind == ValueKind::gradation && rows) return gradation_fault(*rows);
-  if (kind != ValueKind::time_function || !rows) return {};
+  if (kind != ValueKind::function || !rows) return {};
   const std::vector<double>* earlier = nullptr;
   for (const std::vector<double>& row : *rows) {
     if (row.size() != 2) {
       return "entry " + std::to_string(&row - rows->data() + 1) + ", " + shown_value(row);
     }
-    std::string time = "t = " + shown_number(row[0]);
+    std::string time = argument + " = " + shown_number(row[0]);
     if (!std::isfinite(row[0])) return time;
     if (earlier && row[0] <= earlier->front()) {
-      return time + " after t = " + shown_number(earlier->front());
+      return time + " after " + argument + " = " + shown_number(earlier->front());
     }
     if (!within(*this, row[1])) {
       return quantity_of(*this) + " = " + shown_number(row[1]) + " at " + time;

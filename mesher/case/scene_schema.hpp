@@ -30,7 +30,7 @@ enum class ValueKind {
   integer,
   boolean,
   vector,
-  time_function,
+  function,  ///< a number, or pairs of numbers
   gradation
 };
 
@@ -48,7 +48,10 @@ struct SceneKey {
   std::string unit;
   std::optional<Bound> lower;
   std::optional<Bound> upper;
-  bool infinite_allowed = false;       ///< of a number: inf is within the bounds
+  bool infinite_allowed = false;  ///< of a number: inf is within the bounds
+  /// What the pairs of a function go by: its symbol, and it in words.
+  std::string argument = "t";
+  std::string arguments = "times (s, ascending)";
   std::vector<std::string> words;      ///< all there are, for ValueKind::word
   std::vector<std::int64_t> integers;  ///< all there are, or empty for any within the bounds
   bool required = false;
@@ -63,8 +66,8 @@ struct SceneKey {
   [[nodiscard]] std::string expected() const;
   /// The value as `store` wants it, or nothing when it is not allowed here.
   [[nodiscard]] std::optional<Value> accept(const Value& value) const;
-  /// What is wrong with a table of values against time, or with a gradation, where one entry of it
-  /// is: `t = 3 after t = 5`. Empty where the value as a whole is to be quoted.
+  /// What is wrong with the pairs of a function or a gradation, where one of them is: `t = 3 after
+  /// t = 5`. Empty where the value as a whole is to be quoted.
   [[nodiscard]] std::string fault(const Value& value) const;
 
  private:

@@ -30,6 +30,15 @@ bool retains_air(const Scene& scene) {
   return std::ranges::any_of(scene.soils, &Soil::drains);
 }
 
+/// The most that erosion can open soil until `end`, s, under any flow.
+double largest_porosity(const ErosionModel& model, double porosity, double end) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (depends_on_flux(model) || depends_on_concentration(model)) {
+    return porosity_after_scaled(model, porosity, end > model.start ? infinite : 0.0, infinite);
+  }
+  return porosity_after(model, porosity, 0.0, end, infinite);
+}
+
 /// Coefficients at which the stability limit is smallest: the porosity at the end of the run and
 /// the smallest water fraction. Erosion turns solid into fines in the liquid, so n_w of a soil that
 /// erodes stays as it is at the start. A soil that does not erode may fill with the liquid that is
@@ -46,9 +55,8 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
     const double share = points.volume[p] / grid.volume[points.element[p]];
     const double porosity = soils.initial_porosity(p);
     first[points.element[p]] += share * porosity;
-    last[points.element[p]] +=
-        share * porosity_after(soils.erosion_of_element(points.element[p]), porosity, 0.0,
-                               scene.time.end, std::numeric_limits<double>::infinity());
+    last[points.element[p]] += share * largest_porosity(soils.erosion_of_element(points.element[p]),
+                                                        porosity, scene.time.end);
   }
   const double clean = 1.0 - largest_inflow_concentration(scene);
   double dilution = 1.0;  // smallest share of water in liquid that carries eroded fines
@@ -62,12 +70,11 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
     const bool erodes = last[e] > first[e];
     const Soil& soil = soils.soil_of_element(e);
     const auto drag_at = [&](double porosity) {
-      return darcy_drag(
-          porosity, scene.liquid.density,
-          conductivity_at(soil.conductivity_law, soil.conductivity, first[e], porosity));
+      return darcy_drag(porosity, scene.liquid.density,
+                        soil.conductivity_model().at(first[e], porosity));
     };
-    // Drag that is stepped explicitly lowers the limit, implicitly it raises it. With Kozeny-Carman
-    // drag falls as porosity grows, with the other laws it grows.
+    // Drag that is stepped explicitly lowers the limit, implicitly it raises it. With most laws
+    // drag falls as porosity grows, with a constant conductivity it grows.
     const auto [least, most] = std::minmax({drag_at(first[e]), drag_at(last[e])});
     worst.porosity.push_back(last[e]);
     worst.water_volume.push_back(grid.volume[e] * first[e] * clean *
@@ -189,7 +196,7 @@ double longest_relaxation(const Scene& scene) {
   for (const Soil& soil : scene.soils) {
     for (const double n : {soil.porosity, soil.porosity_max()}) {
       if (n > soil.porosity && !soil.erosion.law->erodes()) continue;
-      const double k = conductivity_at(soil.conductivity_law, soil.conductivity, soil.porosity, n);
+      const double k = soil.conductivity_model().at(soil.porosity, n);
       relaxation = std::max(relaxation, k / (n * conductivity_gravity));
     }
   }
@@ -422,12 +429,13 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   const Grid<Dim> grid(c.mesh);
   const SoilMap<Dim> soils(c);
   Plan plan;
-  plan.erosion = soils.erodes();
-  plan.transport = plan.erosion || largest_inflow_concentration(scene) > 0.0;
+  const bool fines_enter = largest_inflow_concentration(scene) > 0.0;
+  plan.erosion = soils.erodes() || (soils.deposits() && fines_enter);
+  plan.transport = plan.erosion || fines_enter;
 
   if (!options.no_skip) {
-    plan.erosion_span = soils.erosion_span();
-    if (largest_inflow_concentration(scene) == 0.0) plan.fines_from = plan.erosion_span.start;
+    plan.erosion_span = soils.exchange_span(fines_enter);
+    if (!fines_enter) plan.fines_from = plan.erosion_span.start;
   }
 
   plan.flow.threads = options.threads;

@@ -2,24 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "physics/drag.hpp"
 
 namespace suffuse {
-namespace {
-
-/// Across the bedding of a soil whose layers rise by `bedding` degrees from the x-axis.
-template <int Dim>
-Vector<Dim> across_bedding(const Soil& soil) {
-  const double angle = soil.bedding * std::numbers::pi / 180.0;
-  Vector<Dim> direction = Vector<Dim>::Zero();
-  direction[0] = -std::sin(angle);
-  direction[Dim - 1] = std::cos(angle);
-  return direction * std::sqrt(1.0 - soil.anisotropy());
-}
-
-}  // namespace
 
 template <int Dim>
 FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils) {
@@ -31,7 +17,9 @@ FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils) {
   for (int e = 0; e < soils.mesh().element_count(); ++e) {
     const Soil& soil = soils.soil_of_element(e);
     if (retains) result.retention.push_back(soil.retention);
-    if (layered) result.bedding.push_back(across_bedding<Dim>(soil));
+    if (layered) {
+      result.bedding.push_back(across_bedding<Dim>(soil) * std::sqrt(1.0 - soil.anisotropy()));
+    }
   }
   return result;
 }

@@ -68,6 +68,18 @@ void FlowSolver<Dim>::refuse_dry(int element, double time) const {
 }
 
 template <int Dim>
+void FlowSolver<Dim>::refuse_locked(double time, const std::vector<double>& concentration) const {
+  const double most = scene_.liquid.viscosity_model.maximum_concentration;
+  const auto richest = std::ranges::max_element(concentration);
+  if (*richest < most) return;
+  std::ostringstream message;
+  message << "fluidised grains lock: concentration " << *richest << " in "
+          << element_text(grid_, static_cast<int>(richest - concentration.begin()))
+          << " at t = " << time << " s, where the liquid flows below c_m = " << most << " only";
+  throw NumericalError(message.str());
+}
+
+template <int Dim>
 Vector<Dim> FlowSolver<Dim>::gravity() const {
   Vector<Dim> g;
   for (int d = 0; d < Dim; ++d) g[d] = scene_.gravity[d];
@@ -105,21 +117,26 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
   const double water_density = scene_.liquid.density;
   for_each_index(elements, threads_, [&](int e) {
     const double porosity = pores.porosity[e];
-    const Soil& soil = soils_.soil_of_element(e);
-    result.mixture_density[e] =
-        mixture_density(pores.concentration[e], water_density, grain_density_);
-    result.drag[e] = darcy_drag(
-        porosity, water_density,
-        conductivity_at(soil.conductivity_law, soil.conductivity, initial_porosity_[e], porosity));
+    const double concentration = pores.concentration[e];
+    const ExchangeModel& model = soils_.exchange_of_element(e);
+    result.mixture_density[e] = mixture_density(concentration, water_density, grain_density_);
+    result.drag[e] = darcy_drag(porosity, water_density,
+                                conductivity_at(model.conductivity, model.viscosity,
+                                                initial_porosity_[e], porosity, concentration));
     if (!grain_size_.empty()) {
       result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
     }
-    if (soil.erosion.momentum_transfer) {
-      const double rate = erosion_rate(soils_.erosion_of_element(e), porosity, time,
-                                       pores.flux.empty() ? unset : pores.flux[e]);
-      result.drag[e] += grain_density_ * rate / porosity;
+    if (soils_.soil_of_element(e).erosion.momentum_transfer) {
+      const double flux = pores.flux.empty() ? unset : pores.flux[e];
+      const Exchange rate = exchange_rate(
+          model, {initial_porosity_[e], porosity},
+          {.flux_start = flux, .flux_end = flux, .concentration = concentration}, time);
+      result.drag[e] += grain_density_ * rate.eroded / porosity;
     }
   });
+  if (scene_.liquid.viscosity_model.depends_on_concentration()) {
+    refuse_locked(time, pores.concentration);
+  }
   return result;
 }
 

@@ -32,11 +32,12 @@ struct FlowState {
   /// Per face, Pa: the pressure in an element is the linear field of those of its faces. Empty
   /// where the flow has none; then node pressures count.
   std::vector<double> face_pressure;
-  std::vector<double> saturation;   ///< S per element; empty where every soil is saturated
-  VectorField<Dim> velocity;        ///< per node, intrinsic, m/s
-  std::vector<double> face_flux;    ///< along each face's normal, m3/s
-  double eos_error = 0.0;           ///< see HistoryRow
-  double pressure_overshoot = 0.0;  ///< see HistoryRow
+  std::vector<double> saturation;  ///< S per element; empty where every soil is saturated
+  RelativeConductivity relative_conductivity;  ///< per element; empty likewise
+  VectorField<Dim> velocity;                   ///< per node, intrinsic, m/s
+  std::vector<double> face_flux;               ///< along each face's normal, m3/s
+  double eos_error = 0.0;                      ///< see HistoryRow
+  double pressure_overshoot = 0.0;             ///< see HistoryRow
 };
 
 /// A coupling interval: the flow advances through it alone, then erosion and transport follow.
@@ -107,6 +108,8 @@ class FlowSolver {
   [[nodiscard]] virtual const std::vector<double>& pressure() const = 0;
   /// Volume of air per element, m3; empty where all soil is saturated.
   [[nodiscard]] virtual std::vector<double> air() const { return {}; }
+  /// k_r of each element; empty where all soil is saturated.
+  [[nodiscard]] virtual RelativeConductivity relative_conductivity() const { return {}; }
   /// Makes pressures follow the masses of water, which are what is conserved (single-point): at
   /// once, or over the next steps. `water_mass` per element, kg; `time` in s.
   virtual void match_masses(double time, const std::vector<double>& water_mass) = 0;
@@ -149,6 +152,8 @@ class FlowSolver {
   [[nodiscard]] std::vector<double> pressure_at_rest() const;
   /// Throws NumericalError: all water has gone from the element.
   [[noreturn]] void refuse_dry(int element, double time) const;
+  /// Throws NumericalError where the grains in the liquid lock.
+  void refuse_locked(double time, const std::vector<double>& concentration) const;
   /// Adds a warning, which the next `take_warnings` returns.
   void warn(std::string text) { warnings_.push_back(std::move(text)); }
   [[nodiscard]] const Scene& scene() const { return scene_; }

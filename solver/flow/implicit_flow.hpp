@@ -36,6 +36,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
 
   [[nodiscard]] const std::vector<double>& pressure() const override { return pressure_; }
   [[nodiscard]] std::vector<double> air() const override;
+  [[nodiscard]] RelativeConductivity relative_conductivity() const override;
   /// Where an element's water does not fit its pores at its pressure, the next steps let it out.
   void match_masses(double time, const std::vector<double>& water_mass) override;
 

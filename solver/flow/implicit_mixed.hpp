@@ -107,6 +107,9 @@ class ImplicitMixed {
   /// Air in the elements at these pressures, m3. `porosity` per element.
   [[nodiscard]] ElementField<Dim> air_at(const std::vector<double>& face_pressure,
                                          const std::vector<double>& porosity) const;
+  /// k_r of each element at these pressures, per face, Pa; empty where all soil is saturated.
+  [[nodiscard]] std::vector<double> relative_conductivity(
+      const std::vector<double>& face_pressure) const;
   [[nodiscard]] bool has_retention() const { return !ignore_retention_ && !soils_.saturated(); }
   /// Whether steps iterate over retention or seepage faces.
   [[nodiscard]] bool is_nonlinear() const { return has_retention() || !switching_.empty(); }

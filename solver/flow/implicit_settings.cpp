@@ -14,8 +14,8 @@ bool depends_on_pores(const Scene& scene, const std::vector<FaceCondition>& cond
     return soil.conductivity_law->depends_on_porosity() || soil.erosion.momentum_transfer ||
            soil.drag == SoilDrag::ergun;
   };
-  return options.inertia || has_condition(conditions, FaceKind::velocity) ||
-         std::ranges::any_of(scene.soils, depends);
+  return options.inertia || scene.liquid.viscosity_model.depends_on_concentration() ||
+         has_condition(conditions, FaceKind::velocity) || std::ranges::any_of(scene.soils, depends);
 }
 
 ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options) {

@@ -99,6 +99,20 @@ double ImplicitMixed<Dim>::displacement_rate(const MixedState<Dim>& base, double
 }
 
 template <int Dim>
+std::vector<double> ImplicitMixed<Dim>::relative_conductivity(
+    const std::vector<double>& face_pressure) const {
+  std::vector<double> result;
+  if (soils_.saturated()) return result;
+  result.resize(grid_.mesh.element_count(), 0.0);
+  for_each_index(grid_.mesh.element_count(), settings_.threads, [&](int e) {
+    for (const int f : grid_.element_face[e]) {
+      result[e] += soils_.relative_conductivity(e, face_pressure[f]) / (Dim + 1);
+    }
+  });
+  return result;
+}
+
+template <int Dim>
 void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double duration,
                                              const FlowForcing<Dim>& forcing) {
   Work& w = work_;
@@ -432,6 +446,8 @@ template void ImplicitMixed<2>::solve_nonlinear(const MixedState<2>&, double,
 template void ImplicitMixed<2>::settle_air(const MixedState<2>&, double, const FlowForcing<2>&,
                                            Stage&) const;
 template ImplicitMixed<2>::Stage ImplicitMixed<2>::nonlinear_steady(const FlowForcing<2>&);
+template std::vector<double> ImplicitMixed<2>::relative_conductivity(
+    const std::vector<double>&) const;
 template MixedStep<2> ImplicitMixed<2>::saturated_steady(const FlowForcing<2>&);
 template ElementField<3> ImplicitMixed<3>::air_at(const std::vector<double>&,
                                                   const std::vector<double>&) const;
@@ -443,6 +459,8 @@ template void ImplicitMixed<3>::solve_nonlinear(const MixedState<3>&, double,
 template void ImplicitMixed<3>::settle_air(const MixedState<3>&, double, const FlowForcing<3>&,
                                            Stage&) const;
 template ImplicitMixed<3>::Stage ImplicitMixed<3>::nonlinear_steady(const FlowForcing<3>&);
+template std::vector<double> ImplicitMixed<3>::relative_conductivity(
+    const std::vector<double>&) const;
 template MixedStep<3> ImplicitMixed<3>::saturated_steady(const FlowForcing<3>&);
 
 }  // namespace suffuse

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "formulation/felt_concentration.hpp"
+#include "grid/parallel.hpp"
 #include "transport/points_along_faces.hpp"
 #include "transport/points_carrying_flow.hpp"
 
@@ -16,10 +17,12 @@ void DoublePoint<Dim>::advance(double latest) {
   const FlowProgress flow =
       liquid_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
-  // Erosion (Eqs. 1, 6, 7) and the points that carry water and fines (Eq. 5).
+  // Erosion (Eqs. 1, 6, 7), and the points that carry water and fines (Eq. 5) and leave some of
+  // these.
   for (const TransportStep& step : liquid_->start_interval(start, flow)) {
-    const std::vector<double>& exchange = this->erode(step, liquid_->waiting());
-    liquid_->advance(step, flow.volumes, exchange, this->flow_->pressure());
+    const std::vector<double>& eroded = this->exchange({step.start, step.end}, liquid_->waiting());
+    liquid_->advance(step, flow.volumes, eroded, this->flow_->pressure());
+    this->solid_->deposit(liquid_->deposited());
   }
   this->time_ = flow.end;
   // Masses that crossed borders with the points.
@@ -78,8 +81,21 @@ PoreState DoublePoint<Dim>::clean_pores() const {
     result.water_volume.push_back(result.porosity[e] * this->grid_.volume[e]);
   }
   result.concentration.assign(result.porosity.size(), 0.0);
-  if (this->soils_.erodes_by_flux()) result.flux = this->element_flux_magnitude();
+  result.flux = this->element_flux_magnitude();
   return result;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::find_liquid(PointFlows& flows) const {
+  const LiquidContent content = liquid_->content();
+  const MaterialPoints<Dim>& points = this->soils_.points();
+  flows.concentration.resize(points.size());
+  flows.deposition = false;
+  for_each_index(points.size(), this->threads(), [&](int p) {
+    const int e = points.element[p];
+    const double liquid = content.liquid[e];
+    flows.concentration[p] = liquid > 0.0 ? content.fines[e] / liquid : 0.0;
+  });
 }
 
 template <int Dim>

@@ -27,6 +27,7 @@ class DoublePoint final : public TwoPhaseModel<Dim> {
  private:
   [[nodiscard]] const Transport<Dim>& transport() const override { return *liquid_; }
   [[nodiscard]] PoreState pores() const override;
+  void find_liquid(PointFlows& flows) const override;
   /// The fines are the linear fit of those at points.
   [[nodiscard]] FinesState<Dim> fines_state(const FlowState<Dim>& flow) const override;
   [[nodiscard]] std::vector<Stored> stored() const override;

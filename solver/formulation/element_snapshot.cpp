@@ -104,8 +104,9 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   Field rate = scalar("erosion_rate", "1/s");
   Field pressure = scalar("pressure", "Pa");
   const MaterialPoints<Dim>& points = solid.soils().points();
-  const std::vector<double> flux =
-      erosion_flux(grid, solid.soils(), flow.face_flux, std::numeric_limits<double>::infinity(), 1);
+  const PointFlows flows =
+      point_flows(grid, solid.soils(), flow.face_flux, std::numeric_limits<double>::infinity(),
+                  flow.relative_conductivity, 1);
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
     const double n = solid.porosity()[p];
@@ -117,10 +118,14 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
     }
     solid_fraction.values.push_back(1.0 - n);
     erodible.values.push_back(solid.state().erodible_volume[p] / points.volume[p]);
-    concentration.values.push_back(Nodes::value(c_node, points.barycentric[p]));
+    const double c = Nodes::value(c_node, points.barycentric[p]);
+    concentration.values.push_back(c);
     fines.values.push_back(Nodes::value(f_node, points.barycentric[p]));
-    rate.values.push_back(erosion_rate(solid.soils().erosion_of_element(e), n, flow.time,
-                                       flux.empty() ? unset : flux[p]));
+    PlaceFlow at_point = flows.at(p, e, flow.time, flow.time);
+    at_point.concentration = c;
+    rate.values.push_back(exchange_rate(solid.soils().exchange_of_element(e),
+                                        {solid.initial_porosity()[p], n}, at_point, flow.time)
+                              .eroded);
     pressure.values.push_back(flow.pressure[e]);
   }
   result.solid = {{"porosity", "1", 1, solid.porosity()},

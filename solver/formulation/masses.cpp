@@ -24,6 +24,7 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.water = stored.water;
   row.fines = stored.fines;
   row.eroded = stored.eroded;
+  row.deposited = stored.deposited;
   row.water_in = crossed.water_in;
   row.fines_in = crossed.fines_in;
   row.water_out = crossed.water_out;

@@ -33,19 +33,20 @@ struct Stored {
   double erodible = 0.0;
   double water = 0.0;
   double fines = 0.0;
-  double eroded = 0.0;
-  double pending = 0.0;  ///< eroded, but not yet with any liquid
-  double points = 0.0;   ///< liquid points, number
+  double eroded = 0.0;     ///< since the start
+  double deposited = 0.0;  ///< since the start
+  double pending = 0.0;    ///< eroded, but not yet with any liquid
+  double points = 0.0;     ///< liquid points, number
 };
 
 /// Running sums behind one `Stored`.
 struct StoredSums {
-  CompensatedSum solid, erodible, water, fines, eroded, pending;
+  CompensatedSum solid, erodible, water, fines, eroded, deposited, pending;
   double points = 0.0;
 
   [[nodiscard]] Stored totals() const {
-    return {solid.value(),  erodible.value(), water.value(), fines.value(),
-            eroded.value(), pending.value(),  points};
+    return {solid.value(),  erodible.value(),  water.value(),   fines.value(),
+            eroded.value(), deposited.value(), pending.value(), points};
   }
 };
 

@@ -17,10 +17,12 @@ void SinglePoint<Dim>::advance(double latest) {
   const FlowProgress flow =
       fines_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
-  // Erosion (Eqs. 1, 6, 7) and transport (Eq. 3), with the volumes that crossed faces.
+  // Erosion (Eqs. 1, 6, 7), deposition, and transport (Eq. 3), with the volumes that crossed faces.
   for (const TransportStep& step : fines_->start_interval(start, flow)) {
-    const std::vector<double>& exchange = this->erode(step, {});
-    fines_->advance(step, flow.volumes, exchange, this->flow_->pressure());
+    const auto times = this->exchange_times(step);
+    fines_->receive(this->exchange(times.before));
+    fines_->advance(step, flow.volumes, this->exchange(times.during), this->flow_->pressure());
+    fines_->receive(this->exchange(times.after));
   }
   this->time_ = flow.end;
   // Masses, and the pressures that follow from them.
@@ -73,8 +75,36 @@ PoreState SinglePoint<Dim>::pores() const {
     result.water_volume[e] = liquid - fines;
     result.concentration[e] = fines / liquid;
   });
-  if (this->soils_.erodes_by_flux()) result.flux = this->element_flux_magnitude();
+  result.flux = this->element_flux_magnitude();
   return result;
+}
+
+template <int Dim>
+void SinglePoint<Dim>::find_liquid(PointFlows& flows) const {
+  const FinesState<Dim>& state = fines_->state();
+  const MaterialPoints<Dim>& points = this->soils_.points();
+  const std::vector<double> air = this->flow_->air();
+  flows.concentration.resize(points.size());
+  if (!air.empty()) flows.saturation.resize(air.size());
+  for_each_index(this->grid_.mesh.element_count(), this->threads(), [&](int e) {
+    const double liquid = element_sum<Dim>(state.liquid_volume[e]);
+    const double saturation = air.empty() ? 1.0 : liquid / (liquid + air[e]);
+    if (!air.empty()) flows.saturation[e] = saturation;
+    ElementValues<Dim> at_nodes;
+    for (int j = 0; j <= Dim; ++j)
+      at_nodes[j] = state.fines_volume[e][j] / state.liquid_volume[e][j];
+    double held = 0.0;
+    for (int p = this->soils_.points_begin(e); p < this->soils_.points_begin(e + 1); ++p) {
+      const double c = std::max(0.0, FieldNodes<Dim>::value(at_nodes, points.barycentric[p]));
+      flows.concentration[p] = c;
+      held += points.volume[p] * this->solid_->porosity()[p] * saturation * c;
+    }
+    // Together the points hold the fines of the element, so that no more than these are caught.
+    const double scale = held > 0.0 ? element_sum<Dim>(state.fines_volume[e]) / held : 0.0;
+    for (int p = this->soils_.points_begin(e); p < this->soils_.points_begin(e + 1); ++p) {
+      flows.concentration[p] *= scale;
+    }
+  });
 }
 
 template <int Dim>

@@ -27,6 +27,7 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
  private:
   [[nodiscard]] const Transport<Dim>& transport() const override { return *fines_; }
   [[nodiscard]] PoreState pores() const override;
+  void find_liquid(PointFlows& flows) const override;
   [[nodiscard]] FinesState<Dim> fines_state(const FlowState<Dim>& /*flow*/) const override {
     return fines_->state();
   }

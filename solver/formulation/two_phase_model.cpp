@@ -25,8 +25,8 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
 
 template <int Dim>
 void TwoPhaseModel<Dim>::archive(StateArchive& archive) {
-  archive(*solid_, *flow_, masses_, observations_, time_, flux_history_, last_dt_, steps_,
-          erosion_timing_);
+  archive(*solid_, *flow_, masses_, observations_, time_, flux_history_, relative_conductivity_,
+          last_dt_, steps_, erosion_timing_);
 }
 
 template <int Dim>
@@ -37,15 +37,22 @@ double TwoPhaseModel<Dim>::coupling_interval() const {
     longest = transport().longest_step(flux_history_.mean);
     if (!limits.one_transport_step) longest *= transport().coupling().steps;
   }
-  const bool erodes = solid_->erodes_within(time_, std::numeric_limits<double>::infinity());
-  if (limits.follows_pores || !erodes) return longest;
+  const bool changes = solid_->exchanges_within(time_, std::numeric_limits<double>::infinity());
+  if (limits.follows_pores || !changes) return longest;
   const double growth = transport().coupling().pore_growth;
-  const std::vector<double>& porosity = flow_->coefficients().porosity;
-  const std::vector<double> flux = element_flux_magnitude();
-  for (std::size_t e = 0; e < porosity.size(); ++e) {
-    const ErosionModel& model = soils_.erosion_of_element(static_cast<int>(e));
-    const double rate = erosion_rate(model, porosity[e], std::max(time_, model.start), flux[e]);
-    if (rate > 0.0) longest = std::min(longest, growth * porosity[e] / rate);
+  const PoreState now = pores();
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const ExchangeModel& model = soils_.exchange_of_element(e);
+    if (!model.exchanges()) continue;
+    const double flux = now.flux.empty() ? unset : now.flux[e];
+    const SoilPlace place{
+        soils_.soil_of_element(e).initial_porosity(element_centroid(grid_.mesh, e)),
+        now.porosity[e]};
+    const Exchange rate = exchange_rate(
+        model, place, {.flux_start = flux, .flux_end = flux, .concentration = now.concentration[e]},
+        std::max(time_, model.erosion.start));
+    const double fastest = std::max(rate.eroded, rate.deposited);
+    if (fastest > 0.0) longest = std::min(longest, growth * now.porosity[e] / fastest);
   }
   return longest;
 }
@@ -53,17 +60,24 @@ double TwoPhaseModel<Dim>::coupling_interval() const {
 template <int Dim>
 std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
   std::vector<double> result;
+  if (!soils_.exchange_depends_on().flux) return result;
   result.reserve(grid_.mesh.elements.size());
   for (const Vector<Dim>& q : element_flux(grid_, flux_history_.mean)) {
     const auto e = static_cast<int>(result.size());
-    result.push_back(eroding_flux(grid_, soils_, e, q.norm(), flux_history_.duration));
+    result.push_back(acting_flux(grid_, soils_, e, q.norm(), flux_history_.duration));
   }
   return result;
 }
 
 template <int Dim>
-PoreForecast<Dim> TwoPhaseModel<Dim>::pore_forecast() const {
-  return {grid_, *solid_, time_, pores(), flux_history_, threads()};
+void TwoPhaseModel<Dim>::update_liquid() {
+  if (soils_.exchange_depends_on().concentration) find_liquid(flows_);
+}
+
+template <int Dim>
+PoreForecast<Dim> TwoPhaseModel<Dim>::pore_forecast() {
+  update_liquid();
+  return {grid_, *solid_, time_, pores(), flows_, flux_history_, relative_conductivity_, threads()};
 }
 
 template <int Dim>
@@ -74,11 +88,16 @@ void TwoPhaseModel<Dim>::start_flux_history() {
 
 template <int Dim>
 void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
+  const typename SoilMap<Dim>::Dependence& needed = soils_.exchange_depends_on();
   flux_history_.duration = flow.end - start;
   flux_history_.mean = per_time(flow.volumes.liquid, flux_history_.duration);
-  flux_history_.end = soils_.erodes_by_flux() ? flow_->face_flux(flow.end) : flux_history_.mean;
-  erosion_flux_ =
-      erosion_flux(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
+  flux_history_.end = needed.flux ? flow_->face_flux(flow.end) : flux_history_.mean;
+  if (needed.resistance) relative_conductivity_ = flow_->relative_conductivity();
+  flows_ = point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration,
+                       relative_conductivity_, threads());
+  flows_.start = start;
+  flows_.end = flow.end;
+  find_flux_change(grid_, soils_, flux_history_, flows_, threads());
   masses_.book_liquid(flow.volumes.liquid);
   observations_.book_liquid(flow.volumes.liquid);
   steps_ += flow.steps;
@@ -87,13 +106,21 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
 }
 
 template <int Dim>
-const std::vector<double>& TwoPhaseModel<Dim>::erode(const TransportStep& step,
-                                                     const std::vector<char>& waiting) {
+auto TwoPhaseModel<Dim>::exchange_times(const TransportStep& step) const -> ExchangeTimes {
+  if (!soils_.exchange_depends_on().concentration) return {.during = {step.start, step.end}};
+  const double middle = 0.5 * (step.start + step.end);
+  return {.before = {step.start, middle}, .after = {middle, step.end}};
+}
+
+template <int Dim>
+const std::vector<double>& TwoPhaseModel<Dim>::exchange(const TimeSpan& time,
+                                                        const std::vector<char>& waiting) {
   exchange_.clear();
-  if (!solid_->erodes_within(step.start, step.end)) return exchange_;
+  if (time.start >= time.end || !solid_->exchanges_within(time.start, time.end)) return exchange_;
   const PassTimer timer(erosion_timing_);
   ++erosion_timing_.calls;
-  solid_->erode(step.start, step.end, erosion_flux_, waiting, exchange_);
+  update_liquid();
+  solid_->exchange(time.start, time.end, flows_, waiting, exchange_);
   return exchange_;
 }
 
@@ -128,13 +155,14 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   HistoryRow row;
   row.t = time_;
   flow_->describe(flow, row);
-  // Over regions that erode, or over all soil where none does.
+  // Over regions that exchange fines, or over all soil where none does.
   const MaterialPoints<Dim>& points = soils_.points();
+  const bool any_changes = soils_.erodes() || soils_.deposits();
   CompensatedSum pores;
   CompensatedSum volume;
   for (int p = 0; p < points.size(); ++p) {
-    const bool erodes = soils_.soil_of_element(points.element[p]).erosion.law->erodes();
-    if (soils_.erodes() && !erodes) continue;
+    const bool changes = soils_.exchange_of_element(points.element[p]).exchanges();
+    if (any_changes && !changes) continue;
     pores.add(points.volume[p] * solid_->porosity()[p]);
     volume.add(points.volume[p]);
   }
@@ -158,7 +186,14 @@ std::vector<StoredSums> TwoPhaseModel<Dim>::solid_masses() const {
     for (StoredSums* sum : {&sums[0], &sums[grid_.mesh.element_region[points.element[p]] + 1]}) {
       sum->solid.add(grain_density_ * solid.solid_volume(p));
       sum->erodible.add(grain_density_ * solid.erodible_volume[p]);
+      if (!solid.deposited_volume.empty()) {
+        sum->deposited.add(grain_density_ * solid.deposited_volume[p]);
+      }
+      if (!erodes(soils_.erosion_of_element(points.element[p]))) continue;
       sum->eroded.add(mass * (solid_->porosity()[p] - solid_->initial_porosity()[p]));
+      if (!solid.deposited_volume.empty()) {
+        sum->eroded.add(grain_density_ * solid.deposited_volume[p]);
+      }
     }
   }
   return sums;

@@ -80,18 +80,30 @@ class TwoPhaseModel {
 
   [[nodiscard]] const Scene& scene() const { return case_.document.scene; }
   [[nodiscard]] int threads() const { return options_.flow.threads; }
-  [[nodiscard]] PoreForecast<Dim> pore_forecast() const;
-  /// Exchange of fines between solid and liquid over a step, m3 per solid point; empty where none
-  /// is possible.
-  [[nodiscard]] const std::vector<double>& erode(const TransportStep& step,
-                                                 const std::vector<char>& waiting);
+  [[nodiscard]] PoreForecast<Dim> pore_forecast();
+  /// Concentration and saturation of the liquid at the solid points, as it lies now.
+  virtual void find_liquid(PointFlows& flows) const = 0;
+  /// When solid and liquid exchange fines around a step of transport. Where the exchange depends on
+  /// the fines in the liquid, half of it comes before the liquid moves and half after (Strang),
+  /// which is of second order; else all of it comes while it moves.
+  struct ExchangeTimes {
+    TimeSpan before = TimeSpan::never();
+    TimeSpan during = TimeSpan::never();
+    TimeSpan after = TimeSpan::never();
+  };
+  [[nodiscard]] ExchangeTimes exchange_times(const TransportStep& step) const;
+  /// Exchanges fines between solid and liquid over a time: m3 per solid point into the liquid;
+  /// empty where none can be exchanged. Elements of `waiting` (may be empty) stay as they are.
+  [[nodiscard]] const std::vector<double>& exchange(const TimeSpan& time,
+                                                    const std::vector<char>& waiting = {});
   /// Once the flow has started.
   void start_flux_history();
   /// Mean over the last interval, m3/s.
   [[nodiscard]] const std::vector<double>& mean_face_rate() const { return flux_history_.mean; }
   /// Records fluxes and steps of an interval of the flow that started at `start`, s.
   void note_flow(double start, const FlowProgress& flow);
-  /// Flux per element at its centroid, m/s, over the last interval.
+  /// Flux per element at its centroid, m/s, over the last interval; empty where no soil asks for
+  /// it.
   [[nodiscard]] std::vector<double> element_flux_magnitude() const;
   /// The row's entries that do not depend on how liquid is carried.
   [[nodiscard]] HistoryRow common_history(const FlowState<Dim>& flow) const;
@@ -110,10 +122,14 @@ class TwoPhaseModel {
   Observations<Dim> observations_;
   double grain_density_;
   double time_ = 0.0;
+  PointFlows flows_;  ///< at the solid points over the last interval
 
  private:
+  /// Concentration and saturation in `flows_`, where some soil asks for them.
+  void update_liquid();
+
   FluxHistory flux_history_;
-  std::vector<double> erosion_flux_;  ///< |q| at solid points over the last interval, m/s
+  RelativeConductivity relative_conductivity_;  ///< at the end of the last interval
   std::vector<double> exchange_;
   double last_dt_ = 0.0;
   long steps_ = 0;

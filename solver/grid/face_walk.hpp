@@ -16,14 +16,17 @@ struct FaceWalkField {
   const std::vector<double>& face_volume;     ///< along each face's normal, whole interval, m3
   const std::vector<double>& porosity_start;  ///< per element
   const std::vector<double>& porosity_end;    ///< per element
+  bool all_passages = false;  ///< tell passages through pores that did not change too
 };
 
-/// The path of a point through an element whose porosity changed meanwhile.
+/// The path of a point through an element.
 template <int Dim>
 struct FacePassage {
   int element;
   std::array<double, Dim + 1> barycentric;  ///< half-way between its ends
   double growth;                            ///< porosity at the end over that at the start
+  double path = 0.0;                        ///< its length, m; with `all_passages` only
+  double clock = 0.0;                       ///< integral of ds/n, s in shares of the interval
 };
 
 /// Walks `place` through the interval's shares from `from` to `to` (0 <= from <= to <= 1). With
@@ -33,9 +36,9 @@ struct FacePassage {
 ///   d lambda_k / d tau = (lambda_k sum_j V_j - V_k) / (Dim |e|)
 ///
 /// so that each coordinate and the moment at which it vanishes have closed forms. Adds to
-/// `passages` where porosity changed. Returns the outer face by which the point left, with the
-/// place on that face, or -1. Throws NumericalError when the point crosses faces without end; `id`
-/// is for the message.
+/// `passages` where porosity changed, or all of them where the field says so. Returns the outer
+/// face by which the point left, with the place on that face, or -1. Throws NumericalError when the
+/// point crosses faces without end; `id` is for the message.
 template <int Dim>
 int walk_along_faces(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, PointPlace<Dim>& place,
                      double from, double to, long id, std::vector<FacePassage<Dim>>& passages);

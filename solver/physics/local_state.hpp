@@ -1,6 +1,7 @@
 #pragma once
 
-/// The state of the soil at one place and time: all that a law of physics may depend on.
+/// The state of the soil and of the liquid in it at one place and time: all that a law of physics
+/// may depend on.
 
 #include <limits>
 
@@ -12,11 +13,13 @@ inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 /// What the caller does not know stays unset.
 struct LocalState {
   double porosity = unset;           ///< n_L
-  double erodible_fraction = unset;  ///< n_e
+  double erodible_fraction = unset;  ///< n_e, without the residual that stays
   double skeleton_fraction = unset;  ///< n_C
   double concentration = unset;      ///< c
   double flux = unset;               ///< |q|, m/s
-  double drag_gradient = unset;      ///< hydraulic gradient that drag takes up, |q|/k
+  double drag_gradient = unset;      ///< i, hydraulic gradient that drag takes up
+  double permeability = unset;       ///< kappa, m2
+  double unit_weight = unset;        ///< rho_w g of the water, N/m3
   double time = unset;               ///< s
 };
 

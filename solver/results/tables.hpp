@@ -87,9 +87,10 @@ struct LedgerRow {
   double points = 0.0;  ///< liquid points, and how many entered and left since the start
   double points_in = 0.0;
   double points_out = 0.0;
+  double deposited = 0.0;  ///< fines deposited since the start
 };
 
-inline constexpr std::array<Column<LedgerRow>, 16> ledger_columns{{
+inline constexpr std::array<Column<LedgerRow>, 17> ledger_columns{{
     {"t", &LedgerRow::t},
     {"solid", &LedgerRow::solid},
     {"erodible", &LedgerRow::erodible},
@@ -106,6 +107,7 @@ inline constexpr std::array<Column<LedgerRow>, 16> ledger_columns{{
     {"points", &LedgerRow::points},
     {"points_in", &LedgerRow::points_in},
     {"points_out", &LedgerRow::points_out},
+    {"deposited", &LedgerRow::deposited},
 }};
 
 /// regions.csv: the ledger of one region, its boundary with other regions included in `*_in` and

@@ -1,9 +1,5 @@
 #include "solid/pores.hpp"
 
-#include <cmath>
-#include <limits>
-
-#include "grid/face_flux.hpp"
 #include "grid/parallel.hpp"
 
 namespace suffuse {
@@ -38,11 +34,13 @@ ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid) 
 template <int Dim>
 PoreState PoreForecast<Dim>::at(double time) const {
   PoreState result = now_;
-  if (!solid_.erodes_within(time_, time)) return result;
+  if (!solid_.exchanges_within(time_, time)) return result;
   const SoilMap<Dim>& soils = solid_.soils();
-  const std::vector<double> after = solid_.porosity_after(
-      time_, time,
-      erosion_flux(grid_, soils, flux_.extrapolated(time - time_), flux_.duration, threads_));
+  PointFlows ahead = point_flows(grid_, soils, flux_.extrapolated(time - time_), flux_.duration,
+                                 relative_conductivity_, threads_);
+  ahead.concentration = liquid_.concentration;
+  ahead.saturation = liquid_.saturation;
+  const std::vector<double> after = solid_.porosity_after(time_, time, ahead);
   const std::vector<double>& before = solid_.porosity();
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     double growth = 0.0;
@@ -59,40 +57,11 @@ PoreState PoreForecast<Dim>::at(double time) const {
   return result;
 }
 
-template <int Dim>
-double eroding_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element, double flux,
-                    double duration) {
-  constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
-  const double held = std::pow(grid.volume[element], 1.0 / Dim);
-  return soils.eroding_flux(element, flux > round_off * held / duration ? flux : 0.0);
-}
-
-template <int Dim>
-std::vector<double> erosion_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                 const std::vector<double>& face_rate, double duration,
-                                 int threads) {
-  if (!soils.erodes_by_flux()) return {};
-  const MaterialPoints<Dim>& points = soils.points();
-  std::vector<double> result(points.size());
-  for_each_index(points.size(), threads, [&](int p) {
-    const int e = points.element[p];
-    const double flux = flux_at(grid, face_rate, e, points.position(grid.mesh, p)).norm();
-    result[p] = eroding_flux(grid, soils, e, flux, duration);
-  });
-  return result;
-}
-
 template ElementField<2> initial_pore_volume(const Grid<2>&, const SoilMap<2>&);
 template ElementField<2> pore_field(const Grid<2>&, const Skeleton<2>&);
 template class PoreForecast<2>;
-template double eroding_flux(const Grid<2>&, const SoilMap<2>&, int, double, double);
-template std::vector<double> erosion_flux(const Grid<2>&, const SoilMap<2>&,
-                                          const std::vector<double>&, double, int);
 template ElementField<3> initial_pore_volume(const Grid<3>&, const SoilMap<3>&);
 template ElementField<3> pore_field(const Grid<3>&, const Skeleton<3>&);
 template class PoreForecast<3>;
-template double eroding_flux(const Grid<3>&, const SoilMap<3>&, int, double, double);
-template std::vector<double> erosion_flux(const Grid<3>&, const SoilMap<3>&,
-                                          const std::vector<double>&, double, int);
 
 }  // namespace suffuse

@@ -17,7 +17,7 @@ struct PoreState {
   std::vector<double> water_volume;   ///< liquid minus fluidised fines, m3
   std::vector<double> concentration;  ///< c
   std::vector<double> air_volume;     ///< m3; empty where all soil is saturated
-  std::vector<double> flux;           ///< |q|, m/s; may be empty where no soil erodes by it
+  std::vector<double> flux;           ///< |q|, m/s; may be empty where no soil asks for it
 };
 
 /// Pore volume per element and field node at the start, m3.
@@ -33,14 +33,18 @@ ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid);
 template <int Dim>
 class PoreForecast {
  public:
-  /// `now`: the pores at `time`, s; `flux`: of the last interval.
+  /// `now`: the pores at `time`, s; `liquid`: at the solid points in the last interval; `flux`: of
+  /// that interval.
   PoreForecast(const Grid<Dim>& grid, const Skeleton<Dim>& solid, double time, PoreState now,
-               const FluxHistory& flux, int threads)
+               const PointFlows& liquid, const FluxHistory& flux,
+               const RelativeConductivity& relative_conductivity, int threads)
       : grid_(grid),
         solid_(solid),
         time_(time),
         now_(std::move(now)),
+        liquid_(liquid),
         flux_(flux),
+        relative_conductivity_(relative_conductivity),
         threads_(threads) {}
 
   [[nodiscard]] PoreState at(double time) const;
@@ -50,21 +54,10 @@ class PoreForecast {
   const Skeleton<Dim>& solid_;
   double time_;
   PoreState now_;
+  const PointFlows& liquid_;
   const FluxHistory& flux_;
+  const RelativeConductivity& relative_conductivity_;
   int threads_;
 };
-
-/// |q| in an element as far as it can erode, m/s, from a mean over `duration`, s: neither the
-/// round-off of still water nor that of what the element holds is a drive.
-template <int Dim>
-double eroding_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element, double flux,
-                    double duration);
-
-/// The same at the solid points, from volumes through faces per second; empty when no soil erodes
-/// by it.
-template <int Dim>
-std::vector<double> erosion_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                 const std::vector<double>& face_rate, double duration,
-                                 int threads);
 
 }  // namespace suffuse

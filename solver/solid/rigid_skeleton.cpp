@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "case/errors.hpp"
 #include "grid/parallel.hpp"
 #include "solid/pores.hpp"
 
@@ -9,8 +10,8 @@ namespace suffuse {
 
 template <int Dim>
 RigidSkeleton<Dim>::RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                  const TimeSpan& erosion_span, int threads)
-    : grid_(grid), soils_(soils), erosion_span_(erosion_span), threads_(threads) {
+                                  const TimeSpan& span, int threads)
+    : grid_(grid), soils_(soils), span_(span), threads_(threads) {
   const MaterialPoints<Dim>& points = soils.points();
   state_.skeleton_volume.reserve(points.size());
   state_.erodible_volume.reserve(points.size());
@@ -20,6 +21,7 @@ RigidSkeleton<Dim>::RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soi
     state_.skeleton_volume.push_back(points.volume[p] * (1.0 - porosity_max));
     state_.erodible_volume.push_back(points.volume[p] * (porosity_max - porosity));
   }
+  if (soils.deposits()) state_.deposited_volume.assign(points.size(), 0.0);
   update_porosity();
   initial_porosity_ = porosity_;
   for (const ElementValues<Dim>& pores : initial_pore_volume(grid, soils)) {
@@ -51,39 +53,65 @@ std::vector<double> RigidSkeleton<Dim>::element_porosity() const {
 
 template <int Dim>
 std::vector<double> RigidSkeleton<Dim>::porosity_after(double from, double to,
-                                                       const std::vector<double>& flux) const {
+                                                       const PointFlows& flows) const {
   std::vector<double> result(porosity_.size());
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
-    const ErosionModel& model = soils_.erosion_of_element(e);
+    const ExchangeModel& model = soils_.exchange_of_element(e);
     for (int p = soils_.points_begin(e); p < soils_.points_begin(e + 1); ++p) {
-      result[p] =
-          suffuse::porosity_after(model, porosity_[p], from, to, flux.empty() ? unset : flux[p]);
+      const Exchange change = exchange_over(model, place(p), flows.at(p, e, from, to), from, to);
+      result[p] = porosity_[p] + change.into_liquid();
     }
   });
   return result;
 }
 
 template <int Dim>
-void RigidSkeleton<Dim>::erode(double from, double to, const std::vector<double>& flux,
-                               const std::vector<char>& waiting, std::vector<double>& exchange) {
+void RigidSkeleton<Dim>::exchange(double from, double to, const PointFlows& flows,
+                                  const std::vector<char>& waiting, std::vector<double>& exchange) {
   const MaterialPoints<Dim>& points = soils_.points();
   exchange.assign(porosity_.size(), 0.0);
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     if (!waiting.empty() && waiting[e] != 0) return;
-    const ErosionModel& model = soils_.erosion_of_element(e);
+    const ExchangeModel& model = soils_.exchange_of_element(e);
     for (int p = soils_.points_begin(e); p < soils_.points_begin(e + 1); ++p) {
-      const double after =
-          suffuse::porosity_after(model, porosity_[p], from, to, flux.empty() ? unset : flux[p]);
-      if (after == porosity_[p]) continue;
+      const Exchange change = exchange_over(model, place(p), flows.at(p, e, from, to), from, to);
+      const double net = change.into_liquid();
+      if (net == 0.0 && change.deposited == 0.0) continue;
       double& erodible = state_.erodible_volume[p];
-      const double volume = points.volume[p] * (after - porosity_[p]);
-      const double left = after >= model.porosity_max ? 0.0 : std::max(0.0, erodible - volume);
+      const bool all = porosity_[p] + net >= model.erosion.porosity_max;
+      const double left = all ? 0.0 : std::max(0.0, erodible - points.volume[p] * net);
       // What the rounded state lost, so that none is lost on the way to the liquid.
       exchange[p] = erodible - left;
       erodible = left;
+      if (change.deposited != 0.0)
+        state_.deposited_volume[p] += points.volume[p] * change.deposited;
       porosity_[p] = porosity_of(p);
     }
   });
+  refuse_full();
+}
+
+template <int Dim>
+void RigidSkeleton<Dim>::deposit(const std::vector<double>& volume) {
+  for (std::size_t p = 0; p < volume.size(); ++p) {
+    if (volume[p] == 0.0) continue;
+    state_.erodible_volume[p] += volume[p];
+    state_.deposited_volume[p] += volume[p];
+    porosity_[p] = porosity_of(static_cast<int>(p));
+  }
+  refuse_full();
+}
+
+template <int Dim>
+void RigidSkeleton<Dim>::refuse_full() const {
+  if (!soils_.deposits()) return;
+  constexpr double full = 1e-3;
+  const auto least = std::ranges::min_element(porosity_);
+  if (least == porosity_.end() || *least > full) return;
+  const int e = soils_.points().element[least - porosity_.begin()];
+  throw NumericalError("deposits have filled the pores of " + element_text(grid_, e) +
+                       ": give soil \"" + soils_.soil_of_element(e).region +
+                       "\" a deposition.porosity_min");
 }
 
 template <int Dim>
@@ -94,8 +122,8 @@ void RigidSkeleton<Dim>::archive(StateArchive& archive) {
 
 template <int Dim>
 std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                             const TimeSpan& erosion_span, int threads) {
-  return std::make_unique<RigidSkeleton<Dim>>(grid, soils, erosion_span, threads);
+                                             const TimeSpan& span, int threads) {
+  return std::make_unique<RigidSkeleton<Dim>>(grid, soils, span, threads);
 }
 
 template class RigidSkeleton<2>;

@@ -9,7 +9,7 @@ namespace suffuse {
 template <int Dim>
 class RigidSkeleton final : public Skeleton<Dim> {
  public:
-  RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const TimeSpan& erosion_span,
+  RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const TimeSpan& span,
                 int threads);
 
   [[nodiscard]] const SoilMap<Dim>& soils() const override { return soils_; }
@@ -21,13 +21,14 @@ class RigidSkeleton final : public Skeleton<Dim> {
   [[nodiscard]] std::vector<double> element_porosity() const override;
   [[nodiscard]] const std::vector<double>& face_volume_rate() const override { return at_rest_; }
 
-  [[nodiscard]] bool erodes_within(double from, double to) const override {
-    return erosion_span_.meets(from, to);
+  [[nodiscard]] bool exchanges_within(double from, double to) const override {
+    return span_.meets(from, to);
   }
   [[nodiscard]] std::vector<double> porosity_after(double from, double to,
-                                                   const std::vector<double>& flux) const override;
-  void erode(double from, double to, const std::vector<double>& flux,
-             const std::vector<char>& waiting, std::vector<double>& exchange) override;
+                                                   const PointFlows& flows) const override;
+  void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& waiting,
+                std::vector<double>& exchange) override;
+  void deposit(const std::vector<double>& volume) override;
 
   void archive(StateArchive& archive) override;
 
@@ -37,10 +38,15 @@ class RigidSkeleton final : public Skeleton<Dim> {
     return 1.0 - state_.solid_volume(point) / soils_.points().volume[point];
   }
   void update_porosity();
+  /// Throws NumericalError where deposits leave hardly any pores.
+  void refuse_full() const;
+  [[nodiscard]] SoilPlace place(int point) const {
+    return {initial_porosity_[point], porosity_[point]};
+  }
 
   const Grid<Dim>& grid_;
   const SoilMap<Dim>& soils_;
-  TimeSpan erosion_span_;
+  TimeSpan span_;
   int threads_;
   SolidState state_;
   std::vector<double> initial_porosity_;

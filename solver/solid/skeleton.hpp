@@ -8,20 +8,21 @@
 
 #include "grid/grid.hpp"
 #include "results/state_archive.hpp"
-#include "solid/soil_map.hpp"
+#include "solid/point_flows.hpp"
 
 namespace suffuse {
 
 /// What the solid points hold, m3. Porosity follows from this and the volume that a point stands
 /// for.
 struct SolidState {
-  std::vector<double> skeleton_volume;  ///< per point: coarse grains, which never erode
-  std::vector<double> erodible_volume;  ///< per point: fines that can still erode
+  std::vector<double> skeleton_volume;   ///< per point: coarse grains, which never erode
+  std::vector<double> erodible_volume;   ///< per point: fines that can erode, deposits among them
+  std::vector<double> deposited_volume;  ///< per point: deposited since the start
 
   [[nodiscard]] double solid_volume(int point) const {
     return skeleton_volume[point] + erodible_volume[point];
   }
-  void archive(auto& archive) { archive(skeleton_volume, erodible_volume); }
+  void archive(auto& archive) { archive(skeleton_volume, erodible_volume, deposited_volume); }
 };
 
 template <int Dim>
@@ -44,24 +45,25 @@ class Skeleton {
   /// solid stays in place.
   [[nodiscard]] virtual const std::vector<double>& face_volume_rate() const = 0;
 
-  /// Whether anything can erode between two times.
-  [[nodiscard]] virtual bool erodes_within(double from, double to) const = 0;
-  /// n_L per solid point at time `to`, from now (`from`), without changing the state. `flux`: mean
-  /// of |q| at each point over that time, m/s; may be empty unless a soil erodes by it.
-  [[nodiscard]] virtual std::vector<double> porosity_after(
-      double from, double to, const std::vector<double>& flux) const = 0;
-  /// Exchange of fines with the liquid from `from` to `to`. `exchange` becomes the volume per solid
+  /// Whether fines can be exchanged with the liquid between two times.
+  [[nodiscard]] virtual bool exchanges_within(double from, double to) const = 0;
+  /// n_L per solid point at time `to`, from now (`from`), without changing the state.
+  [[nodiscard]] virtual std::vector<double> porosity_after(double from, double to,
+                                                           const PointFlows& flows) const = 0;
+  /// Exchanges fines with the liquid from `from` to `to`. `exchange` becomes the volume per solid
   /// point that went into the liquid, m3 (negative: that came from it). Elements of `waiting` (per
   /// element, may be empty) stay as they are.
-  virtual void erode(double from, double to, const std::vector<double>& flux,
-                     const std::vector<char>& waiting, std::vector<double>& exchange) = 0;
+  virtual void exchange(double from, double to, const PointFlows& flows,
+                        const std::vector<char>& waiting, std::vector<double>& exchange) = 0;
+  /// Takes what the liquid has left, m3 per solid point; empty: nothing.
+  virtual void deposit(const std::vector<double>& volume) = 0;
 
   virtual void archive(StateArchive& archive) = 0;
 };
 
-/// The skeleton that the scene asks for. Exchange happens within `erosion_span` alone.
+/// The skeleton that the scene asks for. Exchange happens within `span` alone.
 template <int Dim>
 std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                             const TimeSpan& erosion_span, int threads);
+                                             const TimeSpan& span, int threads);
 
 }  // namespace suffuse

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "case/errors.hpp"
@@ -30,7 +31,26 @@ Soil free_water(const Scene& scene) {
   return water;
 }
 
+ExchangeModel exchange_model(const Soil& soil, const LiquidProperties& liquid) {
+  return {.erosion = soil.erosion_model(),
+          .deposition = soil.deposition,
+          .conductivity = soil.conductivity_model(),
+          .ergun = soil.drag == SoilDrag::ergun,
+          .water_density = liquid.density,
+          .water_viscosity = liquid.viscosity,
+          .viscosity = liquid.viscosity_model};
+}
+
 }  // namespace
+
+template <int Dim>
+Vector<Dim> across_bedding(const Soil& soil) {
+  const double angle = soil.bedding * std::numbers::pi / 180.0;
+  Vector<Dim> direction = Vector<Dim>::Zero();
+  direction[0] = -std::sin(angle);
+  direction[Dim - 1] = std::cos(angle);
+  return direction;
+}
 
 template <int Dim>
 SoilMap<Dim>::SoilMap(const Case<Dim>& c)
@@ -46,31 +66,45 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
                          "a soil for region '" + region + "' of the mesh", ""}});
     }
     soil_of_region_.push_back(soil);
-    erosion_of_region_.push_back(soil->erosion_model());
+    exchange_of_region_.push_back(exchange_model(*soil, c.document.scene.liquid));
     const double across = soil->conductivity * std::min(soil->anisotropy(), 1.0);
     still_flux_.push_back(still_gradient * across + still_share * most_conductive);
   }
+  find_dependence();
   points_begin_.assign(mesh_.element_count() + 1, 0);
   for (const int e : points_.element) ++points_begin_[e + 1];
   std::partial_sum(points_begin_.begin(), points_begin_.end(), points_begin_.begin());
 }
 
 template <int Dim>
-bool SoilMap<Dim>::erodes() const {
-  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(),
-                     [](const auto& model) { return suffuse::erodes(model); });
+void SoilMap<Dim>::find_dependence() {
+  for (const ExchangeModel& model : exchange_of_region_) {
+    const bool threshold = model.erosion.threshold > 0.0;
+    dependence_.flux |= model.depends_on_flux();
+    dependence_.flux_change |=
+        depends_on_flux(model.erosion) && (threshold || model.drive_depends_on_conductivity());
+    dependence_.resistance |= model.drive_depends_on_conductivity();
+    dependence_.concentration |= model.depends_on_concentration();
+  }
 }
 
 template <int Dim>
-bool SoilMap<Dim>::erodes_by_flux() const {
-  return std::any_of(erosion_of_region_.begin(), erosion_of_region_.end(),
-                     [](const auto& model) { return depends_on_flux(model); });
+bool SoilMap<Dim>::erodes() const {
+  return std::ranges::any_of(exchange_of_region_, [](const ExchangeModel& model) {
+    return suffuse::erodes(model.erosion);
+  });
+}
+
+template <int Dim>
+bool SoilMap<Dim>::deposits() const {
+  return std::ranges::any_of(
+      exchange_of_region_, [](const ExchangeModel& model) { return model.deposition.deposits(); });
 }
 
 template <int Dim>
 std::vector<double> SoilMap<Dim>::erosion_breakpoints() const {
   std::vector<double> times;
-  for (std::size_t r = 0; r < erosion_of_region_.size(); ++r) {
+  for (std::size_t r = 0; r < exchange_of_region_.size(); ++r) {
     double lowest = 1.0;
     double highest = 0.0;
     for (int p = 0; p < points_.size(); ++p) {
@@ -80,7 +114,7 @@ std::vector<double> SoilMap<Dim>::erosion_breakpoints() const {
     }
     if (lowest > highest) continue;  // no points
     for (const double porosity : {lowest, highest}) {
-      const std::vector<double> own = breakpoints(erosion_of_region_[r], porosity);
+      const std::vector<double> own = breakpoints(exchange_of_region_[r].erosion, porosity);
       times.insert(times.end(), own.begin(), own.end());
     }
   }
@@ -90,7 +124,16 @@ std::vector<double> SoilMap<Dim>::erosion_breakpoints() const {
 }
 
 template <int Dim>
-TimeSpan SoilMap<Dim>::erosion_span() const {
+double SoilMap<Dim>::resistance_along(int element, const Vector<Dim>& flux) const {
+  const Soil& soil = soil_of_element(element);
+  const double squared = flux.squaredNorm();
+  if (soil.anisotropy() == 1.0 || squared == 0.0) return 1.0;
+  const double across = flux.dot(across_bedding<Dim>(soil));
+  return 1.0 + (1.0 / soil.anisotropy() - 1.0) * across * across / squared;
+}
+
+template <int Dim>
+TimeSpan SoilMap<Dim>::exchange_span(bool fines_enter) const {
   // Porosity that is added up over many steps reaches its end earlier or later by their round-off.
   constexpr double round_off = 1e-6;
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -104,10 +147,14 @@ TimeSpan SoilMap<Dim>::erosion_span() const {
     const double gone = exhaustion_time(model, initial_porosity(p)) * (1.0 + round_off);
     span.end = std::max(span.end, waits_for_liquid ? never : gone);
   }
+  if (deposits() && fines_enter) span.start = -never;
+  if (deposits() && (fines_enter || erodes())) span.end = never;
   return span;
 }
 
+template Vector<2> across_bedding(const Soil&);
 template class SoilMap<2>;
+template Vector<3> across_bedding(const Soil&);
 template class SoilMap<3>;
 
 }  // namespace suffuse

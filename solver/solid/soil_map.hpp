@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
-#include "physics/erosion/erosion_law.hpp"
+#include "physics/exchange.hpp"
 
 namespace suffuse {
 
@@ -23,6 +23,11 @@ struct TimeSpan {
   /// Whether any of the time from `from` to `to` lies within.
   [[nodiscard]] bool meets(double from, double to) const { return to > start && from < end; }
 };
+
+/// Unit vector across the bedding of a soil, whose layers rise by `bedding` degrees from the
+/// x-axis.
+template <int Dim>
+Vector<Dim> across_bedding(const Soil& soil);
 
 /// Free water (double-point) is there as a soil of porosity 1 without solid points.
 template <int Dim>
@@ -45,13 +50,17 @@ class SoilMap {
     return *soil_of_region_[mesh_.element_region[element]];
   }
   [[nodiscard]] const ErosionModel& erosion_of_element(int element) const {
-    return erosion_of_region_[mesh_.element_region[element]];
+    return exchange_of_region_[mesh_.element_region[element]].erosion;
   }
-  /// A flux, m/s, as far as it can erode: the round-off of still water is no drive. Still water in
-  /// which the last digit eroded would not stay still, as fines are heavy.
-  [[nodiscard]] double eroding_flux(int element, double flux) const {
-    return flux <= still_flux_[mesh_.element_region[element]] ? 0.0 : flux;
+  [[nodiscard]] const ExchangeModel& exchange_of_element(int element) const {
+    return exchange_of_region_[mesh_.element_region[element]];
   }
+  /// |q| up to which water counts as standing still, m/s: round-off.
+  [[nodiscard]] double still_flux(int element) const {
+    return still_flux_[mesh_.element_region[element]];
+  }
+  /// Gradient along a flux over |q|/k, k being that along bedding; 1 for no flux.
+  [[nodiscard]] double resistance_along(int element, const Vector<Dim>& flux) const;
   /// n_0 of a solid point.
   [[nodiscard]] double initial_porosity(int point) const {
     return soil_of_element(points_.element[point]).initial_porosity(points_.position(mesh_, point));
@@ -59,22 +68,34 @@ class SoilMap {
 
   /// Some soil erodes.
   [[nodiscard]] bool erodes() const;
-  /// Some soil's erosion depends on the flow.
-  [[nodiscard]] bool erodes_by_flux() const;
+  /// Some soil catches fines.
+  [[nodiscard]] bool deposits() const;
+  /// What some soil's exchange with the liquid depends on.
+  struct Dependence {
+    bool flux = false;           ///< |q|
+    bool flux_change = false;    ///< how |q| changes within a step, as it may cross a threshold
+    bool resistance = false;     ///< the gradient that drives the flow
+    bool concentration = false;  ///< the fines in the liquid
+  };
+  [[nodiscard]] const Dependence& exchange_depends_on() const { return dependence_; }
   /// Times at which erosion starts or, where the law says when, ends (at the first and the last
   /// point of a region), ascending, s.
   [[nodiscard]] std::vector<double> erosion_breakpoints() const;
   /// When porosity can change at all: from the first start on until, if only constant rates are at
-  /// work, the last soil has nothing left to erode; infinite where that cannot be told.
-  [[nodiscard]] TimeSpan erosion_span() const;
+  /// work, the last soil has nothing left to erode; infinite where that cannot be told. Fines that
+  /// enter (`fines_enter`) can be caught from the start on.
+  [[nodiscard]] TimeSpan exchange_span(bool fines_enter) const;
 
  private:
+  void find_dependence();
+
   const Mesh<Dim>& mesh_;
   const MaterialPoints<Dim>& points_;
   std::vector<int> points_begin_;
   std::shared_ptr<const Soil> free_water_;
   std::vector<const Soil*> soil_of_region_;
-  std::vector<ErosionModel> erosion_of_region_;
+  std::vector<ExchangeModel> exchange_of_region_;
+  Dependence dependence_;
   std::vector<double> still_flux_;  ///< per region, of water that stands still, m/s
 };
 

@@ -418,6 +418,22 @@ void EulerianTransport<Dim>::advance(FinesState<Dim>& state, const ElementField<
   limit_stage(liquid, fines, scratch);
 }
 
+template <int Dim>
+void EulerianTransport<Dim>::receive(FinesState<Dim>& state, const ElementField<Dim>& exchange,
+                                     TransportScratch<Dim>& scratch) const {
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    for (int j = 0; j <= Dim; ++j) {
+      state.liquid_volume[e][j] += exchange[e][j];
+      state.fines_volume[e][j] += exchange[e][j];
+    }
+    find_concentration<Dim>(state.fines_volume[e], state.liquid_volume[e],
+                            &scratch.next_at_vertices[(Dim + 1) * static_cast<std::size_t>(e)]);
+    scratch.mean[e] =
+        element_sum<Dim>(state.fines_volume[e]) / element_sum<Dim>(state.liquid_volume[e]);
+  });
+  limit_stage(state.liquid_volume, state.fines_volume, scratch);
+}
+
 template class EulerianTransport<2>;
 template class EulerianTransport<3>;
 

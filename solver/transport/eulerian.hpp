@@ -80,6 +80,9 @@ class EulerianTransport {
   /// element's mean concentration leaves [0, 1).
   void advance(FinesState<Dim>& state, const ElementField<Dim>& eroded,
                const std::vector<double>& gained, TransportScratch<Dim>& scratch) const;
+  /// Fines that join the liquid (negative: leave it) between steps of an interval, m3.
+  void receive(FinesState<Dim>& state, const ElementField<Dim>& exchange,
+               TransportScratch<Dim>& scratch) const;
   /// Volume of fines that crossed each face since `start`, m3.
   void fines_crossed(const TransportScratch<Dim>& scratch, std::vector<double>& result) const;
 

@@ -116,6 +116,14 @@ void FieldTransport<Dim>::advance(const TransportStep& /*step*/, const FaceVolum
 }
 
 template <int Dim>
+void FieldTransport<Dim>::receive(const std::vector<double>& exchange) {
+  if (exchange.empty()) return;
+  const PassTimer timer(timing_);
+  spread(exchange, eroded_);
+  scheme_.receive(state_, eroded_, scratch_);
+}
+
+template <int Dim>
 std::vector<double> FieldTransport<Dim>::crossed() const {
   std::vector<double> result(grid_.face_count(), 0.0);
   if (carries_) scheme_.fines_crossed(scratch_, result);

@@ -27,6 +27,10 @@ class FieldTransport final : public Transport<Dim> {
   void archive(StateArchive& archive) override { archive(state_, timing_); }
   [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
 
+  /// Fines that each solid point gives to the liquid or takes from it, m3, at one moment between
+  /// steps; empty: none.
+  void receive(const std::vector<double>& exchange);
+
   /// The liquid that is there when the run starts: without this air, m3 per element.
   void start(const std::vector<double>& air);
   [[nodiscard]] const FinesState<Dim>& state() const { return state_; }

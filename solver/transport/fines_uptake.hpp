@@ -1,12 +1,12 @@
 #pragma once
 
-/// Fines that liquid points take up along their paths.
+/// Fines that liquid points take up along their paths, or leave.
 
 #include <array>
 
 namespace suffuse {
 
-/// The fines that a point takes up in one element that it passes.
+/// The fines that a point takes up in one element that it passes, in the order of its path.
 template <int Dim>
 struct FinesUptake {
   int point;
@@ -14,8 +14,9 @@ struct FinesUptake {
   std::array<double, Dim + 1> barycentric;  ///< half-way through the element
   /// What keeps (1 - c) n_L of the point as it is, m3.
   double own_volume;
-  int region;         ///< the region whose liquid receives it
-  double mass = 0.0;  ///< what it came to, kg
+  int region;             ///< the region whose liquid receives it
+  double exponent = 0.0;  ///< see FinesDeposition
+  double mass = 0.0;      ///< what it came to, minus what was left there, kg
 };
 
 }  // namespace suffuse

@@ -19,6 +19,7 @@ PointTransport<Dim>::PointTransport(const Grid<Dim>& grid, const Skeleton<Dim>& 
       threads_(threads),
       injection_(grid, conditions, std::move(injection), densities, bulk_modulus),
       transfer_(grid, solid.soils(), densities.grain),
+      deposition_(grid, solid, densities.grain),
       pending_(grid.mesh.node_count(), 0.0) {}
 
 template <int Dim>
@@ -59,6 +60,13 @@ template <int Dim>
 void PointTransport<Dim>::book(const typename FinesTransfer<Dim>::Result& transferred) {
   for (std::size_t r = 0; r < transferred.eroded.size(); ++r) {
     crossings_.fines_out[r] += transferred.eroded[r] - transferred.received[r];
+  }
+}
+
+template <int Dim>
+void PointTransport<Dim>::book_deposition() {
+  for (std::size_t r = 0; r < crossings_.fines_out.size(); ++r) {
+    crossings_.fines_out[r] += deposition_.lost_by_region()[r] - deposition_.by_region()[r];
   }
 }
 

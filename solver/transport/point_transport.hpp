@@ -4,6 +4,7 @@
 
 #include "results/tables.hpp"
 #include "solid/skeleton.hpp"
+#include "transport/fines_deposition.hpp"
 #include "transport/fines_transfer.hpp"
 #include "transport/point_injection.hpp"
 #include "transport/transport.hpp"
@@ -63,6 +64,9 @@ class PointTransport : public Transport<Dim> {
   /// Columns of the history that this strategy alone knows.
   virtual void describe(const FlowState<Dim>& /*flow*/, HistoryRow& /*row*/) const {}
 
+  /// Fines that the last step left in the soil, per solid point, m3; empty: none.
+  [[nodiscard]] const std::vector<double>& deposited() const { return deposition_.deposited(); }
+
   /// Of this interval.
   [[nodiscard]] const RegionCrossings& crossings() const { return crossings_; }
   /// Volume of fines per node that waits for liquid, m3.
@@ -80,6 +84,8 @@ class PointTransport : public Transport<Dim> {
   [[nodiscard]] virtual bool has_points(int element) const = 0;
   void start_crossings();
   void book(const typename FinesTransfer<Dim>::Result& transferred);
+  /// Books what the last step left: the solid's gain against the liquid's loss, by region.
+  void book_deposition();
 
   const Grid<Dim>& grid_;
   const Skeleton<Dim>& solid_;
@@ -88,6 +94,7 @@ class PointTransport : public Transport<Dim> {
   int threads_;
   PointInjection<Dim> injection_;
   FinesTransfer<Dim> transfer_;
+  FinesDeposition<Dim> deposition_;
   InflowAccount inflow_;
   std::vector<double> pending_;
   double empty_total_ = 0.0;

@@ -107,6 +107,7 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
   for (double& v : volume) v *= step.share;
   const bool erodes = !exchange.empty();
   std::vector<double> porosity_end = erodes ? this->solid_.element_porosity() : porosity_;
+  if (this->deposition_.active()) this->deposition_.start(step.end - step.start);
   Paths paths;
   {
     const PassTimer timer(this->movement_timing_);
@@ -118,6 +119,11 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
     ++this->fines_timing_.calls;
     this->book(this->transfer_.transfer_along_paths(exchange, point_volume(points_, pressure),
                                                     points_, paths.uptakes, this->pending_));
+  }
+  if (this->deposition_.active()) {
+    const PassTimer timer(this->fines_timing_);
+    this->deposition_.leave_along_paths(paths.fines, paths.uptakes, points_);
+    this->book_deposition();
   }
   const PassTimer timer(this->movement_timing_);
   settle(paths);
@@ -158,7 +164,7 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
   inject(volume, pressure, paths, start);
   paths.fines = points_.fines_mass;
 
-  const FaceWalkField<Dim> field{volume, porosity_, porosity_end};
+  const FaceWalkField<Dim> field{volume, porosity_, porosity_end, this->deposition_.active()};
   const int count = points_.size();
   paths.left_by.assign(count, -1);
   // One list for each block of points: their order does not depend on the threads.
@@ -206,7 +212,8 @@ void PointsAlongFaces<Dim>::follow_point(int p, double start, const FaceWalkFiel
   for (const FacePassage<Dim>& passage : passages) {
     const bool in_first = region[passage.element] == paths.from[p];
     uptakes.push_back({p, passage.element, passage.barycentric, volume * (passage.growth - 1.0),
-                       in_first ? paths.from[p] : region[place.element]});
+                       in_first ? paths.from[p] : region[place.element],
+                       this->deposition_.active() ? this->deposition_.exponent(passage) : 0.0});
     volume *= passage.growth;
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "grid/face_flux.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {
@@ -124,15 +125,21 @@ double PointsCarryingFlow<Dim>::longest_step(const std::vector<double>& /*face_r
 }
 
 template <int Dim>
-void PointsCarryingFlow<Dim>::advance(const TransportStep& /*step*/, const FaceVolumes& /*volumes*/,
+void PointsCarryingFlow<Dim>::advance(const TransportStep& step, const FaceVolumes& volumes,
                                       const std::vector<double>& exchange,
                                       const std::vector<double>& /*pressure*/) {
-  if (exchange.empty() && !this->has_pending()) return;
+  const bool catches = this->deposition_.active();
+  if (exchange.empty() && !this->has_pending() && !catches) return;
   output_points_ = {};
   const PassTimer timer(this->fines_timing_);
   ++this->fines_timing_.calls;
   this->book(this->transfer_.transfer(exchange, porosity_, this->densities_, points_.blocks(),
                                       this->pending_));
+  if (!catches) return;
+  this->deposition_.start(step.end - step.start);
+  this->deposition_.leave_in_elements(element_flux(this->grid_, volumes.liquid), porosity_,
+                                      points_.blocks());
+  this->book_deposition();
 }
 
 template <int Dim>

@@ -215,15 +215,15 @@ TEST(Scene, takes_laws_that_follow_the_flux_and_the_porosity) {
   EXPECT_EQ(scene.soils[0].conductivity_law, conductivity_law("kozeny-carman"));
 }
 
-TEST(Scene, takes_a_threshold_with_the_flux_law_only) {
+TEST(Scene, takes_a_threshold_where_a_flow_drives) {
   const std::vector<std::string> flux{"soil.specimen.erosion.law=flux",
                                       "soil.specimen.erosion.rate=4"};
-  EXPECT_EQ(scene_of(least, flux).soils[0].erosion.parameters.threshold, 0.0);
+  EXPECT_EQ(scene_of(least, flux).soils[0].erosion.threshold, 0.0);
   std::vector<std::string> with_threshold = flux;
   with_threshold.emplace_back("soil.specimen.erosion.threshold=5e-3");
   const Scene scene = scene_of(least, with_threshold);
-  EXPECT_EQ(scene.soils[0].erosion.parameters.threshold, 5e-3);
-  EXPECT_EQ(scene.soils[0].erosion_model().parameters.threshold, 5e-3);
+  EXPECT_EQ(scene.soils[0].erosion.threshold, 5e-3);
+  EXPECT_EQ(scene.soils[0].erosion_model().threshold, 5e-3);
   // A soil that is like another may have another law.
   with_threshold.emplace_back("soil.base={like=\"specimen\", erosion={law=\"first-order\"}}");
   EXPECT_EQ(scene_of(least, with_threshold).soils[1].erosion.law, erosion_law("first-order"));

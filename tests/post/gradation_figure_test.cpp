@@ -78,7 +78,7 @@ TEST(GradationFigure, draws_points_and_marks_the_fines) {
 TEST(GradationFigure, has_a_table_of_the_verdicts) {
   const ScratchFolder scratch;
   const Chart chart = gradation_chart({run_with(scratch, "dam", three_soils)});
-  const TextTable expected{{"internal stability", "specimen", "core", "filter"},
+  const ChartTable expected{{"internal stability", "specimen", "core", "filter"},
                            {"Kezdi (1979)", "unstable", "stable above 25.9 %", "stable"},
                            {"Kenney and Lau (1986)", "unstable", "cannot be told", "stable"},
                            {"Li and Fannin (2008)", "unstable", "stable above 22 %", "stable"},

@@ -46,7 +46,7 @@ struct Column {
     for (double& volume : flow.volumes.liquid) volume *= dt;
     static_cast<void>(liquid.start_interval(time, flow));
     std::vector<double> exchange;
-    solid.erode(time, time + dt, {}, liquid.waiting(), exchange);
+    solid.exchange(time, time + dt, {}, liquid.waiting(), exchange);
     for (const double volume : exchange) eroded += densities.grain * volume;
     liquid.advance({time, time + dt, 1.0}, flow.volumes, exchange, pressure);
     note(liquid.crossings());

@@ -17,7 +17,7 @@ struct SolidCase {
       : input(make(rate, start)),
         grid(input.mesh),
         soils(input),
-        solid(grid, soils, soils.erosion_span(), 1) {}
+        solid(grid, soils, soils.exchange_span(false), 1) {}
 
   static Case<2> make(double rate, double start) {
     Scene scene = model::paper_scene();
@@ -47,7 +47,7 @@ TEST(RigidSkeleton, PorosityFollowsFromWhatPointsHold) {
   EXPECT_NEAR(c.solid_volume(), 0.7, 1e-14);
   EXPECT_NEAR(total(c.solid.state().erodible_volume), 0.1, 1e-14);
   std::vector<double> exchange;
-  c.solid.erode(0.0, 40.0, {}, {}, exchange);
+  c.solid.exchange(0.0, 40.0, {}, {}, exchange);
   EXPECT_NEAR(total(exchange), 0.04, 1e-14);
   EXPECT_NEAR(c.solid_volume(), 0.66, 1e-14);
   for (const double n : c.solid.porosity()) EXPECT_NEAR(n, 0.34, 1e-15);
@@ -62,7 +62,7 @@ TEST(RigidSkeleton, ExchangeIsWhatTheStateLost) {
   std::vector<double> exchange;
   for (int k = 0; k < 100000; ++k) {
     const double last = c.solid.state().erodible_volume[7];
-    c.solid.erode(k * 6e-4, (k + 1) * 6e-4, {}, {}, exchange);
+    c.solid.exchange(k * 6e-4, (k + 1) * 6e-4, {}, {}, exchange);
     EXPECT_EQ(last - c.solid.state().erodible_volume[7], exchange[7]);
     received[7] += exchange[7];
   }
@@ -75,15 +75,15 @@ TEST(RigidSkeleton, ExhaustionLeavesTheCoarseGrains) {
   EXPECT_EQ(c.soils.erosion_breakpoints().front(), 2.0);
   EXPECT_NEAR(c.soils.erosion_breakpoints().back(), 22.0, 1e-12);
   std::vector<double> exchange;
-  for (double t = 0.0; t < 30.0; t += 0.7) c.solid.erode(t, t + 0.7, {}, {}, exchange);
+  for (double t = 0.0; t < 30.0; t += 0.7) c.solid.exchange(t, t + 0.7, {}, {}, exchange);
   for (int p = 0; p < c.soils.points().size(); ++p) {
     EXPECT_EQ(c.solid.state().erodible_volume[p], 0.0);
     EXPECT_EQ(c.solid.state().solid_volume(p), c.solid.state().skeleton_volume[p]);
     EXPECT_NEAR(c.solid.porosity()[p], 0.4, 1e-15);
     EXPECT_EQ(exchange[p], 0.0);
   }
-  EXPECT_FALSE(c.solid.erodes_within(30.0, 40.0));
-  EXPECT_FALSE(c.solid.erodes_within(0.0, 2.0));
+  EXPECT_FALSE(c.solid.exchanges_within(30.0, 40.0));
+  EXPECT_FALSE(c.solid.exchanges_within(0.0, 2.0));
 }
 
 TEST(RigidSkeleton, ElementsThatWaitStayAsTheyAre) {
@@ -91,7 +91,7 @@ TEST(RigidSkeleton, ElementsThatWaitStayAsTheyAre) {
   std::vector<char> waiting(c.input.mesh.elements.size(), 0);
   waiting[3] = 1;
   std::vector<double> exchange;
-  c.solid.erode(0.0, 10.0, {}, waiting, exchange);
+  c.solid.exchange(0.0, 10.0, {}, waiting, exchange);
   for (int p = 0; p < c.soils.points().size(); ++p) {
     const bool waits = c.soils.points().element[p] == 3;
     EXPECT_NEAR(exchange[p], waits ? 0.0 : 0.01 * c.soils.points().volume[p], 1e-17);
@@ -101,7 +101,7 @@ TEST(RigidSkeleton, ElementsThatWaitStayAsTheyAre) {
 TEST(RigidSkeleton, IsRestoredToTheLastBit) {
   SolidCase one(1e-3);
   std::vector<double> exchange;
-  one.solid.erode(0.0, 12.34, {}, {}, exchange);
+  one.solid.exchange(0.0, 12.34, {}, {}, exchange);
   StateArchive out;
   one.solid.archive(out);
   SolidCase other(1e-3);
@@ -118,10 +118,12 @@ TEST(PoreForecast, IsWhatErosionThenDoes) {
   now.water_volume.assign(now.porosity.size(), 0.0);
   now.concentration.assign(now.porosity.size(), 0.05);
   const FluxHistory flux;
-  const PoreForecast<2> forecast(c.grid, c.solid, 0.0, now, flux, 1);
+  const PointFlows liquid;
+  const RelativeConductivity relative;
+  const PoreForecast<2> forecast(c.grid, c.solid, 0.0, now, liquid, flux, relative, 1);
   const PoreState ahead = forecast.at(30.0);
   std::vector<double> exchange;
-  c.solid.erode(0.0, 30.0, {}, {}, exchange);
+  c.solid.exchange(0.0, 30.0, {}, {}, exchange);
   const std::vector<double> then = c.solid.element_porosity();
   for (std::size_t e = 0; e < then.size(); ++e) {
     EXPECT_NEAR(ahead.porosity[e], then[e], 1e-15);

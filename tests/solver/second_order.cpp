@@ -1,28 +1,25 @@
-/// The last fines are the best sheltered: phi_e = nu (n_L,max - n_L)^2. The example of
-/// docs/contributing.md.
+/// The last fines are the best sheltered: the state is n_e^2. The example of docs/contributing.md.
 
 #include "physics/erosion/erosion_law.hpp"
 
 namespace suffuse::erosion {
 namespace {
 
-double rate(const ErosionModel& model, const LocalState& state) {
-  return model.rate * state.erodible_fraction * state.erodible_fraction;
+double squared(const LocalState& state) {
+  return state.erodible_fraction * state.erodible_fraction;
 }
 
-double after(const ErosionModel& model, const LocalState& state, double duration) {
-  const double left = 1.0 / (1.0 + model.rate * state.erodible_fraction * duration);
+double after(const LocalState& state, double scaled_time) {
+  const double left = 1.0 / (1.0 + state.erodible_fraction * scaled_time);
   return state.porosity + state.erodible_fraction * (1.0 - left);
 }
 
 }  // namespace
 
 extern const ErosionLaw second_order{.word = "second-order",
-                                     .equation = "phi_e = nu (n_L,max - n_L)^2",
+                                     .equation = "(n_e - residual)^2",
                                      .rate_symbol = "nu",
-                                     .rate_unit = "1/s",
-                                     .erosion_rate = rate,
-                                     .porosity_after = after,
-                                     .exact_porosity = after};
+                                     .state = squared,
+                                     .porosity_after = after};
 
 }  // namespace suffuse::erosion

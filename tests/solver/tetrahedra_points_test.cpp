@@ -61,7 +61,7 @@ struct Box {
     for (double& volume : flow.volumes.liquid) volume *= dt;
     static_cast<void>(liquid.start_interval(time, flow));
     std::vector<double> exchange;
-    solid.erode(time, time + dt, {}, liquid.waiting(), exchange);
+    solid.exchange(time, time + dt, {}, liquid.waiting(), exchange);
     for (const double volume : exchange) eroded += densities.grain * volume;
     liquid.advance({time, time + dt, 1.0}, flow.volumes, exchange, pressure);
     for (const PointCrossing& point : liquid.crossings().points) {

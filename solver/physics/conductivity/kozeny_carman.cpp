@@ -1,18 +1,28 @@
-/// Conductivity goes with n^3 / (1 - n)^2 (Carman, Trans. Inst. Chem. Eng. 15 (1937) 150): infinite
-/// where there is no solid.
+/// Conductivity goes with n^3 over the square of the grains' surface (Carman, Trans. Inst. Chem.
+/// Eng. 15 (1937) 150): infinite where there is no solid. Fines have `size_ratio` times the surface
+/// of as much coarse grains.
 
 #include "physics/conductivity/conductivity_law.hpp"
 
 namespace suffuse::conductivity {
 namespace {
 
-double shape(double porosity) {
+constexpr ConductivityParameter size_ratio{
+    .key = "size_ratio",
+    .symbol = "r",
+    .sentence = "Mean size of the coarse grains over that of the fines.",
+    .value = &ConductivityParameters::size_ratio};
+
+double shape(const ConductivityModel& model, double porosity) {
+  // n_C + r n_e, with n_C + n_e = 1 - n: without cancellation at r = 1.
   const double solid = 1.0 - porosity;
-  return porosity * porosity * porosity / (solid * solid);
+  const double excess = model.parameters.size_ratio - 1.0;
+  const double surface = excess == 0.0 ? solid : solid + excess * (solid - model.skeleton_fraction);
+  return porosity * porosity * porosity / (surface * surface);
 }
 
-double ratio(double initial_porosity, double porosity) {
-  return shape(porosity) / shape(initial_porosity);
+double ratio(const ConductivityModel& model, double initial_porosity, double porosity) {
+  return shape(model, porosity) / shape(model, initial_porosity);
 }
 
 }  // namespace
@@ -20,7 +30,9 @@ double ratio(double initial_porosity, double porosity) {
 extern const ConductivityLaw kozeny_carman{
     .word = "kozeny-carman",
     .description =
-        "k = k_0 KC(n_L) / KC(n_0) with KC(n) = n^3 / (1 - n)^2, k_0 being `conductivity`",
+        "k = k_0 KC(n_L) / KC(n_0) with KC(n_L) = n_L^3 / (n_C + r n_e)^2, k_0 being "
+        "`conductivity` and r `size_ratio`",
+    .parameters = {&size_ratio, 1},
     .ratio = ratio};
 
 }  // namespace suffuse::conductivity

@@ -5,27 +5,25 @@
 namespace suffuse::erosion {
 namespace {
 
-double rate(const ErosionModel& model, const LocalState&) {
-  return model.rate;
+double one(const LocalState&) {
+  return 1.0;
 }
 
-double after(const ErosionModel& model, const LocalState& state, double duration) {
-  return state.porosity + model.rate * duration;
+double after(const LocalState& state, double scaled_time) {
+  return state.porosity + scaled_time;
 }
 
-double exhaustion(const ErosionModel& model, double initial_porosity) {
-  return (model.porosity_max - initial_porosity) / model.rate;
+double exhaustion(const LocalState& state) {
+  return state.erodible_fraction;
 }
 
 }  // namespace
 
 extern const ErosionLaw constant{.word = "constant",
-                                 .equation = "phi_e = alpha",
+                                 .equation = "1",
                                  .rate_symbol = "alpha",
-                                 .rate_unit = "1/s",
-                                 .erosion_rate = rate,
+                                 .state = one,
                                  .porosity_after = after,
-                                 .exact_porosity = after,
                                  .exhaustion = exhaustion};
 
 }  // namespace suffuse::erosion

@@ -3,67 +3,66 @@
 /// Erosion laws: how fast fines leave the soil, and so how porosity grows where they are eroded in
 /// place (D^S n_L/Dt = phi_e for a rigid skeleton, Eq. 1 of the paper). Each law is one file of
 /// this folder; docs/contributing.md says how to add one.
+///
+///   phi_e = state(n_e - residual, c) . rate . <D - D_cr> . <1 - c/c_cr>,   <x> = max(x, 0)
+///
+/// The law gives `state`, a number without a unit; D is what drives erosion (physics/drive). In the
+/// scaled time S = integral of rate <D - D_cr> dt erosion is the same whatever drives it.
 
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "physics/drive/drive_law.hpp"
 #include "physics/local_state.hpp"
 
 namespace suffuse {
 
-struct ErosionLaw;
+/// A law, as its file declares it. Its functions are called where something can erode:
+/// 0 < porosity, 0 < erodible_fraction.
+struct ErosionLaw {
+  std::string_view word;         ///< what `law` is in a scene
+  std::string_view equation;     ///< the state, for the scene reference
+  std::string_view rate_symbol;  ///< of the key `rate`
+  std::string_view drive = {};   ///< the one that the word stands for; empty: the scene says
+  bool depends_on_concentration = false;
 
-/// Numbers beside the rate that only some laws ask for. A law declares those that it uses.
-struct ErosionParameters {
-  double threshold = 0.0;  ///< of what drives erosion, in its unit; below it nothing erodes
+  /// The state. Null: the law erodes nothing.
+  double (*state)(const LocalState& state) = nullptr;
+  /// Porosity after a scaled time; may be above where nothing is left to erode. Null: no closed
+  /// form, as the state depends on what is in the liquid.
+  double (*porosity_after)(const LocalState& state, double scaled_time) = nullptr;
+  /// The same by another way where `porosity_after` is not a closed form; else null.
+  double (*exact_porosity)(const LocalState& state, double scaled_time) = nullptr;
+  /// Scaled time until nothing is left to erode. Null: fines never run out.
+  double (*exhaustion)(const LocalState& state) = nullptr;
+
+  [[nodiscard]] bool erodes() const { return state != nullptr; }
+};
+
+/// n_e that stays whatever the drive: one number, or linear in |q| between pairs (m/s, n_e) and
+/// constant beyond them.
+struct ResidualFraction {
+  std::vector<std::pair<double, double>> pairs;  ///< none: nothing stays
+
+  [[nodiscard]] bool depends_on_flux() const { return pairs.size() > 1; }
+  /// `flux`: |q|, m/s; may be unset where the residual does not depend on it.
+  [[nodiscard]] double at(double flux) const;
 };
 
 /// One soil's law with its numbers.
 struct ErosionModel {
   const ErosionLaw* law = nullptr;  ///< null: erodes nothing
-  double rate = 0.0;                ///< in the unit of the law
+  double rate = 0.0;                ///< in the unit of the drive
   double start = 0.0;               ///< t_0, s
   double porosity_max = 1.0;        ///< n_L,max
-  ErosionParameters parameters = {};
-};
-
-/// A number that a law asks the scene for, under `[soil.NAME.erosion]`. It has a default, and is
-/// not negative.
-struct ErosionParameter {
-  std::string_view key;
-  std::string_view symbol;
-  std::string_view unit;
-  std::string_view sentence;  ///< for the scene reference
-  double ErosionParameters::*value = nullptr;
-};
-
-/// A law, as its file declares it. Its functions are called after the start of erosion and where
-/// something can erode: 0 < porosity < porosity_max, rate > 0. A step that would erode more than
-/// there is may return a porosity above porosity_max.
-struct ErosionLaw {
-  std::string_view word;         ///< what `law` is in a scene
-  std::string_view equation;     ///< phi_e, for the scene reference
-  std::string_view rate_symbol;  ///< of the key `rate`
-  std::string_view rate_unit;
-  std::span<const ErosionParameter> parameters = {};
-  bool depends_on_flux = false;
-
-  /// phi_e, 1/s. Null: the law erodes nothing.
-  double (*erosion_rate)(const ErosionModel& model, const LocalState& state) = nullptr;
-  /// Porosity after `duration` (s); `state.flux` is the mean over that time.
-  double (*porosity_after)(const ErosionModel& model, const LocalState& state,
-                           double duration) = nullptr;
-  /// Exact porosity after `duration` under a constant `state.flux`, by another way than
-  /// `porosity_after` where that is not in closed form. Null: there is no exact solution.
-  double (*exact_porosity)(const ErosionModel& model, const LocalState& state,
-                           double duration) = nullptr;
-  /// Time from the start until nothing is left to erode, s. Null: fines run out never, or at a time
-  /// that depends on the flow.
-  double (*exhaustion)(const ErosionModel& model, double initial_porosity) = nullptr;
-
-  [[nodiscard]] bool erodes() const { return erosion_rate != nullptr; }
+  const DriveLaw* drive = drive_laws().front();
+  double threshold = 0.0;  ///< D_cr, in the drive's unit
+  ResidualFraction residual = {};
+  double critical_concentration = std::numeric_limits<double>::infinity();  ///< c_cr
 };
 
 /// Every law there is, in the order of the scene reference: the order in physics/CMakeLists.txt.
@@ -73,8 +72,9 @@ const ErosionLaw* no_erosion();
 /// The law that a scene calls `word`. Throws std::invalid_argument where there is none.
 const ErosionLaw* erosion_law(std::string_view word);
 
-/// "constant law, 0.001 1/s": for legends. `rate` as text, in the law's unit.
-std::string law_text(const ErosionLaw& law, const std::string& rate);
+/// "constant law, 0.001 1/s" or "first-order law, shear-stress, 0.01 1/(Pa s)": for legends. `rate`
+/// as text.
+std::string law_text(const ErosionModel& model, const std::string& rate);
 
 /// The model erodes, at some time and under some flow.
 bool erodes(const ErosionModel& model);
@@ -82,23 +82,40 @@ bool erodes(const ErosionModel& model);
 /// The model erodes, and how fast depends on the flow.
 bool depends_on_flux(const ErosionModel& model);
 
-/// phi_e at a time, 1/s, with `flux` = |q| in m/s, which may be unset unless `depends_on_flux`.
-/// Zero before the start and once nothing is left to erode.
+/// The model erodes, and how fast depends on the fines in the liquid.
+bool depends_on_concentration(const ErosionModel& model);
+
+/// Part of n_e = n_L,max - n_L that can erode at |q| in m/s; not below zero.
+double erodible_fraction(const ErosionModel& model, double porosity, double flux);
+
+/// rate <D - D_cr> at a value of D, 1/s.
+double drive_rate(const ErosionModel& model, double drive);
+
+/// S from `from` to `to` (s), of which only what comes after the start of erosion counts; D goes
+/// linearly from `drive_from` to `drive_to` and may cross the threshold.
+double scaled_time(const ErosionModel& model, double from, double to, double drive_from,
+                   double drive_to);
+
+/// Porosity of soil that had `porosity`, a scaled time later, by erosion alone and with no fines in
+/// the liquid that count: exact, or to about 1e-13. Never above what can erode at `flux`, m/s.
+double porosity_after_scaled(const ErosionModel& model, double porosity, double scaled_time,
+                             double flux);
+
+/// phi_e at a time, 1/s, where D depends on |q| alone: `flux`, m/s, may be unset where it does not
+/// depend on it. Zero before the start and once nothing is left to erode.
 double erosion_rate(const ErosionModel& model, double porosity, double time, double flux);
 
-/// Porosity at time `to` of soil that had `porosity` at time `from`. Split at the start of erosion
-/// and at exhaustion, so the length of the interval costs no accuracy: every law is integrated
-/// exactly, or to about 1e-13. `flux`: mean of |q| over the interval, m/s; may be unset unless
-/// `depends_on_flux`. Never above porosity_max.
+/// Porosity at time `to` of soil that had `porosity` at time `from`, under the same |q| for that
+/// time, by erosion alone. Split at the start of erosion and at exhaustion, so the length of the
+/// interval costs no accuracy.
 double porosity_after(const ErosionModel& model, double porosity, double from, double to,
                       double flux);
 
-/// The same at time `time`, from the law's exact solution under a constant `flux`; not a number
-/// where the law has none, or depends on a flux that is unset.
+/// The same at time `time`, from the law's exact solution; not a number where the law has none, or
+/// depends on a flux that is unset.
 double exact_porosity(const ErosionModel& model, double initial_porosity, double time, double flux);
 
-/// Whether `exact_porosity` needs no flux: the law has an exact solution that does not depend on
-/// it.
+/// Whether `exact_porosity` holds under any flow.
 bool has_exact_porosity(const ErosionModel& model);
 
 /// When soil of this initial porosity has lost all its fines, s: the start where it has none;

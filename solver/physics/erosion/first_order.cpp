@@ -1,28 +1,25 @@
-/// What is left decays exponentially: phi_e = kappa (n_L,max - n_L).
+/// What is left decays exponentially.
+
+#include "physics/erosion/first_order.hpp"
 
 #include <cmath>
 
 #include "physics/erosion/erosion_law.hpp"
 
 namespace suffuse::erosion {
-namespace {
 
-double rate(const ErosionModel& model, const LocalState& state) {
-  return model.rate * state.erodible_fraction;
+double first_order_state(const LocalState& state) {
+  return state.erodible_fraction;
 }
 
-double after(const ErosionModel& model, const LocalState& state, double duration) {
-  return state.porosity - state.erodible_fraction * std::expm1(-model.rate * duration);
+double porosity_after_first_order(const LocalState& state, double scaled_time) {
+  return state.porosity - state.erodible_fraction * std::expm1(-scaled_time);
 }
-
-}  // namespace
 
 extern const ErosionLaw first_order{.word = "first-order",
-                                    .equation = "phi_e = kappa (n_L,max - n_L)",
+                                    .equation = "n_e - residual",
                                     .rate_symbol = "kappa",
-                                    .rate_unit = "1/s",
-                                    .erosion_rate = rate,
-                                    .porosity_after = after,
-                                    .exact_porosity = after};
+                                    .state = first_order_state,
+                                    .porosity_after = porosity_after_first_order};
 
 }  // namespace suffuse::erosion

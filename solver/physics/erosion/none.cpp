@@ -4,7 +4,6 @@
 
 namespace suffuse::erosion {
 
-extern const ErosionLaw none{
-    .word = "none", .equation = "No erosion", .rate_symbol = "", .rate_unit = ""};
+extern const ErosionLaw none{.word = "none", .equation = "no erosion", .rate_symbol = ""};
 
 }  // namespace suffuse::erosion

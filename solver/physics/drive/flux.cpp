@@ -1,0 +1,22 @@
+/// Erosion goes with the volume of liquid that passes: D = |q| (Cividini and Gioda, Int. J.
+/// Geomech. 4 (2004) 191).
+
+#include "physics/drive/drive_law.hpp"
+
+namespace suffuse::drive {
+namespace {
+
+double value(const LocalState& state) {
+  return state.flux;
+}
+
+}  // namespace
+
+extern const DriveLaw flux{.word = "flux",
+                           .equation = "D = |q|",
+                           .symbol = "|q|",
+                           .unit = "m/s",
+                           .rate_unit = "1/m",
+                           .value = value};
+
+}  // namespace suffuse::drive

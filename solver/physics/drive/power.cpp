@@ -1,0 +1,23 @@
+/// Erosion goes with the power that the flow spends in a volume of soil: P = rho_w g i |q|
+/// (Sibille, Marot and Sail, Acta Geotech. 10 (2015) 489).
+
+#include "physics/drive/drive_law.hpp"
+
+namespace suffuse::drive {
+namespace {
+
+double value(const LocalState& state) {
+  return state.unit_weight * state.drag_gradient * state.flux;
+}
+
+}  // namespace
+
+extern const DriveLaw power{.word = "power",
+                            .equation = "D = P = rho_w g i |q|",
+                            .symbol = "P",
+                            .unit = "W/m3",
+                            .rate_unit = "m3/J",
+                            .depends_on_conductivity = true,
+                            .value = value};
+
+}  // namespace suffuse::drive

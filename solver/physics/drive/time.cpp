@@ -1,0 +1,9 @@
+/// Erosion goes on by itself, whatever the flow.
+
+#include "physics/drive/drive_law.hpp"
+
+namespace suffuse::drive {
+
+extern const DriveLaw time{.word = "time", .equation = "D = 1", .symbol = "1", .rate_unit = "1/s"};
+
+}  // namespace suffuse::drive

@@ -1,0 +1,200 @@
+#include "physics/exchange.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "physics/drag.hpp"
+
+namespace suffuse {
+namespace {
+
+/// The state that the drive sees, at |q| = `flux`.
+LocalState drive_state(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                       double flux) {
+  LocalState state{.porosity = place.porosity, .flux = flux};
+  if (!model.drive_depends_on_conductivity()) return state;
+  const double weight = model.water_density * conductivity_gravity;
+  const double clean = model.conductivity.at(place.initial_porosity, place.porosity);
+  const double thickening =
+      model.viscosity.depends_on_concentration() ? model.viscosity.ratio(flow.concentration) : 1.0;
+  state.unit_weight = weight;
+  state.permeability = clean * model.water_viscosity / weight;
+  state.drag_gradient = flow.resistance * thickening * flux / clean;
+  if (model.ergun) {
+    const double size = ergun_grain_size(model.conductivity.conductivity, place.initial_porosity,
+                                         model.water_density, model.water_viscosity);
+    const double b = ergun_quadratic_drag(place.porosity, model.water_density, size);
+    state.drag_gradient += b * flux * flux / weight;
+  }
+  return state;
+}
+
+double drive_at(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                double flux) {
+  const DriveLaw& drive = *model.erosion.drive;
+  return drive.depends_on_flow() ? drive.value(drive_state(model, place, flow, flux)) : 1.0;
+}
+
+/// lambda_d |q| times a duration: a share of the liquid's fines that is caught where room is 1.
+double catch_rate(const DepositionModel& deposition, const PlaceFlow& flow, double flux) {
+  const bool catches = flow.deposition && deposition.deposits() && flux < deposition.flux_max;
+  return catches ? deposition.coefficient * flux : 0.0;
+}
+
+/// Exchange in a closed volume of soil, with x the net volume that has gone into the liquid.
+class ClosedVolume {
+ public:
+  /// `scaled`: S of the step; `caught`: lambda_d |q| times its duration.
+  ClosedVolume(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+               double scaled, double caught)
+      : model_(model),
+        place_(place),
+        scaled_(scaled),
+        caught_(caught),
+        liquid_(place.porosity * flow.saturation),
+        fines_(flow.concentration * liquid_),
+        erodible_(erodes(model.erosion) ? model.erosion.porosity_max - place.porosity -
+                                              model.erosion.residual.at(flow.flux())
+                                        : 0.0) {}
+
+  /// Rates at x, per step.
+  [[nodiscard]] Exchange rate(double x) const {
+    const double porosity = place_.porosity + x;
+    const double concentration = (fines_ + x) / (liquid_ + x);
+    Exchange result;
+    if (caught_ != 0.0) {
+      result.deposited =
+          caught_ * concentration * model_.deposition.room(place_.initial_porosity, porosity);
+    }
+    // Beyond what can erode the law goes on smoothly, until the step has been cut there.
+    const double left = erodible_ - x;
+    if (scaled_ == 0.0 || (left <= 0.0 && erodible_ <= 0.0)) return result;
+    const double critical = model_.erosion.critical_concentration;
+    const double hindrance = std::isfinite(critical) ? concentration / critical : 0.0;
+    if (hindrance >= 1.0) return result;
+    const LocalState state{.porosity = porosity,
+                           .erodible_fraction = left,
+                           .skeleton_fraction = 1.0 - model_.erosion.porosity_max,
+                           .concentration = concentration};
+    result.eroded = scaled_ * (1.0 - hindrance) * model_.erosion.law->state(state);
+    return result;
+  }
+
+  [[nodiscard]] Exchange integrated() const;
+
+ private:
+  struct Step {
+    double x;
+    double deposited;
+    double error;
+  };
+  [[nodiscard]] Step step(double x, double h) const;
+
+  const ExchangeModel& model_;
+  const SoilPlace& place_;
+  double scaled_;
+  double caught_;
+  double liquid_;
+  double fines_;
+  double erodible_;
+};
+
+/// One step of Dormand and Prince (J. Comput. Appl. Math. 6 (1980) 19) for x and what is deposited.
+auto ClosedVolume::step(double x, double h) const -> Step {
+  static constexpr std::array<std::array<double, 6>, 6> weights{
+      {{1.0 / 5},
+       {3.0 / 40, 9.0 / 40},
+       {44.0 / 45, -56.0 / 15, 32.0 / 9},
+       {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+       {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+       {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}}};
+  static constexpr std::array<double, 7> error_weights{
+      71.0 / 57600, 0.0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+  std::array<Exchange, 7> rates{rate(x)};
+  Step result{x, 0.0, 0.0};
+  for (std::size_t stage = 0; stage < weights.size(); ++stage) {
+    Exchange sum;
+    for (std::size_t i = 0; i <= stage; ++i) {
+      sum.eroded += weights[stage][i] * rates[i].eroded;
+      sum.deposited += weights[stage][i] * rates[i].deposited;
+    }
+    result.x = x + h * sum.into_liquid();
+    result.deposited = h * sum.deposited;
+    rates[stage + 1] = rate(result.x);
+  }
+  double error = 0.0;
+  for (std::size_t i = 0; i < rates.size(); ++i) error += error_weights[i] * rates[i].into_liquid();
+  result.error = h * std::abs(error);
+  return result;
+}
+
+Exchange ClosedVolume::integrated() const {
+  constexpr double tolerance = 1e-11;
+  // Where the right-hand side jumps, no step is short enough.
+  constexpr double shortest = 1e-4;
+  double x = 0.0;
+  double deposited = 0.0;
+  double done = 0.0;
+  double h = 1.0;
+  while (done < 1.0) {
+    h = std::min(h, 1.0 - done);
+    Step next = step(x, h);
+    if (next.error > tolerance && h > shortest) {
+      h = std::max(shortest, h * std::max(0.2, 0.9 * std::pow(tolerance / next.error, 0.2)));
+      continue;
+    }
+    if (next.x > erodible_ && next.x > x && erodible_ > 0.0) {
+      // Nothing is left to erode but what is being deposited, for the rest of the step.
+      const double share = std::clamp((erodible_ - x) / (next.x - x), 0.0, 1.0);
+      deposited += share * next.deposited + (1.0 - done - share * h) * rate(erodible_).deposited;
+      x = erodible_;
+      break;
+    }
+    x = std::max(next.x, -fines_);
+    deposited += next.deposited;
+    done += h;
+    h *= std::min(5.0, 0.9 * std::pow(tolerance / std::max(next.error, 1e-300), 0.2));
+  }
+  return {x + deposited, deposited};
+}
+
+}  // namespace
+
+Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                       double time) {
+  const bool erodes_now = erodes(model.erosion) && time >= model.erosion.start;
+  const double drive =
+      erodes_now ? drive_rate(model.erosion, drive_at(model, place, flow, flow.flux_start)) : 0.0;
+  const PlaceFlow now{.flux_start = flow.flux_start,
+                      .flux_end = flow.flux_start,
+                      .concentration = flow.concentration,
+                      .saturation = flow.saturation};
+  return ClosedVolume(model, place, now, drive, catch_rate(model.deposition, flow, flow.flux_start))
+      .rate(0.0);
+}
+
+Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                       double from, double to) {
+  const auto with_drives = [&](double first, double last) -> Exchange {
+    const double scaled = scaled_time(model.erosion, from, to, first, last);
+    const bool catches = flow.deposition && model.deposition.deposits();
+    if (!depends_on_concentration(model.erosion) && !catches) {
+      return {porosity_after_scaled(model.erosion, place.porosity, scaled, flow.flux()) -
+                  place.porosity,
+              0.0};
+    }
+    const double caught = catch_rate(model.deposition, flow, flow.flux()) * (to - from);
+    if (scaled == 0.0 && (caught == 0.0 || flow.concentration <= 0.0)) return {};
+    return ClosedVolume(model, place, flow, scaled, caught).integrated();
+  };
+  if (!erodes(model.erosion) || to <= model.erosion.start) return with_drives(0.0, 0.0);
+  const double first = drive_at(model, place, flow, flow.flux_start);
+  const bool opens =
+      model.drive_depends_on_conductivity() && model.conductivity.depends_on_porosity();
+  if (!opens) return with_drives(first, drive_at(model, place, flow, flow.flux_end));
+  const double predicted = place.porosity + with_drives(first, first).into_liquid();
+  return with_drives(first,
+                     drive_at(model, {place.initial_porosity, predicted}, flow, flow.flux_end));
+}
+
+}  // namespace suffuse

@@ -1,0 +1,100 @@
+#pragma once
+
+/// Exchange of fines between the solid and the liquid at one place, over a step: erosion by a law
+/// and its drive, and deposition, phi_d = lambda_d |q| c. It is signed: porosity grows by what
+/// erodes and shrinks by what is deposited, and deposits can erode again.
+
+#include <cmath>
+#include <limits>
+
+#include "physics/conductivity/conductivity_law.hpp"
+#include "physics/erosion/erosion_law.hpp"
+#include "physics/viscosity/viscosity_law.hpp"
+
+namespace suffuse {
+
+/// How a soil catches fines that pass (Iwasaki 1937; with room, Herzig and others 1970).
+struct DepositionModel {
+  double coefficient = 0.0;     ///< lambda_d, 1/m
+  double porosity_min = unset;  ///< n_min at which no room is left; unset: there is always room
+  double flux_max = std::numeric_limits<double>::infinity();  ///< deposits below this |q|, m/s
+
+  [[nodiscard]] bool deposits() const { return coefficient > 0.0; }
+  [[nodiscard]] bool has_room_limit() const { return !std::isnan(porosity_min); }
+  /// Share of `coefficient` that is left: (n - n_min) / (n_0 - n_min), or 1 without a limit.
+  [[nodiscard]] double room(double initial_porosity, double porosity) const {
+    return has_room_limit() ? (porosity - porosity_min) / (initial_porosity - porosity_min) : 1.0;
+  }
+};
+
+/// All that the exchange of one soil depends on.
+struct ExchangeModel {
+  ErosionModel erosion;
+  DepositionModel deposition;
+  ConductivityModel conductivity;
+  bool ergun = false;              ///< drag grows with the square of the flux too
+  double water_density = unset;    ///< rho_w, kg/m3
+  double water_viscosity = unset;  ///< mu_0, Pa s
+  ViscosityModel viscosity;
+
+  /// Some exchange can happen.
+  [[nodiscard]] bool exchanges() const { return erodes(erosion) || deposition.deposits(); }
+  /// How fast depends on the flow.
+  [[nodiscard]] bool depends_on_flux() const {
+    return suffuse::depends_on_flux(erosion) || deposition.deposits();
+  }
+  /// How fast depends on the fines in the liquid.
+  [[nodiscard]] bool depends_on_concentration() const {
+    return suffuse::depends_on_concentration(erosion) || deposition.deposits() ||
+           (drive_depends_on_conductivity() && viscosity.depends_on_concentration());
+  }
+  [[nodiscard]] bool drive_depends_on_conductivity() const {
+    return erodes(erosion) && erosion.drive->depends_on_conductivity;
+  }
+};
+
+/// The solid at a place.
+struct SoilPlace {
+  double initial_porosity = unset;  ///< n_0
+  double porosity = unset;          ///< n_L
+};
+
+/// The liquid at a place over a step. What no law asks for may stay unset.
+struct PlaceFlow {
+  double flux_start = unset;     ///< |q| at the start, m/s; it goes linearly to that at the end
+  double flux_end = unset;       ///< m/s
+  double resistance = 1.0;       ///< gradient along the flow over |q|/k: of bedding and suction
+  double concentration = unset;  ///< c at the start
+  double saturation = 1.0;       ///< liquid per pore volume
+  bool deposition = true;        ///< false: what is caught is found elsewhere
+
+  [[nodiscard]] double flux() const { return 0.5 * (flux_start + flux_end); }
+};
+
+/// Volumes per volume of soil, or rates of these in 1/s.
+struct Exchange {
+  double eroded = 0.0;
+  double deposited = 0.0;
+
+  [[nodiscard]] double into_liquid() const { return eroded - deposited; }
+};
+
+/// phi_e and phi_d at a time (s) and the flow at the start of the step, 1/s.
+Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                       double time);
+
+/// What is exchanged between `from` and `to` (s) where no liquid comes or goes. Exact, or to about
+/// 1e-13, where neither depends on the fines in the liquid; else integrated to 1e-11. The drive
+/// goes linearly from its value at the start to the one at the end, with the porosity there. Fines
+/// in the liquid do not become less than none, nor porosity more than what can erode leaves.
+Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                       double from, double to);
+
+/// k of the soil filled with liquid of concentration `concentration`, m/s.
+inline double conductivity_at(const ConductivityModel& soil, const ViscosityModel& liquid,
+                              double initial_porosity, double porosity, double concentration) {
+  const double k = soil.at(initial_porosity, porosity);
+  return liquid.depends_on_concentration() ? k / liquid.ratio(concentration) : k;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,88 @@
+#include "solid/point_flows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "grid/face_flux.hpp"
+#include "grid/parallel.hpp"
+
+namespace suffuse {
+
+PlaceFlow PointFlows::at(int point, int element, double from, double to) const {
+  PlaceFlow flow;
+  if (!flux.empty()) {
+    flow.flux_start = flow.flux_end = flux[point];
+    if (!flux_change.empty()) {
+      const double slope = flux_change[point] / (end - start);
+      const double middle = 0.5 * (start + end);
+      flow.flux_start = std::max(0.0, flux[point] + slope * (from - middle));
+      flow.flux_end = std::max(0.0, flux[point] + slope * (to - middle));
+    }
+  }
+  if (!resistance.empty()) flow.resistance = resistance[point];
+  if (!concentration.empty()) flow.concentration = concentration[point];
+  if (!saturation.empty()) flow.saturation = saturation[element];
+  flow.deposition = deposition;
+  return flow;
+}
+
+template <int Dim>
+double acting_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element, double flux,
+                   double duration) {
+  constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
+  const double held = std::pow(grid.volume[element], 1.0 / Dim);
+  const bool acts = flux > round_off * held / duration && flux > soils.still_flux(element);
+  return acts ? flux : 0.0;
+}
+
+template <int Dim>
+PointFlows point_flows(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                       const std::vector<double>& face_rate, double duration,
+                       const RelativeConductivity& relative_conductivity, int threads) {
+  PointFlows result;
+  const auto& needed = soils.exchange_depends_on();
+  if (!needed.flux) return result;
+  const MaterialPoints<Dim>& points = soils.points();
+  result.flux.resize(points.size());
+  if (needed.resistance) result.resistance.resize(points.size());
+  for_each_index(points.size(), threads, [&](int p) {
+    const int e = points.element[p];
+    const Vector<Dim> flux = flux_at(grid, face_rate, e, points.position(grid.mesh, p));
+    const double size = flux.norm();
+    result.flux[p] = acting_flux(grid, soils, e, size, duration);
+    if (!needed.resistance) return;
+    const double relative = relative_conductivity.empty() ? 1.0 : relative_conductivity[e];
+    result.resistance[p] = soils.resistance_along(e, flux) / relative;
+  });
+  return result;
+}
+
+template <int Dim>
+void find_flux_change(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const FluxHistory& history,
+                      PointFlows& flows, int threads) {
+  if (!soils.exchange_depends_on().flux_change) return;
+  const MaterialPoints<Dim>& points = soils.points();
+  flows.flux_change.resize(points.size());
+  for_each_index(points.size(), threads, [&](int p) {
+    const int e = points.element[p];
+    const Vector<Dim> x = points.position(grid.mesh, p);
+    // Linear through the mean, which stays what it is, and the end; nowhere less than nothing.
+    const double mean = flows.flux[p];
+    const double change = 2.0 * (flux_at(grid, history.end, e, x).norm() - mean);
+    flows.flux_change[p] = std::clamp(change, -2.0 * mean, 2.0 * mean);
+  });
+}
+
+template double acting_flux(const Grid<2>&, const SoilMap<2>&, int, double, double);
+template PointFlows point_flows(const Grid<2>&, const SoilMap<2>&, const std::vector<double>&,
+                                double, const RelativeConductivity&, int);
+template void find_flux_change(const Grid<2>&, const SoilMap<2>&, const FluxHistory&, PointFlows&,
+                               int);
+template double acting_flux(const Grid<3>&, const SoilMap<3>&, int, double, double);
+template PointFlows point_flows(const Grid<3>&, const SoilMap<3>&, const std::vector<double>&,
+                                double, const RelativeConductivity&, int);
+template void find_flux_change(const Grid<3>&, const SoilMap<3>&, const FluxHistory&, PointFlows&,
+                               int);
+
+}  // namespace suffuse

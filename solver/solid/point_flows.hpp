@@ -1,0 +1,51 @@
+#pragma once
+
+/// The liquid at the solid points over an interval, as far as the exchange of fines depends on it.
+
+#include <vector>
+
+#include "grid/extrapolated_flux.hpp"
+#include "grid/grid.hpp"
+#include "solid/soil_map.hpp"
+
+namespace suffuse {
+
+/// Vectors may be empty where no law asks for them.
+struct PointFlows {
+  double start = 0.0;                 ///< of the interval, s
+  double end = 0.0;                   ///< s
+  std::vector<double> flux;           ///< per solid point: mean of |q|, m/s
+  std::vector<double> flux_change;    ///< per solid point: of |q| over the interval, m/s
+  std::vector<double> resistance;     ///< per solid point: see PlaceFlow
+  std::vector<double> concentration;  ///< per solid point: c now
+  std::vector<double> saturation;     ///< per element: liquid per pore volume
+  /// The solid catches fines; else liquid points leave them (double-point).
+  bool deposition = true;
+
+  /// At a point in `element` from `from` to `to`, s, a part of the interval.
+  [[nodiscard]] PlaceFlow at(int point, int element, double from, double to) const;
+};
+
+/// Conductivity of each element over that of the saturated soil; empty where all soil is saturated.
+using RelativeConductivity = std::vector<double>;
+
+/// The flows that belong to a flux: volumes through faces per second, the mean over `duration`, s.
+/// `flux_change` and `concentration` stay empty.
+template <int Dim>
+PointFlows point_flows(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                       const std::vector<double>& face_rate, double duration,
+                       const RelativeConductivity& relative_conductivity, int threads);
+
+/// Sets `flux_change` where some soil asks for it.
+template <int Dim>
+void find_flux_change(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const FluxHistory& history,
+                      PointFlows& flows, int threads);
+
+/// |q| in an element as far as it can act on the soil, m/s, from a mean over `duration`, s: neither
+/// the round-off of still water nor that of what the element holds is a drive. Still water in which
+/// the last digit eroded would not stay still, as fines are heavy.
+template <int Dim>
+double acting_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element, double flux,
+                   double duration);
+
+}  // namespace suffuse

@@ -1,0 +1,217 @@
+/// Columns in which the exchange of fines depends on what the liquid carries, against exact
+/// profiles: a suspension that is caught, with room for ever and with room that goes; erosion by
+/// what others have freed; erosion and deposition at once. In both formulations.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+#include "grid/element_field.hpp"
+#include "model_run.hpp"
+#include "reference_table.hpp"
+
+namespace suffuse {
+namespace {
+
+struct ExchangeCase {
+  const char* name;
+  const char* table;
+  std::function<void(Scene&)> set;
+  double flux;
+  double concentration;  ///< of what enters
+};
+
+Scene column_scene(const ExchangeCase& c, Formulation formulation, FlowScheme scheme, double end) {
+  Scene scene = model::paper_scene();
+  scene.formulation = formulation;
+  scene.soils[0].porosity = 0.35;
+  scene.soils[0].skeleton_fraction = 0.45;
+  c.set(scene);
+  scene.boundaries = {model::flux_on("top", c.flux), model::pressure_on("bottom", 0.0)};
+  scene.boundaries[0].concentration = c.concentration;
+  scene.initial_flow = InitialFlow::steady;
+  scene.time.scheme = scheme;
+  scene.time.end = end;
+  scene.output.every = scene.output.snapshot_every = end;
+  if (scheme == FlowScheme::implicit_mixed) {
+    scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  }
+  return scene;
+}
+
+const ExchangeCase first_order{"caught", "deposition-first-order.csv",
+                               [](Scene& s) { s.soils[0].deposition.coefficient = 2.0; }, 1e-3,
+                               0.02};
+const ExchangeCase blocking{"caught_with_room", "deposition-blocking.csv",
+                            [](Scene& s) {
+                              s.soils[0].deposition.coefficient = 3.0;
+                              s.soils[0].deposition.porosity_min = 0.30;
+                            },
+                            1e-3, 0.05};
+const ExchangeCase autocatalytic{"autocatalytic", "erosion-autocatalytic.csv",
+                                 [](Scene& s) {
+                                   s.soils[0].erosion.law = erosion_law("autocatalytic");
+                                   s.soils[0].erosion.drive = drive_law("flux");
+                                   s.soils[0].erosion.rate = 8.0;
+                                 },
+                                 1e-3, 0.05};
+
+/// Exact n_L and c at a depth and time, linear between the rows of the table.
+class Exact {
+ public:
+  Exact(const std::string& table, double time) {
+    for (const ReferenceRow& row : read_reference(table)) {
+      if (row.number("t") != time) continue;
+      x_.push_back(row.number("x"));
+      porosity_.push_back(row.number("n_L"));
+      concentration_.push_back(row.number("c"));
+    }
+  }
+  [[nodiscard]] std::size_t size() const { return x_.size(); }
+  [[nodiscard]] double x(std::size_t k) const { return x_[k]; }
+  [[nodiscard]] double porosity(std::size_t k) const { return porosity_[k]; }
+  [[nodiscard]] double concentration(std::size_t k) const { return concentration_[k]; }
+
+ private:
+  std::vector<double> x_;
+  std::vector<double> porosity_;
+  std::vector<double> concentration_;
+};
+
+struct Profile {
+  double porosity;
+  double concentration;
+};
+
+/// Means over the width of a thin slice about a depth, from element-wise linear fields at snapshot.
+class Slices {
+ public:
+  Slices(const Mesh<2>& mesh, const Snapshot& snapshot) : mesh_(mesh) {
+    for (const Field& field : snapshot.element_vertex) {
+      if (field.name == "porosity") porosity_ = &field.values;
+      if (field.name == "concentration") concentration_ = &field.values;
+    }
+  }
+  /// At depth x below the top, along the vertical through the middle of the column.
+  [[nodiscard]] Profile at(double x) const {
+    double n = 0.0;
+    double c = 0.0;
+    int count = 0;
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      const auto& nodes = mesh_.elements[e];
+      double low = 1e9;
+      double high = -1e9;
+      for (const int i : nodes) {
+        low = std::min(low, mesh_.nodes[i][1]);
+        high = std::max(high, mesh_.nodes[i][1]);
+      }
+      const double y = std::clamp(1.0 - x, 1e-9, 1.0 - 1e-9);
+      if (y < low - 1e-12 || y > high + 1e-12) continue;
+      // At this height on the vertical through the centroid.
+      const Vector<2> place(element_centroid(mesh_, e)[0], y);
+      Eigen::Matrix3d a;
+      for (int k = 0; k < 3; ++k) {
+        a.col(k) = Eigen::Vector3d(1.0, mesh_.nodes[nodes[k]][0], mesh_.nodes[nodes[k]][1]);
+      }
+      const Eigen::Vector3d lambda = a.inverse() * Eigen::Vector3d(1.0, place[0], place[1]);
+      for (int k = 0; k < 3; ++k) {
+        n += lambda[k] * (*porosity_)[3 * e + k];
+        c += lambda[k] * (*concentration_)[3 * e + k];
+      }
+      ++count;
+    }
+    return {n / count, c / count};
+  }
+
+ private:
+  const Mesh<2>& mesh_;
+  const std::vector<double>* porosity_ = nullptr;
+  const std::vector<double>* concentration_ = nullptr;
+};
+
+struct Errors {
+  double porosity = 0.0;
+  double concentration = 0.0;
+};
+
+/// Means of the errors at the places of the table over the range of the exact values; without those
+/// within `margin` of the front where the suspension has come to, at which c falls to nothing.
+template <class Run>
+Errors errors(Run& run, const ExchangeCase& c, double time, double margin) {
+  const Exact exact(c.table, time);
+  EXPECT_GE(exact.size(), 15U);
+  const auto moments = run.run({time}, true);
+  const Slices slices(run.input().mesh, moments.snapshots[0]);
+  double front = 2.0;
+  double lowest_n = 1.0;
+  double highest_n = 0.0;
+  double highest_c = 0.0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    if (front > 1.0 && exact.concentration(k) == 0.0) front = exact.x(k);
+    lowest_n = std::min(lowest_n, exact.porosity(k));
+    highest_n = std::max(highest_n, exact.porosity(k));
+    highest_c = std::max(highest_c, exact.concentration(k));
+  }
+  Errors sum;
+  int count = 0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    if (std::abs(exact.x(k) - front) < margin) continue;
+    const Profile found = slices.at(exact.x(k));
+    sum.porosity += std::abs(found.porosity - exact.porosity(k)) / (highest_n - lowest_n);
+    sum.concentration += std::abs(found.concentration - exact.concentration(k)) / highest_c;
+    ++count;
+  }
+  return {sum.porosity / count, sum.concentration / count};
+}
+
+Mesh<2> strip(int cells) {
+  const int across = std::max(2, cells / 8);
+  return model::column_mesh(across, cells, static_cast<double>(across) / cells, 1.0);
+}
+
+class ExchangeProfiles : public ::testing::TestWithParam<std::tuple<ExchangeCase, FlowScheme>> {};
+
+TEST_P(ExchangeProfiles, SinglePointFollowsThem) {
+  const auto& [c, scheme] = GetParam();
+  for (const double time : {450.0, 900.0}) {
+    std::vector<Errors> found;
+    for (const int cells : {16, 32}) {
+      model::ModelRun run(
+          model::make_case(strip(cells), column_scene(c, Formulation::single_point, scheme, time)));
+      found.push_back(errors(run, c, time, 0.2));
+      EXPECT_LE(run.worst_residual(), 1e-12);
+    }
+    std::cout << c.name << " t " << time << ": n " << found[0].porosity << " -> "
+              << found[1].porosity << ", c " << found[0].concentration << " -> "
+              << found[1].concentration << '\n';
+    EXPECT_LT(found[1].porosity, 0.01);
+    EXPECT_LT(found[1].concentration, 0.01);
+    EXPECT_GT(std::log2(found[0].porosity / found[1].porosity), 1.5);
+    EXPECT_GT(std::log2(found[0].concentration / found[1].concentration), 1.5);
+  }
+}
+
+TEST_P(ExchangeProfiles, DoublePointFollowsThem) {
+  const auto& [c, scheme] = GetParam();
+  for (const double time : {450.0, 900.0}) {
+    Scene scene = column_scene(c, Formulation::double_point, scheme, time);
+    scene.points.liquid_per_element = 12;
+    model::DoublePointRun run(model::make_double_point_case(strip(32), scene));
+    const Errors found = errors(run, c, time, 0.1);
+    EXPECT_LE(run.worst_residual(), 1e-12);
+    std::cout << c.name << " t " << time << ": n " << found.porosity << ", c "
+              << found.concentration << '\n';
+    EXPECT_LT(found.porosity, 0.01);
+    EXPECT_LT(found.concentration, 0.01);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, ExchangeProfiles,
+                         ::testing::Combine(::testing::Values(first_order, blocking, autocatalytic),
+                                            ::testing::Values(FlowScheme::implicit_mixed)),
+                         [](const auto& param_info) { return std::get<0>(param_info.param).name; });
+
+}  // namespace
+}  // namespace suffuse
