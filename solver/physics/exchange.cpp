@@ -37,22 +37,23 @@ double drive_at(const ExchangeModel& model, const SoilPlace& place, const PlaceF
 
 /// lambda_d |q| times a duration: a share of the liquid's fines that is caught where room is 1.
 double catch_rate(const DepositionModel& deposition, const PlaceFlow& flow, double flux) {
-  const bool catches = flow.deposition && deposition.deposits() && flux < deposition.flux_max;
+  const bool catches = !flow.passes && deposition.deposits() && flux < deposition.flux_max;
   return catches ? deposition.coefficient * flux : 0.0;
 }
 
-/// Exchange in a closed volume of soil, with x the net volume that has gone into the liquid.
-class ClosedVolume {
+/// Exchange in a volume of soil, with x the net volume that has gone into the liquid.
+class SoilVolume {
  public:
   /// `scaled`: S of the step; `caught`: lambda_d |q| times its duration.
-  ClosedVolume(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
-               double scaled, double caught)
+  SoilVolume(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+             double scaled, double caught)
       : model_(model),
         place_(place),
         scaled_(scaled),
         caught_(caught),
         liquid_(place.porosity * flow.saturation),
         fines_(flow.concentration * liquid_),
+        passes_(flow.passes),
         erodible_(erodes(model.erosion) ? model.erosion.porosity_max - place.porosity -
                                               model.erosion.residual.at(flow.flux())
                                         : 0.0) {}
@@ -60,15 +61,15 @@ class ClosedVolume {
   /// Rates at x, per step.
   [[nodiscard]] Exchange rate(double x) const {
     const double porosity = place_.porosity + x;
-    const double concentration = (fines_ + x) / (liquid_ + x);
+    const double concentration = passes_ ? fines_ / liquid_ : (fines_ + x) / (liquid_ + x);
     Exchange result;
     if (caught_ != 0.0) {
-      result.deposited =
-          caught_ * concentration * model_.deposition.room(place_.initial_porosity, porosity);
+      const double room = model_.deposition.room(place_.initial_porosity, porosity);
+      result.deposited = caught_ * std::max(concentration * room, 0.0);
     }
     // Beyond what can erode the law goes on smoothly, until the step has been cut there.
     const double left = erodible_ - x;
-    if (scaled_ == 0.0 || (left <= 0.0 && erodible_ <= 0.0)) return result;
+    if (scaled_ == 0.0 || (left < 0.0 && erodible_ < 0.0)) return result;
     const double critical = model_.erosion.critical_concentration;
     const double hindrance = std::isfinite(critical) ? concentration / critical : 0.0;
     if (hindrance >= 1.0) return result;
@@ -96,11 +97,12 @@ class ClosedVolume {
   double caught_;
   double liquid_;
   double fines_;
+  bool passes_;
   double erodible_;
 };
 
 /// One step of Dormand and Prince (J. Comput. Appl. Math. 6 (1980) 19) for x and what is deposited.
-auto ClosedVolume::step(double x, double h) const -> Step {
+auto SoilVolume::step(double x, double h) const -> Step {
   static constexpr std::array<std::array<double, 6>, 6> weights{
       {{1.0 / 5},
        {3.0 / 40, 9.0 / 40},
@@ -128,31 +130,39 @@ auto ClosedVolume::step(double x, double h) const -> Step {
   return result;
 }
 
-Exchange ClosedVolume::integrated() const {
+Exchange SoilVolume::integrated() const {
   constexpr double tolerance = 1e-11;
-  // Where the right-hand side jumps, no step is short enough.
-  constexpr double shortest = 1e-4;
+  constexpr double settled = 1e-14;
+  constexpr double balanced = 1e-12;
   double x = 0.0;
   double deposited = 0.0;
-  double done = 0.0;
+  double remaining = 1.0;
   double h = 1.0;
-  while (done < 1.0) {
-    h = std::min(h, 1.0 - done);
-    Step next = step(x, h);
-    if (next.error > tolerance && h > shortest) {
-      h = std::max(shortest, h * std::max(0.2, 0.9 * std::pow(tolerance / next.error, 0.2)));
-      continue;
-    }
-    if (next.x > erodible_ && next.x > x && erodible_ > 0.0) {
-      // Nothing is left to erode but what is being deposited, for the rest of the step.
-      const double share = std::clamp((erodible_ - x) / (next.x - x), 0.0, 1.0);
-      deposited += share * next.deposited + (1.0 - done - share * h) * rate(erodible_).deposited;
-      x = erodible_;
+  // Below what can erode the law acts; where a residual has risen above it, only once deposits
+  // reach it.
+  bool acts = erodible_ >= 0.0;
+  while (remaining > 0.0) {
+    const Exchange now = rate(x);
+    const bool all_eroded = acts && x >= erodible_ && now.into_liquid() >= 0.0;
+    const double net = std::abs(now.into_liquid());
+    if (all_eroded || net * remaining <= settled ||
+        net <= balanced * (now.eroded + now.deposited)) {
+      // Nothing changes any more: what is deposited erodes again.
+      deposited += remaining * now.deposited;
       break;
     }
-    x = std::max(next.x, -fines_);
-    deposited += next.deposited;
-    done += h;
+    h = std::min(h, remaining);
+    const Step next = step(x, h);
+    if (next.error > tolerance) {
+      h *= std::max(0.2, 0.9 * std::pow(tolerance / next.error, 0.2));
+      continue;
+    }
+    const bool reaches = acts ? next.x > erodible_ && next.x > x : next.x < erodible_;
+    const double share = reaches ? std::clamp((erodible_ - x) / (next.x - x), 0.0, 1.0) : 1.0;
+    x = reaches ? erodible_ : std::max(next.x, -fines_);
+    acts = acts || reaches;
+    deposited += share * next.deposited;
+    remaining = h < remaining || reaches ? remaining - share * h : 0.0;
     h *= std::min(5.0, 0.9 * std::pow(tolerance / std::max(next.error, 1e-300), 0.2));
   }
   return {x + deposited, deposited};
@@ -169,7 +179,7 @@ Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const
                       .flux_end = flow.flux_start,
                       .concentration = flow.concentration,
                       .saturation = flow.saturation};
-  return ClosedVolume(model, place, now, drive, catch_rate(model.deposition, flow, flow.flux_start))
+  return SoilVolume(model, place, now, drive, catch_rate(model.deposition, flow, flow.flux_start))
       .rate(0.0);
 }
 
@@ -177,7 +187,7 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
                        double from, double to) {
   const auto with_drives = [&](double first, double last) -> Exchange {
     const double scaled = scaled_time(model.erosion, from, to, first, last);
-    const bool catches = flow.deposition && model.deposition.deposits();
+    const bool catches = !flow.passes && model.deposition.deposits();
     if (!depends_on_concentration(model.erosion) && !catches) {
       return {porosity_after_scaled(model.erosion, place.porosity, scaled, flow.flux()) -
                   place.porosity,
@@ -185,7 +195,7 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
     }
     const double caught = catch_rate(model.deposition, flow, flow.flux()) * (to - from);
     if (scaled == 0.0 && (caught == 0.0 || flow.concentration <= 0.0)) return {};
-    return ClosedVolume(model, place, flow, scaled, caught).integrated();
+    return SoilVolume(model, place, flow, scaled, caught).integrated();
   };
   if (!erodes(model.erosion) || to <= model.erosion.start) return with_drives(0.0, 0.0);
   const double first = drive_at(model, place, flow, flow.flux_start);
