@@ -43,7 +43,7 @@ struct Chart {
   std::vector<double> extra_x{};  ///< values that the axis covers too, beside those of the curves
   std::vector<double> extra_y{};
   bool logarithmic_x = false;  ///< of the axes only this; all x must be positive
-  ChartTable table{};           ///< beneath the legend; of several charts that of the first
+  ChartTable table{};          ///< beneath the legend; of several charts that of the first
 };
 
 /// Draws two charts side by side, three or more in rows of two, with one legend for all. The suffix

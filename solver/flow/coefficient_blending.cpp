@@ -37,18 +37,25 @@ void CoefficientBlending<Dim>::blend(double elapsed, const FlowCoefficients<Dim>
 }
 
 template <int Dim>
-double CoefficientBlending<Dim>::learn(const FlowCoefficients<Dim>& now, double dt, double weight) {
+double CoefficientBlending<Dim>::learn(const FlowCoefficients<Dim>& now, double dt, double weight,
+                                       const std::vector<double>& losses) {
   if (!expected_) return 0.0;
   double error = 0.0;
+  double all_losses = 0.0;
+  double lost = 0.0;
   density_drift_.resize(now.drag.size(), 0.0);
   for (std::size_t e = 0; e < now.drag.size(); ++e) {
     const double drift = (now.mixture_density[e] - expected_->mixture_density[e]) / dt;
     density_drift_[e] += weight * (drift - density_drift_[e]);
     const double resistance = expected_->drag[e] / expected_->porosity[e];
-    error = std::max(error, std::abs(resistance * now.porosity[e] / now.drag[e] - 1.0));
+    const double own = std::abs(resistance * now.porosity[e] / now.drag[e] - 1.0);
+    error = std::max(error, own);
+    if (losses.empty()) continue;
+    all_losses += losses[e];
+    lost += losses[e] * own;
   }
   expected_.reset();
-  return error;
+  return all_losses > 0.0 ? lost / all_losses : error;
 }
 
 template <int Dim>

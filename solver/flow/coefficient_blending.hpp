@@ -38,8 +38,11 @@ class CoefficientBlending {
   void expect(FlowCoefficients<Dim> expected) { expected_ = std::move(expected); }
   /// Compares the coefficients after transport, `now`, with those expected, after a step of `dt`
   /// seconds. `weight`, in (0, 1]: of the drift of densities in this step against earlier ones.
-  /// Returns the largest relative error of an expected resistance; zero where nothing was expected.
-  double learn(const FlowCoefficients<Dim>& now, double dt, double weight);
+  /// Returns the largest relative error of an expected resistance, or with `losses`, what each
+  /// element takes of the head, in any unit, the mean weighted with these: by so much the flow as a
+  /// whole is off. Zero where nothing was expected.
+  double learn(const FlowCoefficients<Dim>& now, double dt, double weight,
+               const std::vector<double>& losses = {});
   /// A step of `dt` seconds is over.
   void finish(double dt);
   /// A breakpoint ended a step of `dt` seconds: coefficients may jump, so they blend in less time.

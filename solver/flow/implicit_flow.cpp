@@ -6,6 +6,7 @@
 #include "case/errors.hpp"
 #include "flow/implicit_settings.hpp"
 #include "flow/implicit_thresholds.hpp"
+#include "grid/face_flux.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"
 
@@ -226,9 +227,21 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
     // Resistances were right at the start of the step: their mean error is half that at its end.
-    control_.account_for(0.5 * blending_.learn(this->coefficients_, dt, weight));
+    control_.account_for(0.5 * blending_.learn(this->coefficients_, dt, weight, losses()));
   }
   reuse_.check(this->coefficients_);
+}
+
+template <int Dim>
+std::vector<double> ImplicitFlow<Dim>::losses() const {
+  std::vector<double> result;
+  if (!this->scene().liquid.viscosity_model.depends_on_concentration()) return result;
+  for (const Vector<Dim>& flux : element_flux(this->grid(), now_.face_flux)) {
+    const std::size_t e = result.size();
+    const double drag = this->coefficients_.drag[e] / this->coefficients_.porosity[e];
+    result.push_back(drag * flux.squaredNorm() * this->grid().volume[e]);
+  }
+  return result;
 }
 
 template <int Dim>

@@ -79,11 +79,11 @@ TEST(GradationFigure, has_a_table_of_the_verdicts) {
   const ScratchFolder scratch;
   const Chart chart = gradation_chart({run_with(scratch, "dam", three_soils)});
   const ChartTable expected{{"internal stability", "specimen", "core", "filter"},
-                           {"Kezdi (1979)", "unstable", "stable above 25.9 %", "stable"},
-                           {"Kenney and Lau (1986)", "unstable", "cannot be told", "stable"},
-                           {"Li and Fannin (2008)", "unstable", "stable above 22 %", "stable"},
-                           {"Burenkova (1993)", "unstable", "cannot be told", "stable"},
-                           {"Wan and Fell (2008)", "unstable", "cannot be told", "stable"}};
+                            {"Kezdi (1979)", "unstable", "stable above 25.9 %", "stable"},
+                            {"Kenney and Lau (1986)", "unstable", "cannot be told", "stable"},
+                            {"Li and Fannin (2008)", "unstable", "stable above 22 %", "stable"},
+                            {"Burenkova (1993)", "unstable", "cannot be told", "stable"},
+                            {"Wan and Fell (2008)", "unstable", "cannot be told", "stable"}};
   ASSERT_EQ(chart.table.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(chart.table[i], expected[i]);
 }
