@@ -46,7 +46,7 @@ ResultsReader run_of(const ScratchFolder& scratch, const std::string& name,
 }
 
 std::string table(const ScratchFolder& scratch, const std::string& text) {
-  const std::string path = scratch / "measured.csv";
+  std::string path = scratch / "measured.csv";
   std::ofstream(path) << text;
   return path;
 }
