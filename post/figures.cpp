@@ -10,6 +10,7 @@
 #include "flow_figures.hpp"
 #include "gradation_figure.hpp"
 #include "model_sketch.hpp"
+#include "permeameter_figure.hpp"
 #include "results/number_text.hpp"
 #include "seepage_map.hpp"
 #include "soil_figures.hpp"
@@ -33,6 +34,7 @@ const std::map<std::string, FigureMaker>& figure_makers() {
       {"flux", [](const Runs& runs) { return std::vector{flux_chart(runs)}; }},
       {"gradation", [](const Runs& runs) { return std::vector{gradation_chart(runs)}; }},
       {"outflow", outflow_charts},
+      {"fines-lost", [](const Runs& runs) { return fines_lost_charts(runs); }},
       {"boundaries", boundary_charts},
       {"comparison", comparison}};
   return makers;
@@ -76,8 +78,9 @@ std::vector<Chart> make_figure(const std::string& name, const std::vector<Result
 }
 
 void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs,
-                 const std::string& path, const std::optional<double>& time) {
+                 const std::string& path, const FigureOptions& options) {
   const auto picture = picture_makers().find(name);
+  const std::optional<double>& time = options.time;
   const bool is_map = name == "head" || name == "saturation";
   if (time && !is_map) {
     throw InputError(std::vector{
@@ -87,6 +90,15 @@ void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs
   if (time && !std::isfinite(*time)) {
     throw InputError(std::vector{InputProblem{"suffuse-post figure " + name, "--time",
                                               number_text(*time), "a time in seconds", ""}});
+  }
+  if (!options.measured.empty()) {
+    if (name != "fines-lost") {
+      throw InputError(std::vector{
+          InputProblem{"suffuse-post figure " + name, "--measured", options.measured,
+                       "no measured points: they are for the figure \"fines-lost\"", ""}});
+    }
+    draw_charts(fines_lost_charts(runs, read_measured_points(options.measured)), path);
+    return;
   }
   if (picture == picture_makers().end()) {
     draw_charts(make_figure(name, runs), path);

@@ -17,14 +17,20 @@ std::vector<std::string> figure_names();
 
 /// The charts of a figure, drawn side by side: "porosity", "masses", "solid-mass"
 /// (soil_figures.hpp), "outflow", "empty-elements", "flux" (flow_figures.hpp), "boundaries"
-/// (boundary_figures.hpp), "gradation" (gradation_figure.hpp), and "comparison":
-/// porosity, masses and concentration of the outflow in one picture. Throws InputError for other
-/// names.
+/// (boundary_figures.hpp), "gradation" (gradation_figure.hpp), "fines-lost"
+/// (permeameter_figure.hpp), and "comparison": porosity, masses and concentration of the outflow in
+/// one picture. Throws InputError for other names.
 std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs);
 
-/// Draws any figure. `time`, s, is that of the snapshot of a map, the last without it. Throws
-/// InputError, also for a time that the figure has no use for; FileError.
+/// What only some figures have a use for.
+struct FigureOptions {
+  std::optional<double> time;  ///< of the snapshot of a map, s; the last without it
+  std::string measured;        ///< file of the points beside the curves of "fines-lost"
+};
+
+/// Draws any figure. Throws InputError, also for an option that the figure has no use for;
+/// FileError.
 void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs,
-                 const std::string& path, const std::optional<double>& time = {});
+                 const std::string& path, const FigureOptions& options = {});
 
 }  // namespace suffuse

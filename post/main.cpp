@@ -37,6 +37,7 @@ struct Options {
   std::string on;
   std::string range;
   std::string reference;
+  std::string measured;
   bool all = false;
   std::optional<double> render_time;
   double tolerance = 1e-12;
@@ -113,7 +114,7 @@ void figure(const Options& options) {
   picture_format(options.output);
   const auto runs = all_runs(options);
   for (const auto& run : runs) refuse_inside(run, "-o", options.output);
-  draw_figure(options.figure, runs, options.output, options.render_time);
+  draw_figure(options.figure, runs, options.output, {options.render_time, options.measured});
 }
 
 void render_field(const Options& options) {
@@ -216,6 +217,12 @@ void add_picture_commands(CLI::App& app, Options& o, Action& chosen) {
   command->add_option(
       "--time", o.render_time,
       "of \"head\" and \"saturation\", s: the nearest snapshot; without it the last");
+  command
+      ->add_option(
+          "--measured", o.measured,
+          "of \"fines-lost\": points beside the curves; columns run, hours, and fines_lost, "
+          "conductance or both")
+      ->type_name("FILE.csv");
   command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");

@@ -342,7 +342,8 @@ TEST_F(PostCommand, UnknownFigure) {
   expect_refusal(
       "figure porosty " + run + " -o " + scratch / "f.png", 2,
       "suffuse-post figure: NAME: got \"porosty\"; expected \"boundaries\", "
-      "\"comparison\", \"empty-elements\", \"flux\", \"gradation\", \"head\", \"masses\", "
+      "\"comparison\", \"empty-elements\", \"fines-lost\", \"flux\", \"gradation\", \"head\", "
+      "\"masses\", "
       "\"model\", \"outflow\", \"porosity\", \"saturation\" or \"solid-mass\"; did you mean "
       "porosity?");
   EXPECT_FALSE(fs::exists(scratch / "f.png"));

@@ -273,7 +273,7 @@ TEST(SeepageMap, TakesHeadsOfTheSnapshotAskedFor) {
   for (const double head : early.head) EXPECT_NEAR(head, 2.0, 1e-12);
   EXPECT_EQ(early.title, "synthetic, t = 0 s (snapshot nearest to 2 s)");
   EXPECT_EQ(saturation_map(run, {}).saturation.front(), 0.5);
-  draw_figure("head", {run}, scratch / "head.png", 2.0);
+  draw_figure("head", {run}, scratch / "head.png", {2.0, ""});
   EXPECT_GT(Pixels(scratch / "head.png").inked(), 8000);
 }
 
@@ -297,12 +297,14 @@ TEST(SeepageMap, RefusesWhatItCannotDraw) {
               draw_figure("head", {run, run}, scratch / "a.png");
             }).find("RESULTS: got 2 folders; expected one"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { draw_figure("porosity", {run}, scratch / "a.png", 1.0); })
+  EXPECT_NE(refusal([&] {
+              draw_figure("porosity", {run}, scratch / "a.png", {1.0, ""});
+            })
                 .find("--time: got 1; expected no time: it is for the figures \"head\" and "
                       "\"saturation\""),
             std::string::npos);
   EXPECT_NE(refusal([&] {
-              draw_figure("head", {run}, scratch / "a.png", HUGE_VAL);
+              draw_figure("head", {run}, scratch / "a.png", {HUGE_VAL, ""});
             }).find("expected a time in seconds"),
             std::string::npos);
 }
