@@ -21,6 +21,17 @@ std::vector<std::string> texts_of(std::span<const Law* const> laws, std::string_
   return texts;
 }
 
+/// `"constant": 1; "first-order": n_e`: the word of each law and a member of it.
+template <class Law>
+std::string described(std::span<const Law* const> laws, std::string_view Law::*member) {
+  std::string text;
+  for (const Law* law : laws) {
+    text += (text.empty() ? "\"" : "; \"") + std::string(law->word) + "\": ";
+    text += law->*member;
+  }
+  return text;
+}
+
 /// `a, b, c`, with other separators where given.
 std::string chained(const std::vector<std::string>& texts, const std::string& separator,
                     const std::string& last_separator);

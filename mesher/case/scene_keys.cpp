@@ -294,7 +294,7 @@ std::vector<SceneKey> declare_keys() {
           .otherwise("darcy"),
 
       choice("soil.*.erosion.law", in_erosion(&ErosionSettings::law), by_word(erosion_laws()),
-             chained(texts_of(erosion_laws(), &ErosionLaw::equation), "; ", "; ") + ".")
+             "The state: " + described(erosion_laws(), &ErosionLaw::equation) + ".")
           .named("phi_e")
           .otherwise_as("`" + no_erosion_word() + "`; required with any other erosion key"),
       key("soil.*.erosion.rate", in_erosion(&ErosionSettings::rate),
@@ -304,8 +304,7 @@ std::vector<SceneKey> declare_keys() {
           .at_least(0.0)
           .otherwise_as("required unless `law = " + no_erosion_word() + "`"),
       choice("soil.*.erosion.drive", in_erosion(&ErosionSettings::drive), by_word(drive_laws()),
-             "What makes fines leave: " +
-                 chained(texts_of(drive_laws(), &DriveLaw::equation), "; ", "; ") +
+             "What makes fines leave: " + described(drive_laws(), &DriveLaw::equation) +
                  ". The law \"flux\" has its own.")
           .named("D")
           .otherwise(std::string(drive_laws().front()->word)),

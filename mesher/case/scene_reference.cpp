@@ -277,7 +277,7 @@ void write_section(std::ostream& out, const SceneSection& section) {
       << "|---|---|---|---|---|---|---|\n";
   for (const SceneKey& key : scene_keys()) {
     if (key.pattern != joined(section.pattern, key.leaf())) continue;
-    for (const std::string& text : {code(key.leaf()), cell(key.symbol), type_of(key),
+    for (const std::string& text : {code(key.leaf()), cell(key.symbol), cell(type_of(key)),
                                     cell(key.unit), cell(key.bounds()), cell(default_of(key))}) {
       out << "| " << text << ' ';
     }

@@ -13,7 +13,7 @@ double value(const LocalState& state) {
 }  // namespace
 
 extern const DriveLaw flux{.word = "flux",
-                           .equation = "D = |q|",
+                           .equation = "|q|",
                            .symbol = "|q|",
                            .unit = "m/s",
                            .rate_unit = "1/m",

@@ -12,7 +12,7 @@ double value(const LocalState& state) {
 }  // namespace
 
 extern const DriveLaw gradient{.word = "gradient",
-                               .equation = "D = i, the hydraulic gradient along the flow",
+                               .equation = "i, the hydraulic gradient along the flow",
                                .symbol = "i",
                                .unit = "1",
                                .rate_unit = "1/s",

@@ -13,7 +13,7 @@ double value(const LocalState& state) {
 }  // namespace
 
 extern const DriveLaw power{.word = "power",
-                            .equation = "D = P = rho_w g i |q|",
+                            .equation = "P = rho_w g i |q|",
                             .symbol = "P",
                             .unit = "W/m3",
                             .rate_unit = "m3/J",

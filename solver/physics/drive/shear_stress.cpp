@@ -17,7 +17,7 @@ double value(const LocalState& state) {
 }  // namespace
 
 extern const DriveLaw shear_stress{.word = "shear-stress",
-                                   .equation = "D = tau = rho_w g i sqrt(2 kappa / n_L)",
+                                   .equation = "tau = rho_w g i sqrt(2 kappa / n_L)",
                                    .symbol = "tau",
                                    .unit = "Pa",
                                    .rate_unit = "1/(Pa s)",

@@ -4,6 +4,6 @@
 
 namespace suffuse::drive {
 
-extern const DriveLaw time{.word = "time", .equation = "D = 1", .symbol = "1", .rate_unit = "1/s"};
+extern const DriveLaw time{.word = "time", .equation = "1", .symbol = "1", .rate_unit = "1/s"};
 
 }  // namespace suffuse::drive
