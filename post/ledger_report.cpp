@@ -52,6 +52,7 @@ Balance balance(const Table& table, const std::string& place, const std::string&
   b.out = out.back();
   b.stored = stored.back();
   if (!is_water) b.eroded = table.column("eroded").back();
+  if (!is_water && table.has("deposited")) b.deposited = table.column("deposited").back();
   const double scale = b.initial > 0.0 ? b.initial : 1.0;
   b.worst_time = table.column("t").front();
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -123,7 +124,7 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
   for (const auto& b : balances) longest = std::max(longest, b.place.size());
   const int place = -static_cast<int>(longest) - 2;
   text += cell("place", place) + cell("", -8);
-  for (const auto* head : {"initial", "in", "out", "stored", "eroded", "worst residual", "at t"}) {
+  for (const auto* head : {"initial", "in", "out", "stored", "eroded", "deposited", "worst residual", "at t"}) {
     text += cell(head, 15);
   }
   text += "\n";
@@ -132,7 +133,9 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
     for (const double mass : {b.initial, b.in, b.out, b.stored}) {
       text += cell(short_number(mass, "%.8g"), 15);
     }
-    text += cell(b.constituent == "water" ? "-" : short_number(b.eroded, "%.8g"), 15);
+    for (const double mass : {b.eroded, b.deposited}) {
+      text += cell(b.constituent == "water" ? "-" : short_number(mass, "%.8g"), 15);
+    }
     text += cell(short_number(b.worst_residual, "%.2e"), 15);
     text += cell(short_number(b.worst_time, "%.6g"), 15) + "\n";
   }

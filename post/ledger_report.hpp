@@ -17,6 +17,7 @@ struct Balance {
   double out = 0.0;
   double stored = 0.0;
   double eroded = 0.0;          ///< grains only
+  double deposited = 0.0;       ///< likewise
   double worst_residual = 0.0;  ///< largest |residual| of any row, relative to `initial`
   double worst_time = 0.0;      ///< time of that row, s
 };
