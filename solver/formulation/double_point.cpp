@@ -22,7 +22,9 @@ void DoublePoint<Dim>::advance(double latest) {
   for (const TransportStep& step : liquid_->start_interval(start, flow)) {
     const std::vector<double>& eroded = this->exchange({step.start, step.end}, liquid_->waiting());
     liquid_->advance(step, flow.volumes, eroded, this->flow_->pressure());
+    if (liquid_->deposited().empty()) continue;
     this->solid_->deposit(liquid_->deposited());
+    liquid_->follow_deposits();
   }
   this->time_ = flow.end;
   // Masses that crossed borders with the points.
