@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "formulation/felt_concentration.hpp"
-#include "grid/parallel.hpp"
 #include "transport/points_along_faces.hpp"
 #include "transport/points_carrying_flow.hpp"
 
@@ -21,6 +20,8 @@ void DoublePoint<Dim>::advance(double latest) {
   // these.
   for (const TransportStep& step : liquid_->start_interval(start, flow)) {
     const std::vector<double>& eroded = this->exchange({step.start, step.end}, liquid_->waiting());
+    if (this->soils_.exchange_depends_on().concentration)
+      concentration_before_ = element_concentration();
     liquid_->advance(step, flow.volumes, eroded, this->flow_->pressure());
     if (liquid_->deposited().empty()) continue;
     this->solid_->deposit(liquid_->deposited());
@@ -72,7 +73,7 @@ void DoublePoint<Dim>::start_liquid() {
 template <int Dim>
 void DoublePoint<Dim>::archive(StateArchive& archive) {
   TwoPhaseModel<Dim>::archive(archive);
-  archive(*liquid_, coefficients_timing_);
+  archive(*liquid_, concentration_before_, coefficients_timing_);
 }
 
 template <int Dim>
@@ -88,16 +89,30 @@ PoreState DoublePoint<Dim>::clean_pores() const {
 }
 
 template <int Dim>
-void DoublePoint<Dim>::find_liquid(PointFlows& flows) const {
+std::vector<double> DoublePoint<Dim>::element_concentration() const {
   const LiquidContent content = liquid_->content();
+  std::vector<double> result(content.liquid.size());
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    result[e] = content.liquid[e] > 0.0 ? content.fines[e] / content.liquid[e] : 0.0;
+  }
+  return result;
+}
+
+template <int Dim>
+void DoublePoint<Dim>::find_liquid(PointFlows& flows) const {
+  // At the middle of the step to come, as it went in the last one: of second order.
+  std::vector<double> concentration = element_concentration();
+  for (std::size_t e = 0; e < concentration_before_.size(); ++e) {
+    const double now = concentration[e];
+    const double ahead = now + 0.5 * (now - concentration_before_[e]);
+    concentration[e] = std::clamp(ahead, 0.0, 0.5 * (1.0 + now));
+  }
   const MaterialPoints<Dim>& points = this->soils_.points();
   flows.concentration.resize(points.size());
-  flows.deposition = false;
-  for_each_index(points.size(), this->threads(), [&](int p) {
-    const int e = points.element[p];
-    const double liquid = content.liquid[e];
-    flows.concentration[p] = liquid > 0.0 ? content.fines[e] / liquid : 0.0;
-  });
+  flows.passes = true;
+  for (int p = 0; p < points.size(); ++p) {
+    flows.concentration[p] = concentration[points.element[p]];
+  }
 }
 
 template <int Dim>

@@ -66,7 +66,9 @@ struct PlaceFlow {
   double resistance = 1.0;       ///< gradient along the flow over |q|/k: of bedding and suction
   double concentration = unset;  ///< c at the start
   double saturation = 1.0;       ///< liquid per pore volume
-  bool deposition = true;        ///< false: what is caught is found elsewhere
+  /// The liquid passes through and keeps its concentration, and what is caught is found elsewhere
+  /// (double-point); else it stays in its place.
+  bool passes = false;
 
   [[nodiscard]] double flux() const { return 0.5 * (flux_start + flux_end); }
 };
@@ -83,10 +85,10 @@ struct Exchange {
 Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double time);
 
-/// What is exchanged between `from` and `to` (s) where no liquid comes or goes. Exact, or to about
-/// 1e-13, where neither depends on the fines in the liquid; else integrated to 1e-11. The drive
-/// goes linearly from its value at the start to the one at the end, with the porosity there. Fines
-/// in the liquid do not become less than none, nor porosity more than what can erode leaves.
+/// What is exchanged between `from` and `to` (s) where no other liquid comes or goes. Exact, or to
+/// about 1e-13, where neither depends on the fines in the liquid; else integrated to 1e-11. The
+/// drive goes linearly from its value at the start to the one at the end, with the porosity there.
+/// Fines in the liquid do not become less than none, nor porosity more than what can erode leaves.
 Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double from, double to);
 

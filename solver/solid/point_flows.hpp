@@ -19,8 +19,7 @@ struct PointFlows {
   std::vector<double> resistance;     ///< per solid point: see PlaceFlow
   std::vector<double> concentration;  ///< per solid point: c now
   std::vector<double> saturation;     ///< per element: liquid per pore volume
-  /// The solid catches fines; else liquid points leave them (double-point).
-  bool deposition = true;
+  bool passes = false;                ///< see PlaceFlow
 
   /// At a point in `element` from `from` to `to`, s, a part of the interval.
   [[nodiscard]] PlaceFlow at(int point, int element, double from, double to) const;

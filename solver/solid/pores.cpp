@@ -40,6 +40,7 @@ PoreState PoreForecast<Dim>::at(double time) const {
                                  relative_conductivity_, threads_);
   ahead.concentration = liquid_.concentration;
   ahead.saturation = liquid_.saturation;
+  ahead.passes = liquid_.passes;
   const std::vector<double> after = solid_.porosity_after(time_, time, ahead);
   const std::vector<double>& before = solid_.porosity();
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {

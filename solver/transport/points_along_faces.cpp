@@ -108,6 +108,7 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
   const bool erodes = !exchange.empty();
   std::vector<double> porosity_end = erodes ? this->solid_.element_porosity() : porosity_;
   if (this->deposition_.active()) this->deposition_.start(step.end - step.start);
+  if (erodes) mean_fines_ = mean_fines();
   Paths paths;
   {
     const PassTimer timer(this->movement_timing_);
@@ -203,6 +204,30 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
 }
 
 template <int Dim>
+double PointsAlongFaces<Dim>::weight(int element, int p) const {
+  if (mean_fines_.empty() || !(mean_fines_[element] > 0.0)) return 1.0;
+  const ErosionModel& erosion = this->solid_.soils().erosion_of_element(element);
+  const bool by_fines = erosion.law != nullptr && erosion.law->depends_on_concentration;
+  if (!by_fines) return 1.0;
+  return points_.fines_mass[p] / points_.water_mass[p] / mean_fines_[element];
+}
+
+template <int Dim>
+std::vector<double> PointsAlongFaces<Dim>::mean_fines() const {
+  if (!this->solid_.soils().exchange_depends_on().concentration) return {};
+  std::vector<double> fines(this->grid_.mesh.elements.size(), 0.0);
+  std::vector<double> water(fines.size(), 0.0);
+  for (int p = 0; p < points_.size(); ++p) {
+    fines[points_.element[p]] += points_.fines_mass[p];
+    water[points_.element[p]] += points_.water_mass[p];
+  }
+  for (std::size_t e = 0; e < fines.size(); ++e) {
+    if (water[e] > 0.0) fines[e] /= water[e];
+  }
+  return fines;
+}
+
+template <int Dim>
 void PointsAlongFaces<Dim>::follow_point(int p, double start, const FaceWalkField<Dim>& field,
                                          double pressure, std::vector<FacePassage<Dim>>& passages,
                                          Paths& paths, std::vector<FinesUptake<Dim>>& uptakes) {
@@ -217,7 +242,8 @@ void PointsAlongFaces<Dim>::follow_point(int p, double start, const FaceWalkFiel
   points_.barycentric[p] = place.barycentric;
   for (const FacePassage<Dim>& passage : passages) {
     const bool in_first = region[passage.element] == paths.from[p];
-    uptakes.push_back({p, passage.element, passage.barycentric, volume * (passage.growth - 1.0),
+    const double own = volume * (passage.growth - 1.0);
+    uptakes.push_back({p, passage.element, passage.barycentric, own * weight(passage.element, p),
                        in_first ? paths.from[p] : region[place.element],
                        this->deposition_.active() ? this->deposition_.exponent(passage) : 0.0});
     volume *= passage.growth;

@@ -63,14 +63,21 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   void follow_point(int p, double start, const FaceWalkField<Dim>& field, double pressure,
                     std::vector<FacePassage<Dim>>& passages, Paths& paths,
                     std::vector<FinesUptake<Dim>>& uptakes);
+  /// What a point takes up goes with its own fines where erosion goes with these: over the mean of
+  /// the points that were in the element.
+  [[nodiscard]] double weight(int element, int p) const;
+  /// Fines over water of the points in each element, by mass; empty where no exchange depends on
+  /// it.
+  [[nodiscard]] std::vector<double> mean_fines() const;
   /// Removes points that left, once all have their fines, and books changes of region. Fines taken
   /// up in the first region cross its border with the point; the others are received in the last. A
   /// point that leaves the model crosses into its last region first.
   void settle(const Paths& paths);
 
   LiquidPoints<Dim> points_;
-  std::vector<int> begins_;       ///< points of each element
-  std::vector<double> porosity_;  ///< per element, at the start of the step
+  std::vector<double> mean_fines_;  ///< at the start of the step
+  std::vector<int> begins_;         ///< points of each element
+  std::vector<double> porosity_;    ///< per element, at the start of the step
 };
 
 }  // namespace suffuse

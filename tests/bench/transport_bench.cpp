@@ -90,7 +90,7 @@ void Erosion(benchmark::State& bench) {
   std::vector<double> exchange;
   double time = 0.0;
   for ([[maybe_unused]] const auto step : bench) {
-    column.skeleton.erode(time, time + 1.0, {}, {}, exchange);
+    column.skeleton.exchange(time, time + 1.0, {}, {}, exchange);
     time += 1.0;
   }
   report(bench, column.points(), 16.0 + 8.0 + 8.0 + 8.0 / 3.0, threads);

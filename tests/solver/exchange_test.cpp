@@ -141,7 +141,7 @@ TEST(Deposition, CatchesFinesOfAClosedVolume) {
   }
   const Exchange all = exchange_over(that_catches(2.0), {n_0, n_0}, flow_of(1e-3, c), 0.0, 1e9);
   EXPECT_NEAR(all.deposited, n_0 * c, 1e-10);
-  EXPECT_LE(all.deposited, n_0 * c);
+  EXPECT_LE(all.deposited, n_0 * c + 1e-11);
 }
 
 TEST(Deposition, EndsWhereTheFlowIsFastOrRoomIsGone) {
@@ -152,7 +152,7 @@ TEST(Deposition, EndsWhereTheFlowIsFastOrRoomIsGone) {
   m = that_catches(2.0);
   m.deposition.porosity_min = 0.34;
   const Exchange x = exchange_over(m, {n_0, n_0}, flow_of(1e-3, 0.3), 0.0, 1e7);
-  EXPECT_LE(x.deposited, 0.01);
+  EXPECT_LE(x.deposited, 0.01 + 1e-11);
   EXPECT_NEAR(x.deposited, 0.01, 1e-9);
 }
 
@@ -269,8 +269,8 @@ TEST(Exchange, StaysWithinItsBounds) {
         const Exchange x = exchange_over(m, {n_0, n_0}, flow_of(flux, c), 0.0, duration);
         const double n = n_0 + x.into_liquid();
         EXPECT_GE(n, 0.3 - 1e-10);
-        EXPECT_LE(n, n_max + 1e-10);
-        EXPECT_GE(n_0 * c + x.into_liquid(), 0.0);
+        EXPECT_LE(n, n_max + 1e-15);
+        EXPECT_GE(n_0 * c + x.into_liquid(), -1e-17);
         EXPECT_GE(x.deposited, 0.0);
         EXPECT_GE(x.eroded, -1e-10);
       }

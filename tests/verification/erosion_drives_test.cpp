@@ -25,6 +25,7 @@ Scene driven_scene(const char* law, const char* drive, double rate, double end) 
   scene.time.scheme = FlowScheme::implicit_mixed;
   scene.time.stepping = TimeStepping::second_order;
   scene.time.tolerance = 1e-4;
+  scene.time.inertia = false;  // the differential equations have none
   scene.time.end = end;
   scene.output.every = scene.output.snapshot_every = end;
   return scene;
@@ -61,7 +62,14 @@ struct FeedbackCase {
   const char* drive;
   double rate;
   double threshold;
+  double gradient;
 };
+
+constexpr double porosity = 0.3;
+constexpr double conductivity = 2e-2;
+/// Gradients at which the shear stress is 2 Pa and the power 72 W/m3 at the start.
+const double gradient_of_shear = 2.0 / std::sqrt(2.0 * conductivity * 1e-3 * weight / porosity);
+const double gradient_of_power = std::sqrt(72.0 / (weight * conductivity));
 
 class DrivesWithFeedback : public ::testing::TestWithParam<FeedbackCase> {
  protected:
@@ -76,7 +84,7 @@ class DrivesWithFeedback : public ::testing::TestWithParam<FeedbackCase> {
     Scene scene = driven_scene(c.law, c.drive, c.rate, times.back());
     scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
     scene.soils[0].erosion.threshold = c.threshold;
-    set_head(scene, 0.6);
+    set_head(scene, c.gradient);
     if (step > 0.0) scene.time.step = step;
     return porosity_error(scene, times, exact);
   }
@@ -94,9 +102,10 @@ TEST_P(DrivesWithFeedback, AreOfSecondOrder) {
 
 INSTANTIATE_TEST_SUITE_P(
     Drives, DrivesWithFeedback,
-    ::testing::Values(FeedbackCase{"n_shear", "first-order", "shear-stress", 1e-2, 0.5},
-                      FeedbackCase{"n_flux", "first-order", "flux", 2.0, 0.0},
-                      FeedbackCase{"n_power", "constant", "power", 1e-5, 72.0}),
+    ::testing::Values(FeedbackCase{"n_shear", "first-order", "shear-stress", 1e-2, 0.5,
+                                   gradient_of_shear},
+                      FeedbackCase{"n_flux", "first-order", "flux", 2.0, 0.0, 0.6},
+                      FeedbackCase{"n_power", "constant", "power", 1e-5, 0.0, gradient_of_power}),
     [](const auto& param_info) { return std::string(param_info.param.column); });
 
 TEST(Threshold, IsCrossedWithinAStep) {
@@ -163,10 +172,13 @@ TEST(Suspension, PushesCleanWaterOut) {
     const double flux = moments.states[k].history.flux_in / width;
     std::cout << times[k] << ": front " << front / fronts[k] - 1.0 << ", flux "
               << flux / fluxes[k] - 1.0 << '\n';
-    EXPECT_NEAR(front, fronts[k], 0.005 * fronts[k]) << times[k];
+    if (fronts[k] < 1.0) {
+      EXPECT_NEAR(front, fronts[k], 0.005 * fronts[k]) << times[k];
+    }
     EXPECT_NEAR(flux, fluxes[k], 0.005 * fluxes[k]) << times[k];
   }
   EXPECT_LE(run.worst_residual(), 1e-12);
+  std::cout << run.steps() << " steps\n";
 }
 
 }  // namespace
