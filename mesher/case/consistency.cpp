@@ -132,6 +132,12 @@ class SceneCheck {
     if (!(porosity(highest) <= soil.porosity_max() + porosity_round_off)) {
       report_porosity(soil, highest);
     }
+    const double least = soil.deposition.porosity_min;
+    if (!soil.deposition.has_room_limit() || porosity(lowest) > least) return;
+    report("soil." + soil.region + ".deposition.porosity_min",
+           "n_min = " + short_number(least) + " with n_0 = " + short_number(porosity(lowest)) +
+               " at " + place<Dim>(mesh_.nodes[lowest]),
+           "n_min < n_0 everywhere in the region");
   }
 
   void report_porosity(const Soil& soil, int node) {

@@ -119,6 +119,13 @@ class Checks : private SceneCheckBase {
               "as law is not " + shown_value(std::string(no_erosion()->word)), table + ".law");
     }
     check_drive(soil, table);
+    check_residual(soil, joined(table, "residual"));
+  }
+
+  void check_residual(const Soil& soil, const std::string& key) const {
+    const auto& pairs = soil.erosion.residual.pairs;
+    if (!given(key) || refused(key) || pairs.empty() || pairs.front().first >= 0.0) return;
+    report(key, "|q| = " + shown_number(pairs.front().first), "|q| >= 0, in m/s");
   }
 
   /// What one law asks for may be inherited by a soil with another law, but not given to it.

@@ -7,6 +7,7 @@
 
 #include "case/errors.hpp"
 #include "case/scene_schema.hpp"
+#include "driver/exchange_sentences.hpp"
 #include "flow/nodal_operator.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
@@ -305,7 +306,7 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
     describe_implicit_flow(scene, options, plan);
   }
   const std::string because = options.no_skip ? " (--no-skip)" : "";
-  say(plan.erosion ? "run: erosion" + because : "skip: erosion, no soil erodes");
+  describe_exchange(scene, because, plan);
   describe_spans(scene, plan);
   if (scene.formulation == Formulation::double_point) {
     say(scene.flow.integration == PressureIntegration::material_point

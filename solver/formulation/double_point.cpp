@@ -23,7 +23,9 @@ void DoublePoint<Dim>::advance(double latest) {
     if (this->soils_.exchange_depends_on().concentration)
       concentration_before_ = element_concentration();
     liquid_->advance(step, flow.volumes, eroded, this->flow_->pressure());
+    if (liquid_->deposited().empty()) continue;
     this->solid_->deposit(liquid_->deposited());
+    liquid_->follow_deposits();
   }
   this->time_ = flow.end;
   // Masses that crossed borders with the points.

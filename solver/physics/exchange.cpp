@@ -58,29 +58,30 @@ class SoilVolume {
                                               model.erosion.residual.at(flow.flux())
                                         : 0.0) {}
 
-  /// Rates at x, per step.
-  [[nodiscard]] Exchange rate(double x) const {
+  /// Rates at x, per step. With `erodes` the law goes on smoothly beyond what can erode, until the
+  /// step has been cut there.
+  [[nodiscard]] Exchange rate(double x, bool erodes) const {
     const double porosity = place_.porosity + x;
     const double concentration = passes_ ? fines_ / liquid_ : (fines_ + x) / (liquid_ + x);
     Exchange result;
+    // Below nothing and beyond all room it is negative, which lets a balance be found there.
     if (caught_ != 0.0) {
       const double room = model_.deposition.room(place_.initial_porosity, porosity);
-      result.deposited = caught_ * std::max(concentration * room, 0.0);
+      result.deposited = caught_ * concentration * room;
     }
-    // Beyond what can erode the law goes on smoothly, until the step has been cut there.
-    const double left = erodible_ - x;
-    if (scaled_ == 0.0 || (left < 0.0 && erodible_ < 0.0)) return result;
+    if (scaled_ == 0.0 || !erodes) return result;
     const double critical = model_.erosion.critical_concentration;
     const double hindrance = std::isfinite(critical) ? concentration / critical : 0.0;
     if (hindrance >= 1.0) return result;
     const LocalState state{.porosity = porosity,
-                           .erodible_fraction = left,
+                           .erodible_fraction = erodible_ - x,
                            .skeleton_fraction = 1.0 - model_.erosion.porosity_max,
                            .concentration = concentration};
     result.eroded = scaled_ * (1.0 - hindrance) * model_.erosion.law->state(state);
     return result;
   }
 
+  [[nodiscard]] Exchange rate_now() const { return rate(0.0, erodible_ > 0.0); }
   [[nodiscard]] Exchange integrated() const;
 
  private:
@@ -89,7 +90,15 @@ class SoilVolume {
     double deposited;
     double error;
   };
-  [[nodiscard]] Step step(double x, double h) const;
+  [[nodiscard]] Step step(double x, double h, bool erodes) const;
+  /// Nothing is left to erode, to the last digit.
+  [[nodiscard]] bool is_bare(double x) const {
+    constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
+    return std::abs(erodible_ - x) <= round_off;
+  }
+  /// Whether erosion and deposition are even, and what is a little beside comes back: so it stays.
+  /// `x` becomes the place where they are.
+  [[nodiscard]] bool find_balance(double& x, bool erodes) const;
 
   const ExchangeModel& model_;
   const SoilPlace& place_;
@@ -102,7 +111,7 @@ class SoilVolume {
 };
 
 /// One step of Dormand and Prince (J. Comput. Appl. Math. 6 (1980) 19) for x and what is deposited.
-auto SoilVolume::step(double x, double h) const -> Step {
+auto SoilVolume::step(double x, double h, bool erodes) const -> Step {
   static constexpr std::array<std::array<double, 6>, 6> weights{
       {{1.0 / 5},
        {3.0 / 40, 9.0 / 40},
@@ -112,7 +121,7 @@ auto SoilVolume::step(double x, double h) const -> Step {
        {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}}};
   static constexpr std::array<double, 7> error_weights{
       71.0 / 57600, 0.0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
-  std::array<Exchange, 7> rates{rate(x)};
+  std::array<Exchange, 7> rates{rate(x, erodes)};
   Step result{x, 0.0, 0.0};
   for (std::size_t stage = 0; stage < weights.size(); ++stage) {
     Exchange sum;
@@ -122,7 +131,7 @@ auto SoilVolume::step(double x, double h) const -> Step {
     }
     result.x = x + h * sum.into_liquid();
     result.deposited = h * sum.deposited;
-    rates[stage + 1] = rate(result.x);
+    rates[stage + 1] = rate(result.x, erodes);
   }
   double error = 0.0;
   for (std::size_t i = 0; i < rates.size(); ++i) error += error_weights[i] * rates[i].into_liquid();
@@ -130,40 +139,63 @@ auto SoilVolume::step(double x, double h) const -> Step {
   return result;
 }
 
+bool SoilVolume::find_balance(double& x, bool erodes) const {
+  constexpr double little = 2e-11;  // steps are no better
+  const auto grows = [&](double at) { return rate(at, erodes).into_liquid() > 0.0; };
+  double low = x - little;
+  double high = x + little;
+  if (!grows(low) || !(rate(high, erodes).into_liquid() < 0.0)) return false;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (grows(middle) ? low : high) = middle;
+  }
+  x = std::clamp(0.5 * (low + high), -fines_, erodes ? std::max(x, erodible_) : x + little);
+  return true;
+}
+
 Exchange SoilVolume::integrated() const {
   constexpr double tolerance = 1e-11;
-  constexpr double settled = 1e-14;
-  constexpr double balanced = 1e-12;
+  constexpr int many_steps = 10000;
   double x = 0.0;
   double deposited = 0.0;
-  double remaining = 1.0;
+  double done = 0.0;
   double h = 1.0;
-  // Below what can erode the law acts; where a residual has risen above it, only once deposits
-  // reach it.
-  bool acts = erodible_ >= 0.0;
-  while (remaining > 0.0) {
-    const Exchange now = rate(x);
-    const bool all_eroded = acts && x >= erodible_ && now.into_liquid() >= 0.0;
-    const double net = std::abs(now.into_liquid());
-    if (all_eroded || net * remaining <= settled ||
-        net <= balanced * (now.eroded + now.deposited)) {
-      // Nothing changes any more: what is deposited erodes again.
-      deposited += remaining * now.deposited;
+  bool erodes = erodible_ > 0.0;
+  bool stuck = false;
+  for (int count = 0; done < 1.0; ++count) {
+    // What is deposited on bare grains erodes at once where the law takes that much.
+    const bool bare = is_bare(x);
+    const bool stays = bare && (rate(x, true).into_liquid() >= 0.0 || stuck);
+    if (stays) {
+      deposited += (1.0 - done) * rate(x, true).deposited;
       break;
     }
-    h = std::min(h, remaining);
-    const Step next = step(x, h);
-    if (next.error > tolerance) {
-      h *= std::max(0.2, 0.9 * std::pow(tolerance / next.error, 0.2));
+    const double before = x;
+    if (h < 0.01 && find_balance(x, erodes)) {
+      // Both rates are the same but for what the last digit of x makes of the faster one.
+      const Exchange even = rate(x, erodes);
+      const double change = (1.0 - done) * std::min(even.eroded, even.deposited);
+      deposited += std::max(0.0, change) + std::max(0.0, before - x);
+      break;
+    }
+    erodes = erodes || bare;
+    h = std::min(h, 1.0 - done);
+    const Step next = step(x, h, erodes);
+    const double shortest = count < many_steps ? 1e-15 : 1e-4;
+    const double factor = 0.9 * std::pow(tolerance / std::max(next.error, 1e-300), 0.2);
+    if (next.error > tolerance && h > shortest) {
+      h = std::max(shortest, h * std::max(0.2, factor));
       continue;
     }
-    const bool reaches = acts ? next.x > erodible_ && next.x > x : next.x < erodible_;
-    const double share = reaches ? std::clamp((erodible_ - x) / (next.x - x), 0.0, 1.0) : 1.0;
-    x = reaches ? erodible_ : std::max(next.x, -fines_);
-    acts = acts || reaches;
-    deposited += share * next.deposited;
-    remaining = h < remaining || reaches ? remaining - share * h : 0.0;
-    h *= std::min(5.0, 0.9 * std::pow(tolerance / std::max(next.error, 1e-300), 0.2));
+    // From either side: nothing is left to erode, or deposits are more than what stays.
+    const bool crosses = erodes ? next.x > erodible_ && next.x > x : next.x < erodible_;
+    const double share = crosses ? std::clamp((erodible_ - x) / (next.x - x), 0.0, 1.0) : 1.0;
+    stuck = crosses && share == 0.0;
+    const double missing = crosses ? 0.0 : std::max(0.0, -fines_ - next.x);
+    x = crosses ? erodible_ : next.x + missing;
+    deposited += share * next.deposited - missing;
+    done += next.error > tolerance ? h : share * h;
+    h = std::max(shortest, h * std::min(5.0, factor));
   }
   return {x + deposited, deposited};
 }
@@ -180,7 +212,7 @@ Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const
                       .concentration = flow.concentration,
                       .saturation = flow.saturation};
   return SoilVolume(model, place, now, drive, catch_rate(model.deposition, flow, flow.flux_start))
-      .rate(0.0);
+      .rate_now();
 }
 
 Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,

@@ -66,6 +66,8 @@ class PointTransport : public Transport<Dim> {
 
   /// Fines that the last step left in the soil, per solid point, m3; empty: none.
   [[nodiscard]] const std::vector<double>& deposited() const { return deposition_.deposited(); }
+  /// The soil has them: the next step starts with the pores that they leave.
+  virtual void follow_deposits() {}
 
   /// Of this interval.
   [[nodiscard]] const RegionCrossings& crossings() const { return crossings_; }

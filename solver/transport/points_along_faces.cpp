@@ -133,6 +133,12 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
 }
 
 template <int Dim>
+void PointsAlongFaces<Dim>::follow_deposits() {
+  // Else the next step would take them for pores that close while points pass, and take fines back.
+  porosity_ = this->solid_.element_porosity();
+}
+
+template <int Dim>
 void PointsAlongFaces<Dim>::inject(const std::vector<double>& volume,
                                    const std::vector<double>& pressure, Paths& paths,
                                    std::vector<double>& start) {

@@ -23,6 +23,8 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& exchange, const std::vector<double>& pressure) override;
 
+  void follow_deposits() override;
+
   [[nodiscard]] const LiquidPoints<Dim>& points() const override { return points_; }
   [[nodiscard]] int size() const override { return points_.size(); }
   [[nodiscard]] LiquidContent content() const override;

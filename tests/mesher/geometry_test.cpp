@@ -327,6 +327,15 @@ TEST(Scene, APorosityThatLeavesItsBoundsIsPlaced) {
             "n_0 <= 1 - n_C = 0.4 everywhere in the region");
   EXPECT_NE(with_gradient("[-0.3, 0.0]").find("got n_0 = 0 at (1, 0)"), std::string::npos);
   EXPECT_EQ(with_gradient("[0.0, 0.1]"), "nothing refused");
+  // Deposits have room where n_0 is above n_min alone.
+  const auto with_deposits = [&](const std::string& least) {
+    return with_gradient("[0.0, -0.1]\n[soil.specimen.deposition]\ncoefficient = 2.0\n" +
+                         ("porosity_min = " + least));
+  };
+  EXPECT_EQ(with_deposits("0.2"),
+            "test.toml:27: soil.specimen.deposition.porosity_min: got n_min = 0.2 with n_0 = 0.2 "
+            "at (0, 1); expected n_min < n_0 everywhere in the region");
+  EXPECT_EQ(with_deposits("0.19"), "nothing refused");
 }
 
 /// A folder with the geometry files of the test data, so that anything they wrote would show.

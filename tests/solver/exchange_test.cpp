@@ -197,6 +197,40 @@ TEST(Exchange, SlidesAlongWhatCanErode) {
 }
 
 /// Of both at once, with drag that opens: by many small steps of the rate alone.
+/// On bare grains a law that takes as much as comes, or more, leaves the porosity as it is; one
+/// that takes less lets it fall as c' = (S - a c)/n says with n next to constant.
+TEST(Exchange, StartsOnBareGrains) {
+  ExchangeModel m = that_erodes("constant", "time", 1e-2);
+  m.deposition.coefficient = 1.0;
+  const double c = 0.05;
+  const double flux = 1e-2;
+  // What the state has as its last digit must not matter.
+  for (const double porosity : {n_max, std::nextafter(n_max, 0.0), std::nextafter(n_max, 1.0)}) {
+    const Exchange x = exchange_over(m, {n_0, porosity}, flow_of(flux, c), 0.0, 10.0);
+    EXPECT_NEAR(x.into_liquid(), 0.0, 1e-15);
+    EXPECT_NEAR(x.deposited, flux * c * 10.0, 1e-15);
+    EXPECT_NEAR(x.eroded, x.deposited, 1e-15);
+  }
+  m.erosion.rate = 1e-4;
+  const double duration = 1.0;
+  const Exchange less = exchange_over(m, {n_0, n_max}, flow_of(flux, c), 0.0, duration);
+  EXPECT_NEAR(less.eroded, 1e-4 * duration, 1e-12);
+  EXPECT_NEAR(less.deposited, flux * c * duration, 0.01 * flux * c * duration);
+}
+
+/// Less than what stays can erode nothing until deposits have come.
+TEST(Exchange, WaitsForDepositsWhereLessThanTheResidualIsLeft) {
+  ExchangeModel m = that_erodes("constant", "time", 1.0);
+  m.deposition.coefficient = 1.0;
+  m.erosion.residual = {{{0.0, 0.001}}};
+  const double porosity = n_max - 1e-4;
+  const Exchange x = exchange_over(m, {n_0, porosity}, flow_of(1e-2, 0.5), 0.0, 10.0);
+  EXPECT_NEAR(x.into_liquid(), -9e-4, 1e-15);
+  // In place of the fines that went, c falls by less than 1 %, and what comes later erodes at once.
+  EXPECT_NEAR(x.deposited, 1e-2 * 0.5 * 10.0, 1e-4);
+  EXPECT_LT(x.deposited, 1e-2 * 0.5 * 10.0);
+}
+
 TEST(Exchange, IsTheIntegralOfItsRates) {
   ExchangeModel m = that_erodes("first-order", "gradient", 0.05);
   m.erosion.threshold = 0.1;

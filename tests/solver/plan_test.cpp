@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "case/errors.hpp"
 #include "solver/double_point_case.hpp"
@@ -176,6 +178,73 @@ TEST(Plan, SkipsWhatTheSceneDoesNotNeed) {
   EXPECT_FALSE(plan_of({}).erosion);
   scene.soils[0].erosion = {erosion_law("constant"), 1e-3, 0.0, false};
   EXPECT_TRUE(plan_of({}).erosion);
+}
+
+/// The sentences from that about erosion on, as far as they are about fines and soil.
+std::vector<std::string> sentences_of_exchange(const Scene& scene, bool no_skip = false) {
+  const Plan plan = make_plan(model::make_case(model::column_mesh(4, 4), scene),
+                              {.threads = 1, .no_skip = no_skip});
+  std::vector<std::string> found;
+  for (const std::string& sentence : plan.sentences) {
+    for (const char* pass : {": erosion", ": deposition", ": viscosity", ": conductivity"}) {
+      if (sentence.find(pass) <= 4) found.push_back(sentence);
+    }
+  }
+  return found;
+}
+
+using Sentences = std::vector<std::string>;
+
+TEST(Plan, SaysWhatFinesDo) {
+  Scene scene = fluxes(0.01, -0.01);
+  EXPECT_EQ(sentences_of_exchange(scene),
+            (Sentences{"skip: erosion, no soil erodes", "skip: deposition, no soil catches fines",
+                       "skip: viscosity of the suspension, it is that of the water",
+                       "skip: conductivity that follows pores, no soil has it and changes"}));
+  EXPECT_EQ(sentences_of_exchange(scene, true)[0], "run: erosion (--no-skip)");
+
+  // Soils that are told to do something, which does not come about.
+  scene.soils[0].deposition.coefficient = 2.0;
+  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+  scene.liquid.viscosity_model.law = viscosity_laws()[1];
+  EXPECT_EQ(
+      sentences_of_exchange(scene),
+      (Sentences{"skip: erosion, no soil erodes", "skip: deposition, no fines get into the liquid",
+                 "skip: viscosity of the suspension, no grains get into the liquid",
+                 "skip: conductivity that follows pores, no soil has it and changes"}));
+
+  scene.boundaries[0].concentration = 0.1;
+  EXPECT_EQ(sentences_of_exchange(scene),
+            (Sentences{"skip: erosion, no soil erodes", "run: deposition, soil specimen",
+                       "run: viscosity of the suspension, by the law krieger-dougherty",
+                       "run: conductivity that follows pores, soil specimen"}));
+}
+
+TEST(Plan, SaysWhichDriveErodesWhichSoil) {
+  Scene scene = fluxes(0.01, -0.01);
+  const auto erode = [](Soil& soil, const char* law, const char* drive, double rate) {
+    soil.erosion.law = erosion_law(law);
+    soil.erosion.drive = drive_law(drive);
+    soil.erosion.rate = rate;
+  };
+  for (const char* name : {"base", "core", "filter", "still"}) {
+    scene.soils.push_back(scene.soils[0]);
+    scene.soils.back().region = name;
+  }
+  erode(scene.soils[0], "constant", "power", 1e-6);
+  erode(scene.soils[1], "flux", "time", 2.0);  // the word is the drive
+  erode(scene.soils[2], "first-order", "power", 1e-6);
+  erode(scene.soils[3], "first-order", "time", 1e-3);
+  erode(scene.soils[4], "first-order", "gradient", 0.0);
+  scene.soils[2].deposition.coefficient = 1.0;
+  scene.soils[3].conductivity_law = conductivity_law("kozeny-carman");
+  scene.soils[4].conductivity_law = conductivity_law("kozeny-carman");
+  EXPECT_EQ(
+      sentences_of_exchange(scene),
+      (Sentences{"run: erosion by time, soil filter", "run: erosion by flux, soil base",
+                 "run: erosion by power, soils specimen and core", "run: deposition, soil core",
+                 "skip: viscosity of the suspension, it is that of the water",
+                 "run: conductivity that follows pores, soil filter"}));
 }
 
 TEST(Plan, WarnsOfMassScalingThatDistortsTheFlow) {

@@ -104,6 +104,19 @@ std::vector<test::Mode> variants() {
   const std::string tables =
       R"(boundary[0]={on = "top", pressure = [[0.0, 0.0], [1.0, 6e3], [3.0, 6e3], [3.00001, 3e3]], )"
       R"(concentration = [[0.0, 0.0], [4.0, 0.1]]})";
+  // Fines leave, are caught, and leave again as the flow turns; the liquid thickens.
+  const std::vector<std::string> soil{
+      "soil.specimen.erosion={law = \"autocatalytic\", drive = \"shear-stress\", rate = 0.2, "
+      "threshold = 0.5, residual = [[0.0, 0.03], [0.02, 0.01]], critical_concentration = 0.4}",
+      "soil.specimen.deposition={coefficient = 5.0, porosity_min = 0.2, flux_max = 0.01}",
+      "soil.specimen.conductivity_law=kozeny-carman", "soil.specimen.size_ratio=3.0",
+      "liquid.viscosity_law=krieger-dougherty"};
+  std::vector<std::string> exchange = soil;
+  exchange.emplace_back(
+      R"(boundary[0]={on = "top", pressure = [[0.0, 6e3], [2.0, 6e3], [4.0, -6e3]], concentration = 0.1})");
+  std::vector<std::string> exchange_with_points = soil;
+  exchange_with_points.emplace_back(
+      R"(boundary[0]={on = "inflow", darcy_flux = [[0.0, 0.012], [2.0, 0.012], [4.0, 0.004]], concentration = 0.1})");
   return {
       test::with(
           single, "inertia",
@@ -132,6 +145,8 @@ std::vector<test::Mode> variants() {
       test::with(modes[0], "explicit_with_implicit_drag", {"time.drag=implicit"}),
       test::with(modes[3], "boundary_values_in_time_with_points",
                  {R"(boundary[0]={on = "inflow", darcy_flux = [[0.0, 0.0], [5.0, 0.02]]})"}),
+      test::with(single, "exchange", exchange),
+      test::with(modes[3], "exchange_with_points", exchange_with_points),
       test::with(modes[3], "dry_elements_and_random_points",
                  {"points.seeding=random", "points.liquid_per_element=1",
                   "soil.specimen.erosion.empty_elements=dry",

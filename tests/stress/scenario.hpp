@@ -70,5 +70,10 @@ std::vector<Sweep> all_sweeps();
 
 /// Levees under floods and rain, of soils that need not be saturated.
 Sweep seepage_sweep();
+/// The mesh of one of them, of two soils: 1 m high, slopes of 0 to 2 m.
+Mesh<2> levee_mesh(unsigned seed);
+
+/// Every way in which soils give fines away and catch them.
+Sweep soils_sweep();
 
 }  // namespace suffuse::stress

@@ -24,41 +24,6 @@ std::string entry(const std::string& key, double value) {
   return key + " = " + text_of(value);
 }
 
-/// A levee 1 m high: a crest of up to 1 m, slopes of 0 to 2 m on either side, up to 14 rows.
-Mesh<2> levee(unsigned seed) {
-  Random random(seed);
-  const int rows = 5 + random.below(10);
-  const double crest = random.between(0.2, 1.0);
-  const double water_side = random.chance(0.2) ? 0.0 : random.between(0.2, 2.0);
-  const double land_side = random.chance(0.2) ? 0.0 : random.between(0.2, 2.0);
-  const int columns =
-      std::max(2, static_cast<int>(rows * (crest + 0.5 * (water_side + land_side))));
-  Mesh<2> mesh = model::column_mesh(columns, rows, 1.0, 1.0, [&](const Vector<2>& x) {
-    const double left = water_side * x[1];
-    const double right = water_side + crest + land_side * (1.0 - x[1]);
-    return Vector<2>(std::lerp(left, right, x[0]), x[1]);
-  });
-  jitter_nodes(mesh, random.chance(0.5) ? 0.2 / rows : 0.0, seed);
-  const int shape = random.below(4);
-  const double border = random.between(0.2, 0.8);
-  const double middle = water_side + 0.5 * crest;
-  name_regions(mesh, [&](const Vector<2>& x) {
-    const bool other = shape == 0   ? x[1] < border
-                       : shape == 1 ? std::abs(x[0] - middle) < 0.3 * crest
-                       : shape == 2 ? random.chance(0.3)
-                                    : false;
-    return other ? "other" : "specimen";
-  });
-  const auto has = [&](const char* name) {
-    return std::ranges::count(mesh.region_names, name) > 0;
-  };
-  // Both soils of the scene must be somewhere.
-  if (!has("other") || !has("specimen")) {
-    name_regions(mesh, [&](const Vector<2>& x) { return x[1] < border ? "other" : "specimen"; });
-  }
-  return mesh;
-}
-
 std::string retention(Random& random, double residual) {
   if (random.chance(0.1)) return "";
   const bool gardner = random.chance(0.4);
@@ -137,6 +102,41 @@ Changes levee_changes(unsigned seed, double end) {
 
 }  // namespace
 
+/// A levee 1 m high: a crest of up to 1 m, slopes of 0 to 2 m on either side, up to 14 rows.
+Mesh<2> levee_mesh(unsigned seed) {
+  Random random(seed);
+  const int rows = 5 + random.below(10);
+  const double crest = random.between(0.2, 1.0);
+  const double water_side = random.chance(0.2) ? 0.0 : random.between(0.2, 2.0);
+  const double land_side = random.chance(0.2) ? 0.0 : random.between(0.2, 2.0);
+  const int columns =
+      std::max(2, static_cast<int>(rows * (crest + 0.5 * (water_side + land_side))));
+  Mesh<2> mesh = model::column_mesh(columns, rows, 1.0, 1.0, [&](const Vector<2>& x) {
+    const double left = water_side * x[1];
+    const double right = water_side + crest + land_side * (1.0 - x[1]);
+    return Vector<2>(std::lerp(left, right, x[0]), x[1]);
+  });
+  jitter_nodes(mesh, random.chance(0.5) ? 0.2 / rows : 0.0, seed);
+  const int shape = random.below(4);
+  const double border = random.between(0.2, 0.8);
+  const double middle = water_side + 0.5 * crest;
+  name_regions(mesh, [&](const Vector<2>& x) {
+    const bool other = shape == 0   ? x[1] < border
+                       : shape == 1 ? std::abs(x[0] - middle) < 0.3 * crest
+                       : shape == 2 ? random.chance(0.3)
+                                    : false;
+    return other ? "other" : "specimen";
+  });
+  const auto has = [&](const char* name) {
+    return std::ranges::count(mesh.region_names, name) > 0;
+  };
+  // Both soils of the scene must be somewhere.
+  if (!has("other") || !has("specimen")) {
+    name_regions(mesh, [&](const Vector<2>& x) { return x[1] < border ? "other" : "specimen"; });
+  }
+  return mesh;
+}
+
 Sweep seepage_sweep() {
   Sweep sweep{
       "seepage", "levees of random soils, slopes and floods; seepage faces, rain, erosion", {}};
@@ -146,7 +146,7 @@ Sweep seepage_sweep() {
       scenario.scheme = scheme;
       scenario.parameters = "at random";
       scenario.seed = seed;
-      scenario.mesh = [seed] { return levee(seed); };
+      scenario.mesh = [seed] { return levee_mesh(seed); };
       scenario.end = Random(seed + 5000).decades(1e3, 1e7);
       scenario.changes = [seed](const Span& span) { return levee_changes(seed, span.end); };
       sweep.scenarios.push_back(std::move(scenario));
