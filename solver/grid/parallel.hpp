@@ -12,19 +12,27 @@ namespace suffuse {
 /// A loop of fewer indices takes less time than waking the threads.
 inline constexpr int worth_threads = 4096;
 
+/// One piece of machine code for a loop, whoever runs it: compiled twice, products and sums might
+/// be fused in one copy and not in the other, and differ in their last bit.
+template <class Loop>
+[[gnu::noinline, gnu::noclone]] void run_part(const Loop& loop, int begin, int end) {
+  loop(begin, end);
+}
+
 /// Calls `loop(begin, end)` for parts that together are [0, count). A loop that one thread runs
 /// does not enter OpenMP, which would call the operating system for nothing.
 template <class Loop>
 void share_among(int threads, int count, int worth, const Loop& loop) {
   if (threads <= 1 || count < worth) {
-    loop(0, count);
+    run_part(loop, 0, count);
     return;
   }
 #pragma omp parallel num_threads(threads)
   {
     const long part = omp_get_thread_num();
     const long parts = omp_get_num_threads();
-    loop(static_cast<int>(count * part / parts), static_cast<int>(count * (part + 1) / parts));
+    run_part(loop, static_cast<int>(count * part / parts),
+             static_cast<int>(count * (part + 1) / parts));
   }
 }
 
