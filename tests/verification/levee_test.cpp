@@ -66,7 +66,7 @@ Scene levee_scene(double bulk_modulus, TimeStepping stepping) {
   core.retention = model::gardner(1.0, 0.15);
   core.erosion.law = erosion_law("first-order");
   core.erosion.rate = 1e-6;
-  core.conductivity_law = conductivity_laws().back();
+  core.conductivity_law = conductivity_law("kozeny-carman");
   scene.soils.push_back(core);
 
   BoundaryCondition flood = on("left");

@@ -24,7 +24,7 @@ Scene confined_scene(bool retains) {
   soil.conductivity = 1e-4;
   soil.conductivity_across = 3e-5;
   soil.bedding = 20.0;
-  soil.conductivity_law = conductivity_laws().back();
+  soil.conductivity_law = conductivity_law("kozeny-carman");
   soil.erosion.law = erosion_law("flux");
   soil.erosion.rate = 5.0;
   if (retains) soil.retention = model::van_genuchten(2.0, 1.6);
