@@ -124,7 +124,8 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
   for (const auto& b : balances) longest = std::max(longest, b.place.size());
   const int place = -static_cast<int>(longest) - 2;
   text += cell("place", place) + cell("", -8);
-  for (const auto* head : {"initial", "in", "out", "stored", "eroded", "deposited", "worst residual", "at t"}) {
+  for (const auto* head :
+       {"initial", "in", "out", "stored", "eroded", "deposited", "worst residual", "at t"}) {
     text += cell(head, 15);
   }
   text += "\n";

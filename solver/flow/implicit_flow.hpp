@@ -83,8 +83,8 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Time in which the largest flux fills the pores of the smallest element, s; infinite at rest.
   [[nodiscard]] double filling_time() const;
   [[nodiscard]] double first_step(bool at_rest) const;
-  /// Power that drag takes in each element, W, where the liquid's viscosity follows a front of fines:
-  /// the resistance of an element that the front crosses counts by as much. Else empty.
+  /// Power that drag takes in each element, W, where the liquid's viscosity follows a front of
+  /// fines: the resistance of an element that the front crosses counts by as much. Else empty.
   [[nodiscard]] std::vector<double> losses() const;
 
   FlowOptions options_;

@@ -107,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(FeedbackCase{"n_shear", "first-order", "shear-stress", 1e-2, 0.5,
                                    gradient_of_shear, 1e-6, 1.0},
                       FeedbackCase{"n_flux", "first-order", "flux", 2.0, 0.0, 0.6, 1e-6, 1.0},
-                      FeedbackCase{"n_power", "constant", "power", 1e-5, 0.0, gradient_of_power, 2e-6, 0.25}),
+                      FeedbackCase{"n_power", "constant", "power", 1e-5, 0.0, gradient_of_power,
+                                   2e-6, 0.25}),
     [](const auto& param_info) { return std::string(param_info.param.column); });
 
 TEST(Threshold, IsCrossedWithinAStep) {
