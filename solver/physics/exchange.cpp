@@ -233,6 +233,7 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
   const double first = drive_at(model, place, flow, flow.flux_start);
   const bool opens =
       model.drive_depends_on_conductivity() && model.conductivity.depends_on_porosity();
+  if (!opens && flow.flux_end == flow.flux_start) return with_drives(first, first);
   if (!opens) return with_drives(first, drive_at(model, place, flow, flow.flux_end));
   const double predicted = place.porosity + with_drives(first, first).into_liquid();
   return with_drives(first,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "grid/face_flux.hpp"
 #include "grid/parallel.hpp"
@@ -11,15 +12,7 @@ namespace suffuse {
 
 PlaceFlow PointFlows::at(int point, int element, double from, double to) const {
   PlaceFlow flow;
-  if (!flux.empty()) {
-    flow.flux_start = flow.flux_end = flux[point];
-    if (!flux_change.empty()) {
-      const double slope = flux_change[point] / (end - start);
-      const double middle = 0.5 * (start + end);
-      flow.flux_start = std::max(0.0, flux[point] + slope * (from - middle));
-      flow.flux_end = std::max(0.0, flux[point] + slope * (to - middle));
-    }
-  }
+  std::tie(flow.flux_start, flow.flux_end) = flux_ends(point, from, to);
   if (!resistance.empty()) flow.resistance = resistance[point];
   if (!concentration.empty()) flow.concentration = concentration[point];
   if (!saturation.empty()) flow.saturation = saturation[element];

@@ -2,6 +2,8 @@
 
 /// The liquid at the solid points over an interval, as far as the exchange of fines depends on it.
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "grid/extrapolated_flux.hpp"
@@ -21,6 +23,17 @@ struct PointFlows {
   std::vector<double> saturation;     ///< per element: liquid per pore volume
   bool passes = false;                ///< see PlaceFlow
 
+  /// |q| at a point at the ends of a part of the interval, m/s; may be unset where no law asks for
+  /// it.
+  [[nodiscard]] std::pair<double, double> flux_ends(int point, double from, double to) const {
+    if (flux.empty()) return {unset, unset};
+    const double mean = flux[point];
+    if (flux_change.empty()) return {mean, mean};
+    const double slope = flux_change[point] / (end - start);
+    const double middle = 0.5 * (start + end);
+    return {std::max(0.0, mean + slope * (from - middle)),
+            std::max(0.0, mean + slope * (to - middle))};
+  }
   /// At a point in `element` from `from` to `to`, s, a part of the interval.
   [[nodiscard]] PlaceFlow at(int point, int element, double from, double to) const;
 };

@@ -52,15 +52,44 @@ std::vector<double> RigidSkeleton<Dim>::element_porosity() const {
 }
 
 template <int Dim>
+template <class Take>
+void RigidSkeleton<Dim>::exchange_in(int element, double from, double to, const PointFlows& flows,
+                                     const Take& take) const {
+  const ExchangeModel& model = soils_.exchange_of_element(element);
+  if (!model.exchanges()) return;
+  const int begin = soils_.points_begin(element);
+  const int end = soils_.points_begin(element + 1);
+  const ErosionModel& erosion = model.erosion;
+  if (!model.depends_on_concentration() && !model.drive_depends_on_conductivity()) {
+    // In closed form, without the rest of what exchange may depend on.
+    const auto drive = [&](double flux) {
+      return erosion.drive->depends_on_flow() ? erosion.drive->value({.flux = flux}) : 1.0;
+    };
+    for (int p = begin; p < end; ++p) {
+      const auto [first, last] = flows.flux_ends(p, from, to);
+      const double at_first = drive(first);
+      const double at_last = first == last ? at_first : drive(last);
+      const double scaled = scaled_time(erosion, from, to, at_first, at_last);
+      if (scaled == 0.0) continue;
+      const double after =
+          porosity_after_scaled(erosion, porosity_[p], scaled, 0.5 * (first + last));
+      take(p, Exchange{after - porosity_[p], 0.0});
+    }
+    return;
+  }
+  for (int p = begin; p < end; ++p) {
+    const SoilPlace place{initial_porosity_[p], porosity_[p]};
+    take(p, exchange_over(model, place, flows.at(p, element, from, to), from, to));
+  }
+}
+
+template <int Dim>
 std::vector<double> RigidSkeleton<Dim>::porosity_after(double from, double to,
                                                        const PointFlows& flows) const {
-  std::vector<double> result(porosity_.size());
+  std::vector<double> result = porosity_;
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
-    const ExchangeModel& model = soils_.exchange_of_element(e);
-    for (int p = soils_.points_begin(e); p < soils_.points_begin(e + 1); ++p) {
-      const Exchange change = exchange_over(model, place(p), flows.at(p, e, from, to), from, to);
-      result[p] = porosity_[p] + change.into_liquid();
-    }
+    exchange_in(e, from, to, flows,
+                [&](int p, const Exchange& change) { result[p] += change.into_liquid(); });
   });
   return result;
 }
@@ -72,21 +101,21 @@ void RigidSkeleton<Dim>::exchange(double from, double to, const PointFlows& flow
   exchange.assign(porosity_.size(), 0.0);
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     if (!waiting.empty() && waiting[e] != 0) return;
-    const ExchangeModel& model = soils_.exchange_of_element(e);
-    for (int p = soils_.points_begin(e); p < soils_.points_begin(e + 1); ++p) {
-      const Exchange change = exchange_over(model, place(p), flows.at(p, e, from, to), from, to);
+    const double most = soils_.erosion_of_element(e).porosity_max;
+    exchange_in(e, from, to, flows, [&](int p, const Exchange& change) {
       const double net = change.into_liquid();
-      if (net == 0.0 && change.deposited == 0.0) continue;
+      if (net == 0.0 && change.deposited == 0.0) return;
       double& erodible = state_.erodible_volume[p];
-      const bool all = porosity_[p] + net >= model.erosion.porosity_max;
+      const bool all = porosity_[p] + net >= most;
       const double left = all ? 0.0 : std::max(0.0, erodible - points.volume[p] * net);
       // What the rounded state lost, so that none is lost on the way to the liquid.
       exchange[p] = erodible - left;
       erodible = left;
-      if (change.deposited != 0.0)
+      if (change.deposited != 0.0) {
         state_.deposited_volume[p] += points.volume[p] * change.deposited;
+      }
       porosity_[p] = porosity_of(p);
-    }
+    });
   });
   refuse_full();
 }

@@ -40,9 +40,10 @@ class RigidSkeleton final : public Skeleton<Dim> {
   void update_porosity();
   /// Throws NumericalError where deposits leave hardly any pores.
   void refuse_full() const;
-  [[nodiscard]] SoilPlace place(int point) const {
-    return {initial_porosity_[point], porosity_[point]};
-  }
+  /// Calls `take(point, exchange)` for every point of an element whose soil exchanges fines.
+  template <class Take>
+  void exchange_in(int element, double from, double to, const PointFlows& flows,
+                   const Take& take) const;
 
   const Grid<Dim>& grid_;
   const SoilMap<Dim>& soils_;
