@@ -120,12 +120,39 @@ class Checks : private SceneCheckBase {
     }
     check_drive(soil, table);
     check_residual(soil, joined(table, "residual"));
+    check_momentum(soil, table);
   }
 
   void check_residual(const Soil& soil, const std::string& key) const {
     const auto& pairs = soil.erosion.residual.pairs;
-    if (!given(key) || refused(key) || pairs.empty() || pairs.front().first >= 0.0) return;
-    report(key, "|q| = " + shown_number(pairs.front().first), "|q| >= 0, in m/s");
+    if (!given(key) || refused(key) || pairs.empty()) return;
+    if (pairs.front().first < 0.0) {
+      report(key, "|q| = " + shown_number(pairs.front().first), "|q| >= 0, in m/s");
+    }
+    for (std::size_t i = 1; i < pairs.size(); ++i) {
+      if (pairs[i].second <= pairs[i - 1].second) continue;
+      report(
+          key,
+          "n_e = " + shown_number(pairs[i].second) + " after " + shown_number(pairs[i - 1].second),
+          "fractions that do not rise with |q|: flow that is faster takes more");
+    }
+    const double erodible = soil.porosity_max() - soil.porosity;
+    if (pairs.back().second >= erodible && !soil.deposition.deposits()) {
+      report(key, "n_e = " + shown_number(pairs.back().second) + " that stays",
+             "less than n_e = 1 - n_C - n_0 = " + shown_number(erodible) +
+                 ", a fraction of the volume of soil, or nothing erodes");
+    }
+  }
+
+  /// The momentum that eroded grains take is found per element, without bedding or suction.
+  void check_momentum(const Soil& soil, const std::string& table) const {
+    const bool needs = soil.erosion_model().drive->depends_on_conductivity;
+    if (!soil.erosion.momentum_transfer || !needs) return;
+    if (soil.anisotropy() == 1.0 && !soil.drains()) return;
+    report(joined(table, "momentum_transfer"),
+           "true with drive = " + shown_value(std::string(soil.erosion.drive->word)) +
+               " in soil with bedding or retention",
+           "false, or another drive", {joined(table, "drive")});
   }
 
   /// What one law asks for may be inherited by a soil with another law, but not given to it.
@@ -171,7 +198,11 @@ class Checks : private SceneCheckBase {
 
   void check_conductivity_parameters(const Soil& soil, const std::string& table) const {
     const std::string law_key = joined(table, "conductivity_law");
-    if (refused(law_key) || inherits(soil)) return;
+    if (refused(law_key)) return;
+    if (given(joined(table, "size_ratio")) && soil.conductivity_parameters.size_ratio < 1.0) {
+      report(joined(table, "size_ratio"), shown_value(soil.conductivity_parameters.size_ratio),
+             "r >= 1: the coarse grains over the fine ones");
+    }
     for (const ConductivityParameter& parameter : conductivity_parameters()) {
       const std::string name(parameter.key);
       const std::string key = joined(table, name);
@@ -182,7 +213,7 @@ class Checks : private SceneCheckBase {
                 "as conductivity_law is " + shown_value(std::string(soil.conductivity_law->word)),
                 law_key);
       }
-      if (asks || !given(key)) continue;
+      if (asks || !given(key) || inherits(soil)) continue;
       for (std::string& law : laws) law = shown_value(law);
       report(key, "a key of another law", "conductivity_law = " + listed(laws) + ", or no such key",
              {law_key});

@@ -327,6 +327,7 @@ std::vector<SceneKey> declare_keys() {
           "Concentration of the liquid at which nothing erodes any more.")
           .named("c_cr")
           .above(0.0)
+          .below(1.0)
           .or_infinite()
           .otherwise_as("`inf`"),
       key("soil.*.erosion.start", in_erosion(&ErosionSettings::start), "When erosion starts.")

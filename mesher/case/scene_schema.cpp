@@ -14,9 +14,10 @@ namespace suffuse {
 namespace {
 
 bool within(const SceneKey& key, double x) {
+  if (std::isinf(x)) return key.infinite_allowed && x > 0.0;
   if (key.lower && (key.lower->open ? x <= key.lower->value : x < key.lower->value)) return false;
   if (key.upper && (key.upper->open ? x >= key.upper->value : x > key.upper->value)) return false;
-  return std::isfinite(x) || (key.infinite_allowed && x > 0.0);
+  return std::isfinite(x);
 }
 
 /// How messages and the reference call a value of this key.

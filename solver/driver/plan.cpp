@@ -172,19 +172,29 @@ void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
   const ElementField<Dim> pores = initial_pore_volume(grid, soils);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const ErosionModel& model = soils.erosion_of_element(e);
-    if (!erodes(model)) continue;
+    const DepositionModel& deposition = soils.exchange_of_element(e).deposition;
+    const bool fills = deposition.deposits() && deposition.has_room_limit();
+    if (!erodes(model) && !fills) continue;
     ElementValues<Dim> least = pores[e];
+    ElementValues<Dim> filled = pores[e];
     for (int p = soils.points_begin(e); p < soils.points_begin(e + 1); ++p) {
-      const double erodible = points.volume[p] * (model.porosity_max - soils.initial_porosity(p));
+      const double porosity = soils.initial_porosity(p);
+      const double erodible =
+          erodes(model) ? points.volume[p] * (model.porosity_max - porosity) : 0.0;
+      const double room = fills ? points.volume[p] * (porosity - deposition.porosity_min) : 0.0;
       for (int j = 0; j <= Dim; ++j) {
-        least[j] += erodible * std::min(0.0, FieldNodes<Dim>::basis(points.barycentric[p][j]));
+        const double basis = FieldNodes<Dim>::basis(points.barycentric[p][j]);
+        least[j] += erodible * std::min(0.0, basis);
+        filled[j] -= room * basis;
       }
     }
-    if (*std::ranges::min_element(least) > 0.0) continue;
+    if (std::min(*std::ranges::min_element(least), *std::ranges::min_element(filled)) > 0.0) {
+      continue;
+    }
     std::ostringstream found;
     found << "solid points so near the corners of element " << e << " at ("
           << element_centroid(grid.mesh, e).transpose()
-          << ") that what they erode leaves no pores elsewhere in it";
+          << ") that what they erode or catch leaves no pores elsewhere in it";
     throw InputError(
         {{c.document.locate("points.jitter"), "points", found.str(),
           "points nearer to their Gauss positions, with less jitter, or more of them", ""}});

@@ -100,6 +100,9 @@ std::vector<double> FlowSolver<Dim>::pressure_at_rest() const {
 template <int Dim>
 void FlowSolver<Dim>::update(double time, const PoreState& pores,
                              const std::vector<double>& face_concentration) {
+  if (scene_.liquid.viscosity_model.depends_on_concentration()) {
+    refuse_locked(time, pores.concentration);
+  }
   coefficients_ = coefficients_of(time, pores, face_concentration);
 }
 
@@ -134,9 +137,6 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
       result.drag[e] += grain_density_ * rate.eroded / porosity;
     }
   });
-  if (scene_.liquid.viscosity_model.depends_on_concentration()) {
-    refuse_locked(time, pores.concentration);
-  }
   return result;
 }
 

@@ -109,8 +109,13 @@ FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>
                                                          double time) const {
   // A breakpoint at the end of the step is not yet in effect.
   const double before = time - limits.end_margin * (time - interval.start);
-  return this->coefficients_of(before, interval.pores.at(before),
-                               this->coefficients_.face_concentration);
+  PoreState pores = interval.pores.at(before);
+  if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
+    // Forecast fines have not moved yet: where they would lock, more liquid comes with them.
+    const double most = 0.999 * this->scene().liquid.viscosity_model.maximum_concentration;
+    for (double& c : pores.concentration) c = std::min(c, most);
+  }
+  return this->coefficients_of(before, pores, this->coefficients_.face_concentration);
 }
 
 template <int Dim>

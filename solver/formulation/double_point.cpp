@@ -101,11 +101,13 @@ std::vector<double> DoublePoint<Dim>::element_concentration() const {
 template <int Dim>
 void DoublePoint<Dim>::find_liquid(PointFlows& flows) const {
   // At the middle of the step to come, as it went in the last one: of second order.
+  const ViscosityModel& viscosity = this->scene().liquid.viscosity_model;
+  const double most = viscosity.depends_on_concentration() ? viscosity.maximum_concentration : 1.0;
   std::vector<double> concentration = element_concentration();
   for (std::size_t e = 0; e < concentration_before_.size(); ++e) {
     const double now = concentration[e];
     const double ahead = now + 0.5 * (now - concentration_before_[e]);
-    concentration[e] = std::clamp(ahead, 0.0, 0.5 * (1.0 + now));
+    concentration[e] = std::clamp(ahead, 0.0, std::max(now, 0.5 * (now + most)));
   }
   const MaterialPoints<Dim>& points = this->soils_.points();
   flows.concentration.resize(points.size());

@@ -431,6 +431,12 @@ void EulerianTransport<Dim>::receive(FinesState<Dim>& state, const ElementField<
     scratch.mean[e] =
         element_sum<Dim>(state.fines_volume[e]) / element_sum<Dim>(state.liquid_volume[e]);
   });
+  const auto least = [&](int e) { return *std::ranges::min_element(state.liquid_volume[e]); };
+  if (!(smallest_of(grid_.mesh.element_count(), threads_, infinity, least) > 0.0)) {
+    throw NumericalError(
+        "deposits have filled a part of an element: give the soil a "
+        "deposition.porosity_min, or place solid points nearer to Gauss points");
+  }
   limit_stage(state.liquid_volume, state.fines_volume, scratch);
 }
 
