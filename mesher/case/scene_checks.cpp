@@ -7,6 +7,7 @@
 #include "case/law_texts.hpp"
 #include "case/scene_check_base.hpp"
 #include "case/seepage_checks.hpp"
+#include "case/short_number.hpp"
 #include "case/soil_grading.hpp"
 
 namespace suffuse {
@@ -139,7 +140,7 @@ class Checks : private SceneCheckBase {
     const double erodible = soil.porosity_max() - soil.porosity;
     if (pairs.back().second >= erodible && !soil.deposition.deposits()) {
       report(key, "n_e = " + shown_number(pairs.back().second) + " that stays",
-             "less than n_e = 1 - n_C - n_0 = " + shown_number(erodible) +
+             "less than n_e = 1 - n_C - n_0 = " + short_number(erodible) +
                  ", a fraction of the volume of soil, or nothing erodes");
     }
   }
@@ -199,15 +200,15 @@ class Checks : private SceneCheckBase {
   void check_conductivity_parameters(const Soil& soil, const std::string& table) const {
     const std::string law_key = joined(table, "conductivity_law");
     if (refused(law_key)) return;
-    if (given(joined(table, "size_ratio")) && soil.conductivity_parameters.size_ratio < 1.0) {
-      report(joined(table, "size_ratio"), shown_value(soil.conductivity_parameters.size_ratio),
-             "r >= 1: the coarse grains over the fine ones");
-    }
     for (const ConductivityParameter& parameter : conductivity_parameters()) {
       const std::string name(parameter.key);
       const std::string key = joined(table, name);
       std::vector<std::string> laws = laws_with_conductivity_parameter(name);
       const bool asks = std::ranges::find(laws, soil.conductivity_law->word) != laws.end();
+      if (asks && name == "size_ratio" && soil.conductivity_parameters.size_ratio < 1.0) {
+        report(key, shown_value(soil.conductivity_parameters.size_ratio),
+               "r >= 1: the coarse grains over the fine ones");
+      }
       if (asks && std::isnan(ConductivityParameters{}.*parameter.value)) {
         require(key, "soil.*." + name,
                 "as conductivity_law is " + shown_value(std::string(soil.conductivity_law->word)),

@@ -93,10 +93,11 @@ std::string residual(Random& random, double erodible, double flux) {
   std::string text = "residual = [";
   const int pairs = 1 + random.below(4);
   double q = random.between(0.0, 0.5) * flux;
+  double stays = random.between(0.0, 0.9) * erodible;
   for (int i = 0; i < pairs; ++i) {
-    const double stays = random.between(0.0, 0.9) * erodible;
     text += "[" + text_of(q) + ", " + text_of(stays) + "], ";
     q += random.between(0.05, 1.0) * flux;
+    stays *= random.between(0.0, 1.0);  // flow that is faster takes more
   }
   return text + "]";
 }
