@@ -253,9 +253,9 @@ std::vector<SceneKey> declare_keys() {
           .in("m")
           .otherwise(std::vector{0.0, 0.0}),
       key("soil.*.skeleton_fraction", in_soil(&Soil::skeleton_fraction),
-          "Volume fraction of the coarse grains, which never erode; n_0 + n_C <= 1. Without it the "
-          "fines are those that the gradation shows: n_C = (1 - n_0)(1 - F*), F* where H/F is "
-          "smallest.")
+          "Volume fraction of the coarse grains, which never erode; n_0 + n_C <= 1. Without it "
+          "n_C = (1 - n_0)(1 - F*): F* is the share of fines that follows from the gradation, "
+          "where H/F is smallest.")
           .named("n_C")
           .above(0.0)
           .below(1.0)
@@ -542,14 +542,13 @@ std::vector<SceneKey> declare_keys() {
           .otherwise("explicit"),
 
       key("output.every", at(&Scene::output, &OutputSettings::every),
-          "Time between rows of the tables. A row is the state at the end of a step: every output "
-          "ends one.")
+          "Time between rows of the tables. The solver ends a step at the time of each row.")
           .in("s")
           .above(0.0)
           .mandatory(),
       key("output.snapshot_every", at(&Scene::output, &OutputSettings::snapshot_every),
-          "Time between snapshots of the whole state; not below `every`. As for a row, a step "
-          "ends at the time of a snapshot.")
+          "Time between snapshots of the whole state; not below `every`. The solver ends a step at "
+          "the time of each snapshot.")
           .in("s")
           .above(0.0)
           .otherwise_as("`output.every`"),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "formulation/felt_concentration.hpp"
+#include "physics/head.hpp"
 #include "transport/points_along_faces.hpp"
 #include "transport/points_carrying_flow.hpp"
 
@@ -16,16 +17,12 @@ void DoublePoint<Dim>::advance(double latest) {
   const FlowProgress flow =
       liquid_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
-  // Erosion (Eqs. 1, 6, 7), and the points that carry water and fines (Eq. 5) and leave some of
-  // these.
+  // Erosion (Eqs. 1, 6, 7), the points that carry water and fines (Eq. 5), and what they leave.
   for (const TransportStep& step : liquid_->start_interval(start, flow)) {
     const std::vector<double>& eroded = this->exchange({step.start, step.end}, liquid_->waiting());
-    if (this->soils_.exchange_depends_on().concentration)
-      concentration_before_ = element_concentration();
+    note_concentration();
     liquid_->advance(step, flow.volumes, eroded, this->flow_->pressure());
-    if (liquid_->deposited().empty()) continue;
-    this->solid_->deposit(liquid_->deposited());
-    liquid_->follow_deposits();
+    settle_deposits();
   }
   this->time_ = flow.end;
   // Masses that crossed borders with the points.
@@ -99,6 +96,19 @@ std::vector<double> DoublePoint<Dim>::element_concentration() const {
 }
 
 template <int Dim>
+void DoublePoint<Dim>::note_concentration() {
+  if (!this->soils_.exchange_depends_on().concentration) return;
+  concentration_before_ = element_concentration();
+}
+
+template <int Dim>
+void DoublePoint<Dim>::settle_deposits() {
+  if (liquid_->deposited().empty()) return;
+  this->solid_->deposit(liquid_->deposited());
+  liquid_->follow_deposits();
+}
+
+template <int Dim>
 void DoublePoint<Dim>::find_liquid(PointFlows& flows) const {
   // At the middle of the step to come, as it went in the last one: of second order.
   const ViscosityModel& viscosity = this->scene().liquid.viscosity_model;
@@ -126,8 +136,8 @@ PoreState DoublePoint<Dim>::pores() const {
     result.concentration[e] = liquid > 0.0 ? content.fines[e] / liquid : 0.0;
     result.water_volume[e] *= 1.0 - result.concentration[e];
   }
-  const bool heavy = std::ranges::any_of(this->scene().gravity, [](double g) { return g != 0.0; });
-  if (heavy && this->scene().time.scheme == FlowScheme::implicit_mixed) {
+  if (has_gravity(this->scene().gravity) &&
+      this->scene().time.scheme == FlowScheme::implicit_mixed) {
     result.concentration =
         felt_concentration(this->grid_, this->soils_, result.concentration, content.liquid);
   }

@@ -35,6 +35,10 @@ class DoublePoint final : public TwoPhaseModel<Dim> {
   void update_flow(const PoreState& pores);
   /// Mean concentration of the points in each element; 0 where there is none.
   [[nodiscard]] std::vector<double> element_concentration() const;
+  /// Remembers the concentration of the elements where the exchange of fines depends on it.
+  void note_concentration();
+  /// The solid takes the fines that points left, and the points follow its pores.
+  void settle_deposits();
   /// Pores full of clean water.
   [[nodiscard]] PoreState clean_pores() const;
   /// Flow and liquid points as the scene wants them.

@@ -83,7 +83,7 @@ void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Scene& sc
   result.node = {vectors("liquid_velocity", flow.velocity),
                  {"pressure", "Pa", 1, flow.node_pressure}};
   if (!flow.saturation.empty()) result.cell.push_back({"saturation", "1", 1, flow.saturation});
-  if (std::ranges::none_of(scene.gravity, [](double g) { return g != 0.0; })) return;
+  if (!has_gravity(scene.gravity)) return;
   Field head = scalar("head", "m");
   const double weight = unit_weight(scene.liquid.density, scene.gravity);
   for (int i = 0; i < grid.mesh.node_count(); ++i) {

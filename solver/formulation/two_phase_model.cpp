@@ -40,19 +40,22 @@ double TwoPhaseModel<Dim>::coupling_interval() const {
   const bool changes = solid_->exchanges_within(time_, std::numeric_limits<double>::infinity());
   if (limits.follows_pores || !changes) return longest;
   const double growth = transport().coupling().pore_growth;
-  const PoreState now = pores();
+  const std::vector<double>& porosity = flow_->coefficients().porosity;
+  const std::vector<double> fluxes = element_flux_magnitude();
+  const std::vector<double> concentration =
+      soils_.exchange_depends_on().concentration ? pores().concentration : std::vector<double>();
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const ExchangeModel& model = soils_.exchange_of_element(e);
     if (!model.exchanges()) continue;
-    const double flux = now.flux.empty() ? unset : now.flux[e];
+    const double flux = fluxes.empty() ? unset : fluxes[e];
+    const double c = concentration.empty() ? unset : concentration[e];
     const SoilPlace place{
-        soils_.soil_of_element(e).initial_porosity(element_centroid(grid_.mesh, e)),
-        now.porosity[e]};
-    const Exchange rate = exchange_rate(
-        model, place, {.flux_start = flux, .flux_end = flux, .concentration = now.concentration[e]},
-        std::max(time_, model.erosion.start));
+        soils_.soil_of_element(e).initial_porosity(element_centroid(grid_.mesh, e)), porosity[e]};
+    const Exchange rate =
+        exchange_rate(model, place, {.flux_start = flux, .flux_end = flux, .concentration = c},
+                      std::max(time_, model.erosion.start));
     const double fastest = std::max(rate.eroded, rate.deposited);
-    if (fastest > 0.0) longest = std::min(longest, growth * now.porosity[e] / fastest);
+    if (fastest > 0.0) longest = std::min(longest, growth * porosity[e] / fastest);
   }
   return longest;
 }

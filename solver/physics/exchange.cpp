@@ -75,7 +75,6 @@ class SoilVolume {
     if (hindrance >= 1.0) return result;
     const LocalState state{.porosity = porosity,
                            .erodible_fraction = erodible_ - x,
-                           .skeleton_fraction = 1.0 - model_.erosion.porosity_max,
                            .concentration = concentration};
     result.eroded = scaled_ * (1.0 - hindrance) * model_.erosion.law->state(state);
     return result;

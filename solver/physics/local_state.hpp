@@ -14,13 +14,11 @@ inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 struct LocalState {
   double porosity = unset;           ///< n_L
   double erodible_fraction = unset;  ///< n_e, without the residual that stays
-  double skeleton_fraction = unset;  ///< n_C
   double concentration = unset;      ///< c
   double flux = unset;               ///< |q|, m/s
   double drag_gradient = unset;      ///< i, hydraulic gradient that drag takes up
   double permeability = unset;       ///< kappa, m2
   double unit_weight = unset;        ///< rho_w g of the water, N/m3
-  double time = unset;               ///< s
 };
 
 }  // namespace suffuse

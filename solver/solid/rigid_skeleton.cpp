@@ -59,20 +59,12 @@ void RigidSkeleton<Dim>::exchange_in(int element, double from, double to, const 
   if (!model.exchanges()) return;
   const int begin = soils_.points_begin(element);
   const int end = soils_.points_begin(element + 1);
-  const ErosionModel& erosion = model.erosion;
   if (!model.depends_on_concentration() && !model.drive_depends_on_conductivity()) {
     // In closed form, without the rest of what exchange may depend on.
-    const auto drive = [&](double flux) {
-      return erosion.drive->depends_on_flow() ? erosion.drive->value({.flux = flux}) : 1.0;
-    };
     for (int p = begin; p < end; ++p) {
       const auto [first, last] = flows.flux_ends(p, from, to);
-      const double at_first = drive(first);
-      const double at_last = first == last ? at_first : drive(last);
-      const double scaled = scaled_time(erosion, from, to, at_first, at_last);
-      if (scaled == 0.0) continue;
       const double after =
-          porosity_after_scaled(erosion, porosity_[p], scaled, 0.5 * (first + last));
+          suffuse::porosity_after(model.erosion, porosity_[p], from, to, first, last);
       take(p, Exchange{after - porosity_[p], 0.0});
     }
     return;

@@ -45,7 +45,7 @@ std::vector<std::string> values_of(const SceneKey& key) {
       values.insert(values.end(), {"[0,-9.81]", "[1e300,1e300]", "[0.1,0]", "[0,0,1]", "[]",
                                    "[nan,0]", "[1e-300,-1e-300]"});
       break;
-    case ValueKind::time_function:
+    case ValueKind::function:
       values.insert(values.end(),
                     {"1e3", "-1e-3", "1e300", "[[0,0],[1,1]]", "[[0,1e3],[5,0],[5,1]]", "[[0,1]]",
                      "[[1,0],[0,1]]", "[[0,0],[1e-300,1]]", "[[0,0],[1e300,1e300]]", "[]",

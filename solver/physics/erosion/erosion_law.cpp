@@ -10,7 +10,6 @@ namespace {
 LocalState local_state(const ErosionModel& model, double porosity, double flux) {
   return {.porosity = porosity,
           .erodible_fraction = erodible_fraction(model, porosity, flux),
-          .skeleton_fraction = 1.0 - model.porosity_max,
           .flux = flux};
 }
 
@@ -122,10 +121,12 @@ double erosion_rate(const ErosionModel& model, double porosity, double time, dou
 }
 
 double porosity_after(const ErosionModel& model, double porosity, double from, double to,
-                      double flux) {
+                      double flux_from, double flux_to) {
   if (!erodes(model) || porosity >= model.porosity_max) return porosity;
-  const double drive = drive_at(model, flux);
-  return porosity_after_scaled(model, porosity, scaled_time(model, from, to, drive, drive), flux);
+  const double first = drive_at(model, flux_from);
+  const double last = flux_from == flux_to ? first : drive_at(model, flux_to);
+  return porosity_after_scaled(model, porosity, scaled_time(model, from, to, first, last),
+                               0.5 * (flux_from + flux_to));
 }
 
 double exact_porosity(const ErosionModel& model, double initial_porosity, double time,

@@ -105,11 +105,16 @@ double porosity_after_scaled(const ErosionModel& model, double porosity, double 
 /// depend on it. Zero before the start and once nothing is left to erode.
 double erosion_rate(const ErosionModel& model, double porosity, double time, double flux);
 
-/// Porosity at time `to` of soil that had `porosity` at time `from`, under the same |q| for that
-/// time, by erosion alone. Split at the start of erosion and at exhaustion, so the length of the
-/// interval costs no accuracy.
+/// Porosity at time `to` of soil that had `porosity` at time `from`, by erosion alone, where D
+/// depends on |q| alone, which goes linearly from `flux_from` to `flux_to`, m/s. Split at the start
+/// of erosion and at exhaustion, so the length of the interval costs no accuracy.
 double porosity_after(const ErosionModel& model, double porosity, double from, double to,
-                      double flux);
+                      double flux_from, double flux_to);
+/// The same under one |q|.
+inline double porosity_after(const ErosionModel& model, double porosity, double from, double to,
+                             double flux) {
+  return porosity_after(model, porosity, from, to, flux, flux);
+}
 
 /// The same at time `time`, from the law's exact solution; not a number where the law has none, or
 /// depends on a flux that is unset.
