@@ -27,8 +27,8 @@ void describe_erosion(const Scene& scene, const std::string& because, Plan& plan
     const std::string soils =
         soils_that(scene, [&](const Soil& soil) { return erodes_by(soil, drive); });
     if (soils.empty()) continue;
-    plan.sentences.push_back("run: erosion by " + std::string(drive->word) + ", " + soils +
-                             because);
+    plan.sentences.push_back(
+        std::string("run: erosion by ").append(drive->word).append(", " + soils).append(because));
     any = true;
   }
   if (any) return;

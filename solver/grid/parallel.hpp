@@ -13,9 +13,15 @@ namespace suffuse {
 inline constexpr int worth_threads = 4096;
 
 /// One piece of machine code for a loop, whoever runs it: compiled twice, products and sums might
-/// be fused in one copy and not in the other, and differ in their last bit.
+/// be fused in one copy and not in the other, and differ in their last bit. (Clang does not copy
+/// functions, and does not know the word.)
 template <class Loop>
-[[gnu::noinline, gnu::noclone]] void run_part(const Loop& loop, int begin, int end) {
+#ifdef __clang__
+[[gnu::noinline]]
+#else
+[[gnu::noinline, gnu::noclone]]
+#endif
+void run_part(const Loop& loop, int begin, int end) {
   loop(begin, end);
 }
 
