@@ -73,9 +73,8 @@ class SoilVolume {
     const double critical = model_.erosion.critical_concentration;
     const double hindrance = std::isfinite(critical) ? concentration / critical : 0.0;
     if (hindrance >= 1.0) return result;
-    const LocalState state{.porosity = porosity,
-                           .erodible_fraction = erodible_ - x,
-                           .concentration = concentration};
+    const LocalState state{
+        .porosity = porosity, .erodible_fraction = erodible_ - x, .concentration = concentration};
     result.eroded = scaled_ * (1.0 - hindrance) * model_.erosion.law->state(state);
     return result;
   }
