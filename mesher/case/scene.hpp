@@ -23,6 +23,8 @@ enum class Formulation { single_point, double_point };
 enum class MeshStructure { regular, crossed, free };
 enum class FlowScheme { explicit_nodal, implicit_mixed };
 enum class TimeStepping { second_order, monotone };
+/// How fluidised fines are carried on the mesh; `by_count`: by the number of explicit steps.
+enum class TransportScheme { by_count, implicit_sweeps, explicit_steps };
 enum class DragIntegration { explicit_drag, implicit_drag };
 enum class InitialFlow { rest, steady };
 enum class Seeding { gauss, random, low_discrepancy };
@@ -186,6 +188,7 @@ struct TimeSettings {
   double mass_scaling = 1.0;                              ///< S; explicit only
   DragIntegration drag = DragIntegration::explicit_drag;  ///< explicit only
   TimeStepping stepping = TimeStepping::second_order;     ///< implicit only
+  TransportScheme transport = TransportScheme::by_count;  ///< single-point only
   std::optional<bool> inertia;  ///< implicit only; without it decided from the scene
   double tolerance = 1e-3;      ///< implicit only: bound of the relative local error of a step
 };

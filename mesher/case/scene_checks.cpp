@@ -33,6 +33,7 @@ class Checks : private SceneCheckBase {
     check_formulation();
     check_third_term();
     check_scheme();
+    check_transport();
     check_times();
   }
 
@@ -321,6 +322,21 @@ class Checks : private SceneCheckBase {
     if (!eroding && !fines_enter) return;
     report("flow.porosity_gradient_term", "false where soil erodes or grains enter",
            "true: without this term of Eq. 2 no balance closes");
+  }
+
+  void check_transport() const {
+    if (!given("time.transport") || refused("time.transport")) return;
+    if (scene_.formulation != Formulation::single_point) {
+      report("time.transport", "a key of the single-point formulation in a double-point scene",
+             "formulation = \"single-point\", or no such key: liquid points carry the fines",
+             {"formulation"});
+    } else if (scene_.time.transport == TransportScheme::implicit_sweeps &&
+               scene_.time.scheme == FlowScheme::explicit_nodal) {
+      report("time.transport", "\"implicit\" with scheme = \"explicit\"",
+             "scheme = \"implicit\", or transport = \"explicit\": steps of the explicit flow are "
+             "shorter than those of explicit transport",
+             {"time.scheme"});
+    }
   }
 
   void check_scheme() const {

@@ -515,6 +515,14 @@ std::vector<SceneKey> declare_keys() {
              "Second order in time; or backward Euler, whose pressures stay within those at the "
              "boundaries on meshes without obtuse angles. Implicit only.")
           .otherwise_as("`\"second-order\"`; where a soil has a `retention`, `\"monotone\"`"),
+      choice("time.transport", at(&Scene::time, &TimeSettings::transport),
+             {{"implicit", TransportScheme::implicit_sweeps},
+              {"explicit", TransportScheme::explicit_steps}},
+             "How fluidised fines are carried: implicit, in steps of any length, together with "
+             "what solid and liquid exchange; or explicit, in steps within which no fines cross "
+             "more than an element. Single-point only; implicit with the implicit scheme only.")
+          .otherwise_as("explicit while a run like this moment would take at most 5000 explicit "
+                        "steps, implicit otherwise"),
       key("time.inertia", at(&Scene::time, &TimeSettings::inertia),
           "Keep the liquid's inertia. Implicit only.")
           .otherwise_as("decided from the scene: left out where the time in which flow settles, "

@@ -121,7 +121,7 @@ void DoublePoint<Dim>::find_liquid(PointFlows& flows) const {
   }
   const MaterialPoints<Dim>& points = this->soils_.points();
   flows.concentration.resize(points.size());
-  flows.passes = true;
+  flows.motion = LiquidMotion::passes;
   for (int p = 0; p < points.size(); ++p) {
     flows.concentration[p] = concentration[points.element[p]];
   }

@@ -8,6 +8,18 @@
 #include "physics/liquid.hpp"
 
 namespace suffuse {
+namespace {
+
+FieldTransportSettings field_settings(const Scene& scene, const ModelOptions& options) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const bool is_explicit = scene.time.scheme == FlowScheme::explicit_nodal;
+  return {is_explicit ? TransportScheme::explicit_steps : scene.time.transport,
+          options.transport ? options.fines_from : never,
+          scene.time.end,
+          {scene.time.tolerance, scene.time.step.has_value()}};
+}
+
+}  // namespace
 
 template <int Dim>
 void SinglePoint<Dim>::advance(double latest) {
@@ -18,11 +30,10 @@ void SinglePoint<Dim>::advance(double latest) {
       fines_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
   // Erosion (Eqs. 1, 6, 7), deposition, and transport (Eq. 3), with the volumes that crossed faces.
-  for (const TransportStep& step : fines_->start_interval(start, flow)) {
-    const auto times = this->exchange_times(step);
-    fines_->receive(this->exchange(times.before));
-    fines_->advance(step, flow.volumes, this->exchange(times.during), this->flow_->pressure());
-    fines_->receive(this->exchange(times.after));
+  if (carries_implicitly(start, flow)) {
+    exchange_while_moving(start, flow);
+  } else {
+    exchange_and_move(start, flow);
   }
   this->time_ = flow.end;
   // Masses, and the pressures that follow from them.
@@ -32,12 +43,35 @@ void SinglePoint<Dim>::advance(double latest) {
 }
 
 template <int Dim>
+void SinglePoint<Dim>::exchange_and_move(double start, const FlowProgress& flow) {
+  for (const TransportStep& step : fines_->start_interval(start, flow)) {
+    const auto times = this->exchange_times(step);
+    fines_->receive(this->exchange(times.before));
+    fines_->advance(step, flow.volumes, this->exchange(times.during), this->flow_->pressure());
+    fines_->receive(this->exchange(times.after));
+  }
+}
+
+template <int Dim>
+void SinglePoint<Dim>::exchange_while_moving(double start, const FlowProgress& flow) {
+  fines_->start_implicit(start, flow);
+  while (fines_->goes_on()) {
+    fines_->finish(this->apply(fines_->solve(*this->solid_, this->flows_)));
+  }
+}
+
+template <int Dim>
+bool SinglePoint<Dim>::carries_implicitly(double start, const FlowProgress& flow) const {
+  return flow.end > this->options_.fines_from && this->options_.transport &&
+         fines_->is_implicit(per_time(flow.volumes.liquid, flow.end - start));
+}
+
+template <int Dim>
 SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
     : TwoPhaseModel<Dim>(c, options) {
   this->flow_ = make_flow(c, this->grid_, *this->solid_, options.flow);
   fines_ = std::make_unique<FieldTransport<Dim>>(
-      this->grid_, this->soils_, this->flow_->conditions(),
-      options.transport ? options.fines_from : std::numeric_limits<double>::infinity(),
+      this->grid_, this->soils_, this->flow_->conditions(), field_settings(this->scene(), options),
       options.flow.threads);
   update_flow();
   this->flow_->start();
@@ -84,6 +118,8 @@ void SinglePoint<Dim>::find_liquid(PointFlows& flows) const {
   const FinesState<Dim>& state = fines_->state();
   const MaterialPoints<Dim>& points = this->soils_.points();
   const std::vector<double> air = this->flow_->air();
+  const bool flows_on = fines_->is_implicit(this->mean_face_rate());
+  flows.motion = flows_on ? LiquidMotion::flows_on : LiquidMotion::stays;
   flows.concentration.resize(points.size());
   if (!air.empty()) flows.saturation.resize(air.size());
   for_each_index(this->grid_.mesh.element_count(), this->threads(), [&](int e) {
@@ -212,7 +248,9 @@ Snapshot SinglePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
 template <int Dim>
 std::vector<PassTiming> SinglePoint<Dim>::passes() const {
   std::vector<PassTiming> result = this->flow_->passes();
-  result.insert(result.end(), {this->erosion_timing_, fines_->passes().front(), water_timing_});
+  result.push_back(this->erosion_timing_);
+  for (const PassTiming& timing : fines_->passes()) result.push_back(timing);
+  result.push_back(water_timing_);
   return result;
 }
 

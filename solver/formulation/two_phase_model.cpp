@@ -128,6 +128,14 @@ const std::vector<double>& TwoPhaseModel<Dim>::exchange(const TimeSpan& time,
 }
 
 template <int Dim>
+const std::vector<double>& TwoPhaseModel<Dim>::apply(const std::vector<Exchange>& change) {
+  const PassTimer timer(erosion_timing_);
+  ++erosion_timing_.calls;
+  solid_->apply(change, exchange_);
+  return exchange_;
+}
+
+template <int Dim>
 LedgerRow TwoPhaseModel<Dim>::ledger() const {
   return masses_.ledger(time_, stored());
 }

@@ -96,6 +96,9 @@ class TwoPhaseModel {
   /// empty where none can be exchanged. Elements of `waiting` (may be empty) stay as they are.
   [[nodiscard]] const std::vector<double>& exchange(const TimeSpan& time,
                                                     const std::vector<char>& waiting = {});
+  /// The solid takes an exchange that is known: per solid point and volume of soil. Returns as
+  /// `exchange`.
+  [[nodiscard]] const std::vector<double>& apply(const std::vector<Exchange>& change);
   /// Once the flow has started.
   void start_flux_history();
   /// Mean over the last interval, m3/s.

@@ -37,8 +37,8 @@ double drive_at(const ExchangeModel& model, const SoilPlace& place, const PlaceF
 
 /// lambda_d |q| times a duration: a share of the liquid's fines that is caught where room is 1.
 double catch_rate(const DepositionModel& deposition, const PlaceFlow& flow, double flux) {
-  const bool catches = !flow.passes && deposition.deposits() && flux < deposition.flux_max;
-  return catches ? deposition.coefficient * flux : 0.0;
+  const bool catches = flow.motion != LiquidMotion::passes && deposition.deposits();
+  return catches && flux < deposition.flux_max ? deposition.coefficient * flux : 0.0;
 }
 
 /// Exchange in a volume of soil, with x the net volume that has gone into the liquid.
@@ -53,7 +53,7 @@ class SoilVolume {
         caught_(caught),
         liquid_(place.porosity * flow.saturation),
         fines_(flow.concentration * liquid_),
-        passes_(flow.passes),
+        stays_(flow.motion == LiquidMotion::stays),
         erodible_(erodes(model.erosion) ? model.erosion.porosity_max - place.porosity -
                                               model.erosion.residual.at(flow.flux())
                                         : 0.0) {}
@@ -62,7 +62,7 @@ class SoilVolume {
   /// step has been cut there.
   [[nodiscard]] Exchange rate(double x, bool erodes) const {
     const double porosity = place_.porosity + x;
-    const double concentration = passes_ ? fines_ / liquid_ : (fines_ + x) / (liquid_ + x);
+    const double concentration = stays_ ? (fines_ + x) / (liquid_ + x) : fines_ / liquid_;
     Exchange result;
     // Below nothing and beyond all room it is negative, which lets a balance be found there.
     if (caught_ != 0.0) {
@@ -89,6 +89,10 @@ class SoilVolume {
     double error;
   };
   [[nodiscard]] Step step(double x, double h, bool erodes) const;
+  /// What can be caught: no more than is there.
+  [[nodiscard]] double available() const {
+    return stays_ ? fines_ : std::numeric_limits<double>::infinity();
+  }
   /// Nothing is left to erode, to the last digit.
   [[nodiscard]] bool is_bare(double x) const {
     constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
@@ -104,7 +108,7 @@ class SoilVolume {
   double caught_;
   double liquid_;
   double fines_;
-  bool passes_;
+  bool stays_;
   double erodible_;
 };
 
@@ -147,7 +151,7 @@ bool SoilVolume::find_balance(double& x, bool erodes) const {
     const double middle = 0.5 * (low + high);
     (grows(middle) ? low : high) = middle;
   }
-  x = std::clamp(0.5 * (low + high), -fines_, erodes ? std::max(x, erodible_) : x + little);
+  x = std::clamp(0.5 * (low + high), -available(), erodes ? std::max(x, erodible_) : x + little);
   return true;
 }
 
@@ -189,7 +193,7 @@ Exchange SoilVolume::integrated() const {
     const bool crosses = erodes ? next.x > erodible_ && next.x > x : next.x < erodible_;
     const double share = crosses ? std::clamp((erodible_ - x) / (next.x - x), 0.0, 1.0) : 1.0;
     stuck = crosses && share == 0.0;
-    const double missing = crosses ? 0.0 : std::max(0.0, -fines_ - next.x);
+    const double missing = crosses ? 0.0 : std::max(0.0, -available() - next.x);
     x = crosses ? erodible_ : next.x + missing;
     deposited += share * next.deposited - missing;
     done += next.error > tolerance ? h : share * h;
@@ -217,7 +221,7 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
                        double from, double to) {
   const auto with_drives = [&](double first, double last) -> Exchange {
     const double scaled = scaled_time(model.erosion, from, to, first, last);
-    const bool catches = !flow.passes && model.deposition.deposits();
+    const bool catches = flow.motion != LiquidMotion::passes && model.deposition.deposits();
     if (!depends_on_concentration(model.erosion) && !catches) {
       return {porosity_after_scaled(model.erosion, place.porosity, scaled, flow.flux()) -
                   place.porosity,

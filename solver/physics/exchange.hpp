@@ -5,6 +5,7 @@
 /// erodes and shrinks by what is deposited, and deposits can erode again.
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "physics/conductivity/conductivity_law.hpp"
@@ -59,6 +60,13 @@ struct SoilPlace {
   double porosity = unset;          ///< n_L
 };
 
+/// What becomes of the liquid at a place in a step.
+enum class LiquidMotion : std::uint8_t {
+  stays,     ///< in its place: what is exchanged changes its concentration
+  flows_on,  ///< it is renewed at one concentration
+  passes     ///< the same, and what is caught is found along its path, elsewhere (double-point)
+};
+
 /// The liquid at a place over a step. What no law asks for may stay unset.
 struct PlaceFlow {
   double flux_start = unset;     ///< |q| at the start, m/s; it goes linearly to that at the end
@@ -66,9 +74,7 @@ struct PlaceFlow {
   double resistance = 1.0;       ///< gradient along the flow over |q|/k: of bedding and suction
   double concentration = unset;  ///< c at the start
   double saturation = 1.0;       ///< liquid per pore volume
-  /// The liquid passes through and keeps its concentration, and what is caught is found elsewhere
-  /// (double-point); else it stays in its place.
-  bool passes = false;
+  LiquidMotion motion = LiquidMotion::stays;
 
   [[nodiscard]] double flux() const { return 0.5 * (flux_start + flux_end); }
 };
@@ -85,7 +91,7 @@ struct Exchange {
 Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double time);
 
-/// What is exchanged between `from` and `to` (s) where no other liquid comes or goes. Exact, or to
+/// What is exchanged between `from` and `to` (s). Exact, or to
 /// about 1e-13, where neither depends on the fines in the liquid; else integrated to 1e-11. The
 /// drive goes linearly from its value at the start to the one at the end, with the porosity there.
 /// Fines in the liquid do not become less than none, nor porosity more than what can erode leaves.

@@ -16,7 +16,7 @@ PlaceFlow PointFlows::at(int point, int element, double from, double to) const {
   if (!resistance.empty()) flow.resistance = resistance[point];
   if (!concentration.empty()) flow.concentration = concentration[point];
   if (!saturation.empty()) flow.saturation = saturation[element];
-  flow.passes = passes;
+  flow.motion = motion;
   return flow;
 }
 

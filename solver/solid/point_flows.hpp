@@ -21,7 +21,7 @@ struct PointFlows {
   std::vector<double> resistance;     ///< per solid point: see PlaceFlow
   std::vector<double> concentration;  ///< per solid point: c now
   std::vector<double> saturation;     ///< per element: liquid per pore volume
-  bool passes = false;                ///< see PlaceFlow
+  LiquidMotion motion = LiquidMotion::stays;
 
   /// |q| at a point at the ends of a part of the interval, m/s; may be unset where no law asks for
   /// it.

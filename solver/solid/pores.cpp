@@ -40,7 +40,7 @@ PoreState PoreForecast<Dim>::at(double time) const {
                                  relative_conductivity_, threads_);
   ahead.concentration = liquid_.concentration;
   ahead.saturation = liquid_.saturation;
-  ahead.passes = liquid_.passes;
+  ahead.motion = liquid_.motion;
   const std::vector<double> after = solid_.porosity_after(time_, time, ahead);
   const std::vector<double>& before = solid_.porosity();
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
@@ -49,11 +49,12 @@ PoreState PoreForecast<Dim>::at(double time) const {
       growth += soils.points().volume[p] * (after[p] - before[p]);
     }
     const double porosity = now_.porosity[e] + growth / grid_.volume[e];
+    result.porosity[e] = porosity;
+    if (liquid_.motion == LiquidMotion::flows_on) return;
     // The water stays what it is: (1 - c) n S does not change.
     const double air = now_.air_volume.empty() ? 0.0 : now_.air_volume[e] / grid_.volume[e];
     result.concentration[e] =
         1.0 - (1.0 - now_.concentration[e]) * (now_.porosity[e] - air) / (porosity - air);
-    result.porosity[e] = porosity;
   });
   return result;
 }

@@ -89,26 +89,48 @@ std::vector<double> RigidSkeleton<Dim>::porosity_after(double from, double to,
 template <int Dim>
 void RigidSkeleton<Dim>::exchange(double from, double to, const PointFlows& flows,
                                   const std::vector<char>& waiting, std::vector<double>& exchange) {
-  const MaterialPoints<Dim>& points = soils_.points();
   exchange.assign(porosity_.size(), 0.0);
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     if (!waiting.empty() && waiting[e] != 0) return;
-    const double most = soils_.erosion_of_element(e).porosity_max;
-    exchange_in(e, from, to, flows, [&](int p, const Exchange& change) {
-      const double net = change.into_liquid();
-      if (net == 0.0 && change.deposited == 0.0) return;
-      double& erodible = state_.erodible_volume[p];
-      const bool all = porosity_[p] + net >= most;
-      const double left = all ? 0.0 : std::max(0.0, erodible - points.volume[p] * net);
-      // What the rounded state lost, so that none is lost on the way to the liquid.
-      exchange[p] = erodible - left;
-      erodible = left;
-      if (change.deposited != 0.0) {
-        state_.deposited_volume[p] += points.volume[p] * change.deposited;
-      }
-      porosity_[p] = porosity_of(p);
-    });
+    exchange_in(e, from, to, flows,
+                [&](int p, const Exchange& change) { exchange[p] = take(p, change); });
   });
+  refuse_full();
+}
+
+template <int Dim>
+double RigidSkeleton<Dim>::take(int point, const Exchange& change) {
+  const double net = change.into_liquid();
+  if (net == 0.0 && change.deposited == 0.0) return 0.0;
+  const double volume = soils_.points().volume[point];
+  double& erodible = state_.erodible_volume[point];
+  const double most = soils_.erosion_of_element(soils_.points().element[point]).porosity_max;
+  const bool all = porosity_[point] + net >= most;
+  const double left = all ? 0.0 : std::max(0.0, erodible - volume * net);
+  // What the rounded state lost, so that none is lost on the way to the liquid.
+  const double into_liquid = erodible - left;
+  erodible = left;
+  if (change.deposited != 0.0) state_.deposited_volume[point] += volume * change.deposited;
+  porosity_[point] = porosity_of(point);
+  return into_liquid;
+}
+
+template <int Dim>
+Exchange RigidSkeleton<Dim>::exchange_at(int point, double porosity, double concentration,
+                                         double from, double to, const PointFlows& flows) const {
+  const int e = soils_.points().element[point];
+  const ExchangeModel& model = soils_.exchange_of_element(e);
+  PlaceFlow flow = flows.at(point, e, from, to);
+  flow.concentration = concentration;
+  flow.motion = LiquidMotion::flows_on;
+  return exchange_over(model, {initial_porosity_[point], porosity}, flow, from, to);
+}
+
+template <int Dim>
+void RigidSkeleton<Dim>::apply(const std::vector<Exchange>& change, std::vector<double>& exchange) {
+  exchange.assign(porosity_.size(), 0.0);
+  for_each_index(static_cast<int>(change.size()), threads_,
+                 [&](int p) { exchange[p] = take(p, change[p]); });
   refuse_full();
 }
 

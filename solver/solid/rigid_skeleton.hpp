@@ -28,6 +28,9 @@ class RigidSkeleton final : public Skeleton<Dim> {
                                                    const PointFlows& flows) const override;
   void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& waiting,
                 std::vector<double>& exchange) override;
+  [[nodiscard]] Exchange exchange_at(int point, double porosity, double concentration, double from,
+                                     double to, const PointFlows& flows) const override;
+  void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) override;
   void deposit(const std::vector<double>& volume) override;
 
   void archive(StateArchive& archive) override;
@@ -38,6 +41,8 @@ class RigidSkeleton final : public Skeleton<Dim> {
     return 1.0 - state_.solid_volume(point) / soils_.points().volume[point];
   }
   void update_porosity();
+  /// Changes the state of a point; returns the volume that went into the liquid, m3.
+  double take(int point, const Exchange& change);
   /// Throws NumericalError where deposits leave hardly any pores.
   void refuse_full() const;
   /// Calls `take(point, exchange)` for every point of an element whose soil exchanges fines.

@@ -55,6 +55,13 @@ class Skeleton {
   /// element, may be empty) stay as they are.
   virtual void exchange(double from, double to, const PointFlows& flows,
                         const std::vector<char>& waiting, std::vector<double>& exchange) = 0;
+  /// What a solid point exchanges from now (`from`) to `to` with liquid of concentration
+  /// `concentration`, which flows on, if its porosity is `porosity` at `from`.
+  [[nodiscard]] virtual Exchange exchange_at(int point, double porosity, double concentration,
+                                             double from, double to,
+                                             const PointFlows& flows) const = 0;
+  /// The state after such an exchange at each point; `exchange` as above.
+  virtual void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) = 0;
   /// Takes what the liquid has left, m3 per solid point; empty: nothing.
   virtual void deposit(const std::vector<double>& volume) = 0;
 

@@ -7,96 +7,12 @@
 
 #include "case/errors.hpp"
 #include "grid/parallel.hpp"
+#include "transport/linear_fines.hpp"
 
 namespace suffuse {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Vertex `a` of side k.
-template <int Dim>
-constexpr int side_vertex(int k, int a) {
-  return (k + 1 + a) % (Dim + 1);
-}
-
-/// Where a node stands among the vertices of an element.
-template <int Dim>
-std::uint8_t position_in(const std::array<int, Dim + 1>& vertices, int node) {
-  return static_cast<std::uint8_t>(std::find(vertices.begin(), vertices.end(), node) -
-                                   vertices.begin());
-}
-
-/// The node at the place of `node` on the other side of a face: itself, but across a wall.
-template <int Dim>
-int node_beyond(const Grid<Dim>& grid, int face, int node) {
-  const int partner = grid.face_partner[face];
-  if (partner < 0) return node;
-  const auto& nodes = grid.mesh.nodes;
-  return *std::ranges::min_element(grid.face_nodes[partner], {}, [&](int other) {
-    return (nodes[other] - nodes[node]).squaredNorm();
-  });
-}
-
-/// Concentration at the vertices of an element, written to `c`.
-template <int Dim>
-void find_concentration(const ElementValues<Dim>& fines, const ElementValues<Dim>& pores,
-                        double* c) {
-  double sum = 0.0;
-  ElementValues<Dim> at_nodes;
-  for (int j = 0; j <= Dim; ++j) sum += at_nodes[j] = fines[j] / pores[j];
-  for (int k = 0; k <= Dim; ++k) c[k] = FieldNodes<Dim>::at_vertex(at_nodes[k], sum);
-}
-
-/// Sum of the values at a side's nodes. The elements on both sides have these in different orders
-/// and find the same number, to the last bit: three values are added in the order of their size.
-template <int Dim>
-[[gnu::always_inline]] inline double side_sum(const std::array<double, Dim>& values) {
-  if constexpr (Dim == 2) {
-    return values[0] + values[1];
-  } else {
-    static_assert(Dim == 3);
-    const double low = std::min(values[0], values[1]);
-    const double high = std::max(values[0], values[1]);
-    const double lowest = std::min(low, values[2]);
-    const double highest = std::max(high, values[2]);
-    const double middle = std::max(low, std::min(high, values[2]));
-    return (lowest + middle) + highest;
-  }
-}
-
-/// What transport adds to the fines of an element, per field node, m3. `c` at its vertices,
-/// `crossing` at the nodes of its sides; `out`: what leaves through these is added, halved.
-template <int Dim>
-[[gnu::always_inline]] inline ElementValues<Dim> gain(
-    const double* c, const ElementValues<Dim>& outflow, const std::vector<double>& at_vertices,
-    const std::array<std::array<int, Dim>, Dim + 1>& upwind, ElementValues<Dim>& out) {
-  // Integrals with the element's linear functions, times Dim (Dim + 1). Through a side: of c q with
-  // those of its vertices. Inside: of c q with their gradients, where q is the field of Raviart and
-  // Thomas; the geometry cancels.
-  ElementValues<Dim> load{};
-  double net_outflow = 0.0;
-  double sum = 0.0;
-  for (int k = 0; k <= Dim; ++k) {
-    sum += c[k];
-    net_outflow += outflow[k];
-  }
-  for (int k = 0; k <= Dim; ++k) {
-    std::array<double, Dim> crossing;
-    for (int a = 0; a < Dim; ++a) crossing[a] = at_vertices[upwind[k][a]];
-    const double all = side_sum<Dim>(crossing);
-    out[k] += 0.5 * (outflow[k] * (all / Dim));
-    for (int a = 0; a < Dim; ++a) {
-      load[side_vertex<Dim>(k, a)] -= outflow[k] * (all + crossing[a]);
-    }
-    load[k] += net_outflow * ((sum + c[k]) / (Dim + 2)) - outflow[k] * sum;
-  }
-  // The field nodes' functions are the vertices' made orthogonal: the same map as for values.
-  constexpr double scale = 1.0 / (Dim * (Dim + 1));
-  const double whole = element_sum<Dim>(load);
-  ElementValues<Dim> result;
-  for (int j = 0; j <= Dim; ++j) result[j] = scale * FieldNodes<Dim>::at_vertex(load[j], whole);
-  return result;
-}
 
 void include(ConcentrationRange& range, double value) {
   range.low = std::min(range.low, value);
@@ -141,32 +57,10 @@ double share_kept(const double* at_vertices, double mean, const std::array<int, 
 }  // namespace
 
 template <int Dim>
-EulerianTransport<Dim>::EulerianTransport(const Grid<Dim>& grid,
+EulerianTransport<Dim>::EulerianTransport(const Grid<Dim>& grid, const ElementSides<Dim>& sides,
                                           const std::vector<FaceCondition>& conditions, int threads)
-    : grid_(grid), conditions_(conditions), threads_(threads), sides_(grid.mesh.elements.size()) {
-  std::vector<int> outer(grid.face_count(), -1);
-  for (int f = 0; f < grid.face_count(); ++f) {
-    if (!grid.is_border(f)) continue;
-    outer[f] = static_cast<int>(outer_faces_.size());
-    outer_faces_.push_back(f);
-  }
+    : grid_(grid), sides_(sides), conditions_(conditions), threads_(threads) {
   find_nodes_of_sides();
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    Sides& sides = sides_[e];
-    for (int k = 0; k <= Dim; ++k) {
-      const int f = grid.element_face[e][k];
-      const bool is_left = grid.face_left[f] == e;
-      const int next = is_left ? grid.beyond(f) : grid.face_left[f];
-      sides.neighbour[k] = next >= 0 ? next : -1 - outer[f];
-      sides.theirs[k] = {};
-      if (next < 0) continue;
-      for (int a = 0; a < Dim; ++a) {
-        const int node = grid.mesh.elements[e][side_vertex<Dim>(k, a)];
-        sides.theirs[k][a] =
-            position_in<Dim>(grid.mesh.elements[next], node_beyond<Dim>(grid, f, node));
-      }
-    }
-  }
 }
 
 template <int Dim>
@@ -179,10 +73,8 @@ void EulerianTransport<Dim>::find_nodes_of_sides() {
     }
     return outer_nodes_[place[i]];
   };
-  for (std::size_t o = 0; o < outer_faces_.size(); ++o) {
-    for (const int i : grid_.face_nodes[outer_faces_[o]]) {
-      outer_node(i).faces.push_back(static_cast<int>(o));
-    }
+  for (const int f : sides_.outer_faces()) {
+    for (const int i : grid_.face_nodes[f]) outer_node(i).faces.push_back(f);
   }
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (grid_.face_partner[f] < 0) continue;
@@ -230,34 +122,22 @@ void EulerianTransport<Dim>::start(const FinesState<Dim>& state,
                                    TransportScratch<Dim>& scratch) const {
   constexpr int vertices = Dim + 1;
   const int elements = grid_.mesh.element_count();
-  const std::size_t values = vertices * static_cast<std::size_t>(elements) + outer_faces_.size();
-  scratch.at_vertices.resize(values);
-  scratch.next_at_vertices.resize(values);
+  scratch.at_vertices.resize(sides_.value_count());
+  scratch.next_at_vertices.resize(sides_.value_count());
   scratch.outflow.resize(elements);
   scratch.upwind.resize(elements);
   scratch.stage_fines.resize(elements);
   scratch.fines_out.resize(elements);
   scratch.mean.resize(elements);
   scratch.allowed.resize(grid_.mesh.node_count());
-  for (std::size_t o = 0; o < outer_faces_.size(); ++o) {
-    const std::size_t place = vertices * static_cast<std::size_t>(elements) + o;
-    scratch.at_vertices[place] = scratch.next_at_vertices[place] =
-        conditions_[outer_faces_[o]].concentration;
-  }
+  sides_.set_entering(conditions_, scratch.at_vertices);
+  sides_.set_entering(conditions_, scratch.next_at_vertices);
   for_each_index(elements, threads_, [&](int e) {
     find_concentration<Dim>(state.fines_volume[e], state.liquid_volume[e],
                             &scratch.at_vertices[vertices * static_cast<std::size_t>(e)]);
     scratch.fines_out[e] = {};
-    for (int k = 0; k <= Dim; ++k) {
-      const double outflow = grid_.element_face_sign[e][k] * face_volume[grid_.element_face[e][k]];
-      const int neighbour = sides_[e].neighbour[k];
-      scratch.outflow[e][k] = outflow;
-      for (int a = 0; a < Dim; ++a) {
-        scratch.upwind[e][k][a] = outflow >= 0.0   ? vertices * e + side_vertex<Dim>(k, a)
-                                  : neighbour >= 0 ? vertices * neighbour + sides_[e].theirs[k][a]
-                                                   : vertices * elements - 1 - neighbour;
-      }
-    }
+    scratch.outflow[e] = sides_.outflow(e, face_volume);
+    scratch.upwind[e] = sides_.upwind_places(e, scratch.outflow[e]);
   });
 }
 
@@ -319,8 +199,7 @@ ConcentrationRange EulerianTransport<Dim>::range_at_boundary(
     include(inside, across.high);
   }
   ConcentrationRange range = inside;
-  for (const int o : outer.faces) {
-    const int f = outer_faces_[o];
+  for (const int f : outer.faces) {
     const int e = grid_.face_left[f];
     const auto& faces = grid_.element_face[e];
     const auto k = std::find(faces.begin(), faces.end(), f) - faces.begin();
@@ -345,25 +224,10 @@ void EulerianTransport<Dim>::find_allowed(TransportScratch<Dim>& scratch) const 
 }
 
 template <int Dim>
-void EulerianTransport<Dim>::refuse_impossible(const std::vector<double>& mean) const {
-  // Round-off of an empty element is not a wrong value; anything beyond it is.
-  constexpr double round_off = 1e-13;
-  const auto possible = [](double c) { return c >= -round_off && c < 1.0; };
-  const double wrong = largest_of(static_cast<int>(mean.size()), threads_, 0.0,
-                                  [&](int e) { return possible(mean[e]) ? 0.0 : 1.0; });
-  if (wrong == 0.0) return;
-  const auto first = std::find_if_not(mean.begin(), mean.end(), possible);
-  const auto e = static_cast<int>(first - mean.begin());
-  std::ostringstream message;
-  message << "concentration of fluidised grains left [0, 1): " << *first << " in "
-          << element_text(grid_, e);
-  throw NumericalError(message.str());
-}
-
-template <int Dim>
 void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& liquid, ElementField<Dim>& fines,
                                          TransportScratch<Dim>& scratch) const {
-  refuse_impossible(scratch.mean);
+  refuse_impossible_concentrations(
+      grid_, [&](int e) { return scratch.mean[e]; }, threads_);
   find_allowed(scratch);
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     const std::array<int, Dim + 1>& nodes = grid_.mesh.elements[e];
@@ -389,7 +253,7 @@ void EulerianTransport<Dim>::advance(FinesState<Dim>& state, const ElementField<
   ElementField<Dim>& stage = scratch.stage_fines;
   const auto moved = [&](int e) {
     const double* c = &scratch.at_vertices[(Dim + 1) * static_cast<std::size_t>(e)];
-    return gain<Dim>(c, scratch.outflow[e], scratch.at_vertices, scratch.upwind[e],
+    return gain<Dim>(c, scratch.outflow[e], scratch.at_vertices, scratch.upwind[e], 0.5,
                      scratch.fines_out[e]);
   };
   const auto update_at = [&](int e, const ElementValues<Dim>& volume) {

@@ -4,13 +4,9 @@
 /// carried by the face volumes of the flow. Conserves fines to round-off (Eq. 3 of the paper,
 /// corrected, in conservative form).
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
-#include "flow/face_conditions.hpp"
-#include "grid/element_field.hpp"
-#include "grid/grid.hpp"
+#include "transport/element_sides.hpp"
 
 namespace suffuse {
 
@@ -43,7 +39,7 @@ struct TransportScratch {
   /// Outflow through the element's sides in one step, m3; side k lies opposite vertex k.
   ElementField<Dim> outflow;
   /// Where the concentration that crosses side k is, at its nodes, among `at_vertices`.
-  std::vector<std::array<std::array<int, Dim>, Dim + 1>> upwind;
+  std::vector<UpwindPlaces<Dim>> upwind;
   /// Concentration at the vertices of each element, then what enters through each outer face.
   std::vector<double> at_vertices;
   std::vector<double> next_at_vertices;
@@ -62,8 +58,8 @@ struct TransportScratch {
 template <int Dim>
 class EulerianTransport {
  public:
-  EulerianTransport(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
-                    int threads = 1);
+  EulerianTransport(const Grid<Dim>& grid, const ElementSides<Dim>& sides,
+                    const std::vector<FaceCondition>& conditions, int threads = 1);
 
   /// Largest number of times that `face_volume` may cross in one step: a step that moves
   /// `face_volume` m3 through each face keeps concentrations within bounds while this is >= 1.
@@ -92,18 +88,10 @@ class EulerianTransport {
                           TransportScratch<Dim>& scratch, std::vector<double>& result) const;
 
  private:
-  /// The faces of an element as its own loop needs them: side k lies opposite vertex k, and its
-  /// nodes are the vertices that follow k, in that order.
-  struct Sides {
-    /// Element across; at the outer boundary -1 minus the number of the face among the outer ones.
-    std::array<int, Dim + 1> neighbour;
-    /// Where the side's nodes stand among the neighbour's vertices.
-    std::array<std::array<std::uint8_t, Dim>, Dim + 1> theirs;
-  };
   /// A mesh node on the outer boundary or on a wall that lets liquid through.
   struct OuterNode {
     int node;
-    std::vector<int> faces;     ///< faces of the outer boundary there, by number among these
+    std::vector<int> faces;     ///< of the outer boundary there
     std::vector<int> partners;  ///< nodes at the same place across a wall
   };
 
@@ -111,8 +99,6 @@ class EulerianTransport {
   /// Limits the fines of a stage whose means are known; leaves its values at the vertices.
   void limit_stage(const ElementField<Dim>& liquid, ElementField<Dim>& fines,
                    TransportScratch<Dim>& scratch) const;
-  /// Throws NumericalError.
-  void refuse_impossible(const std::vector<double>& mean) const;
   void find_allowed(TransportScratch<Dim>& scratch) const;
   /// Concentrations on both sides of a wall are one, whatever order their nodes have.
   void agree_at_walls(std::vector<double>& concentration) const;
@@ -123,10 +109,9 @@ class EulerianTransport {
                                                      const TransportScratch<Dim>& scratch) const;
 
   const Grid<Dim>& grid_;
+  const ElementSides<Dim>& sides_;
   const std::vector<FaceCondition>& conditions_;
   int threads_;
-  std::vector<Sides> sides_;      ///< per element
-  std::vector<int> outer_faces_;  ///< of the outer boundary: without the sides of leaky walls
   std::vector<OuterNode> outer_nodes_;
   std::vector<int> leaky_faces_;  ///< faces that have a partner
 };

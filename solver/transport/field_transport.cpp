@@ -1,11 +1,15 @@
 #include "transport/field_transport.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "grid/parallel.hpp"
 
 namespace suffuse {
 namespace {
+
+/// A run of more explicit steps than this takes implicit ones (docs/accuracy.md).
+constexpr double explicit_steps = 5000.0;
 
 /// Adds liquid to each element, spread as the liquid there lies.
 template <int Dim>
@@ -18,13 +22,15 @@ void gain(FinesState<Dim>& state, const std::vector<double>& gained) {
 
 template <int Dim>
 FieldTransport<Dim>::FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                    const std::vector<FaceCondition>& conditions, double fines_from,
-                                    int threads)
+                                    const std::vector<FaceCondition>& conditions,
+                                    const FieldTransportSettings& settings, int threads)
     : grid_(grid),
       soils_(soils),
-      fines_from_(fines_from),
+      settings_(settings),
       threads_(threads),
-      scheme_(grid, conditions, threads) {
+      sides_(grid),
+      scheme_(grid, sides_, conditions, threads),
+      implicit_(grid, sides_, soils, conditions, settings.implicit, threads) {
   state_.liquid_volume = initial_pore_volume(grid, soils);
   state_.fines_volume.assign(grid.mesh.element_count(), ElementValues<Dim>{});
   find_basis();
@@ -73,13 +79,23 @@ void FieldTransport<Dim>::start(const std::vector<double>& air) {
 
 template <int Dim>
 double FieldTransport<Dim>::longest_step(const std::vector<double>& face_rate) const {
-  return transport_safety * scheme_.steps_allowed(state_, face_rate);
+  return is_implicit(face_rate) ? std::numeric_limits<double>::infinity()
+                                : transport_safety * scheme_.steps_allowed(state_, face_rate);
+}
+
+template <int Dim>
+bool FieldTransport<Dim>::is_implicit(const std::vector<double>& face_rate) const {
+  if (settings_.scheme != TransportScheme::by_count) {
+    return settings_.scheme == TransportScheme::implicit_sweeps;
+  }
+  return settings_.end > explicit_steps * scheme_.steps_allowed(state_, face_rate);
 }
 
 template <int Dim>
 std::vector<TransportStep> FieldTransport<Dim>::start_interval(double start,
                                                                const FlowProgress& flow) {
-  carries_ = flow.end > fines_from_;
+  carries_ = flow.end > settings_.fines_from;
+  sweeps_ = false;
   gained_ = flow.displaced_air;
   if (!carries_) {
     gain(state_, gained_);
@@ -124,9 +140,36 @@ void FieldTransport<Dim>::receive(const std::vector<double>& exchange) {
 }
 
 template <int Dim>
+void FieldTransport<Dim>::start_implicit(double start, const FlowProgress& flow) {
+  carries_ = sweeps_ = true;
+  implicit_.start(start, flow);
+}
+
+template <int Dim>
+void FieldTransport<Dim>::finish(const std::vector<double>& exchange) {
+  if (exchange.empty()) {
+    eroded_.assign(grid_.mesh.element_count(), ElementValues<Dim>{});
+  } else {
+    spread(exchange, eroded_);
+  }
+  implicit_.finish(state_, eroded_);
+}
+
+template <int Dim>
+std::vector<PassTiming> FieldTransport<Dim>::passes() const {
+  std::vector<PassTiming> result{timing_};
+  if (implicit_.timing().calls > 0) result.push_back(implicit_.timing());
+  return result;
+}
+
+template <int Dim>
 std::vector<double> FieldTransport<Dim>::crossed() const {
   std::vector<double> result(grid_.face_count(), 0.0);
-  if (carries_) scheme_.fines_crossed(scratch_, result);
+  if (carries_ && sweeps_) {
+    implicit_.field().fines_crossed(result);
+  } else if (carries_) {
+    scheme_.fines_crossed(scratch_, result);
+  }
   return result;
 }
 
@@ -134,7 +177,7 @@ template <int Dim>
 std::vector<double> FieldTransport<Dim>::face_concentration(
     double time, const std::vector<double>& face_rate) const {
   std::vector<double> result(grid_.face_count(), 0.0);
-  if (time > fines_from_) scheme_.face_concentration(state_, face_rate, scratch_, result);
+  if (time > settings_.fines_from) scheme_.face_concentration(state_, face_rate, scratch_, result);
   return result;
 }
 

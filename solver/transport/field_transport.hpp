@@ -4,18 +4,29 @@
 /// in each element and carried by the volumes that cross faces.
 
 #include "transport/eulerian.hpp"
+#include "transport/swept_steps.hpp"
 #include "transport/transport.hpp"
 
 namespace suffuse {
 
+struct FieldTransportSettings {
+  TransportScheme scheme = TransportScheme::by_count;
+  double fines_from = 0.0;  ///< fines can be in the liquid after this time, s
+  double end = 0.0;         ///< of the run, s
+  SweptSettings implicit;
+};
+
 template <int Dim>
 class FieldTransport final : public Transport<Dim> {
  public:
-  /// Fines can be in the liquid after `fines_from`, s.
   FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                 const std::vector<FaceCondition>& conditions, double fines_from, int threads);
+                 const std::vector<FaceCondition>& conditions,
+                 const FieldTransportSettings& settings, int threads);
 
+  /// Without a limit where transport is implicit.
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
+  /// Whether an interval with these volumes per second through faces is crossed by implicit steps.
+  [[nodiscard]] bool is_implicit(const std::vector<double>& face_rate) const;
   [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
     return {.steps = 32.0, .pore_growth = 2e-3};
   }
@@ -24,8 +35,19 @@ class FieldTransport final : public Transport<Dim> {
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& exchange, const std::vector<double>& pressure) override;
 
-  void archive(StateArchive& archive) override { archive(state_, timing_); }
-  [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
+  /// The same in implicit steps, as long as this is true.
+  [[nodiscard]] bool goes_on() const { return !implicit_.finished(); }
+  void start_implicit(double start, const FlowProgress& flow);
+  /// Solves for the next of them, together with the exchange of fines with the solid, which it
+  /// returns: per solid point and volume of soil.
+  const std::vector<Exchange>& solve(const Skeleton<Dim>& solid, const PointFlows& flows) {
+    return implicit_.solve(state_, solid, flows);
+  }
+  /// Takes that step. `exchange`: what each solid point has given, m3; empty: none.
+  void finish(const std::vector<double>& exchange);
+
+  void archive(StateArchive& archive) override { archive(state_, timing_, implicit_); }
+  [[nodiscard]] std::vector<PassTiming> passes() const override;
 
   /// Fines that each solid point gives to the liquid or takes from it, m3, at one moment between
   /// steps; empty: none.
@@ -48,11 +70,14 @@ class FieldTransport final : public Transport<Dim> {
 
   const Grid<Dim>& grid_;
   const SoilMap<Dim>& soils_;
-  double fines_from_;
+  FieldTransportSettings settings_;
   int threads_;
+  ElementSides<Dim> sides_;
   EulerianTransport<Dim> scheme_;
+  SweptSteps<Dim> implicit_;
   FinesState<Dim> state_;
   bool carries_ = false;        ///< fines in this interval
+  bool sweeps_ = false;         ///< by implicit steps
   std::vector<double> gained_;  ///< liquid per element and step of transport, m3; may be empty
   /// Values of the element's basis functions at its points; only of the first element's points
   /// where they lie alike in every element that has any.

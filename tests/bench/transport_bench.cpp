@@ -22,7 +22,8 @@ struct Column {
         conditions(face_conditions(c, grid)),
         soils(c),
         skeleton(grid, soils, {}, threads),
-        transport(grid, conditions, threads) {
+        sides(grid),
+        transport(grid, sides, conditions, threads) {
     state.liquid_volume = initial_pore_volume(grid, soils);
     state.fines_volume = state.liquid_volume;
     for (int e = 0; e < grid.mesh.element_count(); ++e) {
@@ -51,6 +52,7 @@ struct Column {
   std::vector<FaceCondition> conditions;
   SoilMap<2> soils;
   RigidSkeleton<2> skeleton;
+  ElementSides<2> sides;
   EulerianTransport<2> transport;
   FinesState<2> state;
   std::vector<double> volume;

@@ -18,7 +18,8 @@ struct Column {
       : c(make(std::move(mesh), inflow_concentration)),
         grid(c.mesh),
         conditions(face_conditions(c, grid)),
-        transport(grid, conditions) {
+        sides(grid),
+        transport(grid, sides, conditions) {
     state.liquid_volume.resize(c.mesh.element_count());
     state.fines_volume.assign(c.mesh.element_count(), ElementValues<2>{});
     nothing_eroded.assign(c.mesh.element_count(), ElementValues<2>{});
@@ -73,6 +74,7 @@ struct Column {
   Case<2> c;
   Grid<2> grid;
   std::vector<FaceCondition> conditions;
+  ElementSides<2> sides;
   EulerianTransport<2> transport;
   FinesState<2> state;
   ElementField<2> nothing_eroded;

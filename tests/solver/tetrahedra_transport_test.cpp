@@ -23,7 +23,8 @@ struct Cube {
       : c(make(std::move(mesh), inflow_concentration)),
         grid(c.mesh),
         conditions(face_conditions(c, grid)),
-        transport(grid, conditions) {
+        sides(grid),
+        transport(grid, sides, conditions) {
     state.liquid_volume.resize(c.mesh.element_count());
     state.fines_volume.assign(c.mesh.element_count(), ElementValues<3>{});
     for (int e = 0; e < c.mesh.element_count(); ++e) {
@@ -81,6 +82,7 @@ struct Cube {
   Case<3> c;
   Grid<3> grid;
   std::vector<FaceCondition> conditions;
+  ElementSides<3> sides;
   EulerianTransport<3> transport;
   FinesState<3> state;
   std::vector<double> volume;

@@ -137,7 +137,8 @@ TEST(LeakyWall, HasOneConcentrationWhateverFlows) {
   const Case<2> c = model::make_case(mesh, scene);
   const Grid<2> grid = grid_with_walls(c);
   const std::vector<FaceCondition> conditions = face_conditions(c, grid);
-  const EulerianTransport<2> transport(grid, conditions);
+  const ElementSides<2> sides(grid);
+  const EulerianTransport<2> transport(grid, sides, conditions);
   FinesState<2> state;
   for (int e = 0; e < mesh.element_count(); ++e) {
     state.liquid_volume.push_back({1e-3, 1e-3, 1e-3});

@@ -1,0 +1,354 @@
+#include "transport/element_balance.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace suffuse {
+namespace {
+
+/// Values at vertices from those at field nodes, and loads the other way.
+template <class Values>
+Values across_nodes(const Values& values) {
+  constexpr int dim = Values::RowsAtCompileTime - 1;
+  return (values.array() - FieldNodes<dim>::far_vertex * values.sum()) / FieldNodes<dim>::spread;
+}
+
+/// The root of a function that is negative at 0 and positive at 1 (Illinois, Dowell and Jarratt
+/// 1971), to the last digits.
+template <class Function>
+double root_between_zero_and_one(const Function& function) {
+  double low = 0.0;
+  double high = 1.0;
+  double at_low = function(low);
+  double at_high = function(high);
+  if (!(at_low < 0.0)) return low;
+  if (!(at_high > 0.0)) return high;
+  constexpr int enough = 200;
+  int side = 0;  // that moved last
+  for (int i = 0; i < enough; ++i) {
+    const double guess = (low * at_high - high * at_low) / (at_high - at_low);
+    const double middle = guess > low && guess < high ? guess : 0.5 * (low + high);
+    if (middle == low || middle == high) return middle;
+    const double value = function(middle);
+    if (value == 0.0) return middle;
+    if (value < 0.0) {
+      low = middle;
+      at_low = value;
+      if (side < 0) at_high *= 0.5;
+      side = -1;
+    } else {
+      high = middle;
+      at_high = value;
+      if (side > 0) at_low *= 0.5;
+      side = 1;
+    }
+    if (high - low <= 1e-15 * high) return low;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+template <int Dim>
+void ElementBalance<Dim>::find_points(const ElementStart<Dim>& start,
+                                      const SolidInStep<Dim>& solid) {
+  const int e = start.element;
+  begin_ = soils_.points_begin(e);
+  end_ = soils_.points_begin(e + 1);
+  const ExchangeModel& model = soils_.exchange_of_element(e);
+  exchanges_ = solid.exchanges && model.exchanges() && end_ > begin_;
+  coupled_ = exchanges_ && model.depends_on_concentration();
+  if (!exchanges_) return;
+  const auto count = static_cast<std::size_t>(end_ - begin_);
+  basis_.resize(count);
+  now_.resize(count);
+  slope_.assign(count, 0.0);
+  split_concentration_.assign(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int j = 0; j <= Dim; ++j) {
+      basis_[i][j] = FieldNodes<Dim>::basis(soils_.points().barycentric[begin_ + i][j]);
+    }
+  }
+}
+
+template <int Dim>
+void ElementBalance<Dim>::find_matrix(const ElementStart<Dim>& start) {
+  // The integrals of `gain` in linear_fines.hpp, by the concentration at this element's nodes.
+  double net = 0.0;
+  outflow_ = 0.0;
+  for (const double q : start.outflow) {
+    net += q;
+    outflow_ += std::max(q, 0.0);
+  }
+  Matrix by_vertices;
+  for (int k = 0; k <= Dim; ++k) {
+    for (int i = 0; i <= Dim; ++i) {
+      by_vertices(k, i) = net * (i == k ? 2.0 : 1.0) / (Dim + 2) - start.outflow[k];
+    }
+  }
+  for (int k = 0; k <= Dim; ++k) {
+    const double q = start.outflow[k];
+    if (!(q > 0.0)) continue;
+    for (int i = 0; i <= Dim; ++i) {
+      for (int j = 0; j <= Dim; ++j) {
+        if (i != k && j != k) by_vertices(i, j) -= q * (i == j ? 2.0 : 1.0);
+      }
+    }
+  }
+  for (int i = 0; i <= Dim; ++i) {
+    by_vertices.col(i) = across_nodes<Values>(by_vertices.col(i));
+  }
+  for (int i = 0; i <= Dim; ++i) {
+    moved_.row(i) = across_nodes<Values>(by_vertices.row(i).transpose()).transpose();
+  }
+  moved_ /= Dim * (Dim + 1);
+}
+
+template <int Dim>
+auto ElementBalance<Dim>::load(const ElementStart<Dim>& start,
+                               const std::vector<double>& at_vertices) -> Values {
+  Values result = Values::Zero();
+  for (int k = 0; k <= Dim; ++k) {
+    if (!(start.outflow[k] < 0.0)) continue;
+    double all = 0.0;
+    for (const int place : start.upwind[k]) all += at_vertices[place];
+    for (int a = 0; a < Dim; ++a) {
+      result[side_vertex<Dim>(k, a)] -= start.outflow[k] * (all + at_vertices[start.upwind[k][a]]);
+    }
+  }
+  return across_nodes<Values>(result) / (Dim * (Dim + 1));
+}
+
+template <int Dim>
+void ElementBalance<Dim>::find_exchange(const SolidInStep<Dim>& solid, bool is_last,
+                                        const Values& c) {
+  constexpr double little = 1e-6;
+  const std::vector<double>& porosity = solid.solid.porosity();
+  for (int p = begin_; p < end_; ++p) {
+    const int i = p - begin_;
+    const double at_point = coupled_ ? std::max(0.0, basis_[i].dot(c)) : unset;
+    const auto between = [&](double from, double to, double n, double concentration) {
+      return solid.solid.exchange_at(p, n, concentration, from, to, solid.flows);
+    };
+    if (!coupled_) {
+      now_[i] = between(solid.from, is_last ? solid.to : solid.first_time(), porosity[p], unset);
+      continue;
+    }
+    Exchange before;
+    double from = solid.from;
+    if (is_last) {
+      before = between(solid.from, solid.split(), porosity[p], split_concentration_[i]);
+      from = solid.split();
+    } else {
+      split_concentration_[i] = at_point;
+    }
+    const double to = is_last ? solid.to : solid.first_time();
+    const double n = porosity[p] + before.into_liquid();
+    const Exchange there = between(from, to, n, at_point);
+    const Exchange beside = between(from, to, n, at_point + little);
+    slope_[i] = (beside.into_liquid() - there.into_liquid()) / little;
+    now_[i] = {before.eroded + there.eroded, before.deposited + there.deposited};
+  }
+}
+
+template <int Dim>
+auto ElementBalance<Dim>::spread(const std::vector<Exchange>& exchange) const -> Values {
+  Values result = Values::Zero();
+  for (int p = begin_; p < end_; ++p) {
+    result += soils_.points().volume[p] * exchange[p - begin_].into_liquid() * basis_[p - begin_];
+  }
+  return result;
+}
+
+template <int Dim>
+bool ElementBalance<Dim>::solve_stage(const SolidInStep<Dim>& solid, const Stage& stage,
+                                      bool is_last, Values& c) {
+  constexpr int enough = 30;
+  for (int iteration = 0; iteration < enough; ++iteration) {
+    Values given = Values::Zero();
+    Matrix by_concentration = Matrix::Zero();
+    if (exchanges_) {
+      find_exchange(solid, is_last, c);
+      given = spread(now_);
+      if (coupled_) {
+        for (int p = begin_; p < end_; ++p) {
+          const Values& basis = basis_[p - begin_];
+          by_concentration +=
+              soils_.points().volume[p] * slope_[p - begin_] * basis * basis.transpose();
+        }
+      }
+    }
+    const Values liquid = stage.liquid + given;
+    Matrix system = -stage.share * moved_;
+    system.diagonal() += liquid;
+    if (!coupled_) {
+      c = system.partialPivLu().solve(stage.known + given);
+      return true;
+    }
+    const Values residual = system * c - stage.known - given;
+    system += (c.array() - 1.0).matrix().asDiagonal() * by_concentration;
+    const Values change = system.partialPivLu().solve(residual);
+    c -= change;
+    const double size = change.template lpNorm<Eigen::Infinity>();
+    if (size <= 1e-14 + 1e-13 * c.template lpNorm<Eigen::Infinity>()) return true;
+    if (!std::isfinite(size)) return false;
+  }
+  return false;
+}
+
+template <int Dim>
+bool ElementBalance<Dim>::solve_linear(const ElementStart<Dim>& start,
+                                       const SolidInStep<Dim>& solid,
+                                       const std::vector<double>& first,
+                                       const std::vector<double>& last, StepErrors& errors) {
+  const Values fines = Eigen::Map<const Values>(start.fines.data());
+  const Values liquid = Eigen::Map<const Values>(start.liquid.data());
+  const double growth = start.gained / liquid.sum();
+  const Values first_load = load(start, first);
+  const Values last_load = load(start, last);
+
+  Values c = fines.cwiseQuotient(liquid);
+  Stage stage{first_stage, (1.0 + first_stage * growth) * liquid, fines + first_stage * first_load};
+  if (!solve_stage(solid, stage, false, c)) return false;
+  const Values c_first = c;
+  const Values moved_first = moved_ * c_first + first_load;
+  const Values given_first = exchanges_ ? spread(now_) : Values(Values::Zero());
+
+  stage = {first_stage, (1.0 + growth) * liquid,
+           fines + (1.0 - first_stage) * moved_first + first_stage * last_load};
+  if (!solve_stage(solid, stage, true, c)) return false;
+  const Values moved_last = moved_ * c + last_load;
+  const Values given_last = exchanges_ ? spread(now_) : Values(Values::Zero());
+
+  Eigen::Map<Values>(at_vertices_.first.data()) = across_nodes(c_first);
+  Eigen::Map<Values>(at_vertices_.last.data()) = across_nodes(c);
+  // How far the first stage is from a straight line through the ends of the step.
+  const double change_first = first_stage * moved_first.sum() + given_first.sum();
+  const double change_last =
+      (1.0 - first_stage) * moved_first.sum() + first_stage * moved_last.sum() + given_last.sum();
+  errors.fines = std::abs(change_last - change_first / first_stage);
+  if (coupled_) errors.exchange = std::abs(given_last.sum() - given_first.sum() / first_stage);
+  errors.held = std::abs(fines.sum() + change_last);
+  errors.exchanged = std::abs(given_last.sum());
+  return true;
+}
+
+template <int Dim>
+double ElementBalance<Dim>::solve_mean(const ElementStart<Dim>& start,
+                                       const SolidInStep<Dim>& solid,
+                                       const std::vector<double>& first,
+                                       const std::vector<double>& last) {
+  double entered = 0.0;
+  for (int k = 0; k <= Dim; ++k) {
+    if (!(start.outflow[k] < 0.0)) continue;
+    for (const int place : start.upwind[k]) {
+      entered -=
+          start.outflow[k] / Dim * ((1.0 - first_stage) * first[place] + first_stage * last[place]);
+    }
+  }
+  const double fines = element_sum<Dim>(start.fines);
+  const double liquid = element_sum<Dim>(start.liquid) + start.gained;
+  const std::vector<double>& porosity = solid.solid.porosity();
+  const auto given = [&](double mean) {
+    for (int p = begin_; p < end_; ++p) {
+      now_[p - begin_] =
+          solid.solid.exchange_at(p, porosity[p], mean, solid.from, solid.to, solid.flows);
+    }
+    return spread(now_).sum();
+  };
+  const auto balance = [&](double s) { return (fines + entered + s) / (liquid + s + outflow_); };
+  if (!exchanges_) return balance(0.0);
+  if (!coupled_) return balance(spread(now_).sum());
+  const double mean = root_between_zero_and_one([&](double m) {
+    const double s = given(m);
+    return (liquid + s + outflow_) * m - fines - entered - s;
+  });
+  return balance(given(mean));
+}
+
+template <int Dim>
+auto ElementBalance<Dim>::allowed(const ElementStart<Dim>& start, const std::vector<double>& first,
+                                  const std::vector<double>& last) const -> Range {
+  Range range{1.0, 0.0};
+  const auto include = [&](double c) {
+    range.low = std::min(range.low, c);
+    range.high = std::max(range.high, c);
+  };
+  ElementValues<Dim> before;
+  for (int j = 0; j <= Dim; ++j) before[j] = start.fines[j] / start.liquid[j];
+  for (const double c : FieldNodes<Dim>::at_vertices(before)) include(c);
+  for (int k = 0; k <= Dim; ++k) {
+    if (!(start.outflow[k] < 0.0)) continue;
+    for (const int place : start.upwind[k]) {
+      include(first[place]);
+      include(last[place]);
+    }
+  }
+  if (exchanges_) {
+    // The way through a corner is up to Dim times the mean way through the element.
+    double eroded = 0.0;
+    double deposited = 0.0;
+    for (int p = begin_; p < end_; ++p) {
+      eroded += soils_.points().volume[p] * now_[p - begin_].eroded;
+      deposited += soils_.points().volume[p] * now_[p - begin_].deposited;
+    }
+    const double passing = element_sum<Dim>(start.liquid) + outflow_;
+    range.high += Dim * eroded / passing;
+    range.low -= Dim * deposited / passing;
+  }
+  constexpr double slack = 1e-12;
+  return {std::max(0.0, range.low - slack), std::min(1.0, range.high + slack)};
+}
+
+template <int Dim>
+double ElementBalance<Dim>::slope_within(const Range& range, double mean) const {
+  double slope = 1.0;
+  for (const ElementValues<Dim>& values : {at_vertices_.first, at_vertices_.last}) {
+    for (const double value : values) {
+      if (value >= range.low && value <= range.high) continue;
+      const double room = value > mean ? range.high - mean : mean - range.low;
+      slope = std::min(slope, std::clamp(room / std::abs(value - mean), 0.0, 1.0));
+    }
+  }
+  return slope;
+}
+
+template <int Dim>
+StepErrors ElementBalance<Dim>::solve(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid,
+                                      double& slope, std::vector<double>& first,
+                                      std::vector<double>& last, std::vector<Exchange>& exchange) {
+  StepErrors errors;
+  find_points(start, solid);
+  find_matrix(start);
+  if (!solve_linear(start, solid, first, last, errors)) slope = 0.0;
+
+  double mean = 0.0;
+  if (slope < 1.0 || slope_within(allowed(start, first, last), at_vertices_.last[0]) < 1.0) {
+    linear_ = now_;
+    mean = solve_mean(start, solid, first, last);
+    if (slope > 0.0) slope = std::min(slope, slope_within(allowed(start, first, last), mean));
+  }
+  // Both solutions balance, and so does what lies between them.
+  const auto between = [&](double at_mean, double linear) {
+    return slope == 1.0 ? linear : slope == 0.0 ? at_mean : at_mean + slope * (linear - at_mean);
+  };
+  const std::size_t place = (Dim + 1) * static_cast<std::size_t>(start.element);
+  for (int k = 0; k <= Dim; ++k) {
+    first[place + k] = between(mean, at_vertices_.first[k]);
+    last[place + k] = between(mean, at_vertices_.last[k]);
+  }
+  if (slope == 1.0) linear_ = now_;
+  for (int p = begin_; p < end_ && exchanges_; ++p) {
+    const Exchange& at_mean = now_[p - begin_];
+    const Exchange& linear = linear_[p - begin_];
+    exchange[p] = {between(at_mean.eroded, linear.eroded),
+                   between(at_mean.deposited, linear.deposited)};
+  }
+  return errors;
+}
+
+template class ElementBalance<2>;
+template class ElementBalance<3>;
+
+}  // namespace suffuse
