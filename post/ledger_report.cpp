@@ -53,7 +53,6 @@ Balance balance(const Table& table, const std::string& place, const std::string&
   b.stored = stored.back();
   if (!is_water) b.eroded = table.column("eroded").back();
   if (!is_water && table.has("deposited")) b.deposited = table.column("deposited").back();
-  const double scale = b.initial > 0.0 ? b.initial : 1.0;
   b.worst_time = table.column("t").front();
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double formed = std::abs(stored[row] + (out[row] - in[row]) - b.initial);
@@ -62,6 +61,8 @@ Balance balance(const Table& table, const std::string& place, const std::string&
     const double rounding =
         std::numeric_limits<double>::epsilon() * (stored[row] + in[row] + out[row]);
     const double significant = formed <= rounding ? 0.0 : formed;
+    const double all = b.initial + in[row];
+    const double scale = all > 0.0 ? all : 1.0;
     for (const double residual : {std::abs(reported[row]), significant / scale}) {
       if (residual <= b.worst_residual) continue;
       b.worst_residual = residual;

@@ -67,10 +67,60 @@ MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interva
     if (!control_.accept(interval.start, error, previous_.has_value(), dt)) continue;
     if (scheme_.iterations() > limits.slow_iterations) control_.hold(dt);
 
-    if (relaxation_.active()) relaxation_.set_source(forcing_.back().source);
+    let_out_expansion(dt, stages, step);
+    if (!forcing_.back().source.empty()) relaxation_.set_source(forcing_.back().source);
     blending_.record(forcing_.back().coefficients);
     if (follows_pores_) blending_.expect(coefficients_at(interval, interval.start + dt));
     return std::move(step);
+  }
+}
+
+template <int Dim>
+std::vector<double> ImplicitFlow<Dim>::expansion_in(const MixedStep<Dim>& step) const {
+  const Grid<Dim>& grid = this->grid();
+  const double bulk_modulus = this->scene().liquid.bulk_modulus;
+  const FaceVolumes volumes =
+      face_volumes(grid, now_.state.face_pressure, pressure_, step, bulk_modulus, this->threads());
+  const std::vector<double> end = element_pressure(grid, step.end.face_pressure, this->threads());
+  std::vector<double> result(grid.mesh.element_count());
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    double mass = 0.0;  // over the reference density, m3
+    double fines = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      const int f = grid.element_face[e][k];
+      const double c = this->coefficients_.face_concentration[f];
+      const double sign = grid.element_face_sign[e][k];
+      mass -= sign * (1.0 - c) * (volumes.liquid[f] + volumes.density_excess[f]);
+      fines += sign * c * volumes.liquid[f];
+    }
+    const double last = density_ratio(end[e], bulk_modulus);
+    const double pressed =
+        this->coefficients_.water_volume[e] * std::expm1((end[e] - pressure_[e]) / bulk_modulus);
+    result[e] = mass / last - pressed - fines;
+  }
+  return result;
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::let_out_expansion(double dt,
+                                          const std::vector<const FlowForcing<Dim>*>& stages,
+                                          MixedStep<Dim>& step) {
+  if (std::isinf(this->scene().liquid.bulk_modulus) || scheme_.is_nonlinear()) return;
+  const std::vector<double>& holds = this->coefficients_.water_volume;
+  const std::vector<double> released = relaxation_.released(dt, filling_time());
+  for (int repeat = 0; repeat < limits.expansion_repeats; ++repeat) {
+    std::vector<double> growth = expansion_in(step);
+    double largest = 0.0;
+    for (std::size_t e = 0; e < growth.size(); ++e) {
+      if (!released.empty()) growth[e] += released[e];
+      largest = std::max(largest, std::abs(growth[e]) / holds[e]);
+    }
+    if (largest <= limits.expansion) return;
+    for (FlowForcing<Dim>& forcing : forcing_) {
+      forcing.source.resize(growth.size(), 0.0);
+      for (std::size_t e = 0; e < growth.size(); ++e) forcing.source[e] += growth[e] / dt;
+    }
+    step = scheme_.step(now_.state, dt, stages);
   }
 }
 

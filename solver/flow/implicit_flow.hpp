@@ -55,6 +55,12 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// A step, or nothing and a shorter `dt` where its iteration does not converge.
   [[nodiscard]] std::optional<MixedStep<Dim>> try_step(
       double start, double& dt, const std::vector<const FlowForcing<Dim>*>& stages);
+  /// Water expands as it moves towards lower pressures. Where a step is so long that it would not
+  /// fit its elements, solves it again with the sources that let it out.
+  void let_out_expansion(double dt, const std::vector<const FlowForcing<Dim>*>& stages,
+                         MixedStep<Dim>& step);
+  /// Volume by which an element's water grows beyond what its pores take at its pressure, m3.
+  [[nodiscard]] std::vector<double> expansion_in(const MixedStep<Dim>& step) const;
   /// Coefficients, boundary values and sources at each stage of a step of `dt`.
   void find_forcing(const FlowInterval<Dim>& interval, double dt);
   /// Coefficients at a time within the interval, as erosion will have made them.

@@ -55,6 +55,11 @@ struct ImplicitThresholds {
   /// Water that does not fit its pores leaves over at least this many steps: all at once, the flux
   /// would jump, and no step is short enough for a jump.
   double release_steps = 4.0;
+  /// A step is solved again where moving water expands otherwise than in the step before by more
+  /// than this share of what an element holds.
+  double expansion = 1e-4;
+  /// At most so many times: each leaves a share p / K of the difference.
+  int expansion_repeats = 3;
   /// A change of volume below this share of the volume is round-off: 16 units in the last place.
   double volume_round_off = 16.0 * 2.220446049250313e-16;
 

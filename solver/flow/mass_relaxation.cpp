@@ -37,6 +37,13 @@ std::vector<double> MassRelaxation::wanted_source(double dt, double filling_time
   return source;
 }
 
+std::vector<double> MassRelaxation::released(double dt, double filling_time) const {
+  std::vector<double> result = mismatch_;
+  const double share = dt / std::max(limits.release_steps * dt, filling_time);
+  for (double& volume : result) volume *= share;
+  return result;
+}
+
 std::vector<double> MassRelaxation::next_source(double dt, double filling_time) const {
   return between(source_, wanted_source(dt, filling_time), std::min(1.0, dt / change_time_));
 }

@@ -10,8 +10,10 @@ void book_one(double outward, CompensatedSum& in, CompensatedSum& out) {
   if (outward < 0.0) in.add(-outward);
 }
 
-double relative(double residual, double initial) {
-  return initial > 0.0 ? residual / initial : residual;
+/// Relative to all that there was: at the start and what came in.
+double relative(double residual, double initial, double entered) {
+  const double all = initial + entered;
+  return all > 0.0 ? residual / all : residual;
 }
 
 /// From what is stored, what crossed and what was stored at the start.
@@ -33,10 +35,11 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.points = stored.points;
   row.points_in = crossed.points_in;
   row.points_out = crossed.points_out;
-  row.residual_water = relative((stored.water - initial.water) + crossed.water_net, initial.water);
+  row.residual_water =
+      relative((stored.water - initial.water) + crossed.water_net, initial.water, crossed.water_in);
   row.residual_grains = relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
                                      stored.pending + crossed.fines_net,
-                                 initial.solid + initial.fines);
+                                 initial.solid + initial.fines, crossed.fines_in);
   return row;
 }
 

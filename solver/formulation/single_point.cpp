@@ -16,7 +16,7 @@ FieldTransportSettings field_settings(const Scene& scene, const ModelOptions& op
   return {is_explicit ? TransportScheme::explicit_steps : scene.time.transport,
           options.transport ? options.fines_from : never,
           scene.time.end,
-          {scene.time.tolerance, scene.time.step.has_value()}};
+          {scene.time.end, scene.time.tolerance, scene.time.step.has_value()}};
 }
 
 }  // namespace

@@ -80,8 +80,9 @@ struct LedgerRow {
   double fines_in = 0.0;
   double water_out = 0.0;
   double fines_out = 0.0;
-  double residual_water = 0.0;   ///< relative to the initial water
-  double residual_grains = 0.0;  ///< relative to the initial grains (solid and fluidised)
+  double residual_water = 0.0;  ///< relative to the initial water and what came in
+  /// Relative to the initial grains, solid and fluidised, and what came in.
+  double residual_grains = 0.0;
   /// Double-point: fines eroded where no liquid point is near, waiting at nodes for one.
   double pending = 0.0;
   double points = 0.0;  ///< liquid points, and how many entered and left since the start

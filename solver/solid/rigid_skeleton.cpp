@@ -52,6 +52,15 @@ std::vector<double> RigidSkeleton<Dim>::element_porosity() const {
 }
 
 template <int Dim>
+Exchange RigidSkeleton<Dim>::eroded_at(int point, double porosity, double from, double to,
+                                       const PointFlows& flows) const {
+  const ErosionModel& erosion = soils_.erosion_of_element(soils_.points().element[point]);
+  const auto [first, last] = flows.flux_ends(point, from, to);
+  const double after = suffuse::porosity_after(erosion, porosity, from, to, first, last);
+  return {after - porosity, 0.0};
+}
+
+template <int Dim>
 template <class Take>
 void RigidSkeleton<Dim>::exchange_in(int element, double from, double to, const PointFlows& flows,
                                      const Take& take) const {
@@ -60,13 +69,7 @@ void RigidSkeleton<Dim>::exchange_in(int element, double from, double to, const 
   const int begin = soils_.points_begin(element);
   const int end = soils_.points_begin(element + 1);
   if (!model.depends_on_concentration() && !model.drive_depends_on_conductivity()) {
-    // In closed form, without the rest of what exchange may depend on.
-    for (int p = begin; p < end; ++p) {
-      const auto [first, last] = flows.flux_ends(p, from, to);
-      const double after =
-          suffuse::porosity_after(model.erosion, porosity_[p], from, to, first, last);
-      take(p, Exchange{after - porosity_[p], 0.0});
-    }
+    for (int p = begin; p < end; ++p) take(p, eroded_at(p, porosity_[p], from, to, flows));
     return;
   }
   for (int p = begin; p < end; ++p) {
@@ -120,6 +123,9 @@ Exchange RigidSkeleton<Dim>::exchange_at(int point, double porosity, double conc
                                          double from, double to, const PointFlows& flows) const {
   const int e = soils_.points().element[point];
   const ExchangeModel& model = soils_.exchange_of_element(e);
+  if (!model.depends_on_concentration() && !model.drive_depends_on_conductivity()) {
+    return eroded_at(point, porosity, from, to, flows);
+  }
   PlaceFlow flow = flows.at(point, e, from, to);
   flow.concentration = concentration;
   flow.motion = LiquidMotion::flows_on;

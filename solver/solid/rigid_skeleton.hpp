@@ -45,6 +45,10 @@ class RigidSkeleton final : public Skeleton<Dim> {
   double take(int point, const Exchange& change);
   /// Throws NumericalError where deposits leave hardly any pores.
   void refuse_full() const;
+  /// What erodes where nothing but the flux drives it: in closed form, without the rest of what
+  /// exchange may depend on.
+  [[nodiscard]] Exchange eroded_at(int point, double porosity, double from, double to,
+                                   const PointFlows& flows) const;
   /// Calls `take(point, exchange)` for every point of an element whose soil exchanges fines.
   template <class Take>
   void exchange_in(int element, double from, double to, const PointFlows& flows,

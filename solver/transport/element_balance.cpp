@@ -3,13 +3,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace suffuse {
 namespace {
 
-/// Values at vertices from those at field nodes, and loads the other way.
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Values at vertices from those at field nodes.
 template <class Values>
-Values across_nodes(const Values& values) {
+[[gnu::always_inline]] inline Values across_nodes(const Values& values) {
   constexpr int dim = Values::RowsAtCompileTime - 1;
   return (values.array() - FieldNodes<dim>::far_vertex * values.sum()) / FieldNodes<dim>::spread;
 }
@@ -57,6 +60,7 @@ void ElementBalance<Dim>::find_points(const ElementStart<Dim>& start,
   begin_ = soils_.points_begin(e);
   end_ = soils_.points_begin(e + 1);
   const ExchangeModel& model = soils_.exchange_of_element(e);
+  given_ = Values::Zero();
   exchanges_ = solid.exchanges && model.exchanges() && end_ > begin_;
   coupled_ = exchanges_ && model.depends_on_concentration();
   if (!exchanges_) return;
@@ -70,54 +74,66 @@ void ElementBalance<Dim>::find_points(const ElementStart<Dim>& start,
       basis_[i][j] = FieldNodes<Dim>::basis(soils_.points().barycentric[begin_ + i][j]);
     }
   }
+  if (coupled_) return;
+  for (int p = begin_; p < end_; ++p) {
+    now_[p - begin_] = solid.solid.exchange_at(p, solid.solid.porosity()[p], unset, solid.from,
+                                               solid.to, solid.flows);
+  }
+  given_ = spread(now_);
 }
 
 template <int Dim>
-void ElementBalance<Dim>::find_matrix(const ElementStart<Dim>& start) {
-  // The integrals of `gain` in linear_fines.hpp, by the concentration at this element's nodes.
-  double net = 0.0;
-  outflow_ = 0.0;
-  for (const double q : start.outflow) {
-    net += q;
-    outflow_ += std::max(q, 0.0);
-  }
-  Matrix by_vertices;
+ElementBalance<Dim>::ElementBalance(const SoilMap<Dim>& soils) : soils_(soils) {
+  // The integrals of `gain` in linear_fines.hpp, by the concentration at nodes.
+  constexpr double scale = 1.0 / (Dim * (Dim + 1));
+  const Matrix identity = Matrix::Identity();
+  const Matrix ones = Matrix::Ones();
+  const Matrix across = (identity - FieldNodes<Dim>::far_vertex * ones) / FieldNodes<Dim>::spread;
   for (int k = 0; k <= Dim; ++k) {
-    for (int i = 0; i <= Dim; ++i) {
-      by_vertices(k, i) = net * (i == k ? 2.0 : 1.0) / (Dim + 2) - start.outflow[k];
+    Matrix inside = (ones + identity) / (Dim + 2);
+    inside.row(k).array() -= 1.0;
+    Matrix outside = -(ones + identity);
+    outside.row(k).setZero();
+    outside.col(k).setZero();
+    SideMatrix inflow = SideMatrix::Zero();
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j) inflow(side_vertex<Dim>(k, i), j) = i == j ? -2.0 : -1.0;
     }
+    by_side_[k] = {scale * across * inside * across, scale * across * (inside + outside) * across,
+                   scale * across * inflow};
   }
+}
+
+template <int Dim>
+void ElementBalance<Dim>::find_moved(const ElementStart<Dim>& start,
+                                     const std::vector<double>& first,
+                                     const std::vector<double>& last) {
+  moved_.setZero();
+  first_load_.setZero();
+  last_load_.setZero();
+  entered_ = 0.0;
+  outflow_ = 0.0;
+  entering_ = {infinity, -infinity};
   for (int k = 0; k <= Dim; ++k) {
     const double q = start.outflow[k];
-    if (!(q > 0.0)) continue;
-    for (int i = 0; i <= Dim; ++i) {
-      for (int j = 0; j <= Dim; ++j) {
-        if (i != k && j != k) by_vertices(i, j) -= q * (i == j ? 2.0 : 1.0);
-      }
+    if (q >= 0.0) {
+      moved_ += q * by_side_[k].outflow;
+      outflow_ += q;
+      continue;
     }
-  }
-  for (int i = 0; i <= Dim; ++i) {
-    by_vertices.col(i) = across_nodes<Values>(by_vertices.col(i));
-  }
-  for (int i = 0; i <= Dim; ++i) {
-    moved_.row(i) = across_nodes<Values>(by_vertices.row(i).transpose()).transpose();
-  }
-  moved_ /= Dim * (Dim + 1);
-}
-
-template <int Dim>
-auto ElementBalance<Dim>::load(const ElementStart<Dim>& start,
-                               const std::vector<double>& at_vertices) -> Values {
-  Values result = Values::Zero();
-  for (int k = 0; k <= Dim; ++k) {
-    if (!(start.outflow[k] < 0.0)) continue;
-    double all = 0.0;
-    for (const int place : start.upwind[k]) all += at_vertices[place];
+    moved_ += q * by_side_[k].inside;
+    Eigen::Matrix<double, Dim, 1> at_first;
+    Eigen::Matrix<double, Dim, 1> at_last;
     for (int a = 0; a < Dim; ++a) {
-      result[side_vertex<Dim>(k, a)] -= start.outflow[k] * (all + at_vertices[start.upwind[k][a]]);
+      at_first[a] = first[start.upwind[k][a]];
+      at_last[a] = last[start.upwind[k][a]];
+      entering_.include(at_first[a]);
+      entering_.include(at_last[a]);
     }
+    first_load_ += q * (by_side_[k].inflow * at_first);
+    last_load_ += q * (by_side_[k].inflow * at_last);
+    entered_ -= q / Dim * ((1.0 - first_stage) * at_first.sum() + first_stage * at_last.sum());
   }
-  return across_nodes<Values>(result) / (Dim * (Dim + 1));
 }
 
 template <int Dim>
@@ -127,14 +143,10 @@ void ElementBalance<Dim>::find_exchange(const SolidInStep<Dim>& solid, bool is_l
   const std::vector<double>& porosity = solid.solid.porosity();
   for (int p = begin_; p < end_; ++p) {
     const int i = p - begin_;
-    const double at_point = coupled_ ? std::max(0.0, basis_[i].dot(c)) : unset;
+    const double at_point = std::max(0.0, basis_[i].dot(c));
     const auto between = [&](double from, double to, double n, double concentration) {
       return solid.solid.exchange_at(p, n, concentration, from, to, solid.flows);
     };
-    if (!coupled_) {
-      now_[i] = between(solid.from, is_last ? solid.to : solid.first_time(), porosity[p], unset);
-      continue;
-    }
     Exchange before;
     double from = solid.from;
     if (is_last) {
@@ -166,29 +178,27 @@ bool ElementBalance<Dim>::solve_stage(const SolidInStep<Dim>& solid, const Stage
                                       bool is_last, Values& c) {
   constexpr int enough = 30;
   for (int iteration = 0; iteration < enough; ++iteration) {
-    Values given = Values::Zero();
-    Matrix by_concentration = Matrix::Zero();
-    if (exchanges_) {
+    if (coupled_) {
       find_exchange(solid, is_last, c);
-      given = spread(now_);
-      if (coupled_) {
-        for (int p = begin_; p < end_; ++p) {
-          const Values& basis = basis_[p - begin_];
-          by_concentration +=
-              soils_.points().volume[p] * slope_[p - begin_] * basis * basis.transpose();
-        }
-      }
+      given_ = spread(now_);
     }
-    const Values liquid = stage.liquid + given;
-    Matrix system = -stage.share * moved_;
-    system.diagonal() += liquid;
+    // Where the exchange is known beforehand, the first stage has its share of it.
+    const Values given = (coupled_ || is_last ? 1.0 : first_stage) * given_;
+    Matrix system = -first_stage * moved_;
+    system.diagonal() += stage.liquid + given;
     if (!coupled_) {
-      c = system.partialPivLu().solve(stage.known + given);
+      c = system.inverse() * (stage.known + given);
       return true;
+    }
+    Matrix by_concentration = Matrix::Zero();
+    for (int p = begin_; p < end_; ++p) {
+      const Values& basis = basis_[p - begin_];
+      by_concentration +=
+          soils_.points().volume[p] * slope_[p - begin_] * basis * basis.transpose();
     }
     const Values residual = system * c - stage.known - given;
     system += (c.array() - 1.0).matrix().asDiagonal() * by_concentration;
-    const Values change = system.partialPivLu().solve(residual);
+    const Values change = system.inverse() * residual;
     c -= change;
     const double size = change.template lpNorm<Eigen::Infinity>();
     if (size <= 1e-14 + 1e-13 * c.template lpNorm<Eigen::Infinity>()) return true;
@@ -199,54 +209,40 @@ bool ElementBalance<Dim>::solve_stage(const SolidInStep<Dim>& solid, const Stage
 
 template <int Dim>
 bool ElementBalance<Dim>::solve_linear(const ElementStart<Dim>& start,
-                                       const SolidInStep<Dim>& solid,
-                                       const std::vector<double>& first,
-                                       const std::vector<double>& last, StepErrors& errors) {
+                                       const SolidInStep<Dim>& solid, StepErrors& errors) {
   const Values fines = Eigen::Map<const Values>(start.fines.data());
   const Values liquid = Eigen::Map<const Values>(start.liquid.data());
   const double growth = start.gained / liquid.sum();
-  const Values first_load = load(start, first);
-  const Values last_load = load(start, last);
 
   Values c = fines.cwiseQuotient(liquid);
-  Stage stage{first_stage, (1.0 + first_stage * growth) * liquid, fines + first_stage * first_load};
+  Stage stage{(1.0 + first_stage * growth) * liquid, fines + first_stage * first_load_};
   if (!solve_stage(solid, stage, false, c)) return false;
   const Values c_first = c;
-  const Values moved_first = moved_ * c_first + first_load;
-  const Values given_first = exchanges_ ? spread(now_) : Values(Values::Zero());
+  const Values moved_first = moved_ * c_first + first_load_;
+  const double given_first = (coupled_ ? 1.0 : first_stage) * given_.sum();
 
-  stage = {first_stage, (1.0 + growth) * liquid,
-           fines + (1.0 - first_stage) * moved_first + first_stage * last_load};
+  stage = {(1.0 + growth) * liquid,
+           fines + (1.0 - first_stage) * moved_first + first_stage * last_load_};
   if (!solve_stage(solid, stage, true, c)) return false;
-  const Values moved_last = moved_ * c + last_load;
-  const Values given_last = exchanges_ ? spread(now_) : Values(Values::Zero());
+  const Values moved_last = moved_ * c + last_load_;
+  const double given_last = given_.sum();
 
   Eigen::Map<Values>(at_vertices_.first.data()) = across_nodes(c_first);
   Eigen::Map<Values>(at_vertices_.last.data()) = across_nodes(c);
   // How far the first stage is from a straight line through the ends of the step.
-  const double change_first = first_stage * moved_first.sum() + given_first.sum();
+  const double change_first = first_stage * moved_first.sum() + given_first;
   const double change_last =
-      (1.0 - first_stage) * moved_first.sum() + first_stage * moved_last.sum() + given_last.sum();
+      (1.0 - first_stage) * moved_first.sum() + first_stage * moved_last.sum() + given_last;
   errors.fines = std::abs(change_last - change_first / first_stage);
-  if (coupled_) errors.exchange = std::abs(given_last.sum() - given_first.sum() / first_stage);
+  if (coupled_) errors.exchange = std::abs(given_last - given_first / first_stage);
   errors.held = std::abs(fines.sum() + change_last);
-  errors.exchanged = std::abs(given_last.sum());
+  errors.exchanged = std::abs(given_last);
   return true;
 }
 
 template <int Dim>
 double ElementBalance<Dim>::solve_mean(const ElementStart<Dim>& start,
-                                       const SolidInStep<Dim>& solid,
-                                       const std::vector<double>& first,
-                                       const std::vector<double>& last) {
-  double entered = 0.0;
-  for (int k = 0; k <= Dim; ++k) {
-    if (!(start.outflow[k] < 0.0)) continue;
-    for (const int place : start.upwind[k]) {
-      entered -=
-          start.outflow[k] / Dim * ((1.0 - first_stage) * first[place] + first_stage * last[place]);
-    }
-  }
+                                       const SolidInStep<Dim>& solid) {
   const double fines = element_sum<Dim>(start.fines);
   const double liquid = element_sum<Dim>(start.liquid) + start.gained;
   const std::vector<double>& porosity = solid.solid.porosity();
@@ -257,34 +253,21 @@ double ElementBalance<Dim>::solve_mean(const ElementStart<Dim>& start,
     }
     return spread(now_).sum();
   };
-  const auto balance = [&](double s) { return (fines + entered + s) / (liquid + s + outflow_); };
-  if (!exchanges_) return balance(0.0);
-  if (!coupled_) return balance(spread(now_).sum());
+  const auto balance = [&](double s) { return (fines + entered_ + s) / (liquid + s + outflow_); };
+  if (!coupled_) return balance(given_.sum());
   const double mean = root_between_zero_and_one([&](double m) {
     const double s = given(m);
-    return (liquid + s + outflow_) * m - fines - entered - s;
+    return (liquid + s + outflow_) * m - fines - entered_ - s;
   });
   return balance(given(mean));
 }
 
 template <int Dim>
-auto ElementBalance<Dim>::allowed(const ElementStart<Dim>& start, const std::vector<double>& first,
-                                  const std::vector<double>& last) const -> Range {
-  Range range{1.0, 0.0};
-  const auto include = [&](double c) {
-    range.low = std::min(range.low, c);
-    range.high = std::max(range.high, c);
-  };
+auto ElementBalance<Dim>::allowed(const ElementStart<Dim>& start) const -> Range {
+  Range range = entering_;
   ElementValues<Dim> before;
   for (int j = 0; j <= Dim; ++j) before[j] = start.fines[j] / start.liquid[j];
-  for (const double c : FieldNodes<Dim>::at_vertices(before)) include(c);
-  for (int k = 0; k <= Dim; ++k) {
-    if (!(start.outflow[k] < 0.0)) continue;
-    for (const int place : start.upwind[k]) {
-      include(first[place]);
-      include(last[place]);
-    }
-  }
+  for (const double c : FieldNodes<Dim>::at_vertices(before)) range.include(c);
   if (exchanges_) {
     // The way through a corner is up to Dim times the mean way through the element.
     double eroded = 0.0;
@@ -320,14 +303,14 @@ StepErrors ElementBalance<Dim>::solve(const ElementStart<Dim>& start, const Soli
                                       std::vector<double>& last, std::vector<Exchange>& exchange) {
   StepErrors errors;
   find_points(start, solid);
-  find_matrix(start);
-  if (!solve_linear(start, solid, first, last, errors)) slope = 0.0;
+  find_moved(start, first, last);
+  if (!solve_linear(start, solid, errors)) slope = 0.0;
 
   double mean = 0.0;
-  if (slope < 1.0 || slope_within(allowed(start, first, last), at_vertices_.last[0]) < 1.0) {
+  if (slope < 1.0 || slope_within(allowed(start), at_vertices_.last[0]) < 1.0) {
     linear_ = now_;
-    mean = solve_mean(start, solid, first, last);
-    if (slope > 0.0) slope = std::min(slope, slope_within(allowed(start, first, last), mean));
+    mean = solve_mean(start, solid);
+    if (slope > 0.0) slope = std::min(slope, slope_within(allowed(start), mean));
   }
   // Both solutions balance, and so does what lies between them.
   const auto between = [&](double at_mean, double linear) {

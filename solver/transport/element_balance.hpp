@@ -6,6 +6,7 @@
 /// whatever the length of the step. The exchange with the solid is part of the system.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "solid/skeleton.hpp"
@@ -40,12 +41,14 @@ struct StepErrors {
   double exchange = 0.0;   ///< of what solid and liquid exchanged
   double held = 0.0;       ///< in the liquid at the end
   double exchanged = 0.0;  ///< with the solid, either way
+  double entered = 0.0;    ///< from outside the model
 
   void add(const StepErrors& other) {
     fines += other.fines;
     exchange += other.exchange;
     held += other.held;
     exchanged += other.exchanged;
+    entered += other.entered;
   }
 };
 
@@ -67,7 +70,7 @@ struct SolidInStep {
 template <int Dim>
 class ElementBalance {
  public:
-  explicit ElementBalance(const SoilMap<Dim>& soils) : soils_(soils) {}
+  explicit ElementBalance(const SoilMap<Dim>& soils);
 
   /// Solves for one element. `first` and `last`: values at the vertices of all elements and at
   /// outer faces, as `ElementSides` places them; those of this element are set. `exchange`: per
@@ -81,20 +84,31 @@ class ElementBalance {
   using Values = Eigen::Matrix<double, Dim + 1, 1>;
   using Matrix = Eigen::Matrix<double, Dim + 1, Dim + 1>;
 
-  /// One stage: (liquid + s) c - share (moved c) = known + s, where s is what the points give.
+  /// One stage: (liquid + s) c - first_stage moved c = known + s, where s is what points give.
   struct Stage {
-    double share;
     Values liquid;
     Values known;
   };
   struct Range {
     double low;
     double high;
+    void include(double value) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  };
+  using SideMatrix = Eigen::Matrix<double, Dim + 1, Dim>;
+  /// What transport adds to an element's fines at its nodes, per m3 that leaves through a side.
+  struct SideMatrices {
+    Matrix inside;      ///< by c at the nodes, where liquid enters there
+    Matrix outflow;     ///< the same where it leaves
+    SideMatrix inflow;  ///< by c at the nodes of the side, where it enters
   };
 
   void find_points(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid);
-  void find_matrix(const ElementStart<Dim>& start);
-  [[nodiscard]] Values load(const ElementStart<Dim>& start, const std::vector<double>& at_vertices);
+  /// What transport adds, by what enters and by what is in the element.
+  void find_moved(const ElementStart<Dim>& start, const std::vector<double>& first,
+                  const std::vector<double>& last);
   /// Exchange at each point of the element since the start of the step, if the concentration at the
   /// nodes is `c` at this stage.
   void find_exchange(const SolidInStep<Dim>& solid, bool is_last, const Values& c);
@@ -104,20 +118,17 @@ class ElementBalance {
                                  Values& c);
   /// The linear solution; false where there is none.
   bool solve_linear(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid,
-                    const std::vector<double>& first, const std::vector<double>& last,
                     StepErrors& errors);
   /// The mean by one backward Euler step.
-  [[nodiscard]] double solve_mean(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid,
-                                  const std::vector<double>& first,
-                                  const std::vector<double>& last);
+  [[nodiscard]] double solve_mean(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid);
   /// What values at vertices may be: between those that were there and those that enter, and beyond
   /// them by what the element itself gives and takes.
-  [[nodiscard]] Range allowed(const ElementStart<Dim>& start, const std::vector<double>& first,
-                              const std::vector<double>& last) const;
+  [[nodiscard]] Range allowed(const ElementStart<Dim>& start) const;
   /// The most of the linear solution's deviation from `mean` that stays within `range`.
   [[nodiscard]] double slope_within(const Range& range, double mean) const;
 
   const SoilMap<Dim>& soils_;
+  std::array<SideMatrices, Dim + 1> by_side_;
   // Of the element that is solved.
   int begin_ = 0;
   int end_ = 0;
@@ -128,9 +139,14 @@ class ElementBalance {
   std::vector<Exchange> linear_;             ///< per point: of the linear solution
   std::vector<double> slope_;                ///< per point: of the net exchange by c
   std::vector<double> split_concentration_;  ///< per point: at the first stage
+  Values given_;                             ///< by the points to the liquid, per node, m3
   Matrix moved_;                             ///< what transport adds per node, by c at nodes
-  double outflow_ = 0.0;                     ///< through all sides that it leaves by, m3
-  StageValues<Dim> at_vertices_;             ///< of the linear solution
+  Values first_load_;     ///< what transport adds per node, by what enters: at the first stage
+  Values last_load_;      ///< and at the last
+  double entered_ = 0.0;  ///< fines, over the step, m3
+  double outflow_ = 0.0;  ///< of liquid through all sides that it leaves by, m3
+  Range entering_{};      ///< of the concentrations that enter
+  StageValues<Dim> at_vertices_;  ///< of the linear solution
 };
 
 }  // namespace suffuse

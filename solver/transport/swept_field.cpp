@@ -60,6 +60,10 @@ void SweptField<Dim>::start(const std::vector<double>& face_volume, std::vector<
     outflow_[e] = sides_.outflow(e, face_volume);
     upwind_[e] = sides_.upwind_places(e, outflow_[e]);
   });
+  entering_ = 0.0;
+  for (const int f : sides_.outer_faces()) {
+    entering_ += std::max(0.0, -face_volume[f]) * conditions_[f].concentration;
+  }
   const auto turned = [&](int e) {
     for (int k = 0; k <= Dim; ++k) {
       if ((before[e][k] < 0.0) != (outflow_[e][k] < 0.0)) return 1.0;
@@ -91,6 +95,7 @@ bool SweptField<Dim>::solve(const FinesState<Dim>& state, const SolidInStep<Dim>
   errors = {};
   sides_.set_entering(conditions_, first_);
   sides_.set_entering(conditions_, last_);
+  errors.entered = share * entering_;
   auto circle = order_.circles.begin();
   for (int i = 0; i < static_cast<int>(order_.elements.size()); ++i) {
     if (circle != order_.circles.end() && circle->begin == i) {

@@ -15,6 +15,8 @@ constexpr double least = 0.1;
 constexpr double most_retry = 0.9;
 constexpr double unsolved = 0.25;
 constexpr double safety = 0.85;
+/// Of the run: what comes within it counts as nothing.
+constexpr double passing_share = 1e-6;
 /// A step that misses the end by less than this share of itself ends there.
 constexpr double end_margin = 1e-9;
 
@@ -29,10 +31,11 @@ void SweptSteps<Dim>::start(double start, const FlowProgress& flow) {
 }
 
 template <int Dim>
-double SweptSteps<Dim>::relative(const StepErrors& errors) const {
-  const double held = std::max(most_held_, errors.held);
+double SweptSteps<Dim>::relative(const StepErrors& errors, double dt) const {
+  const double coming = (errors.exchanged + errors.entered) / dt;
+  const double held = std::max({most_held_, errors.held, passing_share * settings_.end * coming});
   const double exchanged = std::max(held, exchanged_ + errors.exchanged);
-  if (!(held > 0.0)) return 0.0;
+  if (std::max(errors.fines, errors.exchange) <= round_off_) return 0.0;
   return std::max(errors.fines / held, errors.exchange / exchanged) / settings_.tolerance;
 }
 
@@ -53,7 +56,7 @@ const std::vector<Exchange>& SweptSteps<Dim>::solve(const FinesState<Dim>& state
     const double to = to_end ? end_ : time_ + dt_;
     const SolidInStep<Dim> in_step{solid, flows, time_, to, solid.exchanges_within(time_, to)};
     const bool solved = field_.solve(state, in_step, (to - time_) / (end_ - start_), errors_);
-    const double error = !solved || settings_.step_is_given ? 0.0 : relative(errors_);
+    const double error = !solved || settings_.step_is_given ? 0.0 : relative(errors_, to - time_);
     const double wanted = !solved       ? unsolved
                           : error > 0.0 ? safety / std::sqrt(error)
                                         : most_growth;

@@ -4,6 +4,7 @@
 /// error, and accepted or shortened.
 
 #include <limits>
+#include <numeric>
 
 #include "results/pass_timer.hpp"
 #include "transport/swept_field.hpp"
@@ -12,6 +13,7 @@
 namespace suffuse {
 
 struct SweptSettings {
+  double end = 0.0;            ///< of the run, s
   double tolerance = 1e-3;     ///< bound of a step's error, relative
   bool step_is_given = false;  ///< an interval is one step, whatever its error
 };
@@ -22,7 +24,10 @@ class SweptSteps {
   SweptSteps(const Grid<Dim>& grid, const ElementSides<Dim>& sides, const SoilMap<Dim>& soils,
              const std::vector<FaceCondition>& conditions, const SweptSettings& settings,
              int threads)
-      : field_(grid, sides, soils, conditions, threads), settings_(settings) {}
+      : field_(grid, sides, soils, conditions, threads),
+        settings_(settings),
+        round_off_(4.0 * std::numeric_limits<double>::epsilon() *
+                   std::accumulate(grid.volume.begin(), grid.volume.end(), 0.0)) {}
 
   /// Starts on an interval that the flow has crossed.
   void start(double start, const FlowProgress& flow);
@@ -39,12 +44,14 @@ class SweptSteps {
   void archive(auto& archive) { archive(next_, most_held_, exchanged_, timing_); }
 
  private:
-  /// Error over the tolerance: misplaced fines over the most that the liquid has held, and
-  /// misjudged exchange over all that there was.
-  [[nodiscard]] double relative(const StepErrors& errors) const;
+  /// Error over the tolerance of a step of `dt`: misplaced fines over the most that the liquid has
+  /// held, and misjudged exchange over all that there was. Where fines come from nothing, the least
+  /// that counts is what comes at this rate in a millionth of the run.
+  [[nodiscard]] double relative(const StepErrors& errors, double dt) const;
 
   SweptField<Dim> field_;
   SweptSettings settings_;
+  double round_off_;    ///< of the solid's volumes, which what erodes is a difference of, m3
   double start_ = 0.0;  ///< of the interval, s
   double end_ = 0.0;
   double time_ = 0.0;                                      ///< up to which it has been crossed

@@ -10,6 +10,7 @@
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
 #include "transport/eulerian.hpp"
+#include "transport/swept_field.hpp"
 
 namespace suffuse::bench {
 namespace {
@@ -85,6 +86,31 @@ BENCHMARK(Transport)
     ->ArgsProduct({{3'300, 33'000, 333'000}, {1, 2}})
     ->UseRealTime();
 BENCHMARK(Transport)->Name("QuickTransport")->Args({3'300, 1})->UseRealTime();
+
+/// A sweep of a hundred times the explicit step, without erosion, as `Transport`.
+void Sweep(benchmark::State& bench) {
+  Column column(cells_for(static_cast<double>(bench.range(0))), 1);
+  SweptField<2> field(column.grid, column.sides, column.soils, column.conditions, 1);
+  for (double& v : column.volume) v *= 100.0;
+  field.start(column.volume, {});
+  const PointFlows flows;
+  StepErrors errors;
+  const ElementField<2> nothing(column.grid.mesh.element_count(), ElementValues<2>{});
+  for ([[maybe_unused]] const auto step : bench) {
+    benchmark::DoNotOptimize(
+        field.solve(column.state, {column.skeleton, flows, 0.0, 1.0, false}, 1.0, errors));
+    field.finish(column.state, nothing);
+  }
+  constexpr double element = 24 + 24 + 24 + 24 + 48 + 24;
+  report(bench, column.points(), 2.0 * element / 3.0, 1);
+}
+BENCHMARK(Sweep)
+    ->ArgNames({"elements"})
+    ->Args({3'300})
+    ->Args({33'000})
+    ->Args({333'000})
+    ->Args({1'000'000})
+    ->UseRealTime();
 
 void Erosion(benchmark::State& bench) {
   const auto threads = static_cast<int>(bench.range(1));

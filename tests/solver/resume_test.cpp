@@ -117,7 +117,10 @@ std::vector<test::Mode> variants() {
   std::vector<std::string> exchange_with_points = soil;
   exchange_with_points.emplace_back(
       R"(boundary[0]={on = "inflow", darcy_flux = [[0.0, 0.012], [2.0, 0.012], [4.0, 0.004]], concentration = 0.1})");
+  std::vector<std::string> implicit = exchange;
+  implicit.emplace_back("time.transport=implicit");
   return {
+      test::with(single, "implicit_transport", implicit),
       test::with(
           single, "inertia",
           {"time.inertia=true", "time.end=1.0", "output={every = 0.02, snapshot_every = 0.1}"}),

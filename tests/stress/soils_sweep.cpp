@@ -252,6 +252,10 @@ Changes soils_changes(unsigned seed, Scheme scheme, double end) {
     changes.push_back("liquid.maximum_concentration=" + text_of(s.locks_at));
   }
   if (is_explicit(scheme)) changes.emplace_back("time.mass_scaling=100");
+  const bool field = scheme == Scheme::sp_implicit || scheme == Scheme::sp_monotone;
+  if (field && Random(seed + 50000).chance(0.67)) {
+    changes.emplace_back("time.transport=implicit");
+  }
   return changes;
 }
 

@@ -1,0 +1,234 @@
+/// Implicit transport: steps as long as the tolerance allows. Against exact profiles in steps of a
+/// hundred times the explicit limit, against the explicit scheme where both work, and its
+/// invariants.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "model_run.hpp"
+#include "reference_table.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double flux = 1e-3;  // m/s
+constexpr double porosity = 0.35;
+
+/// A strip of square cells one metre high.
+Mesh<2> strip(int cells) {
+  const int across = std::max(2, cells / 8);
+  return model::column_mesh(across, cells, static_cast<double>(across) / cells, 1.0);
+}
+
+/// Liquid goes down through a column, steady from the start.
+Scene column_scene(double concentration, double end) {
+  Scene scene = model::paper_scene();
+  scene.soils[0].porosity = porosity;
+  scene.soils[0].skeleton_fraction = 0.45;
+  scene.soils[0].erosion = {};
+  scene.boundaries = {model::flux_on("top", flux), model::pressure_on("bottom", 0.0)};
+  scene.boundaries[0].concentration = concentration;
+  scene.initial_flow = InitialFlow::steady;
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.transport = TransportScheme::implicit_sweeps;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.time.end = end;
+  scene.output.every = scene.output.snapshot_every = end;
+  return scene;
+}
+
+/// Longest explicit step of transport in such a column, s.
+double explicit_limit(int cells) {
+  Scene scene = column_scene(0.1, 1.0);
+  scene.time.transport = TransportScheme::explicit_steps;
+  model::ModelRun run(model::make_case(strip(cells), scene));
+  return run.model().coupling_interval() / 32.0 / 0.9;
+}
+
+/// Mean over all field nodes of |c - exact(depth)|.
+double error_of(const Mesh<2>& mesh, const FinesState<2>& liquid,
+                const std::function<double(double)>& exact) {
+  double sum = 0.0;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    for (int j = 0; j < 3; ++j) {
+      const double x = 1.0 - FieldNodes<2>::position(mesh, e, j)[1];
+      sum += std::abs(liquid.fines_volume[e][j] / liquid.liquid_volume[e][j] - exact(x));
+    }
+  }
+  return sum / (3.0 * mesh.element_count());
+}
+
+TEST(ImplicitTransport, FollowsCaughtFinesInLongSteps) {
+  constexpr double c0 = 0.02;
+  constexpr double lambda = 2.0;
+  // The profile behind the front of the table's suspension.
+  int rows = 0;
+  for (const ReferenceRow& row : read_reference("deposition-first-order.csv")) {
+    const double c = row.number("c");
+    if (c == 0.0) continue;
+    ASSERT_NEAR(c, c0 * std::exp(-lambda * row.number("x")), 1e-12);
+    ++rows;
+  }
+  ASSERT_GE(rows, 20);
+  std::vector<double> errors;
+  for (const int cells : {8, 16, 32}) {
+    const double step = 100.0 * explicit_limit(cells);
+    Scene scene = column_scene(c0, 4.0 * step);
+    scene.soils[0].deposition.coefficient = lambda;
+    scene.time.step = step;
+    model::ModelRun run(model::make_case(strip(cells), scene));
+    const auto moments = run.run({scene.time.end});
+    EXPECT_EQ(run.steps(), 4);
+    errors.push_back(error_of(run.input().mesh, moments.states[0].liquid,
+                              [&](double x) { return c0 * std::exp(-lambda * x); }) /
+                     c0);
+    EXPECT_LE(run.worst_residual(), 1e-12);
+  }
+  std::cout << "c " << errors[0] << " -> " << errors[1] << " -> " << errors[2] << '\n';
+  EXPECT_LT(errors[1], 0.005);
+  EXPECT_GT(0.5 * std::log2(errors[0] / errors[2]), 1.9);
+}
+
+TEST(ImplicitTransport, FollowsErosionAndDepositionInLongSteps) {
+  std::vector<double> errors;
+  std::vector<double> rates;
+  for (const int cells : {8, 16, 32}) {
+    const double step = 100.0 * explicit_limit(cells);
+    Scene scene = column_scene(0.0, 5.0 * step);
+    scene.soils[0].erosion.law = erosion_law("constant");
+    scene.soils[0].erosion.rate = 2e-5;
+    scene.soils[0].deposition.coefficient = 2.0;
+    scene.time.step = step;
+    scene.soils[0].skeleton_fraction = 0.3;  // so that fines last
+    model::ModelRun run(model::make_case(strip(cells), scene));
+    const auto moments = run.run({4.0 * step, 5.0 * step});
+    const auto exact = [](double x) { return 0.01 * (1.0 - std::exp(-2.0 * x)); };
+    int rows = 0;
+    for (const ReferenceRow& row : read_reference("erosion-and-deposition.csv")) {
+      ASSERT_NEAR(row.number("c"), exact(row.number("x")), 1e-12);
+      ASSERT_NEAR(row.number("dn_dt"), 2e-5 * std::exp(-2.0 * row.number("x")), 1e-15);
+      ++rows;
+    }
+    ASSERT_GE(rows, 20);
+    errors.push_back(error_of(run.input().mesh, moments.states[1].liquid, exact) / exact(1.0));
+    const MaterialPoints<2>& points = run.input().points;
+    double rate = 0.0;
+    for (int p = 0; p < points.size(); ++p) {
+      const double x = 1.0 - points.position(run.input().mesh, p)[1];
+      const double growth = (moments.states[1].porosity[p] - moments.states[0].porosity[p]) / step;
+      rate += std::abs(growth - 2e-5 * std::exp(-2.0 * x)) / 2e-5 / points.size();
+    }
+    rates.push_back(rate);
+    EXPECT_LE(run.worst_residual(), 1e-12);
+  }
+  std::cout << "c " << errors[0] << " -> " << errors[1] << " -> " << errors[2] << ", dn/dt "
+            << rates[0] << " -> " << rates[1] << " -> " << rates[2] << '\n';
+  EXPECT_LT(errors[1], 0.005);
+  EXPECT_LT(rates[1], 0.005);
+  EXPECT_GT(0.5 * std::log2(errors[0] / errors[2]), 1.9);
+  EXPECT_GT(0.5 * std::log2(rates[0] / rates[2]), 1.9);
+}
+
+/// Fines run out, are caught and hindered, so that everything changes in time.
+Scene changing_scene(double end) {
+  Scene scene = column_scene(0.02, end);
+  scene.soils[0].erosion.law = erosion_law("first-order");
+  scene.soils[0].erosion.rate = 1e-3;
+  scene.soils[0].erosion.critical_concentration = 0.3;
+  scene.soils[0].deposition.coefficient = 1.0;
+  scene.soils[0].deposition.porosity_min = 0.2;
+  scene.output.every = scene.output.snapshot_every = end;
+  return scene;
+}
+
+TEST(ImplicitTransport, IsOfSecondOrderInTimeAndTendsToTheExplicitScheme) {
+  constexpr int cells = 8;
+  // Past the fronts of the start.
+  constexpr double end = 4800.0;
+  const auto porosity_after = [&](double step, TransportScheme transport) {
+    Scene scene = changing_scene(end);
+    scene.time.transport = transport;
+    if (step > 0.0) scene.time.step = step;
+    model::ModelRun run(model::make_case(strip(cells), scene));
+    const auto state = run.run({end}).states[0];
+    EXPECT_LE(run.worst_residual(), 1e-12);
+    return state.porosity;
+  };
+  const auto distance = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < a.size(); ++p) sum += std::abs(a[p] - b[p]);
+    return sum / static_cast<double>(a.size());
+  };
+  const auto fine = porosity_after(4.0, TransportScheme::implicit_sweeps);
+  std::vector<double> errors;
+  for (const double step : {150.0, 75.0, 37.5}) {
+    errors.push_back(distance(porosity_after(step, TransportScheme::implicit_sweeps), fine));
+  }
+  const double other = distance(porosity_after(0.0, TransportScheme::explicit_steps), fine);
+  std::cout << "n " << errors[0] << " -> " << errors[1] << " -> " << errors[2] << ", explicit "
+            << other << '\n';
+  EXPECT_GT(0.5 * std::log2(errors[0] / errors[2]), 1.8);
+  EXPECT_LT(other, 2e-4);
+  // Steps by tolerance.
+  EXPECT_LT(distance(porosity_after(0.0, TransportScheme::implicit_sweeps), fine), 2e-4);
+}
+
+struct Front {
+  double error;
+  double lowest;
+  double highest;
+};
+
+Front front(double step, TransportScheme transport, int cells) {
+  constexpr double c0 = 0.1;
+  constexpr double end = 175.0;
+  Scene scene = column_scene(c0, end);
+  scene.time.transport = transport;
+  scene.time.step = step;
+  model::ModelRun run(model::make_case(strip(cells), scene));
+  Front result{0.0, 1.0, 0.0};
+  for (double t = std::min(step, end);; t = std::min(t + step, end)) {
+    const auto state = run.run({t}).states[0];
+    for (std::size_t e = 0; e < state.liquid.fines_volume.size(); ++e) {
+      for (int j = 0; j < 3; ++j) {
+        const double c = state.liquid.fines_volume[e][j] / state.liquid.liquid_volume[e][j];
+        result.lowest = std::min(result.lowest, c);
+        result.highest = std::max(result.highest, c);
+      }
+    }
+    if (t < end) continue;
+    result.error = error_of(run.input().mesh, state.liquid,
+                            [&](double x) { return x < flux * end / porosity ? c0 : 0.0; });
+    EXPECT_LE(run.worst_residual(), 1e-12);
+    return result;
+  }
+}
+
+TEST(ImplicitTransport, CrossesAFrontAsTheExplicitSchemeDoesInItsSteps) {
+  constexpr int cells = 32;
+  const double limit = explicit_limit(cells);
+  const Front by_explicit = front(0.9 * limit, TransportScheme::explicit_steps, cells);
+  const Front by_sweeps = front(0.9 * limit, TransportScheme::implicit_sweeps, cells);
+  std::cout << "error at a front: explicit " << by_explicit.error << ", implicit "
+            << by_sweeps.error << '\n';
+  EXPECT_LT(by_sweeps.error, 2.0 * by_explicit.error);
+  EXPECT_GE(by_sweeps.lowest, 0.0);
+  EXPECT_LE(by_sweeps.highest, 0.1 * (1.0 + 1e-11));
+}
+
+TEST(ImplicitTransport, SmearsAFrontInLongStepsButMakesNoExtremes) {
+  constexpr int cells = 32;
+  const double limit = explicit_limit(cells);
+  for (const double length : {3.0, 10.0, 100.0}) {
+    const Front found = front(length * limit, TransportScheme::implicit_sweeps, cells);
+    std::cout << length << " times the limit: " << found.error << ", c from " << found.lowest
+              << " to " << found.highest << '\n';
+    EXPECT_GE(found.lowest, 0.0);
+    EXPECT_LE(found.highest, 0.1 * (1.0 + 1e-11));
+  }
+}
+
+}  // namespace
+}  // namespace suffuse
