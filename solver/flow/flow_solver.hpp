@@ -81,6 +81,7 @@ class FlowSolver {
   FlowSolver& operator=(const FlowSolver&) = delete;
 
   [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
+  [[nodiscard]] const BoundaryValues<Dim>& boundary_values() const { return boundary_values_; }
   [[nodiscard]] const FlowCoefficients<Dim>& coefficients() const { return coefficients_; }
 
   /// What limits the length of a coupling interval besides erosion and transport.
@@ -161,7 +162,6 @@ class FlowSolver {
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;
-  [[nodiscard]] const BoundaryValues<Dim>& boundary_values() const { return boundary_values_; }
   /// Sets the boundary values to those at the end of a step, and concentrations to the means of
   /// what entered since its start; both in s.
   void update_boundary_values(double start, double end) {

@@ -71,8 +71,8 @@ SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
     : TwoPhaseModel<Dim>(c, options) {
   this->flow_ = make_flow(c, this->grid_, *this->solid_, options.flow);
   fines_ = std::make_unique<FieldTransport<Dim>>(
-      this->grid_, this->soils_, this->flow_->conditions(), field_settings(this->scene(), options),
-      options.flow.threads);
+      this->grid_, this->soils_, this->flow_->conditions(), this->flow_->boundary_values(),
+      field_settings(this->scene(), options), options.flow.threads);
   update_flow();
   this->flow_->start();
   if (const std::vector<double> air = this->flow_->air(); !air.empty()) {

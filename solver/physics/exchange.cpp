@@ -212,7 +212,8 @@ Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const
   const PlaceFlow now{.flux_start = flow.flux_start,
                       .flux_end = flow.flux_start,
                       .concentration = flow.concentration,
-                      .saturation = flow.saturation};
+                      .saturation = flow.saturation,
+                      .motion = flow.motion};
   return SoilVolume(model, place, now, drive, catch_rate(model.deposition, flow, flow.flux_start))
       .rate_now();
 }

@@ -133,6 +133,25 @@ Exchange RigidSkeleton<Dim>::exchange_at(int point, double porosity, double conc
 }
 
 template <int Dim>
+Exchange RigidSkeleton<Dim>::exchange_rate_at(int point, double porosity, double concentration,
+                                              double time, const PointFlows& flows) const {
+  const int e = soils_.points().element[point];
+  PlaceFlow flow = flows.at(point, e, time, time);
+  flow.concentration = concentration;
+  flow.motion = LiquidMotion::flows_on;
+  return exchange_rate(soils_.exchange_of_element(e), {initial_porosity_[point], porosity}, flow,
+                       time);
+}
+
+template <int Dim>
+bool RigidSkeleton<Dim>::is_possible(int point, double porosity) const {
+  const ExchangeModel& model = soils_.exchange_of_element(soils_.points().element[point]);
+  const double most = erodes(model.erosion) ? model.erosion.porosity_max : initial_porosity_[point];
+  const double least = model.deposition.has_room_limit() ? model.deposition.porosity_min : 0.0;
+  return porosity <= most && porosity >= least;
+}
+
+template <int Dim>
 void RigidSkeleton<Dim>::apply(const std::vector<Exchange>& change, std::vector<double>& exchange) {
   exchange.assign(porosity_.size(), 0.0);
   for_each_index(static_cast<int>(change.size()), threads_,

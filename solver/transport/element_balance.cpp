@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace suffuse {
 namespace {
@@ -68,7 +69,7 @@ void ElementBalance<Dim>::find_points(const ElementStart<Dim>& start,
   basis_.resize(count);
   now_.resize(count);
   slope_.assign(count, 0.0);
-  split_concentration_.assign(count, 0.0);
+  guess_.assign(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
     for (int j = 0; j <= Dim; ++j) {
       basis_[i][j] = FieldNodes<Dim>::basis(soils_.points().barycentric[begin_ + i][j]);
@@ -130,6 +131,17 @@ void ElementBalance<Dim>::find_moved(const ElementStart<Dim>& start,
       entering_.include(at_first[a]);
       entering_.include(at_last[a]);
     }
+    // A linear field that is right to second order jumps at sides: values there may be as far off
+    // as the mean of the element that the liquid comes from.
+    const int upwind = start.neighbour[k];
+    if (upwind >= 0) {
+      const auto begin = static_cast<std::ptrdiff_t>(Dim + 1) * upwind;
+      for (const std::vector<double>* values : {&first, &last}) {
+        entering_.include(
+            std::accumulate(values->begin() + begin, values->begin() + begin + Dim + 1, 0.0) /
+            (Dim + 1));
+      }
+    }
     first_load_ += q * (by_side_[k].inflow * at_first);
     last_load_ += q * (by_side_[k].inflow * at_last);
     entered_ -= q / Dim * ((1.0 - first_stage) * at_first.sum() + first_stage * at_last.sum());
@@ -137,31 +149,47 @@ void ElementBalance<Dim>::find_moved(const ElementStart<Dim>& start,
 }
 
 template <int Dim>
-void ElementBalance<Dim>::find_exchange(const SolidInStep<Dim>& solid, bool is_last,
+bool ElementBalance<Dim>::find_exchange(const SolidInStep<Dim>& solid, bool is_last,
                                         const Values& c) {
   constexpr double little = 1e-6;
-  const std::vector<double>& porosity = solid.solid.porosity();
+  const double dt = solid.to - solid.from;
+  const double time = is_last ? solid.end() : solid.first_time();
   for (int p = begin_; p < end_; ++p) {
     const int i = p - begin_;
     const double at_point = std::max(0.0, basis_[i].dot(c));
-    const auto between = [&](double from, double to, double n, double concentration) {
-      return solid.solid.exchange_at(p, n, concentration, from, to, solid.flows);
+    // At the last stage: what the rates of the first one have given.
+    const double share = (1.0 - first_stage) / first_stage;
+    const Exchange before =
+        is_last ? Exchange{share * first_[i].eroded, share * first_[i].deposited} : Exchange{};
+    const double start = solid.solid.porosity()[p] + before.into_liquid();
+    const auto rate = [&](double porosity, double concentration) {
+      return solid.solid.exchange_rate_at(p, porosity, concentration, time, solid.flows);
     };
-    Exchange before;
-    double from = solid.from;
-    if (is_last) {
-      before = between(solid.from, solid.split(), porosity[p], split_concentration_[i]);
-      from = solid.split();
-    } else {
-      split_concentration_[i] = at_point;
+    const auto net = [&](double porosity, double concentration) {
+      return first_stage * dt * rate(porosity, concentration).into_liquid();
+    };
+    // n = start + net(n, c), by Newton's method from where the point is.
+    double n = is_last ? start : start + guess_[i];
+    double by_porosity = 0.0;
+    bool solved = false;
+    for (int iteration = 0; iteration < 20 && !solved; ++iteration) {
+      const double there = net(n, at_point);
+      by_porosity = (net(n - little, at_point) - there) / -little;
+      const double change = (start + there - n) / (1.0 - by_porosity);
+      n += change;
+      solved = std::abs(change) <= 1e-15;
+      if (!std::isfinite(n)) return false;
     }
-    const double to = is_last ? solid.to : solid.first_time();
-    const double n = porosity[p] + before.into_liquid();
-    const Exchange there = between(from, to, n, at_point);
-    const Exchange beside = between(from, to, n, at_point + little);
-    slope_[i] = (beside.into_liquid() - there.into_liquid()) / little;
-    now_[i] = {before.eroded + there.eroded, before.deposited + there.deposited};
+    if (!solved || !solid.solid.is_possible(p, n)) return false;
+    const Exchange now = rate(n, at_point);
+    const double by_concentration =
+        (net(n, at_point + little) - first_stage * dt * now.into_liquid()) / little;
+    slope_[i] = by_concentration / (1.0 - by_porosity);
+    now_[i] = {before.eroded + first_stage * dt * now.eroded,
+               before.deposited + first_stage * dt * now.deposited};
+    if (!is_last) guess_[i] = now_[i].into_liquid();
   }
+  return true;
 }
 
 template <int Dim>
@@ -179,7 +207,7 @@ bool ElementBalance<Dim>::solve_stage(const SolidInStep<Dim>& solid, const Stage
   constexpr int enough = 30;
   for (int iteration = 0; iteration < enough; ++iteration) {
     if (coupled_) {
-      find_exchange(solid, is_last, c);
+      if (!find_exchange(solid, is_last, c)) return false;
       given_ = spread(now_);
     }
     // Where the exchange is known beforehand, the first stage has its share of it.
@@ -201,7 +229,7 @@ bool ElementBalance<Dim>::solve_stage(const SolidInStep<Dim>& solid, const Stage
     const Values change = system.inverse() * residual;
     c -= change;
     const double size = change.template lpNorm<Eigen::Infinity>();
-    if (size <= 1e-14 + 1e-13 * c.template lpNorm<Eigen::Infinity>()) return true;
+    if (size <= 1e-18 + 1e-13 * c.template lpNorm<Eigen::Infinity>()) return true;
     if (!std::isfinite(size)) return false;
   }
   return false;
@@ -218,6 +246,7 @@ bool ElementBalance<Dim>::solve_linear(const ElementStart<Dim>& start,
   Stage stage{(1.0 + first_stage * growth) * liquid, fines + first_stage * first_load_};
   if (!solve_stage(solid, stage, false, c)) return false;
   const Values c_first = c;
+  first_ = now_;
   const Values moved_first = moved_ * c_first + first_load_;
   const double given_first = (coupled_ ? 1.0 : first_stage) * given_.sum();
 
@@ -280,8 +309,18 @@ auto ElementBalance<Dim>::allowed(const ElementStart<Dim>& start) const -> Range
     range.high += Dim * eroded / passing;
     range.low -= Dim * deposited / passing;
   }
-  constexpr double slack = 1e-12;
+  // Where the field is flat, round-off alone would leave the range.
+  const double slack = 1e-13 * range.high;
   return {std::max(0.0, range.low - slack), std::min(1.0, range.high + slack)};
+}
+
+template <int Dim>
+bool ElementBalance<Dim>::is_within(const Range& range) const {
+  bool within = true;
+  for (int k = 0; k <= Dim; ++k) {
+    within &= range.includes(at_vertices_.first[k]) && range.includes(at_vertices_.last[k]);
+  }
+  return within;
 }
 
 template <int Dim>
@@ -289,7 +328,7 @@ double ElementBalance<Dim>::slope_within(const Range& range, double mean) const 
   double slope = 1.0;
   for (const ElementValues<Dim>& values : {at_vertices_.first, at_vertices_.last}) {
     for (const double value : values) {
-      if (value >= range.low && value <= range.high) continue;
+      if (range.includes(value)) continue;
       const double room = value > mean ? range.high - mean : mean - range.low;
       slope = std::min(slope, std::clamp(room / std::abs(value - mean), 0.0, 1.0));
     }
@@ -307,7 +346,7 @@ StepErrors ElementBalance<Dim>::solve(const ElementStart<Dim>& start, const Soli
   if (!solve_linear(start, solid, errors)) slope = 0.0;
 
   double mean = 0.0;
-  if (slope < 1.0 || slope_within(allowed(start), at_vertices_.last[0]) < 1.0) {
+  if (slope < 1.0 || !is_within(allowed(start))) {
     linear_ = now_;
     mean = solve_mean(start, solid);
     if (slope > 0.0) slope = std::min(slope, slope_within(allowed(start), mean));

@@ -33,6 +33,7 @@ struct ElementStart {
   double gained = 0.0;         ///< liquid that the flow brings within the step, m3
   ElementValues<Dim> outflow;  ///< through its sides within the step, m3
   UpwindPlaces<Dim> upwind;
+  std::array<int, Dim + 1> neighbour;  ///< across each side; negative: none
 };
 
 /// Estimates of errors of a step, and what they compare with, m3 of fines.
@@ -62,9 +63,8 @@ struct SolidInStep {
   bool exchanges = true;
 
   [[nodiscard]] double first_time() const { return from + first_stage * (to - from); }
-  /// What comes of the last stage starts here: so the mean over the step is that of a linear
-  /// concentration.
-  [[nodiscard]] double split() const { return to - first_stage * (to - from); }
+  /// Just before its end: what starts there has not yet started.
+  [[nodiscard]] double end() const { return to - 1e-9 * (to - from); }
 };
 
 template <int Dim>
@@ -92,6 +92,7 @@ class ElementBalance {
   struct Range {
     double low;
     double high;
+    [[nodiscard]] bool includes(double value) const { return value >= low && value <= high; }
     void include(double value) {
       low = std::min(low, value);
       high = std::max(high, value);
@@ -110,8 +111,8 @@ class ElementBalance {
   void find_moved(const ElementStart<Dim>& start, const std::vector<double>& first,
                   const std::vector<double>& last);
   /// Exchange at each point of the element since the start of the step, if the concentration at the
-  /// nodes is `c` at this stage.
-  void find_exchange(const SolidInStep<Dim>& solid, bool is_last, const Values& c);
+  /// nodes is `c` at this stage. False where the point's own equation has no solution.
+  [[nodiscard]] bool find_exchange(const SolidInStep<Dim>& solid, bool is_last, const Values& c);
   [[nodiscard]] Values spread(const std::vector<Exchange>& exchange) const;
   /// False where its iteration does not converge.
   [[nodiscard]] bool solve_stage(const SolidInStep<Dim>& solid, const Stage& stage, bool is_last,
@@ -121,9 +122,11 @@ class ElementBalance {
                     StepErrors& errors);
   /// The mean by one backward Euler step.
   [[nodiscard]] double solve_mean(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid);
-  /// What values at vertices may be: between those that were there and those that enter, and beyond
-  /// them by what the element itself gives and takes.
+  /// What values at vertices may be: between those that were there, those that enter and the means
+  /// where these come from, and beyond them by what the element itself gives and takes.
   [[nodiscard]] Range allowed(const ElementStart<Dim>& start) const;
+  /// Whether the linear solution is.
+  [[nodiscard]] bool is_within(const Range& range) const;
   /// The most of the linear solution's deviation from `mean` that stays within `range`.
   [[nodiscard]] double slope_within(const Range& range, double mean) const;
 
@@ -133,14 +136,15 @@ class ElementBalance {
   int begin_ = 0;
   int end_ = 0;
   bool exchanges_ = false;
-  bool coupled_ = false;                     ///< exchange depends on the concentration
-  std::vector<Values> basis_;                ///< per point: basis functions there
-  std::vector<Exchange> now_;                ///< per point, per volume of soil
-  std::vector<Exchange> linear_;             ///< per point: of the linear solution
-  std::vector<double> slope_;                ///< per point: of the net exchange by c
-  std::vector<double> split_concentration_;  ///< per point: at the first stage
-  Values given_;                             ///< by the points to the liquid, per node, m3
-  Matrix moved_;                             ///< what transport adds per node, by c at nodes
+  bool coupled_ = false;          ///< exchange depends on the concentration
+  std::vector<Values> basis_;     ///< per point: basis functions there
+  std::vector<Exchange> now_;     ///< per point, per volume of soil
+  std::vector<Exchange> linear_;  ///< per point: of the linear solution
+  std::vector<double> slope_;     ///< per point: of the net exchange by c
+  std::vector<Exchange> first_;   ///< per point: up to the first stage
+  std::vector<double> guess_;     ///< per point: what porosity gains up to there
+  Values given_;                  ///< by the points to the liquid, per node, m3
+  Matrix moved_;                  ///< what transport adds per node, by c at nodes
   Values first_load_;     ///< what transport adds per node, by what enters: at the first stage
   Values last_load_;      ///< and at the last
   double entered_ = 0.0;  ///< fines, over the step, m3

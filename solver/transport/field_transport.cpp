@@ -23,6 +23,7 @@ void gain(FinesState<Dim>& state, const std::vector<double>& gained) {
 template <int Dim>
 FieldTransport<Dim>::FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                     const std::vector<FaceCondition>& conditions,
+                                    const BoundaryValues<Dim>& boundary_values,
                                     const FieldTransportSettings& settings, int threads)
     : grid_(grid),
       soils_(soils),
@@ -30,7 +31,7 @@ FieldTransport<Dim>::FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& s
       threads_(threads),
       sides_(grid),
       scheme_(grid, sides_, conditions, threads),
-      implicit_(grid, sides_, soils, conditions, settings.implicit, threads) {
+      implicit_(grid, sides_, soils, boundary_values, settings.implicit, threads) {
   state_.liquid_volume = initial_pore_volume(grid, soils);
   state_.fines_volume.assign(grid.mesh.element_count(), ElementValues<Dim>{});
   find_basis();

@@ -21,7 +21,8 @@ class FieldTransport final : public Transport<Dim> {
  public:
   FieldTransport(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                  const std::vector<FaceCondition>& conditions,
-                 const FieldTransportSettings& settings, int threads);
+                 const BoundaryValues<Dim>& boundary_values, const FieldTransportSettings& settings,
+                 int threads);
 
   /// Without a limit where transport is implicit.
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;

@@ -36,12 +36,13 @@ ElementValues<Dim> fines_of(const ElementValues<Dim>& liquid, const double* at_v
 
 template <int Dim>
 SweptField<Dim>::SweptField(const Grid<Dim>& grid, const ElementSides<Dim>& sides,
-                            const SoilMap<Dim>& soils, const std::vector<FaceCondition>& conditions,
+                            const SoilMap<Dim>& soils, const BoundaryValues<Dim>& boundary_values,
                             int threads)
     : grid_(grid),
       sides_(sides),
       soils_(soils),
-      conditions_(conditions),
+      boundary_values_(boundary_values),
+      conditions_(boundary_values.at(0.0)),
       threads_(threads),
       balance_(soils) {}
 
@@ -83,9 +84,16 @@ StepErrors SweptField<Dim>::solve_element(const FinesState<Dim>& state,
                           .fines = state.fines_volume[element],
                           .gained = gained_.empty() ? 0.0 : share * gained_[element],
                           .outflow = outflow_[element],
-                          .upwind = upwind_[element]};
+                          .upwind = upwind_[element],
+                          .neighbour = sides_.of(element).neighbour};
   for (double& q : start.outflow) q *= share;
   return balance_.solve(start, solid, slope, first_, last_, exchange_);
+}
+
+template <int Dim>
+void SweptField<Dim>::set_entering(double time, std::vector<double>& at_vertices) {
+  boundary_values_.update_concentrations(time, conditions_);
+  sides_.set_entering(conditions_, at_vertices);
 }
 
 template <int Dim>
@@ -93,8 +101,10 @@ bool SweptField<Dim>::solve(const FinesState<Dim>& state, const SolidInStep<Dim>
                             double share, StepErrors& errors) {
   share_ = share;
   errors = {};
-  sides_.set_entering(conditions_, first_);
-  sides_.set_entering(conditions_, last_);
+  // What jumps at the end of the step has not yet jumped.
+  constexpr double just_before = 1.0 - 1e-9;
+  set_entering(solid.first_time(), first_);
+  set_entering(solid.from + just_before * (solid.to - solid.from), last_);
   errors.entered = share * entering_;
   auto circle = order_.circles.begin();
   for (int i = 0; i < static_cast<int>(order_.elements.size()); ++i) {

@@ -16,7 +16,7 @@ template <int Dim>
 class SweptField {
  public:
   SweptField(const Grid<Dim>& grid, const ElementSides<Dim>& sides, const SoilMap<Dim>& soils,
-             const std::vector<FaceCondition>& conditions, int threads);
+             const BoundaryValues<Dim>& boundary_values, int threads);
 
   /// Starts an interval in which `face_volume` m3 of liquid cross each face and elements gain
   /// `gained` m3 of liquid by the flow (empty: none).
@@ -36,7 +36,8 @@ class SweptField {
   [[nodiscard]] const SweepOrder& order() const { return order_; }
 
  private:
-  void find_order();
+  /// Sets what enters at a time, s, among concentrations at vertices.
+  void set_entering(double time, std::vector<double>& at_vertices);
   StepErrors solve_element(const FinesState<Dim>& state, const SolidInStep<Dim>& solid,
                            double share, int element, double& slope);
   [[nodiscard]] bool solve_circle(const FinesState<Dim>& state, const SolidInStep<Dim>& solid,
@@ -46,7 +47,8 @@ class SweptField {
   const Grid<Dim>& grid_;
   const ElementSides<Dim>& sides_;
   const SoilMap<Dim>& soils_;
-  const std::vector<FaceCondition>& conditions_;
+  const BoundaryValues<Dim>& boundary_values_;
+  std::vector<FaceCondition> conditions_;  ///< of which only the concentrations are kept up
   int threads_;
   ElementBalance<Dim> balance_;
 

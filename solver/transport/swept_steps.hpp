@@ -22,9 +22,8 @@ template <int Dim>
 class SweptSteps {
  public:
   SweptSteps(const Grid<Dim>& grid, const ElementSides<Dim>& sides, const SoilMap<Dim>& soils,
-             const std::vector<FaceCondition>& conditions, const SweptSettings& settings,
-             int threads)
-      : field_(grid, sides, soils, conditions, threads),
+             const BoundaryValues<Dim>& boundary_values, const SweptSettings& settings, int threads)
+      : field_(grid, sides, soils, boundary_values, threads),
         settings_(settings),
         round_off_(4.0 * std::numeric_limits<double>::epsilon() *
                    std::accumulate(grid.volume.begin(), grid.volume.end(), 0.0)) {}

@@ -90,7 +90,8 @@ BENCHMARK(Transport)->Name("QuickTransport")->Args({3'300, 1})->UseRealTime();
 /// A sweep of a hundred times the explicit step, without erosion, as `Transport`.
 void Sweep(benchmark::State& bench) {
   Column column(cells_for(static_cast<double>(bench.range(0))), 1);
-  SweptField<2> field(column.grid, column.sides, column.soils, column.conditions, 1);
+  const BoundaryValues<2> values(column.c, column.grid);
+  SweptField<2> field(column.grid, column.sides, column.soils, values, 1);
   for (double& v : column.volume) v *= 100.0;
   field.start(column.volume, {});
   const PointFlows flows;
