@@ -144,10 +144,17 @@ Exchange RigidSkeleton<Dim>::exchange_rate_at(int point, double porosity, double
 }
 
 template <int Dim>
-bool RigidSkeleton<Dim>::is_possible(int point, double porosity) const {
+bool RigidSkeleton<Dim>::is_possible(int point, double porosity, double time,
+                                     const PointFlows& flows) const {
   const ExchangeModel& model = soils_.exchange_of_element(soils_.points().element[point]);
-  const double most = erodes(model.erosion) ? model.erosion.porosity_max : initial_porosity_[point];
-  const double least = model.deposition.has_room_limit() ? model.deposition.porosity_min : 0.0;
+  double most = porosity_[point];
+  if (erodes(model.erosion)) {
+    const double flux = flows.flux_ends(point, time, time).first;
+    most = std::max(most, model.erosion.porosity_max - model.erosion.residual.at(flux));
+  }
+  const double least = model.deposition.has_room_limit()
+                           ? std::min(porosity_[point], model.deposition.porosity_min)
+                           : 0.0;
   return porosity <= most && porosity >= least;
 }
 

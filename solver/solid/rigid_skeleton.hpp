@@ -32,7 +32,8 @@ class RigidSkeleton final : public Skeleton<Dim> {
                                      double to, const PointFlows& flows) const override;
   [[nodiscard]] Exchange exchange_rate_at(int point, double porosity, double concentration,
                                           double time, const PointFlows& flows) const override;
-  [[nodiscard]] bool is_possible(int point, double porosity) const override;
+  [[nodiscard]] bool is_possible(int point, double porosity, double time,
+                                 const PointFlows& flows) const override;
   void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) override;
   void deposit(const std::vector<double>& volume) override;
 

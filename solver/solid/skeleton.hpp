@@ -63,8 +63,10 @@ class Skeleton {
   /// How fast it does at a time, per volume of soil and second.
   [[nodiscard]] virtual Exchange exchange_rate_at(int point, double porosity, double concentration,
                                                   double time, const PointFlows& flows) const = 0;
-  /// Whether a point can have such a porosity: no more has eroded than can, nor filled more.
-  [[nodiscard]] virtual bool is_possible(int point, double porosity) const = 0;
+  /// Whether a point can have such a porosity at a time: no more has eroded than can, nor is more
+  /// filled.
+  [[nodiscard]] virtual bool is_possible(int point, double porosity, double time,
+                                         const PointFlows& flows) const = 0;
   /// The state after such an exchange at each point; `exchange` as above.
   virtual void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) = 0;
   /// Takes what the liquid has left, m3 per solid point; empty: nothing.

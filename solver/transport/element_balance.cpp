@@ -18,38 +18,42 @@ template <class Values>
   return (values.array() - FieldNodes<dim>::far_vertex * values.sum()) / FieldNodes<dim>::spread;
 }
 
-/// The root of a function that is negative at 0 and positive at 1 (Illinois, Dowell and Jarratt
-/// 1971), to the last digits.
+struct Bracket {
+  double low;
+  double high;
+};
+
+/// Where a function that is negative at 0 and positive at 1 changes its sign, to the last digits
+/// (Illinois, Dowell and Jarratt 1971). It may jump there.
 template <class Function>
-double root_between_zero_and_one(const Function& function) {
-  double low = 0.0;
-  double high = 1.0;
-  double at_low = function(low);
-  double at_high = function(high);
-  if (!(at_low < 0.0)) return low;
-  if (!(at_high > 0.0)) return high;
-  constexpr int enough = 200;
+Bracket change_of_sign(const Function& function) {
+  Bracket at{0.0, 1.0};
+  double below = function(at.low);
+  double above = function(at.high);
+  if (!(below < 0.0)) return {at.low, at.low};
+  if (!(above > 0.0)) return {at.high, at.high};
   int side = 0;  // that moved last
-  for (int i = 0; i < enough; ++i) {
-    const double guess = (low * at_high - high * at_low) / (at_high - at_low);
-    const double middle = guess > low && guess < high ? guess : 0.5 * (low + high);
-    if (middle == low || middle == high) return middle;
+  constexpr int enough = 200;
+  for (int i = 0; i < enough && at.high - at.low > 1e-15 * at.high; ++i) {
+    const double guess = (at.low * above - at.high * below) / (above - below);
+    // Where it jumps, the secant creeps.
+    const bool halves = i % 3 == 2 || !(guess > at.low && guess < at.high);
+    const double middle = halves ? 0.5 * (at.low + at.high) : guess;
     const double value = function(middle);
-    if (value == 0.0) return middle;
+    if (value == 0.0) return {middle, middle};
     if (value < 0.0) {
-      low = middle;
-      at_low = value;
-      if (side < 0) at_high *= 0.5;
+      at.low = middle;
+      below = value;
+      if (side < 0) above *= 0.5;
       side = -1;
     } else {
-      high = middle;
-      at_high = value;
-      if (side > 0) at_low *= 0.5;
+      at.high = middle;
+      above = value;
+      if (side > 0) below *= 0.5;
       side = 1;
     }
-    if (high - low <= 1e-15 * high) return low;
   }
-  return 0.5 * (low + high);
+  return at;
 }
 
 }  // namespace
@@ -180,7 +184,7 @@ bool ElementBalance<Dim>::find_exchange(const SolidInStep<Dim>& solid, bool is_l
       solved = std::abs(change) <= 1e-15;
       if (!std::isfinite(n)) return false;
     }
-    if (!solved || !solid.solid.is_possible(p, n)) return false;
+    if (!solved || !solid.solid.is_possible(p, n, time, solid.flows)) return false;
     const Exchange now = rate(n, at_point);
     const double by_concentration =
         (net(n, at_point + little) - first_stage * dt * now.into_liquid()) / little;
@@ -284,11 +288,22 @@ double ElementBalance<Dim>::solve_mean(const ElementStart<Dim>& start,
   };
   const auto balance = [&](double s) { return (fines + entered_ + s) / (liquid + s + outflow_); };
   if (!coupled_) return balance(given_.sum());
-  const double mean = root_between_zero_and_one([&](double m) {
-    const double s = given(m);
-    return (liquid + s + outflow_) * m - fines - entered_ - s;
-  });
-  return balance(given(mean));
+  const auto missing = [&](double m, double s) {
+    const double result = (liquid + s + outflow_) * m - fines - entered_ - s;
+    // Liquid in which the grains lock has no exchange: that is too much.
+    return std::isfinite(result) ? result : liquid + outflow_;
+  };
+  const Bracket mean = change_of_sign([&](double m) { return missing(m, given(m)); });
+  const double below = missing(mean.low, given(mean.low));
+  const std::vector<Exchange> at_low = now_;
+  const double above = missing(mean.high, given(mean.high));
+  // The exchange may jump between them; what balances lies between.
+  const double share = above > below ? std::clamp(-below / (above - below), 0.0, 1.0) : 0.0;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    now_[i].eroded = std::lerp(at_low[i].eroded, now_[i].eroded, share);
+    now_[i].deposited = std::lerp(at_low[i].deposited, now_[i].deposited, share);
+  }
+  return std::lerp(mean.low, mean.high, share);
 }
 
 template <int Dim>
@@ -346,8 +361,8 @@ StepErrors ElementBalance<Dim>::solve(const ElementStart<Dim>& start, const Soli
   if (!solve_linear(start, solid, errors)) slope = 0.0;
 
   double mean = 0.0;
+  linear_ = now_;
   if (slope < 1.0 || !is_within(allowed(start))) {
-    linear_ = now_;
     mean = solve_mean(start, solid);
     if (slope > 0.0) slope = std::min(slope, slope_within(allowed(start), mean));
   }
@@ -360,7 +375,6 @@ StepErrors ElementBalance<Dim>::solve(const ElementStart<Dim>& start, const Soli
     first[place + k] = between(mean, at_vertices_.first[k]);
     last[place + k] = between(mean, at_vertices_.last[k]);
   }
-  if (slope == 1.0) linear_ = now_;
   for (int p = begin_; p < end_ && exchanges_; ++p) {
     const Exchange& at_mean = now_[p - begin_];
     const Exchange& linear = linear_[p - begin_];

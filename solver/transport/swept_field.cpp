@@ -9,9 +9,9 @@
 namespace suffuse {
 namespace {
 
-/// Fines with the concentration that was solved for, and `sum` of them altogether, m3. Where next
-/// to nothing has stayed of much that passed, the sum, a difference, may be wrong by its last
-/// digit: less than nothing is nothing. `passing`: liquid that passed, m3.
+/// Fines as the concentration that was solved for lies in the element, and `sum` of them
+/// altogether, m3. Where next to nothing has stayed of much that passed, the sum, a difference, may
+/// be wrong by its last digit: less than nothing is nothing. `passing`: liquid that passed, m3.
 template <int Dim>
 ElementValues<Dim> fines_of(const ElementValues<Dim>& liquid, const double* at_vertices, double sum,
                             double passing) {
@@ -24,12 +24,14 @@ ElementValues<Dim> fines_of(const ElementValues<Dim>& liquid, const double* at_v
     const double c = FieldNodes<Dim>::far_vertex * all + FieldNodes<Dim>::spread * at_vertices[j];
     solved += result[j] = liquid[j] * c;
   }
-  const double missing = (sum - solved) / element_sum<Dim>(liquid);
-  ElementValues<Dim> corrected = result;
-  for (int j = 0; j <= Dim; ++j) corrected[j] += missing * liquid[j];
-  const bool is_round_off = std::abs(sum - solved) <= round_off * passing;
-  const bool negative = *std::ranges::min_element(corrected) < 0.0;
-  return negative && is_round_off ? result : corrected;
+  if (sum <= 0.0 && sum >= -round_off * passing) return result;
+  if (!(solved > 0.0)) {
+    const double mean = sum / element_sum<Dim>(liquid);
+    for (int j = 0; j <= Dim; ++j) result[j] = liquid[j] * mean;
+    return result;
+  }
+  for (double& fines : result) fines *= sum / solved;
+  return result;
 }
 
 }  // namespace

@@ -288,8 +288,8 @@ double water_made(bool third_term) {
   const auto moments = run.run({5.0});
   const LedgerRow row = moments.states[0].ledger;
   EXPECT_GT(row.water_in, 0.0);
-  return row.residual_water * (row.water + row.water_out - row.water_in) /
-         ((1.0 + row.residual_water) * row.water_in);
+  const double had = (row.water + row.water_out) / (1.0 + row.residual_water);
+  return row.residual_water * had / row.water_in;
 }
 
 TEST(PorosityGradientTerm, WithoutItWaterIsCreatedOrLost) {
