@@ -521,7 +521,7 @@ std::vector<SceneKey> declare_keys() {
              "How fluidised fines are carried: implicit, in steps of any length, together with "
              "what solid and liquid exchange; or explicit, in steps within which no fines cross "
              "more than an element. Single-point only; implicit with the implicit scheme only.")
-          .otherwise_as("explicit while a run like this moment would take at most 5000 explicit "
+          .otherwise_as("explicit while a run like this moment would take at most 2000 explicit "
                         "steps, implicit otherwise"),
       key("time.inertia", at(&Scene::time, &TimeSettings::inertia),
           "Keep the liquid's inertia. Implicit only.")

@@ -12,6 +12,7 @@
 #include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/stopwatch.hpp"
+#include "driver/transport_cost.hpp"
 #include "driver/trial_course.hpp"
 #include "results/number_text.hpp"
 #include "results/writer.hpp"
@@ -56,6 +57,10 @@ class Trial final : public OutputSink<Dim> {
       add_files(result);
     } catch (const FileError&) {
       // The size of the files remains unknown.
+    }
+    result.transport = transport_sentence(loop_.model(), case_.document.scene.time.end);
+    if (const auto text = many_crossings_warning(loop_.model(), case_.document.scene.time.end)) {
+      result.warning = *text;
     }
     result.memory = peak_memory();
     result.trial_seconds = watch_.seconds();
@@ -184,6 +189,8 @@ std::vector<std::string> sentences(const Estimate& e, int threads) {
     if (e.over_budget) from << "; the case is too large for a longer one, so take it with care";
   }
   std::vector<std::string> result{what.str(), from.str()};
+  if (!e.transport.empty()) result.push_back(e.transport);
+  if (!e.warning.empty()) result.push_back("warning: " + e.warning);
   if (!e.failure.empty()) result.push_back("the run will fail: " + e.failure);
   return result;
 }

@@ -31,6 +31,8 @@ struct Estimate {
   double trial_seconds = 0.0;  ///< of wall time
   bool whole = false;          ///< the trial reached the end
   bool over_budget = false;    ///< the first interval alone took longer than the budget
+  std::string transport;       ///< which runs, and what the other would cost; empty: none
+  std::string warning;         ///< of liquid points that have far to go; empty: none
   std::string failure;         ///< how the run failed in the trial; empty otherwise
 };
 

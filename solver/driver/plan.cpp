@@ -14,6 +14,7 @@
 #include "physics/liquid.hpp"
 #include "results/number_text.hpp"
 #include "solid/pores.hpp"
+#include "transport/field_transport.hpp"
 
 namespace suffuse {
 namespace {
@@ -308,6 +309,20 @@ void describe_spans(const Scene& scene, Plan& plan) {
   if (late || early) plan.sentences.push_back("skip: erosion " + when + ", nothing can erode");
 }
 
+std::string how_fines_are_carried(const Scene& scene) {
+  if (scene.time.scheme == FlowScheme::explicit_nodal) return "explicit";
+  switch (scene.time.transport) {
+    case TransportScheme::explicit_steps:
+      return "explicit, as the scene says";
+    case TransportScheme::implicit_sweeps:
+      return "implicit, as the scene says";
+    case TransportScheme::by_count:
+      break;
+  }
+  return "explicit at any flow that takes at most " + short_text(explicit_steps_of_a_run) +
+         " explicit steps for the whole run, implicit at faster ones";
+}
+
 void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
   const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
   if (scene.time.scheme == FlowScheme::explicit_nodal) {
@@ -326,8 +341,9 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
               "element "
               "at most at a time");
   } else {
-    say(plan.transport ? "run: transport of fluidised grains" + because
-                       : "skip: transport, no soil erodes and no grains flow in");
+    say(plan.transport
+            ? "run: transport of fluidised grains, " + how_fines_are_carried(scene) + because
+            : "skip: transport, no soil erodes and no grains flow in");
     if (plan.transport && plan.fines_from > 0.0) {
       say("skip: transport before t = " + short_text(std::min(plan.fines_from, scene.time.end)) +
           " s, no grains in the liquid");

@@ -1,6 +1,7 @@
 #include "driver/run_loop.hpp"
 
 #include "driver/interrupt.hpp"
+#include "driver/transport_cost.hpp"
 
 namespace suffuse {
 
@@ -12,8 +13,20 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
   while (goes_on && !schedule_.finished() && !interrupted()) {
     model_->advance(schedule_.next());
     for (const std::string& warning : model_->take_warnings()) sink.warn(warning);
+    warn_of_points(sink);
     output(sink);
     goes_on = sink.continue_after_interval();
+  }
+}
+
+template <int Dim>
+void RunLoop<Dim>::warn_of_points(OutputSink<Dim>& sink) {
+  // At rest there is nowhere to go, and every interval asks for too much.
+  constexpr long every = 16;
+  if (warned_of_points_ || model_->steps() % every != 0) return;
+  if (const auto warning = many_crossings_warning(*model_, end_)) {
+    warned_of_points_ = true;
+    sink.warn(*warning);
   }
 }
 

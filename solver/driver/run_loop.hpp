@@ -46,7 +46,9 @@ class RunLoop {
  public:
   /// Makes the model at its start. Keeps a reference to the case.
   RunLoop(const Case<Dim>& c, const ModelOptions& options)
-      : model_(make_model(c, options)), schedule_(c.document.scene) {}
+      : model_(make_model(c, options)),
+        schedule_(c.document.scene),
+        end_(c.document.scene.time.end) {}
 
   /// From the start, with the output of t = 0, or from the restored state: to the end, to an
   /// interrupt, or until the sink stops it. Throws NumericalError, and what the sink throws.
@@ -56,7 +58,7 @@ class RunLoop {
   [[nodiscard]] const TwoPhaseModel<Dim>& model() const { return *model_; }
   [[nodiscard]] const OutputSchedule& schedule() const { return schedule_; }
 
-  void archive(StateArchive& archive) { archive(*model_, schedule_); }
+  void archive(StateArchive& archive) { archive(*model_, schedule_, warned_of_points_); }
   /// From where a run can continue: the state of the loop and of `more`, for an archive that is
   /// given the same.
   template <class... More>
@@ -73,9 +75,12 @@ class RunLoop {
 
  private:
   void output(OutputSink<Dim>& sink);
+  void warn_of_points(OutputSink<Dim>& sink);
 
   std::unique_ptr<TwoPhaseModel<Dim>> model_;
   OutputSchedule schedule_;
+  double end_;                     ///< of the run, s
+  bool warned_of_points_ = false;  ///< that they have far to go
 };
 
 }  // namespace suffuse

@@ -44,6 +44,10 @@ class TwoPhaseModel {
   [[nodiscard]] double last_step() const { return last_dt_; }
   /// Longest interval that erosion and transport can follow, s.
   [[nodiscard]] double coupling_interval() const;
+  /// Explicit steps of transport in `duration`, s, at the flow of the last interval.
+  [[nodiscard]] double explicit_transport_steps(double duration) const {
+    return duration / transport().longest_explicit_step(flux_history_.mean);
+  }
   [[nodiscard]] virtual long liquid_points() const { return 0; }
 
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }

@@ -8,9 +8,6 @@
 namespace suffuse {
 namespace {
 
-/// A run of more explicit steps than this takes implicit ones (docs/accuracy.md).
-constexpr double explicit_steps = 5000.0;
-
 /// Adds liquid to each element, spread as the liquid there lies.
 template <int Dim>
 void gain(FinesState<Dim>& state, const std::vector<double>& gained) {
@@ -81,7 +78,7 @@ void FieldTransport<Dim>::start(const std::vector<double>& air) {
 template <int Dim>
 double FieldTransport<Dim>::longest_step(const std::vector<double>& face_rate) const {
   return is_implicit(face_rate) ? std::numeric_limits<double>::infinity()
-                                : transport_safety * scheme_.steps_allowed(state_, face_rate);
+                                : longest_explicit_step(face_rate);
 }
 
 template <int Dim>
@@ -89,7 +86,7 @@ bool FieldTransport<Dim>::is_implicit(const std::vector<double>& face_rate) cons
   if (settings_.scheme != TransportScheme::by_count) {
     return settings_.scheme == TransportScheme::implicit_sweeps;
   }
-  return settings_.end > explicit_steps * scheme_.steps_allowed(state_, face_rate);
+  return settings_.end > explicit_steps_of_a_run * scheme_.steps_allowed(state_, face_rate);
 }
 
 template <int Dim>

@@ -9,6 +9,9 @@
 
 namespace suffuse {
 
+/// A run of more explicit steps than this takes implicit ones (docs/accuracy.md).
+inline constexpr double explicit_steps_of_a_run = 2000.0;
+
 struct FieldTransportSettings {
   TransportScheme scheme = TransportScheme::by_count;
   double fines_from = 0.0;  ///< fines can be in the liquid after this time, s
@@ -26,6 +29,10 @@ class FieldTransport final : public Transport<Dim> {
 
   /// Without a limit where transport is implicit.
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
+  [[nodiscard]] double longest_explicit_step(
+      const std::vector<double>& face_rate) const override {
+    return transport_safety * scheme_.steps_allowed(state_, face_rate);
+  }
   /// Whether an interval with these volumes per second through faces is crossed by implicit steps.
   [[nodiscard]] bool is_implicit(const std::vector<double>& face_rate) const;
   [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {

@@ -32,6 +32,10 @@ class Transport {
   /// Longest step of transport at these volumes through faces per second (m3/s, along each face's
   /// normal), s.
   [[nodiscard]] virtual double longest_step(const std::vector<double>& face_rate) const = 0;
+  /// The same if transport is explicit, s.
+  [[nodiscard]] virtual double longest_explicit_step(const std::vector<double>& face_rate) const {
+    return longest_step(face_rate);
+  }
   /// How far the flow may go ahead of this.
   struct Coupling {
     double steps;        ///< of transport, where the flow could go any length by itself
