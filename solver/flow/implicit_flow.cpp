@@ -106,6 +106,7 @@ void ImplicitFlow<Dim>::let_out_expansion(double dt,
                                           const std::vector<const FlowForcing<Dim>*>& stages,
                                           MixedStep<Dim>& step) {
   if (std::isinf(this->scene().liquid.bulk_modulus) || scheme_.is_nonlinear()) return;
+  if (dt < limits.expansion_time * filling_time()) return;
   const std::vector<double>& holds = this->coefficients_.water_volume;
   const std::vector<double> released = relaxation_.released(dt, filling_time());
   for (int repeat = 0; repeat < limits.expansion_repeats; ++repeat) {
