@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/parallel.hpp"
+#include "linear/fixed_point.hpp"
 #include "transport/linear_fines.hpp"
 
 namespace suffuse {
@@ -130,38 +131,47 @@ bool SweptField<Dim>::solve_circle(const FinesState<Dim>& state, const SolidInSt
   // them limits may only become stricter, so that the rounds have an end.
   constexpr int enough = 200;
   constexpr int free_rounds = 4;
+  constexpr int remembered = 12;
   constexpr double round_off = 1e-14;
+  constexpr int vertices = Dim + 1;
   const int count = circle.end - circle.begin;
-  for (int i = circle.begin; i < circle.end; ++i) {
-    const std::size_t e = order_.elements[i];
-    find_concentration<Dim>(state.fines_volume[e], state.liquid_volume[e], &first_[(Dim + 1) * e]);
-    std::copy_n(&first_[(Dim + 1) * e], Dim + 1, &last_[(Dim + 1) * e]);
-  }
-  std::vector<double> slopes(count, 1.0);
-  for (int round = 0; round < enough; ++round) {
-    StepErrors of_round;
-    double change = 0.0;
-    double largest = 0.0;
-    for (int i = 0; i < count; ++i) {
-      const int e = order_.elements[circle.begin + i];
-      const std::size_t place = (Dim + 1) * static_cast<std::size_t>(e);
-      ElementValues<Dim> first;
-      ElementValues<Dim> last;
-      std::copy_n(&first_[place], Dim + 1, first.begin());
-      std::copy_n(&last_[place], Dim + 1, last.begin());
-      double slope = round < free_rounds ? 1.0 : slopes[i];
-      of_round.add(solve_element(state, solid, share, e, slope));
-      slopes[i] = slope;
-      for (int k = 0; k <= Dim; ++k) {
-        change = std::max(change, std::abs(first_[place + k] - first[k]));
-        change = std::max(change, std::abs(last_[place + k] - last[k]));
-        largest = std::max({largest, first_[place + k], last_[place + k]});
+  const auto for_values = [&](const auto& take) {
+    Eigen::Index at = 0;
+    for (int i = circle.begin; i < circle.end; ++i) {
+      const std::size_t place = vertices * static_cast<std::size_t>(order_.elements[i]);
+      for (int k = 0; k < vertices; ++k, at += 2) {
+        take(at, first_[place + k]);
+        take(at + 1, last_[place + k]);
       }
     }
-    if (change <= round_off * largest) {
+  };
+  Eigen::VectorXd before(2 * vertices * count);
+  Eigen::VectorXd after(before.size());
+  for (int i = circle.begin; i < circle.end; ++i) {
+    const std::size_t e = order_.elements[i];
+    find_concentration<Dim>(state.fines_volume[e], state.liquid_volume[e], &first_[vertices * e]);
+    std::copy_n(&first_[vertices * e], vertices, &last_[vertices * e]);
+  }
+  std::vector<double> slopes(count, 1.0);
+  AndersonMixing mixing(remembered);
+  for (int round = 0; round < enough; ++round) {
+    StepErrors of_round;
+    for_values([&](Eigen::Index at, const double& value) { before[at] = value; });
+    for (int i = 0; i < count; ++i) {
+      if (round < free_rounds) slopes[i] = 1.0;
+      of_round.add(
+          solve_element(state, solid, share, order_.elements[circle.begin + i], slopes[i]));
+    }
+    for_values([&](Eigen::Index at, const double& value) { after[at] = value; });
+    const double change = (after - before).lpNorm<Eigen::Infinity>();
+    if (change <= round_off * after.lpNorm<Eigen::Infinity>()) {
       errors.add(of_round);
       return true;
     }
+    if (!std::isfinite(change)) return false;
+    if (round < free_rounds) continue;
+    const Eigen::VectorXd next = mixing.next(before, after);
+    for_values([&](Eigen::Index at, double& value) { value = next[at]; });
   }
   return false;
 }

@@ -1,0 +1,27 @@
+#pragma once
+
+/// Acceleration of an iteration x -> g(x) that comes to its end slowly (Anderson 1965; Walker and
+/// Ni, SIAM J. Numer. Anal. 49 (2011) 1715). Where g is linear this is GMRES.
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace suffuse {
+
+class AndersonMixing {
+ public:
+  /// Remembers so many iterations.
+  explicit AndersonMixing(int depth) : depth_(depth) {}
+
+  /// From x and g(x): where to go on.
+  [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& g);
+
+ private:
+  int depth_;
+  Eigen::VectorXd last_g_;
+  Eigen::VectorXd last_residual_;
+  std::vector<Eigen::VectorXd> changes_of_g_;
+  std::vector<Eigen::VectorXd> changes_of_residual_;
+};
+
+}  // namespace suffuse
