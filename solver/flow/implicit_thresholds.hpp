@@ -58,8 +58,8 @@ struct ImplicitThresholds {
   /// Steps in which the flow fills an element fewer times than this are short: water that expands
   /// leaves in the steps that follow.
   double expansion_time = 200.0;
-  /// A longer step is solved again where moving water expands otherwise than in the step before by more
-  /// than this share of what an element holds.
+  /// A longer step is solved again where moving water expands otherwise than in the step before by
+  /// more than this share of what an element holds.
   double expansion = 1e-4;
   /// At most so many times: each leaves a share p / K of the difference.
   int expansion_repeats = 3;

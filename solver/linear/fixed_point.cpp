@@ -1,7 +1,5 @@
 #include "linear/fixed_point.hpp"
 
-#include <Eigen/QR>
-
 namespace suffuse {
 
 Eigen::VectorXd AndersonMixing::next(const Eigen::VectorXd& x, const Eigen::VectorXd& g) {
@@ -18,11 +16,30 @@ Eigen::VectorXd AndersonMixing::next(const Eigen::VectorXd& x, const Eigen::Vect
   last_residual_ = residual;
   const auto count = static_cast<Eigen::Index>(changes_of_g_.size());
   if (count == 0) return g;
-  Eigen::MatrixXd changes(g.size(), count);
-  for (Eigen::Index i = 0; i < count; ++i) changes.col(i) = changes_of_residual_[i];
-  const Eigen::VectorXd weights = changes.colPivHouseholderQr().solve(residual);
+  // Least squares of the residual by its changes, orthogonalised one after the other (modified Gram
+  // and Schmidt). Not by Eigen's QR: Gmsh brings its own copy of that, built for another processor.
+  std::vector<Eigen::VectorXd> basis;
+  std::vector<Eigen::VectorXd> basis_of_g;
   Eigen::VectorXd result = g;
-  for (Eigen::Index i = 0; i < count; ++i) result -= weights[i] * changes_of_g_[i];
+  Eigen::VectorXd left = residual;
+  constexpr double dependent = 1e-12;
+  for (Eigen::Index i = count - 1; i >= 0; --i) {
+    Eigen::VectorXd direction = changes_of_residual_[i];
+    Eigen::VectorXd change = changes_of_g_[i];
+    const double whole = direction.norm();
+    for (std::size_t k = 0; k < basis.size(); ++k) {
+      const double share = basis[k].dot(direction);
+      direction -= share * basis[k];
+      change -= share * basis_of_g[k];
+    }
+    const double size = direction.norm();
+    if (!(size > dependent * whole)) continue;
+    basis.emplace_back(direction / size);
+    basis_of_g.emplace_back(change / size);
+    const double weight = basis.back().dot(left);
+    left -= weight * basis.back();
+    result -= weight * basis_of_g.back();
+  }
   return result;
 }
 

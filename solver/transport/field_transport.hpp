@@ -29,8 +29,7 @@ class FieldTransport final : public Transport<Dim> {
 
   /// Without a limit where transport is implicit.
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
-  [[nodiscard]] double longest_explicit_step(
-      const std::vector<double>& face_rate) const override {
+  [[nodiscard]] double longest_explicit_step(const std::vector<double>& face_rate) const override {
     return transport_safety * scheme_.steps_allowed(state_, face_rate);
   }
   /// Whether an interval with these volumes per second through faces is crossed by implicit steps.

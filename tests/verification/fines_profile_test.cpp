@@ -125,9 +125,8 @@ std::vector<std::pair<double, double>> table_profile(const LawCase& c, double t)
   return result;
 }
 
-const auto schemes =
-    ::testing::Values(model::explicit_scheme, model::implicit_scheme, model::implicit_one_second,
-                      model::implicit_transport);
+const auto schemes = ::testing::Values(model::explicit_scheme, model::implicit_scheme,
+                                       model::implicit_one_second, model::implicit_transport);
 
 std::string name_of(const ::testing::TestParamInfo<model::SchemeCase>& info) {
   return info.param.name;
