@@ -5,10 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <iostream>
+#include <sstream>
 
+#include "geometry.hpp"
 #include "model_run.hpp"
 #include "reference_table.hpp"
+#include "seeding.hpp"
 
 namespace suffuse {
 namespace {
@@ -249,6 +253,51 @@ TEST(ImplicitTransport, SmearsAFrontInLongStepsButMakesNoExtremes) {
               << " to " << found.highest << '\n';
     EXPECT_GE(found.lowest, 0.0);
     EXPECT_LE(found.highest, 0.1 * (1.0 + 1e-10));
+  }
+}
+
+/// The weir of the README for a hundred years: `workflows/decades/weir.toml`.
+struct Century {
+  std::vector<double> porosity;  ///< mean gain, at 1, 10 and 100 years
+  std::vector<double> eroded;    ///< kg
+  long steps = 0;
+};
+
+Century century(double tolerance) {
+  constexpr double year = 3.1557e7;
+  const std::string path = SUFFUSE_SOURCE_DIR "/workflows/decades/weir.toml";
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  Case<2> c;
+  c.document = parse_scene(text.str(), path);
+  c.document.scene.time.tolerance = tolerance;
+  c.mesh = build_geometry(c.document).mesh;
+  c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
+  model::ModelRun run(std::move(c));
+  Century result;
+  for (const auto& state : run.run({year, 10.0 * year, 100.0 * year}).states) {
+    result.porosity.push_back(state.history.porosity_mean - 0.3);
+    result.eroded.push_back(state.ledger.eroded);
+    EXPECT_GE(state.history.concentration_min, 0.0);
+    EXPECT_LT(state.history.concentration_max, 1.0);
+    EXPECT_LT(state.history.eos_error, 1e-3);
+  }
+  EXPECT_LE(run.worst_residual(), 1e-12);
+  result.steps = run.steps();
+  return result;
+}
+
+TEST(ImplicitTransport, TakesAWeirThroughACentury) {
+  constexpr double tolerance = 1e-3;
+  const Century found = century(tolerance);
+  const Century finer = century(0.1 * tolerance);
+  std::cout << found.steps << " steps of the flow, finer " << finer.steps << '\n';
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double growth = found.porosity[k] / finer.porosity[k] - 1.0;
+    const double eroded = found.eroded[k] / finer.eroded[k] - 1.0;
+    std::cout << "porosity off by " << growth << ", eroded mass by " << eroded << '\n';
+    EXPECT_LT(std::abs(growth), tolerance);
+    EXPECT_LT(std::abs(eroded), tolerance);
   }
 }
 
