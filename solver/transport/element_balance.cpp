@@ -358,13 +358,20 @@ StepErrors ElementBalance<Dim>::solve(const ElementStart<Dim>& start, const Soli
   StepErrors errors;
   find_points(start, solid);
   find_moved(start, first, last);
-  if (!solve_linear(start, solid, errors)) slope = 0.0;
+  const bool solved = solve_linear(start, solid, errors);
+  if (!solved) slope = 0.0;
 
   double mean = 0.0;
   linear_ = now_;
   if (slope < 1.0 || !is_within(allowed(start))) {
     mean = solve_mean(start, solid);
     if (slope > 0.0) slope = std::min(slope, slope_within(allowed(start), mean));
+  }
+  if (!solved) {
+    // What a step's error is relative to, without an estimate of it.
+    const double given = spread(now_).sum();
+    errors = {.held = mean * (element_sum<Dim>(start.liquid) + start.gained + given),
+              .exchanged = std::abs(given)};
   }
   // Both solutions balance, and so does what lies between them.
   const auto between = [&](double at_mean, double linear) {
