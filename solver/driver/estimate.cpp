@@ -58,7 +58,10 @@ class Trial final : public OutputSink<Dim> {
     } catch (const FileError&) {
       // The size of the files remains unknown.
     }
-    result.transport = transport_sentence(loop_.model(), case_.document.scene.time.end);
+    const Scene& scene = case_.document.scene;
+    const bool has_a_choice = scene.formulation == Formulation::single_point &&
+                              scene.time.scheme == FlowScheme::implicit_mixed;
+    if (has_a_choice) result.transport = transport_sentence(loop_.model(), scene.time.end);
     if (const auto text = many_crossings_warning(loop_.model(), case_.document.scene.time.end)) {
       result.warning = *text;
     }

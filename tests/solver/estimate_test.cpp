@@ -177,6 +177,23 @@ TEST(Estimate, SaysWhatItRestsOn) {
   EXPECT_NE(one[1].find("too large for a longer one"), std::string::npos) << one[1];
 }
 
+TEST(Estimate, SaysWhatTheOtherTransportWouldCost) {
+  for (const auto transport : {TransportScheme::explicit_steps, TransportScheme::implicit_sweeps}) {
+    Scene scene = single_point_scene(FlowScheme::implicit_mixed);
+    scene.time.transport = transport;
+    const Case<2> c = model::make_case(model::column_mesh(4, 4), scene);
+    const auto said = sentences(estimate_run(c, make_plan(c, {}), {.seconds = 60.0}), 1);
+    ASSERT_EQ(said.size(), 3U);
+    const bool is_explicit = transport == TransportScheme::explicit_steps;
+    EXPECT_EQ(said[2].find(is_explicit ? "transport: explicit, " : "transport: implicit, "), 0U)
+        << said[2];
+    EXPECT_NE(
+        said[2].find(is_explicit ? "; implicit would take at least " : "; explicit would take "),
+        std::string::npos)
+        << said[2];
+  }
+}
+
 TEST(Estimate, SaysThatARunFails) {
   Scene scene = single_point_scene(FlowScheme::explicit_nodal);
   scene.boundaries[0].pressure = 1e9;
