@@ -13,7 +13,7 @@ for size in 0.125 0.0625 0.03125; do
     rm -rf "$out/month.results"
     start=$(date +%s.%N)
     "$bin/suffuse-solver" "$out/month.case.h5" -o "$out/month.results" --quiet
-    seconds=$(echo "$(date +%s.%N) - $start" | bc)
+    seconds=$(awk "BEGIN { printf \"%.2f\", $(date +%s.%N) - $start }")
     name=transport$([ "$transport" = explicit ] || echo ", implicit")
     steps=$(grep -A1 "\"name\": \"$name\"" "$out/month.results/run.json" | sed -n "s/.*\"calls\": *\([0-9]*\).*/\1/p")
     "$bin/suffuse-post" table "$out/month.results" --csv "$out/month.run.csv"
