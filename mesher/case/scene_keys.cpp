@@ -521,8 +521,8 @@ std::vector<SceneKey> declare_keys() {
              "How fluidised fines are carried: implicit, in steps of any length, together with "
              "what solid and liquid exchange; or explicit, in steps within which no fines cross "
              "more than an element. Single-point only; implicit with the implicit scheme only.")
-          .otherwise_as("explicit while a run like this moment would take at most 2000 explicit "
-                        "steps, implicit otherwise"),
+          .otherwise_as("explicit; implicit while the flow is so fast that the run would take more "
+                        "than 2000 explicit steps"),
       key("time.inertia", at(&Scene::time, &TimeSettings::inertia),
           "Keep the liquid's inertia. Implicit only.")
           .otherwise_as("decided from the scene: left out where the time in which flow settles, "
@@ -555,7 +555,7 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .mandatory(),
       key("output.snapshot_every", at(&Scene::output, &OutputSettings::snapshot_every),
-          "Time between snapshots of the whole state; not below `every`. The solver ends a step at "
+          "Time between snapshots of the whole state, at least `every`. The solver ends a step at "
           "the time of each snapshot.")
           .in("s")
           .above(0.0)

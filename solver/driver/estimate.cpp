@@ -62,7 +62,7 @@ class Trial final : public OutputSink<Dim> {
     const bool has_a_choice = scene.formulation == Formulation::single_point &&
                               scene.time.scheme == FlowScheme::implicit_mixed;
     if (has_a_choice) result.transport = transport_sentence(loop_.model(), scene.time.end);
-    if (const auto text = many_crossings_warning(loop_.model(), case_.document.scene.time.end)) {
+    if (const auto text = many_crossings_warning(loop_.model(), scene.time.end)) {
       result.warning = *text;
     }
     result.memory = peak_memory();

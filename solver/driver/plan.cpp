@@ -319,8 +319,8 @@ std::string how_fines_are_carried(const Scene& scene) {
     case TransportScheme::by_count:
       break;
   }
-  return "explicit at any flow that takes at most " + short_text(explicit_steps_of_a_run) +
-         " explicit steps for the whole run, implicit at faster ones";
+  return "explicit; implicit while the flow is so fast that the run would take more than " +
+         short_text(explicit_steps_of_a_run) + " explicit steps";
 }
 
 void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {

@@ -21,7 +21,7 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
 
 template <int Dim>
 void RunLoop<Dim>::warn_of_points(OutputSink<Dim>& sink) {
-  // At rest there is nowhere to go, and every interval asks for too much.
+  // To ask after every interval would take time. The first intervals are often those of a start.
   constexpr long every = 16;
   if (warned_of_points_ || model_->steps() % every != 0) return;
   if (const auto warning = many_crossings_warning(*model_, end_)) {

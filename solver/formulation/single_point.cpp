@@ -15,7 +15,6 @@ FieldTransportSettings field_settings(const Scene& scene, const ModelOptions& op
   const bool is_explicit = scene.time.scheme == FlowScheme::explicit_nodal;
   return {is_explicit ? TransportScheme::explicit_steps : scene.time.transport,
           options.transport ? options.fines_from : never,
-          scene.time.end,
           {scene.time.end, scene.time.tolerance, scene.time.step.has_value()}};
 }
 
@@ -30,7 +29,7 @@ void SinglePoint<Dim>::advance(double latest) {
       fines_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
   // Erosion (Eqs. 1, 6, 7), deposition, and transport (Eq. 3), with the volumes that crossed faces.
-  if (carries_implicitly(start, flow)) {
+  if (fines_->takes_implicit_steps(start, flow)) {
     exchange_while_moving(start, flow);
   } else {
     exchange_and_move(start, flow);
@@ -58,12 +57,6 @@ void SinglePoint<Dim>::exchange_while_moving(double start, const FlowProgress& f
   while (fines_->goes_on()) {
     fines_->finish(this->apply(fines_->solve(*this->solid_, this->flows_)));
   }
-}
-
-template <int Dim>
-bool SinglePoint<Dim>::carries_implicitly(double start, const FlowProgress& flow) const {
-  return flow.end > this->options_.fines_from && this->options_.transport &&
-         fines_->is_implicit(per_time(flow.volumes.liquid, flow.end - start));
 }
 
 template <int Dim>

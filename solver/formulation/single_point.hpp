@@ -36,7 +36,6 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
   /// in turns, or together in one system.
   void exchange_and_move(double start, const FlowProgress& flow);
   void exchange_while_moving(double start, const FlowProgress& flow);
-  [[nodiscard]] bool carries_implicitly(double start, const FlowProgress& flow) const;
   /// Books the water and the fines that crossed faces in an interval of the flow.
   void book(const FaceVolumes& volumes);
   /// The flow takes the pores as they are now.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "grid/parallel.hpp"
+
 namespace suffuse {
 namespace {
 
@@ -58,6 +60,18 @@ void ElementSides<Dim>::set_entering(const std::vector<FaceCondition>& condition
   for (std::size_t o = 0; o < outer_faces_.size(); ++o) {
     at_vertices[first + o] = conditions[outer_faces_[o]].concentration;
   }
+}
+
+template <int Dim>
+void ElementSides<Dim>::at_faces(const ElementField<Dim>& outflow, int threads,
+                                 std::vector<double>& result) const {
+  result.resize(grid_.face_count());
+  for_each_index(grid_.mesh.element_count(), threads, [&](int e) {
+    for (int k = 0; k <= Dim; ++k) {
+      if (grid_.element_face_sign[e][k] < 0.0) continue;
+      result[grid_.element_face[e][k]] = outflow[e][k];
+    }
+  });
 }
 
 template class ElementSides<2>;

@@ -170,13 +170,7 @@ void EulerianTransport<Dim>::agree_at_walls(std::vector<double>& concentration) 
 template <int Dim>
 void EulerianTransport<Dim>::fines_crossed(const TransportScratch<Dim>& scratch,
                                            std::vector<double>& result) const {
-  result.resize(grid_.face_count());
-  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
-    for (int k = 0; k <= Dim; ++k) {
-      if (grid_.element_face_sign[e][k] < 0.0) continue;
-      result[grid_.element_face[e][k]] = scratch.fines_out[e][k];
-    }
-  });
+  sides_.at_faces(scratch.fines_out, threads_, result);
 }
 
 template <int Dim>

@@ -86,7 +86,8 @@ bool FieldTransport<Dim>::is_implicit(const std::vector<double>& face_rate) cons
   if (settings_.scheme != TransportScheme::by_count) {
     return settings_.scheme == TransportScheme::implicit_sweeps;
   }
-  return settings_.end > explicit_steps_of_a_run * scheme_.steps_allowed(state_, face_rate);
+  return settings_.implicit.end >
+         explicit_steps_of_a_run * scheme_.steps_allowed(state_, face_rate);
 }
 
 template <int Dim>

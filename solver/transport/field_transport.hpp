@@ -15,7 +15,6 @@ inline constexpr double explicit_steps_of_a_run = 2000.0;
 struct FieldTransportSettings {
   TransportScheme scheme = TransportScheme::by_count;
   double fines_from = 0.0;  ///< fines can be in the liquid after this time, s
-  double end = 0.0;         ///< of the run, s
   SweptSettings implicit;
 };
 
@@ -42,6 +41,11 @@ class FieldTransport final : public Transport<Dim> {
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& exchange, const std::vector<double>& pressure) override;
 
+  /// Whether the interval that the flow has crossed holds fines and is crossed by implicit steps.
+  [[nodiscard]] bool takes_implicit_steps(double start, const FlowProgress& flow) const {
+    return flow.end > settings_.fines_from &&
+           is_implicit(per_time(flow.volumes.liquid, flow.end - start));
+  }
   /// The same in implicit steps, as long as this is true.
   [[nodiscard]] bool goes_on() const { return !implicit_.finished(); }
   void start_implicit(double start, const FlowProgress& flow);

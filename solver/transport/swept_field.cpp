@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "grid/parallel.hpp"
 #include "linear/fixed_point.hpp"
@@ -56,7 +57,6 @@ void SweptField<Dim>::start(const std::vector<double>& face_volume, std::vector<
   outflow_.resize(elements);
   upwind_.resize(elements);
   fines_out_.assign(elements, ElementValues<Dim>{});
-  exchange_.assign(soils_.points().size(), Exchange{});
   first_.resize(sides_.value_count());
   last_.resize(sides_.value_count());
   gained_ = std::move(gained);
@@ -64,10 +64,8 @@ void SweptField<Dim>::start(const std::vector<double>& face_volume, std::vector<
     outflow_[e] = sides_.outflow(e, face_volume);
     upwind_[e] = sides_.upwind_places(e, outflow_[e]);
   });
-  entering_ = 0.0;
-  for (const int f : sides_.outer_faces()) {
-    entering_ += std::max(0.0, -face_volume[f]) * conditions_[f].concentration;
-  }
+  inflow_.clear();
+  for (const int f : sides_.outer_faces()) inflow_.push_back(std::max(0.0, -face_volume[f]));
   const auto turned = [&](int e) {
     for (int k = 0; k <= Dim; ++k) {
       if ((before[e][k] < 0.0) != (outflow_[e][k] < 0.0)) return 1.0;
@@ -104,11 +102,11 @@ bool SweptField<Dim>::solve(const FinesState<Dim>& state, const SolidInStep<Dim>
                             double share, StepErrors& errors) {
   share_ = share;
   errors = {};
-  // What jumps at the end of the step has not yet jumped.
-  constexpr double just_before = 1.0 - 1e-9;
+  exchange_.assign(soils_.points().size(), Exchange{});
   set_entering(solid.first_time(), first_);
-  set_entering(solid.from + just_before * (solid.to - solid.from), last_);
-  errors.entered = share * entering_;
+  set_entering(solid.end(), last_);
+  errors.entered =
+      share * std::inner_product(inflow_.begin(), inflow_.end(), last_.end() - inflow_.size(), 0.0);
   auto circle = order_.circles.begin();
   for (int i = 0; i < static_cast<int>(order_.elements.size()); ++i) {
     if (circle != order_.circles.end() && circle->begin == i) {
@@ -209,13 +207,7 @@ void SweptField<Dim>::finish(FinesState<Dim>& state, const ElementField<Dim>& re
 
 template <int Dim>
 void SweptField<Dim>::fines_crossed(std::vector<double>& result) const {
-  result.resize(grid_.face_count());
-  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
-    for (int k = 0; k <= Dim; ++k) {
-      if (grid_.element_face_sign[e][k] < 0.0) continue;
-      result[grid_.element_face[e][k]] = fines_out_[e][k];
-    }
-  });
+  sides_.at_faces(fines_out_, threads_, result);
 }
 
 template class SweptField<2>;

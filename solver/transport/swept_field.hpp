@@ -55,7 +55,7 @@ class SweptField {
   ElementField<Dim> outflow_;  ///< of the interval, m3
   std::vector<UpwindPlaces<Dim>> upwind_;
   std::vector<double> gained_;
-  double entering_ = 0.0;  ///< fines from outside the model, of the interval, m3
+  std::vector<double> inflow_;  ///< of liquid, through each outer face, of the interval, m3
   SweepOrder order_;
   double share_ = 0.0;  ///< of the interval, of the step that was solved last
   /// Concentrations at the first stage and at the end, as ElementSides places them.
