@@ -52,6 +52,7 @@ struct GeometrySettings {
   double width = unset;   ///< m
   double height = unset;  ///< m
   LayerSettings layers;
+  double scale = 1.0;  ///< metres per unit of length of `file`
 };
 
 struct MeshSettings {
@@ -202,9 +203,14 @@ struct FlowSettings {
   PressureIntegration integration = PressureIntegration::mixed;
 };
 
+/// How fields are stored in snapshots.
+enum class FieldPrecision { float64, float32 };
+
 struct OutputSettings {
   double every = unset;           ///< s between rows of the tables and, by default, snapshots
   double snapshot_every = unset;  ///< s between snapshots
+  int restarts = 2;               ///< newest snapshots that keep the state from which a run goes on
+  FieldPrecision precision = FieldPrecision::float64;
   std::vector<OutputProbe> probes;
   std::vector<OutputSection> sections;
 };
@@ -221,6 +227,7 @@ struct Scene {
   std::vector<Wall> walls;
   std::array<double, 3> gravity{};  ///< m/s2
   InitialFlow initial_flow = InitialFlow::rest;
+  std::string initial_from;  ///< results folder whose last state is the initial one; may be empty
   /// Of the liquid at rest, m above the datum: as given, or that of the head boundaries at t = 0.
   std::optional<double> water_level;
   FlowSettings flow;
