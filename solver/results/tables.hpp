@@ -43,6 +43,11 @@ struct HistoryRow {
   /// that range; 0 where gravity or a prescribed flux leaves them without such bounds.
   double pressure_overshoot = 0.0;
   double turbidity_out = 0.0;  ///< mass of fines per volume of the leaving liquid, g/l
+
+  // No columns: what the checks of the run ask for besides.
+  std::string volume_defect_at;  ///< the element of `volume_defect`; empty where there is none
+  /// Of the power that drives the flow, what the weight of the fines in the liquid gives.
+  double fines_weight_share = 0.0;
 };
 
 inline constexpr std::array<Column<HistoryRow>, 19> history_columns{{
