@@ -15,8 +15,16 @@ constexpr std::size_t longest_value = 40;
 /// Values by dotted key, as messages show them.
 using Values = std::map<std::string, std::string>;
 
+/// 200 and 200.0 are one value, which is shown as 200.
+std::string shown(const SceneNode& node) {
+  std::string text = node.shown;
+  const bool is_number = node.value && std::holds_alternative<double>(*node.value);
+  if (is_number && text.ends_with(".0")) text.resize(text.size() - 2);
+  return text;
+}
+
 void collect(const SceneNode& node, const std::string& key, Values& values) {
-  if (node.form == SceneNode::Form::value) values[key] = node.shown;
+  if (node.form == SceneNode::Form::value) values[key] = shown(node);
   for (std::size_t i = 0; i < node.children.size(); ++i) {
     const bool in_list = node.form == SceneNode::Form::list;
     const std::string step =

@@ -18,6 +18,14 @@ void check_finite(const HistoryRow& row) {
   }
 }
 
+/// To two digits.
+std::string rounded(double value) {
+  std::ostringstream text;
+  text.precision(2);
+  text << value;
+  return text.str();
+}
+
 }  // namespace
 
 std::vector<std::string> RowChecks::check(const HistoryRow& row) {
@@ -85,11 +93,10 @@ std::string RowChecks::check_fines_weight(const HistoryRow& row) {
   if (!(row.concentration_max > noticed)) return "";
   weight_warned_ = true;
   std::ostringstream message;
-  message.precision(2);
   message
       << "the weight of fluidised fines drives the flow more than the boundaries do: "
-      << 100.0 * row.fines_weight_share << " % of its power at t = " << row.t
-      << " s, with concentrations up to " << row.concentration_max
+      << rounded(100.0 * row.fines_weight_share) << " % of its power at t = " << row.t
+      << " s, with concentrations up to " << rounded(row.concentration_max)
       << ". That holds for fines that stay in the liquid; where they would settle, clog or stay "
          "in place, more is lost here than in the soil. Look at soil.NAME.erosion "
          "(critical_concentration, threshold, residual) and soil.NAME.deposition, or compute "
@@ -97,8 +104,8 @@ std::string RowChecks::check_fines_weight(const HistoryRow& row) {
   return message.str();
 }
 
-/// Points come in whole numbers: as many as fell into an element at random would make this
-/// difference in one of some thousand elements.
+/// On a mesh of even elements points fill them as they would at random: out of some thousand
+/// elements one differs from the mean of N points by 5 sqrt(N).
 std::string RowChecks::check_volume_defect(const HistoryRow& row) {
   constexpr double deviations = 5.0;
   const double points = scene_.points.liquid_per_element;
@@ -106,10 +113,12 @@ std::string RowChecks::check_volume_defect(const HistoryRow& row) {
   if (defect_warned_ || !(row.volume_defect > expected)) return "";
   defect_warned_ = true;
   std::ostringstream message;
-  message.precision(2);
-  message << "liquid points fill " << row.volume_defect_at << " " << 1.0 + row.volume_defect
-          << "-fold at t = " << row.t << " s (volume_defect " << row.volume_defect << "; up to "
-          << expected << " is usual with points.liquid_per_element = " << points << ")";
+  message << "liquid points have " << rounded(1.0 + row.volume_defect)
+          << " times the volume of the pores in " << row.volume_defect_at << " at t = " << row.t
+          << " s: a volume_defect of " << rounded(row.volume_defect) << ", where up to "
+          << rounded(expected) << " is usual with liquid_per_element = " << points
+          << ". Points that come from large elements do not fit into small ones: make the elements "
+             "more even, or take more points. Masses stay exact; concentrations there are rough";
   return message.str();
 }
 

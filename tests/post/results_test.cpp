@@ -276,7 +276,8 @@ TEST(Results, AnEarlierRunIsReplaced) {
   write_synthetic_results(folder);
   std::ofstream(folder + "/notes.txt") << "mine";
   const Case<2> c = unit_square_case();
-  const ResultsWriter<2> writer(folder, c);
+  EXPECT_THROW((ResultsWriter<2>(folder, c)), InputError) << "another case of the same name";
+  const ResultsWriter<2> writer(folder, c, lock_for_results(folder, c, Replace::any));
   EXPECT_FALSE(fs::exists(folder + "/snapshots/mesh_000000.hdf"));
   EXPECT_FALSE(fs::exists(folder + "/mesh.hdf.series"));
   EXPECT_EQ(file_text(folder + "/notes.txt"), "mine");

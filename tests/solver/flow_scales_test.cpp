@@ -118,8 +118,8 @@ TEST(FlowScales, ObtuseAnglesUnderStrongContrastAreToldOf) {
 
 TEST(MixedFlow, LinearPressuresAndUniformFluxesAreExactAtNodes) {
   const FlowModel m(model::column_mesh(5, 4, 1.0, 1.0, model::jittered(0.04, 3)));
-  const Vector<2> gradient(3.0, -2.0);
-  const auto pressure = [&](const Vector<2>& x) { return 7.0 + gradient.dot(x); };
+  const Vector<2> slope(3.0, -2.0);
+  const auto pressure = [&](const Vector<2>& x) { return 7.0 + slope.dot(x); };
   const Vector<2> velocity(0.3, -0.1);
   MixedFlow<2> flow;
   for (int f = 0; f < m.grid.face_count(); ++f) {
@@ -132,7 +132,7 @@ TEST(MixedFlow, LinearPressuresAndUniformFluxesAreExactAtNodes) {
   }
   const std::vector<double>& porosity = m.forcing.coefficients.porosity;
   const NodalFields<2> nodes = nodal_fields(m.grid, flow, mean, porosity, Vector<2>(0.0, 0.0));
-  const NodalFields<2> at_rest = nodal_fields(m.grid, flow, mean, porosity, gradient);
+  const NodalFields<2> at_rest = nodal_fields(m.grid, flow, mean, porosity, slope);
   const auto [low, high] = std::ranges::minmax(flow.state.face_pressure);
   int limited = 0;
   for (int i = 0; i < m.mesh.node_count(); ++i) {
