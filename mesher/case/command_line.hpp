@@ -4,6 +4,7 @@
 /// `PROGRAM: error: got FOUND; expected EXPECTED (see --help); did you mean SUGGESTION?`
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,15 +41,26 @@ inline InputError unknown_argument(const CLI::App& app) {
       is_option ? closest_name(first.substr(0, first.find('=')), known) : ""}});
 }
 
+/// Names a misspelt command, which CLI11 would report as a missing one.
+inline void refuse_unknown_command(const CLI::App& app, const std::string& first) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(command->get_name());
+  }
+  if (known.empty() || first.starts_with("-") || std::ranges::count(known, first) > 0) return;
+  throw InputError(std::vector{
+      InputProblem{"", "", '"' + first + '"', quoted_list(known), closest_name(first, known)}});
+}
+
 /// Reads the arguments. The exit code where the program is done: after --help or --version. Throws
 /// InputError.
 inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError&) {
-    throw unknown_argument(app);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
+    if (argc > 1) refuse_unknown_command(app, argv[1]);
+    if (!app.remaining(true).empty()) throw unknown_argument(app);
     throw InputError(std::string(error.what()) + " (see --help)");
   }
   return std::nullopt;

@@ -97,11 +97,11 @@ TEST_F(PostCommand, NothingIsWrittenIntoTheResults) {
 }
 
 TEST_F(PostCommand, AMisspeltCommandIsNamed) {
-  expect_refusal(
-      "ledgr " + run, 2,
-      "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"boundaries\", \"sample\", "
-      "\"error\", \"render\", \"figure\", "
-      "\"table\" or \"export\"; did you mean ledger?");
+  expect_refusal("ledgr " + run, 2,
+                 "suffuse-post: error: got \"ledgr\"; expected \"ledger\", \"history\", "
+                 "\"boundaries\", \"sample\", "
+                 "\"error\", \"render\", \"figure\", "
+                 "\"table\" or \"export\"; did you mean ledger?");
 }
 
 TEST_F(PostCommand, LedgerRefusesAResidual) {
