@@ -17,8 +17,9 @@ using Values = std::map<std::string, std::string>;
 
 /// 200 and 200.0 are one value, which is shown as 200.
 std::string shown(const SceneNode& node) {
-  std::string text = node.shown;
-  const bool is_number = node.value && std::holds_alternative<double>(*node.value);
+  if (!node.value) return node.shown;
+  std::string text = shown_value(*node.value);
+  const bool is_number = std::holds_alternative<double>(*node.value);
   if (is_number && text.ends_with(".0")) text.resize(text.size() - 2);
   return text;
 }

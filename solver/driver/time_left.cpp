@@ -1,31 +1,31 @@
 #include "driver/time_left.hpp"
 
-#include <algorithm>
-
 namespace suffuse {
 namespace {
 
-/// Two guesses that differ by less than this factor agree.
+/// Two paces that differ by less than this factor are about the same.
 constexpr double agreement = 2.0;
-/// Shorter stretches of wall time may be those of a single step, s.
-constexpr double shortest_stretch = 0.1;
+/// A stretch takes this share of the wall time before it, and at least so long and so many
+/// intervals, in which steps that grow do so by more than `agreement`.
+constexpr double stretch_share = 0.25;
+constexpr double shortest_stretch = 0.2;  // s
+constexpr int fewest_intervals = 8;
 
 }  // namespace
 
 std::optional<double> TimeLeft::at(double elapsed, double time) {
-  std::optional<double> total;
-  if (time > middle_.time && elapsed - middle_.elapsed >= shortest_stretch) {
-    const double pace = (elapsed - middle_.elapsed) / (time - middle_.time);
-    total = elapsed + pace * std::max(0.0, end_ - time);
+  ++intervals_;
+  const double stretch = elapsed - begin_.elapsed;
+  if (intervals_ >= fewest_intervals && time > begin_.time &&
+      stretch >= shortest_stretch + stretch_share * begin_.elapsed) {
+    const double pace = stretch / (time - begin_.time);
+    known_ = known_ || (pace_ && pace < agreement * *pace_ && *pace_ < agreement * pace);
+    pace_ = pace;
+    begin_ = {elapsed, time};
+    intervals_ = 0;
   }
-  const std::optional<double> before = middle_.total;
-  const bool agrees =
-      total && before && *total < agreement * *before && *before < agreement * *total;
-  if (elapsed >= std::max(shortest_stretch, 2.0 * latest_.elapsed)) {
-    middle_ = latest_;
-    latest_ = {elapsed, time, total};
-  }
-  return agrees ? std::optional(*total - elapsed) : std::nullopt;
+  if (!known_) return std::nullopt;
+  return time < end_ ? *pace_ * (end_ - time) : 0.0;
 }
 
 }  // namespace suffuse

@@ -6,13 +6,13 @@
 
 namespace suffuse {
 
-/// Guesses from how fast simulated time has advanced lately, since a moment at a quarter to half of
-/// the wall time. While steps still grow, as after a start from rest, guesses are wrong by orders
-/// of magnitude: one is given only where it agrees with the one that was made at that moment.
+/// Guesses from the pace of the last stretch, about a fifth of the wall time. While steps grow,
+/// as after a start from rest, such guesses are wrong by orders of magnitude: the first is given
+/// when two stretches, one after the other, had about the same pace.
 class TimeLeft {
  public:
   /// `start`: simulated time at which this process starts, s; `end` of the run, s.
-  TimeLeft(double start, double end) : end_(end), middle_{0.0, start, {}}, latest_(middle_) {}
+  TimeLeft(double start, double end) : end_(end), begin_{0.0, start} {}
 
   /// Wall time that is left, s; nothing while that is unknown. To be asked after every interval.
   /// `elapsed`: wall time since the start, s, ascending; `time`: simulated time by then, s.
@@ -20,14 +20,15 @@ class TimeLeft {
 
  private:
   struct Moment {
-    double elapsed;               ///< wall time, s
-    double time;                  ///< simulated time, s
-    std::optional<double> total;  ///< wall time of the whole run as guessed then, s
+    double elapsed;  ///< wall time, s
+    double time;     ///< simulated time, s
   };
 
   double end_;
-  Moment middle_;
-  Moment latest_;  ///< becomes `middle_` when twice its wall time has elapsed
+  Moment begin_;                ///< of the stretch that is not over yet
+  int intervals_ = 0;           ///< in it
+  std::optional<double> pace_;  ///< of the stretch before it: wall time per simulated time
+  bool known_ = false;
 };
 
 }  // namespace suffuse
