@@ -377,9 +377,7 @@ TEST_F(PostCommand, NotAResultsFolder) {
 }
 
 TEST_F(PostCommand, MisspeltCommandsAndOptions) {
-  expect_refusal("", 2,
-                 "suffuse-post: error: A subcommand is required (suffuse-post --help lists what "
-                 "there is)");
+  expect_refusal("", 2, "suffuse-post: error: A subcommand is required (see --help)");
   EXPECT_EQ(post("legder " + run).code, 2);
   EXPECT_EQ(post("ledger " + run + " --tolerence 1").code, 2);
   for (const std::string value : {"-1", "nan"}) {
