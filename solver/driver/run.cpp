@@ -56,7 +56,8 @@ class Run final : public OutputSink<Dim> {
         folder_(starting_point.folder),
         loop_(case_, plan),
         checks_(case_.document.scene, plan.speed_that_drag_follows),
-        progress_(case_.document.scene.time.end, run.quiet),
+        progress_(starting_point.from ? starting_point.from->time : 0.0,
+                  case_.document.scene.time.end, starts_from_rest(starting_point), run.quiet),
         writer_(open_results(std::move(starting_point))) {
     // The model has points of its own by now.
     case_.liquid_points = {};
@@ -122,6 +123,10 @@ class Run final : public OutputSink<Dim> {
     state.finish();
     resumed_at_ = starting_point.from->time;
     return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
+  }
+
+  [[nodiscard]] bool starts_from_rest(const StartingPoint& starting_point) const {
+    return !starting_point.from && case_.document.scene.initial_flow == InitialFlow::rest;
   }
 
   ExitCode stop() {
@@ -209,8 +214,8 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
   if (run.resume) {
     starting_point = find_starting_point(c, folder, options);
   } else {
-    starting_point =
-        StartingPoint{folder, std::nullopt, lock_for_results(folder, c.document.scene.name)};
+    const Replace replace = run.force ? Replace::any : Replace::same_case;
+    starting_point = StartingPoint{folder, std::nullopt, lock_for_results(folder, c, replace)};
   }
   if (!starting_point) {
     if (!run.quiet) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());

@@ -11,6 +11,7 @@
 #include "case/hdf5_io.hpp"
 #include "case/pending_file.hpp"
 #include "case/regular_file.hpp"
+#include "results/folder_lock.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
@@ -52,6 +53,12 @@ Json read_run_info(const std::string& folder) {
                     "; expected " + std::to_string(layout::format_version));
   }
   return json;
+}
+
+/// A run that was killed could not write how it ended.
+std::string status_in(const Json& info, const std::string& folder) {
+  std::string status = info.at("status").get<std::string>();
+  return status == "running" && !may_be_held(folder) ? "stopped without notice" : status;
 }
 
 struct Series {
@@ -261,7 +268,7 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
   const Json info = read_run_info(folder);
   const std::string path = layout::in_folder(folder, layout::run_info);
   try {
-    status_ = info.at("status").get<std::string>();
+    status_ = status_in(info, folder);
     dimension_ = info.at("dimension").get<int>();
     regions_ = info.at("regions").get<std::vector<std::string>>();
     const auto& scene = info.at("scene");

@@ -275,6 +275,9 @@ TEST(Results, AnEarlierRunIsReplaced) {
   const std::string folder = scratch / "run.results";
   write_synthetic_results(folder);
   std::ofstream(folder + "/notes.txt") << "mine";
+  const Case<2> other = unit_square_case("synthetic", "constant", 2e-3);
+  EXPECT_THROW((ResultsWriter<2>(folder, other)), InputError) << "of the same name";
+  EXPECT_TRUE(fs::exists(folder + "/snapshots/mesh_000000.hdf"));
   const Case<2> c = unit_square_case();
   const ResultsWriter<2> writer(folder, c);
   EXPECT_FALSE(fs::exists(folder + "/snapshots/mesh_000000.hdf"));
