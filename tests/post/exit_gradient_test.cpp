@@ -81,20 +81,19 @@ TEST(ExitGradient, BesideASheetPileIsTheExactOne) {
   EXPECT_LT(error[1], 0.7 * error[0]);
 }
 
-/// The same water passes the check's boundaries, the section under the pile and the boundary table.
+/// The same water passes the boundaries of the check and the section under the pile.
 TEST(ExitGradient, DischargesAgree) {
   const ScratchFolder scratch;
   const ResultsReader results = run(scratch, 0.04);
   const double section = results.sections().column("discharge").back();
   EXPECT_NEAR(section, conductivity * head / 2.0, 0.02 * section);
+  int compared = 0;
   for (const PartSafety& part : safety_of(results)) {
-    if (!part.discharge) continue;
+    if (!part.discharge || part.name == "pile") continue;
     EXPECT_NEAR(std::abs(*part.discharge), section, 1e-10 * section) << part.name;
-    for (const NamedTable& boundary : results.boundaries()) {
-      if (boundary.name != part.name) continue;
-      EXPECT_NEAR(boundary.table.column("discharge").back(), *part.discharge, 1e-10 * section);
-    }
+    ++compared;
   }
+  EXPECT_EQ(compared, 2);
 }
 
 }  // namespace
