@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "case/plausibility.hpp"
 #include "case/scene_schema.hpp"
 #include "driver/exchange_sentences.hpp"
 #include "flow/nodal_operator.hpp"
@@ -456,6 +457,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   const Grid<Dim> grid(c.mesh);
   const SoilMap<Dim> soils(c);
   Plan plan;
+  plan.warnings = plausibility_warnings(c.document, c.mesh);
   const bool fines_enter = largest_inflow_concentration(scene) > 0.0;
   plan.erosion = soils.erodes() || (soils.deposits() && fines_enter);
   plan.transport = plan.erosion || fines_enter;

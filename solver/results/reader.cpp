@@ -10,6 +10,7 @@
 #include "case/hdf5_io.hpp"
 #include "case/pending_file.hpp"
 #include "case/regular_file.hpp"
+#include "case/table_file.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
@@ -176,6 +177,9 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
   std::string line;
   if (!std::getline(in, line)) throw FileError(path + ":1: got nothing; expected a line of names");
   const std::vector<std::string> names = csv_cells(line);
+  if (const std::string advice = separator_advice(line); !advice.empty()) {
+    throw FileError(path + ":1: got " + line + "; expected a line of names" + advice);
+  }
   const auto key = std::ranges::find(names, by) - names.begin();
   if (!by.empty() && key == std::ssize(names)) {
     throw FileError(path + ":1: got no column " + by);
@@ -194,7 +198,9 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
     const std::string where = path + ":" + std::to_string(number) + ": ";
     if (cells.size() != names.size()) {
       throw FileError(where + "got " + std::to_string(cells.size()) + " columns; expected " +
-                      std::to_string(names.size()));
+                      std::to_string(names.size()) +
+                      (cells.size() > names.size() ? ", with decimal points in numbers"
+                                                   : separator_advice(line)));
     }
     std::string name;
     if (!by.empty()) {
