@@ -24,11 +24,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* program = "suffuse-mesher";
 
-constexpr const char* exit_codes =
-    "Exit codes: 0 done; 2 the scene, the geometry or the command line is wrong; 3 out of memory, "
-    "or "
-    "a bug;\n4 a file cannot be read or written; 130 interrupted by Ctrl-C. A run that ends with "
-    "another code than 0\nleaves no new case file.";
+constexpr const char* exit_codes = R"(Exit codes:
+  0    done
+  2    the scene, the geometry or the command line is wrong
+  3    out of memory, or a bug
+  4    a file cannot be read or written
+  130  interrupted by Ctrl-C
+With another code than 0 there is no new case file.
+)";
 
 struct Arguments {
   std::string scene;

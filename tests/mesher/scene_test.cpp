@@ -729,7 +729,7 @@ TEST(TableFile, that_is_wrong_is_refused_at_its_line) {
   EXPECT_EQ(problems_with_table("t,head\n5,2\n4,3\n"),
             at + "3: got t = 4 after t = 5; expected times that ascend");
   EXPECT_EQ(problems_with_table("t,head\n0,2\n0,3\n"),
-            at + "3: got t = 0 twice (for a jump give 0 and 0.0001); expected times that ascend");
+            at + "3: got t = 0 twice (for a jump give 0 and 1e-4); expected times that ascend");
 }
 
 TEST(ClosestName, counts_letters_to_change) {
