@@ -52,6 +52,58 @@ TEST(BoundaryPressure, BoundsPressuresUntilTheEnd) {
   for (const FlowState<2>& flow : moments.flows) EXPECT_LE(flow.pressure_overshoot, 1e-10);
 }
 
+/// Square metre, sheared sideways, of two layers; 6 kPa on one side and 0 on another.
+struct Sheared {
+  double shear = 0.0;
+  double contrast = 1.0;  // of conductivities
+  std::string high = "top";
+  std::string low = "bottom";
+  TimeStepping stepping = TimeStepping::monotone;
+  double step = 0.0;  // s; 0: chosen by the tolerance
+};
+
+/// The warnings of a run, and its largest overshoot.
+std::pair<std::string, double> overshoot_of(const Sheared& m) {
+  Mesh<2> mesh = model::column_mesh(8, 8, 1.0, 1.0, [&](const Vector<2>& x) {
+    return Vector<2>(x[0] + m.shear * x[1], x[1]);
+  });
+  mesh.region_names.emplace_back("upper");
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    mesh.element_region[e] = element_centroid(mesh, e)[1] > 0.5 ? 1 : 0;
+  }
+  Scene scene = model::paper_scene();
+  scene.soils.push_back(scene.soils[0]);
+  scene.soils[1].region = "upper";
+  scene.soils[1].conductivity /= m.contrast;
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.stepping = m.stepping;
+  scene.time.inertia = false;
+  scene.time.end = 1.0;
+  if (m.step > 0.0) scene.time.step = m.step;
+  scene.boundaries = {model::pressure_on(m.high, 6000.0), model::pressure_on(m.low, 0.0)};
+  for (BoundaryCondition& b : scene.boundaries) b.concentration = 0.0;
+  model::ModelRun run(model::make_case(mesh, scene));
+  double largest = 0.0;
+  for (const FlowState<2>& flow : run.run({0.01, 0.1, 0.5, 1.0}).flows) {
+    largest = std::max(largest, flow.pressure_overshoot);
+  }
+  std::string warnings;
+  for (const std::string& warning : run.model().take_warnings()) warnings += warning + '\n';
+  return {warnings, largest};
+}
+
+TEST(BoundaryPressure, Explore) {
+  for (double shear : {0.0, 0.5, 2.0, 8.0})
+    for (double contrast : {1.0, 1e4})
+      for (const char* low : {"bottom", "left"})
+        for (double step : {0.0, 0.01, 1.0})
+          for (auto stepping : {TimeStepping::monotone, TimeStepping::second_order}) {
+            const auto [w, o] = overshoot_of({shear, contrast, "top", low, stepping, step});
+            std::cout << shear << ' ' << contrast << ' ' << low << ' ' << step << ' '
+                      << static_cast<int>(stepping) << " -> " << o << ' ' << w << '\n';
+          }
+}
+
 /// Rest, a ramp within three times the time in which the flow settles, a jump down, and on.
 TEST(BoundaryPressure, MovesTheColumnAsItChanges) {
   const Knots pressure{{0.0, 0.0},     {0.01, 0.0},       {0.03, 6000.0},
