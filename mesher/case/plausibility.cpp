@@ -172,14 +172,15 @@ class Plausibility {
       const auto is_far = [&](int node) { return edges[node] > 1; };
       if (std::ranges::any_of(mesh_.elements[e], is_far)) resolved[mesh_.element_region[e]] = true;
     }
-    const std::string key = given("mesh.size") ? "mesh.size" : "geometry";
+    const bool sized = given("mesh.size");
+    const std::string found =
+        sized ? short_number(scene_.mesh.size) + " m leaves" : std::string("the mesh has");
     for (std::size_t r = 0; r < resolved.size(); ++r) {
       const std::string& name = mesh_.region_names[r];
       if (resolved[r] || !scene_.find_soil(name) || is_layer(name)) continue;
-      warn(key, (given(key) && key == "mesh.size" ? short_number(scene_.mesh.size) + " m leaves"
-                                                  : "the mesh has") +
-                    " fewer than 4 elements across the region " + shown_value(name) +
-                    ", from where water enters it to where it leaves; 4 or more are usual");
+      warn(sized ? "mesh.size" : "geometry",
+           found + " fewer than 4 elements across the region " + shown_value(name) +
+               ", from where water enters it to where it leaves; 4 or more are usual");
     }
   }
 

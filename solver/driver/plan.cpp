@@ -9,6 +9,7 @@
 #include "case/plausibility.hpp"
 #include "case/scene_schema.hpp"
 #include "driver/exchange_sentences.hpp"
+#include "flow/flow_scales.hpp"
 #include "flow/nodal_operator.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
@@ -479,6 +480,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   } else {
     refuse_ergun_beside_switching_faces(c, conditions);
     plan_implicit_step(scene, plan);
+    if (!plan.flow.inertia) plan.obtuse_elements = obtuse_elements(grid);
     plan.settling_time = settling_time(c);
     warn_of_free_water_with_inertia(c, plan);
   }

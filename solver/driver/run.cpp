@@ -54,7 +54,7 @@ class Run final : public OutputSink<Dim> {
         case_digest_(digest_of(case_)),
         folder_(starting_point.folder),
         loop_(case_, plan),
-        checks_(case_.document.scene, plan.speed_that_drag_follows),
+        checks_(case_.document.scene, plan.speed_that_drag_follows, plan.obtuse_elements),
         progress_(case_.document.scene.time.end, run.quiet),
         writer_(open_results(std::move(starting_point))) {
     // The model has points of its own by now.

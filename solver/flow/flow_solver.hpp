@@ -137,9 +137,6 @@ class FlowSolver {
   /// Adds a warning where soil without a retention is under suction, once; `time` in s. Without
   /// gravity a pressure may be negative anyway.
   void warn_of_suction(double time);
-  /// Adds a warning where pressures lie outside those that boundaries and start give, once; `time`
-  /// in s.
-  virtual void warn_of_overshoot(double /*time*/) {}
   /// The warnings since the last call.
   [[nodiscard]] std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "case/errors.hpp"
 #include "flow/implicit_settings.hpp"
@@ -340,33 +339,6 @@ void ImplicitFlow<Dim>::start() {
   control_.start(first_step(at_rest), !at_rest);
 }
 
-/// Obtuse angles and second-order steps can take pressures beyond their bounds. Most often they do
-/// not, so that it is told where it happened.
-template <int Dim>
-void ImplicitFlow<Dim>::warn_of_overshoot(double time) {
-  if (overshoot_warned_ || !scales_.has_bounds || options_.inertia) return;
-  const double overshoot = scales_.overshoot(now_.state.face_pressure);
-  if (overshoot < limits.noticed_overshoot) return;
-  const int obtuse = obtuse_elements(this->grid());
-  const bool second_order = this->scene().time.stepping == TimeStepping::second_order;
-  overshoot_warned_ = true;
-  std::ostringstream message;
-  message.precision(3);
-  message << "pressures lie outside those of boundaries and start, by " << 100.0 * overshoot
-          << " % of their range at t = " << time
-          << " s (pressure_overshoot in history.csv); volumes and masses balance all the same.";
-  if (obtuse > 0) {
-    message << " Obtuse angles can do so: " << obtuse << " of " << this->grid().mesh.element_count()
-            << " elements have one; mesh.structure = \"free\", or \"regular\" for a column, makes "
-               "few or none.";
-  }
-  if (second_order) {
-    message << " Long steps of second order can do so too: time.stepping = \"monotone\", or a "
-               "shorter time.step.";
-  }
-  this->warn(message.str());
-}
-
 template <int Dim>
 double ImplicitFlow<Dim>::first_step(bool at_rest) const {
   const double of_run = limits.first_step * this->scene().time.end;
@@ -423,7 +395,7 @@ void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   FlowSolver<Dim>::archive(archive);
   scheme_.archive(archive, this->conditions_);
   archive(control_, blending_, relaxation_, reuse_, scales_);
-  archive(now_, previous_, pressure_, eos_error_, solving_, reusing_, overshoot_warned_);
+  archive(now_, previous_, pressure_, eos_error_, solving_, reusing_);
 }
 
 template <int Dim>

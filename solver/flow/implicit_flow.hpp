@@ -40,8 +40,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Where an element's water does not fit its pores at its pressure, the next steps let it out.
   void match_masses(double time, const std::vector<double>& water_mass) override;
 
-  void warn_of_overshoot(double time) override;
-
   void archive(StateArchive& archive) override;
 
   [[nodiscard]] FlowState<Dim> state(double time) const override;
@@ -111,7 +109,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// At the start of the last step, for the prediction of the next; none after a kink.
   std::optional<MixedFlow<Dim>> previous_;
   std::vector<double> pressure_;  ///< per element, Pa
-  bool overshoot_warned_ = false;
   double eos_error_ = 0.0;
 
   PassTiming solving_{"flow", 0, 0.0};

@@ -92,8 +92,6 @@ struct ImplicitThresholds {
   double state_round_off = 1e-12;
   /// Cosines of angles above this, negative, are obtuse.
   double obtuse_cosine = 1e-9;
-  /// Pressures outside their bounds by more than this share of their range are warned of.
-  double noticed_overshoot = 0.01;
 };
 
 inline constexpr ImplicitThresholds implicit_thresholds;

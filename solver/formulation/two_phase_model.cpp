@@ -87,7 +87,6 @@ template <int Dim>
 void TwoPhaseModel<Dim>::start_flux_history() {
   flux_history_.mean = flux_history_.end = flow_->face_flux(0.0);
   flow_->warn_of_suction(0.0);
-  flow_->warn_of_overshoot(0.0);
 }
 
 template <int Dim>
@@ -106,7 +105,6 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   observations_.book_liquid(flow.volumes.liquid);
   steps_ += flow.steps;
   flow_->warn_of_suction(flow.end);
-  flow_->warn_of_overshoot(flow.end);
   last_dt_ = flow.dt;
 }
 
