@@ -15,6 +15,7 @@
 #include "driver/progress.hpp"
 #include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
+#include "driver/spent_energy.hpp"
 #include "driver/starting_point.hpp"
 #include "driver/stopwatch.hpp"
 #include "results/writer.hpp"
@@ -88,7 +89,8 @@ class Run final : public OutputSink<Dim> {
   }
 
   void write_row(const FlowState<Dim>& flow) override {
-    const HistoryRow row = loop_.model().history_row(flow);
+    HistoryRow row = loop_.model().history_row(flow);
+    row.energy = energy_.at(row);
     for (const std::string& warning : checks_.check(row)) warn(warning);
     writer_.append_history(row);
     append_tables(writer_, loop_.model(), flow);
@@ -116,7 +118,7 @@ class Run final : public OutputSink<Dim> {
     for (const std::string& warning : plan_.warnings) warn(warning);
     if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
     StateArchive state(std::move(starting_point.from->state));
-    state(loop_, checks_, warnings_);
+    state(loop_, checks_, energy_, warnings_);
     state.finish();
     resumed_at_ = starting_point.from->time;
     return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
@@ -155,7 +157,7 @@ class Run final : public OutputSink<Dim> {
   }
 
   RestartPoint restart_point() {
-    RestartPoint point = loop_.restart_point(checks_, warnings_);
+    RestartPoint point = loop_.restart_point(checks_, energy_, warnings_);
     point.no_skip = options_.no_skip;
     point.case_digest = case_digest_;
     return point;
@@ -190,6 +192,7 @@ class Run final : public OutputSink<Dim> {
   Stopwatch since_saved_;  ///< since the last snapshot or checkpoint
   RunLoop<Dim> loop_;
   RowChecks checks_;
+  SpentEnergy energy_;
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
   std::vector<std::string> warnings_;
