@@ -20,7 +20,8 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME suffuse)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 # Pictures are drawn off the screen by Mesa, which no program links.
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri, python3:any")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/workflows/install/prerm)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "bash-completion, gmsh, paraview, suffuse-dev")
 set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION

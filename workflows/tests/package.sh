@@ -31,6 +31,7 @@ if [ ! -e "$cache/debian-12.tar" ]; then
 else
   tar -C "$root" -xf "$cache/debian-12.tar"
 fi
+chmod 755 "$root"  # the root of a system, not a private folder
 # The way out of this machine is that of its own apt.
 apt-config dump Acquire::http > "$root/etc/apt/apt.conf.d/90-of-the-host"
 cp -L /etc/resolv.conf "$root/etc/resolv.conf"
@@ -61,11 +62,13 @@ echo "installed: $(dpkg -L suffuse | grep -c .) files of $(dpkg-query -Wf '${Ins
 
 mkdir run && cd run
 cp /usr/share/doc/suffuse/examples/weir/* .
+chown -R 1000 .
 # Every command of the README's tour, figures included.
 awk '/^## Five minutes/ { inside = 1 } /^## More/ { exit } inside && (/^    suffuse-/ || more) { print substr($0, 5); more = /\\$/ }' \
   ../README.md > commands.sh
 [ "$(grep -c '^suffuse-' commands.sh)" -ge 15 ]
-bash -eux commands.sh > output 2>&1 || { cat output; exit 1; }
+# As an ordinary user: libraries keep caches and settings in HOME.
+HOME=$PWD setpriv --reuid 1000 --regid 1000 --clear-groups bash -eux commands.sh > output 2>&1 || { cat output; exit 1; }
 for picture in porosity.png masses.svg boundaries.png model.png head.png concentration.png; do
   [ "$(stat -c %s $picture)" -gt 5000 ] || { echo "$picture is empty"; exit 1; }
 done
@@ -77,8 +80,8 @@ for program in mesher solver post; do
   [ "$(wc -l < page)" -gt 60 ] && [ ! -s warnings ] || { cat page warnings; exit 1; }
 done
 man suffuse-solver | grep -q -- '--checkpoint-every'
-man -f suffuse-solver > /dev/null
 echo 'manual pages are read'
+python3 -c 'import suffuse' 2> page || grep -q numpy page
 
 apt purge suffuse
 files > after
