@@ -4,7 +4,7 @@
     run = suffuse.open("weir.results")
     run.history["t"], run.history["flux_out"]        # columns of history.csv, over time
     run.boundaries["upstream"]["discharge"]          # one boundary; likewise run.regions["foundation"], run.probes[0]
-    run.history.units["flux_out"]                    # "m3/s"
+    run.history.units["flux_out"]                    # "m3/s/m"
     run.times                                        # times of the snapshots, s
     run.mesh.nodes, run.mesh.elements                # places, m, and node numbers of triangles, from 0
     run.field("porosity", time=100.0, on="cell")     # a field of a snapshot; without a time of the last one
@@ -40,13 +40,14 @@ PLACES = {
 UNITS = {
     "s": "t dt", "m": "x y head", "Pa": "pressure pressure_min pressure_max pressure_scatter",
     "m/s": "speed_max flux_x flux_y", "m3/s": "flux_in flux_out discharge", "m3": "liquid_in liquid_out volume",
-    "g/l": "turbidity_out",
-    "kg": "solid erodible water fines pending eroded deposited water_in water_out fines_in fines_out",
+    "g/l": "turbidity_out", "W": "power", "J": "energy", "%": "fines_left_percent solid_left_percent",
+    "kg": "solid erodible water fines pending eroded deposited fines_left water_in water_out fines_in fines_out",
     "-": "porosity porosity_mean concentration concentration_out concentration_min concentration_max saturation "
-         "volume_defect eos_error pressure_overshoot residual_water residual_grains "
+         "volume_defect eos_error pressure_overshoot residual_water residual_grains conductivity_ratio "
          "liquid_points empty_elements empty_elements_total points points_in points_out",
 }
 UNIT_OF_COLUMN = {column: unit for unit, columns in UNITS.items() for column in columns.split()}
+PER_THICKNESS = ("kg", "m3", "m3/s", "W", "J")  # units that are per metre of thickness in two dimensions
 
 
 class Error(Exception):
@@ -94,9 +95,11 @@ class _Named(collections.abc.Mapping):
 class Table(_Named):
     """Columns by name, arrays of one length. `units` has the unit of each, "-" for a number without one."""
 
-    def __init__(self, what, columns):
+    def __init__(self, what, columns, dimension):
         super().__init__(what, columns)
         self.units = {name: UNIT_OF_COLUMN.get(name, "") for name in columns}
+        if dimension == 2:
+            self.units.update({name: unit + "/m" for name, unit in self.units.items() if unit in PER_THICKNESS})
 
 
 class Mesh:
@@ -178,7 +181,7 @@ class Run:
 
     def _table(self, name):
         path, names, rows = self._rows(name)
-        return _columns(path, names, rows)
+        return self._columns(path, names, rows)
 
     def _tables(self, name, by, key):
         path, names, rows = self._rows(name)
@@ -187,7 +190,14 @@ class Run:
         for row in rows:
             parts.setdefault(key(row[place]), []).append(row[:place] + row[place + 1:])
         names = names[:place] + names[place + 1:]
-        return _Named(path, {part: _columns(f"{path}, {by} {part}", names, rows) for part, rows in parts.items()})
+        return _Named(path, {part: self._columns(f"{path}, {by} {part}", names, rows) for part, rows in parts.items()})
+
+    def _columns(self, what, names, rows):
+        try:
+            values = np.array(rows, dtype=float).reshape(len(rows), len(names))
+        except ValueError as error:
+            raise Error(f"{what}: {error}") from None
+        return Table(what, dict(zip(names, values.T)), self.info["dimension"])
 
     # --- Mesh, points and fields ---
 
@@ -278,14 +288,6 @@ class Run:
 
 def _text(value):
     return value.decode("utf-8").rstrip("\0") if isinstance(value, bytes) else str(value)
-
-
-def _columns(what, names, rows):
-    try:
-        values = np.array(rows, dtype=float).reshape(len(rows), len(names))
-    except ValueError as error:
-        raise Error(f"{what}: {error}") from None
-    return Table(what, dict(zip(names, values.T)))
 
 
 def open(folder):  # noqa: A001, as in gzip.open

@@ -40,7 +40,8 @@ expect 'a folder' 'folder|my run.results|weir.results' suffuse-solver weir.case.
 expect 'the same behind =' 'weir.results' suffuse-solver --output = we
 expect 'the same directly behind =' 'folder|my run.results|weir.results' suffuse-solver --output =
 expect 'subcommands' 'render' suffuse-post re
-expect 'options of a subcommand' '--csv|--help|--tolerance' suffuse-post ledger weir.results --
+expect 'options of a subcommand' '--tolerance' suffuse-post ledger weir.results --to
+expect 'options of a group' '--x-range' suffuse-post figure porosity weir.results --x-
 expect 'results before other folders' 'my run.results|weir.results' suffuse-post ledger ''
 expect 'names of figures' 'masses|model' suffuse-post figure m
 expect 'more results' 'my run.results|weir.results' suffuse-post figure masses weir.results weir.results ''

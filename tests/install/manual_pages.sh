@@ -23,7 +23,7 @@ for program in suffuse-mesher suffuse-solver suffuse-post; do
     heading=$([ -z "$subcommand" ] && echo '.SH OPTIONS' || echo ".SS $program $subcommand")
     said=$(sed 's/\\-/-/g' "$pages/$program.1" | awk -v heading="$heading" '/^\.S/ { inside = $0 == heading } inside')
     # shellcheck disable=SC2086  # an empty one is no argument
-    for option in $("$bin/$program" $subcommand --help | sed -n 's/^  \(-[a-z],\)\?\(--[a-z-]*\).*/\2/p'); do
+    for option in $("$bin/$program" $subcommand --help | sed -n 's/^ *\(-[a-z],\)\?\(--[a-z-]*\).*/\2/p'); do
       [[ $subcommand && $option == --help || $said == *"\fB$option\fR"* ]] || fail "$program $subcommand: $option is missing"
     done
   done

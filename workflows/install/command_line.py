@@ -5,7 +5,7 @@
     command_line.py complete TEMPLATE PROGRAM...         one bash script for all programs
 
 The layout of --help is that of CLI11: a section "Options:" and the like, an entry per line with its text from
-column 30 on, or on the next line where the entry is longer.
+column 30 on, or on the next line where the entry is longer. Options of a group are indented further.
 """
 
 import dataclasses
@@ -46,7 +46,7 @@ class Command:
 
     @property
     def options(self):
-        return [e for title, list_ in self.entries.items() if title not in ("Positionals", "Subcommands") for e in list_]
+        return self.entries.get("Options", [])
 
 
 # --- Reading --help ---------------------------------------------------------------------------------------
@@ -77,15 +77,17 @@ def parse_help(name, output):
     command = Command(name, sentence=lines[0].removeprefix(name + ": "))
     section = None
     for number, line in enumerate(lines):
-        heading = re.fullmatch(r"(Positionals|Options|Subcommands|\[Option Group: .*\]):?", line)
+        heading = re.fullmatch(r" *(Positionals|Options|Subcommands):", line)
+        entry = re.match(r"( {2}| {4})\S", line)
         if heading:
             section = command.entries.setdefault(heading[1], [])
         elif line and not line.startswith(" "):
-            section = None  # what comes behind the lists
-        elif section is not None and re.match(r"  \S", line):
+            section = None  # what comes behind the lists, or the name of a group of options
+        elif section is not None and entry:
+            column = TEXT_COLUMN + len(entry[1]) - 2
             following = lines[number + 1] if number + 1 < len(lines) else ""
-            on_next_line = following.startswith(" " * TEXT_COLUMN) and line[TEXT_COLUMN - 2:TEXT_COLUMN] != "  "
-            left, text = (line, following) if on_next_line else (line[:TEXT_COLUMN], line[TEXT_COLUMN:])
+            on_next_line = following.startswith(" " * TEXT_COLUMN) and line[column - 2:column] != "  "
+            left, text = (line, following) if on_next_line else (line[:column], line[column:])
             section.append(parse_entry(left, text.strip()))
     if not command.options:
         sys.exit(f"command_line.py: {name} --help: got no options; expected the layout of CLI11")
@@ -168,11 +170,11 @@ def kind_of_value(entry):
         choices = entry.value.split("|")
     if choices:
         return "words " + " ".join(choices)
-    extension = re.search(r"\.[a-z0-9.]+$", entry.value)
-    if extension:
-        return "files " + extension[0]
     if entry.names[0] == "RESULTS":
         return "results"
+    extension = re.search(r"\.[a-z][a-z0-9.]*$", entry.value)
+    if extension:
+        return "files " + extension[0]
     if entry.value == "FOLDER":
         return "folders"
     if entry.value == "FILE":
