@@ -28,6 +28,12 @@ void ColoredTriangles::add(const std::array<Vector<2>, 3>& corners,
   }
 }
 
+void ColoredTriangles::add_polygon(const std::vector<Vector<2>>& corners, const Color& color) {
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    add({corners[0], corners[i], corners[i + 1]}, {color, color, color});
+  }
+}
+
 void ColoredTriangles::paint(vtkContext2D& painter) {
   grid_->SetPoints(points_);
   grid_->SetPolys(triangles_);

@@ -19,6 +19,8 @@ class ColoredTriangles {
   ColoredTriangles();
   /// Corners in pixels.
   void add(const std::array<Vector<2>, 3>& corners, const std::array<Color, 3>& colors);
+  /// A convex polygon of one colour, corners in pixels.
+  void add_polygon(const std::vector<Vector<2>>& corners, const Color& color);
   void paint(vtkContext2D& painter);
 
  private:

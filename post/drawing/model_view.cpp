@@ -85,6 +85,12 @@ void ModelView::fit(float max_width, float max_height) {
   scale_ = std::min(max_width / size[0], max_height / size[1]);
 }
 
+bool ModelView::shows(const Vector<2>& middle, const Vector<2>& half) const {
+  const Vector<2> first = middle - half - pixel(low_);
+  const Vector<2> last = pixel(high_) - middle - half;
+  return std::min(first.minCoeff(), last.minCoeff()) >= 0.0;
+}
+
 void ModelView::paint_axes(vtkContext2D& painter) const {
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   painter.GetPen()->SetColorF(0.0, 0.0, 0.0);

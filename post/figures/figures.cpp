@@ -1,13 +1,13 @@
 #include "figures/figures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "figures/boundary_figures.hpp"
 #include "figures/flow_figures.hpp"
+#include "figures/flow_net.hpp"
 #include "figures/gradation_figure.hpp"
 #include "figures/model_sketch.hpp"
 #include "figures/permeameter_figure.hpp"
@@ -40,19 +40,22 @@ const std::map<std::string, FigureMaker>& figure_makers() {
   return makers;
 }
 
-/// Draws a picture of one run, at a time where it has one.
-using PictureMaker = void (*)(const ResultsReader&, const std::string&,
-                              const std::optional<double>&);
+/// Draws a picture of one run.
+using PictureMaker = void (*)(const ResultsReader&, const std::string&, const FigureOptions&);
 
 const std::map<std::string, PictureMaker>& picture_makers() {
-  using Time = std::optional<double>;
+  using Options = FigureOptions;
   static const std::map<std::string, PictureMaker> makers{
       {"model", [](const ResultsReader& run, const std::string& path,
-                   const Time&) { draw_model_sketch(run, path); }},
+                   const Options&) { draw_model_sketch(run, path); }},
       {"head", [](const ResultsReader& run, const std::string& path,
-                  const Time& time) { draw_seepage_map(head_map(run, time), path); }},
-      {"saturation", [](const ResultsReader& run, const std::string& path, const Time& time) {
-         draw_seepage_map(saturation_map(run, time), path);
+                  const Options& options) { draw_seepage_map(head_map(run, options.time), path); }},
+      {"flownet",
+       [](const ResultsReader& run, const std::string& path, const Options& options) {
+         draw_flow_net(flow_net(run, options.time, options.tubes), path);
+       }},
+      {"saturation", [](const ResultsReader& run, const std::string& path, const Options& options) {
+         draw_seepage_map(saturation_map(run, options.time), path);
        }}};
   return makers;
 }
@@ -80,22 +83,24 @@ std::vector<Chart> make_figure(const std::string& name, const std::vector<Result
 void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs,
                  const std::string& path, const FigureOptions& options) {
   const auto picture = picture_makers().find(name);
-  const std::optional<double>& time = options.time;
-  const bool is_map = name == "head" || name == "saturation";
-  if (time && !is_map) {
-    throw InputError(std::vector{
-        InputProblem{"suffuse-post figure " + name, "--time", number_text(*time),
-                     "no time: it is for the figures \"head\" and \"saturation\"", ""}});
+  const bool is_map = name == "head" || name == "saturation" || name == "flownet";
+  const auto refuse = [&](const std::string& option, const std::string& found,
+                          const std::string& expected) {
+    throw InputError(
+        std::vector{InputProblem{"suffuse-post figure " + name, option, found, expected, ""}});
+  };
+  if (options.time && !is_map) {
+    refuse("--time", number_text(*options.time),
+           "no time: it is for the figures \"flownet\", \"head\" and \"saturation\"");
   }
-  if (time && !std::isfinite(*time)) {
-    throw InputError(std::vector{InputProblem{"suffuse-post figure " + name, "--time",
-                                              number_text(*time), "a time in seconds", ""}});
+  if (options.tubes && name != "flownet") {
+    refuse("--tubes", std::to_string(*options.tubes),
+           "no tubes: they are for the figure \"flownet\"");
   }
   if (!options.measured.empty()) {
     if (name != "fines-lost") {
-      throw InputError(std::vector{
-          InputProblem{"suffuse-post figure " + name, "--measured", options.measured,
-                       "no measured points: they are for the figure \"fines-lost\"", ""}});
+      refuse("--measured", options.measured,
+             "no measured points: they are for the figure \"fines-lost\"");
     }
     draw_charts(fines_lost_charts(runs, read_measured_points(options.measured)), path);
     return;
@@ -105,11 +110,9 @@ void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs
     return;
   }
   if (runs.size() != 1) {
-    throw InputError(
-        std::vector{InputProblem{"suffuse-post figure " + name, "RESULTS",
-                                 std::to_string(runs.size()) + " folders", "one", ""}});
+    refuse("RESULTS", std::to_string(runs.size()) + " folders", "one");
   }
-  picture->second(runs.front(), path, time);
+  picture->second(runs.front(), path, options);
 }
 
 }  // namespace suffuse

@@ -12,7 +12,8 @@
 namespace suffuse {
 
 /// Names of all figures, sorted. Some are no charts but pictures of one run: "model", the sketch of
-/// its model (model_sketch.hpp), "head" and "saturation" (seepage_map.hpp).
+/// its model (model_sketch.hpp), "head" and "saturation" (seepage_map.hpp), "flownet"
+/// (flow_net.hpp).
 std::vector<std::string> figure_names();
 
 /// The charts of a figure, drawn side by side: "porosity", "masses", "solid-mass"
@@ -25,7 +26,8 @@ std::vector<Chart> make_figure(const std::string& name, const std::vector<Result
 /// What only some figures have a use for.
 struct FigureOptions {
   std::optional<double> time;  ///< of the snapshot of a map, s; the last without it
-  std::string measured;        ///< file of the points beside the curves of "fines-lost"
+  std::string measured{};      ///< file of the points beside the curves of "fines-lost"
+  std::optional<int> tubes{};  ///< of "flownet"; without it as many as make squares
 };
 
 /// Draws any figure. Throws InputError, also for an option that the figure has no use for;

@@ -171,7 +171,8 @@ std::string column_name(const SampledField& field, int component) {
 
 }  // namespace
 
-SampleLine parse_line(const std::string& text) {
+SampleLine parse_line(const std::string& text, const std::string& command,
+                      const std::string& option) {
   std::vector<double> numbers;
   const auto ends = split(text, ':');
   for (const auto& end : ends) {
@@ -183,7 +184,8 @@ SampleLine parse_line(const std::string& text) {
     if (coordinates.size() != 2) numbers.clear();
   }
   if (ends.size() != 2 || numbers.size() != 4) {
-    throw wrong("--line", "\"" + text + "\"", "x0,y0:x1,y1 in metres");
+    throw InputError(std::vector{
+        InputProblem{command, option, "\"" + text + "\"", "x0,y0:x1,y1 in metres", ""}});
   }
   return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
 }

@@ -15,8 +15,9 @@ struct SampleLine {
   Vector<2> to;
 };
 
-/// Reads `x0,y0:x1,y1` (m). Throws InputError.
-SampleLine parse_line(const std::string& text);
+/// Reads `x0,y0:x1,y1` (m). Throws InputError, naming `command` and `option`.
+SampleLine parse_line(const std::string& text, const std::string& command = "suffuse-post sample",
+                      const std::string& option = "--line");
 
 /// Reads `a,b,c`. Throws InputError on an empty name.
 std::vector<std::string> parse_field_names(const std::string& text);

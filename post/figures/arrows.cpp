@@ -1,0 +1,121 @@
+#include "figures/arrows.hpp"
+
+#include <vtkBrush.h>
+#include <vtkPen.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drawing/ticks.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Between the places of arrows, pixels.
+constexpr double spacing = 42.0;
+constexpr double longest = 38.0;
+/// Shorter arrows show no direction.
+constexpr double shortest = 3.0;
+constexpr double head_length = 9.0;
+
+/// White beneath black, so that an arrow is seen on any colour.
+void paint_arrow(vtkContext2D& painter, const Vector<2>& from, const Vector<2>& way) {
+  const double length = way.norm();
+  const Vector<2> along = way / length;
+  const Vector<2> across(-along[1], along[0]);
+  const double head = std::min(head_length, 0.6 * length);
+  const auto paint = [&](double color, double margin) {
+    const Vector<2> tip = from + way + margin * along;
+    const Vector<2> foot = from + way - (head + margin) * along;
+    painter.GetPen()->SetColorF(color, color, color);
+    painter.GetPen()->SetWidth(static_cast<float>(1.6 + 2.0 * margin));
+    painter.DrawLine(static_cast<float>(from[0]), static_cast<float>(from[1]),
+                     static_cast<float>(foot[0]), static_cast<float>(foot[1]));
+    const Vector<2> left = foot + (0.4 * head + margin) * across;
+    const Vector<2> right = foot - (0.4 * head + margin) * across;
+    std::array<float, 3> x{static_cast<float>(tip[0]), static_cast<float>(left[0]),
+                           static_cast<float>(right[0])};
+    std::array<float, 3> y{static_cast<float>(tip[1]), static_cast<float>(left[1]),
+                           static_cast<float>(right[1])};
+    painter.GetBrush()->SetColorF(color, color, color);
+    painter.GetPen()->SetWidth(0.5F);
+    painter.DrawPolygon(x.data(), y.data(), 3);
+  };
+  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  paint(1.0, 1.2);
+  paint(0.0, 0.0);
+}
+
+double percentile_99(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + at);
+  return values[at];
+}
+
+/// Whether a pixel lies in a triangle of pixels, in either order.
+bool holds(const std::array<Vector<2>, 3>& corners, const Vector<2>& x) {
+  const auto side = [&](int a) {
+    const Vector<2> edge = corners.at((a + 1) % 3) - corners.at(a);
+    const Vector<2> arm = x - corners.at(a);
+    return edge[0] * arm[1] - edge[1] * arm[0];
+  };
+  const auto [least, largest] = std::minmax({side(0), side(1), side(2)});
+  return least >= 0.0 || largest <= 0.0;
+}
+
+}  // namespace
+
+Arrows::Arrows(const Mesh<2>& mesh, const std::vector<double>& vectors, const ModelView& view) {
+  if (vectors.empty()) return;
+  const Vector<2> origin(view.left() + 0.5 * spacing, view.bottom() + 0.5 * spacing);
+  const int columns = std::max(1, static_cast<int>(view.width() / spacing));
+  const int rows = std::max(1, static_cast<int>(view.height() / spacing));
+  std::vector<char> taken(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+  std::vector<double> sizes;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    std::array<Vector<2>, 3> corners;
+    for (int a = 0; a < 3; ++a) corners.at(a) = view.pixel(mesh.nodes[mesh.elements[e][a]]);
+    const Vector<2> low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]) - origin;
+    const Vector<2> high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]) - origin;
+    const auto at = 2 * static_cast<std::size_t>(e);
+    for (int i = std::max(0, static_cast<int>(std::ceil(low[0] / spacing)));
+         i < columns && i * spacing <= high[0]; ++i) {
+      for (int j = std::max(0, static_cast<int>(std::ceil(low[1] / spacing)));
+           j < rows && j * spacing <= high[1]; ++j) {
+        const Vector<2> place = origin + spacing * Vector<2>(i, j);
+        char& is_taken = taken[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) +
+                               static_cast<std::size_t>(j)];
+        if (is_taken != 0 || !holds(corners, place)) continue;
+        is_taken = 1;
+        arrows_.push_back({place, {vectors[at], vectors[at + 1]}});
+        sizes.push_back(arrows_.back().vector.norm());
+      }
+    }
+  }
+  largest_ = percentile_99(std::move(sizes));
+  if (largest_ > 0.0) {
+    const auto ticks = logarithmic_ticks(largest_, largest_);
+    reference_ = ticks.low;
+  }
+}
+
+Vector<2> Arrows::length_of(const Vector<2>& vector) const {
+  const double size = vector.norm();
+  return longest * std::min(size / largest_, 1.0) / std::max(size, 1e-300) * vector;
+}
+
+void Arrows::paint(vtkContext2D& painter) const {
+  if (!(largest_ > 0.0)) return;
+  for (const Arrow& arrow : arrows_) {
+    const Vector<2> way = length_of(arrow.vector);
+    if (way.norm() >= shortest) paint_arrow(painter, arrow.middle - 0.5 * way, way);
+  }
+}
+
+void Arrows::paint_reference(vtkContext2D& painter, float x, float y) const {
+  if (!(largest_ > 0.0)) return;
+  paint_arrow(painter, {x, y}, length_of({reference_, 0.0}));
+}
+
+}  // namespace suffuse

@@ -1,0 +1,212 @@
+#include "figures/flow_net.hpp"
+
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "case/errors.hpp"
+#include "drawing/chart_legend.hpp"
+#include "drawing/line_labels.hpp"
+#include "drawing/model_view.hpp"
+#include "drawing/picture.hpp"
+#include "figures/map_water.hpp"
+#include "results/number_text.hpp"
+#include "values/snapshot_choice.hpp"
+
+namespace suffuse {
+namespace {
+
+using Layout = PictureLayout;
+const std::string command = "suffuse-post figure flownet";
+constexpr Color stream_blue{0.1, 0.35, 0.9};
+constexpr Color boundary_grey{0.45, 0.45, 0.45};
+constexpr float potential_width = 1.2F;
+constexpr float stream_width = 2.2F;
+constexpr float top_room = 100.0F;
+constexpr float row = 30.0F;
+constexpr int max_tubes = 100;
+constexpr int max_drops = 200;
+/// A larger one is said.
+constexpr double noticed_misfit = 0.01;
+
+/// The geometric mean of both directions, m/s: squares in a section that is stretched.
+double mean_conductivity(const Soil& soil) {
+  return soil.conductivity * std::sqrt(soil.anisotropy());
+}
+
+/// The soil with the largest area; null where there is none.
+const Soil* widest_soil(const ResultsReader& run, const Mesh<2>& mesh) {
+  std::vector<double> areas(mesh.region_names.size(), 0.0);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    areas[mesh.element_region[e]] += element_volume(mesh, e);
+  }
+  const Soil* widest = nullptr;
+  double largest = 0.0;
+  for (std::size_t r = 0; r < areas.size(); ++r) {
+    const Soil* soil = run.scene().scene.find_soil(mesh.region_names[r]);
+    if (soil == nullptr || areas[r] <= largest) continue;
+    largest = areas[r];
+    widest = soil;
+  }
+  return widest;
+}
+
+/// Why not all fields of the net are squares; empty where they are.
+std::vector<std::string> imperfections(const ResultsReader& run, const Mesh<2>& mesh,
+                                       const Soil& widest) {
+  std::vector<std::string> lines;
+  bool varies = false;
+  for (const auto& region : mesh.region_names) {
+    const Soil* soil = run.scene().scene.find_soil(region);
+    if (soil == nullptr) continue;
+    varies = varies || mean_conductivity(*soil) != mean_conductivity(widest);
+    if (soil->anisotropy() != 1.0) {
+      lines.push_back("No right angles in " + region + ", which conducts " +
+                      short_text(1.0 / soil->anisotropy()) +
+                      " times as well along its bedding as across");
+    }
+    if (soil->conductivity_model().depends_on_porosity() && soil->exchanges()) {
+      lines.push_back("No squares where fines have moved: there " + region +
+                      " conducts otherwise than at the start");
+    }
+    if (soil->drains()) lines.push_back("No squares where air is in the pores of " + region);
+    if (soil->drag == SoilDrag::ergun) {
+      lines.push_back("No squares in " + region + ", where drag is not linear");
+    }
+  }
+  if (varies)
+    lines.push_back("Squares in " + widest.region + " alone: the soils conduct differently");
+  return lines;
+}
+
+std::vector<std::string> caption_of(const FlowNet& net, double fall) {
+  const double q = net.stream.discharge;
+  std::vector<std::string> lines;
+  lines.push_back("q = " + short_text(q) + " m3/s per m, N_f = " + std::to_string(net.tubes) +
+                  " tubes with " + short_text(q / net.tubes) + " m3/s per m each");
+  lines.push_back("H = " + short_text(fall) + " m, N_d = " + std::to_string(net.drops) +
+                  " drops of " + short_text(fall / net.drops) + " m");
+  if (net.stream.misfit > noticed_misfit) {
+    lines.push_back("The flow is not steady: streamlines miss " +
+                    short_text(100.0 * net.stream.misfit) + " % of the flux");
+  }
+  return lines;
+}
+
+std::vector<double> inner_levels(double low, double step, double high) {
+  std::vector<double> levels;
+  for (int k = 1; low + (k + 1e-6) * step < high; ++k) levels.push_back(low + k * step);
+  return levels;
+}
+
+void paint_net(vtkContext2D& painter, const ModelView& view, const FlowNet& net,
+               const std::vector<Polyline>& phreatic) {
+  const Mesh<2>& mesh = net.map.mesh;
+  const auto [lowest, highest] = std::ranges::minmax(net.map.head);
+  const auto heads = inner_levels(lowest, (highest - lowest) / net.drops, highest);
+  const auto& psi = net.stream.at_nodes;
+  const auto shares = inner_levels(0.0, net.stream.discharge / net.tubes, std::ranges::max(psi));
+  paint_outside_water(painter, view, net.map.water);
+  paint_edges(painter, view, mesh, region_edges(mesh), boundary_grey, 1.0F);
+  std::vector<Polyline> streamlines;
+  for (const double share : shares) {
+    for (auto& line : level_lines({mesh, psi, shares}, share)) streamlines.push_back(line);
+  }
+  paint_polylines(painter, view, streamlines, stream_blue, stream_width);
+  paint_edges(painter, view, mesh, outer_edges(mesh), black, 3.0F);
+  LineLabels labels(view);
+  labels.avoid(phreatic);
+  labels.avoid(streamlines);
+  paint_contours(painter, view, {mesh, net.map.head, heads}, {black, potential_width}, labels);
+  paint_phreatic_lines(painter, view, phreatic);
+  view.paint_axes(painter);
+}
+
+}  // namespace
+
+SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes) {
+  constexpr double fields = 40.0;
+  const auto drops_of = [&](int count) {
+    return static_cast<int>(std::lround(std::clamp(count * drops_per_tube, 1.0, 1.0 * max_drops)));
+  };
+  if (tubes) return {*tubes, drops_of(*tubes)};
+  const double usual = std::sqrt(fields / drops_per_tube);
+  const int least = std::clamp(static_cast<int>(std::lround(0.7 * usual)), 1, max_tubes);
+  const int most = std::clamp(static_cast<int>(std::lround(1.5 * usual)), least, max_tubes);
+  SquareNet best{least, drops_of(least)};
+  double off = HUGE_VAL;
+  for (int count = least; count <= most; ++count) {
+    const double distortion = std::abs(std::log(drops_of(count) / (count * drops_per_tube)));
+    if (distortion >= off - 1e-9) continue;
+    off = distortion;
+    best = {count, drops_of(count)};
+  }
+  return best;
+}
+
+FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
+                 const std::optional<int>& tubes) {
+  if (tubes && (*tubes < 1 || *tubes > max_tubes)) {
+    throw InputError(
+        std::vector{InputProblem{command, "--tubes", std::to_string(*tubes),
+                                 "a number from 1 to " + std::to_string(max_tubes), ""}});
+  }
+  FlowNet net;
+  const std::size_t index = chosen_snapshot(run, time, command);
+  net.map = head_map(run, time, command);
+  net.stream = stream_function(run, index, net.map.mesh, command);
+  const auto [lowest, highest] = std::ranges::minmax(net.map.head);
+  const double fall = highest - lowest;
+  const Soil* soil = widest_soil(run, net.map.mesh);
+  const double k = soil == nullptr ? 0.0 : mean_conductivity(*soil);
+  const double q = net.stream.discharge;
+  // Without a soil that squares could be of, as many drops as tubes.
+  const SquareNet square = square_net(k > 0.0 ? k * fall / q : 1.0, tubes);
+  net.tubes = square.tubes;
+  net.drops = square.drops;
+  net.caption = caption_of(net, fall);
+  if (soil == nullptr) return net;
+  const auto reasons = imperfections(run, net.map.mesh, *soil);
+  if (reasons.empty()) {
+    net.caption.push_back(
+        "Squares: k H N_f / N_d = " + short_text(k * fall * net.tubes / net.drops) + " m3/s per m");
+  }
+  net.caption.insert(net.caption.end(), reasons.begin(), reasons.end());
+  return net;
+}
+
+void draw_flow_net(const FlowNet& net, const std::string& path) {
+  const auto phreatic = phreatic_lines(net.map.mesh, net.map.pressure);
+  std::vector<Curve> rows{legend_line("streamline", stream_blue, stream_width),
+                          legend_line("equipotential, head in m", black, potential_width)};
+  add_water_legend(rows, !phreatic.empty(), !net.map.water.empty());
+  const float caption_height = row * static_cast<float>(net.caption.size());
+  const float legend_height = row * static_cast<float>(rows.size());
+  const ModelView view = view_with_water(net.map.mesh, net.map.water,
+                                         axes_bottom + caption_height + legend_height + 10.0F);
+  float width = view.left() + std::max(view.width(), ChartLegend::width(rows)) + Layout::gap;
+  width = std::max(width, Layout::title_width(net.map.title));
+  for (const auto& line : net.caption) {
+    width = std::max(width, view.left() + 10.0F * static_cast<float>(line.size()) + Layout::gap);
+  }
+  const auto height = static_cast<int>(view.bottom() + view.height() + top_room);
+  const auto columns = static_cast<int>(width);
+  draw_picture(columns, height, net.map.title, path, [&](vtkContextScene& scene) {
+    add_painted(scene, [&](vtkContext2D& painter) {
+      paint_net(painter, view, net, phreatic);
+      paint_title(painter, net.map.title, columns, height);
+      float y = caption_height - 0.5F * row + 6.0F;
+      for (const auto& line : net.caption) {
+        paint_text(painter, line, 18, view.left(), y, Anchor::left);
+        y -= row;
+      }
+    });
+    vtkNew<ChartLegend> legend;
+    legend->place(view.left(), caption_height + legend_height + 10.0F, legend_height, rows);
+    scene.AddItem(legend);
+  });
+}
+
+}  // namespace suffuse
