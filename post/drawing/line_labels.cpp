@@ -4,24 +4,16 @@
 #include <vtkPen.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "drawing/picture.hpp"
+#include "drawing/ticks.hpp"
 
 namespace suffuse {
 namespace {
 
 constexpr int label_size = 16;
 constexpr double letter_width = 9.0;
-
-/// Five digits: drops of head need not be round.
-std::string level_text(double level) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.5g", level);
-  return text.data();
-}
 
 }  // namespace
 
@@ -102,7 +94,7 @@ void paint_contours(vtkContext2D& painter, const ModelView& view, const ContourF
     paint_polylines(painter, view, lines.back(), style.color, style.width);
   }
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    labels.paint(painter, lines[k], level_text(field.levels[k]));
+    labels.paint(painter, lines[k], digits_text(field.levels[k], 4));
   }
 }
 

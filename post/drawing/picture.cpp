@@ -101,11 +101,6 @@ std::string picture_format(const std::string& path, const std::string& command) 
   throw wrong_format(path, command, "a name that ends in .png, .svg or .pdf");
 }
 
-void require_png(const std::string& path, const std::string& command) {
-  if (std::filesystem::path(path).extension() == ".png") return;
-  throw wrong_format(path, command, "a name that ends in .png");
-}
-
 void paint_text(vtkContext2D& painter, const std::string& text, int size, float x, float y,
                 Anchor anchor, double angle) {
   vtkNew<vtkTextProperty> style;

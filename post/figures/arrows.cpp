@@ -1,11 +1,11 @@
 #include "figures/arrows.hpp"
 
-#include <vtkBrush.h>
 #include <vtkPen.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "drawing/colored_triangles.hpp"
 #include "drawing/ticks.hpp"
 
 namespace suffuse {
@@ -18,32 +18,42 @@ constexpr double longest = 38.0;
 constexpr double shortest = 3.0;
 constexpr double head_length = 9.0;
 
-/// White beneath black, so that an arrow is seen on any colour.
-void paint_arrow(vtkContext2D& painter, const Vector<2>& from, const Vector<2>& way) {
-  const double length = way.norm();
-  const Vector<2> along = way / length;
-  const Vector<2> across(-along[1], along[0]);
-  const double head = std::min(head_length, 0.6 * length);
-  const auto paint = [&](double color, double margin) {
-    const Vector<2> tip = from + way + margin * along;
-    const Vector<2> foot = from + way - (head + margin) * along;
-    painter.GetPen()->SetColorF(color, color, color);
-    painter.GetPen()->SetWidth(static_cast<float>(1.6 + 2.0 * margin));
-    painter.DrawLine(static_cast<float>(from[0]), static_cast<float>(from[1]),
-                     static_cast<float>(foot[0]), static_cast<float>(foot[1]));
-    const Vector<2> left = foot + (0.4 * head + margin) * across;
-    const Vector<2> right = foot - (0.4 * head + margin) * across;
-    std::array<float, 3> x{static_cast<float>(tip[0]), static_cast<float>(left[0]),
-                           static_cast<float>(right[0])};
-    std::array<float, 3> y{static_cast<float>(tip[1]), static_cast<float>(left[1]),
-                           static_cast<float>(right[1])};
-    painter.GetBrush()->SetColorF(color, color, color);
-    painter.GetPen()->SetWidth(0.5F);
-    painter.DrawPolygon(x.data(), y.data(), 3);
-  };
+/// An arrow, pixels.
+struct Shape {
+  Vector<2> from;
+  Vector<2> way;
+};
+
+/// Paints arrows in one grey, wider by a margin: few calls of VTK, each of which takes long in SVG.
+void paint_layer(vtkContext2D& painter, const std::vector<Shape>& shapes, double grey,
+                 double margin) {
+  std::vector<float> shafts;
+  ColoredTriangles heads;
+  for (const auto& [from, way] : shapes) {
+    const double length = way.norm();
+    const Vector<2> along = way / length;
+    const Vector<2> across(-along[1], along[0]);
+    const double head = std::min(head_length, 0.6 * length);
+    const Vector<2> tip = from + way + 1.5 * margin * along;
+    const Vector<2> foot = from + way - (head + 0.5 * margin) * along;
+    for (const Vector<2>& x : {from, foot}) {
+      shafts.insert(shafts.end(), {static_cast<float>(x[0]), static_cast<float>(x[1])});
+    }
+    const Vector<2> side = (0.4 * head + margin) * across;
+    heads.add_polygon({tip, foot + side, foot - side}, {grey, grey, grey});
+  }
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
-  paint(1.0, 1.2);
-  paint(0.0, 0.0);
+  painter.GetPen()->SetColorF(grey, grey, grey);
+  painter.GetPen()->SetWidth(static_cast<float>(1.6 + 2.0 * margin));
+  painter.DrawLines(shafts.data(), static_cast<int>(shafts.size() / 2));
+  heads.paint(painter);
+}
+
+/// White beneath black, so that an arrow is seen on any colour.
+void paint_arrows(vtkContext2D& painter, const std::vector<Shape>& shapes) {
+  if (shapes.empty()) return;
+  paint_layer(painter, shapes, 1.0, 1.2);
+  paint_layer(painter, shapes, 0.0, 0.0);
 }
 
 double percentile_99(std::vector<double> values) {
@@ -94,28 +104,26 @@ Arrows::Arrows(const Mesh<2>& mesh, const std::vector<double>& vectors, const Mo
     }
   }
   largest_ = percentile_99(std::move(sizes));
-  if (largest_ > 0.0) {
-    const auto ticks = logarithmic_ticks(largest_, largest_);
-    reference_ = ticks.low;
-  }
+  if (largest_ > 0.0) reference_ = logarithmic_ticks(largest_, largest_).low;
 }
 
 Vector<2> Arrows::length_of(const Vector<2>& vector) const {
   const double size = vector.norm();
-  return longest * std::min(size / largest_, 1.0) / std::max(size, 1e-300) * vector;
+  if (!(size > 0.0)) return Vector<2>::Zero();
+  return longest * std::min(1.0 / largest_, 1.0 / size) * vector;
 }
 
 void Arrows::paint(vtkContext2D& painter) const {
-  if (!(largest_ > 0.0)) return;
+  std::vector<Shape> shapes;
   for (const Arrow& arrow : arrows_) {
     const Vector<2> way = length_of(arrow.vector);
-    if (way.norm() >= shortest) paint_arrow(painter, arrow.middle - 0.5 * way, way);
+    if (way.norm() >= shortest) shapes.push_back({arrow.middle - 0.5 * way, way});
   }
+  paint_arrows(painter, shapes);
 }
 
 void Arrows::paint_reference(vtkContext2D& painter, float x, float y) const {
-  if (!(largest_ > 0.0)) return;
-  paint_arrow(painter, {x, y}, length_of({reference_, 0.0}));
+  if (largest_ > 0.0) paint_arrows(painter, {{{x, y}, length_of({reference_, 0.0})}});
 }
 
 }  // namespace suffuse

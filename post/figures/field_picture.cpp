@@ -11,9 +11,9 @@
 #include "drawing/colored_triangles.hpp"
 #include "drawing/line_labels.hpp"
 #include "drawing/picture.hpp"
+#include "drawing/ticks.hpp"
 #include "figures/arrows.hpp"
 #include "figures/map_water.hpp"
-#include "results/number_text.hpp"
 
 namespace suffuse {
 namespace {
@@ -31,7 +31,7 @@ constexpr float stream_width = 2.0F;
 constexpr double noticed_misfit = 0.01;
 /// Small triangles of one picture; fewer in a picture of lines and areas, whose file has each.
 constexpr int max_triangles = 400'000;
-constexpr int max_drawn_triangles = 20'000;
+constexpr int max_drawn_triangles = 10'000;
 constexpr int max_division = 16;
 
 /// Adds an element as n^2 triangles. VTK interpolates colours, not values, between the corners of a
@@ -95,6 +95,21 @@ void paint_element_edges(vtkContext2D& painter, const ModelView& view, const Pic
   }
 }
 
+/// Pixels; half of what would touch in the smaller elements in view, so that the mesh and the
+/// ground are seen between points.
+float disc_size(const ModelView& view, const PictureModel& model, std::size_t points) {
+  std::vector<double> areas;
+  for (int e = 0; e < model.mesh.element_count(); ++e) {
+    if (model.visible[e] != 0) areas.push_back(element_volume(model.mesh, e));
+  }
+  const auto tenth = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 10);
+  std::nth_element(areas.begin(), tenth, areas.end());
+  const double per_element =
+      std::max(1.0, static_cast<double>(points) / model.mesh.element_count());
+  return static_cast<float>(
+      std::clamp(0.5 * view.scale() * std::sqrt(*tenth / per_element), 2.0, 9.0));
+}
+
 void paint_points(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
                   const FieldPicture& picture) {
   std::vector<Vector<2>> positions;
@@ -105,9 +120,7 @@ void paint_points(vtkContext2D& painter, const ModelView& view, const PictureMod
     positions.push_back(x);
     colors.push_back(picture.scale.color(picture.values[p]));
   }
-  // Half of what would touch: mesh and ground are seen between them.
-  const float diameter = 0.75F * disc_diameter(view, model.mesh, picture.positions.size());
-  paint_discs(painter, view, positions, colors, std::max(1.5F, diameter));
+  paint_discs(painter, view, positions, colors, disc_size(view, model, picture.positions.size()));
 }
 
 /// Streamlines at whole multiples of the discharge of a tube, beginning with one half.
@@ -146,19 +159,20 @@ void paint_margins(vtkContext2D& painter, const ModelView& view, int width, int 
   for (const auto& s : sides) painter.DrawLine(s[0], s[1], s[2], s[3]);
 }
 
-std::vector<Curve> legend_rows(const FieldPicture& picture) {
+std::vector<Curve> legend_rows(const FieldPicture& picture, bool has_water) {
   std::vector<Curve> rows;
   if (picture.contours) {
     rows.push_back(legend_line("line of equal " + picture.label, black, contour_width));
   }
   if (!picture.streamfunction.empty()) {
-    std::string text = "streamline; " + short_text(picture.tube) + " m3/s per m between two";
+    std::string text = "streamline; " + digits_text(picture.tube, 4) + " m3/s per m between two";
     if (picture.misfit > noticed_misfit) {
-      text += "; unsteady flow: " + short_text(100.0 * picture.misfit) + " % of the flux missed";
+      text +=
+          "; unsteady flow: " + digits_text(100.0 * picture.misfit, 4) + " % of the flux missed";
     }
     rows.push_back(legend_line(text, {0.35, 0.35, 0.35}, stream_width));
   }
-  add_water_legend(rows, false, !picture.water.empty());
+  add_water_legend(rows, false, has_water);
   return rows;
 }
 
@@ -247,7 +261,8 @@ std::vector<double> nodal_values(const Mesh<2>& mesh, const FieldPicture& pictur
 
 void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
                         const std::string& path) {
-  const std::vector<Curve> rows = legend_rows(picture);
+  const bool has_water = !picture.water.empty() && !model.box;
+  const std::vector<Curve> rows = legend_rows(picture, has_water);
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const bool has_arrows = !picture.arrows.empty();
   const float bottom = axes_bottom + legend_height + (has_arrows ? legend_row : 0.0F);
@@ -264,8 +279,8 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
   const float legend = view.left() + ChartLegend::width(rows) + Layout::gap;
   sheet.width = static_cast<int>(
       std::max({right + side, Layout::title_width(picture.title), rows.empty() ? 0.0F : legend}));
-  sheet.height = static_cast<int>(view.bottom() + bar_height + top_room +
-                                  (picture.water.empty() || model.box ? 0.0F : level_room));
+  sheet.height =
+      static_cast<int>(view.bottom() + bar_height + top_room + (has_water ? level_room : 0.0F));
   draw_picture(sheet.width, sheet.height, picture.title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
       paint_map(painter, sheet, arrows);
@@ -273,7 +288,7 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
       if (has_arrows) {
         const float y = legend_height + 0.5F * legend_row + 6.0F;
         arrows.paint_reference(painter, view.left(), y);
-        paint_text(painter, "flux q, " + short_text(arrows.reference()) + " m/s", 18,
+        paint_text(painter, "flux q, " + digits_text(arrows.reference(), 4) + " m/s", 18,
                    view.left() + 76.0F, y, Anchor::left);
       }
       if (by_kind) {

@@ -11,7 +11,6 @@
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"
-#include "results/number_text.hpp"
 
 namespace suffuse {
 namespace {
@@ -55,15 +54,15 @@ void leave_out_extremes(FieldScale& scale, const std::vector<WeightedValue>& val
   if (!scale.exceeds_low && !scale.exceeds_high) return;
   const bool both = scale.exceeds_low && scale.exceeds_high;
   scale.notes.push_back((both ? "98 % of the " : "99 % of the ") + shares);
-  if (scale.exceeds_low) scale.notes.push_back("least " + short_text(least));
-  if (scale.exceeds_high) scale.notes.push_back("largest " + short_text(largest));
+  if (scale.exceeds_low) scale.notes.push_back("least " + digits_text(least, 4));
+  if (scale.exceeds_high) scale.notes.push_back("largest " + digits_text(largest, 4));
 }
 
 /// The label of an end of the range: four digits; zero where the value is rounding.
 std::string end_text(double value, const FieldScale& scale) {
   const double range = scale.range[1] - scale.range[0];
   if (!scale.logarithmic && std::abs(value) < agreement * range) value = 0.0;
-  return short_text(value);
+  return digits_text(value, 4);
 }
 
 }  // namespace
@@ -156,8 +155,8 @@ void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string
              Anchor::center, 90.0);
   float y = bottom - 30.0F;
   for (const auto& note : scale.notes) {
-    paint_text(painter, note, 16, left, y, Anchor::left);
-    y -= 22.0F;
+    paint_text(painter, note, 18, left, y, Anchor::left);
+    y -= 24.0F;
   }
 }
 

@@ -41,7 +41,7 @@ struct WeightedValue {
 };
 
 struct ScaleRequest {
-  std::optional<std::array<double, 2>> range;  ///< unset: that of the values
+  std::optional<std::array<double, 2>> range{};  ///< unset: that of the values
   bool logarithmic = false;
   double round_off = 0.0;       ///< values of this size are zero, in the unit of the field
   std::string shares = "area";  ///< what weights are shares of

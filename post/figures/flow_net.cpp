@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "case/errors.hpp"
 #include "drawing/chart_legend.hpp"
 #include "drawing/line_labels.hpp"
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
+#include "drawing/ticks.hpp"
 #include "figures/map_water.hpp"
-#include "results/number_text.hpp"
+#include "physics/head.hpp"
 #include "values/snapshot_choice.hpp"
 
 namespace suffuse {
@@ -28,8 +28,9 @@ constexpr float top_room = 100.0F;
 constexpr float row = 30.0F;
 constexpr int max_tubes = 100;
 constexpr int max_drops = 200;
-/// A larger one is said.
+/// Larger ones are said.
 constexpr double noticed_misfit = 0.01;
+constexpr double noticed_weight = 0.001;
 
 /// The geometric mean of both directions, m/s: squares in a section that is stretched.
 double mean_conductivity(const Soil& soil) {
@@ -53,9 +54,21 @@ const Soil* widest_soil(const ResultsReader& run, const Mesh<2>& mesh) {
   return widest;
 }
 
+/// How much heavier the liquid is than water where it has most fines, relative; 0 without gravity.
+double weight_of_fines(const ResultsReader& run, std::size_t index) {
+  const Scene& scene = run.scene().scene;
+  if (!has_gravity(scene.gravity)) return 0.0;
+  double heaviest = 1.0;
+  for (const Soil& soil : scene.soils) {
+    heaviest = std::max(heaviest, soil.grain_density / scene.liquid.density);
+  }
+  const auto concentration = run.field(index, "cell", "concentration").values;
+  return std::ranges::max(concentration) * (heaviest - 1.0);
+}
+
 /// Why not all fields of the net are squares; empty where they are.
-std::vector<std::string> imperfections(const ResultsReader& run, const Mesh<2>& mesh,
-                                       const Soil& widest) {
+std::vector<std::string> imperfections(const ResultsReader& run, std::size_t index,
+                                       const Mesh<2>& mesh, const Soil& widest) {
   std::vector<std::string> lines;
   bool varies = false;
   for (const auto& region : mesh.region_names) {
@@ -64,7 +77,7 @@ std::vector<std::string> imperfections(const ResultsReader& run, const Mesh<2>& 
     varies = varies || mean_conductivity(*soil) != mean_conductivity(widest);
     if (soil->anisotropy() != 1.0) {
       lines.push_back("No right angles in " + region + ", which conducts " +
-                      short_text(1.0 / soil->anisotropy()) +
+                      digits_text(1.0 / soil->anisotropy(), 4) +
                       " times as well along its bedding as across");
     }
     if (soil->conductivity_model().depends_on_porosity() && soil->exchanges()) {
@@ -76,21 +89,27 @@ std::vector<std::string> imperfections(const ResultsReader& run, const Mesh<2>& 
       lines.push_back("No squares in " + region + ", where drag is not linear");
     }
   }
-  if (varies)
+  const double heavier = weight_of_fines(run, index);
+  if (heavier > noticed_weight) {
+    lines.push_back("No right angles where fines make the liquid heavier, by " +
+                    digits_text(100.0 * heavier, 2) + " % at most");
+  }
+  if (varies) {
     lines.push_back("Squares in " + widest.region + " alone: the soils conduct differently");
+  }
   return lines;
 }
 
 std::vector<std::string> caption_of(const FlowNet& net, double fall) {
   const double q = net.stream.discharge;
   std::vector<std::string> lines;
-  lines.push_back("q = " + short_text(q) + " m3/s per m, N_f = " + std::to_string(net.tubes) +
-                  " tubes with " + short_text(q / net.tubes) + " m3/s per m each");
-  lines.push_back("H = " + short_text(fall) + " m, N_d = " + std::to_string(net.drops) +
-                  " drops of " + short_text(fall / net.drops) + " m");
+  lines.push_back("q = " + digits_text(q, 4) + " m3/s per m, N_f = " + std::to_string(net.tubes) +
+                  " tubes with " + digits_text(q / net.tubes, 4) + " m3/s per m each");
+  lines.push_back("H = " + digits_text(fall, 4) + " m, N_d = " + std::to_string(net.drops) +
+                  " drops of " + digits_text(fall / net.drops, 4) + " m");
   if (net.stream.misfit > noticed_misfit) {
     lines.push_back("The flow is not steady: streamlines miss " +
-                    short_text(100.0 * net.stream.misfit) + " % of the flux");
+                    digits_text(100.0 * net.stream.misfit, 4) + " % of the flux");
   }
   return lines;
 }
@@ -136,11 +155,13 @@ SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes) {
   const int least = std::clamp(static_cast<int>(std::lround(0.7 * usual)), 1, max_tubes);
   const int most = std::clamp(static_cast<int>(std::lround(1.5 * usual)), least, max_tubes);
   SquareNet best{least, drops_of(least)};
-  double off = HUGE_VAL;
+  double worst = HUGE_VAL;
   for (int count = least; count <= most; ++count) {
-    const double distortion = std::abs(std::log(drops_of(count) / (count * drops_per_tube)));
-    if (distortion >= off - 1e-9) continue;
-    off = distortion;
+    // Of two counts with fields as square, the usual one.
+    const double off = std::abs(std::log(drops_of(count) / (count * drops_per_tube))) +
+                       0.01 * std::abs(std::log(count / usual));
+    if (off >= worst) continue;
+    worst = off;
     best = {count, drops_of(count)};
   }
   return best;
@@ -168,10 +189,10 @@ FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
   net.drops = square.drops;
   net.caption = caption_of(net, fall);
   if (soil == nullptr) return net;
-  const auto reasons = imperfections(run, net.map.mesh, *soil);
+  const auto reasons = imperfections(run, index, net.map.mesh, *soil);
   if (reasons.empty()) {
-    net.caption.push_back(
-        "Squares: k H N_f / N_d = " + short_text(k * fall * net.tubes / net.drops) + " m3/s per m");
+    net.caption.push_back("Squares: k H N_f / N_d = " +
+                          digits_text(k * fall * net.tubes / net.drops, 4) + " m3/s per m");
   }
   net.caption.insert(net.caption.end(), reasons.begin(), reasons.end());
   return net;

@@ -185,6 +185,7 @@ FieldPicture Frames::picture(std::size_t index) {
 }
 
 void Frames::add_flow(FieldPicture& picture, std::size_t index) const {
+  if (!request_.vectors && !request_.streamlines) return;
   if (!flows(results_, index)) return;
   if (request_.vectors) picture.arrows = results_.field(index, "cell", "darcy_flux").values;
   if (!request_.streamlines) return;

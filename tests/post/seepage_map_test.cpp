@@ -300,12 +300,12 @@ TEST(SeepageMap, RefusesWhatItCannotDraw) {
   EXPECT_NE(refusal([&] {
               draw_figure("porosity", {run}, scratch / "a.png", {1.0, ""});
             })
-                .find("--time: got 1; expected no time: it is for the figures \"head\" and "
-                      "\"saturation\""),
+                .find("--time: got 1; expected no time: it is for the figures \"flownet\", "
+                      "\"head\" and \"saturation\""),
             std::string::npos);
   EXPECT_NE(refusal([&] {
               draw_figure("head", {run}, scratch / "a.png", {HUGE_VAL, ""});
-            }).find("expected a time in seconds"),
+            }).find("expected a time from 0 to 10 s, the first and last"),
             std::string::npos);
 }
 
