@@ -33,9 +33,11 @@ std::vector<double> ticks_within(double low, double high, double scale, double m
   for (const std::size_t factor : {2, 5, 10}) {
     if (static_cast<double>(every) * spacing < min_distance) every = factor;
   }
-  std::vector<double> chosen;
-  for (std::size_t i = 0; i < inside.size(); i += every) chosen.push_back(inside[i]);
-  return chosen;
+  if (every == 1) return inside;
+  // Multiples of the wider step: zero is one of them where it is inside.
+  const double step = static_cast<double>(every) * (inside[1] - inside[0]);
+  std::erase_if(inside, [&](double tick) { return std::abs(std::remainder(tick, step)) > slack; });
+  return inside;
 }
 
 unsigned char byte_of(double value) {

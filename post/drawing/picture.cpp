@@ -36,6 +36,7 @@ void write_png(vtkRenderWindow& window, const std::string& path) {
   image->ReadFrontBufferOff();
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName(path.c_str());
+  writer->SetCompressionLevel(9);
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
 }

@@ -11,11 +11,13 @@
 namespace suffuse {
 namespace {
 
-/// Between the places of arrows, pixels.
-constexpr double spacing = 42.0;
-constexpr double longest = 38.0;
+/// Between the places of arrows, pixels; less in a low or narrow model.
+constexpr double max_spacing = 42.0;
+constexpr double min_spacing = 24.0;
+/// The longest arrow, as a share of the spacing.
+constexpr double longest = 0.9;
 /// Shorter arrows show no direction.
-constexpr double shortest = 3.0;
+constexpr double shortest = 5.0;
 constexpr double head_length = 9.0;
 
 /// An arrow, pixels.
@@ -78,6 +80,9 @@ bool holds(const std::array<Vector<2>, 3>& corners, const Vector<2>& x) {
 
 Arrows::Arrows(const Mesh<2>& mesh, const std::vector<double>& vectors, const ModelView& view) {
   if (vectors.empty()) return;
+  const double spacing =
+      std::clamp(0.15 * std::min(view.width(), view.height()), min_spacing, max_spacing);
+  longest_ = longest * spacing;
   const Vector<2> origin(view.left() + 0.5 * spacing, view.bottom() + 0.5 * spacing);
   const int columns = std::max(1, static_cast<int>(view.width() / spacing));
   const int rows = std::max(1, static_cast<int>(view.height() / spacing));
@@ -110,7 +115,7 @@ Arrows::Arrows(const Mesh<2>& mesh, const std::vector<double>& vectors, const Mo
 Vector<2> Arrows::length_of(const Vector<2>& vector) const {
   const double size = vector.norm();
   if (!(size > 0.0)) return Vector<2>::Zero();
-  return longest * std::min(1.0 / largest_, 1.0 / size) * vector;
+  return longest_ * std::min(1.0 / largest_, 1.0 / size) * vector;
 }
 
 void Arrows::paint(vtkContext2D& painter) const {

@@ -32,6 +32,7 @@ class Arrows {
   [[nodiscard]] Vector<2> length_of(const Vector<2>& vector) const;
 
   std::vector<Arrow> arrows_;
+  double longest_ = 0.0;  ///< arrow, pixels
   double largest_ = 0.0;  ///< of a vector that is not cut
   double reference_ = 0.0;
 };

@@ -20,6 +20,7 @@ namespace {
 
 using Layout = PictureLayout;
 constexpr Color mesh_color{0.55, 0.55, 0.55};
+constexpr Color stream_color{0.75, 0.0, 0.1};
 constexpr Color region_color{0.25, 0.25, 0.25};
 constexpr float top_room = 70.0F;
 /// For the head beside a level that touches the top of the view.
@@ -27,7 +28,7 @@ constexpr float level_room = 30.0F;
 constexpr float bar_room = 215.0F;
 constexpr float legend_row = 30.0F;
 constexpr float contour_width = 1.2F;
-constexpr float stream_width = 2.0F;
+constexpr float stream_width = 1.8F;
 constexpr double noticed_misfit = 0.01;
 /// Small triangles of one picture; fewer in a picture of lines and areas, whose file has each.
 constexpr int max_triangles = 400'000;
@@ -95,19 +96,19 @@ void paint_element_edges(vtkContext2D& painter, const ModelView& view, const Pic
   }
 }
 
-/// Pixels; half of what would touch in the smaller elements in view, so that the mesh and the
+/// Pixels; less than would touch in the smaller elements in view, so that the mesh and the
 /// ground are seen between points.
 float disc_size(const ModelView& view, const PictureModel& model, std::size_t points) {
   std::vector<double> areas;
   for (int e = 0; e < model.mesh.element_count(); ++e) {
     if (model.visible[e] != 0) areas.push_back(element_volume(model.mesh, e));
   }
-  const auto tenth = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 10);
-  std::nth_element(areas.begin(), tenth, areas.end());
+  const auto quarter = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 4);
+  std::nth_element(areas.begin(), quarter, areas.end());
   const double per_element =
       std::max(1.0, static_cast<double>(points) / model.mesh.element_count());
   return static_cast<float>(
-      std::clamp(0.5 * view.scale() * std::sqrt(*tenth / per_element), 2.0, 9.0));
+      std::clamp(0.6 * view.scale() * std::sqrt(*quarter / per_element), 2.0, 9.0));
 }
 
 void paint_points(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
@@ -170,7 +171,7 @@ std::vector<Curve> legend_rows(const FieldPicture& picture, bool has_water) {
       text +=
           "; unsteady flow: " + digits_text(100.0 * picture.misfit, 4) + " % of the flux missed";
     }
-    rows.push_back(legend_line(text, {0.35, 0.35, 0.35}, stream_width));
+    rows.push_back(legend_line(text, stream_color, stream_width));
   }
   add_water_legend(rows, false, has_water);
   return rows;
@@ -195,7 +196,7 @@ void paint_map(vtkContext2D& painter, const Sheet& sheet, const Arrows& arrows) 
   paint_edges(painter, view, model.mesh, model.region_edges, region_color, 1.5F);
   LineLabels labels(view);
   const auto streamlines = streamlines_of(model, picture);
-  paint_edged_polylines(painter, view, streamlines, white, {0.2, 0.2, 0.2}, stream_width);
+  paint_edged_polylines(painter, view, streamlines, stream_color, white, stream_width);
   if (picture.contours) {
     const auto at_nodes = nodal_values(model.mesh, picture);
     paint_contours(painter, view, {model.mesh, at_nodes, picture.scale.levels()},

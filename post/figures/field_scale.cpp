@@ -138,7 +138,9 @@ void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
   painter.GetPen()->SetWidth(1.5F);
+  std::size_t letters = 0;
   const auto mark = [&](double value, const std::string& text) {
+    letters = std::max(letters, text.size());
     const float y = bottom + height * static_cast<float>(scale.fraction(value));
     painter.DrawLine(left + Layout::bar_width, y, left + Layout::bar_width + 8.0F, y);
     paint_text(painter, text, 18, left + Layout::bar_width + 14.0F, y, Anchor::left);
@@ -151,8 +153,9 @@ void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string
     const double at = scale.fraction(level);
     if (at > room && at < 1.0 - room) mark(level, scale.level_text(level));
   }
-  paint_text(painter, label, 20, left + Layout::bar_width + 150.0F, bottom + height / 2.0F,
-             Anchor::center, 90.0);
+  paint_text(painter, label, 20,
+             left + Layout::bar_width + 50.0F + 10.5F * static_cast<float>(letters),
+             bottom + height / 2.0F, Anchor::center, 90.0);
   float y = bottom - 30.0F;
   for (const auto& note : scale.notes) {
     paint_text(painter, note, 18, left, y, Anchor::left);

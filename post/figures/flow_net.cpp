@@ -37,21 +37,25 @@ double mean_conductivity(const Soil& soil) {
   return soil.conductivity * std::sqrt(soil.anisotropy());
 }
 
-/// The soil with the largest area; null where there is none.
-const Soil* widest_soil(const ResultsReader& run, const Mesh<2>& mesh) {
-  std::vector<double> areas(mesh.region_names.size(), 0.0);
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    areas[mesh.element_region[e]] += element_volume(mesh, e);
+std::vector<const Soil*> soils_of(const ResultsReader& run, const Mesh<2>& mesh) {
+  std::vector<const Soil*> soils;
+  for (const auto& region : mesh.region_names) {
+    const Soil* soil = run.scene().scene.find_soil(region);
+    if (soil != nullptr) soils.push_back(soil);
   }
-  const Soil* widest = nullptr;
-  double largest = 0.0;
-  for (std::size_t r = 0; r < areas.size(); ++r) {
-    const Soil* soil = run.scene().scene.find_soil(mesh.region_names[r]);
-    if (soil == nullptr || areas[r] <= largest) continue;
-    largest = areas[r];
-    widest = soil;
-  }
-  return widest;
+  return soils;
+}
+
+bool conduct_alike(const std::vector<const Soil*>& soils) {
+  return std::ranges::all_of(soils, [&](const Soil* soil) {
+    return mean_conductivity(*soil) == mean_conductivity(*soils.front());
+  });
+}
+
+bool has_air(const ResultsReader& run, std::size_t index) {
+  const auto names = run.field_names(index, "cell");
+  if (std::ranges::find(names, "saturation") == names.end()) return false;
+  return std::ranges::min(run.field(index, "cell", "saturation").values) < 0.999;
 }
 
 /// How much heavier the liquid is than water where it has most fines, relative; 0 without gravity.
@@ -68,34 +72,27 @@ double weight_of_fines(const ResultsReader& run, std::size_t index) {
 
 /// Why not all fields of the net are squares; empty where they are.
 std::vector<std::string> imperfections(const ResultsReader& run, std::size_t index,
-                                       const Mesh<2>& mesh, const Soil& widest) {
+                                       const std::vector<const Soil*>& soils) {
   std::vector<std::string> lines;
-  bool varies = false;
-  for (const auto& region : mesh.region_names) {
-    const Soil* soil = run.scene().scene.find_soil(region);
-    if (soil == nullptr) continue;
-    varies = varies || mean_conductivity(*soil) != mean_conductivity(widest);
+  if (!conduct_alike(soils)) lines.emplace_back("No squares: the soils conduct differently");
+  if (has_air(run, index)) lines.emplace_back("No squares where air is in the pores");
+  for (const Soil* soil : soils) {
     if (soil->anisotropy() != 1.0) {
-      lines.push_back("No right angles in " + region + ", which conducts " +
+      lines.push_back("No right angles in " + soil->region + ", which conducts " +
                       digits_text(1.0 / soil->anisotropy(), 4) +
                       " times as well along its bedding as across");
     }
     if (soil->conductivity_model().depends_on_porosity() && soil->exchanges()) {
-      lines.push_back("No squares where fines have moved: there " + region +
-                      " conducts otherwise than at the start");
+      lines.push_back("No squares in " + soil->region + " where fines have moved");
     }
-    if (soil->drains()) lines.push_back("No squares where air is in the pores of " + region);
     if (soil->drag == SoilDrag::ergun) {
-      lines.push_back("No squares in " + region + ", where drag is not linear");
+      lines.push_back("No squares in " + soil->region + ", where drag is not linear");
     }
   }
   const double heavier = weight_of_fines(run, index);
   if (heavier > noticed_weight) {
     lines.push_back("No right angles where fines make the liquid heavier, by " +
                     digits_text(100.0 * heavier, 2) + " % at most");
-  }
-  if (varies) {
-    lines.push_back("Squares in " + widest.region + " alone: the soils conduct differently");
   }
   return lines;
 }
@@ -180,19 +177,18 @@ FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
   net.stream = stream_function(run, index, net.map.mesh, command);
   const auto [lowest, highest] = std::ranges::minmax(net.map.head);
   const double fall = highest - lowest;
-  const Soil* soil = widest_soil(run, net.map.mesh);
-  const double k = soil == nullptr ? 0.0 : mean_conductivity(*soil);
-  const double q = net.stream.discharge;
-  // Without a soil that squares could be of, as many drops as tubes.
-  const SquareNet square = square_net(k > 0.0 ? k * fall / q : 1.0, tubes);
-  net.tubes = square.tubes;
-  net.drops = square.drops;
+  const auto soils = soils_of(run, net.map.mesh);
+  const bool alike = !soils.empty() && conduct_alike(soils);
+  const double kh = alike ? mean_conductivity(*soils.front()) * fall : 0.0;
+  const SquareNet fields =
+      alike ? square_net(kh / net.stream.discharge, tubes) : SquareNet{tubes.value_or(6), 12};
+  net.tubes = fields.tubes;
+  net.drops = fields.drops;
   net.caption = caption_of(net, fall);
-  if (soil == nullptr) return net;
-  const auto reasons = imperfections(run, index, net.map.mesh, *soil);
-  if (reasons.empty()) {
-    net.caption.push_back("Squares: k H N_f / N_d = " +
-                          digits_text(k * fall * net.tubes / net.drops, 4) + " m3/s per m");
+  const auto reasons = imperfections(run, index, soils);
+  if (alike && reasons.empty()) {
+    net.caption.push_back("Squares: k H N_f / N_d = " + digits_text(kh * net.tubes / net.drops, 4) +
+                          " m3/s per m");
   }
   net.caption.insert(net.caption.end(), reasons.begin(), reasons.end());
   return net;
