@@ -103,6 +103,13 @@ double round_off_of(const ResultsReader& results, const std::string& unit) {
   return unit == "m/s" ? flux_round_off * largest : round_off;
 }
 
+FieldPlace wanted_place(const ResultsReader& results, std::size_t index,
+                        const RenderRequest& request) {
+  FieldPlace place = find_field(results, index, request.field, request.on, command);
+  place.change = request.change;
+  return place;
+}
+
 /// What every picture has but the values of its snapshot.
 class Frames {
  public:
@@ -111,7 +118,7 @@ class Frames {
         request_(request),
         model_(picture_model(results.mesh(), request.view)),
         snapshots_(wanted_snapshots(results, request)),
-        place_(find_field(results, snapshots_.front(), request.field, request.on, command)),
+        place_(wanted_place(results, snapshots_.front(), request)),
         series_(results, place_) {}
 
   std::vector<std::string> draw();
@@ -144,9 +151,12 @@ void Frames::refuse_what_cannot_be_drawn() const {
                " elements: --view shows a part");
   }
   const bool has_kinds = !categories(results_, place_).empty();
-  if (has_kinds && (request_.contours || request_.logarithmic)) {
-    refuse(request_.contours ? "--contours" : "--log", "a field of kinds, \"" + place_.name + '"',
-           "a field of numbers");
+  const std::string option = request_.contours      ? "--contours"
+                             : request_.logarithmic ? "--log"
+                             : request_.change      ? "--change"
+                                                    : "";
+  if (has_kinds && !option.empty()) {
+    refuse(option, "a field of kinds, \"" + place_.name + '"', "a field of numbers");
   }
   if (request_.contours && (place_.where == "solid" || place_.where == "liquid")) {
     refuse("--contours", "a field of points, \"" + place_.name + "\" on " + place_.where,

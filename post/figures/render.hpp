@@ -19,6 +19,7 @@ struct RenderRequest {
   std::string on;              ///< "cell", "node", "solid", "liquid" or empty
   std::optional<double> time;  ///< s; the nearest snapshot is drawn; unset: the last
   bool all = false;            ///< every snapshot, all with the same colours
+  bool change = false;         ///< what changed since the start, instead of the field itself
   std::optional<std::array<double, 2>> range;  ///< of the colours; unset: that of the values
   bool logarithmic = false;                    ///< of the colours
   bool contours = false;                       ///< lines of equal values
