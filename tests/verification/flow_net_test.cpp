@@ -155,7 +155,7 @@ TEST(FlowNet, HasEqualDischargeBetweenItsStreamlines) {
     const double piece = (crossings[k + 1] - crossings[k]) / pieces;
     std::vector<Vector<2>> places;
     for (int i = 0; i < pieces; ++i) places.emplace_back(x, crossings[k] + (i + 0.5) * piece);
-    const Table flux = sample_places(run, 0.0, places, {"darcy_flux"});
+    const Table flux = sample(run, {{0.0}, places, {"darcy_flux"}});
     double sum = 0.0;
     for (const double q : flux.column("darcy_flux_x")) sum += q * piece;
     EXPECT_NEAR(sum * net.tubes / net.stream.discharge, 1.0, 1e-2) << k;
