@@ -303,8 +303,8 @@ TEST(SeepageMap, RefusesWhatItCannotDraw) {
   EXPECT_NE(refusal([&] {
               draw_figure("porosity", {run}, scratch / "a.png", {1.0, ""});
             })
-                .find("--time: got 1; expected no time: it is for the figures \"flownet\", "
-                      "\"head\" and \"saturation\""),
+                .find("--time: got it with the figure \"porosity\"; expected it with \"flownet\", "
+                      "\"head\" or \"saturation\""),
             std::string::npos);
   EXPECT_NE(refusal([&] {
               draw_figure("head", {run}, scratch / "a.png", {HUGE_VAL, ""});
