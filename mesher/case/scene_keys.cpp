@@ -560,6 +560,17 @@ std::vector<SceneKey> declare_keys() {
           .in("s")
           .above(0.0)
           .otherwise_as("`output.every`"),
+      key("output.restarts", at(&Scene::output, &OutputSettings::restarts),
+          "Snapshots behind which the run can go on, the newest ones. Their states take more room "
+          "than the fields; those of older snapshots are removed.")
+          .at_least(1)
+          .at_most(1000000)
+          .otherwise(2),
+      choice("output.precision", at(&Scene::output, &OutputSettings::precision),
+             {{"float64", FieldPrecision::float64}, {"float32", FieldPrecision::float32}},
+             "How fields are stored in snapshots: with all digits, or with seven, in less than "
+             "half the room. Tables, places and the state to go on from keep all digits.")
+          .otherwise("float64"),
       key("output.probe[].at", in_output(&OutputSettings::probes, &OutputProbe::at),
           "Where pressure and flux are recorded, inside the mesh.")
           .in("m")

@@ -36,8 +36,8 @@ struct Estimate {
   std::string failure;         ///< how the run failed in the trial; empty otherwise
 };
 
-/// Runs the case from its start for a while. Rows are made but not written; only the last state is
-/// written, into a temporary folder, for the bytes and seconds of a snapshot. The rest of the run
+/// Runs the case from its start for a while. Rows are made but not written; some twenty snapshots
+/// at most are written into a temporary folder, for their bytes and seconds. The rest of the run
 /// is extrapolated from the later half of the trial. Where that is still the start-up of the flow,
 /// a second trial starts with the steady flow. Ends early on an interrupt (see catch_interrupts).
 template <int Dim>

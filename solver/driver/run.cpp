@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -65,6 +66,7 @@ class Run final : public OutputSink<Dim> {
     try {
       write_info("running", "");
       loop_.run(*this);
+      finish_writing();
       progress_.finish();
       if (!loop_.finished()) return stop();
       // Before the status "done": after it nothing removes the file.
@@ -94,10 +96,17 @@ class Run final : public OutputSink<Dim> {
     append_tables(writer_, loop_.model(), flow);
   }
 
+  /// The run goes on while the files are written.
   void write_snapshot(const FlowState<Dim>& flow) override {
+    // One at a time: two in memory would be too many.
+    finish_writing();
     Snapshot snapshot = loop_.model().snapshot(flow);
     snapshot.restart = restart_point();
-    writer_.write_snapshot(std::move(snapshot));
+    // Where there can be no other thread, this one writes when it waits.
+    writing_ = std::async(std::launch::async | std::launch::deferred,
+                          [this, snapshot = std::move(snapshot)]() mutable {
+                            writer_.write_snapshot(std::move(snapshot));
+                          });
     since_saved_ = Stopwatch();
   }
 
@@ -132,10 +141,16 @@ class Run final : public OutputSink<Dim> {
     return ExitCode::interrupted;
   }
 
+  /// Waits for the snapshot that is being written. Throws what its writing threw.
+  void finish_writing() {
+    if (writing_.valid()) writing_.get();
+  }
+
   void note_failure(const std::string& message) {
     try {
       write_info("failed", message);
-    } catch (const FileError&) {
+      finish_writing();
+    } catch (const std::exception&) {
       // A disk that has no room for results may have none for this either.
     }
   }
@@ -150,6 +165,7 @@ class Run final : public OutputSink<Dim> {
   }
 
   void write_checkpoint() {
+    finish_writing();
     writer_.write_checkpoint(restart_point());
     since_saved_ = Stopwatch();
   }
@@ -194,6 +210,8 @@ class Run final : public OutputSink<Dim> {
   std::optional<double> resumed_at_;  ///< s
   std::vector<std::string> warnings_;
   ResultsWriter<Dim> writer_;
+  /// Of a snapshot by another thread, the only one then that uses HDF5. Tables go on meanwhile.
+  std::future<void> writing_;
 };
 
 }  // namespace

@@ -45,10 +45,12 @@ Json read_run_info(const std::string& folder) {
   if (!json.is_object() || json.value("format", Json()) != layout::format) {
     throw FileError(path + ": was not written by suffuse-solver");
   }
-  if (json.value("format_version", Json()) != layout::format_version) {
-    throw FileError(path + ": got format_version " +
-                    json.value("format_version", Json()).dump(-1, ' ', true, replace) +
-                    "; expected " + std::to_string(layout::format_version));
+  const Json version = json.value("format_version", Json());
+  if (!version.is_number_integer() || version < layout::oldest_readable_version ||
+      version > layout::format_version) {
+    throw FileError(path + ": got format_version " + version.dump(-1, ' ', true, replace) +
+                    "; expected " + std::to_string(layout::oldest_readable_version) + " to " +
+                    std::to_string(layout::format_version));
   }
   return json;
 }
@@ -301,7 +303,7 @@ Mesh<2> ResultsReader::mesh() const {
 
 std::vector<Vector<2>> ResultsReader::point_positions(std::size_t index,
                                                       const std::string& kind) const {
-  const Hdf5File file(snapshot_path(kind, index), Hdf5File::Mode::read);
+  const Hdf5File file = file_of(index, kind, points_dataset);
   const std::vector<double> coordinates = file.read_doubles(points_dataset);
   std::vector<Vector<2>> positions;
   for (std::size_t i = 0; i < 3 * row_count(file, points_dataset, 3); i += 3) {
@@ -310,17 +312,27 @@ std::vector<Vector<2>> ResultsReader::point_positions(std::size_t index,
   return positions;
 }
 
-std::size_t ResultsReader::entity_count(const Hdf5File& snapshot, const std::string& where) const {
-  if (where == "solid" || where == "liquid") return row_count(snapshot, points_dataset, 3);
+Hdf5File ResultsReader::file_of(std::size_t index, const std::string& where,
+                                const std::string& object) const {
+  Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
+  const std::string kind = where == "solid" ? "solid" : "mesh";
+  if (where == "liquid" || !file.is_in(object, layout::grid_name(kind))) return file;
+  return {layout::in_folder(folder_, layout::grid(kind)), Hdf5File::Mode::read};
+}
+
+std::size_t ResultsReader::entity_count(std::size_t index, const std::string& where) const {
+  if (where == "solid" || where == "liquid") {
+    return row_count(file_of(index, where, points_dataset), points_dataset, 3);
+  }
   const Hdf5File file(layout::in_folder(folder_, layout::case_copy), Hdf5File::Mode::read);
   return where == "node" ? row_count(file, "/mesh/nodes", 2) : row_count(file, "/mesh/elements", 3);
 }
 
 Field ResultsReader::field(std::size_t index, const std::string& where,
                            const std::string& name) const {
-  const Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
+  const Hdf5File file = file_of(index, where, field_group(where) + "/" + name);
   Field field = read_field(file, field_group(where), name);
-  const std::size_t entities = entity_count(file, where);
+  const std::size_t entities = entity_count(index, where);
   const std::size_t found = field.values.size() / static_cast<std::size_t>(field.components);
   if (found != entities) {
     throw FileError(file.path() + ": " + field_group(where) + "/" + name + ": got values for " +

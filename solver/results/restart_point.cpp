@@ -103,6 +103,9 @@ long whole_snapshots(const std::string& folder, bool has_liquid_files,
       if (!fs::exists(path)) return index;
       try {
         const Hdf5File file(path, Hdf5File::Mode::read);
+        if (!file.exists(layout::own_group)) {
+          throw FileError(path + ": was not written by suffuse-solver");
+        }
       } catch (const FileError& error) {
         damage.emplace_back(error.what());
         return index;
@@ -204,7 +207,7 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
   found.path = layout::in_folder(folder, layout::checkpoint);
   found.point = usable_point(found.path);
   for (long index = whole; index-- > 0;) {
-    const std::string path = layout::in_folder(folder, layout::snapshot("mesh", index));
+    const std::string path = layout::in_folder(folder, layout::state(index));
     std::optional<RestartPoint> point = usable_point(path);
     if (!point) continue;
     if (!found.point || point->time > found.point->time) {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The state from which a stopped run can go on, kept in snapshots and in the checkpoint of an
-/// interrupted run. Layout: docs/file-formats.md.
+/// The state from which a stopped run can go on, kept beside the newest snapshots and in the
+/// checkpoint of an interrupted run. Layout: docs/file-formats.md.
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ namespace suffuse {
 struct RestartPoint {
   double time = 0.0;   ///< that the state is of, s; not before the snapshot's
   long rows = 0;       ///< of history.csv by then; output times in every table
-  long snapshots = 0;  ///< by then, the one that holds this included
+  long snapshots = 0;  ///< by then, the one that this belongs to included
   bool no_skip = false;
   std::string case_digest;          ///< see `digest_of`
   std::vector<std::uint8_t> state;  ///< the solver's business; empty: not kept
