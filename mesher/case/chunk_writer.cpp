@@ -14,14 +14,19 @@ namespace {
 // The bytes of numbers are written as they lie in memory.
 static_assert(std::endian::native == std::endian::little);
 
-/// The level that zlib calls its fastest.
-constexpr int fast = 1;
+/// How to compress: zlib's level and strategy.
+struct Effort {
+  int level = 1;
+  int strategy = Z_DEFAULT_STRATEGY;
+  bool operator==(const Effort&) const = default;
+};
 
-/// Whether to compress these bytes would gain next to nothing: no value is frequent, and neighbours
-/// differ. Looks at a thousand of them.
-bool is_noise(std::span<const std::uint8_t> bytes) {
+/// Nothing is gained where no value is frequent and neighbours differ, as in the low digits of
+/// computed numbers: such bytes are stored. Where neighbours differ, no longer strings are looked
+/// for. Looks at a thousand of the bytes.
+Effort effort_for(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t samples = 1024;
-  std::array<std::uint32_t, 256> counts{};
+  std::array<std::uint64_t, 256> counts{};
   std::uint64_t seen = 0;
   std::uint64_t repeated = 0;
   const std::size_t stride = std::max<std::size_t>(1, bytes.size() / samples);
@@ -30,18 +35,19 @@ bool is_noise(std::span<const std::uint8_t> bytes) {
     ++seen;
     if (bytes[i] == bytes[i - 1]) ++repeated;
   }
-  // Pairs of equal bytes: one of 256 where all values are equally frequent.
-  std::uint64_t equal_pairs = 0;
-  for (const std::uint64_t count : counts)
-    equal_pairs += count * (count - std::min<std::uint64_t>(count, 1));
-  return 128 * equal_pairs < seen * seen && 16 * repeated < seen;
+  // Ordered pairs of equal bytes: one of 256 where all values are equally frequent.
+  std::uint64_t pairs = 0;
+  for (const std::uint64_t count : counts) pairs += count > 0 ? count * (count - 1) : 0;
+  if (64 * pairs < seen * seen && 16 * repeated < seen) return {Z_NO_COMPRESSION};
+  if (4 * repeated <= seen) return {1, Z_RLE};
+  return {};
 }
 
 /// Compresses one chunk after the other. To start zlib anew for each takes as long as a small
 /// chunk.
 class Compressor {
  public:
-  Compressor() { works_ = deflateInit(&stream_, fast) == Z_OK; }
+  Compressor() { works_ = deflateInit(&stream_, effort_.level) == Z_OK; }
   Compressor(const Compressor&) = delete;
   Compressor& operator=(const Compressor&) = delete;
   ~Compressor() {
@@ -61,7 +67,7 @@ class Compressor {
     const std::size_t count = sorted.size() / number_size;
     for (std::size_t k = 0; k < number_size; ++k) {
       const auto bytes = sorted.subspan(k * count, count);
-      set_level(is_noise(bytes) ? Z_NO_COMPRESSION : fast);
+      set_effort(effort_for(bytes));
       // zlib does not write to what it reads.
       stream_.next_in = const_cast<std::uint8_t*>(bytes.data());
       stream_.avail_in = static_cast<uInt>(count);
@@ -73,14 +79,14 @@ class Compressor {
   }
 
  private:
-  void set_level(int level) {
-    if (level == level_) return;
-    deflateParams(&stream_, level, Z_DEFAULT_STRATEGY);
-    level_ = level;
+  void set_effort(const Effort& effort) {
+    if (effort == effort_) return;
+    deflateParams(&stream_, effort.level, effort.strategy);
+    effort_ = effort;
   }
 
   z_stream stream_{};
-  int level_ = fast;
+  Effort effort_;
   bool works_ = false;
   std::vector<std::uint8_t> out_;
 };

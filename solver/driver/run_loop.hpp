@@ -68,8 +68,10 @@ class RunLoop {
     point.rows = schedule_.rows().past();
     point.snapshots = schedule_.snapshots().past();
     StateArchive state;
+    state.reserve(state_size_ + state_size_ / 8);  // points may have become more
     state(*this, more...);
     point.state = state.finish();
+    state_size_ = point.state.size();
     return point;
   }
 
@@ -81,6 +83,7 @@ class RunLoop {
   OutputSchedule schedule_;
   double end_;                     ///< of the run, s
   bool warned_of_points_ = false;  ///< that they have far to go
+  std::size_t state_size_ = 0;     ///< of the last restart point, bytes
 };
 
 }  // namespace suffuse
