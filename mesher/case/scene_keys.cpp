@@ -478,6 +478,13 @@ std::vector<SceneKey> declare_keys() {
           .otherwise_as("the head of the boundaries that have one at t = 0; where they differ or "
                         "there is none, p = 0 without gravity, **required** under gravity at rest"),
 
+      key("initial.from", at(&Scene::initial_from),
+          "Folder with the results of a run that is done, relative to the scene's folder: its last "
+          "state is the initial one here, and the clock starts at 0 again. On the same mesh and "
+          "points, with the same water, porosities, grains and retentions; boundaries, other laws, "
+          "gravity and the time scheme may differ.")
+          .otherwise_as("the state of `initial.flow`, with what the soils say"),
+
       key("flow.porosity_gradient_term", at(&Scene::flow, &FlowSettings::porosity_gradient_term),
           "Keep (v_L - v_S) . grad n_L in the balance of water. Without it water is lost wherever "
           "porosity varies: for comparison only, with the explicit scheme, and not in double-point "

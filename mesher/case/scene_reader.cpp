@@ -26,22 +26,6 @@ constexpr const char* like = "like";
 /// Of soils, each like the next.
 constexpr std::size_t longest_chain = 100;
 
-/// The pattern of what is called `name` in a table, or nothing when there is no such key or table.
-std::optional<std::string> pattern_below(const std::string& table, const std::string& name) {
-  for (const std::string& child : scene_children(table)) {
-    if (child == "*" || (child == name && child != "[]")) return joined(table, child);
-  }
-  return std::nullopt;
-}
-
-bool is_list(const std::string& pattern) {
-  return scene_children(pattern) == std::vector<std::string>{"[]"};
-}
-
-std::string indexed(const std::string& key, std::size_t index) {
-  return key + '[' + std::to_string(index) + ']';
-}
-
 /// The nearest enclosing key of `key` that `places` knows, `key` included; nullptr when none is.
 const Place* find_place(const Places& places, std::string key) {
   while (!key.empty()) {
@@ -63,7 +47,9 @@ class SceneReader {
   Scene read() {
     check_table(root_, "", "");
     inherit();
-    collect_places(root_, "");
+    for_each_key(root_, "", [this](const std::string& key, const SceneNode& node) {
+      places_.emplace(key, node.place);
+    });
     // Before the keys are bound: a misspelt structure must not be judged as the default of a shape.
     if (places_.contains("geometry.file")) scene_.mesh.structure = MeshStructure::crossed;
     bind();
@@ -82,6 +68,15 @@ class SceneReader {
     std::map<std::string, std::string> where;
     for (const auto& [key, place] : places_) where.emplace(key, place.text);
     return where;
+  }
+
+  /// Values that are allowed, as messages show them.
+  [[nodiscard]] std::map<std::string, std::string> values() const {
+    std::map<std::string, std::string> values;
+    for_each_key(root_, "", [&](const std::string& key, const SceneNode& node) {
+      if (node.accepted) values.emplace(key, shown_value(*node.accepted));
+    });
+    return values;
   }
 
  private:
@@ -339,16 +334,6 @@ class SceneReader {
 
   // From the tree to the scene.
 
-  // NOLINTNEXTLINE(misc-no-recursion): as deep as the scene's tables
-  void collect_places(const SceneNode& node, const std::string& key) {
-    if (!key.empty()) places_.emplace(key, node.place);
-    for (std::size_t i = 0; i < node.children.size(); ++i) {
-      const SceneNode& child = node.children[i];
-      collect_places(
-          child, node.form == Form::list ? indexed(key, i) : joined(key, shown_name(child.name)));
-    }
-  }
-
   /// The tables of a group, such as `soil` or `output.probe`.
   /// \param first  index of the first of them
   [[nodiscard]] std::vector<Instance> members_of(const std::string& group,
@@ -495,6 +480,16 @@ SceneDocument read_document(const std::string& text, const std::string& path,
   document.where = reader.where();
   document.files = reader.files();
   return document;
+}
+
+std::map<std::string, std::string> given_values(const SceneDocument& document) {
+  const FileLoader load = [&](const std::string& name) -> std::optional<std::string> {
+    const auto found = document.files.find(name);
+    return found == document.files.end() ? std::nullopt : std::optional(found->second);
+  };
+  SceneReader reader(document.text, document.path, document.overrides, load);
+  static_cast<void>(reader.read());
+  return reader.values();
 }
 
 }  // namespace suffuse

@@ -248,6 +248,17 @@ std::string SceneKey::fault(const Value& value) const {
   return {};
 }
 
+std::optional<std::string> pattern_below(const std::string& table, const std::string& name) {
+  for (const std::string& child : scene_children(table)) {
+    if (child == "*" || (child == name && child != "[]")) return joined(table, child);
+  }
+  return std::nullopt;
+}
+
+bool is_list(const std::string& pattern) {
+  return scene_children(pattern) == std::vector<std::string>{"[]"};
+}
+
 std::string shown_name(const std::string& name) {
   const auto is_bare = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
   return !name.empty() && std::ranges::all_of(name, is_bare) ? name : quoted(name);

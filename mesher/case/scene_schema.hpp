@@ -90,6 +90,10 @@ const SceneKey* find_scene_key(const std::string& pattern);
 /// What may follow a pattern, in the order of declaration: names, `*` or `[]`. Empty for keys and
 /// for what does not exist. The empty pattern is the whole scene.
 std::vector<std::string> scene_children(const std::string& pattern);
+/// The pattern of what is called `name` in a table, or nothing when there is no such key or table.
+std::optional<std::string> pattern_below(const std::string& table, const std::string& name);
+/// Whether the pattern is that of a list of tables.
+bool is_list(const std::string& pattern);
 
 /// `parent.child`, `parent[]`, or `child` at the top level.
 std::string joined(const std::string& parent, const std::string& child);

@@ -316,6 +316,23 @@ const SceneNode* SceneNode::find(const std::string& child) const {
   return found == children.end() ? nullptr : &*found;
 }
 
+std::string indexed(const std::string& key, std::size_t index) {
+  return key + '[' + std::to_string(index) + ']';
+}
+
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the scene's tables
+void for_each_key(const SceneNode& node, const std::string& key,
+                  const std::function<void(const std::string&, const SceneNode&)>& visit) {
+  if (!key.empty()) visit(key, node);
+  for (std::size_t i = 0; i < node.children.size(); ++i) {
+    const SceneNode& child = node.children[i];
+    for_each_key(
+        child,
+        node.form == SceneNode::Form::list ? indexed(key, i) : joined(key, shown_name(child.name)),
+        visit);
+  }
+}
+
 std::string KeyStep::shown() const {
   if (index) return '[' + std::to_string(*index) + ']';
   return shown_name(name);

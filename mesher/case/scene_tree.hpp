@@ -3,6 +3,7 @@
 /// A scene as written: the tree of tables, lists of tables and values of a TOML file, each with the
 /// place it was given at. Nothing is checked here but TOML itself.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,14 @@ struct SceneNode {
   [[nodiscard]] SceneNode* find(const std::string& child);
   [[nodiscard]] const SceneNode* find(const std::string& child) const;
 };
+
+/// `boundary[0]`
+std::string indexed(const std::string& key, std::size_t index);
+
+/// Calls `visit(key, node)` for every node below `node`, whose own key is `key`, and for it, unless
+/// it is the root.
+void for_each_key(const SceneNode& node, const std::string& key,
+                  const std::function<void(const std::string&, const SceneNode&)>& visit);
 
 /// One step of a dotted key: a name, or a position in a list.
 struct KeyStep {

@@ -98,10 +98,11 @@ class WrittenSnapshots {
 template <int Dim>
 class Trial final : public OutputSink<Dim> {
  public:
-  Trial(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget)
+  Trial(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget,
+        const EarlierState<Dim>* earlier)
       : case_(c),
         budget_(budget),
-        loop_(c, plan),
+        loop_(c, plan, earlier),
         checks_(c.document.scene, plan.speed_that_drag_follows) {
     try {
       files_.emplace(c);
@@ -237,24 +238,25 @@ std::string counted(long count, const std::string& one) {
 }  // namespace
 
 template <int Dim>
-Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget) {
+Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget,
+                      const EarlierState<Dim>* earlier) {
   Estimate first;
   TrialCourse start_up;
   {
-    Trial<Dim> trial(c, plan, budget);
+    Trial<Dim> trial(c, plan, budget, earlier);
     first = trial.run();
     start_up = trial.course();
   }
   const Scene& scene = c.document.scene;
   const double settled = std::min(plan.settling_time, scene.time.end);
-  const bool starts_up = scene.initial_flow == InitialFlow::rest && !plan.flow.step_given &&
-                         first.trial_time <= 2.0 * settled;
+  const bool starts_up = !earlier && scene.initial_flow == InitialFlow::rest &&
+                         !plan.flow.step_given && first.trial_time <= 2.0 * settled;
   if (!starts_up || first.whole || !first.failure.empty() || interrupted()) return first;
 
   // The steps of a start-up tell nothing of those that come after it: a second trial starts there.
   Case<Dim> steady = c;
   steady.document.scene.initial_flow = InitialFlow::steady;
-  Trial<Dim> later(steady, plan, {budget.seconds, 1.0});
+  Trial<Dim> later(steady, plan, {budget.seconds, 1.0}, nullptr);
   Estimate result = later.run();
   if (!result.failure.empty()) return first;
   const double longest = 1.0 / step_rate(later.course().half(), later.course().last());
@@ -297,6 +299,7 @@ std::vector<std::string> sentences(const Estimate& e, int threads) {
   return result;
 }
 
-template Estimate estimate_run(const Case<2>&, const Plan&, const TrialBudget&);
+template Estimate estimate_run(const Case<2>&, const Plan&, const TrialBudget&,
+                               const EarlierState<2>*);
 
 }  // namespace suffuse

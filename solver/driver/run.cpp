@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "case/errors.hpp"
+#include "driver/earlier_run.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/progress.hpp"
@@ -46,7 +47,8 @@ template <int Dim>
 class Run final : public OutputSink<Dim> {
  public:
   Run(Case<Dim> c, const Plan& plan, const SolverOptions& options, StartingPoint starting_point,
-      const RunOptions& run, std::string resume_command)
+      const RunOptions& run, std::string resume_command,
+      const std::optional<EarlierRun<Dim>>& earlier)
       : case_(std::move(c)),
         plan_(plan),
         options_(options),
@@ -54,7 +56,8 @@ class Run final : public OutputSink<Dim> {
         resume_command_(std::move(resume_command)),
         case_digest_(digest_of(case_)),
         folder_(starting_point.folder),
-        loop_(case_, plan),
+        loop_(case_, plan, earlier ? &earlier->state : nullptr),
+        origin_(earlier ? earlier->sentences : std::vector<std::string>()),
         checks_(case_.document.scene, plan.speed_that_drag_follows),
         progress_(case_.document.scene.time.end, run.quiet),
         writer_(open_results(std::move(starting_point))) {
@@ -125,7 +128,7 @@ class Run final : public OutputSink<Dim> {
     for (const std::string& warning : plan_.warnings) warn(warning);
     if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
     StateArchive state(std::move(starting_point.from->state));
-    state(loop_, checks_, warnings_);
+    state(loop_, checks_, warnings_, origin_);
     state.finish();
     resumed_at_ = starting_point.from->time;
     return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
@@ -171,7 +174,7 @@ class Run final : public OutputSink<Dim> {
   }
 
   RestartPoint restart_point() {
-    RestartPoint point = loop_.restart_point(checks_, warnings_);
+    RestartPoint point = loop_.restart_point(checks_, warnings_, origin_);
     point.no_skip = options_.no_skip;
     point.case_digest = case_digest_;
     return point;
@@ -190,7 +193,8 @@ class Run final : public OutputSink<Dim> {
     info.resumed_at = resumed_at_;
     info.memory_bytes = peak_memory();
     info.passes = loop_.model().passes();
-    info.plan = plan_.sentences;
+    info.plan = origin_;
+    info.plan.insert(info.plan.end(), plan_.sentences.begin(), plan_.sentences.end());
     info.warnings = warnings_;
     writer_.write_run_info(info);
   }
@@ -205,6 +209,7 @@ class Run final : public OutputSink<Dim> {
   Stopwatch since_start_;
   Stopwatch since_saved_;  ///< since the last snapshot or checkpoint
   RunLoop<Dim> loop_;
+  std::vector<std::string> origin_;  ///< of the state that the run started from
   RowChecks checks_;
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
@@ -213,6 +218,17 @@ class Run final : public OutputSink<Dim> {
   /// Of a snapshot by another thread, the only one then that uses HDF5. Tables go on meanwhile.
   std::future<void> writing_;
 };
+
+/// The results of the earlier run are not to be replaced by those that start from it.
+template <int Dim>
+void refuse_own_source(const SceneDocument& document, const EarlierRun<Dim>& earlier,
+                       const std::string& folder) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(earlier.folder, folder, none)) return;
+  throw InputError(document.locate("initial.from") + ": initial.from: got " + folder +
+                   ", the folder that this run writes into; expected another one: choose it with "
+                   "-o");
+}
 
 }  // namespace
 
@@ -238,11 +254,17 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
       std::fprintf(stderr, "%s has no snapshot to go on from: begins anew\n", folder.c_str());
     }
   }
+  // A run that goes on has all that it needs in its own state.
+  std::optional<EarlierRun<Dim>> earlier;
+  if (!starting_point->from) earlier = read_earlier_run(c, options.threads);
+  if (earlier) refuse_own_source(c.document, *earlier, folder);
   const std::string resume_command = "suffuse-solver " + quoted(case_path) + " -o " +
                                      quoted(folder) + (options.no_skip ? " --no-skip" : "") +
                                      " --resume";
-  return static_cast<int>(
-      Run<Dim>(std::move(c), plan, options, std::move(*starting_point), run, resume_command).run());
+  Run<Dim> started(std::move(c), plan, options, std::move(*starting_point), run, resume_command,
+                   earlier);
+  earlier.reset();
+  return static_cast<int>(started.run());
 }
 
 template int run_case(Case<2>, const Plan&, const SolverOptions&, const std::string&,

@@ -44,11 +44,15 @@ void append_tables(ResultsWriter<Dim>& writer, const TwoPhaseModel<Dim>& model,
 template <int Dim>
 class RunLoop {
  public:
-  /// Makes the model at its start. Keeps a reference to the case.
-  RunLoop(const Case<Dim>& c, const ModelOptions& options)
+  /// Makes the model at its start, which is `earlier` where there is any. Keeps a reference to the
+  /// case.
+  RunLoop(const Case<Dim>& c, const ModelOptions& options,
+          const EarlierState<Dim>* earlier = nullptr)
       : model_(make_model(c, options)),
         schedule_(c.document.scene),
-        end_(c.document.scene.time.end) {}
+        end_(c.document.scene.time.end) {
+    if (earlier) model_->start_from(*earlier);
+  }
 
   /// From the start, with the output of t = 0, or from the restored state: to the end, to an
   /// interrupt, or until the sink stops it. Throws NumericalError, and what the sink throws.

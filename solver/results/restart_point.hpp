@@ -3,6 +3,7 @@
 /// The state from which a stopped run can go on, kept beside the newest snapshots and in the
 /// checkpoint of an interrupted run. Layout: docs/file-formats.md.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,9 +27,19 @@ struct RestartPoint {
 /// 16 hexadecimal digits that tell one from another.
 std::string digest_of(const RestartPoint& point);
 
-/// The same of everything in a case that a run depends on.
+/// The same of everything in a case that must not change while a run lasts: mesh, points and all
+/// keys of the scene but those of `keys_that_may_change`.
 template <int Dim>
 std::string digest_of(const Case<Dim>& c);
+
+/// A run may go on with other values of these keys.
+inline constexpr std::array<const char*, 3> keys_that_may_change{"time.end", "output.restarts",
+                                                                 "output.precision"};
+
+/// What else differs between two cases, for messages: "KEY = A there and B here", and mesh or
+/// points. Empty where nothing does.
+template <int Dim>
+std::vector<std::string> differences(const Case<Dim>& there, const Case<Dim>& here);
 
 /// Into `/Suffuse/restart`, which must not be there yet.
 void write_restart_point(Hdf5File& file, const RestartPoint& point);

@@ -99,16 +99,20 @@ bool nothing_but_a_lock(const std::string& folder) {
   });
 }
 
-/// Those for which `doomed(name)`.
+/// Those for which `doomed(name)`. Throws FileError.
 template <class Doomed>
 void remove_files(const fs::path& folder, const Doomed& doomed) {
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && doomed(entry.path().filename().string())) {
-      found.push_back(entry.path());
+  try {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_regular_file() && doomed(entry.path().filename().string())) {
+        found.push_back(entry.path());
+      }
     }
+    for (const auto& path : found) fs::remove(path);
+  } catch (const fs::filesystem_error& error) {
+    throw FileError(folder.string() + ": " + error.code().message());
   }
-  for (const auto& path : found) fs::remove(path);
 }
 
 /// run.json stays until it is replaced, so that the folder can be recognised at every moment.
@@ -138,12 +142,8 @@ void remove_later_snapshots(const std::string& folder, long count) {
     if (is_own_grid(name)) return name.ends_with(".tmp");
     return is_own_snapshot(name) && (name.ends_with(".tmp") || snapshot_number(name) >= count);
   };
-  try {
-    remove_files(folder, is_unfinished);
-    remove_files(fs::path(folder) / layout::snapshots, is_later);
-  } catch (const fs::filesystem_error& error) {
-    throw FileError(folder + ": " + error.code().message());
-  }
+  remove_files(folder, is_unfinished);
+  remove_files(fs::path(folder) / layout::snapshots, is_later);
 }
 
 template <int Dim>
@@ -172,6 +172,17 @@ void write_own_fields(Hdf5File& file, const Snapshot& snapshot, std::size_t elem
                              " components per element; expected one for every vertex");
     }
     write_field(file, layout::element_vertex_group, field, {elements}, precision);
+  }
+}
+
+/// A run may go on under a scene with a later end.
+bool holds_scene(const std::string& case_path, const SceneDocument& document) {
+  try {
+    const Hdf5File file(case_path, Hdf5File::Mode::read);
+    return file.read_text("/scene/text") == document.text &&
+           file.read_texts("/scene/overrides") == document.overrides;
+  } catch (const FileError&) {
+    return false;
   }
 }
 
@@ -284,7 +295,7 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c,
       lock_(std::move(lock)),
       files_(table_files(c.document.scene, c.mesh.region_names.size())) {
   const std::string case_copy = layout::in_folder(folder, layout::case_copy);
-  if (!fs::exists(case_copy)) write_case(case_copy, c);
+  if (!holds_scene(case_copy, c.document)) write_case(case_copy, c);
   continue_series(mesh_series_, point.snapshots);
   continue_series(solid_series_, point.snapshots);
   if (c.document.scene.formulation == Formulation::double_point) {
@@ -378,13 +389,9 @@ void ResultsWriter<Dim>::write_grids() const {
 template <int Dim>
 void ResultsWriter<Dim>::remove_old_states() const {
   const long oldest = static_cast<long>(mesh_series_.count) - case_.document.scene.output.restarts;
-  try {
-    remove_files(fs::path(folder_) / layout::snapshots, [oldest](const std::string& name) {
-      return is_own_snapshot(name) && name.starts_with("state_") && snapshot_number(name) < oldest;
-    });
-  } catch (const fs::filesystem_error& error) {
-    throw FileError(folder_ + ": " + error.code().message());
-  }
+  remove_files(fs::path(folder_) / layout::snapshots, [oldest](const std::string& name) {
+    return is_own_snapshot(name) && name.starts_with("state_") && snapshot_number(name) < oldest;
+  });
 }
 
 template <int Dim>
