@@ -132,9 +132,6 @@ class SeepageChecks : private SceneCheckBase {
   /// Liquid at rest under gravity has a level, which must be known: p = 0 everywhere is no rest.
   void check_start() const {
     if (given("initial.from")) {
-      if (scene_.initial_from.empty() && !refused("initial.from")) {
-        report("initial.from", "an empty name", "the name of a results folder");
-      }
       for (const std::string other : {"initial.flow", "initial.water_level"}) {
         if (!given(other)) continue;
         report(other, "a start beside that from an earlier run", "initial.from alone",

@@ -110,6 +110,8 @@ class Run final : public OutputSink<Dim> {
                           [this, snapshot = std::move(snapshot)]() mutable {
                             writer_.write_snapshot(std::move(snapshot));
                           });
+    // Rows without any snapshot would be results from which no run can go on.
+    if (loop_.schedule().snapshots().past() == 1) finish_writing();
     since_saved_ = Stopwatch();
   }
 
