@@ -315,7 +315,7 @@ inline Snapshot snapshot(const Case<2>& c, double t, long step) {
   }
   Field rate_field{"erosion_rate", "1/s", 1, std::vector(c.solid_points.element.size(), rate)};
   Field nodal{"liquid_velocity", "m/s", 2, std::vector(2 * c.mesh.nodes.size(), 0.01)};
-  s.cell = {state, region, cell_concentration, porosity_field};
+  s.cell = {state, cell_concentration, porosity_field};
   s.node = {nodal};
   s.solid = {rate_field};
   s.liquid = {concentration, pressure, velocity};
