@@ -10,7 +10,7 @@ namespace suffuse {
 namespace {
 
 void check_finite(const HistoryRow& row) {
-  for (const auto& [name, member] : history_columns) {
+  for (const auto& [name, member, unit] : history_columns) {
     if (std::isfinite(row.*member)) continue;
     std::ostringstream message;
     message << name << " is no longer a number at t = " << row.t << " s";

@@ -17,6 +17,7 @@
 #include "driver/progress.hpp"
 #include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
+#include "driver/spent_energy.hpp"
 #include "driver/starting_point.hpp"
 #include "driver/stopwatch.hpp"
 #include "results/writer.hpp"
@@ -93,7 +94,8 @@ class Run final : public OutputSink<Dim> {
   }
 
   void write_row(const FlowState<Dim>& flow) override {
-    const HistoryRow row = loop_.model().history_row(flow);
+    HistoryRow row = loop_.model().history_row(flow);
+    row.energy = energy_.at(row);
     for (const std::string& warning : checks_.check(row)) warn(warning);
     writer_.append_history(row);
     append_tables(writer_, loop_.model(), flow);
@@ -130,7 +132,11 @@ class Run final : public OutputSink<Dim> {
     for (const std::string& warning : plan_.warnings) warn(warning);
     if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
     StateArchive state(std::move(starting_point.from->state));
+<<<<<<< HEAD
     state(loop_, checks_, warnings_, origin_);
+=======
+    state(loop_, checks_, energy_, warnings_);
+>>>>>>> main
     state.finish();
     resumed_at_ = starting_point.from->time;
     return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
@@ -176,7 +182,11 @@ class Run final : public OutputSink<Dim> {
   }
 
   RestartPoint restart_point() {
+<<<<<<< HEAD
     RestartPoint point = loop_.restart_point(checks_, warnings_, origin_);
+=======
+    RestartPoint point = loop_.restart_point(checks_, energy_, warnings_);
+>>>>>>> main
     point.no_skip = options_.no_skip;
     point.case_digest = case_digest_;
     return point;
@@ -213,6 +223,7 @@ class Run final : public OutputSink<Dim> {
   RunLoop<Dim> loop_;
   std::vector<std::string> origin_;  ///< of the state that the run started from
   RowChecks checks_;
+  SpentEnergy energy_;
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
   std::vector<std::string> warnings_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
@@ -127,7 +128,28 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sec
   return line;
 }
 
+/// "s" of "t [s]", which becomes "t"; nothing where there is no unit.
+std::string cut_unit(std::string& name) {
+  const auto start = name.find(" [");
+  if (start == std::string::npos || !name.ends_with(']')) return "";
+  const std::string unit = name.substr(start + 2, name.size() - start - 3);
+  name.resize(start);
+  return unit;
+}
+
+std::vector<std::string> headings(const Table& table) {
+  std::vector<std::string> result = table.names;
+  for (std::size_t k = 0; k < table.units.size(); ++k) {
+    if (!table.units[k].empty()) result[k] += " [" + table.units[k] + "]";
+  }
+  return result;
+}
+
 void write_whole(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    std::cout << text << std::flush;
+    return;
+  }
   PendingFile file(path);
   {
     std::ofstream out(file.temporary_path(), std::ios::binary);
@@ -157,6 +179,18 @@ std::string field_group(const std::string& where) {
   throw std::logic_error("no fields on " + where);
 }
 
+/// VTK follows every link that it meets: only those to the grid beside the file are left to it.
+void refuse_links(const Hdf5File& file, const std::string& grid) {
+  for (const std::string group : {"/VTKHDF", "/VTKHDF/CellData", "/VTKHDF/PointData"}) {
+    if (!file.exists(group)) continue;
+    for (const std::string& name : file.children(group)) {
+      const std::string object = group + "/" + name;
+      // To ask whether a link exists throws.
+      if (!file.is_in(object, grid)) static_cast<void>(file.exists(object));
+    }
+  }
+}
+
 }  // namespace
 
 bool Table::has(const std::string& name) const {
@@ -177,14 +211,18 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
   std::ifstream in = open_file(path);
   std::string line;
   if (!std::getline(in, line)) throw FileError(path + ":1: got nothing; expected a line of names");
-  const std::vector<std::string> names = csv_cells(line);
+  std::vector<std::string> names = csv_cells(line);
+  std::vector<std::string> units;
+  for (std::string& name : names) units.push_back(cut_unit(name));
   const auto key = std::ranges::find(names, by) - names.begin();
   if (!by.empty() && key == std::ssize(names)) {
     throw FileError(path + ":1: got no column " + by);
   }
   Table empty;
-  for (const std::string& name : names) {
-    if (by.empty() || name != by) empty.names.push_back(name);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (!by.empty() && names[k] == by) continue;
+    empty.names.push_back(names[k]);
+    empty.units.push_back(units[k]);
   }
   empty.columns.resize(empty.names.size());
   std::vector<NamedTable> tables;
@@ -211,7 +249,7 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
 }
 
 void write_table(const std::string& path, const Table& table) {
-  std::string text = joined(table.names, "") + "\n";
+  std::string text = joined(headings(table), "") + "\n";
   for (std::size_t row = 0; row < table.rows(); ++row)
     text += joined(cells_of(table, row), "") + "\n";
   write_whole(path, text);
@@ -222,7 +260,7 @@ void write_tables(const std::string& path, const std::string& by,
   std::string text;
   std::size_t rows = 0;
   for (const auto& [name, table] : tables) {
-    if (text.empty()) text = joined(table.names, by) + "\n";
+    if (text.empty()) text = joined(headings(table), by) + "\n";
     rows = std::max(rows, table.rows());
   }
   for (std::size_t row = 0; row < rows; ++row) {
@@ -345,6 +383,12 @@ Field ResultsReader::field(std::size_t index, const std::string& where,
 std::vector<std::string> ResultsReader::field_names(std::size_t index,
                                                     const std::string& where) const {
   const Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
+  const std::string kind = where == "solid" || where == "liquid" ? where : "mesh";
+  refuse_links(file, layout::grid_name(kind));
+  const std::string grid = layout::in_folder(folder_, layout::grid(kind));
+  if (file.is_in(points_dataset, layout::grid_name(kind))) {
+    refuse_links(Hdf5File(grid, Hdf5File::Mode::read), "");
+  }
   return file.children(field_group(where));
 }
 

@@ -86,7 +86,7 @@ TEST(Results, TablesReadBackExactly) {
   const ResultsReader reader(scratch / "run.results");
   const Table read = reader.history();
   ASSERT_EQ(read.rows(), 1U);
-  for (const auto& [name, member] : history_columns) {
+  for (const auto& [name, member, unit] : history_columns) {
     EXPECT_EQ(read.column(std::string(name)).front(), history.*member) << name;
   }
   EXPECT_EQ(reader.ledger().column("residual_grains").front(), 1e-17);
@@ -117,7 +117,7 @@ TEST(Results, BoundariesReadBackByNameWhateverTheName) {
   for (std::size_t b = 0; b < 2; ++b) {
     EXPECT_EQ(read[b].name, rows[b].boundary);
     EXPECT_EQ(read[b].table.rows(), 2U);
-    for (const auto& [name, member] : boundary_columns) {
+    for (const auto& [name, member, unit] : boundary_columns) {
       EXPECT_EQ(read[b].table.column(std::string(name)).back(), rows[b].*member) << name;
     }
   }
@@ -139,10 +139,10 @@ TEST(Results, ProbesAndSectionsAreThereWhereTheSceneHasThem) {
   writer.append_sections(std::span(&section, 1));
   const ResultsReader reader(scratch / "run.results");
   EXPECT_EQ(reader.probes().names.size(), probe_columns.size());
-  for (const auto& [name, member] : probe_columns) {
+  for (const auto& [name, member, unit] : probe_columns) {
     EXPECT_EQ(reader.probes().column(std::string(name)).front(), probe.*member) << name;
   }
-  for (const auto& [name, member] : section_columns) {
+  for (const auto& [name, member, unit] : section_columns) {
     EXPECT_EQ(reader.sections().column(std::string(name)).front(), section.*member) << name;
   }
 }
@@ -291,7 +291,13 @@ TEST(Results, OtherLinksThanThatToTheGridAreRefused) {
               ": /VTKHDF/Points: is a link; expected the object itself, as Suffuse writes it");
     }
   }
-  fs::remove(scratch / "run.results/snapshots/solid_grid.hdf");
+  // Nor is anything left to VTK that would follow them, in the grid either.
+  EXPECT_THROW(static_cast<void>(reader.field_names(1, "solid")), FileError);
+  EXPECT_NO_THROW(static_cast<void>(reader.field_names(0, "solid")));
+  const std::string grid = scratch / "run.results/snapshots/solid_grid.hdf";
+  Hdf5File(grid, Hdf5File::Mode::create).link_to("/VTKHDF/Points", "other.hdf");
+  EXPECT_THROW(static_cast<void>(reader.field_names(0, "solid")), FileError);
+  fs::remove(grid);
   EXPECT_THROW(static_cast<void>(reader.point_positions(0, "solid")), FileError);
 }
 
