@@ -7,8 +7,8 @@
 #include "case/law_texts.hpp"
 #include "case/scene_schema.hpp"
 #include "driver/plan.hpp"
-#include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
+#include "driver/run_notes.hpp"
 #include "results/layout.hpp"
 #include "results/reader.hpp"
 
@@ -110,11 +110,9 @@ template <int Dim>
 EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, int threads) {
   const Plan plan = make_plan(c, {threads, point.no_skip});
   RunLoop<Dim> loop(c, plan);
-  RowChecks checks(c.document.scene, plan.speed_that_drag_follows);
-  std::vector<std::string> warnings;
-  std::vector<std::string> origin;
+  RunNotes notes{.checks = {c.document.scene, plan.speed_that_drag_follows}};
   StateArchive state(std::move(point.state));
-  state(loop, checks, warnings, origin);
+  state(loop, notes);
   state.finish();
   return loop.model().last_state();
 }

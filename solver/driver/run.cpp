@@ -15,9 +15,8 @@
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/progress.hpp"
-#include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
-#include "driver/spent_energy.hpp"
+#include "driver/run_notes.hpp"
 #include "driver/starting_point.hpp"
 #include "driver/stopwatch.hpp"
 #include "results/writer.hpp"
@@ -58,8 +57,8 @@ class Run final : public OutputSink<Dim> {
         case_digest_(digest_of(case_)),
         folder_(starting_point.folder),
         loop_(case_, plan, earlier ? &earlier->state : nullptr),
-        origin_(earlier ? earlier->sentences : std::vector<std::string>()),
-        checks_(case_.document.scene, plan.speed_that_drag_follows),
+        notes_{.checks = {case_.document.scene, plan.speed_that_drag_follows},
+               .origin = earlier ? earlier->sentences : std::vector<std::string>()},
         progress_(case_.document.scene.time.end, run.quiet),
         writer_(open_results(std::move(starting_point))) {
     // The model has points of its own by now.
@@ -89,14 +88,14 @@ class Run final : public OutputSink<Dim> {
   }
 
   void warn(const std::string& text) override {
-    warnings_.push_back(text);
+    notes_.warnings.push_back(text);
     progress_.say("suffuse-solver: warning: " + text);
   }
 
   void write_row(const FlowState<Dim>& flow) override {
     HistoryRow row = loop_.model().history_row(flow);
-    row.energy = energy_.at(row);
-    for (const std::string& warning : checks_.check(row)) warn(warning);
+    row.energy = notes_.energy.at(row);
+    for (const std::string& warning : notes_.checks.check(row)) warn(warning);
     writer_.append_history(row);
     append_tables(writer_, loop_.model(), flow);
   }
@@ -132,11 +131,7 @@ class Run final : public OutputSink<Dim> {
     for (const std::string& warning : plan_.warnings) warn(warning);
     if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
     StateArchive state(std::move(starting_point.from->state));
-<<<<<<< HEAD
-    state(loop_, checks_, warnings_, origin_);
-=======
-    state(loop_, checks_, energy_, warnings_);
->>>>>>> main
+    state(loop_, notes_);
     state.finish();
     resumed_at_ = starting_point.from->time;
     return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
@@ -182,11 +177,7 @@ class Run final : public OutputSink<Dim> {
   }
 
   RestartPoint restart_point() {
-<<<<<<< HEAD
-    RestartPoint point = loop_.restart_point(checks_, warnings_, origin_);
-=======
-    RestartPoint point = loop_.restart_point(checks_, energy_, warnings_);
->>>>>>> main
+    RestartPoint point = loop_.restart_point(notes_);
     point.no_skip = options_.no_skip;
     point.case_digest = case_digest_;
     return point;
@@ -205,9 +196,9 @@ class Run final : public OutputSink<Dim> {
     info.resumed_at = resumed_at_;
     info.memory_bytes = peak_memory();
     info.passes = loop_.model().passes();
-    info.plan = origin_;
+    info.plan = notes_.origin;
     info.plan.insert(info.plan.end(), plan_.sentences.begin(), plan_.sentences.end());
-    info.warnings = warnings_;
+    info.warnings = notes_.warnings;
     writer_.write_run_info(info);
   }
 
@@ -221,12 +212,9 @@ class Run final : public OutputSink<Dim> {
   Stopwatch since_start_;
   Stopwatch since_saved_;  ///< since the last snapshot or checkpoint
   RunLoop<Dim> loop_;
-  std::vector<std::string> origin_;  ///< of the state that the run started from
-  RowChecks checks_;
-  SpentEnergy energy_;
+  RunNotes notes_;
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
-  std::vector<std::string> warnings_;
   ResultsWriter<Dim> writer_;
   /// Of a snapshot by another thread, the only one then that uses HDF5. Tables go on meanwhile.
   std::future<void> writing_;
