@@ -3,7 +3,6 @@
 /// From the text of a scene to the scene: every key checked by itself and against the others.
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +17,5 @@ using FileLoader = std::function<std::optional<std::string>(const std::string& n
 /// Throws InputError with every problem found.
 SceneDocument read_document(const std::string& text, const std::string& path,
                             const std::vector<std::string>& overrides, const FileLoader& load);
-
-/// Every key that the scene gives, `--set` and `like` included, with its value as messages show it:
-/// all digits, and no default. Throws InputError where the text is no scene.
-std::map<std::string, std::string> given_values(const SceneDocument& document);
 
 }  // namespace suffuse

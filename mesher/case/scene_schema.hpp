@@ -90,10 +90,6 @@ const SceneKey* find_scene_key(const std::string& pattern);
 /// What may follow a pattern, in the order of declaration: names, `*` or `[]`. Empty for keys and
 /// for what does not exist. The empty pattern is the whole scene.
 std::vector<std::string> scene_children(const std::string& pattern);
-/// The pattern of what is called `name` in a table, or nothing when there is no such key or table.
-std::optional<std::string> pattern_below(const std::string& table, const std::string& name);
-/// Whether the pattern is that of a list of tables.
-bool is_list(const std::string& pattern);
 
 /// `parent.child`, `parent[]`, or `child` at the top level.
 std::string joined(const std::string& parent, const std::string& child);
@@ -106,6 +102,10 @@ std::string shown_number(double value);
 
 /// A value as one would write it in a scene.
 std::string shown_value(const Value& value);
+
+/// What is wrong with a time, or another argument, that does not lie above the one before it; at a
+/// jump, where the two are the same, how to give one.
+std::string out_of_order(const std::string& argument, double value, double earlier);
 
 /// `a, b or c`
 std::string listed(const std::vector<std::string>& items, const std::string& last_joint = "or");

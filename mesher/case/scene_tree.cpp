@@ -306,6 +306,15 @@ SceneNode read_override_value(const std::string& text, const Place& place) {
 
 }  // namespace
 
+const Place* find_place(const Places& places, std::string key) {
+  while (!key.empty()) {
+    if (const auto found = places.find(key); found != places.end()) return &found->second;
+    const std::size_t end = key.find_last_of(".[");
+    key.resize(end == std::string::npos ? 0 : end);
+  }
+  return nullptr;
+}
+
 SceneNode* SceneNode::find(const std::string& child) {
   const auto found = std::ranges::find(children, child, &SceneNode::name);
   return found == children.end() ? nullptr : &*found;
@@ -314,23 +323,6 @@ SceneNode* SceneNode::find(const std::string& child) {
 const SceneNode* SceneNode::find(const std::string& child) const {
   const auto found = std::ranges::find(children, child, &SceneNode::name);
   return found == children.end() ? nullptr : &*found;
-}
-
-std::string indexed(const std::string& key, std::size_t index) {
-  return key + '[' + std::to_string(index) + ']';
-}
-
-// NOLINTNEXTLINE(misc-no-recursion): as deep as the scene's tables
-void for_each_key(const SceneNode& node, const std::string& key,
-                  const std::function<void(const std::string&, const SceneNode&)>& visit) {
-  if (!key.empty()) visit(key, node);
-  for (std::size_t i = 0; i < node.children.size(); ++i) {
-    const SceneNode& child = node.children[i];
-    for_each_key(
-        child,
-        node.form == SceneNode::Form::list ? indexed(key, i) : joined(key, shown_name(child.name)),
-        visit);
-  }
 }
 
 std::string KeyStep::shown() const {

@@ -3,7 +3,7 @@
 /// A scene as written: the tree of tables, lists of tables and values of a TOML file, each with the
 /// place it was given at. Nothing is checked here but TOML itself.
 
-#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +23,12 @@ struct Place {
   }
 };
 
+/// By dotted key.
+using Places = std::map<std::string, Place>;
+
+/// The nearest enclosing key of `key` that `places` knows, `key` included; nullptr when none is.
+const Place* find_place(const Places& places, std::string key);
+
 struct SceneNode {
   enum class Form { value, table, list };
 
@@ -37,14 +43,6 @@ struct SceneNode {
   [[nodiscard]] SceneNode* find(const std::string& child);
   [[nodiscard]] const SceneNode* find(const std::string& child) const;
 };
-
-/// `boundary[0]`
-std::string indexed(const std::string& key, std::size_t index);
-
-/// Calls `visit(key, node)` for every node below `node`, whose own key is `key`, and for it, unless
-/// it is the root.
-void for_each_key(const SceneNode& node, const std::string& key,
-                  const std::function<void(const std::string&, const SceneNode&)>& visit);
 
 /// One step of a dotted key: a name, or a position in a list.
 struct KeyStep {

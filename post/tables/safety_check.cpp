@@ -100,7 +100,7 @@ std::vector<PartSafety> safety_of(const ResultsReader& results) {
   const Mesh<2> mesh = results.mesh();
   const std::vector<Boundary> boundaries = boundaries_of(results, mesh);
   std::vector<PartSafety> parts{{"all soil", {}, {}}};
-  for (const Boundary& boundary : boundaries) parts.push_back({boundary.name, {}, 0.0});
+  for (const Boundary& boundary : boundaries) parts.push_back({boundary.name, {}, {}});
   if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
   for (std::size_t index = 0; index < results.times().size(); ++index) {
     const SafetyState state{results.times()[index], upward_gradient(results, index),
@@ -110,14 +110,16 @@ std::vector<PartSafety> safety_of(const ResultsReader& results) {
       include(state, e, element_centroid(mesh, e), parts[0]);
     }
     for (std::size_t b = 0; b < boundaries.size(); ++b) {
-      double discharge = 0.0;
       for (const OuterFace& face : boundaries[b].faces) {
-        const double flux = state.flux_through(face);
-        discharge += flux;
-        if (flux > 0.0) include(state, face.element, face.centre, parts[b + 1]);
+        if (state.flux_through(face) > 0.0) {
+          include(state, face.element, face.centre, parts[b + 1]);
+        }
       }
-      parts[b + 1].discharge = discharge;
     }
+  }
+  for (const NamedTable& boundary : results.boundaries()) {
+    const auto part = std::ranges::find(parts, boundary.name, &PartSafety::name);
+    if (part != parts.end()) part->discharge = boundary.table.column("discharge").back();
   }
   return parts;
 }

@@ -27,8 +27,8 @@ struct PartSafety {
   /// At a boundary: over its faces through which water leaves, with the gradient in the element at
   /// the face. Nothing where water rises nowhere.
   std::optional<LeastSafety> least;
-  /// Liquid that leaves through a boundary in the last snapshot minus what enters, m3/s (per metre
-  /// of thickness in 2D): from the fluxes of the elements at its faces.
+  /// Liquid that leaves through a boundary minus what enters, at the last row of boundaries.csv,
+  /// m3/s (per metre of thickness in 2D).
   std::optional<double> discharge;
 };
 

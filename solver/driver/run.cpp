@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "case/errors.hpp"
-#include "driver/earlier_run.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/progress.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/run_notes.hpp"
+#include "driver/source_run.hpp"
 #include "driver/starting_point.hpp"
 #include "driver/stopwatch.hpp"
 #include "results/writer.hpp"
@@ -48,7 +48,7 @@ class Run final : public OutputSink<Dim> {
  public:
   Run(Case<Dim> c, const Plan& plan, const SolverOptions& options, StartingPoint starting_point,
       const RunOptions& run, std::string resume_command,
-      const std::optional<EarlierRun<Dim>>& earlier)
+      const std::optional<SourceRun<Dim>>& source)
       : case_(std::move(c)),
         plan_(plan),
         options_(options),
@@ -56,10 +56,11 @@ class Run final : public OutputSink<Dim> {
         resume_command_(std::move(resume_command)),
         case_digest_(digest_of(case_)),
         folder_(starting_point.folder),
-        loop_(case_, plan, earlier ? &earlier->state : nullptr),
-        notes_{.checks = {case_.document.scene, plan.speed_that_drag_follows},
-               .origin = earlier ? earlier->sentences : std::vector<std::string>()},
-        progress_(case_.document.scene.time.end, run.quiet),
+        loop_(case_, plan, source ? &source->state : nullptr),
+        notes_{.checks = {case_.document.scene, plan.speed_that_drag_follows, plan.obtuse_elements},
+               .origin = source ? source->sentences : std::vector<std::string>()},
+        progress_(starting_point.from ? starting_point.from->time : 0.0,
+                  case_.document.scene.time.end, starts_from_rest(starting_point), run.quiet),
         writer_(open_results(std::move(starting_point))) {
     // The model has points of its own by now.
     case_.liquid_points = {};
@@ -135,6 +136,12 @@ class Run final : public OutputSink<Dim> {
     state.finish();
     resumed_at_ = starting_point.from->time;
     return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
+  }
+
+  [[nodiscard]] bool starts_from_rest(const StartingPoint& starting_point) const {
+    const Scene& scene = case_.document.scene;
+    return !starting_point.from && scene.initial_flow == InitialFlow::rest &&
+           scene.initial_from.empty();
   }
 
   ExitCode stop() {
@@ -222,10 +229,10 @@ class Run final : public OutputSink<Dim> {
 
 /// The results of the earlier run are not to be replaced by those that start from it.
 template <int Dim>
-void refuse_own_source(const SceneDocument& document, const EarlierRun<Dim>& earlier,
+void refuse_own_source(const SceneDocument& document, const SourceRun<Dim>& source,
                        const std::string& folder) {
   std::error_code none;
-  if (!std::filesystem::equivalent(earlier.folder, folder, none)) return;
+  if (!std::filesystem::equivalent(source.folder, folder, none)) return;
   throw InputError(document.locate("initial.from") + ": initial.from: got " + folder +
                    ", the folder that this run writes into; expected another one: choose it with "
                    "-o");
@@ -241,8 +248,8 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
   if (run.resume) {
     starting_point = find_starting_point(c, folder, options);
   } else {
-    starting_point =
-        StartingPoint{folder, std::nullopt, lock_for_results(folder, c.document.scene.name)};
+    const Replace replace = run.force ? Replace::any : Replace::same_case;
+    starting_point = StartingPoint{folder, std::nullopt, lock_for_results(folder, c, replace)};
   }
   if (!starting_point) {
     if (!run.quiet) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());
@@ -256,15 +263,15 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
     }
   }
   // A run that goes on has all that it needs in its own state.
-  std::optional<EarlierRun<Dim>> earlier;
-  if (!starting_point->from) earlier = read_earlier_run(c, options.threads);
-  if (earlier) refuse_own_source(c.document, *earlier, folder);
+  std::optional<SourceRun<Dim>> source;
+  if (!starting_point->from) source = read_source_run(c, options.threads);
+  if (source) refuse_own_source(c.document, *source, folder);
   const std::string resume_command = "suffuse-solver " + quoted(case_path) + " -o " +
                                      quoted(folder) + (options.no_skip ? " --no-skip" : "") +
                                      " --resume";
   Run<Dim> started(std::move(c), plan, options, std::move(*starting_point), run, resume_command,
-                   earlier);
-  earlier.reset();
+                   source);
+  source.reset();
   return static_cast<int>(started.run());
 }
 

@@ -16,22 +16,15 @@ std::string changeable_keys() {
   return listed({keys_that_may_change.begin(), keys_that_may_change.end()}, "and");
 }
 
-/// How the case in `folder` differs, in some words.
+/// What differs from the run in `folder` and may not.
 template <int Dim>
-std::string differences_from(const Case<Dim>& c, const std::string& folder) {
-  constexpr std::size_t most = 5;
-  try {
-    std::vector<std::string> found =
-        differences(read_case<Dim>(layout::in_folder(folder, layout::case_copy)), c);
-    if (found.size() > most) {
-      found.resize(most);
-      found.emplace_back("more");
-    }
-    if (!found.empty()) return listed(found, "and");
-  } catch (const std::exception&) {
-    // The copy of the case is missing or damaged.
+std::vector<std::string> lasting_differences(const std::string& folder, const Case<Dim>& c) {
+  std::vector<std::string> result = differences_from_run(folder, c);
+  for (const char* key : keys_that_may_change) {
+    std::erase_if(
+        result, [&](const std::string& line) { return line.starts_with(std::string(key) + ":"); });
   }
-  return "scene, mesh or points have changed since";
+  return result;
 }
 
 /// What the run in `folder` can go on from. Throws InputError where it is a run of something else.
@@ -43,13 +36,15 @@ FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
       folder, has_liquid, table_files(c.document.scene, c.mesh.region_names.size()));
   if (!found.point) return found;
   const auto refuse = [&](const std::string& what, const std::string& how) {
-    throw InputError(folder + ": cannot be resumed: it holds the results of " + what + "; " + how +
-                     ", choose another folder with -o, or run anew without --resume");
+    throw InputError(folder + ": cannot be resumed: it holds the results of " + what +
+                     "; choose another folder with -o, " + how);
   };
   if (found.point->case_digest != digest_of(c)) {
-    refuse("another case (" + differences_from(c, folder) + ")",
-           "take the case it began with, in which nothing but " + changeable_keys() +
-               " may be changed");
+    refuse("another case", "take the case it began with, in which nothing but " +
+                               changeable_keys() +
+                               " may be changed, or replace them with --force in the place of "
+                               "--resume. " +
+                               listed_differences(lasting_differences(folder, c)));
   }
   if (found.point->time > c.document.scene.time.end) {
     throw InputError(c.document.locate("time.end") + ": time.end: got " +
@@ -59,7 +54,7 @@ FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
   }
   if (found.point->no_skip != options.no_skip) {
     refuse(found.point->no_skip ? "a run with --no-skip" : "a run without --no-skip",
-           "take the same option");
+           "take the same option, or run anew without --resume");
   }
   return found;
 }

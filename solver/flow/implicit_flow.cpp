@@ -354,7 +354,6 @@ void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>*
   if (!at_once) scales_.include_in_bounds(now_.state.face_pressure);
   scales_.include(now_.state.face_pressure, now_.face_flux);
   raise_over_round_off(scales_, grid, this->coefficients_, scene.liquid, scene.time.end);
-  if (const auto warning = obtuse_angle_warning(grid, this->coefficients_)) this->warn(*warning);
   control_.start(first_step(at_rest), !at_rest);
 }
 
@@ -402,7 +401,8 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
   result.eos_error = eos_error_;
   result.pressure_overshoot = scales_.overshoot(now_.state.face_pressure);
   NodalFields<Dim> nodes =
-      nodal_fields(this->grid(), now_, pressure_, this->coefficients_.porosity);
+      nodal_fields(this->grid(), now_, pressure_, this->coefficients_.porosity,
+                   Vector<Dim>(this->scene().liquid.density * this->gravity()));
   result.node_pressure = std::move(nodes.pressure);
   result.velocity = std::move(nodes.velocity);
   this->prescribe_at_nodes(result.node_pressure);

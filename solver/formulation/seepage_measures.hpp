@@ -8,8 +8,9 @@
 
 namespace suffuse {
 
-/// i = -grad h per element, of the linear field of its face pressures; in the explicit scheme, which
-/// has none, of the node pressures: of first order there, and rough at boundaries. Without gravity h = p / (rho_w 9.81 m/s2).
+/// i = -grad h per element, of the linear field of its face pressures; in the explicit scheme,
+/// which has none, of the node pressures: of first order there, and rough at boundaries. Without
+/// gravity h = p / (rho_w 9.81 m/s2).
 template <int Dim>
 VectorField<Dim> hydraulic_gradient(const Grid<Dim>& grid, const FlowState<Dim>& flow,
                                     const Scene& scene);

@@ -11,6 +11,8 @@
 #include "case/hdf5_io.hpp"
 #include "case/pending_file.hpp"
 #include "case/regular_file.hpp"
+#include "case/table_file.hpp"
+#include "results/folder_lock.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
@@ -54,6 +56,12 @@ Json read_run_info(const std::string& folder) {
                     std::to_string(layout::format_version));
   }
   return json;
+}
+
+/// A run that was killed could not write how it ended.
+std::string status_in(const Json& info, const std::string& folder) {
+  std::string status = info.at("status").get<std::string>();
+  return status == "running" && !may_be_held(folder) ? "stopped without notice" : status;
 }
 
 struct Series {
@@ -211,6 +219,9 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
   std::ifstream in = open_file(path);
   std::string line;
   if (!std::getline(in, line)) throw FileError(path + ":1: got nothing; expected a line of names");
+  if (const std::string advice = separator_advice(line); !advice.empty()) {
+    throw FileError(path + ":1: got " + line + "; expected a line of names" + advice);
+  }
   std::vector<std::string> names = csv_cells(line);
   std::vector<std::string> units;
   for (std::string& name : names) units.push_back(cut_unit(name));
@@ -234,7 +245,9 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
     const std::string where = path + ":" + std::to_string(number) + ": ";
     if (cells.size() != names.size()) {
       throw FileError(where + "got " + std::to_string(cells.size()) + " columns; expected " +
-                      std::to_string(names.size()));
+                      std::to_string(names.size()) +
+                      (cells.size() > names.size() ? ", with decimal points in numbers"
+                                                   : separator_advice(line)));
     }
     std::string name;
     if (!by.empty()) {
@@ -275,7 +288,7 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
   const Json info = read_run_info(folder);
   const std::string path = layout::in_folder(folder, layout::run_info);
   try {
-    status_ = info.at("status").get<std::string>();
+    status_ = status_in(info, folder);
     dimension_ = info.at("dimension").get<int>();
     regions_ = info.at("regions").get<std::vector<std::string>>();
     const auto& scene = info.at("scene");

@@ -54,6 +54,9 @@ class ResultsReader {
   [[nodiscard]] const std::string& folder() const { return folder_; }
   [[nodiscard]] const SceneDocument& scene() const { return scene_; }
   [[nodiscard]] const std::vector<std::string>& regions() const { return regions_; }
+  /// "running", "done", "failed", "interrupted", or "stopped without notice": nothing says how the
+  /// run ended and no solver holds the folder, so it was killed or its machine stopped. That of the
+  /// moment when this was made.
   [[nodiscard]] std::string status() const { return status_; }
   [[nodiscard]] int dimension() const { return dimension_; }
 

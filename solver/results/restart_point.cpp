@@ -12,7 +12,7 @@
 
 #include "case/errors.hpp"
 #include "case/regular_file.hpp"
-#include "case/scene_reader.hpp"
+#include "case/scene_difference.hpp"
 #include "results/layout.hpp"
 
 namespace suffuse {
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the bytes of a state: to be raised whenever an `archive` changes what it lists.
-constexpr std::int64_t state_layout = 6;
+constexpr std::int64_t state_layout = 8;
 
 /// FNV-1a (Fowler, Noll, Vo) on eight bytes at a time, with what that leaves out of the low bits
 /// mixed in.
@@ -71,7 +71,7 @@ void add(Digest& digest, const MaterialPoints<Dim>& points) {
 }
 
 template <int Dim>
-void add_mesh(Digest& digest, const Case<Dim>& c) {
+void add_model(Digest& digest, const Case<Dim>& c) {
   for (const Vector<Dim>& node : c.mesh.nodes) digest.add(node.data(), sizeof(double) * Dim);
   digest.add(c.mesh.elements);
   digest.add(c.mesh.element_region);
@@ -87,7 +87,7 @@ void add_mesh(Digest& digest, const Case<Dim>& c) {
 /// Keys that must not change while a run lasts. What is no scene is compared as a text.
 std::map<std::string, std::string> lasting_values(const SceneDocument& document) {
   try {
-    std::map<std::string, std::string> values = given_values(document);
+    std::map<std::string, std::string> values = written_values(document);
     for (const char* key : keys_that_may_change) values.erase(key);
     return values;
   } catch (const InputError&) {
@@ -165,32 +165,15 @@ std::string digest_of(const Case<Dim>& c) {
     digest.add(name);
     digest.add(text);
   }
-  add_mesh(digest, c);
+  add_model(digest, c);
   return digest.text();
 }
 
 template <int Dim>
-std::vector<std::string> differences(const Case<Dim>& there, const Case<Dim>& here) {
-  std::map<std::string, std::string> values = lasting_values(there.document);
-  std::map<std::string, std::string> others = lasting_values(here.document);
-  std::vector<std::string> result;
-  for (const auto& [key, value] : values) others.try_emplace(key, "not given");
-  for (const auto& [key, other] : others) {
-    const std::string& value = values.try_emplace(key, "not given").first->second;
-    if (value != other) result.push_back(key + " = " + value + " there and " + other + " here");
-  }
-  for (const auto& [name, text] : here.document.files) {
-    const auto found = there.document.files.find(name);
-    if (found != there.document.files.end() && found->second != text) {
-      result.push_back("the table in " + name);
-    }
-  }
-  Digest this_mesh;
-  Digest other_mesh;
-  add_mesh(this_mesh, there);
-  add_mesh(other_mesh, here);
-  if (this_mesh.text() != other_mesh.text()) result.emplace_back("mesh or points");
-  return result;
+std::string digest_of_model(const Case<Dim>& c) {
+  Digest digest;
+  add_model(digest, c);
+  return digest.text();
 }
 
 void write_restart_point(Hdf5File& file, const RestartPoint& point) {
@@ -271,7 +254,7 @@ bool is_finished(const std::string& folder) {
 
 template std::string digest_of(const Case<2>&);
 template std::string digest_of(const Case<3>&);
-template std::vector<std::string> differences(const Case<2>&, const Case<2>&);
-template std::vector<std::string> differences(const Case<3>&, const Case<3>&);
+template std::string digest_of_model(const Case<2>&);
+template std::string digest_of_model(const Case<3>&);
 
 }  // namespace suffuse

@@ -36,10 +36,9 @@ std::string digest_of(const Case<Dim>& c);
 inline constexpr std::array<const char*, 3> keys_that_may_change{"time.end", "output.restarts",
                                                                  "output.precision"};
 
-/// What else differs between two cases, for messages: "KEY = A there and B here", and mesh or
-/// points. Empty where nothing does.
+/// The same of its mesh and points alone.
 template <int Dim>
-std::vector<std::string> differences(const Case<Dim>& there, const Case<Dim>& here);
+std::string digest_of_model(const Case<Dim>& c);
 
 /// Into `/Suffuse/restart`, which must not be there yet.
 void write_restart_point(Hdf5File& file, const RestartPoint& point);

@@ -55,6 +55,11 @@ struct HistoryRow {
   double conductivity_ratio = 0.0;
   double power = 0.0;   ///< that water spends on the soil, W
   double energy = 0.0;  ///< since the start, J: of the power in the rows, linear in between
+
+  // No columns: what the checks of the run ask for besides.
+  std::string volume_defect_at;  ///< the element of `volume_defect`; empty where there is none
+  /// Of the power that drives the flow, what the weight of the fines in the liquid gives.
+  double fines_weight_share = 0.0;
 };
 
 inline constexpr std::array<Column<HistoryRow>, 26> history_columns{{

@@ -103,11 +103,11 @@ TEST_F(PostCommand, NothingIsWrittenIntoTheResults) {
 }
 
 TEST_F(PostCommand, AMisspeltCommandIsNamed) {
-  expect_refusal(
-      "ledgr " + run, 2,
-      "suffuse-post: got \"ledgr\"; expected \"ledger\", \"history\", \"boundaries\", \"check\", "
-      "\"sample\", \"error\", \"render\", \"figure\", "
-      "\"table\" or \"export\"; did you mean ledger?");
+  expect_refusal("ledgr " + run, 2,
+                 "suffuse-post: error: got \"ledgr\"; expected \"ledger\", \"history\", "
+                 "\"boundaries\", \"check\", \"sample\", "
+                 "\"error\", \"render\", \"figure\", "
+                 "\"table\" or \"export\"; did you mean ledger?");
 }
 
 TEST_F(PostCommand, LedgerRefusesAResidual) {
@@ -389,9 +389,7 @@ TEST_F(PostCommand, NotAResultsFolder) {
 }
 
 TEST_F(PostCommand, MisspeltCommandsAndOptions) {
-  expect_refusal("", 2,
-                 "suffuse-post: error: A subcommand is required (suffuse-post --help lists what "
-                 "there is)");
+  expect_refusal("", 2, "suffuse-post: error: A subcommand is required (see --help)");
   EXPECT_EQ(post("legder " + run).code, 2);
   EXPECT_EQ(post("ledger " + run + " --tolerence 1").code, 2);
   for (const std::string value : {"-1", "nan"}) {

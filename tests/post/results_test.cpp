@@ -358,6 +358,9 @@ TEST(Results, AnEarlierRunIsReplaced) {
   const std::string folder = scratch / "run.results";
   write_synthetic_results(folder);
   std::ofstream(folder + "/notes.txt") << "mine";
+  const Case<2> other = unit_square_case("synthetic", "constant", 2e-3);
+  EXPECT_THROW((ResultsWriter<2>(folder, other)), InputError) << "of the same name";
+  EXPECT_TRUE(fs::exists(folder + "/snapshots/mesh_000000.hdf"));
   const Case<2> c = unit_square_case();
   const ResultsWriter<2> writer(folder, c);
   EXPECT_FALSE(fs::exists(folder + "/snapshots/mesh_000000.hdf"));
@@ -405,6 +408,32 @@ TEST(Results, ABadNumberIsNamedWithItsLine) {
   } catch (const FileError& error) {
     EXPECT_EQ(std::string(error.what()), path + ":3: b: got 'x4'; expected a number");
   }
+}
+
+/// A spreadsheet in a country of decimal commas writes such tables.
+TEST(Results, OtherSeparatorsAreNamed) {
+  const ScratchFolder scratch;
+  const std::string path = scratch / "table.csv";
+  const auto message = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    try {
+      read_table(path);
+    } catch (const FileError& error) {
+      return std::string(error.what()).substr(path.size());
+    }
+    return std::string("accepted");
+  };
+  const std::string commas = ", with commas between columns in the place of ";
+  EXPECT_EQ(message("t;head\n0;2,5\n"), ":1: got t;head; expected a line of names" + commas +
+                                            "semicolons, and decimal points in numbers");
+  EXPECT_EQ(message("t,head\n0;2.5\n"),
+            ":2: got 1 columns; expected 2" + commas + "semicolons, and decimal points in numbers");
+  EXPECT_EQ(message("t,head\n0\t2.5\n"),
+            ":2: got 1 columns; expected 2" + commas + "tabs, and decimal points in numbers");
+  EXPECT_EQ(message("t,head\n0,2,5\n"),
+            ":2: got 3 columns; expected 2, with decimal points in numbers");
+  EXPECT_EQ(message("t,head\n0\n"), ":2: got 1 columns; expected 2");
+  EXPECT_EQ(message("t,head\n0,2.5\n"), "accepted");
 }
 
 }  // namespace

@@ -160,16 +160,19 @@ TEST_F(Stage, NothingElseMayDiffer) {
     all.insert(all.end(), sets.begin(), sets.end());
     return place_.make_case(test::with(mode(), mode().name, all));
   };
-  expect_refused(changed({"soil.specimen.erosion.rate=5.0", "liquid.viscosity=2e-3"}), folder,
-                 {"--resume"},
-                 "it holds the results of another case (liquid.viscosity = 0.001 there and 0.002 "
-                 "here and soil.specimen.erosion.rate = 4.0 there and 5.0 here); take the case it "
-                 "began with, in which nothing but time.end, output.restarts and output.precision "
-                 "may be changed, choose another folder");
+  expect_refused(
+      changed({"soil.specimen.erosion.rate=5.0", "liquid.viscosity=2e-3"}), folder, {"--resume"},
+      folder +
+          ": cannot be resumed: it holds the results of another case; choose "
+          "another folder with -o, take the case it began with, in which nothing but "
+          "time.end, output.restarts and output.precision may be changed, or replace them "
+          "with --force in the place of --resume. What differs:\n"
+          "  liquid.viscosity: 0.001 there, 0.002 here\n"
+          "  soil.specimen.erosion.rate: 4 there, 5 here\n");
   expect_refused(changed({"output.every=0.05"}), folder, {"--resume"},
-                 "(output.every = 0.1 there and 0.05 here)");
+                 "What differs:\n  output.every: 0.1 there, 0.05 here\n");
   expect_refused(changed({"mesh.size=0.25"}), folder, {"--resume"},
-                 "(mesh.size = 0.125 there and 0.25 here and mesh or points)");
+                 "What differs:\n  mesh.size: 0.125 there, 0.25 here\n  the mesh or the points\n");
   expect_refused(
       case_until(mode(), 0.75), folder, {"--resume"},
       "time.end: got 0.75; expected no less than 1 s, which the run in " + folder + " has reached");
@@ -273,8 +276,8 @@ TEST_F(FromEarlierOnce, BoundariesLawsGravityAndSchemeMayDiffer) {
   const Outcome explained = process.wait();
   EXPECT_EQ(explained.code, 0);
   for (const char* said :
-       {"run: from the state of ", "differs: boundary[0].pressure = 6000.0 there",
-        "differs: gravity = not given there and [0.0, -9.81] here"}) {
+       {"run: from the state of ", "differs: boundary[0].pressure: 6000 there, 2000 here",
+        "differs: gravity: nothing there, [0.0, -9.81] here"}) {
     EXPECT_NE(explained.error.find(said), std::string::npos) << explained.error;
   }
   // And back, with what was caught.
@@ -335,13 +338,14 @@ TEST_F(FromEarlierOnce, WhatDoesNotFitIsRefused) {
   expect({"soil.specimen.retention={model = \"gardner\", alpha = 3.0}", "gravity=[0.0, -9.81]"},
          "soil.specimen.retention: got another one; expected the same as in ");
   const std::string own = place_.make_case(second(mode(), {"name=single"}));
-  expect_refused(own, source, {},
+  expect_refused(own, source, {"--force"},
                  "initial.from: got " + source +
                      ", the folder that this run writes into; "
                      "expected another one: choose it with -o");
   test::stop_after_snapshot(source, 2);
   expect({},
-         "initial.from: got \"a.results\", whose run is \"running\"; expected a run that is "
+         "initial.from: got \"a.results\", whose run is \"stopped without notice\"; expected a run "
+         "that is "
          "done: let it go on with --resume");
 }
 

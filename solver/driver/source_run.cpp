@@ -1,10 +1,11 @@
-#include "driver/earlier_run.hpp"
+#include "driver/source_run.hpp"
 
 #include <cmath>
 #include <filesystem>
 
 #include "case/errors.hpp"
 #include "case/law_texts.hpp"
+#include "case/scene_difference.hpp"
 #include "case/scene_schema.hpp"
 #include "driver/plan.hpp"
 #include "driver/run_loop.hpp"
@@ -120,7 +121,7 @@ EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, int threads) 
 }  // namespace
 
 template <int Dim>
-std::optional<EarlierRun<Dim>> read_earlier_run(const Case<Dim>& c, int threads) {
+std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads) {
   const SceneDocument& document = c.document;
   if (document.scene.initial_from.empty()) return std::nullopt;
   const std::string folder = file_beside_scene(document.path, document.scene.initial_from);
@@ -149,18 +150,18 @@ std::optional<EarlierRun<Dim>> read_earlier_run(const Case<Dim>& c, int threads)
     throw FileError(folder + ": its last state cannot be read" +
                     (found.damage.empty() ? "" : ": " + found.damage.front()));
   }
-  EarlierRun<Dim> result;
+  SourceRun<Dim> result;
   result.folder = folder;
   result.sentences.push_back("run: from the state of " + folder +
                              " at t = " + shown_number(found.point->time) + " s there, digest " +
                              digest_of(*found.point));
-  for (const std::string& difference : differences(earlier, c)) {
+  for (const std::string& difference : scene_differences(earlier.document, document)) {
     result.sentences.push_back("differs: " + difference);
   }
   result.state = restored(earlier, std::move(*found.point), threads);
   return result;
 }
 
-template std::optional<EarlierRun<2>> read_earlier_run(const Case<2>&, int);
+template std::optional<SourceRun<2>> read_source_run(const Case<2>&, int);
 
 }  // namespace suffuse

@@ -12,7 +12,7 @@
 namespace suffuse {
 
 template <int Dim>
-struct EarlierRun {
+struct SourceRun {
   std::string folder;  ///< of its results
   EarlierState<Dim> state;
   /// For plan and run.json: from where the state is, its time and digest, and how the scenes
@@ -24,6 +24,6 @@ struct EarlierRun {
 /// run is not done, or is of another formulation, mesh, water or soil; FileError where its files
 /// cannot be read.
 template <int Dim>
-std::optional<EarlierRun<Dim>> read_earlier_run(const Case<Dim>& c, int threads);
+std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads);
 
 }  // namespace suffuse
