@@ -9,6 +9,7 @@
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/run.hpp"
+#include "driver/source_run.hpp"
 
 namespace {
 
@@ -32,11 +33,16 @@ std::string default_folder(const std::string& case_path) {
 /// What would run, and what it would take. Leaves nothing behind.
 int explain(const suffuse::Case<2>& c, const suffuse::Plan& plan, int threads) {
   using namespace suffuse;
+  const std::optional<SourceRun<2>> earlier = read_source_run(c, threads);
+  if (earlier) {
+    for (const std::string& sentence : earlier->sentences) std::cout << sentence << '\n';
+  }
   for (const std::string& sentence : plan.sentences) std::cout << sentence << '\n';
   for (const std::string& warning : plan.warnings) std::cout << "warning: " << warning << '\n';
   std::cout << std::flush;
   catch_interrupts();
-  for (const std::string& sentence : sentences(estimate_run(c, plan), threads)) {
+  for (const std::string& sentence :
+       sentences(estimate_run(c, plan, {}, earlier ? &earlier->state : nullptr), threads)) {
     std::cout << sentence << '\n';
   }
   return static_cast<int>(ExitCode::done);

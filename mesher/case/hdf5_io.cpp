@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "case/chunk_writer.hpp"
 #include "case/errors.hpp"
 
 namespace suffuse {
@@ -125,9 +126,19 @@ Handle creation_settings(hid_t property_class) {
   return creation;
 }
 
+/// Of a group. Links and attributes stand together in its head: from nine on HDF5 would make
+/// a heap and a tree for them, which take more room than many a field.
+Handle group_settings() {
+  constexpr unsigned most = 64;
+  Handle creation = creation_settings(H5P_GROUP_CREATE);
+  H5Pset_link_phase_change(creation.id(), most, most - 1);
+  H5Pset_attr_phase_change(creation.id(), most, most - 1);
+  return creation;
+}
+
 /// Creates those of the groups `/a`, `/a/b`, ... above `object` that do not exist.
 void create_groups_above(hid_t file, const std::string& path, const std::string& object) {
-  const Handle creation = creation_settings(H5P_GROUP_CREATE);
+  const Handle creation = group_settings();
   for (std::size_t end = object.find('/', 1); end != std::string::npos;
        end = object.find('/', end + 1)) {
     const std::string group = object.substr(0, end);
@@ -161,6 +172,33 @@ void write_array(hid_t file, const std::string& path, const std::string& dataset
          std::to_string(values.size()) + " values do not fill the shape " + extents_text(shape));
   }
   write_dataset(file, path, dataset, file_type, memory_type, array_space(shape), values.data());
+}
+
+/// A table is compressed column by column, what has no columns is one of them.
+template <class Value>
+void write_compressed_array(hid_t file, const std::string& path, const std::string& dataset,
+                            hid_t type, std::span<const Value> values,
+                            const std::vector<std::size_t>& shape) {
+  if (values.empty() || shape.size() > 2 || product(shape) != values.size()) {
+    write_array(file, path, dataset, type, type, values, shape);
+    return;
+  }
+  create_groups_above(file, path, dataset);
+  const ChunkShape chunks = chunk_shape(shape[0], shape.size() == 2 ? shape[1] : 1, sizeof(Value));
+  const Handle creation = creation_settings(H5P_DATASET_CREATE);
+  const std::array<hsize_t, 2> extents{chunks.chunk_rows, 1};
+  H5Pset_chunk(creation.id(), static_cast<int>(shape.size()), extents.data());
+  H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+  H5Pset_shuffle(creation.id());
+  H5Pset_deflate(creation.id(), 1);
+  const Handle space = array_space(shape);
+  const Handle set(
+      H5Dcreate2(file, dataset.c_str(), type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!set.valid() ||
+      !write_chunks(set.id(), chunks, reinterpret_cast<const std::uint8_t*>(values.data()))) {
+    fail_writing(path, dataset);
+  }
 }
 
 void refuse_nul(const std::string& path, const std::string& object,
@@ -378,8 +416,9 @@ hid_t open_existing(const std::string& path) {
 hid_t create_new(const std::string& path) {
   const Handle creation = creation_settings(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // With checksums (see refuse_old_layout); read by HDF5 1.8 and later.
-  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
+  // With checksums (see refuse_old_layout), those of where chunks are included; read by HDF5 1.10
+  // and later.
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110);
   const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
   if (id < 0) {
     const std::string reason =
@@ -463,7 +502,7 @@ std::vector<std::string> Hdf5File::children(const std::string& group) const {
 
 void Hdf5File::create_group(const std::string& group) {
   create_groups_above(file_, path_, group);
-  const Handle creation = creation_settings(H5P_GROUP_CREATE);
+  const Handle creation = group_settings();
   const Handle handle(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
                       H5Gclose);
   if (!handle.valid()) fail_writing(path_, group);
@@ -487,6 +526,53 @@ void Hdf5File::write(const std::string& dataset, std::span<const std::int32_t> v
 void Hdf5File::write(const std::string& dataset, std::span<const std::uint8_t> values,
                      const std::vector<std::size_t>& shape) {
   write_array(file_, path_, dataset, H5T_STD_U8LE, H5T_NATIVE_UINT8, values, shape);
+}
+
+void Hdf5File::write_compressed(const std::string& dataset, std::span<const double> values,
+                                const std::vector<std::size_t>& shape) {
+  write_compressed_array(file_, path_, dataset, H5T_IEEE_F64LE, values, shape);
+}
+
+void Hdf5File::write_compressed(const std::string& dataset, std::span<const float> values,
+                                const std::vector<std::size_t>& shape) {
+  write_compressed_array(file_, path_, dataset, H5T_IEEE_F32LE, values, shape);
+}
+
+void Hdf5File::write_compressed(const std::string& dataset, std::span<const std::int64_t> values,
+                                const std::vector<std::size_t>& shape) {
+  write_compressed_array(file_, path_, dataset, H5T_STD_I64LE, values, shape);
+}
+
+void Hdf5File::write_compressed(const std::string& dataset, std::span<const std::uint8_t> values,
+                                const std::vector<std::size_t>& shape) {
+  write_compressed_array(file_, path_, dataset, H5T_STD_U8LE, values, shape);
+}
+
+void Hdf5File::link_to(const std::string& object, const std::string& file) {
+  create_groups_above(file_, path_, object);
+  if (H5Lcreate_external(file.c_str(), object.c_str(), file_, object.c_str(), H5P_DEFAULT,
+                         H5P_DEFAULT) < 0) {
+    fail_writing(path_, object);
+  }
+}
+
+bool Hdf5File::is_in(const std::string& object, const std::string& file) const {
+  const std::string parent = object.substr(0, object.rfind('/'));
+  if (!parent.empty() && !exists(parent)) return false;
+  H5L_info_t link{};
+  const bool found = H5Lget_info(file_, object.c_str(), &link, H5P_DEFAULT) >= 0;
+  H5Eclear2(H5E_DEFAULT);
+  if (!found || link.type != H5L_TYPE_EXTERNAL) return false;
+  std::vector<char> target(link.u.val_size);
+  const char* target_file = nullptr;
+  const char* target_object = nullptr;
+  if (H5Lget_val(file_, object.c_str(), target.data(), target.size(), H5P_DEFAULT) < 0 ||
+      H5Lunpack_elink_val(target.data(), target.size(), nullptr, &target_file, &target_object) <
+          0) {
+    H5Eclear2(H5E_DEFAULT);
+    return false;
+  }
+  return target_file == file && target_object == object;
 }
 
 void Hdf5File::write_text(const std::string& dataset, const std::string& value) {

@@ -42,6 +42,20 @@ class Hdf5File {
              const std::vector<std::size_t>& shape);
   void write(const std::string& dataset, std::span<const std::uint8_t> values,
              const std::vector<std::size_t>& shape);
+  /// The same compressed without loss, in a table column by column: for fields, which are large.
+  void write_compressed(const std::string& dataset, std::span<const double> values,
+                        const std::vector<std::size_t>& shape);
+  void write_compressed(const std::string& dataset, std::span<const float> values,
+                        const std::vector<std::size_t>& shape);
+  void write_compressed(const std::string& dataset, std::span<const std::int64_t> values,
+                        const std::vector<std::size_t>& shape);
+  void write_compressed(const std::string& dataset, std::span<const std::uint8_t> values,
+                        const std::vector<std::size_t>& shape);
+  /// An external link: `object` stands for the object of the same name in `file`, which lies in
+  /// the same folder. It is for other programs. Nothing here follows a link; see `is_in`.
+  void link_to(const std::string& object, const std::string& file);
+  /// Whether `object` is such a link to `file`.
+  [[nodiscard]] bool is_in(const std::string& object, const std::string& file) const;
   /// Text, and lists of texts: fixed-length UTF-8, padded with NUL. Of variable-length text, a
   /// damaged file makes HDF5 itself crash; it is neither written nor read.
   void write_text(const std::string& dataset, const std::string& value);

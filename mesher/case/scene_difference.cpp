@@ -46,13 +46,6 @@ void apply(const std::string& argument, Values& values) {
   collect(change.node, key, values);
 }
 
-Values values_of(const SceneDocument& document) {
-  Values values;
-  collect(read_toml(document.text, document.path), "", values);
-  for (const std::string& argument : document.overrides) apply(argument, values);
-  return values;
-}
-
 std::string difference(const std::string& key, const std::string& there, const std::string& here) {
   if (there.size() > longest_value || here.size() > longest_value) return key + ": other values";
   return key + ": " + there + " there, " + here + " here";
@@ -66,11 +59,18 @@ std::string value_or(const Map& map, const std::string& key, const std::string& 
 
 }  // namespace
 
+std::map<std::string, std::string> written_values(const SceneDocument& document) {
+  Values values;
+  collect(read_toml(document.text, document.path), "", values);
+  for (const std::string& argument : document.overrides) apply(argument, values);
+  return values;
+}
+
 std::vector<std::string> scene_differences(const SceneDocument& there, const SceneDocument& here) {
   std::vector<std::string> result;
   try {
-    const Values before = values_of(there);
-    const Values now = values_of(here);
+    const Values before = written_values(there);
+    const Values now = written_values(here);
     std::set<std::string> keys;
     for (const Values* values : {&before, &now}) {
       for (const auto& [key, value] : *values) keys.insert(key);

@@ -485,6 +485,13 @@ std::vector<SceneKey> declare_keys() {
           .otherwise_as("the head of the boundaries that have one at t = 0; where they differ or "
                         "there is none, p = 0 without gravity, **required** under gravity at rest"),
 
+      key("initial.from", at(&Scene::initial_from),
+          "Folder with the results of a run that is done, relative to the scene's folder: its last "
+          "state is the initial one here, and the clock starts at 0 again. On the same mesh and "
+          "points, with the same water, porosities, grains and retentions; boundaries, other laws, "
+          "gravity and the time scheme may differ.")
+          .otherwise_as("the state of `initial.flow`, with what the soils say"),
+
       key("flow.porosity_gradient_term", at(&Scene::flow, &FlowSettings::porosity_gradient_term),
           "Keep (v_L - v_S) . grad n_L in the balance of water. Without it water is lost wherever "
           "porosity varies: for comparison only, with the explicit scheme, and not in double-point "
@@ -567,6 +574,17 @@ std::vector<SceneKey> declare_keys() {
           .in("s")
           .above(0.0)
           .otherwise_as("`output.every`"),
+      key("output.restarts", at(&Scene::output, &OutputSettings::restarts),
+          "Snapshots behind which the run can go on, the newest ones. Their states take more room "
+          "than the fields; those of older snapshots are removed.")
+          .at_least(1)
+          .at_most(1000000)
+          .otherwise(2),
+      choice("output.precision", at(&Scene::output, &OutputSettings::precision),
+             {{"float64", FieldPrecision::float64}, {"float32", FieldPrecision::float32}},
+             "How fields are stored in snapshots: with all digits, or with seven, in less than "
+             "half the room. Tables, places and the state to go on from keep all digits.")
+          .otherwise("float64"),
       key("output.probe[].at", in_output(&OutputSettings::probes, &OutputProbe::at),
           "Where pressure and flux are recorded, inside the mesh.")
           .in("m")

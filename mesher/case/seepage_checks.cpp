@@ -131,6 +131,14 @@ class SeepageChecks : private SceneCheckBase {
 
   /// Liquid at rest under gravity has a level, which must be known: p = 0 everywhere is no rest.
   void check_start() const {
+    if (given("initial.from")) {
+      for (const std::string other : {"initial.flow", "initial.water_level"}) {
+        if (!given(other)) continue;
+        report(other, "a start beside that from an earlier run", "initial.from alone",
+               {"initial.from"});
+      }
+      return;
+    }
     const std::string key = "initial.water_level";
     if (scene_.initial_flow != InitialFlow::rest || refused("initial.flow") ||
         !has_gravity(scene_.gravity) || scene_.water_level || refused(key)) {

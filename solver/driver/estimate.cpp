@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "case/errors.hpp"
 #include "case/scratch_folder.hpp"
@@ -14,33 +16,104 @@
 #include "driver/stopwatch.hpp"
 #include "driver/transport_cost.hpp"
 #include "driver/trial_course.hpp"
+#include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/writer.hpp"
 
 namespace suffuse {
 namespace {
 
-double folder_size(const std::filesystem::path& folder) {
-  double sum = 0.0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) sum += static_cast<double>(entry.file_size());
-  }
-  return sum;
+double size_of(const std::string& path) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  return none ? 0.0 : static_cast<double>(size);
 }
 
-/// A run that writes nothing and may end early.
+/// Writes some snapshots of a trial into a temporary folder: their size changes in the course of a
+/// run, as they are compressed.
+template <int Dim>
+class WrittenSnapshots {
+ public:
+  explicit WrittenSnapshots(const Case<Dim>& c)
+      : folder_("suffuse-estimate"), writer_(folder_.path().string(), c) {}
+
+  [[nodiscard]] ResultsWriter<Dim>& writer() { return writer_; }
+  /// Of what a run writes once, and of the tables, bytes.
+  [[nodiscard]] double size_without_snapshots() const {
+    double sum = 0.0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
+      const std::string name = entry.path().filename().string();
+      const bool is_snapshot = name.find("_0") != std::string::npos;
+      if (entry.is_regular_file() && !is_snapshot) sum += size_of(entry.path().string());
+    }
+    return sum;
+  }
+  /// Of the state of a run, bytes.
+  [[nodiscard]] double state_size() const { return state_size_; }
+  [[nodiscard]] double seconds() const { return seconds_; }
+
+  /// Snapshot `index` of the run. Those of the run that lie between are left out.
+  void write(long index, Snapshot snapshot) {
+    const Stopwatch watch;
+    writer_.write_snapshot(std::move(snapshot));
+    // The first takes more time than those that follow: the mean is of those.
+    const auto followers = static_cast<double>(std::max<std::size_t>(samples_.size(), 1));
+    const double before = samples_.size() > 1 ? seconds_ : 0.0;
+    seconds_ = before + (watch.seconds() - before) / followers;
+    double bytes = 0.0;
+    for (const char* kind : {"mesh", "solid", "liquid"}) {
+      bytes += size_of(path_of(layout::snapshot(kind, samples_.size())));
+    }
+    state_size_ = size_of(path_of(layout::state(samples_.size())));
+    samples_.emplace_back(index, bytes);
+  }
+  /// Of the last snapshot that was written; -1 before.
+  [[nodiscard]] long last() const { return samples_.empty() ? -1 : samples_.back().first; }
+
+  /// All `count` snapshots, bytes: linear in between, and those to come like the last.
+  [[nodiscard]] double bytes_of_all(long count) const {
+    double sum = samples_.front().second;
+    for (std::size_t k = 1; k < samples_.size(); ++k) {
+      const auto& [from, from_bytes] = samples_[k - 1];
+      const auto& [to, to_bytes] = samples_[k];
+      const auto gap = static_cast<double>(to - from);
+      sum += gap * from_bytes + 0.5 * (gap + 1.0) * (to_bytes - from_bytes);
+    }
+    return sum + static_cast<double>(count - 1 - last()) * samples_.back().second;
+  }
+
+ private:
+  [[nodiscard]] std::string path_of(const std::string& name) const {
+    return layout::in_folder(folder_.path().string(), name);
+  }
+
+  ScratchFolder folder_;
+  ResultsWriter<Dim> writer_;
+  std::vector<std::pair<long, double>> samples_;  ///< number in the run, bytes
+  double state_size_ = 0.0;
+  double seconds_ = 0.0;  ///< of one snapshot
+};
+
+/// A run that writes a few snapshots only and may end early.
 template <int Dim>
 class Trial final : public OutputSink<Dim> {
  public:
-  Trial(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget)
+  Trial(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget,
+        const EarlierState<Dim>* earlier)
       : case_(c),
         budget_(budget),
-        loop_(c, plan),
-        checks_(c.document.scene, plan.speed_that_drag_follows) {}
+        loop_(c, plan, earlier),
+        checks_(c.document.scene, plan.speed_that_drag_follows) {
+    try {
+      files_.emplace(c);
+    } catch (const FileError&) {
+      // The size of the files remains unknown.
+    }
+  }
 
   Estimate run() {
     Estimate result;
-    course_.marks = {{0.0, 0.0, watch_.seconds()}};
+    course_.marks = {{0.0, 0.0, seconds()}};
     try {
       loop_.run(*this);
     } catch (const NumericalError& error) {
@@ -53,11 +126,7 @@ class Trial final : public OutputSink<Dim> {
     result.steps = static_cast<double>(result.trial_steps);
     result.seconds = course_.last().seconds;
     if (!result.whole && result.failure.empty() && result.trial_steps > 0) extrapolate(result);
-    try {
-      add_files(result);
-    } catch (const FileError&) {
-      // The size of the files remains unknown.
-    }
+    add_files(result);
     const Scene& scene = case_.document.scene;
     const bool has_a_choice = scene.formulation == Formulation::single_point &&
                               scene.time.scheme == FlowScheme::implicit_mixed;
@@ -75,10 +144,15 @@ class Trial final : public OutputSink<Dim> {
   void write_row(const FlowState<Dim>& flow) override {
     checks_.check(loop_.model().history_row(flow));
   }
-  void write_snapshot(const FlowState<Dim>& /*flow*/) override {}
+  void write_snapshot(const FlowState<Dim>& flow) override {
+    constexpr long samples = 16;
+    const OutputTimes& times = loop_.schedule().snapshots();
+    const long index = times.past() - 1;
+    if (index % (times.count() / samples + 1) == 0) write_sample(index, flow);
+  }
   bool continue_after_interval() override {
     const double time = loop_.model().time();
-    course_.marks.push_back({time, static_cast<double>(loop_.model().steps()), watch_.seconds()});
+    course_.marks.push_back({time, static_cast<double>(loop_.model().steps()), seconds()});
     return course_.last().seconds - course_.marks.front().seconds < budget_.seconds &&
            time < budget_.share * case_.document.scene.time.end;
   }
@@ -93,34 +167,58 @@ class Trial final : public OutputSink<Dim> {
     result.seconds += steps * course_.seconds_per_step();
   }
 
-  /// The files of the run and the time to write them, as for the last state. Throws FileError.
-  void add_files(Estimate& result) {
-    const long rows = loop_.schedule().rows().count();
-    result.snapshots = loop_.schedule().snapshots().count();
-    const ScratchFolder folder("suffuse-estimate");
-    ResultsWriter<Dim> writer(folder.path().string(), case_);
-    const FlowState<Dim> flow = loop_.model().flow_state();
-    double bytes = folder_size(folder.path());
-    double seconds = 0.0;
-    const auto add = [&](long count, const auto& write) {
-      write();  // the first takes more time than those that follow
-      const double before = folder_size(folder.path());
-      const Stopwatch watch;
-      write();
-      seconds += static_cast<double>(count) * watch.seconds();
-      bytes += static_cast<double>(count) * (folder_size(folder.path()) - before);
-    };
-    add(rows, [&] {
-      writer.append_history(loop_.model().history_row(flow));
-      append_tables(writer, loop_.model(), flow);
-    });
-    add(result.snapshots, [&] {
+  /// Of computing, s.
+  [[nodiscard]] double seconds() const { return watch_.seconds() - seconds_of_writing_; }
+
+  void write_sample(long index, const FlowState<Dim>& flow) {
+    if (!files_) return;
+    const Stopwatch watch;
+    try {
       Snapshot snapshot = loop_.model().snapshot(flow);
       snapshot.restart = loop_.restart_point();
-      writer.write_snapshot(std::move(snapshot));
-    });
-    result.disk = bytes;
-    result.seconds += seconds;
+      files_->write(index, std::move(snapshot));
+    } catch (const FileError&) {
+      files_.reset();
+    }
+    seconds_of_writing_ += watch.seconds();
+  }
+
+  /// The files of the run and the time to write them. Rows are taken to be like that of the last
+  /// state.
+  void add_files(Estimate& result) {
+    const OutputTimes& times = loop_.schedule().snapshots();
+    result.snapshots = times.count();
+    const FlowState<Dim> flow = loop_.model().flow_state();
+    if (files_ && files_->last() < result.snapshots - 1) {
+      write_sample(std::max(files_->last() + 1, times.past() - 1), flow);
+    }
+    if (!files_) return;
+    const long kept = std::min<long>(result.snapshots, case_.document.scene.output.restarts);
+    try {
+      result.disk = files_->bytes_of_all(result.snapshots) +
+                    static_cast<double>(kept) * files_->state_size() + add_rows(result, flow);
+    } catch (const FileError&) {
+      return;
+    }
+    // Snapshots are written while the run goes on.
+    result.seconds =
+        std::max(result.seconds, static_cast<double>(result.snapshots) * files_->seconds());
+  }
+
+  /// The tables and what is there once, bytes. Throws FileError.
+  double add_rows(Estimate& result, const FlowState<Dim>& flow) {
+    const auto rows = static_cast<double>(loop_.schedule().rows().count());
+    const auto write = [&] {
+      files_->writer().append_history(loop_.model().history_row(flow));
+      append_tables(files_->writer(), loop_.model(), flow);
+    };
+    const double others = files_->size_without_snapshots();
+    write();  // the first takes more time than those that follow
+    const double before = files_->size_without_snapshots();
+    const Stopwatch watch;
+    write();
+    result.seconds += rows * watch.seconds();
+    return others + rows * (files_->size_without_snapshots() - before);
   }
 
   const Case<Dim>& case_;
@@ -129,6 +227,8 @@ class Trial final : public OutputSink<Dim> {
   RunLoop<Dim> loop_;
   RowChecks checks_;
   TrialCourse course_;
+  std::optional<WrittenSnapshots<Dim>> files_;  ///< none where they cannot be written
+  double seconds_of_writing_ = 0.0;
 };
 
 std::string counted(long count, const std::string& one) {
@@ -138,24 +238,25 @@ std::string counted(long count, const std::string& one) {
 }  // namespace
 
 template <int Dim>
-Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget) {
+Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget,
+                      const EarlierState<Dim>* earlier) {
   Estimate first;
   TrialCourse start_up;
   {
-    Trial<Dim> trial(c, plan, budget);
+    Trial<Dim> trial(c, plan, budget, earlier);
     first = trial.run();
     start_up = trial.course();
   }
   const Scene& scene = c.document.scene;
   const double settled = std::min(plan.settling_time, scene.time.end);
-  const bool starts_up = scene.initial_flow == InitialFlow::rest && !plan.flow.step_given &&
-                         first.trial_time <= 2.0 * settled;
+  const bool starts_up = !earlier && scene.initial_flow == InitialFlow::rest &&
+                         !plan.flow.step_given && first.trial_time <= 2.0 * settled;
   if (!starts_up || first.whole || !first.failure.empty() || interrupted()) return first;
 
   // The steps of a start-up tell nothing of those that come after it: a second trial starts there.
   Case<Dim> steady = c;
   steady.document.scene.initial_flow = InitialFlow::steady;
-  Trial<Dim> later(steady, plan, {budget.seconds, 1.0});
+  Trial<Dim> later(steady, plan, {budget.seconds, 1.0}, nullptr);
   Estimate result = later.run();
   if (!result.failure.empty()) return first;
   const double longest = 1.0 / step_rate(later.course().half(), later.course().last());
@@ -198,6 +299,7 @@ std::vector<std::string> sentences(const Estimate& e, int threads) {
   return result;
 }
 
-template Estimate estimate_run(const Case<2>&, const Plan&, const TrialBudget&);
+template Estimate estimate_run(const Case<2>&, const Plan&, const TrialBudget&,
+                               const EarlierState<2>*);
 
 }  // namespace suffuse

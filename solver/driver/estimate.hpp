@@ -36,12 +36,14 @@ struct Estimate {
   std::string failure;         ///< how the run failed in the trial; empty otherwise
 };
 
-/// Runs the case from its start for a while. Rows are made but not written; only the last state is
-/// written, into a temporary folder, for the bytes and seconds of a snapshot. The rest of the run
+/// Runs the case from its start for a while. Rows are made but not written; some twenty snapshots
+/// at most are written into a temporary folder, for their bytes and seconds. The rest of the run
 /// is extrapolated from the later half of the trial. Where that is still the start-up of the flow,
-/// a second trial starts with the steady flow. Ends early on an interrupt (see catch_interrupts).
+/// a second trial starts with the steady flow. `earlier`: what the run starts from, if any. Ends
+/// early on an interrupt (see catch_interrupts).
 template <int Dim>
-Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget = {});
+Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget = {},
+                      const EarlierState<Dim>* earlier = nullptr);
 
 /// The lines that `--explain` prints.
 std::vector<std::string> sentences(const Estimate& estimate, int threads);

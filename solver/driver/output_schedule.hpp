@@ -15,29 +15,36 @@ class OutputTimes {
  public:
   OutputTimes(double every, double end) : every_(every), end_(end) {}
 
-  [[nodiscard]] double next() const { return std::min(static_cast<double>(index_) * every_, end_); }
-  [[nodiscard]] bool finished() const { return finished_; }
+  [[nodiscard]] double next() const { return std::min(multiple(), end_); }
+  [[nodiscard]] bool finished() const { return last_ >= end_; }
   /// Number of times that are past.
-  [[nodiscard]] long past() const { return index_; }
-  void archive(auto& archive) { archive(index_, finished_); }
+  [[nodiscard]] long past() const { return past_; }
+  /// The end is that of the scene: a run that has reached it may be restored with a later one.
+  void archive(auto& archive) { archive(index_, past_, last_); }
   void advance() {
-    finished_ = next() >= end_;
-    ++index_;
+    last_ = next();
+    ++past_;
+    if (multiple() <= end_) ++index_;
   }
   /// Number of all times.
   [[nodiscard]] long count() const {
-    OutputTimes all(every_, end_);
+    OutputTimes rest = *this;
     // Starts shortly before the end, as there may be very many times.
-    all.index_ = std::max(0L, static_cast<long>(end_ / every_) - 2);
-    while (!all.finished()) all.advance();
-    return all.index_;
+    const long skipped = std::max(0L, static_cast<long>(end_ / every_) - 2 - index_);
+    rest.index_ += skipped;
+    rest.past_ += skipped;
+    while (!rest.finished()) rest.advance();
+    return rest.past_;
   }
 
  private:
+  [[nodiscard]] double multiple() const { return static_cast<double>(index_) * every_; }
+
   double every_;
   double end_;
-  long index_ = 0;
-  bool finished_ = false;
+  long index_ = 0;  ///< of the next multiple
+  long past_ = 0;
+  double last_ = -1.0;  ///< the time before, s; negative: none
 };
 
 /// Both kinds of output of a scene.

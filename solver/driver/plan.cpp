@@ -459,7 +459,8 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   const SoilMap<Dim> soils(c);
   Plan plan;
   plan.warnings = plausibility_warnings(c.document, c.mesh);
-  const bool fines_enter = largest_inflow_concentration(scene) > 0.0;
+  // The liquid of an earlier run may hold fines as well.
+  const bool fines_enter = largest_inflow_concentration(scene) > 0.0 || !scene.initial_from.empty();
   plan.erosion = soils.erodes() || (soils.deposits() && fines_enter);
   plan.transport = plan.erosion || fines_enter;
 

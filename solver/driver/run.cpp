@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -13,9 +14,9 @@
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/progress.hpp"
-#include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
-#include "driver/spent_energy.hpp"
+#include "driver/run_notes.hpp"
+#include "driver/source_run.hpp"
 #include "driver/starting_point.hpp"
 #include "driver/stopwatch.hpp"
 #include "results/writer.hpp"
@@ -46,7 +47,8 @@ template <int Dim>
 class Run final : public OutputSink<Dim> {
  public:
   Run(Case<Dim> c, const Plan& plan, const SolverOptions& options, StartingPoint starting_point,
-      const RunOptions& run, std::string resume_command)
+      const RunOptions& run, std::string resume_command,
+      const std::optional<SourceRun<Dim>>& source)
       : case_(std::move(c)),
         plan_(plan),
         options_(options),
@@ -54,8 +56,9 @@ class Run final : public OutputSink<Dim> {
         resume_command_(std::move(resume_command)),
         case_digest_(digest_of(case_)),
         folder_(starting_point.folder),
-        loop_(case_, plan),
-        checks_(case_.document.scene, plan.speed_that_drag_follows, plan.obtuse_elements),
+        loop_(case_, plan, source ? &source->state : nullptr),
+        notes_{.checks = {case_.document.scene, plan.speed_that_drag_follows, plan.obtuse_elements},
+               .origin = source ? source->sentences : std::vector<std::string>()},
         progress_(starting_point.from ? starting_point.from->time : 0.0,
                   case_.document.scene.time.end, starts_from_rest(starting_point), run.quiet),
         writer_(open_results(std::move(starting_point))) {
@@ -67,6 +70,7 @@ class Run final : public OutputSink<Dim> {
     try {
       write_info("running", "");
       loop_.run(*this);
+      finish_writing();
       progress_.finish();
       if (!loop_.finished()) return stop();
       // Before the status "done": after it nothing removes the file.
@@ -85,22 +89,31 @@ class Run final : public OutputSink<Dim> {
   }
 
   void warn(const std::string& text) override {
-    warnings_.push_back(text);
+    notes_.warnings.push_back(text);
     progress_.say("suffuse-solver: warning: " + text);
   }
 
   void write_row(const FlowState<Dim>& flow) override {
     HistoryRow row = loop_.model().history_row(flow);
-    row.energy = energy_.at(row);
-    for (const std::string& warning : checks_.check(row)) warn(warning);
+    row.energy = notes_.energy.at(row);
+    for (const std::string& warning : notes_.checks.check(row)) warn(warning);
     writer_.append_history(row);
     append_tables(writer_, loop_.model(), flow);
   }
 
+  /// The run goes on while the files are written.
   void write_snapshot(const FlowState<Dim>& flow) override {
+    // One at a time: two in memory would be too many.
+    finish_writing();
     Snapshot snapshot = loop_.model().snapshot(flow);
     snapshot.restart = restart_point();
-    writer_.write_snapshot(std::move(snapshot));
+    // Where there can be no other thread, this one writes when it waits.
+    writing_ = std::async(std::launch::async | std::launch::deferred,
+                          [this, snapshot = std::move(snapshot)]() mutable {
+                            writer_.write_snapshot(std::move(snapshot));
+                          });
+    // Rows without any snapshot would be results from which no run can go on.
+    if (loop_.schedule().snapshots().past() == 1) finish_writing();
     since_saved_ = Stopwatch();
   }
 
@@ -119,14 +132,16 @@ class Run final : public OutputSink<Dim> {
     for (const std::string& warning : plan_.warnings) warn(warning);
     if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
     StateArchive state(std::move(starting_point.from->state));
-    state(loop_, checks_, energy_, warnings_);
+    state(loop_, notes_);
     state.finish();
     resumed_at_ = starting_point.from->time;
     return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
   }
 
   [[nodiscard]] bool starts_from_rest(const StartingPoint& starting_point) const {
-    return !starting_point.from && case_.document.scene.initial_flow == InitialFlow::rest;
+    const Scene& scene = case_.document.scene;
+    return !starting_point.from && scene.initial_flow == InitialFlow::rest &&
+           scene.initial_from.empty();
   }
 
   ExitCode stop() {
@@ -139,10 +154,16 @@ class Run final : public OutputSink<Dim> {
     return ExitCode::interrupted;
   }
 
+  /// Waits for the snapshot that is being written. Throws what its writing threw.
+  void finish_writing() {
+    if (writing_.valid()) writing_.get();
+  }
+
   void note_failure(const std::string& message) {
     try {
       write_info("failed", message);
-    } catch (const FileError&) {
+      finish_writing();
+    } catch (const std::exception&) {
       // A disk that has no room for results may have none for this either.
     }
   }
@@ -157,12 +178,13 @@ class Run final : public OutputSink<Dim> {
   }
 
   void write_checkpoint() {
+    finish_writing();
     writer_.write_checkpoint(restart_point());
     since_saved_ = Stopwatch();
   }
 
   RestartPoint restart_point() {
-    RestartPoint point = loop_.restart_point(checks_, energy_, warnings_);
+    RestartPoint point = loop_.restart_point(notes_);
     point.no_skip = options_.no_skip;
     point.case_digest = case_digest_;
     return point;
@@ -181,8 +203,9 @@ class Run final : public OutputSink<Dim> {
     info.resumed_at = resumed_at_;
     info.memory_bytes = peak_memory();
     info.passes = loop_.model().passes();
-    info.plan = plan_.sentences;
-    info.warnings = warnings_;
+    info.plan = notes_.origin;
+    info.plan.insert(info.plan.end(), plan_.sentences.begin(), plan_.sentences.end());
+    info.warnings = notes_.warnings;
     writer_.write_run_info(info);
   }
 
@@ -196,13 +219,24 @@ class Run final : public OutputSink<Dim> {
   Stopwatch since_start_;
   Stopwatch since_saved_;  ///< since the last snapshot or checkpoint
   RunLoop<Dim> loop_;
-  RowChecks checks_;
-  SpentEnergy energy_;
+  RunNotes notes_;
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
-  std::vector<std::string> warnings_;
   ResultsWriter<Dim> writer_;
+  /// Of a snapshot by another thread, the only one then that uses HDF5. Tables go on meanwhile.
+  std::future<void> writing_;
 };
+
+/// The results of the earlier run are not to be replaced by those that start from it.
+template <int Dim>
+void refuse_own_source(const SceneDocument& document, const SourceRun<Dim>& source,
+                       const std::string& folder) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(source.folder, folder, none)) return;
+  throw InputError(document.locate("initial.from") + ": initial.from: got " + folder +
+                   ", the folder that this run writes into; expected another one: choose it with "
+                   "-o");
+}
 
 }  // namespace
 
@@ -228,11 +262,17 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
       std::fprintf(stderr, "%s has no snapshot to go on from: begins anew\n", folder.c_str());
     }
   }
+  // A run that goes on has all that it needs in its own state.
+  std::optional<SourceRun<Dim>> source;
+  if (!starting_point->from) source = read_source_run(c, options.threads);
+  if (source) refuse_own_source(c.document, *source, folder);
   const std::string resume_command = "suffuse-solver " + quoted(case_path) + " -o " +
                                      quoted(folder) + (options.no_skip ? " --no-skip" : "") +
                                      " --resume";
-  return static_cast<int>(
-      Run<Dim>(std::move(c), plan, options, std::move(*starting_point), run, resume_command).run());
+  Run<Dim> started(std::move(c), plan, options, std::move(*starting_point), run, resume_command,
+                   source);
+  source.reset();
+  return static_cast<int>(started.run());
 }
 
 template int run_case(Case<2>, const Plan&, const SolverOptions&, const std::string&,

@@ -44,11 +44,15 @@ void append_tables(ResultsWriter<Dim>& writer, const TwoPhaseModel<Dim>& model,
 template <int Dim>
 class RunLoop {
  public:
-  /// Makes the model at its start. Keeps a reference to the case.
-  RunLoop(const Case<Dim>& c, const ModelOptions& options)
+  /// Makes the model at its start, which is `earlier` where there is any. Keeps a reference to the
+  /// case.
+  RunLoop(const Case<Dim>& c, const ModelOptions& options,
+          const EarlierState<Dim>* earlier = nullptr)
       : model_(make_model(c, options)),
         schedule_(c.document.scene),
-        end_(c.document.scene.time.end) {}
+        end_(c.document.scene.time.end) {
+    if (earlier) model_->start_from(*earlier);
+  }
 
   /// From the start, with the output of t = 0, or from the restored state: to the end, to an
   /// interrupt, or until the sink stops it. Throws NumericalError, and what the sink throws.
@@ -68,8 +72,10 @@ class RunLoop {
     point.rows = schedule_.rows().past();
     point.snapshots = schedule_.snapshots().past();
     StateArchive state;
+    state.reserve(state_size_ + state_size_ / 8);  // points may have become more
     state(*this, more...);
     point.state = state.finish();
+    state_size_ = point.state.size();
     return point;
   }
 
@@ -81,6 +87,7 @@ class RunLoop {
   OutputSchedule schedule_;
   double end_;                     ///< of the run, s
   bool warned_of_points_ = false;  ///< that they have far to go
+  std::size_t state_size_ = 0;     ///< of the last restart point, bytes
 };
 
 }  // namespace suffuse

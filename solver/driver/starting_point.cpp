@@ -4,11 +4,28 @@
 #include <utility>
 
 #include "case/errors.hpp"
-#include "driver/output_schedule.hpp"
+#include "case/scene_schema.hpp"
+#include "results/layout.hpp"
 #include "results/writer.hpp"
 
 namespace suffuse {
 namespace {
+
+/// "time.end, output.restarts and output.precision"
+std::string changeable_keys() {
+  return listed({keys_that_may_change.begin(), keys_that_may_change.end()}, "and");
+}
+
+/// What differs from the run in `folder` and may not.
+template <int Dim>
+std::vector<std::string> lasting_differences(const std::string& folder, const Case<Dim>& c) {
+  std::vector<std::string> result = differences_from_run(folder, c);
+  for (const char* key : keys_that_may_change) {
+    std::erase_if(
+        result, [&](const std::string& line) { return line.starts_with(std::string(key) + ":"); });
+  }
+  return result;
+}
 
 /// What the run in `folder` can go on from. Throws InputError where it is a run of something else.
 template <int Dim>
@@ -23,11 +40,17 @@ FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
                      "; choose another folder with -o, " + how);
   };
   if (found.point->case_digest != digest_of(c)) {
-    std::vector<std::string> differences = differences_from_run(folder, c);
-    if (differences.empty()) differences.emplace_back("comments, spaces or the order of keys");
-    refuse("another case",
-           "take the case it began with, or replace them with --force in the place of --resume. " +
-               listed_differences(differences));
+    refuse("another case", "take the case it began with, in which nothing but " +
+                               changeable_keys() +
+                               " may be changed, or replace them with --force in the place of "
+                               "--resume. " +
+                               listed_differences(lasting_differences(folder, c)));
+  }
+  if (found.point->time > c.document.scene.time.end) {
+    throw InputError(c.document.locate("time.end") + ": time.end: got " +
+                     shown_number(c.document.scene.time.end) + "; expected no less than " +
+                     shown_number(found.point->time) + " s, which the run in " + folder +
+                     " has reached");
   }
   if (found.point->no_skip != options.no_skip) {
     refuse(found.point->no_skip ? "a run with --no-skip" : "a run without --no-skip",
@@ -41,8 +64,7 @@ bool is_complete(const Case<Dim>& c, const std::string& folder, const SolverOpti
   if (!is_finished(folder)) return false;
   // No lock: the folder may be on a disk that cannot be written.
   const FoundRestart found = find_restart(c, folder, options);
-  const long all = OutputSchedule(c.document.scene).snapshots().count();
-  return found.point && found.point->snapshots == all && found.damage.empty();
+  return found.point && found.point->time >= c.document.scene.time.end && found.damage.empty();
 }
 
 }  // namespace

@@ -94,6 +94,12 @@ void ExplicitFlow<Dim>::start() {
 }
 
 template <int Dim>
+void ExplicitFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
+  scheme_.set_pressure(earlier.state.pressure);
+  scheme_.set_velocity(earlier.state.velocity);
+}
+
+template <int Dim>
 void ExplicitFlow<Dim>::warn_of_locking(const VectorField<Dim>& steady_velocity) {
   if (this->grid().mesh.element_count() > max_elements_checked) return;
   // The mixed elements it is compared with know Darcy's drag alone.

@@ -27,6 +27,7 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   void update(double time, const PoreState& pores,
               const std::vector<double>& face_concentration) override;
   void start() override;
+  void start_from(const EarlierFlow<Dim>& earlier) override;
   [[nodiscard]] typename FlowSolver<Dim>::CouplingLimits coupling_limits() const override {
     return {.one_transport_step = true, .follows_pores = false};
   }

@@ -265,6 +265,20 @@ void FlowSolver<Dim>::warn_of_suction(double time) {
   warn(message.str());
 }
 
+template <int Dim>
+std::vector<double> EarlierFlow<Dim>::face_pressure(const Grid<Dim>& grid) const {
+  if (!state.face_pressure.empty()) return state.face_pressure;
+  std::vector<double> result;
+  for (const auto& nodes : grid.face_nodes) {
+    double sum = 0.0;
+    for (const int node : nodes) sum += state.node_pressure[node];
+    result.push_back(sum / Dim);
+  }
+  return result;
+}
+
+template struct EarlierFlow<2>;
+template struct EarlierFlow<3>;
 template class FlowSolver<2>;
 template class FlowSolver<3>;
 

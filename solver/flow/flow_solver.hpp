@@ -14,6 +14,7 @@
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "flow/flow_values.hpp"
+#include "grid/element_field.hpp"
 #include "grid/face_flux.hpp"
 #include "results/pass_timer.hpp"
 #include "results/state_archive.hpp"
@@ -38,6 +39,22 @@ struct FlowState {
   std::vector<double> face_flux;               ///< along each face's normal, m3/s
   double eos_error = 0.0;                      ///< see HistoryRow
   double pressure_overshoot = 0.0;             ///< see HistoryRow
+};
+
+/// The last flow of an earlier run.
+template <int Dim>
+struct EarlierFlow {
+  FlowState<Dim> state;
+  ElementField<Dim> air;  ///< m3 in the share of each side of an element; empty where soil is full
+
+  /// Pressures at the centres of faces, Pa.
+  [[nodiscard]] std::vector<double> face_pressure(const Grid<Dim>& grid) const;
+  /// Per element, m3; empty as `air`.
+  [[nodiscard]] std::vector<double> air_volume() const {
+    std::vector<double> result;
+    for (const ElementValues<Dim>& sides : air) result.push_back(element_sum<Dim>(sides));
+    return result;
+  }
 };
 
 /// A coupling interval: the flow advances through it alone, then erosion and transport follow.
@@ -100,6 +117,12 @@ class FlowSolver {
   /// Makes the state at the start of the run: at rest or steady, as the scene says. Adds a warning
   /// where this mesh cannot resolve the flow. `update` comes first.
   virtual void start() = 0;
+  /// The same with the pressures, fluxes and air of another run on this mesh.
+  virtual void start_from(const EarlierFlow<Dim>& earlier) = 0;
+  /// This flow for another run.
+  [[nodiscard]] EarlierFlow<Dim> last_flow(double time) const {
+    return {state(time), air_at_sides()};
+  }
 
   /// Takes one step or many within the interval. It ends exactly on the latest end or on a
   /// breakpoint where it reaches one. Throws NumericalError.
@@ -109,6 +132,8 @@ class FlowSolver {
   [[nodiscard]] virtual const std::vector<double>& pressure() const = 0;
   /// Volume of air per element, m3; empty where all soil is saturated.
   [[nodiscard]] virtual std::vector<double> air() const { return {}; }
+  /// The same in the share of each side of an element.
+  [[nodiscard]] virtual ElementField<Dim> air_at_sides() const { return {}; }
   /// k_r of each element; empty where all soil is saturated.
   [[nodiscard]] virtual RelativeConductivity relative_conductivity() const { return {}; }
   /// Makes pressures follow the masses of water, which are what is conserved (single-point): at

@@ -321,9 +321,26 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
 
 template <int Dim>
 void ImplicitFlow<Dim>::start() {
+  start_with(flow_at_rest(this->grid(), this->conditions_, this->pressure_at_rest()), nullptr);
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
+  const Grid<Dim>& grid = this->grid();
+  MixedFlow<Dim> flow = flow_at_rest(grid, this->conditions_, earlier.face_pressure(grid));
+  flow.face_flux = flow.flux_through = earlier.state.face_flux;
+  flow.state.velocity = element_flux(grid, flow.face_flux);
+  for (std::size_t e = 0; e < flow.state.velocity.size(); ++e) {
+    flow.state.velocity[e] /= this->coefficients_.porosity[e];
+  }
+  start_with(std::move(flow), &earlier.air);
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air) {
   const Grid<Dim>& grid = this->grid();
   const Scene& scene = this->scene();
-  now_ = flow_at_rest(grid, this->conditions_, this->pressure_at_rest());
+  now_ = std::move(flow);
   const FlowForcing<Dim> forcing{this->coefficients_, this->conditions_, {}};
   scales_ = find_scales(scheme_, forcing, this->boundary_values(), scene.time.end, has_gravity_);
   // Water without compressibility and inertia has no start-up: it flows at once.
@@ -331,7 +348,8 @@ void ImplicitFlow<Dim>::start() {
       std::isinf(scene.liquid.bulk_modulus) && !options_.inertia && !scheme_.has_retention();
   const bool at_rest = scene.initial_flow != InitialFlow::steady && !at_once;
   if (!at_rest) now_ = end_of(scheme_.steady(forcing));
-  now_.state.air = scheme_.air_at(now_.state.face_pressure, this->coefficients_.porosity);
+  now_.state.air =
+      air ? *air : scheme_.air_at(now_.state.face_pressure, this->coefficients_.porosity);
   pressure_ = element_pressure_now();
   if (!at_once) scales_.include_in_bounds(now_.state.face_pressure);
   scales_.include(now_.state.face_pressure, now_.face_flux);

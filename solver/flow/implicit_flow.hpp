@@ -28,6 +28,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   void update(double time, const PoreState& pores,
               const std::vector<double>& face_concentration) override;
   void start() override;
+  void start_from(const EarlierFlow<Dim>& earlier) override;
   /// One step. Throws NumericalError when no step is short enough for the tolerance.
   FlowProgress advance(const FlowInterval<Dim>& interval) override;
   [[nodiscard]] typename FlowSolver<Dim>::CouplingLimits coupling_limits() const override {
@@ -36,6 +37,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
 
   [[nodiscard]] const std::vector<double>& pressure() const override { return pressure_; }
   [[nodiscard]] std::vector<double> air() const override;
+  [[nodiscard]] ElementField<Dim> air_at_sides() const override { return now_.state.air; }
   [[nodiscard]] RelativeConductivity relative_conductivity() const override;
   /// Where an element's water does not fit its pores at its pressure, the next steps let it out.
   void match_masses(double time, const std::vector<double>& water_mass) override;
@@ -49,6 +51,9 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<PassTiming> passes() const override;
 
  private:
+  /// The start from this flow, or from the steady one where water flows at once. `air`: none to
+  /// take that of the pressures.
+  void start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air);
   /// Tries steps from the start of the interval, the first of `dt` seconds, until one is accurate
   /// enough; `dt` becomes its length.
   [[nodiscard]] MixedStep<Dim> accepted_step(const FlowInterval<Dim>& interval, double& dt);

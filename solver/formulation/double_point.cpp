@@ -68,6 +68,20 @@ void DoublePoint<Dim>::start_liquid() {
 }
 
 template <int Dim>
+void DoublePoint<Dim>::start_from(const EarlierState<Dim>& earlier) {
+  liquid_->start_from(earlier.liquid, earlier.flow.state);
+  this->start_solid_and_flow(earlier, [this] { update_flow(pores()); });
+  this->masses_.open(stored());
+}
+
+template <int Dim>
+EarlierState<Dim> DoublePoint<Dim>::last_state() const {
+  return {.solid = this->solid_->state(),
+          .flow = this->flow_->last_flow(this->time_),
+          .liquid = liquid_->last_liquid()};
+}
+
+template <int Dim>
 void DoublePoint<Dim>::archive(StateArchive& archive) {
   TwoPhaseModel<Dim>::archive(archive);
   archive(*liquid_, concentration_before_, coefficients_timing_);

@@ -15,6 +15,8 @@ class DoublePoint final : public TwoPhaseModel<Dim> {
   /// Keeps references to the case and what it holds.
   DoublePoint(const Case<Dim>& c, const ModelOptions& options);
 
+  void start_from(const EarlierState<Dim>& earlier) override;
+  [[nodiscard]] EarlierState<Dim> last_state() const override;
   void advance(double latest) override;
 
   [[nodiscard]] const PointTransport<Dim>& liquid() const { return *liquid_; }

@@ -128,8 +128,8 @@ Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
   Snapshot result =
       element_snapshot(grid, *this->solid_, fines_state(flow), flow, this->scene(), this->steps());
 
-  Field saturation{"saturation_state", "1", 1, {}};
-  Field count{"liquid_points", "1", 1, {}};
+  Field saturation{"saturation_state", "1", 1, {}, true};
+  Field count{"liquid_points", "1", 1, {}, true};
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const bool filled = begins[e + 1] > begins[e];
     const Saturation s = this->soils_.is_soil(e)
@@ -164,8 +164,9 @@ Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
   add("volume", Dim == 2 ? "m3/m" : "m3", std::move(volume));
   add("water_mass", Dim == 2 ? "kg/m" : "kg", points.water_mass);
   add("fines_mass", Dim == 2 ? "kg/m" : "kg", points.fines_mass);
-  add("element", "1", {points.element.begin(), points.element.end()});
-  add("id", "1", {points.id.begin(), points.id.end()});
+  result.liquid.push_back(
+      {"element", "1", 1, {points.element.begin(), points.element.end()}, true});
+  result.liquid.push_back({"id", "1", 1, {points.id.begin(), points.id.end()}, true});
   return result;
 }
 

@@ -80,8 +80,6 @@ void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Scene& sc
   result.cell.insert(result.cell.begin() + 1, {"pressure", "Pa", 1, flow.pressure});
   result.cell.push_back(vectors("darcy_flux", "m/s", element_flux(grid, flow.face_flux)));
   result.cell.push_back(vectors("hydraulic_gradient", "1", hydraulic_gradient(grid, flow, scene)));
-  result.cell.push_back(
-      {"region", "1", 1, {grid.mesh.element_region.begin(), grid.mesh.element_region.end()}});
   result.node = {vectors("liquid_velocity", "m/s", flow.velocity),
                  {"pressure", "Pa", 1, flow.node_pressure}};
   if (!flow.saturation.empty()) result.cell.push_back({"saturation", "1", 1, flow.saturation});

@@ -25,8 +25,8 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.erodible = stored.erodible;
   row.water = stored.water;
   row.fines = stored.fines;
-  row.eroded = stored.eroded;
-  row.deposited = stored.deposited;
+  row.eroded = stored.eroded - initial.eroded;
+  row.deposited = stored.deposited - initial.deposited;
   row.water_in = crossed.water_in;
   row.fines_in = crossed.fines_in;
   row.water_out = crossed.water_out;
@@ -38,8 +38,8 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.residual_water =
       relative((stored.water - initial.water) + crossed.water_net, initial.water, crossed.water_in);
   row.residual_grains = relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
-                                     stored.pending + crossed.fines_net,
-                                 initial.solid + initial.fines, crossed.fines_in);
+                                     (stored.pending - initial.pending) + crossed.fines_net,
+                                 initial.solid + initial.fines + initial.pending, crossed.fines_in);
   return row;
 }
 

@@ -29,6 +29,7 @@ struct Crossed {
 
 /// Masses inside a boundary, kg.
 struct Stored {
+  static constexpr bool has_no_gaps = true;  ///< see StateArchive
   double solid = 0.0;
   double erodible = 0.0;
   double water = 0.0;
@@ -93,7 +94,8 @@ class MassAccounts {
                                                    double grain_density) const;
   [[nodiscard]] const BoundaryAccounts<Dim>& boundaries() const { return boundaries_; }
 
-  void archive(auto& archive) { archive(crossed_, boundaries_); }
+  /// What was stored at the start too: a run that started from another one goes on without it.
+  void archive(auto& archive) { archive(crossed_, boundaries_, initial_); }
 
  private:
   struct OutwardFace {

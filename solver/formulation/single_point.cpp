@@ -79,6 +79,25 @@ SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
 }
 
 template <int Dim>
+void SinglePoint<Dim>::start_from(const EarlierState<Dim>& earlier) {
+  fines_->start_from(earlier.fines);
+  this->start_solid_and_flow(earlier, [this, &earlier] {
+    this->flow_->update(this->time_, pores_with(earlier.flow.air_volume()), face_concentration());
+  });
+  water_mass_ = earlier.water_mass;
+  match_masses();
+  this->masses_.open(stored());
+}
+
+template <int Dim>
+EarlierState<Dim> SinglePoint<Dim>::last_state() const {
+  return {.solid = this->solid_->state(),
+          .flow = this->flow_->last_flow(this->time_),
+          .fines = fines_->state(),
+          .water_mass = water_mass_};
+}
+
+template <int Dim>
 void SinglePoint<Dim>::archive(StateArchive& archive) {
   TwoPhaseModel<Dim>::archive(archive);
   archive(*fines_, water_mass_, water_timing_);
@@ -86,10 +105,15 @@ void SinglePoint<Dim>::archive(StateArchive& archive) {
 
 template <int Dim>
 PoreState SinglePoint<Dim>::pores() const {
+  return pores_with(this->flow_->air());
+}
+
+template <int Dim>
+PoreState SinglePoint<Dim>::pores_with(std::vector<double> air_volume) const {
   const FinesState<Dim>& state = fines_->state();
   const int elements = this->grid_.mesh.element_count();
   PoreState result;
-  result.air_volume = this->flow_->air();
+  result.air_volume = std::move(air_volume);
   const std::vector<double>& air = result.air_volume;
   result.porosity.resize(elements);
   result.water_volume.resize(elements);
@@ -139,8 +163,7 @@ void SinglePoint<Dim>::find_liquid(PointFlows& flows) const {
 template <int Dim>
 void SinglePoint<Dim>::update_flow() {
   const PassTimer timer(water_timing_);
-  this->flow_->update(this->time_, pores(),
-                      fines_->face_concentration(this->time_, this->mean_face_rate()));
+  this->flow_->update(this->time_, pores(), face_concentration());
 }
 
 template <int Dim>

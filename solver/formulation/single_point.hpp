@@ -14,6 +14,8 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
   /// Keeps references to the case and what it holds.
   SinglePoint(const Case<Dim>& c, const ModelOptions& options);
 
+  void start_from(const EarlierState<Dim>& earlier) override;
+  [[nodiscard]] EarlierState<Dim> last_state() const override;
   void advance(double latest) override;
 
   [[nodiscard]] const FinesState<Dim>& liquid() const { return fines_->state(); }
@@ -27,6 +29,12 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
  private:
   [[nodiscard]] const Transport<Dim>& transport() const override { return *fines_; }
   [[nodiscard]] PoreState pores() const override;
+  /// The same with this air, m3 per element; empty where all soil is saturated.
+  [[nodiscard]] PoreState pores_with(std::vector<double> air_volume) const;
+  /// Of the liquid that crosses each face.
+  [[nodiscard]] std::vector<double> face_concentration() const {
+    return fines_->face_concentration(this->time_, this->mean_face_rate());
+  }
   void find_liquid(PointFlows& flows) const override;
   [[nodiscard]] FinesState<Dim> fines_state(const FlowState<Dim>& /*flow*/) const override {
     return fines_->state();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flow/flow_solver.hpp"
+#include "formulation/earlier_state.hpp"
 #include "formulation/masses.hpp"
 #include "formulation/observations.hpp"
 #include "results/writer.hpp"
@@ -33,6 +34,12 @@ class TwoPhaseModel {
   virtual ~TwoPhaseModel() = default;
   TwoPhaseModel(const TwoPhaseModel&) = delete;
   TwoPhaseModel& operator=(const TwoPhaseModel&) = delete;
+
+  /// Takes the last state of another run in the place of its own at the start; the clock stays at 0
+  /// and the accounts start with these masses. Of the same formulation, mesh and solid points.
+  virtual void start_from(const EarlierState<Dim>& earlier) = 0;
+  /// This state for another run.
+  [[nodiscard]] virtual EarlierState<Dim> last_state() const = 0;
 
   /// One interval of flow, erosion and transport: to `latest` (s, the next output) or to an earlier
   /// time. Throws NumericalError.
@@ -105,6 +112,15 @@ class TwoPhaseModel {
   [[nodiscard]] const std::vector<double>& apply(const std::vector<Exchange>& change);
   /// Once the flow has started.
   void start_flux_history();
+  /// What solid and flow take; the pores follow in between by `update`.
+  template <class Update>
+  void start_solid_and_flow(const EarlierState<Dim>& earlier, const Update& update) {
+    solid_->start_from(earlier.solid);
+    update();
+    flow_->start_from(earlier.flow);
+    update();
+    start_flux_history();
+  }
   /// Mean over the last interval, m3/s.
   [[nodiscard]] const std::vector<double>& mean_face_rate() const { return flux_history_.mean; }
   /// Records fluxes and steps of an interval of the flow that started at `start`, s.

@@ -9,7 +9,9 @@ namespace suffuse::layout {
 
 /// What marks run.json as ours: value of its key "format".
 inline constexpr const char* format = "suffuse-results";
-inline constexpr int format_version = 1;
+/// 2: the grid of snapshots and the state to go on from are in files of their own.
+inline constexpr int format_version = 2;
+inline constexpr int oldest_readable_version = 1;
 
 inline constexpr const char* run_info = "run.json";
 inline constexpr const char* case_copy = "case.h5";
@@ -40,6 +42,19 @@ inline std::string snapshot(const std::string& kind, std::size_t index) {
   std::string digits = std::to_string(index);
   if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
   return std::string(snapshots) + "/" + kind + "_" + digits + ".hdf";
+}
+
+/// "mesh_grid.hdf": the grid that all snapshots of `kind`, "mesh" or "solid", share; beside them.
+inline std::string grid_name(const std::string& kind) {
+  return kind + "_grid.hdf";
+}
+/// "snapshots/mesh_grid.hdf"
+inline std::string grid(const std::string& kind) {
+  return std::string(snapshots) + "/" + grid_name(kind);
+}
+/// "snapshots/state_000012.hdf": from where a run goes on behind snapshot 12.
+inline std::string state(std::size_t index) {
+  return snapshot("state", index);
 }
 
 /// Groups of a snapshot file beside /VTKHDF.

@@ -48,10 +48,12 @@ Json read_run_info(const std::string& folder) {
   if (!json.is_object() || json.value("format", Json()) != layout::format) {
     throw FileError(path + ": was not written by suffuse-solver");
   }
-  if (json.value("format_version", Json()) != layout::format_version) {
-    throw FileError(path + ": got format_version " +
-                    json.value("format_version", Json()).dump(-1, ' ', true, replace) +
-                    "; expected " + std::to_string(layout::format_version));
+  const Json version = json.value("format_version", Json());
+  if (!version.is_number_integer() || version < layout::oldest_readable_version ||
+      version > layout::format_version) {
+    throw FileError(path + ": got format_version " + version.dump(-1, ' ', true, replace) +
+                    "; expected " + std::to_string(layout::oldest_readable_version) + " to " +
+                    std::to_string(layout::format_version));
   }
   return json;
 }
@@ -183,6 +185,18 @@ std::string field_group(const std::string& where) {
   if (where == "node" || where == "solid" || where == "liquid") return "/VTKHDF/PointData";
   if (where == "element_vertex") return layout::element_vertex_group;
   throw std::logic_error("no fields on " + where);
+}
+
+/// VTK follows every link that it meets: only those to the grid beside the file are left to it.
+void refuse_links(const Hdf5File& file, const std::string& grid) {
+  for (const std::string group : {"/VTKHDF", "/VTKHDF/CellData", "/VTKHDF/PointData"}) {
+    if (!file.exists(group)) continue;
+    for (const std::string& name : file.children(group)) {
+      const std::string object = group + "/" + name;
+      // To ask whether a link exists throws.
+      if (!file.is_in(object, grid)) static_cast<void>(file.exists(object));
+    }
+  }
 }
 
 }  // namespace
@@ -340,7 +354,7 @@ Mesh<2> ResultsReader::mesh() const {
 
 std::vector<Vector<2>> ResultsReader::point_positions(std::size_t index,
                                                       const std::string& kind) const {
-  const Hdf5File file(snapshot_path(kind, index), Hdf5File::Mode::read);
+  const Hdf5File file = file_of(index, kind, points_dataset);
   const std::vector<double> coordinates = file.read_doubles(points_dataset);
   std::vector<Vector<2>> positions;
   for (std::size_t i = 0; i < 3 * row_count(file, points_dataset, 3); i += 3) {
@@ -349,17 +363,27 @@ std::vector<Vector<2>> ResultsReader::point_positions(std::size_t index,
   return positions;
 }
 
-std::size_t ResultsReader::entity_count(const Hdf5File& snapshot, const std::string& where) const {
-  if (where == "solid" || where == "liquid") return row_count(snapshot, points_dataset, 3);
+Hdf5File ResultsReader::file_of(std::size_t index, const std::string& where,
+                                const std::string& object) const {
+  Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
+  const std::string kind = where == "solid" ? "solid" : "mesh";
+  if (where == "liquid" || !file.is_in(object, layout::grid_name(kind))) return file;
+  return {layout::in_folder(folder_, layout::grid(kind)), Hdf5File::Mode::read};
+}
+
+std::size_t ResultsReader::entity_count(std::size_t index, const std::string& where) const {
+  if (where == "solid" || where == "liquid") {
+    return row_count(file_of(index, where, points_dataset), points_dataset, 3);
+  }
   const Hdf5File file(layout::in_folder(folder_, layout::case_copy), Hdf5File::Mode::read);
   return where == "node" ? row_count(file, "/mesh/nodes", 2) : row_count(file, "/mesh/elements", 3);
 }
 
 Field ResultsReader::field(std::size_t index, const std::string& where,
                            const std::string& name) const {
-  const Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
+  const Hdf5File file = file_of(index, where, field_group(where) + "/" + name);
   Field field = read_field(file, field_group(where), name);
-  const std::size_t entities = entity_count(file, where);
+  const std::size_t entities = entity_count(index, where);
   const std::size_t found = field.values.size() / static_cast<std::size_t>(field.components);
   if (found != entities) {
     throw FileError(file.path() + ": " + field_group(where) + "/" + name + ": got values for " +
@@ -372,6 +396,12 @@ Field ResultsReader::field(std::size_t index, const std::string& where,
 std::vector<std::string> ResultsReader::field_names(std::size_t index,
                                                     const std::string& where) const {
   const Hdf5File file(snapshot_path(where, index), Hdf5File::Mode::read);
+  const std::string kind = where == "solid" || where == "liquid" ? where : "mesh";
+  refuse_links(file, layout::grid_name(kind));
+  const std::string grid = layout::in_folder(folder_, layout::grid(kind));
+  if (file.is_in(points_dataset, layout::grid_name(kind))) {
+    refuse_links(Hdf5File(grid, Hdf5File::Mode::read), "");
+  }
   return file.children(field_group(where));
 }
 

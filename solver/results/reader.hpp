@@ -88,8 +88,12 @@ class ResultsReader {
  private:
   /// Files of one kind; snapshots that it does not have yet are dropped.
   void take_series(const std::string& kind, std::vector<std::string>& files);
+  /// The file that holds an object of a snapshot: that of the snapshot, or of the grid that it
+  /// shares with others. No other link is followed.
+  [[nodiscard]] Hdf5File file_of(std::size_t index, const std::string& where,
+                                 const std::string& object) const;
   /// How many there are to have values in a snapshot.
-  [[nodiscard]] std::size_t entity_count(const Hdf5File& snapshot, const std::string& where) const;
+  [[nodiscard]] std::size_t entity_count(std::size_t index, const std::string& where) const;
 
   std::string folder_;
   SceneDocument scene_;

@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "case/errors.hpp"
 #include "case/regular_file.hpp"
+#include "case/scene_difference.hpp"
 #include "results/layout.hpp"
 
 namespace suffuse {
@@ -19,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the bytes of a state: to be raised whenever an `archive` changes what it lists.
-constexpr std::int64_t state_layout = 7;
+constexpr std::int64_t state_layout = 8;
 
 /// FNV-1a (Fowler, Noll, Vo) on eight bytes at a time, with what that leaves out of the low bits
 /// mixed in.
@@ -82,6 +84,17 @@ void add_model(Digest& digest, const Case<Dim>& c) {
   add(digest, c.liquid_points);
 }
 
+/// Keys that must not change while a run lasts. What is no scene is compared as a text.
+std::map<std::string, std::string> lasting_values(const SceneDocument& document) {
+  try {
+    std::map<std::string, std::string> values = written_values(document);
+    for (const char* key : keys_that_may_change) values.erase(key);
+    return values;
+  } catch (const InputError&) {
+    return {{"text", document.text}};
+  }
+}
+
 /// Whole lines behind the names.
 long rows_in(const std::string& path) {
   std::ifstream in = open_regular_file(path);
@@ -117,6 +130,9 @@ long whole_snapshots(const std::string& folder, bool has_liquid_files,
       if (!fs::exists(path)) return index;
       try {
         const Hdf5File file(path, Hdf5File::Mode::read);
+        if (!file.exists(layout::own_group)) {
+          throw FileError(path + ": was not written by suffuse-solver");
+        }
       } catch (const FileError& error) {
         damage.emplace_back(error.what());
         return index;
@@ -141,8 +157,10 @@ std::string digest_of(const RestartPoint& point) {
 template <int Dim>
 std::string digest_of(const Case<Dim>& c) {
   Digest digest;
-  digest.add(c.document.text);
-  for (const std::string& change : c.document.overrides) digest.add(change);
+  for (const auto& [key, value] : lasting_values(c.document)) {
+    digest.add(key);
+    digest.add(value);
+  }
   for (const auto& [name, text] : c.document.files) {
     digest.add(name);
     digest.add(text);
@@ -216,7 +234,7 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
   found.path = layout::in_folder(folder, layout::checkpoint);
   found.point = usable_point(found.path);
   for (long index = whole; index-- > 0;) {
-    const std::string path = layout::in_folder(folder, layout::snapshot("mesh", index));
+    const std::string path = layout::in_folder(folder, layout::state(index));
     std::optional<RestartPoint> point = usable_point(path);
     if (!point) continue;
     if (!found.point || point->time > found.point->time) {

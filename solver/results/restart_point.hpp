@@ -1,8 +1,9 @@
 #pragma once
 
-/// The state from which a stopped run can go on, kept in snapshots and in the checkpoint of an
-/// interrupted run. Layout: docs/file-formats.md.
+/// The state from which a stopped run can go on, kept beside the newest snapshots and in the
+/// checkpoint of an interrupted run. Layout: docs/file-formats.md.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,7 +18,7 @@ namespace suffuse {
 struct RestartPoint {
   double time = 0.0;   ///< that the state is of, s; not before the snapshot's
   long rows = 0;       ///< of history.csv by then; output times in every table
-  long snapshots = 0;  ///< by then, the one that holds this included
+  long snapshots = 0;  ///< by then, the one that this belongs to included
   bool no_skip = false;
   std::string case_digest;          ///< see `digest_of`
   std::vector<std::uint8_t> state;  ///< the solver's business; empty: not kept
@@ -26,9 +27,14 @@ struct RestartPoint {
 /// 16 hexadecimal digits that tell one from another.
 std::string digest_of(const RestartPoint& point);
 
-/// The same of everything in a case that a run depends on.
+/// The same of everything in a case that must not change while a run lasts: mesh, points and all
+/// keys of the scene but those of `keys_that_may_change`.
 template <int Dim>
 std::string digest_of(const Case<Dim>& c);
+
+/// A run may go on with other values of these keys.
+inline constexpr std::array<const char*, 3> keys_that_may_change{"time.end", "output.restarts",
+                                                                 "output.precision"};
 
 /// The same of its mesh and points alone.
 template <int Dim>

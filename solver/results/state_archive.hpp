@@ -30,6 +30,9 @@ class StateArchive {
   explicit StateArchive(std::vector<std::uint8_t> bytes)
       : bytes_(std::move(bytes)), restores_(true) {}
 
+  /// Makes room for so many bytes to be collected.
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
+
   /// Whether members are given their values; else they are asked for them.
   [[nodiscard]] bool restores() const { return restores_; }
 

@@ -1,5 +1,6 @@
 #include "results/vtkhdf.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <stdexcept>
@@ -32,7 +33,7 @@ std::vector<double> padded(const Field& field, int width) {
 }
 
 void write_values(Hdf5File& file, const std::string& group, const Field& field,
-                  std::vector<std::size_t> shape, int width) {
+                  std::vector<std::size_t> shape, int width, FieldPrecision precision) {
   std::size_t entities = 1;
   for (const std::size_t extent : shape) entities *= extent;
   if (field.components < 1 || field.values.size() != entities * field.components) {
@@ -42,11 +43,18 @@ void write_values(Hdf5File& file, const std::string& group, const Field& field,
   }
   if (width > 1) shape.push_back(width);
   const std::string dataset = group + "/" + field.name;
+  const auto write = [&](const std::vector<double>& values) {
+    if (precision == FieldPrecision::float32 && !field.is_whole) {
+      const std::vector<float> rounded(values.begin(), values.end());
+      file.write_compressed(dataset, std::span<const float>(rounded), shape);
+    } else {
+      file.write_compressed(dataset, std::span<const double>(values), shape);
+    }
+  };
   if (width == field.components) {
-    file.write(dataset, std::span<const double>(field.values), shape);
+    write(field.values);
   } else {
-    const auto values = padded(field, width);
-    file.write(dataset, std::span<const double>(values), shape);
+    write(padded(field, width));
   }
   const std::int64_t components = field.components;
   file.attribute(dataset, "unit", field.unit);
@@ -54,11 +62,24 @@ void write_values(Hdf5File& file, const std::string& group, const Field& field,
 }
 
 void write_data(Hdf5File& file, const std::string& group, const std::vector<Field>& fields,
-                std::size_t entities) {
+                FieldPrecision precision) {
   file.create_group(group);
   for (const auto& field : fields) {
-    write_values(file, group, field, {entities}, field.components == 2 ? 3 : field.components);
+    const std::size_t entities = field.values.size() / std::max(1, field.components);
+    write_values(file, group, field, {entities}, field.components == 2 ? 3 : field.components,
+                 precision);
   }
+}
+
+constexpr const char* cell_data = "/VTKHDF/CellData";
+constexpr const char* point_data = "/VTKHDF/PointData";
+
+/// What makes the group VTK's.
+void write_type(Hdf5File& file) {
+  constexpr std::array<std::int64_t, 2> version{1, 0};
+  file.create_group("/VTKHDF");
+  file.attribute("/VTKHDF", "Version", std::span<const std::int64_t>(version));
+  file.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
 }
 
 void write_count(Hdf5File& file, const std::string& name, std::size_t count) {
@@ -71,7 +92,7 @@ void write_offsets(Hdf5File& file, std::size_t cells, int nodes_per_cell) {
   for (std::size_t c = 0; c <= cells; ++c) {
     offsets[c] = static_cast<std::int64_t>(c) * nodes_per_cell;
   }
-  file.write("/VTKHDF/Offsets", std::span<const std::int64_t>(offsets), {cells + 1});
+  file.write_compressed("/VTKHDF/Offsets", std::span<const std::int64_t>(offsets), {cells + 1});
 }
 
 }  // namespace
@@ -106,13 +127,8 @@ VtkGrid vtk_grid(std::vector<double> points) {
   return grid;
 }
 
-void write_vtkhdf(Hdf5File& file, VtkGrid grid, const std::vector<Field>& cell_fields,
-                  const std::vector<Field>& point_fields) {
-  constexpr std::array<std::int64_t, 2> version{1, 0};
-  file.create_group("/VTKHDF");
-  file.attribute("/VTKHDF", "Version", std::span<const std::int64_t>(version));
-  file.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
-
+void write_vtkhdf(Hdf5File& file, VtkGrid grid, const VtkFields& fields) {
+  write_type(file);
   const std::size_t points = grid.points.size() / 3;
   const std::size_t cells = grid.connectivity.size() / grid.nodes_per_cell;
   write_count(file, "NumberOfPoints", points);
@@ -120,23 +136,37 @@ void write_vtkhdf(Hdf5File& file, VtkGrid grid, const std::vector<Field>& cell_f
   write_count(file, "NumberOfConnectivityIds", grid.connectivity.size());
 
   // Each array goes when it is written: of millions of points they would add up.
-  file.write("/VTKHDF/Points", std::span<const double>(grid.points), {points, 3});
+  file.write_compressed("/VTKHDF/Points", std::span<const double>(grid.points), {points, 3});
   file.attribute("/VTKHDF/Points", "unit", std::string("m"));
   grid.points = {};
-  file.write("/VTKHDF/Connectivity", std::span<const std::int64_t>(grid.connectivity),
-             {grid.connectivity.size()});
+  file.write_compressed("/VTKHDF/Connectivity", std::span<const std::int64_t>(grid.connectivity),
+                        {grid.connectivity.size()});
   grid.connectivity = {};
   write_offsets(file, cells, grid.nodes_per_cell);
   const std::vector<std::uint8_t> types(cells, grid.cell_type);
-  file.write("/VTKHDF/Types", std::span<const std::uint8_t>(types), {cells});
+  file.write_compressed("/VTKHDF/Types", std::span<const std::uint8_t>(types), {cells});
 
-  write_data(file, "/VTKHDF/CellData", cell_fields, cells);
-  write_data(file, "/VTKHDF/PointData", point_fields, points);
+  write_data(file, cell_data, fields.cell, fields.precision);
+  write_data(file, point_data, fields.point, fields.precision);
+}
+
+void write_vtkhdf_on(Hdf5File& file, const std::string& grid_file,
+                     const std::vector<std::string>& linked, const VtkFields& fields) {
+  write_type(file);
+  for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points",
+                           "Connectivity", "Offsets", "Types"}) {
+    file.link_to(std::string("/VTKHDF/") + name, grid_file);
+  }
+  write_data(file, cell_data, fields.cell, fields.precision);
+  for (const std::string& name : linked) {
+    file.link_to(std::string(cell_data) + "/" + name, grid_file);
+  }
+  write_data(file, point_data, fields.point, fields.precision);
 }
 
 void write_field(Hdf5File& file, const std::string& group, const Field& field,
-                 std::vector<std::size_t> shape) {
-  write_values(file, group, field, std::move(shape), field.components);
+                 std::vector<std::size_t> shape, FieldPrecision precision) {
+  write_values(file, group, field, std::move(shape), field.components, precision);
 }
 
 Field read_field(const Hdf5File& file, const std::string& group, const std::string& name) {
@@ -145,8 +175,7 @@ Field read_field(const Hdf5File& file, const std::string& group, const std::stri
   field.name = name;
   field.unit = file.text_attribute(dataset, "unit");
   const std::int64_t components = file.integer_attribute(dataset, "components");
-  const bool padded =
-      components == 2 && (group == "/VTKHDF/CellData" || group == "/VTKHDF/PointData");
+  const bool padded = components == 2 && (group == cell_data || group == point_data);
   const std::int64_t width = padded ? 3 : components;
   const std::vector<std::size_t> shape = file.shape(dataset);
   const bool is_flat = shape.size() == 1 && width == 1;

@@ -10,6 +10,7 @@
 #include "case/hdf5_io.hpp"
 #include "case/material_points.hpp"
 #include "case/mesh.hpp"
+#include "case/scene.hpp"
 #include "results/writer.hpp"
 
 namespace suffuse {
@@ -33,15 +34,26 @@ VtkGrid vtk_grid(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points);
 /// One vertex cell per position of `points` (x, y, z of each).
 VtkGrid vtk_grid(std::vector<double> points);
 
+/// What the fields of a file belong to, and how they are stored.
+struct VtkFields {
+  std::vector<Field> cell = {};
+  std::vector<Field> point = {};
+  FieldPrecision precision = FieldPrecision::float64;
+};
+
 /// Writes the group /VTKHDF. Fields that are vectors in the plane (2 components) get a zero third
 /// component, as VTK wants of a vector; their attribute `components` keeps what they had.
-void write_vtkhdf(Hdf5File& file, VtkGrid grid, const std::vector<Field>& cell_fields,
-                  const std::vector<Field>& point_fields);
+void write_vtkhdf(Hdf5File& file, VtkGrid grid, const VtkFields& fields);
+
+/// The same with links to the grid of the file `grid_file` beside it, and to its fields of cells,
+/// which are `linked`.
+void write_vtkhdf_on(Hdf5File& file, const std::string& grid_file,
+                     const std::vector<std::string>& linked, const VtkFields& fields);
 
 /// Writes `field` to GROUP/NAME with its unit and components as attributes; `shape` ends before the
 /// components.
 void write_field(Hdf5File& file, const std::string& group, const Field& field,
-                 std::vector<std::size_t> shape);
+                 std::vector<std::size_t> shape, FieldPrecision precision);
 
 /// Reads what write_field or write_vtkhdf wrote, at least one component wide; padding is taken off
 /// again. Throws FileError.

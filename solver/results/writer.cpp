@@ -59,6 +59,9 @@ std::string dump(const OrderedJson& json) {
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
+/// The field of the elements that no snapshot changes.
+constexpr const char* region_field = "region";
+
 /// Files that a run writes beside run.json and the lock.
 bool is_own_file(const std::string& name) {
   static const std::regex own(
@@ -67,20 +70,34 @@ bool is_own_file(const std::string& name) {
 }
 
 bool is_own_snapshot(const std::string& name) {
-  static const std::regex own(R"((mesh|solid|liquid)_\d{6,12}\.hdf(\.tmp)?)");
+  static const std::regex own(R"((mesh|solid|liquid|state)_\d{6,12}\.hdf(\.tmp)?)");
   return std::regex_match(name, own);
 }
 
-/// Those for which `doomed(name)`.
+bool is_own_grid(const std::string& name) {
+  static const std::regex own(R"((mesh|solid)_grid\.hdf(\.tmp)?)");
+  return std::regex_match(name, own);
+}
+
+/// Which snapshot a file belongs to.
+long snapshot_number(const std::string& name) {
+  return std::stol(name.substr(name.find('_') + 1));
+}
+
+/// Those for which `doomed(name)`. Throws FileError.
 template <class Doomed>
 void remove_files(const fs::path& folder, const Doomed& doomed) {
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && doomed(entry.path().filename().string())) {
-      found.push_back(entry.path());
+  try {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_regular_file() && doomed(entry.path().filename().string())) {
+        found.push_back(entry.path());
+      }
     }
+    for (const auto& path : found) fs::remove(path);
+  } catch (const fs::filesystem_error& error) {
+    throw FileError(folder.string() + ": " + error.code().message());
   }
-  for (const auto& path : found) fs::remove(path);
 }
 
 /// run.json stays until it is replaced, so that the folder can be recognised at every moment.
@@ -88,7 +105,11 @@ void remove_earlier_run(const std::string& folder) {
   try {
     remove_files(folder, is_own_file);
     const fs::path snapshots = fs::path(folder) / layout::snapshots;
-    if (fs::is_directory(snapshots)) remove_files(snapshots, is_own_snapshot);
+    if (fs::is_directory(snapshots)) {
+      remove_files(snapshots, [](const std::string& name) {
+        return is_own_snapshot(name) || is_own_grid(name);
+      });
+    }
     fs::create_directories(snapshots);
   } catch (const fs::filesystem_error& error) {
     throw FileError(folder + ": " + error.code().message());
@@ -103,16 +124,11 @@ bool is_unfinished(const std::string& name) {
 /// What a run that goes on behind its first `count` snapshots writes again.
 void remove_later_snapshots(const std::string& folder, long count) {
   const auto is_later = [count](const std::string& name) {
-    if (!is_own_snapshot(name)) return false;
-    const std::string digits = name.substr(name.find('_') + 1);
-    return name.ends_with(".tmp") || std::stol(digits) >= count;
+    if (is_own_grid(name)) return name.ends_with(".tmp");
+    return is_own_snapshot(name) && (name.ends_with(".tmp") || snapshot_number(name) >= count);
   };
-  try {
-    remove_files(folder, is_unfinished);
-    remove_files(fs::path(folder) / layout::snapshots, is_later);
-  } catch (const fs::filesystem_error& error) {
-    throw FileError(folder + ": " + error.code().message());
-  }
+  remove_files(folder, is_unfinished);
+  remove_files(fs::path(folder) / layout::snapshots, is_later);
 }
 
 template <int Dim>
@@ -132,17 +148,27 @@ void write_provenance(Hdf5File& file, const Case<Dim>& c, const Snapshot& snapsh
 }
 
 /// Fields of the solver's own; those of element_vertex have one row of `vertices` per element.
-void write_own_fields(Hdf5File& file, const Snapshot& snapshot, std::size_t elements,
-                      int vertices) {
+void write_own_fields(Hdf5File& file, const Snapshot& snapshot, std::size_t elements, int vertices,
+                      FieldPrecision precision) {
   file.create_group(layout::element_vertex_group);
   for (const auto& field : snapshot.element_vertex) {
     if (field.components != vertices) {
       throw std::logic_error("field " + field.name + " has " + std::to_string(field.components) +
                              " components per element; expected one for every vertex");
     }
-    write_field(file, layout::element_vertex_group, field, {elements});
+    write_field(file, layout::element_vertex_group, field, {elements}, precision);
   }
-  if (snapshot.restart) write_restart_point(file, *snapshot.restart);
+}
+
+/// A run may go on under a scene with a later end.
+bool holds_scene(const std::string& case_path, const SceneDocument& document) {
+  try {
+    const Hdf5File file(case_path, Hdf5File::Mode::read);
+    return file.read_text("/scene/text") == document.text &&
+           file.read_texts("/scene/overrides") == document.overrides;
+  } catch (const FileError&) {
+    return false;
+  }
 }
 
 /// Calls `fill` on a new file that takes the name `path` only once it is whole.
@@ -210,6 +236,7 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c,
   write_run_info(RunInfo{});
   remove_earlier_run(folder);
   write_case(layout::in_folder(folder, layout::case_copy), c);
+  write_grids();
   for (const TableFile& file : files_) {
     tables_.emplace_back(layout::in_folder(folder, file.name), file.header);
   }
@@ -224,13 +251,15 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c,
       lock_(std::move(lock)),
       files_(table_files(c.document.scene, c.mesh.region_names.size())) {
   const std::string case_copy = layout::in_folder(folder, layout::case_copy);
-  if (!fs::exists(case_copy)) write_case(case_copy, c);
+  if (!holds_scene(case_copy, c.document)) write_case(case_copy, c);
   continue_series(mesh_series_, point.snapshots);
   continue_series(solid_series_, point.snapshots);
   if (c.document.scene.formulation == Formulation::double_point) {
     continue_series(liquid_series_, point.snapshots);
   }
   remove_later_snapshots(folder, point.snapshots);
+  remove_old_states();
+  write_grids();
   for (const TableFile& file : files_) {
     tables_.emplace_back(layout::in_folder(folder, file.name), file.lines_per_time * point.rows);
   }
@@ -302,30 +331,60 @@ void ResultsWriter<Dim>::continue_series(Series& series, long snapshots) {
 }
 
 template <int Dim>
+void ResultsWriter<Dim>::write_grids() const {
+  write_hdf5_whole(layout::in_folder(folder_, layout::grid("mesh")), [&](Hdf5File& file) {
+    const std::vector<int>& regions = case_.mesh.element_region;
+    write_vtkhdf(file, vtk_grid(case_.mesh),
+                 {.cell = {{region_field, "1", 1, {regions.begin(), regions.end()}, true}}});
+  });
+  write_hdf5_whole(layout::in_folder(folder_, layout::grid("solid")), [&](Hdf5File& file) {
+    write_vtkhdf(file, vtk_grid(case_.mesh, case_.solid_points), {});
+  });
+}
+
+template <int Dim>
+void ResultsWriter<Dim>::remove_old_states() const {
+  const long oldest = static_cast<long>(mesh_series_.count) - case_.document.scene.output.restarts;
+  remove_files(fs::path(folder_) / layout::snapshots, [oldest](const std::string& name) {
+    return is_own_snapshot(name) && name.starts_with("state_") && snapshot_number(name) < oldest;
+  });
+}
+
+template <int Dim>
 void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
-  // The file with the state of the run comes last: where it is the others are.
+  // The state of the run comes last: where it is the others are.
   const std::size_t index = mesh_series_.count;
   const double time = snapshot.time;
+  const FieldPrecision precision = case_.document.scene.output.precision;
+  const auto write = [&](const std::string& name, const auto& fill) {
+    write_hdf5_whole(layout::in_folder(folder_, name), [&](Hdf5File& file) {
+      write_provenance(file, case_, snapshot);
+      fill(file);
+    });
+  };
   const std::string solid_name = layout::snapshot("solid", index);
-  write_hdf5_whole(layout::in_folder(folder_, solid_name), [&](Hdf5File& file) {
-    write_vtkhdf(file, vtk_grid(case_.mesh, case_.solid_points), {}, snapshot.solid);
-    write_provenance(file, case_, snapshot);
+  write(solid_name, [&](Hdf5File& file) {
+    write_vtkhdf_on(file, layout::grid_name("solid"), {},
+                    {.point = std::move(snapshot.solid), .precision = precision});
   });
   const bool has_liquid = case_.document.scene.formulation == Formulation::double_point;
   const std::string liquid_name = layout::snapshot("liquid", index);
   if (has_liquid) {
-    write_hdf5_whole(layout::in_folder(folder_, liquid_name), [&](Hdf5File& file) {
-      write_vtkhdf(file, vtk_grid(std::move(snapshot.liquid_positions)), {}, snapshot.liquid);
-      write_provenance(file, case_, snapshot);
+    write(liquid_name, [&](Hdf5File& file) {
+      write_vtkhdf(file, vtk_grid(std::move(snapshot.liquid_positions)),
+                   {.point = std::move(snapshot.liquid), .precision = precision});
     });
-    snapshot.liquid.clear();
   }
   const std::string mesh_name = layout::snapshot("mesh", index);
-  write_hdf5_whole(layout::in_folder(folder_, mesh_name), [&](Hdf5File& file) {
-    write_vtkhdf(file, vtk_grid(case_.mesh), snapshot.cell, snapshot.node);
-    write_provenance(file, case_, snapshot);
-    write_own_fields(file, snapshot, case_.mesh.elements.size(), Dim + 1);
+  write(mesh_name, [&](Hdf5File& file) {
+    write_vtkhdf_on(file, layout::grid_name("mesh"), {region_field},
+                    {std::move(snapshot.cell), std::move(snapshot.node), precision});
+    write_own_fields(file, snapshot, case_.mesh.elements.size(), Dim + 1, precision);
   });
+  if (snapshot.restart) {
+    write_hdf5_whole(layout::in_folder(folder_, layout::state(index)),
+                     [&](Hdf5File& file) { write_restart_point(file, *snapshot.restart); });
+  }
   if (has_liquid) {
     extend(liquid_series_, liquid_name, time);
     write_series(liquid_series_);
@@ -334,6 +393,10 @@ void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
   write_series(mesh_series_);
   extend(solid_series_, solid_name, time);
   write_series(solid_series_);
+  const long old = static_cast<long>(index) - case_.document.scene.output.restarts;
+  if (old < 0) return;
+  std::error_code ignored;
+  fs::remove(layout::in_folder(folder_, layout::state(old)), ignored);
 }
 
 template <int Dim>

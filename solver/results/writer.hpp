@@ -5,7 +5,9 @@
 ///     NAME.results/run.json  history.csv  ledger.csv  regions.csv  boundaries.csv
 ///     NAME.results/probes.csv  sections.csv   where the scene has any
 ///     NAME.results/mesh.hdf.series  solid.hdf.series  liquid.hdf.series
+///     NAME.results/snapshots/mesh_grid.hdf    solid_grid.hdf
 ///     NAME.results/snapshots/mesh_000000.hdf  solid_000000.hdf  liquid_000000.hdf  ...
+///     NAME.results/snapshots/state_000010.hdf  of the newest snapshots
 ///     NAME.results/checkpoint.hdf             where a run was stopped between snapshots
 
 #include <fstream>
@@ -29,6 +31,7 @@ struct Field {
   std::string unit;
   int components = 1;
   std::vector<double> values;
+  bool is_whole = false;  ///< numbers of things, which are never rounded to float32
 };
 
 /// The model at one time.
@@ -122,6 +125,10 @@ class ResultsWriter {
   static void extend(Series& series, const std::string& file, double time);
   void write_series(const Series& series) const;
   void continue_series(Series& series, long snapshots);
+  /// The files that all snapshots link to.
+  void write_grids() const;
+  /// Removes the states of snapshots that are no longer among the newest `output.restarts`.
+  void remove_old_states() const;
   /// Lines of the table of this name.
   template <class Row>
   void append(const char* name, std::span<const Row> rows);

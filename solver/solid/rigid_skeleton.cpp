@@ -190,6 +190,13 @@ void RigidSkeleton<Dim>::refuse_full() const {
 }
 
 template <int Dim>
+void RigidSkeleton<Dim>::start_from(const SolidState& state) {
+  state_ = state;
+  if (soils_.deposits()) state_.deposited_volume.resize(state_.erodible_volume.size(), 0.0);
+  update_porosity();
+}
+
+template <int Dim>
 void RigidSkeleton<Dim>::archive(StateArchive& archive) {
   archive(state_);
   if (archive.restores()) update_porosity();

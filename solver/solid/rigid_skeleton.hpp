@@ -37,6 +37,7 @@ class RigidSkeleton final : public Skeleton<Dim> {
   void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) override;
   void deposit(const std::vector<double>& volume) override;
 
+  void start_from(const SolidState& state) override;
   void archive(StateArchive& archive) override;
 
  private:

@@ -72,6 +72,9 @@ class Skeleton {
   /// Takes what the liquid has left, m3 per solid point; empty: nothing.
   virtual void deposit(const std::vector<double>& volume) = 0;
 
+  /// Starts with what the points of another run hold, in the same places.
+  virtual void start_from(const SolidState& state) = 0;
+
   virtual void archive(StateArchive& archive) = 0;
 };
 

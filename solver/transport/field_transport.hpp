@@ -66,6 +66,8 @@ class FieldTransport final : public Transport<Dim> {
 
   /// The liquid that is there when the run starts: without this air, m3 per element.
   void start(const std::vector<double>& air);
+  /// The same as another run left it.
+  void start_from(const FinesState<Dim>& earlier) { state_ = earlier; }
   [[nodiscard]] const FinesState<Dim>& state() const { return state_; }
   /// Volume of fines that crossed each face in this interval, m3.
   [[nodiscard]] std::vector<double> crossed() const;

@@ -29,6 +29,14 @@ struct RegionCrossings {
   std::vector<double> fines_out;
 };
 
+/// The liquid that another run left.
+template <int Dim>
+struct EarlierLiquid {
+  LiquidPoints<Dim> points;
+  InflowAccount inflow;
+  std::vector<double> pending;  ///< per node, m3
+};
+
 /// Volume of fines and of all liquid at p = 0, per element, m3.
 struct LiquidContent {
   std::vector<double> fines;
@@ -78,11 +86,22 @@ class PointTransport : public Transport<Dim> {
   [[nodiscard]] int empty_elements() const;
   [[nodiscard]] double empty_elements_total() const { return empty_total_; }
 
+  /// Starts with the liquid of another run, whose last flow was `flow`.
+  void start_from(const EarlierLiquid<Dim>& earlier, const FlowState<Dim>& flow) {
+    inflow_ = earlier.inflow;
+    pending_ = earlier.pending;
+    take_points(earlier.points, flow);
+  }
+  /// This liquid for another run.
+  [[nodiscard]] EarlierLiquid<Dim> last_liquid() const { return {points(), inflow_, pending_}; }
+
   void archive(StateArchive& archive) override {
     archive(inflow_, pending_, empty_total_, fines_timing_, movement_timing_);
   }
 
  protected:
+  /// Replaces all points by these, which need not carry the flow.
+  virtual void take_points(LiquidPoints<Dim> points, const FlowState<Dim>& flow) = 0;
   [[nodiscard]] virtual bool has_points(int element) const = 0;
   void start_crossings();
   void book(const typename FinesTransfer<Dim>::Result& transferred);

@@ -39,6 +39,12 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   }
 
  private:
+  void take_points(LiquidPoints<Dim> points, const FlowState<Dim>& /*flow*/) override {
+    points.pressure.clear();
+    points.velocity.clear();
+    points_ = std::move(points);
+    begins_ = element_begins(points_, this->grid_.mesh.element_count());
+  }
   /// Where points went in a step. Those that left are still among them, in their last element; the
   /// injected ones are at the end.
   struct Paths {

@@ -26,13 +26,27 @@ PointsCarryingFlow<Dim>::PointsCarryingFlow(const Grid<Dim>& grid, const Skeleto
       flow_(flow),
       points_(grid, densities, threads),
       entered_(grid.face_count(), 0.0) {
-  LiquidPoints<Dim> liquid = clean_liquid(places, flow.pressure(), densities, bulk_modulus);
-  for (int p = 0; p < liquid.size(); ++p) {
-    liquid.pressure.push_back(flow.pressure()[liquid.element[p]]);
-    liquid.velocity.push_back(interpolate(grid, liquid.place(p), flow.scheme().velocity()));
+  this->inflow_ = this->injection_.initial_account(places.size());
+  fill(clean_liquid(places, flow.pressure(), densities, bulk_modulus), flow.pressure(),
+       flow.scheme().velocity());
+}
+
+template <int Dim>
+void PointsCarryingFlow<Dim>::fill(LiquidPoints<Dim> points, const std::vector<double>& pressure,
+                                   const VectorField<Dim>& velocity) {
+  if (points.pressure.empty()) {
+    for (int p = 0; p < points.size(); ++p) {
+      points.pressure.push_back(pressure[points.element[p]]);
+      points.velocity.push_back(interpolate(this->grid_, points.place(p), velocity));
+    }
   }
-  this->inflow_ = this->injection_.initial_account(liquid.size());
-  points_.blocks().fill(liquid, grid.mesh.element_count());
+  points_.blocks().fill(points, this->grid_.mesh.element_count());
+  output_points_ = {};
+}
+
+template <int Dim>
+void PointsCarryingFlow<Dim>::take_points(LiquidPoints<Dim> points, const FlowState<Dim>& flow) {
+  fill(std::move(points), flow.pressure, flow.velocity);
 }
 
 template <int Dim>

@@ -53,6 +53,10 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
   }
 
  private:
+  /// Points that do not carry the flow take it from their elements and nodes.
+  void take_points(LiquidPoints<Dim> points, const FlowState<Dim>& flow) override;
+  void fill(LiquidPoints<Dim> points, const std::vector<double>& pressure,
+            const VectorField<Dim>& velocity);
   [[nodiscard]] bool has_points(int element) const override {
     return points_.blocks().count(element) > 0;
   }

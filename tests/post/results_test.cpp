@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/errors.hpp"
+#include "case/hdf5_io.hpp"
 #include "post/synthetic_results.hpp"
 #include "results/reader.hpp"
 
@@ -45,7 +46,7 @@ TEST(Results, SnapshotsReadBackExactly) {
   }
   auto names = reader.field_names(2, "cell");
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"darcy_flux", "porosity", "pressure"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"darcy_flux", "porosity", "pressure", "region"}));
 }
 
 TEST(Results, MeshAndSceneReadBack) {
@@ -210,6 +211,11 @@ void expect_array(vtkDataArray* array, const Field& field) {
   }
 }
 
+Field region_field(const Case<2>& c) {
+  const std::vector<int>& regions = c.mesh.element_region;
+  return {"region", "1", 1, {regions.begin(), regions.end()}, true};
+}
+
 TEST(Results, VtkReadsTheMesh) {
   const ScratchFolder scratch;
   write_synthetic_results(scratch / "run.results");
@@ -237,6 +243,83 @@ TEST(Results, VtkReadsTheMesh) {
   for (const auto& field : wanted.node) {
     expect_array(grid->GetPointData()->GetArray(field.name.c_str()), field);
   }
+  expect_array(grid->GetCellData()->GetArray("region"), region_field(c));
+}
+
+TEST(Results, TheGridIsWrittenOnceAndReadFromAnywhere) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  const Case<2> c = unit_square_case();
+  const ResultsReader reader(scratch / "run.results");
+  expect_field(reader.field(2, "cell", "region"), region_field(c));
+  EXPECT_EQ(reader.point_positions(1, "solid").size(), 8U);
+  for (const char* kind : {"mesh", "solid"}) {
+    const std::string grid = scratch / ("run.results/snapshots/" + std::string(kind) + "_grid.hdf");
+    vtkNew<vtkHDFReader> alone;
+    EXPECT_NE(read_vtk(*alone, grid), nullptr) << "a grid is a file for VTK itself";
+    const std::string snapshot = reader.snapshot_path(kind, 1);
+    const Hdf5File file(snapshot, Hdf5File::Mode::read);
+    EXPECT_TRUE(file.is_in("/VTKHDF/Points", std::string(kind) + "_grid.hdf"));
+  }
+  // The folder may be moved, and be read from another one.
+  fs::rename(scratch / "run.results", scratch / "moved.results");
+  const fs::path here = fs::current_path();
+  for (const std::string& place : {std::string("/"), scratch / "moved.results"}) {
+    fs::current_path(place);
+    const fs::path path = fs::relative(scratch / "moved.results/snapshots/mesh_000001.hdf");
+    vtkNew<vtkHDFReader> moved;
+    auto* grid = read_vtk(*moved, path.string());
+    EXPECT_EQ(grid->GetNumberOfPoints(), c.mesh.node_count());
+    fs::current_path(here);
+  }
+}
+
+TEST(Results, OtherLinksThanThatToTheGridAreRefused) {
+  const ScratchFolder scratch;
+  write_synthetic_results(scratch / "run.results");
+  const ResultsReader reader(scratch / "run.results");
+  const std::string snapshot = reader.snapshot_path("solid", 1);
+  for (const char* target : {"mesh_grid.hdf", "../snapshots/solid_grid.hdf", "/etc/passwd"}) {
+    Hdf5File(snapshot, Hdf5File::Mode::create).link_to("/VTKHDF/Points", target);
+    try {
+      static_cast<void>(reader.point_positions(1, "solid"));
+      FAIL() << "accepted " << target;
+    } catch (const FileError& error) {
+      EXPECT_EQ(
+          std::string(error.what()),
+          snapshot +
+              ": /VTKHDF/Points: is a link; expected the object itself, as Suffuse writes it");
+    }
+  }
+  // Nor is anything left to VTK that would follow them, in the grid either.
+  EXPECT_THROW(static_cast<void>(reader.field_names(1, "solid")), FileError);
+  EXPECT_NO_THROW(static_cast<void>(reader.field_names(0, "solid")));
+  const std::string grid = scratch / "run.results/snapshots/solid_grid.hdf";
+  Hdf5File(grid, Hdf5File::Mode::create).link_to("/VTKHDF/Points", "other.hdf");
+  EXPECT_THROW(static_cast<void>(reader.field_names(0, "solid")), FileError);
+  fs::remove(grid);
+  EXPECT_THROW(static_cast<void>(reader.point_positions(0, "solid")), FileError);
+}
+
+TEST(Results, SevenDigitsWhereTheyAreAskedFor) {
+  const ScratchFolder scratch;
+  Case<2> c = unit_square_case();
+  c.document.scene.output.precision = FieldPrecision::float32;
+  Snapshot snapshot = linear_snapshot(c, 0.0, 0);
+  snapshot.solid.push_back({"id", "1", 1, std::vector<double>(8, 16777217.0), true});
+  const Field exact = snapshot.cell[0];
+  ResultsWriter<2>(scratch / "run.results", c).write_snapshot(snapshot);
+  const ResultsReader reader(scratch / "run.results");
+  const Field read = reader.field(0, "cell", exact.name);
+  for (std::size_t i = 0; i < exact.values.size(); ++i) {
+    EXPECT_EQ(read.values[i], static_cast<double>(static_cast<float>(exact.values[i])));
+  }
+  EXPECT_NE(read.values, exact.values);
+  EXPECT_EQ(reader.field(0, "solid", "id").values[0], 16777217.0);
+  vtkNew<vtkHDFReader> vtk;
+  auto* grid = read_vtk(*vtk, reader.snapshot_path("mesh", 0));
+  EXPECT_EQ(grid->GetCellData()->GetArray(exact.name.c_str())->GetDataType(), VTK_FLOAT);
+  EXPECT_EQ(grid->GetPoint(4)[0], c.mesh.nodes[4][0]) << "places keep all digits";
 }
 
 TEST(Results, VtkReadsTheSolidPoints) {

@@ -284,7 +284,6 @@ inline Snapshot snapshot(const Case<2>& c, double t, long step) {
   s.time = t;
   s.step = step;
   Field state{"saturation_state", "1", 1, {}};
-  Field region{"region", "1", 1, {}};
   Field cell_concentration{"concentration", "1", 1, {}};
   Field vertex_concentration{"concentration", "1", 3, {}};
   Field porosity_field{"porosity", "1", 1, {}};
@@ -295,7 +294,6 @@ inline Snapshot snapshot(const Case<2>& c, double t, long step) {
     if (e == 8) value = 0.0;
     if (e == 23) value = 3.0;
     state.values.push_back(value);
-    region.values.push_back(r);
     cell_concentration.values.push_back(element_centroid(c.mesh, e)[1] / 100.0);
     porosity_field.values.push_back(soil ? (r == 2 ? porosity(t) : 0.3) : 1.0);
     for (const int node : c.mesh.elements[e]) {
@@ -317,7 +315,7 @@ inline Snapshot snapshot(const Case<2>& c, double t, long step) {
   }
   Field rate_field{"erosion_rate", "1/s", 1, std::vector(c.solid_points.element.size(), rate)};
   Field nodal{"liquid_velocity", "m/s", 2, std::vector(2 * c.mesh.nodes.size(), 0.01)};
-  s.cell = {state, region, cell_concentration, porosity_field};
+  s.cell = {state, cell_concentration, porosity_field};
   s.node = {nodal};
   s.solid = {rate_field};
   s.liquid = {concentration, pressure, velocity};

@@ -82,7 +82,7 @@ Actual run(const Case<2>& c) {
   for (const auto& entry : fs::recursive_directory_iterator(results)) {
     if (!entry.is_regular_file()) continue;
     actual.disk += static_cast<double>(entry.file_size());
-    if (entry.path().filename().string().starts_with("mesh_")) ++actual.snapshots;
+    if (entry.path().filename().string().starts_with("mesh_0")) ++actual.snapshots;
   }
   return actual;
 }

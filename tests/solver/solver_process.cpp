@@ -39,7 +39,7 @@ const std::string single_point = R"(name = "single"
 formulation = "single-point"
 geometry = {shape = "column", width = 0.5, height = 1.0}
 mesh.size = 0.125
-output = {every = 0.01, snapshot_every = 0.05}
+output = {every = 0.01, snapshot_every = 0.05, restarts = 1000}
 boundary = [
   {on = "top", pressure = 6.0e3, concentration = 0.01},
   {on = "bottom", pressure = 0.0, concentration = 0.0},
@@ -51,7 +51,7 @@ formulation = "double-point"
 geometry = {shape = "column", width = 0.5, height = 0.5, layers = {inflow = 1, above = 1, below = 1, outflow = 1}}
 mesh.size = 0.125
 points.liquid_per_element = 3
-output = {every = 0.1, snapshot_every = 0.5}
+output = {every = 0.1, snapshot_every = 0.5, restarts = 1000}
 boundary = [
   {on = "inflow", darcy_flux = 0.012, concentration = 0.01},
   {on = "outflow", pressure = 0.0, concentration = 0.0},
@@ -180,7 +180,7 @@ std::vector<Mode> five_modes() {
       {"single_point_implicit",
        single_point,
        {"soil.specimen.conductivity_law=kozeny-carman", "time={end = 5.0}",
-        "output={every = 0.1, snapshot_every = 0.5}"}},
+        "output={every = 0.1, snapshot_every = 0.5, restarts = 1000}"}},
       {"double_point_explicit", double_point, of_explicit},
       // Waves in free water, which nothing stops, would ask for a million steps.
       {"double_point_implicit", double_point, {"time={end = 5.0, inertia = false}"}},
@@ -225,7 +225,7 @@ std::string Workplace::copy(const std::string& results, const std::string& name)
 }
 
 void stop_after_snapshot(const std::string& results, int index) {
-  for (const std::string kind : {"mesh", "solid", "liquid"}) {
+  for (const std::string kind : {"mesh", "solid", "liquid", "state"}) {
     for (int later = index + 1; later < 1000; ++later) {
       fs::remove(layout::in_folder(results, layout::snapshot(kind, later)));
     }

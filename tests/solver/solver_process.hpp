@@ -58,7 +58,8 @@ struct Mode {
 std::ostream& operator<<(std::ostream& out, const Mode& mode);
 
 /// Single-point explicit and implicit; double-point mixed explicit, implicit, at material points.
-/// Runs of a tenth of a second with fifty rows and ten snapshots, in which everything moves.
+/// Runs of a tenth of a second with fifty rows and ten snapshots, in which everything moves. Every
+/// snapshot keeps its state.
 std::vector<Mode> five_modes();
 /// The same mode with more --set.
 Mode with(Mode mode, const std::string& name, const std::vector<std::string>& sets);

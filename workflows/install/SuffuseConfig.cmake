@@ -3,6 +3,7 @@
 include(CMakeFindDependencyMacro)
 enable_language(C)  # FindHDF5 compiles C
 find_dependency(Eigen3 3.4 NO_MODULE)
-find_dependency(HDF5 1.10 COMPONENTS C)
+find_dependency(HDF5 1.10.3 COMPONENTS C)
+find_dependency(ZLIB)
 find_dependency(tomlplusplus 3.3)
 include(${CMAKE_CURRENT_LIST_DIR}/SuffuseTargets.cmake)

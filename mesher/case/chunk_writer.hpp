@@ -1,0 +1,29 @@
+#pragma once
+
+/// Writes the values of an HDF5 dataset compressed, in the form of HDF5's own filters "shuffle" and
+/// "deflate", which every reader of HDF5 undoes. The filters themselves take three times as long:
+/// they also try to compress what cannot be, the low digits of computed numbers.
+
+#include <hdf5.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace suffuse {
+
+/// Shape of a dataset of numbers, and what is compressed as one piece.
+struct ChunkShape {
+  std::size_t rows = 0;
+  std::size_t columns = 1;  ///< compressed one by one: the zeros of a third component are few bytes
+  std::size_t chunk_rows = 0;   ///< of one column; chunks of one dataset are of equal size
+  std::size_t number_size = 8;  ///< bytes
+};
+
+/// The shape of `rows` times `columns` numbers, with chunks of at most 2^19 numbers.
+ChunkShape chunk_shape(std::size_t rows, std::size_t columns, std::size_t number_size);
+
+/// Fills the dataset `set`, which was created with such chunks and both filters, with `numbers`,
+/// row by row. Returns false where HDF5 or zlib fail.
+bool write_chunks(hid_t set, const ChunkShape& shape, const std::uint8_t* numbers);
+
+}  // namespace suffuse

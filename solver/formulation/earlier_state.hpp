@@ -1,0 +1,25 @@
+#pragma once
+
+/// The last state of a run, from which another one starts on the same mesh and points.
+
+#include "flow/flow_solver.hpp"
+#include "solid/skeleton.hpp"
+#include "transport/eulerian.hpp"
+#include "transport/point_transport.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+struct EarlierState {
+  SolidState solid = {};
+  EarlierFlow<Dim> flow = {};
+
+  // Single-point.
+  FinesState<Dim> fines = {};
+  std::vector<double> water_mass = {};  ///< per element, kg
+
+  // Double-point.
+  EarlierLiquid<Dim> liquid = {};
+};
+
+}  // namespace suffuse
