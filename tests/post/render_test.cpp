@@ -267,6 +267,18 @@ TEST_F(Render, ArrowsPointAlongTheFlux) {
   EXPECT_GT(brightness(1.5, -11.0), 400) << "white beside the shaft";
 }
 
+// Porosity grows by 0.04 (1 + x) from the first snapshot to the last.
+TEST_F(Render, AChangeIsThatSinceTheStart) {
+  auto r = request("porosity");
+  r.on = "node";
+  r.change = true;
+  const Pixels pixels = drawn(single(), r);
+  for (const double x : {0.1, 0.45, 0.8}) {
+    const Eigen::Vector2d at{axes_left + 800.0 * x, axes_bottom + 800.0 * 0.65};
+    expect_color(pixels.at(at), viridis(x), "x = " + std::to_string(x));
+  }
+}
+
 TEST_F(Render, AFieldOfElementsHasContoursOfItsMeans) {
   const Mesh<2> mesh = testing::unit_square_case().mesh;
   FieldPicture picture;
@@ -328,6 +340,12 @@ TEST_F(Render, RefusesLinesColoursAndPartsThatCannotBe) {
   expect_refusal(run(), r,
                  "suffuse-post render: --contours: got a field of points, \"pressure\" on liquid; "
                  "expected a field on cell or node");
+  r = request("region");
+  r.change = true;
+  expect_refusal(
+      run(), r,
+      "suffuse-post render: --change: got a field of kinds, \"region\"; expected a field "
+      "of numbers");
   r = request("concentration");
   r.logarithmic = true;
   r.range = {{-1.0, 1.0}};

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <numbers>
 #include <set>
@@ -25,19 +26,20 @@ constexpr double fall = 2.5;           // m
 constexpr double depth = 6.0;          // m
 constexpr double half_length = 12.0;   // m
 
-/// Runs workflows/pictures/pile.toml for a second, with the changes of `changes`, and reads it.
-ResultsReader pile_run(const std::string& name, const std::string& changes = "") {
+const std::string pile_scene = SUFFUSE_SOURCE_DIR "/workflows/pictures/pile.toml";
+
+/// Runs a scene for a second, with the changes of `changes`, and reads it.
+ResultsReader pile_run(const std::string& name, const std::string& changes = "",
+                       const std::string& scene = pile_scene) {
   const auto folder = std::filesystem::path(::testing::TempDir()) / "flow_net_test";
   std::filesystem::create_directories(folder);
   const std::string stem = (folder / name).string();
   std::filesystem::remove_all(stem + ".results");
   const std::string bin = SUFFUSE_BIN;
-  const std::string command = bin + "/suffuse-mesher " + SUFFUSE_SOURCE_DIR +
-                              "/workflows/pictures/pile.toml --set time.end=1.0 --set "
-                              "output.every=1.0 " +
-                              changes + " -o " + stem + ".case.h5 > " + stem + ".log && " + bin +
-                              "/suffuse-solver " + stem + ".case.h5 -o " + stem + ".results > " +
-                              stem + ".log";
+  const std::string command = bin + "/suffuse-mesher " + scene +
+                              " --set time.end=1.0 --set output.every=1.0 " + changes + " -o " +
+                              stem + ".case.h5 > " + stem + ".log && " + bin + "/suffuse-solver " +
+                              stem + ".case.h5 -o " + stem + ".results > " + stem + ".log 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   return ResultsReader(stem + ".results");
 }
@@ -194,6 +196,32 @@ TEST(FlowNet, RefusesRestAndTimesAndTubesThatCannotBe) {
   EXPECT_EQ(refusal([&] { flow_net(rest, 1e9, {}); }),
             "suffuse-post figure flownet: --time: got 1e+09; expected a time from 0 to 1 s, the "
             "first and last snapshot");
+}
+
+TEST(FlowNet, RefusesADrainInsideTheModel) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "flow_net_test";
+  std::filesystem::create_directories(folder);
+  const std::string path = (folder / "drain.toml").string();
+  std::ofstream(path) << "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
+                      << "geometry.file = \"" SUFFUSE_TEST_DATA "/geometry/sheet_pile.geo\"\n"
+                      << R"(
+    mesh = { size = 0.25, structure = "free" }
+    liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }
+    soil.specimen = { porosity = 0.3, skeleton_fraction = 0.6, grain_density = 2700.0, conductivity = 1e-4 }
+    boundary = [{ on = "left", head = 2.0, concentration = 0.0 }, { on = "right", head = 1.0 }]
+    wall = [{ on = "pile" }]
+    well = [{ on = "drain", head = 0.5 }]
+    initial.flow = "steady"
+    time.end = 1.0
+    output.every = 1.0
+  )";
+  const ResultsReader run = pile_run("drain", "", path);
+  const std::string text = refusal([&] { flow_net(run, 0.0, {}); });
+  EXPECT_NE(
+      text.find(" m3/s leave inside the model at \"drain\"; expected a flow through the outer "
+                "edge only: around a well or drain no streamlines have equal discharge"),
+      std::string::npos)
+      << text;
 }
 
 TEST(FlowNet, HasSquaresOfAnyShareOfTheHead) {
