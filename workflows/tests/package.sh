@@ -64,7 +64,7 @@ mkdir run && cd run
 cp /usr/share/doc/suffuse/examples/weir/* .
 chown -R 1000 .
 # Every command of the README's tour, figures included.
-awk '/^## Five minutes/ { inside = 1 } /^## More/ { exit } inside && (/^    suffuse-/ || more) { print substr($0, 5); more = /\\$/ }' \
+awk '/^## Ten minutes/ { inside = 1 } /^## More/ { exit } inside && (/^    suffuse-/ || more) { print substr($0, 5); more = /\\$/ }' \
   ../README.md > commands.sh
 [ "$(grep -c '^suffuse-' commands.sh)" -ge 15 ]
 # As an ordinary user: libraries keep caches and settings in HOME.
