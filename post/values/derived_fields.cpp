@@ -57,6 +57,17 @@ std::vector<double> fines_content(const ResultsReader& results, std::size_t inde
   return values;
 }
 
+/// At the vertices of elements: n S - n_f.
+std::vector<double> water_at_vertices(const ResultsReader& results, std::size_t index) {
+  std::vector<double> values = results.field(index, "element_vertex", "porosity").values;
+  const std::vector<double> fines = results.field(index, "element_vertex", "fines_fraction").values;
+  const std::vector<double> saturation = any_field(results, index, "cell", "saturation").values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = values[i] * saturation[i / 3] - fines[i];
+  }
+  return values;
+}
+
 std::vector<double> safety(const ResultsReader& results, std::size_t index) {
   std::vector<double> values = critical_gradient(results, results.mesh(), index);
   const std::vector<double> gradient = upward_gradient(results, index);
@@ -85,6 +96,7 @@ const std::vector<DerivedField>& derived_fields() {
        [](const auto& results, auto index) { return fines_content(results, index, "cell"); }},
       {"solid", "fines_content", "1", "erodible_fraction",
        [](const auto& results, auto index) { return fines_content(results, index, "solid"); }},
+      {"element_vertex", "water_fraction", "1", "fines_fraction", water_at_vertices},
       {"cell", "safety", "1", "hydraulic_gradient", safety}};
   return fields;
 }
@@ -109,7 +121,8 @@ Field any_field(const ResultsReader& results, std::size_t index, const std::stri
   if (!is_stored(results, index, where, name)) {
     for (const DerivedField& field : derived_fields()) {
       if (field.where == where && field.name == name) {
-        return {name, field.unit, 1, field.values(results, index)};
+        const int components = where == "element_vertex" ? 3 : 1;
+        return {name, field.unit, components, field.values(results, index)};
       }
     }
   }

@@ -15,6 +15,7 @@ namespace suffuse {
 ///   the scene; without gravity p / (rho_w 9.81 m/s2)
 /// - "saturation" of cells, where every soil is saturated: 1
 /// - "fines_content" of cells and solid points: erodible share of the dry mass, n_e / (1 - n)
+/// - "water_fraction" at the vertices of elements: n S - n_f
 /// - "safety" of cells, against heave: see `critical_gradient` and `upward_gradient`
 std::vector<std::string> all_field_names(const ResultsReader& results, std::size_t index,
                                          const std::string& where);

@@ -16,18 +16,17 @@ Field scalar(const char* name, const char* unit, int components = 1) {
 
 std::vector<Field> pore_fields(int components) {
   std::vector<Field> fields;
-  for (const char* name : {"porosity", "concentration", "fines_fraction", "water_fraction"}) {
+  for (const char* name : {"porosity", "concentration", "fines_fraction"}) {
     fields.push_back(scalar(name, "1", components));
   }
   return fields;
 }
 
-/// Adds the values of one element or vertex to `pore_fields`; `wet`: liquid per volume, n S.
-void add_values(std::vector<Field>& fields, double n, double wet, double c, double n_f) {
+/// Adds the values of one element or vertex to `pore_fields`.
+void add_values(std::vector<Field>& fields, double n, double c, double n_f) {
   fields[0].values.push_back(n);
   fields[1].values.push_back(c);
   fields[2].values.push_back(n_f);
-  fields[3].values.push_back(wet - n_f);
 }
 
 /// Means of elements, and their linear functions at the vertices.
@@ -37,6 +36,8 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
   using Nodes = FieldNodes<Dim>;
   result.cell = pore_fields(1);
   result.element_vertex = pore_fields(Dim + 1);
+  // At vertices it follows from the others, and would take a quarter of their room.
+  Field water = scalar("water_fraction", "1");
   Field erodible = scalar("erodible_fraction", "1");
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const ElementValues<Dim>& wet = liquid.liquid_volume[e];
@@ -46,7 +47,8 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
     const double fines_sum = element_sum<Dim>(volume);
     const double n_wet = wet_sum / grid.volume[e];
     const double n = n_wet / filled;
-    add_values(result.cell, n, n_wet, fines_sum / wet_sum, fines_sum / grid.volume[e]);
+    add_values(result.cell, n, fines_sum / wet_sum, fines_sum / grid.volume[e]);
+    water.values.push_back(n_wet - fines_sum / grid.volume[e]);
     erodible.values.push_back(solid.soils().soil_of_element(e).porosity_max() - n);
 
     const double node_volume = grid.volume[e] / (Dim + 1);
@@ -62,10 +64,10 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
     const auto f_vertex = Nodes::at_vertices(f_node);
     const auto c_vertex = Nodes::at_vertices(c_node);
     for (int k = 0; k <= Dim; ++k) {
-      add_values(result.element_vertex, n_vertex[k] / filled, n_vertex[k], c_vertex[k],
-                 f_vertex[k]);
+      add_values(result.element_vertex, n_vertex[k] / filled, c_vertex[k], f_vertex[k]);
     }
   }
+  result.cell.push_back(std::move(water));
   result.cell.push_back(std::move(erodible));
 }
 
