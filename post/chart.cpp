@@ -1,10 +1,12 @@
 #include "chart.hpp"
 
 #include <vtkAxis.h>
+#include <vtkBrush.h>
 #include <vtkChartXY.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPen.h>
+#include <vtkPlotArea.h>
 #include <vtkPlotPoints.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -72,7 +74,22 @@ void add_line(vtkChartXY& chart, const Curve& curve) {
   plot->GetPen()->SetLineType(vtk_line_type(curve.dash));
 }
 
+void add_band(vtkChartXY& chart, const Curve& curve) {
+  auto table = table_of(curve, false);
+  vtkNew<vtkDoubleArray> low;
+  low->SetName("low");
+  for (const double value : curve.low) low->InsertNextValue(value);
+  table->AddColumn(low);
+  auto* plot = vtkPlotArea::SafeDownCast(chart.AddPlot(vtkChart::AREA));
+  plot->SetInputData(table);
+  plot->SetInputArray(0, "x");
+  plot->SetInputArray(1, "low");
+  plot->SetInputArray(2, "y");
+  plot->GetBrush()->SetColorF(curve.color[0], curve.color[1], curve.color[2]);
+}
+
 void add_curve(vtkChartXY& chart, const Curve& curve) {
+  if (curve.is_band()) add_band(chart, curve);
   // VTK reports a line through one point as an error.
   if (curve.has_line() && curve.x.size() > 1) add_line(chart, curve);
   if (!curve.markers) return;
@@ -133,7 +150,10 @@ AxisTicks axis_of(const Chart& chart, const std::vector<double> Curve::*values,
       high = std::max(high, value);
     }
   };
-  for (const auto& curve : chart.curves) include(curve.*values);
+  for (const auto& curve : chart.curves) {
+    include(curve.*values);
+    if (values == &Curve::y) include(curve.low);
+  }
   include(extra);
   if (logarithmic) return low <= high ? logarithmic_axis(low, high) : logarithmic_axis(1, 10);
   return low <= high ? even_axis(low, high) : even_axis(0.0, 1.0);
@@ -146,6 +166,7 @@ Curve drawn_curve(const Chart& chart, Curve curve) {
   };
   if (chart.logarithmic || chart.logarithmic_x) draw_logarithms(curve.x);
   if (chart.logarithmic) draw_logarithms(curve.y);
+  if (chart.logarithmic) draw_logarithms(curve.low);
   return curve;
 }
 

@@ -21,6 +21,7 @@
 #include "run_curves.hpp"
 #include "run_table.hpp"
 #include "sample.hpp"
+#include "sweep_figures.hpp"
 
 namespace suffuse {
 namespace {
@@ -38,6 +39,10 @@ struct Options {
   std::string range;
   std::string reference;
   std::string measured;
+  std::string table;
+  std::string x;
+  std::vector<std::string> y;
+  std::vector<std::string> over_time;
   bool all = false;
   std::optional<double> render_time;
   double tolerance = 1e-12;
@@ -143,6 +148,23 @@ void export_results(const Options& options) {
   export_vtu(results, options.output);
 }
 
+void sweep(const Options& options) {
+  picture_format(options.output, "suffuse-post sweep");
+  if (options.y.empty() == options.over_time.empty()) {
+    throw InputError(
+        std::vector{InputProblem{"suffuse-post sweep", "", options.y.empty() ? "neither" : "both",
+                                 "--y or --over-time", ""}});
+  }
+  const SweepTable table = read_sweep(options.table);
+  if (options.y.empty()) {
+    draw_charts(over_time_charts(table, options.over_time), options.output);
+  } else if (options.x.empty()) {
+    draw_charts(distribution_charts(table, options.y), options.output);
+  } else {
+    draw_charts(over_key_charts(table, options.x, options.y), options.output);
+  }
+}
+
 using Action = std::function<void(const Options&)>;
 
 CLI::App* add_command(CLI::App& app, Action& chosen, const std::string& name,
@@ -228,6 +250,27 @@ void add_picture_commands(CLI::App& app, Options& o, Action& chosen) {
       ->type_name("FILE");
 }
 
+void add_sweep_command(CLI::App& app, Options& o, Action& chosen) {
+  auto* command = add_command(app, chosen, "sweep",
+                              "A figure of the runs of a sweep, with median and 10 to 90 %", sweep);
+  command->add_option("TABLE", o.table, "sweep.csv of make's target sweep; results lie beside it")
+      ->required()
+      ->type_name("FILE.csv");
+  command->add_option("--y", o.y, "columns of the table; without --x their distributions")
+      ->delimiter(',')
+      ->type_name("COLUMN,...");
+  auto* x = command->add_option("--x", o.x, "key or column to draw them over")->type_name("COLUMN");
+  command
+      ->add_option("--over-time", o.over_time,
+                   "columns of history.csv or ledger.csv, to draw against time")
+      ->delimiter(',')
+      ->excludes(x)
+      ->type_name("COLUMN,...");
+  command->add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
+      ->required()
+      ->type_name("FILE");
+}
+
 void add_file_commands(CLI::App& app, Options& o, Action& chosen) {
   auto* command =
       add_command(app, chosen, "table", "One row per run: settings, cost, errors", table);
@@ -247,6 +290,7 @@ void declare(CLI::App& app, Options& o, Action& chosen) {
   add_balance_commands(app, o, chosen);
   add_value_commands(app, o, chosen);
   add_picture_commands(app, o, chosen);
+  add_sweep_command(app, o, chosen);
   add_file_commands(app, o, chosen);
 }
 
