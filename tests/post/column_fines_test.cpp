@@ -1,4 +1,4 @@
-#include "column_fines.hpp"
+#include "values/column_fines.hpp"
 
 #include <gtest/gtest.h>
 

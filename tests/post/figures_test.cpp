@@ -1,4 +1,4 @@
-#include "figures.hpp"
+#include "figures/figures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "case/errors.hpp"
+#include "drawing/ticks.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
 

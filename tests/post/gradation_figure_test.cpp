@@ -1,11 +1,11 @@
-#include "gradation_figure.hpp"
+#include "figures/gradation_figure.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "case/errors.hpp"
-#include "figures.hpp"
+#include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
 

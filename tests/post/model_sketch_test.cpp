@@ -1,10 +1,10 @@
-#include "model_sketch.hpp"
+#include "figures/model_sketch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "figures.hpp"
+#include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
 

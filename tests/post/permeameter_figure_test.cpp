@@ -1,11 +1,11 @@
-#include "permeameter_figure.hpp"
+#include "figures/permeameter_figure.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "case/errors.hpp"
-#include "figures.hpp"
+#include "figures/figures.hpp"
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "chart.hpp"
+#include "drawing/chart.hpp"
 
 namespace suffuse::testing {
 

@@ -1,4 +1,4 @@
-#include "reference_error.hpp"
+#include "tables/reference_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,16 @@
-#include "render.hpp"
+#include "figures/render.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "case/errors.hpp"
-#include "color_map.hpp"
-#include "field_view.hpp"
-#include "model_view.hpp"
+#include "drawing/color_map.hpp"
+#include "drawing/model_view.hpp"
+#include "figures/categories.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
+#include "values/fields.hpp"
 
 namespace suffuse {
 namespace {

@@ -1,4 +1,4 @@
-#include "run_table.hpp"
+#include "tables/run_table.hpp"
 
 #include <gtest/gtest.h>
 

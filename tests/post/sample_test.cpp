@@ -1,4 +1,4 @@
-#include "sample.hpp"
+#include "values/sample.hpp"
 
 #include <gtest/gtest.h>
 

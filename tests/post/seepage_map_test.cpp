@@ -1,4 +1,4 @@
-#include "seepage_map.hpp"
+#include "figures/seepage_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "case/errors.hpp"
-#include "contours.hpp"
-#include "figures.hpp"
+#include "drawing/contours.hpp"
+#include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
 

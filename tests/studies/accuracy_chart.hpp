@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "chart.hpp"
+#include "drawing/chart.hpp"
 
 namespace suffuse {
 

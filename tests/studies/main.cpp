@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "case/errors.hpp"
-#include "chart.hpp"
-#include "picture.hpp"
+#include "drawing/chart.hpp"
+#include "drawing/picture.hpp"
 #include "studies/accuracy_chart.hpp"
 #include "studies/stress_chart.hpp"
 

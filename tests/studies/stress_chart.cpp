@@ -8,8 +8,9 @@
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
-#include "chart.hpp"
-#include "picture.hpp"
+#include "drawing/chart.hpp"
+#include "drawing/picture.hpp"
+#include "drawing/ticks.hpp"
 #include "studies/text_table.hpp"
 
 namespace suffuse {

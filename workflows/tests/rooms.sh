@@ -33,7 +33,7 @@ file solver/flow/flow.hpp case/mesh.hpp flow/parts.hpp physics/liquid.hpp
 file solver/results/writer.hpp case/mesh.hpp
 file mesher/case/mesh.hpp physics/liquid.hpp
 file mesher/main.cpp case/mesh.hpp geometry.hpp
-file post/main.cpp results/writer.hpp chart.hpp
+file post/commands/main.cpp results/writer.hpp drawing/chart.hpp
 expect 'includes that go down' 0 ''
 
 file solver/flow/flow.hpp grid/grid.hpp driver/run.hpp
@@ -43,9 +43,9 @@ file solver/physics/laws/law.cpp case/scene.hpp
 expect 'one from a folder within a room' 1 \
   'solver/physics/laws/law.cpp:1: includes "case/scene.hpp"; solver/physics stands below mesher/case'
 rm -r "$work/solver/physics"
-file post/chart.cpp flow/flow.hpp
-expect 'one of post into the solver' 1 'post/chart.cpp:1: includes "flow/flow.hpp"; post must not include solver/flow'
-file post/chart.cpp chart.hpp
+file post/drawing/chart.cpp flow/flow.hpp
+expect 'one of post into the solver' 1 'post/drawing/chart.cpp:1: includes "flow/flow.hpp"; post must not include solver/flow'
+file post/drawing/chart.cpp drawing/ticks.hpp
 file solver/flow/parts.cpp parts.hpp
 expect 'one without a room' 1 'solver/flow/parts.cpp:1: includes "parts.hpp"; expected ROOM/FILE with a known room'
 rm "$work/solver/flow/parts.cpp"

@@ -1,0 +1,91 @@
+#pragma once
+
+/// The mapping of a mesh from metres to pixels, and painters of axes, edges and discs in it, for
+/// render and the model sketch.
+
+#include <vtkContext2D.h>
+
+#include <string>
+#include <vector>
+
+#include "case/mesh.hpp"
+#include "drawing/chart.hpp"
+
+namespace suffuse {
+
+/// Layout of a picture of the model with a colour bar to its right, pixels.
+struct PictureLayout {
+  static constexpr float max_width = 1000.0F;  ///< of the model
+  static constexpr float max_height = 800.0F;
+  static constexpr float gap = 40.0F;  ///< between the model and the bar
+  static constexpr float bar_width = 30.0F;
+  static constexpr float min_bar_height = 340.0F;
+  static constexpr int title_size = 24;
+
+  /// Of a picture that holds the title with room beside it.
+  static float title_width(const std::string& title) {
+    constexpr float letter = 14.0F;
+    return letter * static_cast<float>(title.size()) + 2.0F * gap;
+  }
+};
+
+/// Paints the title of a picture of this size.
+void paint_title(vtkContext2D& painter, const std::string& title, int width, int height);
+
+/// Maps positions in metres to pixels, with one scale for both axes. Pixels count from the bottom
+/// left of the picture.
+class ModelView {
+ public:
+  /// Fits the mesh into a box with lower left corner (left, bottom) and the given largest size; the
+  /// mesh touches the left and bottom sides. All in pixels.
+  ModelView(const Mesh<2>& mesh, float left, float bottom, float max_width, float max_height);
+  /// The same with the corners of what is fitted, m.
+  ModelView(const Vector<2>& low, const Vector<2>& high, float left, float bottom, float max_width,
+            float max_height);
+
+  [[nodiscard]] Vector<2> pixel(const Vector<2>& x) const { return origin_ + scale_ * (x - low_); }
+  [[nodiscard]] float left() const { return static_cast<float>(origin_[0]); }
+  [[nodiscard]] float bottom() const { return static_cast<float>(origin_[1]); }
+  [[nodiscard]] float width() const { return static_cast<float>(scale_ * (high_ - low_)[0]); }
+  [[nodiscard]] float height() const { return static_cast<float>(scale_ * (high_ - low_)[1]); }
+  /// Pixels per metre.
+  [[nodiscard]] double scale() const { return scale_; }
+
+  /// Paints ticks and labels in metres to the left of the mesh and below.
+  void paint_axes(vtkContext2D& painter) const;
+
+ private:
+  void fit(float max_width, float max_height);
+
+  Vector<2> low_;
+  Vector<2> high_;
+  Vector<2> origin_;
+  double scale_ = 1.0;
+};
+
+/// Room for the axes to the left of the mesh and below, pixels.
+inline constexpr float axes_left = 110.0F;
+inline constexpr float axes_bottom = 90.0F;
+
+/// Pairs of nodes.
+using Edges = std::vector<std::array<int, 2>>;
+/// Paints lines of `width` pixels.
+void paint_edges(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
+                 const Edges& edges, const Color& color, float width);
+
+/// Every edge of the mesh, sorted.
+Edges all_edges(const Mesh<2>& mesh);
+/// Edges on the outer boundary: those of one element only.
+Edges outer_edges(const Mesh<2>& mesh);
+/// Edges between elements of two regions.
+Edges region_edges(const Mesh<2>& mesh);
+
+/// Paints discs of `diameter` pixels; `colors` has one colour per disc, or one for all.
+void paint_discs(vtkContext2D& painter, const ModelView& view,
+                 const std::vector<Vector<2>>& positions, const std::vector<Color>& colors,
+                 float diameter);
+
+/// A diameter in pixels at which discs do not touch when `points` of them are spread over the mesh.
+float disc_diameter(const ModelView& view, const Mesh<2>& mesh, std::size_t points);
+
+}  // namespace suffuse

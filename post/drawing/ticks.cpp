@@ -1,0 +1,66 @@
+#include "drawing/ticks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace suffuse {
+
+std::vector<double> round_ticks(double low, double high) {
+  if (!(high > low)) {
+    const double room = std::max(std::abs(low), 1.0) * 0.05;
+    low -= room;
+    high += room;
+  }
+  const double rough = (high - low) / 8.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * decade;
+  for (const double factor : {5.0, 2.0, 1.0}) {
+    if (factor * decade >= rough) step = factor * decade;
+  }
+  // An end that lies on a tick up to rounding needs no tick beyond it.
+  const auto first = static_cast<long>(std::floor(low / step + 1e-9));
+  const auto last = static_cast<long>(std::ceil(high / step - 1e-9));
+  std::vector<double> ticks;
+  for (long k = first; k <= last; ++k) ticks.push_back(static_cast<double>(k) * step);
+  return ticks;
+}
+
+std::string tick_text(double tick) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", tick);
+  return text;
+}
+
+LogarithmicTicks logarithmic_ticks(double low, double high) {
+  constexpr std::array<double, 3> factors{1.0, 2.0, 5.0};
+  // An end that lies on a tick up to rounding needs no tick beyond it.
+  constexpr double slack = 1e-9;
+  constexpr double three_decades = 1000.0;
+  LogarithmicTicks found;
+  std::vector<double> all;
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  const int last = static_cast<int>(std::ceil(std::log10(high)));
+  for (int decade = first; decade <= last; ++decade) {
+    for (const double factor : factors) all.push_back(factor * std::pow(10.0, decade));
+  }
+  found.low = *std::prev(std::ranges::upper_bound(all, low * (1.0 + slack)));
+  const auto end = std::ranges::lower_bound(all, high * (1.0 - slack));
+  found.high = end == all.end() ? all.back() : *end;
+  if (found.high <= found.low) found.high = *std::ranges::upper_bound(all, found.low);
+  const bool powers_only = found.high > three_decades * found.low * (1.0 + slack);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i] < found.low || all[i] > found.high) continue;
+    if (!powers_only || i % factors.size() == 0) found.ticks.push_back(all[i]);
+  }
+  return found;
+}
+
+std::string logarithmic_tick_text(double tick) {
+  if (tick >= 0.999e-3 && tick < 1e4) return tick_text(tick);
+  const int power = static_cast<int>(std::floor(std::log10(tick) + 1e-9));
+  return tick_text(tick / std::pow(10.0, power)) + "e" + std::to_string(power);
+}
+
+}  // namespace suffuse

@@ -1,0 +1,31 @@
+#pragma once
+
+/// Ticks of axes and colour bars: round numbers and their text.
+
+#include <string>
+#include <vector>
+
+namespace suffuse {
+
+/// 5 to 11 evenly spaced round numbers that enclose [low, high]. Where low = high they enclose an
+/// interval around it.
+std::vector<double> round_ticks(double low, double high);
+
+/// The label of a tick, six digits at most.
+std::string tick_text(double tick);
+
+/// Ends and labelled ticks of a logarithmic axis.
+struct LogarithmicTicks {
+  double low = 0.0;
+  double high = 0.0;
+  std::vector<double> ticks;
+};
+
+/// The ends are 1, 2 or 5 times a power of ten and enclose [low, high], with low > 0. Ticks are at
+/// all such numbers in between; on an axis longer than three decades, at powers of ten only.
+LogarithmicTicks logarithmic_ticks(double low, double high);
+
+/// The label of a tick of a logarithmic axis: 0.001, 500, 2e-4.
+std::string logarithmic_tick_text(double tick);
+
+}  // namespace suffuse

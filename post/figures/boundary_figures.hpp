@@ -1,0 +1,14 @@
+#pragma once
+
+/// Charts of what crosses each boundary of the scene, against time.
+
+#include "drawing/chart.hpp"
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// Discharge out of the model through each boundary, and the grains that left through it; the
+/// second only where any did. Throws FileError when a table has fewer than two times.
+std::vector<Chart> boundary_charts(const std::vector<ResultsReader>& runs);
+
+}  // namespace suffuse

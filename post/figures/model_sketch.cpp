@@ -1,0 +1,234 @@
+#include "figures/model_sketch.hpp"
+
+#include <vtkBrush.h>
+#include <vtkPen.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/errors.hpp"
+#include "case/faces.hpp"
+#include "drawing/chart_legend.hpp"
+#include "drawing/model_view.hpp"
+#include "drawing/picture.hpp"
+#include "results/number_text.hpp"
+#include "values/scene_words.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr Color black{0.0, 0.0, 0.0};
+constexpr Color red{0.84, 0.0, 0.0};
+constexpr Color blue{0.1, 0.35, 0.9};
+/// Green and purple as in the paper, then others; impervious boundaries are orange.
+constexpr std::array<Color, 5> boundary_colors{
+    {{0.0, 0.55, 0.25}, {0.55, 0.1, 0.6}, {0.0, 0.6, 0.75}, {0.75, 0.6, 0.0}, {0.35, 0.35, 0.35}}};
+constexpr Color impervious_color{0.95, 0.5, 0.1};
+constexpr std::array<Color, 4> soil_tints{
+    {{0.96, 0.90, 0.78}, {0.86, 0.84, 0.80}, {0.90, 0.94, 0.82}, {0.97, 0.86, 0.84}}};
+constexpr Color water_tint{0.86, 0.94, 1.0};
+constexpr float boundary_width = 6.0F;
+constexpr float max_width = 900.0F;
+constexpr float max_height = 1100.0F;
+constexpr float title_room = 80.0F;
+constexpr float legend_gap = 50.0F;
+constexpr float legend_row = 30.0F;
+
+/// A constant as "6000"; a value that changes in time as "0 to 6000", its smallest and largest.
+std::string range_text(const TimeFunction& f) {
+  const std::string smallest = number_text(f.smallest());
+  return f.is_constant() ? smallest : smallest + " to " + number_text(f.largest());
+}
+
+/// The conditions on a boundary, or at a well; empty where it is impervious.
+std::string condition_text(const BoundaryCondition& b) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (b.pressure) add("pressure " + range_text(*b.pressure) + " Pa");
+  if (b.velocity) add("velocity " + range_text(*b.velocity) + " m/s");
+  if (b.darcy_flux) add("Darcy flux " + range_text(*b.darcy_flux) + " m/s");
+  if (b.head) add("head " + range_text(*b.head) + " m");
+  if (b.seepage_face) add("seepage face");
+  if (b.rain) add("rain " + range_text(*b.rain) + " m/s");
+  if (b.rate) add("rate " + range_text(*b.rate) + " m3/s");
+  const double enters =
+      std::max(b.velocity.value_or(0.0).largest(), b.darcy_flux.value_or(0.0).largest());
+  if (b.concentration || enters > 0.0) add("c = " + range_text(b.concentration.value_or(0.0)));
+  return text;
+}
+
+/// What the scene says of a named boundary; empty where it is impervious.
+std::string text_of(const Scene& scene, const std::string& name) {
+  const auto condition = std::ranges::find(scene.boundaries, name, &BoundaryCondition::on);
+  if (condition != scene.boundaries.end()) return condition_text(*condition);
+  const auto wall = std::ranges::find(scene.walls, name, &Wall::on);
+  if (wall == scene.walls.end() || wall->conductance == 0.0) return "";
+  return "wall, conductance " + number_text(wall->conductance) + " 1/s";
+}
+
+/// Outer edges that belong to no named boundary.
+std::vector<std::array<int, 2>> unnamed_edges(const Mesh<2>& mesh) {
+  std::vector<std::array<int, 2>> named;
+  for (const auto& boundary : mesh.boundaries) {
+    for (const auto& face : boundary.faces) named.push_back(face_key<2>(face));
+  }
+  std::ranges::sort(named);
+  std::vector<std::array<int, 2>> rest;
+  for (const auto& edge : outer_edges(mesh)) {
+    if (!std::ranges::binary_search(named, edge)) rest.push_back(edge);
+  }
+  return rest;
+}
+
+struct RegionTint {
+  std::string label;
+  Color color{};
+};
+
+std::vector<RegionTint> region_tints(const ResultsReader& run, const Mesh<2>& mesh) {
+  const Scene& scene = run.scene().scene;
+  std::vector<RegionTint> tints;
+  std::size_t soils = 0;
+  for (const auto& region : mesh.region_names) {
+    const bool water = scene.is_free_water(region);
+    tints.push_back({region_label(scene, region),
+                     water ? water_tint : soil_tints.at(soils++ % soil_tints.size())});
+  }
+  return tints;
+}
+
+void paint_tints(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
+                 const std::vector<RegionTint>& tints) {
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const auto& color = tints[mesh.element_region[e]].color;
+    painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
+    std::array<float, 3> x{};
+    std::array<float, 3> y{};
+    for (int a = 0; a < 3; ++a) {
+      const Vector<2> at = view.pixel(mesh.nodes[mesh.elements[e][a]]);
+      x.at(a) = static_cast<float>(at[0]);
+      y.at(a) = static_cast<float>(at[1]);
+    }
+    painter.DrawPolygon(x.data(), y.data(), 3);
+  }
+  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+}
+
+Curve line_row(const std::string& label, const Color& color, float width) {
+  Curve row;
+  row.label = label;
+  row.color = color;
+  row.width = width;
+  return row;
+}
+
+Curve marker_row(const std::string& label, const Color& color, Marker marker) {
+  Curve row = line_row(label, color, 1.0F);
+  row.markers = true;
+  row.marker = marker;
+  return row;
+}
+
+/// The colour of a boundary by its number.
+Color boundary_color(const std::vector<SketchedBoundary>& boundaries, std::size_t number) {
+  if (boundaries[number].label.ends_with("impervious")) return impervious_color;
+  return boundary_colors.at(number % boundary_colors.size());
+}
+
+std::string count_text(std::size_t count, const std::string& kind) {
+  return std::to_string(count) + " " + kind + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string region_label(const Scene& scene, const std::string& region) {
+  if (scene.is_free_water(region)) return region + ": free water";
+  const Soil* soil = scene.find_soil(region);
+  if (soil == nullptr || !soil->erosion.law->erodes()) {
+    return region + ": soil, does not erode";
+  }
+  return region + ": soil, erodes (" + std::string(soil->erosion.law->word) + " law)";
+}
+
+std::vector<SketchedBoundary> sketched_boundaries(const ResultsReader& run) {
+  return sketched_boundaries(run.mesh(), run.scene().scene);
+}
+
+std::vector<SketchedBoundary> sketched_boundaries(const Mesh<2>& mesh, const Scene& scene) {
+  std::vector<SketchedBoundary> found;
+  SketchedBoundary impervious;
+  const auto add_impervious = [&](const std::string& name,
+                                  const std::vector<std::array<int, 2>>& edges) {
+    impervious.label += (impervious.label.empty() ? "" : ", ") + name;
+    impervious.edges.insert(impervious.edges.end(), edges.begin(), edges.end());
+  };
+  for (const auto& boundary : mesh.boundaries) {
+    const std::string text = text_of(scene, boundary.name);
+    if (text.empty()) {
+      add_impervious(boundary.name, boundary.faces);
+    } else {
+      found.push_back({boundary.name + ": " + text, boundary.faces});
+    }
+  }
+  if (const auto rest = unnamed_edges(mesh); !rest.empty()) add_impervious("unnamed", rest);
+  if (!impervious.edges.empty()) {
+    impervious.label += ": impervious";
+    found.push_back(impervious);
+  }
+  return found;
+}
+
+void draw_model_sketch(const ResultsReader& run, const std::string& path) {
+  if (run.times().empty()) throw FileError(run.folder() + ": has no snapshot yet");
+  const bool double_point = run.scene().scene.formulation == Formulation::double_point;
+  const Mesh<2> mesh = run.mesh();
+  const auto solid = run.point_positions(0, "solid");
+  const auto liquid = double_point ? run.point_positions(0, "liquid") : std::vector<Vector<2>>{};
+  const auto boundaries = sketched_boundaries(run);
+  const auto tints = region_tints(run, mesh);
+
+  std::vector<Curve> rows;
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    rows.push_back(line_row(boundaries[b].label, boundary_color(boundaries, b), boundary_width));
+  }
+  rows.push_back(
+      marker_row(count_text(solid.size(), double_point ? "solid point" : "material point"), red,
+                 Marker::circle));
+  if (double_point) {
+    rows.push_back(marker_row(count_text(liquid.size(), "liquid point"), blue, Marker::circle));
+  }
+  rows.push_back(line_row(count_text(mesh.elements.size(), "element"), black, 1.0F));
+  for (const auto& tint : tints) rows.push_back(marker_row(tint.label, tint.color, Marker::square));
+
+  const ModelView view(mesh, axes_left, axes_bottom, max_width, max_height);
+  const float legend_left = view.left() + view.width() + legend_gap;
+  const float legend_height = legend_row * static_cast<float>(rows.size());
+  const float shown_height = std::max(view.height(), legend_height);
+  const auto width = static_cast<int>(legend_left + ChartLegend::width(rows) + legend_gap);
+  const auto height = static_cast<int>(view.bottom() + shown_height + title_room);
+  const std::string title =
+      run.scene().scene.name + (double_point ? ", double-point model" : ", single-point model");
+  draw_picture(width, height, title, path, [&](vtkContextScene& scene) {
+    add_painted(scene, [&](vtkContext2D& painter) {
+      const float small = disc_diameter(view, mesh, std::max(liquid.size(), solid.size()));
+      paint_tints(painter, view, mesh, tints);
+      paint_edges(painter, view, mesh, all_edges(mesh), black, small < 5.0F ? 0.5F : 1.0F);
+      paint_edges(painter, view, mesh, region_edges(mesh), black, 2.5F);
+      for (std::size_t b = 0; b < boundaries.size(); ++b) {
+        paint_edges(painter, view, mesh, boundaries[b].edges, boundary_color(boundaries, b),
+                    boundary_width);
+      }
+      paint_discs(painter, view, liquid, {blue}, small);
+      paint_discs(painter, view, solid, {red}, double_point ? 1.6F * small : small);
+      view.paint_axes(painter);
+      paint_text(painter, title, 24, static_cast<float>(width) / 2.0F,
+                 static_cast<float>(height) - 36.0F);
+    });
+    vtkNew<ChartLegend> legend;
+    legend->place(legend_left, view.bottom() + shown_height, shown_height, rows);
+    scene.AddItem(legend);
+  });
+}
+
+}  // namespace suffuse

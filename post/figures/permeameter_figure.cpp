@@ -1,0 +1,132 @@
+#include "figures/permeameter_figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "case/closest_name.hpp"
+#include "case/errors.hpp"
+#include "figures/run_curves.hpp"
+#include "results/number_text.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double hour = 3600.0;
+const std::vector<std::string> measured_columns{"fines_lost", "conductance"};
+
+[[noreturn]] void refuse(const std::string& where, const std::string& found,
+                         const std::string& allowed) {
+  throw InputError(
+      std::vector{InputProblem{"suffuse-post figure", "--measured " + where, found, allowed, ""}});
+}
+
+/// Lines have dashes of their own, as colours may be lost.
+Curve line_of(const std::string& label, std::size_t run) {
+  constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
+                                       Dash::dash_dot_dot};
+  Curve line;
+  line.label = label;
+  line.dash = dashes.at(run % dashes.size());
+  line.color = curve_style(run).color;
+  return line;
+}
+
+Curve lost_of(const ResultsReader& run, Curve curve) {
+  const Table ledger = run.ledger();
+  require_curve(run, ledger, "ledger.csv");
+  const double fines = ledger.column("erodible").front();
+  if (!(fines > 0.0)) {
+    throw FileError(run.folder() + ": has no fines at the start that could be lost");
+  }
+  for (std::size_t row = 0; row < ledger.rows(); ++row) {
+    const double lost = ledger.column("fines_out")[row] - ledger.column("fines_in")[row];
+    curve.x.push_back(ledger.column("t")[row] / hour);
+    curve.y.push_back(100.0 * lost / fines);
+  }
+  return curve;
+}
+
+/// Empty where gravity acts, as pressures then differ without a flow, and where nothing flows.
+Curve conductance_of(const ResultsReader& run, Curve curve) {
+  if (std::ranges::any_of(run.scene().scene.gravity, [](double g) { return g != 0.0; })) return {};
+  const Table history = run.history();
+  double start = 0.0;
+  for (std::size_t row = 0; row < history.rows(); ++row) {
+    const double pressure =
+        history.column("pressure_max")[row] - history.column("pressure_min")[row];
+    if (!(pressure > 0.0)) continue;
+    const double conductance = history.column("flux_out")[row] / pressure;
+    if (start <= 0.0) start = conductance;
+    if (start <= 0.0) continue;
+    curve.x.push_back(history.column("t")[row] / hour);
+    curve.y.push_back(conductance / start);
+  }
+  return curve;
+}
+
+Curve points_of(const Table& table, const std::string& column, const std::string& label,
+                std::size_t run) {
+  const RunStyle style = curve_style(run);
+  Curve points;
+  points.label = label + ", measured";
+  points.x = table.column("hours");
+  points.y = table.column(column);
+  points.markers = true;
+  points.marker = style.marker;
+  points.hollow = style.hollow;
+  points.color = style.color;
+  return points;
+}
+
+void add_points(Chart& chart, const MeasuredPoints& measured,
+                const std::vector<std::string>& labels, const std::string& column) {
+  for (const NamedTable& points : measured.runs) {
+    if (!points.table.has(column)) continue;
+    const auto run = std::ranges::find(labels, points.name);
+    if (run == labels.end()) refuse(measured.path, '"' + points.name + '"', quoted_list(labels));
+    chart.curves.push_back(points_of(points.table, column, points.name,
+                                     static_cast<std::size_t>(run - labels.begin())));
+  }
+  chart.extra_y = {0.0};
+}
+
+}  // namespace
+
+MeasuredPoints read_measured_points(const std::string& path) {
+  MeasuredPoints measured{path, read_tables(path, "run")};
+  if (measured.runs.empty()) refuse(path, "no row", "at least one");
+  const Table& first = measured.runs.front().table;
+  if (!first.has("hours")) refuse(path, "no column \"hours\"", "times in hours");
+  if (std::ranges::none_of(measured_columns, [&](const auto& name) { return first.has(name); })) {
+    refuse(path, "no column of values", quoted_list(measured_columns));
+  }
+  for (const auto& [name, table] : measured.runs) {
+    for (std::size_t k = 0; k < table.names.size(); ++k) {
+      for (const double value : table.columns[k]) {
+        if (!std::isfinite(value))
+          refuse(path + ": " + table.names[k], number_text(value), "a number");
+      }
+    }
+  }
+  return measured;
+}
+
+std::vector<Chart> fines_lost_charts(const std::vector<ResultsReader>& runs,
+                                     const MeasuredPoints& measured) {
+  const std::vector<std::string> labels = run_labels(runs);
+  Chart lost{"Fines that have left", "time (h)", "per cent of the fines at the start", {}};
+  Chart conductance{
+      "Discharge over difference of pressures", "time (h)", "over that at the start (-)", {}};
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    lost.curves.push_back(lost_of(runs[r], line_of(labels[r], r)));
+    const Curve curve = conductance_of(runs[r], line_of(labels[r], r));
+    if (curve.x.size() > 1) conductance.curves.push_back(curve);
+  }
+  const bool both = !conductance.curves.empty();
+  add_points(lost, measured, labels, "fines_lost");
+  add_points(conductance, measured, labels, "conductance");
+  return both ? std::vector{lost, conductance} : std::vector{lost};
+}
+
+}  // namespace suffuse

@@ -1,0 +1,29 @@
+#pragma once
+
+/// The figure "fines-lost": what seepage tests in a laboratory measure.
+
+#include <string>
+#include <vector>
+
+#include "drawing/chart.hpp"
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// Points measured in the tests that runs stand for.
+struct MeasuredPoints {
+  std::string path;
+  std::vector<NamedTable> runs;  ///< by the label of the run
+};
+
+/// Reads a table with the columns `run`, `hours`, and `fines_lost`, `conductance` or both. Throws
+/// InputError or FileError.
+MeasuredPoints read_measured_points(const std::string& path);
+
+/// Fines that have left, in per cent of those that were there, against hours. Where no gravity acts
+/// also the conductance: discharge over difference of pressures, over that at the start. Throws
+/// FileError for a run without fines, InputError for points of a run that is not there.
+std::vector<Chart> fines_lost_charts(const std::vector<ResultsReader>& runs,
+                                     const MeasuredPoints& measured = {});
+
+}  // namespace suffuse

@@ -1,0 +1,38 @@
+#pragma once
+
+/// Maps of seepage: the head with its equipotentials, or the saturation, with the phreatic line and
+/// the water outside.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+#include "values/outside_water.hpp"
+
+namespace suffuse {
+
+/// What a map shows.
+struct SeepageMap {
+  std::string title;
+  std::string label;  ///< of the colours, with the unit
+  Mesh<2> mesh;
+  std::vector<double> head;        ///< per node, m; coloured, with equipotentials
+  std::vector<double> saturation;  ///< per element; coloured in the place of heads; or empty
+  std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
+  std::vector<OutsideWater> water;
+};
+
+/// Of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes' pressures;
+/// without gravity there is no phreatic line. Throws InputError where every soil is saturated and
+/// the saturation is wanted; FileError.
+SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time);
+SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>& time);
+
+/// Values between which one colour is used, ascending: round numbers that enclose [low, high].
+std::vector<double> band_levels(double low, double high);
+
+/// Throws InputError for an unknown suffix, FileError.
+void draw_seepage_map(const SeepageMap& map, const std::string& path);
+
+}  // namespace suffuse

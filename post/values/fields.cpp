@@ -1,0 +1,135 @@
+#include "values/fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "case/closest_name.hpp"
+#include "case/errors.hpp"
+#include "drawing/ticks.hpp"
+
+namespace suffuse {
+namespace {
+
+/// A place as `--on` names it, and the kinds of fields there, in the order of preference.
+struct NamedPlace {
+  std::string name;
+  std::vector<std::string> kinds;
+};
+
+std::vector<NamedPlace> places_of(const ResultsReader& results) {
+  std::vector<NamedPlace> places{
+      {"cell", {"cell"}}, {"node", {"element_vertex", "node"}}, {"solid", {"solid"}}};
+  if (results.scene().scene.formulation == Formulation::double_point) {
+    places.push_back({"liquid", {"liquid"}});
+  }
+  return places;
+}
+
+std::vector<std::string> names_on(const ResultsReader& results, std::size_t index,
+                                  const NamedPlace& place) {
+  std::vector<std::string> names;
+  for (const auto& kind : place.kinds) {
+    for (const auto& name : results.field_names(index, kind)) names.push_back(name);
+  }
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+void check_place(const std::vector<NamedPlace>& places, const std::string& on,
+                 const std::string& command) {
+  std::vector<std::string> names;
+  std::ranges::transform(places, std::back_inserter(names), &NamedPlace::name);
+  if (on.empty() || std::ranges::find(names, on) != names.end()) return;
+  throw InputError(std::vector{
+      InputProblem{command, "--on", '"' + on + '"', quoted_list(names), closest_name(on, names)}});
+}
+
+/// A blank and the symbol of a field from the table in docs/theory.md, or nothing.
+std::string symbol_of(const std::string& name) {
+  static const std::map<std::string, std::string> symbols{
+      {"porosity", "n_L"},          {"solid_fraction", "n_S"}, {"skeleton_fraction", "n_C"},
+      {"erodible_fraction", "n_e"}, {"fines_fraction", "n_f"}, {"water_fraction", "n_w"},
+      {"concentration", "c"},       {"erosion_rate", "phi_e"}, {"pressure", "p"},
+      {"liquid_velocity", "v_L"},   {"darcy_flux", "q"},       {"head", "h"},
+      {"saturation", "S"}};
+  const auto found = symbols.find(name);
+  return found == symbols.end() ? "" : " " + found->second;
+}
+
+}  // namespace
+
+std::string fields_and_places(const ResultsReader& results, std::size_t index,
+                              const std::vector<std::string>& only) {
+  std::string text;
+  for (const auto& place : places_of(results)) {
+    if (!only.empty() && std::ranges::find(only, place.name) == only.end()) continue;
+    const auto names = names_on(results, index, place);
+    if (names.empty()) continue;
+    if (!text.empty()) text += "; ";
+    text += "on " + place.name + ": " + quoted_list(names);
+  }
+  return text;
+}
+
+FieldPlace find_field(const ResultsReader& results, std::size_t index, const std::string& name,
+                      const std::string& on, const std::string& command) {
+  const auto places = places_of(results);
+  check_place(places, on, command);
+  std::vector<std::string> known;
+  for (const auto& place : places) {
+    if (!on.empty() && place.name != on) continue;
+    for (const auto& kind : place.kinds) {
+      const auto names = results.field_names(index, kind);
+      if (std::ranges::find(names, name) != names.end()) return {name, kind};
+      known.insert(known.end(), names.begin(), names.end());
+    }
+  }
+  throw InputError(std::vector{InputProblem{
+      command, "--field", '"' + name + '"' + (on.empty() ? "" : " on " + on),
+      "one of the fields " + fields_and_places(results, index), closest_name(name, known)}});
+}
+
+ScalarField read_scalar(const ResultsReader& results, std::size_t index, const FieldPlace& place) {
+  Field field = results.field(index, place.where, place.name);
+  ScalarField scalar{{}, field.unit, false};
+  if (place.where == "element_vertex" || field.components == 1) {
+    scalar.values = std::move(field.values);
+    return scalar;
+  }
+  scalar.is_vector = true;
+  const auto width = static_cast<std::size_t>(field.components);
+  for (std::size_t i = 0; i + width <= field.values.size(); i += width) {
+    double square = 0.0;
+    for (std::size_t k = 0; k < width; ++k) square += field.values[i + k] * field.values[i + k];
+    scalar.values.push_back(std::sqrt(square));
+  }
+  return scalar;
+}
+
+std::string field_label(const FieldPlace& place, const ScalarField& field) {
+  return (field.is_vector ? "magnitude of " : "") + place.name + symbol_of(place.name) + " (" +
+         (field.unit == "1" || field.unit.empty() ? "-" : field.unit) + ")";
+}
+
+std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time) {
+  const auto& times = results.times();
+  if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  if (!time) return times.size() - 1;
+  const auto distance = [&](double t) { return std::abs(t - *time); };
+  return static_cast<std::size_t>(std::ranges::min_element(times, {}, distance) - times.begin());
+}
+
+std::string snapshot_title(const ResultsReader& results, std::size_t index,
+                           const std::optional<double>& asked) {
+  const double t = results.times()[index];
+  std::string title = results.scene().scene.name + ", t = " + tick_text(t) + " s";
+  if (asked && std::abs(*asked - t) > 1e-9 * std::max(1.0, std::abs(t))) {
+    title += " (snapshot nearest to " + tick_text(*asked) + " s)";
+  }
+  return title;
+}
+
+}  // namespace suffuse

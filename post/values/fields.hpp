@@ -1,0 +1,48 @@
+#pragma once
+
+/// A field of a snapshot as one number per place, with its label.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// A field and where it lives: "cell", "element_vertex", "node", "solid" or "liquid".
+struct FieldPlace {
+  std::string name;
+  std::string where;
+};
+
+/// Finds a field of the snapshot `index` on `on`: "cell", "node" (elements' own linear fields
+/// included), "solid" or "liquid"; empty: the first of these that has it. Throws InputError, naming
+/// `command`, with all fields and where they live.
+FieldPlace find_field(const ResultsReader& results, std::size_t index, const std::string& name,
+                      const std::string& on, const std::string& command);
+
+/// `on cell: "a" or "b"; on node: ...`, for the places in `only`, for all places when it is empty.
+std::string fields_and_places(const ResultsReader& results, std::size_t index,
+                              const std::vector<std::string>& only = {});
+
+/// A field with one number per element, per vertex of every element, per node or per point; of a
+/// vector field the magnitudes.
+struct ScalarField {
+  std::vector<double> values;
+  std::string unit;
+  bool is_vector = false;
+};
+/// Reads a field of the snapshot `index`. Throws FileError.
+ScalarField read_scalar(const ResultsReader& results, std::size_t index, const FieldPlace& place);
+
+/// "concentration c (-)", "magnitude of darcy_flux q (m/s)"
+std::string field_label(const FieldPlace& place, const ScalarField& field);
+
+/// The snapshot nearest to a time, s, or the last. Throws FileError where there is none yet.
+std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time);
+/// "NAME, t = 12 s", with the time asked for where the snapshot has another.
+std::string snapshot_title(const ResultsReader& results, std::size_t index,
+                           const std::optional<double>& asked);
+
+}  // namespace suffuse

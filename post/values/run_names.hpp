@@ -1,0 +1,24 @@
+#pragma once
+
+/// Names of runs in figures and tables.
+
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// The name of the results folder, without its path and without `.results`.
+std::string folder_name(const ResultsReader& run);
+
+/// One label per run: the name of its scene, or of its folder where scenes have equal names. It
+/// includes the formulation where there are both, and the status of a run that is not done.
+std::vector<std::string> run_labels(const std::vector<ResultsReader>& runs);
+
+/// True when both formulations are among the runs.
+bool is_mixed(const std::vector<ResultsReader>& runs);
+
+bool is_double_point(const ResultsReader& run);
+
+}  // namespace suffuse

@@ -1,0 +1,241 @@
+#include "values/sample.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "case/closest_name.hpp"
+#include "case/errors.hpp"
+#include "results/number_text.hpp"
+#include "values/fields.hpp"
+
+namespace suffuse {
+namespace {
+
+/// A point this far outside an element counts as on its edge, in barycentric coordinates.
+constexpr double edge_tolerance = 1e-9;
+
+/// A larger number of points is refused: it is likely a typing error.
+constexpr int max_points = 1'000'000;
+
+/// Where a field is looked for, in the order of preference.
+constexpr std::array<const char*, 3> kinds_of_place{"element_vertex", "node", "cell"};
+
+InputError wrong(const std::string& option, const std::string& found, const std::string& expected,
+                 const std::string& suggestion = {},
+                 const std::string& command = SampleNames{}.command) {
+  return InputError(std::vector{InputProblem{command, option, found, expected, suggestion}});
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+std::string position_text(const Vector<2>& x) {
+  return "(" + number_text(x[0]) + ", " + number_text(x[1]) + ")";
+}
+
+/// An element that contains the point, and the position of the point in it.
+struct Place {
+  int element;
+  std::array<double, 3> barycentric;
+};
+
+/// All elements that contain x, on their edges included; only those of soil where there are any.
+std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, const Vector<2>& x,
+                          const SampleNames& input_names) {
+  std::vector<Place> everywhere;
+  std::vector<Place> in_soil;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const auto b = barycentric(mesh, e, x);
+    if (*std::min_element(b.begin(), b.end()) < -edge_tolerance) continue;
+    everywhere.push_back({e, b});
+    const auto& region = mesh.region_names[mesh.element_region[e]];
+    if (results.scene().scene.find_soil(region) != nullptr) in_soil.push_back({e, b});
+  }
+  if (everywhere.empty()) {
+    throw wrong(input_names.places, "the point " + position_text(x), "points inside the model", "",
+                input_names.command);
+  }
+  return in_soil.empty() ? everywhere : in_soil;
+}
+
+/// The snapshots before and after a time, and the weight of the later one.
+struct SnapshotPair {
+  std::size_t before;
+  std::size_t after;
+  double weight;
+};
+
+SnapshotPair find_snapshots(const ResultsReader& results, double time,
+                            const SampleNames& input_names) {
+  const auto& times = results.times();
+  if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  const double slack = 1e-12 * std::max(std::abs(times.front()), std::abs(times.back()));
+  if (!(time >= times.front() - slack && time <= times.back() + slack)) {
+    throw wrong(input_names.time, number_text(time),
+                "a time from " + number_text(times.front()) + " to " + number_text(times.back()) +
+                    " s, the first and last snapshot",
+                "", input_names.command);
+  }
+  const auto later = std::lower_bound(times.begin(), times.end(), time);
+  if (later == times.begin()) return {0, 0, 0.0};
+  if (later == times.end()) return {times.size() - 1, times.size() - 1, 0.0};
+  const auto after = static_cast<std::size_t>(later - times.begin());
+  return {after - 1, after, (time - times[after - 1]) / (times[after] - times[after - 1])};
+}
+
+/// A field at one time, and the kind of place it lives on.
+struct SampledField {
+  Field values;
+  std::string where;
+
+  /// 1 for a scalar, the dimension for a vector.
+  [[nodiscard]] int width() const { return where == "element_vertex" ? 1 : values.components; }
+};
+
+/// Throws InputError when the field lives on points: it has no values between them.
+void refuse_point_field(const ResultsReader& results, std::size_t index, const std::string& name,
+                        const SampleNames& input_names) {
+  std::vector<std::string> kinds{"solid"};
+  if (results.scene().scene.formulation == Formulation::double_point) kinds.emplace_back("liquid");
+  for (const auto& kind : kinds) {
+    const auto names = results.field_names(index, kind);
+    if (std::ranges::find(names, name) == names.end()) continue;
+    std::string found = '"' + name + "\", which lives on the ";
+    found += kind + " points";
+    std::string expected = "a field " + fields_and_places(results, index, {"cell", "node"});
+    expected += " (suffuse-post render --on " + kind + " shows it)";
+    throw wrong(input_names.fields, found, expected, "", input_names.command);
+  }
+}
+
+SampledField read_field(const ResultsReader& results, const SnapshotPair& pair,
+                        const std::string& name, const SampleNames& input_names) {
+  std::vector<std::string> known;
+  for (const std::string where : kinds_of_place) {
+    const auto names = results.field_names(pair.before, where);
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      known.insert(known.end(), names.begin(), names.end());
+      continue;
+    }
+    Field field = results.field(pair.before, where, name);
+    if (pair.weight > 0.0) {
+      const Field later = results.field(pair.after, where, name);
+      for (std::size_t i = 0; i < field.values.size(); ++i) {
+        field.values[i] += pair.weight * (later.values[i] - field.values[i]);
+      }
+    }
+    return {field, where};
+  }
+  refuse_point_field(results, pair.before, name, input_names);
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  throw wrong(input_names.fields, "\"" + name + "\"", quoted_list(known), closest_name(name, known),
+              input_names.command);
+}
+
+double value_in(const Mesh<2>& mesh, const SampledField& field, const Place& place, int component) {
+  const auto at = [&](std::size_t entity) {
+    return field.values.values[entity * field.width() + component];
+  };
+  if (field.where == "cell") return at(place.element);
+  double value = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    const int vertex =
+        field.where == "node" ? mesh.elements[place.element][a] : 3 * place.element + a;
+    value += place.barycentric[a] * at(vertex);
+  }
+  return value;
+}
+
+double mean_value(const Mesh<2>& mesh, const SampledField& field, const std::vector<Place>& around,
+                  int component) {
+  double total = 0.0;
+  for (const auto& place : around) total += value_in(mesh, field, place, component);
+  return total / static_cast<double>(around.size());
+}
+
+std::string column_name(const SampledField& field, int component) {
+  constexpr std::array<const char*, 3> axes{"_x", "_y", "_z"};
+  return field.width() == 1 ? field.values.name : field.values.name + axes.at(component);
+}
+
+}  // namespace
+
+SampleLine parse_line(const std::string& text) {
+  std::vector<double> numbers;
+  const auto ends = split(text, ':');
+  for (const auto& end : ends) {
+    const auto coordinates = split(end, ',');
+    for (const auto& coordinate : coordinates) {
+      const auto value = parse_number(coordinate);
+      if (value && std::isfinite(*value)) numbers.push_back(*value);
+    }
+    if (coordinates.size() != 2) numbers.clear();
+  }
+  if (ends.size() != 2 || numbers.size() != 4) {
+    throw wrong("--line", "\"" + text + "\"", "x0,y0:x1,y1 in metres");
+  }
+  return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+std::vector<std::string> parse_field_names(const std::string& text) {
+  auto names = split(text, ',');
+  if (std::find(names.begin(), names.end(), "") != names.end()) {
+    throw wrong("--fields", "\"" + text + "\"", "names of fields with commas between");
+  }
+  return names;
+}
+
+Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
+             const std::vector<std::string>& fields) {
+  if (count < 2) throw wrong("--count", std::to_string(count), "at least 2, the ends of the line");
+  if (count > max_points) {
+    throw wrong("--count", std::to_string(count), "at most " + std::to_string(max_points));
+  }
+  std::vector<Vector<2>> positions;
+  for (int i = 0; i < count; ++i) {
+    const double along = static_cast<double>(i) / (count - 1);
+    positions.emplace_back((1.0 - along) * line.from + along * line.to);
+  }
+  return sample_places(results, time, positions, fields);
+}
+
+Table sample_places(const ResultsReader& results, double time,
+                    const std::vector<Vector<2>>& positions, const std::vector<std::string>& fields,
+                    const SampleNames& input_names) {
+  const SnapshotPair pair = find_snapshots(results, time, input_names);
+  std::vector<SampledField> sampled;
+  Table table{{"x", "y"}, std::vector<std::vector<double>>(2)};
+  for (const auto& name : fields) {
+    sampled.push_back(read_field(results, pair, name, input_names));
+    for (int k = 0; k < sampled.back().width(); ++k) {
+      table.names.push_back(column_name(sampled.back(), k));
+      table.columns.emplace_back();
+    }
+  }
+  const Mesh<2> mesh = results.mesh();
+  for (const auto& x : positions) {
+    const auto around = locate(results, mesh, x, input_names);
+    table.columns[0].push_back(x[0]);
+    table.columns[1].push_back(x[1]);
+    std::size_t column = 2;
+    for (const auto& field : sampled) {
+      for (int k = 0; k < field.width(); ++k) {
+        table.columns[column++].push_back(mean_value(mesh, field, around, k));
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace suffuse
