@@ -47,7 +47,8 @@ void sweep(const SweepOptions& o) {
   } else if (o.x.empty()) {
     draw_charts(distribution_charts(table, o.y), o.output);
   } else {
-    draw_charts(over_key_charts(table, o.x, o.y), o.output);
+    const ResultsReader first(table.results().front());
+    draw_charts(over_key_charts(table, o.x, o.y, &first.scene().scene), o.output);
   }
 }
 

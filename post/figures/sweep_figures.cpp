@@ -205,14 +205,14 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<double>& x) {
 }
 
 std::vector<Chart> over_key_charts(const SweepTable& sweep, const std::string& x,
-                                   const std::vector<std::string>& y) {
+                                   const std::vector<std::string>& y, const Scene* scene) {
   std::vector<Chart> charts;
   for (const auto& column : y) {
     const auto [at, values] = finite_pairs(sweep.numbers(x, "--x"), sweep.numbers(column, "--y"));
     if (at.empty()) refuse_without_numbers("--y", column);
     Chart& chart = charts.emplace_back(over_key_chart(at, values));
     chart.title = "Runs of a sweep over a key";
-    chart.x_label = axis_text(x);
+    chart.x_label = axis_text(x, scene);
     chart.y_label = axis_text(column);
   }
   return charts;

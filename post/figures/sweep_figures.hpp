@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "case/scene.hpp"
 #include "drawing/chart.hpp"
 #include "tables/sweep_table.hpp"
 
@@ -19,10 +20,10 @@ double quantile(const std::vector<double>& sorted, double share);
 std::vector<std::vector<std::size_t>> groups_of(const std::vector<double>& x);
 
 /// A chart for each of the columns `y`: all runs over the column `x`, their median and the band
-/// from 10 to 90 %. Of too few runs for a band, the runs joined. The x axis is logarithmic where
-/// values cover a factor of 30.
+/// from 10 to 90 %. Of too few runs for a band, the runs joined. `scene`, that of a run, says what
+/// the unit of x depends on. The x axis is logarithmic where values cover a factor of 30.
 std::vector<Chart> over_key_charts(const SweepTable& sweep, const std::string& x,
-                                   const std::vector<std::string>& y);
+                                   const std::vector<std::string>& y, const Scene* scene = nullptr);
 
 /// A chart for each column: the share of runs with less than a value.
 std::vector<Chart> distribution_charts(const SweepTable& sweep, const std::vector<std::string>& y);

@@ -68,13 +68,27 @@ bool fits(const std::string& key, const std::string& pattern) {
                             });
 }
 
+/// The unit of a key, `-` for none. The schema lists the units of drives with their words in
+/// quotes.
+std::string unit_of(const SceneKey& key, const std::string& soil, const Scene* scene) {
+  if (key.unit.find('"') == std::string::npos) return key.unit.empty() ? "-" : key.unit;
+  if (!scene) return "";
+  const auto found = std::ranges::find(scene->soils, soil, &Soil::region);
+  if (found == scene->soils.end()) return "";
+  const DriveLaw& drive = *found->erosion_model().drive;
+  return std::string(key.leaf() == "rate" ? drive.rate_unit : drive.unit);
+}
+
 }  // namespace
 
-std::string axis_text(const std::string& name) {
+std::string axis_text(const std::string& name, const Scene* scene) {
   const auto text = column_texts().find(name);
   if (text != column_texts().end()) return text->second;
   for (const SceneKey& key : scene_keys()) {
-    if (fits(name, key.pattern) && !key.unit.empty()) return name + " (" + key.unit + ")";
+    if (!fits(name, key.pattern)) continue;
+    const auto steps = steps_of(name);
+    const std::string unit = unit_of(key, steps.size() > 1 ? steps[1] : "", scene);
+    return unit.empty() ? name : name + " (" + unit + ")";
   }
   return name;
 }

@@ -26,7 +26,8 @@ flock 9
 if [ "$name.status" -nt "$name.inputs" ]; then exit 0; fi
 
 exec 3>&1
-: > "$name.log"
+messages=.$name.messages
+: > "$messages"
 quiet=()
 if [ -z "${PROGRESS:-}" ]; then
   exec > "$name.log" 2>&1
@@ -35,9 +36,9 @@ fi
 # Stopped by a signal: let the solver write its checkpoint first.
 trap : INT TERM HUP
 
-# end WORD: the messages are those of the log.
+# end WORD: with the messages of the last program.
 end() {
-  { echo "$1"; cat "$name.log"; } > "$name.status.new" && mv "$name.status.new" "$name.status"
+  { echo "$1"; cat "$messages"; } > "$name.status.new" && mv "$name.status.new" "$name.status"
   echo "$name $1" >&3
   exit 0
 }
@@ -46,13 +47,19 @@ end() {
 step() {
   local program=$1 word=$2 code=0
   shift 2
-  "$programs/$program" "$@" 3>&- || code=$?
+  if [ -n "${PROGRESS:-}" ]; then
+    "$programs/$program" "$@" 3>&- || code=$?
+  else
+    "$programs/$program" "$@" 3>&- 2> "$messages" || code=$?
+    cat "$messages"
+  fi
   case $code in
     0) return ;;
     2) end refused ;;
     3) end "$word" ;;
   esac
-  echo "$name unfinished, exit code $code of $program" >&3
+  echo "stopped with exit code $code of $program" >> "$messages"
+  echo "$name stopped with exit code $code of $program" >&3
   exit "$code"
 }
 

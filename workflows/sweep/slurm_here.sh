@@ -59,6 +59,8 @@ MpiDefault=none
 SwitchType=switch/none
 ReturnToService=2
 KillWait=5
+InactiveLimit=10
+SchedulerParameters=sched_min_interval=10000,batch_sched_delay=0
 SlurmctldTimeout=120
 SlurmdTimeout=120
 SlurmctldParameters=enable_configless

@@ -72,13 +72,13 @@ def read_status(folder, name):
     """Word and message of a run."""
     status = folder / name / f"{name}.status"
     inputs = folder / name / f"{name}.inputs"
-    log = folder / name / f"{name}.log"
+    stopped = folder / name / f".{name}.messages"
     if status.is_file() and status.stat().st_mtime_ns > inputs.stat().st_mtime_ns:
         word, *lines = status.read_text(encoding="utf-8", errors="replace").splitlines()
     else:
         word, lines = "unfinished", []
-        if log.is_file():
-            lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+        if stopped.is_file():
+            lines = stopped.read_text(encoding="utf-8", errors="replace").splitlines()
     messages = [line for line in lines if ": warning: " not in line]
     return word, "" if word == "done" or not messages else messages[0]
 
