@@ -42,7 +42,7 @@ void refuse_unknown(const std::vector<std::string>& unknown) {
   const std::string name = first.substr(0, first.find('='));
   const std::string closest = is_option ? closest_name(name, known) : "";
   throw InputError(std::vector<InputProblem>{
-      {"", program, '"' + first + '"',
+      {"", "", '"' + first + '"',
        is_option ? "an option of " + std::string(program) + " (see --help)" : "one scene file only",
        closest}});
 }

@@ -1,11 +1,10 @@
 /// suffuse-solver: runs a case file.
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <utility>
 
-#include "case/errors.hpp"
+#include "case/command_line.hpp"
 #include "driver/estimate.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
@@ -68,7 +67,8 @@ std::string refuse_empty(const std::string& name) {
 
 int run(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app{"suffuse-solver: suffusion by the material point method"};
+  CLI::App app{"suffuse-solver: suffusion by the material point method", "suffuse-solver"};
+  app.footer(suffuse::exit_codes_help);
   app.set_version_flag("--version", SUFFUSE_VERSION);
   app.add_option("case", arguments.case_path, "Case file that suffuse-mesher wrote")
       ->required()
@@ -81,20 +81,19 @@ int run(int argc, char** argv) {
   app.add_flag("--explain", arguments.explain,
                "Print what would run, what is skipped and what it would take, and stop");
   app.add_flag("--no-skip", arguments.solver.no_skip, "Run every pass, needed or not");
-  app.add_flag("--resume", arguments.run.resume,
-               "Go on with the run in the results folder; same results as if it had not stopped");
+  CLI::Option* resume = app.add_flag(
+      "--resume", arguments.run.resume,
+      "Go on with the run in the results folder; same results as if it had not stopped");
+  app.add_flag("--force", arguments.run.force,
+               "Replace what the results folder holds of another scene, mesh or points")
+      ->excludes(resume);
   app.add_option("--checkpoint-every", arguments.run.checkpoint_every,
                  "Seconds without a snapshot after which the run keeps a checkpoint (0: never)")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS");
   app.add_flag("--quiet", arguments.run.quiet, "No progress, warnings only");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    throw suffuse::InputError(std::string(error.what()) + " (see --help)");
-  }
+  if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
   return solve(arguments);
 }
 

@@ -1,25 +1,28 @@
-/// The subcommands `ledger`, `history` and `boundaries`.
+/// The subcommands `ledger`, `history`, `boundaries` and `check`.
 
 #include <iostream>
+#include <optional>
 
 #include "case/errors.hpp"
 #include "commands/command.hpp"
 #include "results/number_text.hpp"
 #include "tables/boundary_text.hpp"
 #include "tables/ledger_report.hpp"
+#include "tables/safety_check.hpp"
+#include "tables/table_output.hpp"
 
 namespace suffuse {
 namespace {
 
 struct LedgerOptions {
   std::string results;
-  std::string csv;
+  TableOutput table;
   double tolerance = 1e-12;
 };
 
 void declare_ledger(CLI::App& command, LedgerOptions& o) {
   add_results(command, o.results);
-  command.add_option("--csv", o.csv, "write the whole ledger here")->type_name("FILE");
+  add_table_options(command, o.table, "write the whole ledger here");
   command.add_option("--tolerance", o.tolerance, "largest residual allowed")->capture_default_str();
 }
 
@@ -31,38 +34,58 @@ void ledger(const LedgerOptions& o) {
   }
   const ResultsReader results(o.results);
   const auto found = balances(results);
-  std::cout << balance_text(results, found);
-  if (!o.csv.empty()) write_csv(results, o.csv, results.ledger());
+  if (o.table.path != "-") std::cout << balance_text(results, found);
+  if (!o.table.path.empty()) write_csv(results, o.table, results.ledger());
   check_balances(found, o.tolerance);
 }
 
 struct TableOptions {
   std::string results;
-  std::string csv;
+  TableOutput table;
 };
 
 void declare_history(CLI::App& command, TableOptions& o) {
   add_results(command, o.results);
-  command.add_option("--csv", o.csv, "write the whole history here")->type_name("FILE");
+  add_table_options(command, o.table, "write the whole history here");
 }
 
 void history(const TableOptions& o) {
   const ResultsReader results(o.results);
-  std::cout << history_text(results);
-  if (!o.csv.empty()) write_csv(results, o.csv, results.history());
+  if (o.table.path != "-") std::cout << history_text(results);
+  if (!o.table.path.empty()) write_csv(results, o.table, results.history());
 }
 
 void declare_boundaries(CLI::App& command, TableOptions& o) {
   add_results(command, o.results);
-  command.add_option("--csv", o.csv, "write the rows of all boundaries here")->type_name("FILE");
+  add_table_options(command, o.table, "write the rows of all boundaries here");
 }
 
 void boundaries(const TableOptions& o) {
   const ResultsReader results(o.results);
-  std::cout << boundaries_text(results);
-  if (o.csv.empty()) return;
-  refuse_inside(results, "--csv", o.csv);
-  write_tables(o.csv, "boundary", results.boundaries());
+  if (o.table.path != "-") std::cout << boundaries_text(results);
+  if (o.table.path.empty()) return;
+  const TimeUnit unit = parse_time_unit(o.table.time_unit, "suffuse-post boundaries");
+  refuse_inside(results, "--csv", o.table.path);
+  write_tables(o.table.path, "boundary",
+               with_units(results.boundaries(), results.dimension(), unit));
+}
+
+struct CheckOptions {
+  std::string results;
+  std::optional<double> least;
+};
+
+void declare_check(CLI::App& command, CheckOptions& o) {
+  add_results(command, o.results);
+  command.add_option("--least", o.least, "fail with exit code 3 where a safety is below this")
+      ->check(CLI::PositiveNumber);
+}
+
+void check(const CheckOptions& o) {
+  const ResultsReader results(o.results);
+  const auto parts = safety_of(results);
+  std::cout << safety_text(results, parts);
+  if (o.least) check_safety(parts, *o.least);
 }
 
 }  // namespace
@@ -72,6 +95,7 @@ void add_balance_commands(Commands& commands) {
   commands.add("history", "Range of every quantity over the run", declare_history, history);
   commands.add("boundaries", "What crossed each boundary: water, fines, discharge",
                declare_boundaries, boundaries);
+  commands.add("check", "Least safety against heave and piping", declare_check, check);
 }
 
 }  // namespace suffuse

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "case/errors.hpp"
+#include "tables/table_output.hpp"
 
 namespace suffuse {
 
@@ -21,6 +22,7 @@ std::vector<ResultsReader> open_all(const std::vector<std::string>& folders) {
 void refuse_inside(const ResultsReader& results, const std::string& option,
                    const std::string& path) {
   namespace fs = std::filesystem;
+  if (path == "-") return;
   const fs::path place = fs::weakly_canonical(fs::absolute(path));
   const fs::path from_results = place.lexically_relative(fs::canonical(results.folder()));
   if (*from_results.begin() == "..") return;
@@ -29,9 +31,17 @@ void refuse_inside(const ResultsReader& results, const std::string& option,
       "a place outside " + results.folder() + ", which belongs to suffuse-solver", ""}});
 }
 
-void write_csv(const ResultsReader& results, const std::string& path, const Table& table) {
-  refuse_inside(results, "--csv", path);
-  write_table(path, table);
+void add_table_options(CLI::App& command, TableOutput& output, const std::string& what) {
+  command.add_option("--csv", output.path, what + "; - is standard output")->type_name("FILE");
+  command.add_option("--time-unit", output.time_unit, "unit of times in the table")
+      ->capture_default_str()
+      ->type_name(time_unit_words());
+}
+
+void write_csv(const ResultsReader& results, const TableOutput& output, const Table& table) {
+  const TimeUnit unit = parse_time_unit(output.time_unit, "suffuse-post");
+  refuse_inside(results, "--csv", output.path);
+  write_table(output.path, with_units(table, results.dimension(), unit));
 }
 
 }  // namespace suffuse

@@ -55,7 +55,17 @@ std::vector<ResultsReader> open_all(const std::vector<std::string>& folders);
 void refuse_inside(const ResultsReader& results, const std::string& option,
                    const std::string& path);
 
-/// Writes a table to a file outside the results. Throws InputError, FileError.
-void write_csv(const ResultsReader& results, const std::string& path, const Table& table);
+/// Where a table goes, and in what unit its times are.
+struct TableOutput {
+  std::string path;  ///< "-": standard output; empty: nowhere
+  std::string time_unit = "s";
+};
+
+/// The options --csv, with `what` it writes, and --time-unit.
+void add_table_options(CLI::App& command, TableOutput& output, const std::string& what);
+
+/// Writes a table with its units to a file outside the results, or to standard output. Throws
+/// InputError, FileError.
+void write_csv(const ResultsReader& results, const TableOutput& output, const Table& table);
 
 }  // namespace suffuse

@@ -1,13 +1,17 @@
 /// The subcommands `render` and `figure`.
 
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
 #include "case/closest_name.hpp"
+#include "case/errors.hpp"
 #include "commands/command.hpp"
 #include "drawing/picture.hpp"
 #include "figures/figures.hpp"
 #include "figures/render.hpp"
+#include "tables/table_output.hpp"
 #include "values/run_names.hpp"
 
 namespace suffuse {
@@ -47,33 +51,76 @@ void render_field(const RenderOptions& o) {
 
 struct FigureCommandOptions {
   std::string name;
-  std::vector<std::string> results;
+  std::vector<std::string> arguments;  ///< results; of "curves" columns too
   FigureOptions figure;
   std::string output;
 };
 
+void declare_axes(CLI::App& command, AxisOptions& o) {
+  CLI::Option_group* axes = command.add_option_group("axes of charts");
+  axes->add_option("--time-unit", o.time_unit, "of charts against time")
+      ->type_name(time_unit_words());
+  axes->add_option("--x-range", o.x_range, "ends of the axis")->type_name("LO:HI");
+  axes->add_option("--y-range", o.y_range, "ends of the axis")->type_name("LO:HI");
+  axes->add_flag("--log-x", o.log_x, "a logarithmic axis");
+  axes->add_flag("--log-y", o.log_y, "a logarithmic axis");
+}
+
 void declare_figure(CLI::App& command, FigureCommandOptions& o) {
   command.add_option("NAME", o.name, "one of " + quoted_list(figure_names()))->required();
-  add_results(command, o.results);
+  command
+      .add_option("RESULTS", o.arguments,
+                  "results folders; before them the columns of \"curves\": COLUMN, "
+                  "TABLE.COLUMN, TABLE.COLUMN:NAME")
+      ->required()
+      ->type_name("[COLUMN...] FOLDER...");
   command.add_option(
       "--time", o.figure.time,
       "of \"head\" and \"saturation\", s: the nearest snapshot; without it the last");
+  command.add_option("--line", o.figure.line, "of \"profile\": two ends, m")
+      ->type_name("X0,Y0:X1,Y1");
+  command.add_option("--fields", o.figure.fields, "of \"profile\"")->type_name("NAME,...");
   command
-      .add_option(
-          "--measured", o.figure.measured,
-          "of \"fines-lost\": points beside the curves; columns run, hours, and fines_lost, "
-          "conductance or both")
+      .add_option("--times", o.figure.times,
+                  "of \"profile\", s, with commas between; all: those of the snapshots; without it "
+                  "the last")
+      ->type_name("T,...|all");
+  command.add_option("--count", o.figure.count, "of \"profile\": points on the line")
+      ->capture_default_str();
+  command.add_flag("--change", o.figure.change, "of \"profile\": what changed since the start");
+  command
+      .add_option("--x", o.figure.x, "of \"curves\": column along the x-axis, in the place of t")
+      ->type_name("COLUMN");
+  command
+      .add_option("--measured", o.figure.measured,
+                  "points beside the curves: of \"curves\" columns t [UNIT] and those drawn; of "
+                  "\"profile\" distance and the fields; of \"fines-lost\" hours, and fines_lost, "
+                  "conductance or both; a column run where there are several")
       ->type_name("FILE.csv");
+  declare_axes(command, o.figure.axes);
   command.add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");
 }
 
+/// Columns of "curves" come before the folders.
 void figure(const FigureCommandOptions& o) {
   picture_format(o.output);
-  const auto runs = open_all(o.results);
+  FigureOptions options = o.figure;
+  std::vector<std::string> folders = o.arguments;
+  if (o.name == "curves") {
+    const auto first = std::ranges::find_if(
+        folders, [](const std::string& text) { return std::filesystem::is_directory(text); });
+    options.columns.assign(folders.begin(), first);
+    folders.erase(folders.begin(), first);
+    if (folders.empty()) {
+      throw InputError(std::vector{InputProblem{"suffuse-post figure curves", "RESULTS", "none",
+                                                "a results folder behind the columns", ""}});
+    }
+  }
+  const auto runs = open_all(folders);
   for (const auto& run : runs) refuse_inside(run, "-o", o.output);
-  draw_figure(o.name, runs, o.output, o.figure);
+  draw_figure(o.name, runs, o.output, options);
 }
 
 }  // namespace

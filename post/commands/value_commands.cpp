@@ -1,6 +1,7 @@
 /// The subcommands `sample` and `error`.
 
 #include <iostream>
+#include <optional>
 
 #include "commands/command.hpp"
 #include "tables/reference_error.hpp"
@@ -11,29 +12,47 @@ namespace {
 
 struct SampleOptions {
   std::string results;
-  double time = 0.0;
+  std::optional<double> time;
+  std::string times;
   std::string line;
-  int count = 0;
+  std::string place;
+  int count = 101;
   std::string fields;
-  std::string csv;
+  bool change = false;
+  TableOutput table{"-"};
 };
 
 void declare_sample(CLI::App& command, SampleOptions& o) {
   add_results(command, o.results);
-  command.add_option("--time", o.time, "time, s; between snapshots by interpolation")->required();
-  command.add_option("--line", o.line, "its two ends, m")->required()->type_name("X0,Y0:X1,Y1");
-  command.add_option("--count", o.count, "points, ends included")->required();
+  auto* times = command.add_option_group("time")->require_option(1);
+  times->add_option("--time", o.time, "time, s; between snapshots by interpolation");
+  times->add_option("--times", o.times, "several, with commas between; all: those of the snapshots")
+      ->type_name("T,...|all");
+  auto* places = command.add_option_group("place")->require_option(1);
+  places->add_option("--line", o.line, "along a line, by its two ends, m")
+      ->type_name("X0,Y0:X1,Y1");
+  places->add_option("--at", o.place, "at a point, m")->type_name("X,Y");
+  command.add_option("--count", o.count, "points on the line, ends included")
+      ->capture_default_str();
   command.add_option("--fields", o.fields, "fields, with commas between")
       ->required()
       ->type_name("NAME,...");
-  command.add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
+  command.add_flag("--change", o.change, "what changed since the start");
+  add_table_options(command, o.table, "table to write");
 }
 
-void sample_line(const SampleOptions& o) {
-  const SampleLine line = parse_line(o.line);
-  const auto fields = parse_field_names(o.fields);
+void sample_fields(const SampleOptions& o) {
+  SampleRequest request;
+  request.positions =
+      o.place.empty() ? places_on(parse_line(o.line), o.count) : std::vector{parse_place(o.place)};
+  request.fields = parse_field_names(o.fields);
+  request.change = o.change;
+  SampleNames names;
+  if (!o.place.empty()) names.places = "--at";
+  if (!o.time) names.time = "--times";
   const ResultsReader results(o.results);
-  write_csv(results, o.csv, sample(results, o.time, line, o.count, fields));
+  request.times = o.time ? std::vector{*o.time} : parse_times(results, o.times);
+  write_csv(results, o.table, sample(results, request, names));
 }
 
 struct ErrorOptions {
@@ -64,7 +83,7 @@ void error(const ErrorOptions& o) {
 }  // namespace
 
 void add_value_commands(Commands& commands) {
-  commands.add("sample", "Fields along a line at one time", declare_sample, sample_line);
+  commands.add("sample", "Fields along a line or at a point", declare_sample, sample_fields);
   commands.add("error", "Distance from values that are known", declare_error, error);
 }
 

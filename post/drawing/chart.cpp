@@ -140,35 +140,76 @@ void set_axis(vtkAxis& axis, const AxisTicks& ticks) {
   axis.SetCustomTickPositions(positions, labels);
 }
 
-/// The axis that covers `values` of all curves and `extra`.
-AxisTicks axis_of(const Chart& chart, const std::vector<double> Curve::*values,
-                  const std::vector<double>& extra, bool logarithmic) {
+/// One axis of a chart.
+struct ChartAxis {
+  std::vector<double> Curve::*values;
+  const std::vector<double>& extra;
+  bool logarithmic;
+  const std::optional<std::array<double, 2>>& range;
+};
+
+ChartAxis x_axis(const Chart& chart) {
+  return {&Curve::x, chart.extra_x, chart.logarithmic_x, chart.x_range};
+}
+
+ChartAxis y_axis(const Chart& chart) {
+  return {&Curve::y, chart.extra_y, chart.logarithmic_y, chart.y_range};
+}
+
+/// Its range, or one that covers the values of all curves and the extra ones.
+AxisTicks ticks_of(const Chart& chart, const ChartAxis& axis) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   const auto include = [&](const std::vector<double>& all) {
     for (const double value : all) {
+      if (!std::isfinite(value) || (axis.logarithmic && value <= 0.0)) continue;
       low = std::min(low, value);
       high = std::max(high, value);
     }
   };
   for (const auto& curve : chart.curves) {
-    include(curve.*values);
-    if (values == &Curve::y) include(curve.low);
+    include(curve.*axis.values);
+    if (axis.values == &Curve::y) include(curve.low);
   }
-  include(extra);
-  if (logarithmic) return low <= high ? logarithmic_axis(low, high) : logarithmic_axis(1, 10);
+  include(axis.extra);
+  if (axis.range) {
+    low = (*axis.range)[0];
+    high = (*axis.range)[1];
+  }
+  if (axis.logarithmic) return low <= high ? logarithmic_axis(low, high) : logarithmic_axis(1, 10);
   return low <= high ? even_axis(low, high) : even_axis(0.0, 1.0);
 }
 
-/// A curve in the units that VTK draws in: logarithms on logarithmic axes.
-Curve drawn_curve(const Chart& chart, Curve curve) {
-  const auto draw_logarithms = [](std::vector<double>& values) {
-    for (double& value : values) value = std::log10(value);
+/// A curve in the units that VTK draws in: logarithms on logarithmic axes, and only what lies
+/// between the ends of axes that have them.
+Curve drawn_curve(const Chart& chart, const Curve& curve) {
+  const auto drawn = [](const ChartAxis& axis, double& value) {
+    if (!std::isfinite(value) || (axis.logarithmic && value <= 0.0)) return false;
+    if (axis.range && (value < (*axis.range)[0] || value > (*axis.range)[1])) return false;
+    if (axis.logarithmic) value = std::log10(value);
+    return true;
   };
-  if (chart.logarithmic || chart.logarithmic_x) draw_logarithms(curve.x);
-  if (chart.logarithmic) draw_logarithms(curve.y);
-  if (chart.logarithmic) draw_logarithms(curve.low);
-  return curve;
+  Curve result = curve;
+  result.x.clear();
+  result.y.clear();
+  result.low.clear();
+  result.marked.clear();
+  for (std::size_t row = 0; row < curve.x.size(); ++row) {
+    double x = curve.x[row];
+    double y = curve.y[row];
+    if (!drawn(x_axis(chart), x) || !drawn(y_axis(chart), y)) continue;
+    if (curve.is_band()) {
+      double low = curve.low[row];
+      if (!drawn(y_axis(chart), low)) continue;
+      result.low.push_back(low);
+    }
+    if (std::ranges::find(curve.marked, row) != curve.marked.end()) {
+      result.marked.push_back(result.x.size());
+    }
+    result.x.push_back(x);
+    result.y.push_back(y);
+  }
+  return result;
 }
 
 /// Adds a chart with the lower left corner of its cell at (x, y). Titles are painted apart: VTK
@@ -182,10 +223,8 @@ void add_chart(vtkContextScene& scene, const Chart& chart, float x, float y) {
   const float bottom = y + bottom_room;
   drawn->SetSize(vtkRectf(left, bottom, plot_width, plot_height));
   for (const auto& curve : chart.curves) add_curve(*drawn, drawn_curve(chart, curve));
-  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM),
-           axis_of(chart, &Curve::x, chart.extra_x, chart.logarithmic || chart.logarithmic_x));
-  set_axis(*drawn->GetAxis(vtkAxis::LEFT),
-           axis_of(chart, &Curve::y, chart.extra_y, chart.logarithmic));
+  set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), ticks_of(chart, x_axis(chart)));
+  set_axis(*drawn->GetAxis(vtkAxis::LEFT), ticks_of(chart, y_axis(chart)));
   scene.AddItem(drawn);
   add_painted(scene, [chart, left, bottom](vtkContext2D& painter) {
     const float center = left + plot_width / 2.0F;

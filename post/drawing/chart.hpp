@@ -3,6 +3,7 @@
 /// Line charts with axes and one legend, as PNG, SVG or PDF. VTK draws them; no X server is needed.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,11 +42,13 @@ struct Chart {
   std::string x_label;
   std::string y_label;
   std::vector<Curve> curves;      ///< later ones cover earlier ones
-  bool logarithmic = false;       ///< both axes; all values must be positive
   std::vector<double> extra_x{};  ///< values that the axis covers too, beside those of the curves
   std::vector<double> extra_y{};
-  bool logarithmic_x = false;  ///< of the axes only this; all x must be positive
-  ChartTable table{};          ///< beneath the legend; of several charts that of the first
+  bool logarithmic_x = false;  ///< values that are not positive are left out; likewise y
+  bool logarithmic_y = false;
+  std::optional<std::array<double, 2>> x_range{};  ///< ends of the axis; else those of the values
+  std::optional<std::array<double, 2>> y_range{};
+  ChartTable table{};  ///< beneath the legend; of several charts that of the first
 };
 
 /// Draws two charts side by side, three or more in rows of two, with one legend for all. The suffix

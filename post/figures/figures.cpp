@@ -2,114 +2,174 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <stdexcept>
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
+#include "figures/axes.hpp"
 #include "figures/boundary_figures.hpp"
 #include "figures/flow_figures.hpp"
 #include "figures/gradation_figure.hpp"
 #include "figures/model_sketch.hpp"
 #include "figures/permeameter_figure.hpp"
+#include "figures/profile.hpp"
 #include "figures/seepage_map.hpp"
 #include "figures/soil_figures.hpp"
+#include "figures/table_curves.hpp"
 #include "results/number_text.hpp"
 
 namespace suffuse {
 namespace {
 
 using Runs = std::vector<ResultsReader>;
-using FigureMaker = std::vector<Chart> (*)(const Runs&);
+using Options = FigureOptions;
+
+/// A figure of `suffuse-post figure`: charts of runs, or a picture of one run.
+struct Figure {
+  std::string name;
+  std::vector<Chart> (*charts)(const Runs&, const Options&);
+  void (*picture)(const ResultsReader&, const std::string& path, const Options&);
+};
+
+Figure of_charts(const std::string& name,
+                 std::vector<Chart> (*charts)(const Runs&, const Options&)) {
+  return {name, charts, nullptr};
+}
+
+Figure of_picture(const std::string& name,
+                  void (*picture)(const ResultsReader&, const std::string&, const Options&)) {
+  return {name, nullptr, picture};
+}
+
+std::vector<Chart> fines_lost(const Runs& runs, const Options& options) {
+  if (options.measured.empty()) return fines_lost_charts(runs);
+  return fines_lost_charts(runs, read_measured_points(options.measured));
+}
 
 std::vector<Chart> comparison(const Runs& runs) {
   return {porosity_chart(runs), eroded_and_solid_chart(runs), outflow_charts(runs).front()};
 }
 
-const std::map<std::string, FigureMaker>& figure_makers() {
-  static const std::map<std::string, FigureMaker> makers{
-      {"porosity", [](const Runs& runs) { return std::vector{porosity_chart(runs)}; }},
-      {"masses", [](const Runs& runs) { return std::vector{masses_chart(runs)}; }},
-      {"solid-mass", [](const Runs& runs) { return std::vector{solid_mass_chart(runs)}; }},
-      {"empty-elements", [](const Runs& runs) { return std::vector{empty_elements_chart(runs)}; }},
-      {"flux", [](const Runs& runs) { return std::vector{flux_chart(runs)}; }},
-      {"gradation", [](const Runs& runs) { return std::vector{gradation_chart(runs)}; }},
-      {"outflow", outflow_charts},
-      {"fines-lost", [](const Runs& runs) { return fines_lost_charts(runs); }},
-      {"boundaries", boundary_charts},
-      {"comparison", comparison}};
-  return makers;
+/// Sorted by name.
+const std::vector<Figure>& figures() {
+  using Path = std::string;
+  static const std::vector<Figure> all{
+      of_charts("boundaries",
+                [](const Runs& runs, const Options&) { return boundary_charts(runs); }),
+      of_charts("comparison", [](const Runs& runs, const Options&) { return comparison(runs); }),
+      of_charts("curves", table_curves),
+      of_charts(
+          "empty-elements",
+          [](const Runs& runs, const Options&) { return std::vector{empty_elements_chart(runs)}; }),
+      of_charts("fines-lost", fines_lost),
+      of_charts("flux",
+                [](const Runs& runs, const Options&) { return std::vector{flux_chart(runs)}; }),
+      of_charts("gradation", [](const Runs& runs,
+                                const Options&) { return std::vector{gradation_chart(runs)}; }),
+      of_picture("head",
+                 [](const ResultsReader& run, const Path& path, const Options& options) {
+                   draw_seepage_map(head_map(run, options.time), path);
+                 }),
+      of_charts("masses",
+                [](const Runs& runs, const Options&) { return std::vector{masses_chart(runs)}; }),
+      of_picture("model", [](const ResultsReader& run, const Path& path,
+                             const Options&) { draw_model_sketch(run, path); }),
+      of_charts("outflow", [](const Runs& runs, const Options&) { return outflow_charts(runs); }),
+      of_charts("porosity",
+                [](const Runs& runs, const Options&) { return std::vector{porosity_chart(runs)}; }),
+      of_charts("profile", profile_charts),
+      of_picture("saturation",
+                 [](const ResultsReader& run, const Path& path, const Options& options) {
+                   draw_seepage_map(saturation_map(run, options.time), path);
+                 }),
+      of_charts("solid-mass", [](const Runs& runs, const Options&) {
+        return std::vector{solid_mass_chart(runs)};
+      })};
+  return all;
 }
 
-/// Draws a picture of one run, at a time where it has one.
-using PictureMaker = void (*)(const ResultsReader&, const std::string&,
-                              const std::optional<double>&);
+const Figure& find_figure(const std::string& name) {
+  const auto found = std::ranges::find(figures(), name, &Figure::name);
+  if (found != figures().end()) return *found;
+  throw InputError(
+      std::vector{InputProblem{"suffuse-post figure", "NAME", "\"" + name + "\"",
+                               quoted_list(figure_names()), closest_name(name, figure_names())}});
+}
 
-const std::map<std::string, PictureMaker>& picture_makers() {
-  using Time = std::optional<double>;
-  static const std::map<std::string, PictureMaker> makers{
-      {"model", [](const ResultsReader& run, const std::string& path,
-                   const Time&) { draw_model_sketch(run, path); }},
-      {"head", [](const ResultsReader& run, const std::string& path,
-                  const Time& time) { draw_seepage_map(head_map(run, time), path); }},
-      {"saturation", [](const ResultsReader& run, const std::string& path, const Time& time) {
-         draw_seepage_map(saturation_map(run, time), path);
-       }}};
-  return makers;
+/// An option that only some figures have a use for.
+struct OptionUse {
+  std::string option;
+  bool given;
+  std::vector<std::string> figures;
+};
+
+std::vector<OptionUse> option_uses(const Options& o) {
+  const Options none;
+  return {{"--time", o.time.has_value(), {"head", "saturation"}},
+          {"--measured", !o.measured.empty(), {"curves", "fines-lost", "profile"}},
+          {"COLUMN", !o.columns.empty(), {"curves"}},
+          {"--x", !o.x.empty(), {"curves"}},
+          {"--line", !o.line.empty(), {"profile"}},
+          {"--times", !o.times.empty(), {"profile"}},
+          {"--fields", !o.fields.empty(), {"profile"}},
+          {"--count", o.count != none.count, {"profile"}},
+          {"--change", o.change, {"profile"}}};
+}
+
+/// Throws InputError for an option that the figure has no use for.
+void check_options(const Figure& figure, const Options& options) {
+  const std::string command = "suffuse-post figure " + figure.name;
+  for (const OptionUse& use : option_uses(options)) {
+    if (!use.given || std::ranges::find(use.figures, figure.name) != use.figures.end()) continue;
+    throw InputError(std::vector{
+        InputProblem{command, use.option, "it",
+                     "it with a figure that uses it: " + quoted_list(use.figures), ""}});
+  }
+  const AxisOptions& axes = options.axes;
+  const bool has_axes = axes.log_x || axes.log_y || !axes.x_range.empty() ||
+                        !axes.y_range.empty() || !axes.time_unit.empty();
+  if (has_axes && figure.charts == nullptr) {
+    throw InputError(std::vector{
+        InputProblem{command, "axes", "an option of axes", "none: this figure is no chart", ""}});
+  }
+  if (options.time && !std::isfinite(*options.time)) {
+    throw InputError(std::vector{
+        InputProblem{command, "--time", number_text(*options.time), "a time in seconds", ""}});
+  }
 }
 
 }  // namespace
 
 std::vector<std::string> figure_names() {
   std::vector<std::string> names;
-  for (const auto& [name, maker] : picture_makers()) names.push_back(name);
-  for (const auto& [name, maker] : figure_makers()) names.push_back(name);
-  std::ranges::sort(names);
+  for (const Figure& figure : figures()) names.push_back(figure.name);
   return names;
 }
 
-std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs) {
-  const auto found = figure_makers().find(name);
-  if (found == figure_makers().end()) {
-    throw InputError(
-        std::vector{InputProblem{"suffuse-post figure", "NAME", "\"" + name + "\"",
-                                 quoted_list(figure_names()), closest_name(name, figure_names())}});
-  }
-  return found->second(runs);
+std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs,
+                               const FigureOptions& options) {
+  const Figure& figure = find_figure(name);
+  if (figure.charts == nullptr) throw std::logic_error(name + " is no chart");
+  check_options(figure, options);
+  std::vector<Chart> charts = figure.charts(runs, options);
+  for (Chart& chart : charts) set_axes(options.axes, "suffuse-post figure " + name, chart);
+  return charts;
 }
 
 void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs,
                  const std::string& path, const FigureOptions& options) {
-  const auto picture = picture_makers().find(name);
-  const std::optional<double>& time = options.time;
-  const bool is_map = name == "head" || name == "saturation";
-  if (time && !is_map) {
-    throw InputError(std::vector{
-        InputProblem{"suffuse-post figure " + name, "--time", number_text(*time),
-                     "no time: it is for the figures \"head\" and \"saturation\"", ""}});
-  }
-  if (time && !std::isfinite(*time)) {
-    throw InputError(std::vector{InputProblem{"suffuse-post figure " + name, "--time",
-                                              number_text(*time), "a time in seconds", ""}});
-  }
-  if (!options.measured.empty()) {
-    if (name != "fines-lost") {
-      throw InputError(std::vector{
-          InputProblem{"suffuse-post figure " + name, "--measured", options.measured,
-                       "no measured points: they are for the figure \"fines-lost\"", ""}});
-    }
-    draw_charts(fines_lost_charts(runs, read_measured_points(options.measured)), path);
+  const Figure& figure = find_figure(name);
+  if (figure.charts != nullptr) {
+    draw_charts(make_figure(name, runs, options), path);
     return;
   }
-  if (picture == picture_makers().end()) {
-    draw_charts(make_figure(name, runs), path);
-    return;
-  }
+  check_options(figure, options);
   if (runs.size() != 1) {
     throw InputError(
         std::vector{InputProblem{"suffuse-post figure " + name, "RESULTS",
                                  std::to_string(runs.size()) + " folders", "one", ""}});
   }
-  picture->second(runs.front(), path, time);
+  figure.picture(runs.front(), path, options);
 }
 
 }  // namespace suffuse

@@ -65,49 +65,15 @@ Curve conductance_of(const ResultsReader& run, Curve curve) {
   return curve;
 }
 
-Curve points_of(const Table& table, const std::string& column, const std::string& label,
-                std::size_t run) {
-  const RunStyle style = curve_style(run);
-  Curve points;
-  points.label = label + ", measured";
-  points.x = table.column("hours");
-  points.y = table.column(column);
-  points.markers = true;
-  points.marker = style.marker;
-  points.hollow = style.hollow;
-  points.color = style.color;
-  return points;
-}
-
-void add_points(Chart& chart, const MeasuredPoints& measured,
-                const std::vector<std::string>& labels, const std::string& column) {
-  for (const NamedTable& points : measured.runs) {
-    if (!points.table.has(column)) continue;
-    const auto run = std::ranges::find(labels, points.name);
-    if (run == labels.end()) refuse(measured.path, '"' + points.name + '"', quoted_list(labels));
-    chart.curves.push_back(points_of(points.table, column, points.name,
-                                     static_cast<std::size_t>(run - labels.begin())));
-  }
-  chart.extra_y = {0.0};
-}
-
 }  // namespace
 
 MeasuredPoints read_measured_points(const std::string& path) {
-  MeasuredPoints measured{path, read_tables(path, "run")};
+  MeasuredPoints measured = read_measured(path);
   if (measured.runs.empty()) refuse(path, "no row", "at least one");
   const Table& first = measured.runs.front().table;
   if (!first.has("hours")) refuse(path, "no column \"hours\"", "times in hours");
   if (std::ranges::none_of(measured_columns, [&](const auto& name) { return first.has(name); })) {
     refuse(path, "no column of values", quoted_list(measured_columns));
-  }
-  for (const auto& [name, table] : measured.runs) {
-    for (std::size_t k = 0; k < table.names.size(); ++k) {
-      for (const double value : table.columns[k]) {
-        if (!std::isfinite(value))
-          refuse(path + ": " + table.names[k], number_text(value), "a number");
-      }
-    }
   }
   return measured;
 }
@@ -124,8 +90,10 @@ std::vector<Chart> fines_lost_charts(const std::vector<ResultsReader>& runs,
     if (curve.x.size() > 1) conductance.curves.push_back(curve);
   }
   const bool both = !conductance.curves.empty();
-  add_points(lost, measured, labels, "fines_lost");
-  add_points(conductance, measured, labels, "conductance");
+  add_measured(measured, "hours", "fines_lost", labels, lost);
+  add_measured(measured, "hours", "conductance", labels, conductance);
+  lost.extra_y = {0.0};
+  conductance.extra_y = {0.0};
   return both ? std::vector{lost, conductance} : std::vector{lost};
 }
 

@@ -6,15 +6,10 @@
 #include <vector>
 
 #include "drawing/chart.hpp"
+#include "figures/measured.hpp"
 #include "results/reader.hpp"
 
 namespace suffuse {
-
-/// Points measured in the tests that runs stand for.
-struct MeasuredPoints {
-  std::string path;
-  std::vector<NamedTable> runs;  ///< by the label of the run
-};
 
 /// Reads a table with the columns `run`, `hours`, and `fines_lost`, `conductance` or both. Throws
 /// InputError or FileError.

@@ -7,9 +7,10 @@
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
+#include "figures/axes.hpp"
+#include "figures/sweep_axes.hpp"
 #include "results/number_text.hpp"
 #include "results/reader.hpp"
-#include "values/column_units.hpp"
 
 namespace suffuse {
 namespace {
@@ -271,7 +272,7 @@ std::vector<Chart> over_time_charts(const SweepTable& sweep,
     runs.front().label = count_text(runs.size());
     Chart& chart = charts.emplace_back();
     chart.title = "Runs of a sweep in time";
-    chart.x_label = axis_text("t");
+    chart.x_label = seconds_label;
     chart.y_label = axis_text(column);
     chart.curves.push_back(quantiles.band());
     chart.curves.insert(chart.curves.end(), runs.begin(), runs.end());

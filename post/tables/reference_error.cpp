@@ -10,6 +10,7 @@
 #include "case/errors.hpp"
 #include "case/pending_file.hpp"
 #include "results/number_text.hpp"
+#include "tables/table_output.hpp"
 #include "values/sample.hpp"
 
 namespace suffuse {
@@ -114,7 +115,7 @@ std::vector<ErrorSum> field_errors(const ResultsReader& run, const ReferenceTabl
     for (const auto row : rows) {
       places.emplace_back(table.column("x")[row], table.column("y")[row]);
     }
-    const Table sampled = sample_places(run, t, places, fields, input_names);
+    const Table sampled = sample(run, {{t}, places, fields}, input_names);
     const auto columns = sampled_columns(sampled, names, reference.path);
     for (std::size_t k = 0; k < names.size(); ++k) {
       for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -239,7 +240,7 @@ void check(const ReferenceTable& reference) {
 }  // namespace
 
 ReferenceTable read_reference_table(const std::string& path) {
-  ReferenceTable reference{path, read_table(path)};
+  ReferenceTable reference{path, with_seconds(read_table(path), path)};
   check(reference);
   return reference;
 }

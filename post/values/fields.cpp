@@ -8,6 +8,7 @@
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "drawing/ticks.hpp"
+#include "values/derived_fields.hpp"
 
 namespace suffuse {
 namespace {
@@ -31,7 +32,7 @@ std::vector<std::string> names_on(const ResultsReader& results, std::size_t inde
                                   const NamedPlace& place) {
   std::vector<std::string> names;
   for (const auto& kind : place.kinds) {
-    for (const auto& name : results.field_names(index, kind)) names.push_back(name);
+    for (const auto& name : all_field_names(results, index, kind)) names.push_back(name);
   }
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -50,11 +51,11 @@ void check_place(const std::vector<NamedPlace>& places, const std::string& on,
 /// A blank and the symbol of a field from the table in docs/theory.md, or nothing.
 std::string symbol_of(const std::string& name) {
   static const std::map<std::string, std::string> symbols{
-      {"porosity", "n_L"},          {"solid_fraction", "n_S"}, {"skeleton_fraction", "n_C"},
-      {"erodible_fraction", "n_e"}, {"fines_fraction", "n_f"}, {"water_fraction", "n_w"},
-      {"concentration", "c"},       {"erosion_rate", "phi_e"}, {"pressure", "p"},
-      {"liquid_velocity", "v_L"},   {"darcy_flux", "q"},       {"head", "h"},
-      {"saturation", "S"}};
+      {"porosity", "n_L"},          {"solid_fraction", "n_S"},   {"skeleton_fraction", "n_C"},
+      {"erodible_fraction", "n_e"}, {"fines_fraction", "n_f"},   {"water_fraction", "n_w"},
+      {"concentration", "c"},       {"erosion_rate", "phi_e"},   {"pressure", "p"},
+      {"liquid_velocity", "v_L"},   {"darcy_flux", "q"},         {"head", "h"},
+      {"saturation", "S"},          {"hydraulic_gradient", "i"}, {"safety", "i_cr / i"}};
   const auto found = symbols.find(name);
   return found == symbols.end() ? "" : " " + found->second;
 }
@@ -82,7 +83,7 @@ FieldPlace find_field(const ResultsReader& results, std::size_t index, const std
   for (const auto& place : places) {
     if (!on.empty() && place.name != on) continue;
     for (const auto& kind : place.kinds) {
-      const auto names = results.field_names(index, kind);
+      const auto names = all_field_names(results, index, kind);
       if (std::ranges::find(names, name) != names.end()) return {name, kind};
       known.insert(known.end(), names.begin(), names.end());
     }
@@ -92,8 +93,21 @@ FieldPlace find_field(const ResultsReader& results, std::size_t index, const std
       "one of the fields " + fields_and_places(results, index), closest_name(name, known)}});
 }
 
+Field read_field(const ResultsReader& results, std::size_t index, const FieldPlace& place) {
+  Field field = any_field(results, index, place.where, place.name);
+  if (!place.change) return field;
+  const Field first = any_field(results, 0, place.where, place.name);
+  if (first.values.size() != field.values.size()) {
+    throw InputError(std::vector{
+        InputProblem{"suffuse-post", "--change", '"' + place.name + "\" on " + place.where,
+                     "a field of places that stay: liquid points enter and leave", ""}});
+  }
+  for (std::size_t i = 0; i < field.values.size(); ++i) field.values[i] -= first.values[i];
+  return field;
+}
+
 ScalarField read_scalar(const ResultsReader& results, std::size_t index, const FieldPlace& place) {
-  Field field = results.field(index, place.where, place.name);
+  Field field = read_field(results, index, place);
   ScalarField scalar{{}, field.unit, false};
   if (place.where == "element_vertex" || field.components == 1) {
     scalar.values = std::move(field.values);
@@ -110,8 +124,9 @@ ScalarField read_scalar(const ResultsReader& results, std::size_t index, const F
 }
 
 std::string field_label(const FieldPlace& place, const ScalarField& field) {
-  return (field.is_vector ? "magnitude of " : "") + place.name + symbol_of(place.name) + " (" +
-         (field.unit == "1" || field.unit.empty() ? "-" : field.unit) + ")";
+  return std::string(field.is_vector ? "magnitude of " : "") +
+         (place.change ? "change since the start of " : "") + place.name + symbol_of(place.name) +
+         " (" + (field.unit == "1" || field.unit.empty() ? "-" : field.unit) + ")";
 }
 
 std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time) {

@@ -14,6 +14,7 @@ namespace suffuse {
 struct FieldPlace {
   std::string name;
   std::string where;
+  bool change = false;  ///< minus the field of the first snapshot
 };
 
 /// Finds a field of the snapshot `index` on `on`: "cell", "node" (elements' own linear fields
@@ -25,6 +26,9 @@ FieldPlace find_field(const ResultsReader& results, std::size_t index, const std
 /// `on cell: "a" or "b"; on node: ...`, for the places in `only`, for all places when it is empty.
 std::string fields_and_places(const ResultsReader& results, std::size_t index,
                               const std::vector<std::string>& only = {});
+
+/// The field, its change included. Throws FileError; InputError for a change on liquid points.
+Field read_field(const ResultsReader& results, std::size_t index, const FieldPlace& place);
 
 /// A field with one number per element, per vertex of every element, per node or per point; of a
 /// vector field the magnitudes.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "results/number_text.hpp"
+#include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 
 namespace suffuse {
@@ -37,6 +39,16 @@ std::vector<std::string> split(const std::string& text, char separator) {
     }
   }
   return parts;
+}
+
+/// Of "x,y".
+std::optional<Vector<2>> place_of(const std::string& text) {
+  const auto coordinates = split(text, ',');
+  if (coordinates.size() != 2) return std::nullopt;
+  const auto x = parse_number(coordinates[0]);
+  const auto y = parse_number(coordinates[1]);
+  if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return std::nullopt;
+  return Vector<2>(*x, *y);
 }
 
 std::string position_text(const Vector<2>& x) {
@@ -118,29 +130,38 @@ void refuse_point_field(const ResultsReader& results, std::size_t index, const s
   }
 }
 
-SampledField read_field(const ResultsReader& results, const SnapshotPair& pair,
-                        const std::string& name, const SampleNames& input_names) {
+/// Between two values; the nearer one where either is infinite.
+double between(double before, double after, double weight) {
+  if (std::isfinite(before) && std::isfinite(after)) return before + weight * (after - before);
+  return weight < 0.5 ? before : after;
+}
+
+/// Where a field lives. Throws InputError.
+FieldPlace find_place_of(const ResultsReader& results, std::size_t index, const std::string& name,
+                         const SampleNames& input_names) {
   std::vector<std::string> known;
   for (const std::string where : kinds_of_place) {
-    const auto names = results.field_names(pair.before, where);
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-      known.insert(known.end(), names.begin(), names.end());
-      continue;
-    }
-    Field field = results.field(pair.before, where, name);
-    if (pair.weight > 0.0) {
-      const Field later = results.field(pair.after, where, name);
-      for (std::size_t i = 0; i < field.values.size(); ++i) {
-        field.values[i] += pair.weight * (later.values[i] - field.values[i]);
-      }
-    }
-    return {field, where};
+    const auto names = all_field_names(results, index, where);
+    if (std::ranges::find(names, name) != names.end()) return {name, where};
+    known.insert(known.end(), names.begin(), names.end());
   }
-  refuse_point_field(results, pair.before, name, input_names);
+  refuse_point_field(results, index, name, input_names);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   throw wrong(input_names.fields, "\"" + name + "\"", quoted_list(known), closest_name(name, known),
               input_names.command);
+}
+
+SampledField read_sampled(const ResultsReader& results, const SnapshotPair& pair,
+                          const FieldPlace& place) {
+  Field field = read_field(results, pair.before, place);
+  if (pair.weight > 0.0) {
+    const Field later = read_field(results, pair.after, place);
+    for (std::size_t i = 0; i < field.values.size(); ++i) {
+      field.values[i] = between(field.values[i], later.values[i], pair.weight);
+    }
+  }
+  return {field, place.where};
 }
 
 double value_in(const Mesh<2>& mesh, const SampledField& field, const Place& place, int component) {
@@ -171,21 +192,20 @@ std::string column_name(const SampledField& field, int component) {
 
 }  // namespace
 
+Vector<2> parse_place(const std::string& text) {
+  const auto place = place_of(text);
+  if (!place) throw wrong("--at", "\"" + text + "\"", "x,y in metres");
+  return *place;
+}
+
 SampleLine parse_line(const std::string& text) {
-  std::vector<double> numbers;
   const auto ends = split(text, ':');
-  for (const auto& end : ends) {
-    const auto coordinates = split(end, ',');
-    for (const auto& coordinate : coordinates) {
-      const auto value = parse_number(coordinate);
-      if (value && std::isfinite(*value)) numbers.push_back(*value);
-    }
-    if (coordinates.size() != 2) numbers.clear();
-  }
-  if (ends.size() != 2 || numbers.size() != 4) {
+  const auto from = place_of(ends.front());
+  const auto to = place_of(ends.back());
+  if (ends.size() != 2 || !from || !to) {
     throw wrong("--line", "\"" + text + "\"", "x0,y0:x1,y1 in metres");
   }
-  return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+  return {*from, *to};
 }
 
 std::vector<std::string> parse_field_names(const std::string& text) {
@@ -196,8 +216,18 @@ std::vector<std::string> parse_field_names(const std::string& text) {
   return names;
 }
 
-Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
-             const std::vector<std::string>& fields) {
+std::vector<double> parse_times(const ResultsReader& results, const std::string& text) {
+  if (text == "all") return results.times();
+  std::vector<double> times;
+  for (const std::string& part : split(text, ',')) {
+    const auto time = parse_number(part);
+    if (!time) throw wrong("--times", "\"" + text + "\"", "all, or times in s with commas between");
+    times.push_back(*time);
+  }
+  return times;
+}
+
+std::vector<Vector<2>> places_on(const SampleLine& line, int count) {
   if (count < 2) throw wrong("--count", std::to_string(count), "at least 2, the ends of the line");
   if (count > max_points) {
     throw wrong("--count", std::to_string(count), "at most " + std::to_string(max_points));
@@ -207,32 +237,39 @@ Table sample(const ResultsReader& results, double time, const SampleLine& line, 
     const double along = static_cast<double>(i) / (count - 1);
     positions.emplace_back((1.0 - along) * line.from + along * line.to);
   }
-  return sample_places(results, time, positions, fields);
+  return positions;
 }
 
-Table sample_places(const ResultsReader& results, double time,
-                    const std::vector<Vector<2>>& positions, const std::vector<std::string>& fields,
-                    const SampleNames& input_names) {
-  const SnapshotPair pair = find_snapshots(results, time, input_names);
-  std::vector<SampledField> sampled;
-  Table table{{"x", "y"}, std::vector<std::vector<double>>(2)};
-  for (const auto& name : fields) {
-    sampled.push_back(read_field(results, pair, name, input_names));
-    for (int k = 0; k < sampled.back().width(); ++k) {
-      table.names.push_back(column_name(sampled.back(), k));
-      table.columns.emplace_back();
-    }
-  }
+Table sample(const ResultsReader& results, const SampleRequest& request,
+             const SampleNames& input_names) {
+  Table table{{"t", "x", "y"}, std::vector<std::vector<double>>(3), {"s", "m", "m"}};
   const Mesh<2> mesh = results.mesh();
-  for (const auto& x : positions) {
-    const auto around = locate(results, mesh, x, input_names);
-    table.columns[0].push_back(x[0]);
-    table.columns[1].push_back(x[1]);
-    std::size_t column = 2;
-    for (const auto& field : sampled) {
-      for (int k = 0; k < field.width(); ++k) {
-        table.columns[column++].push_back(mean_value(mesh, field, around, k));
+  std::vector<std::vector<Place>> around;
+  for (const auto& x : request.positions) {
+    around.push_back(locate(results, mesh, x, input_names));
+  }
+  for (const double time : request.times) {
+    const SnapshotPair pair = find_snapshots(results, time, input_names);
+    std::size_t column = 3;
+    for (const auto& name : request.fields) {
+      FieldPlace place = find_place_of(results, pair.before, name, input_names);
+      place.change = request.change;
+      const SampledField field = read_sampled(results, pair, place);
+      for (int k = 0; k < field.width(); ++k, ++column) {
+        if (column == table.names.size()) {
+          table.names.push_back(column_name(field, k));
+          table.units.push_back(field.values.unit == "1" ? "-" : field.values.unit);
+          table.columns.emplace_back();
+        }
+        for (const auto& places : around) {
+          table.columns[column].push_back(mean_value(mesh, field, places, k));
+        }
       }
+    }
+    for (const auto& x : request.positions) {
+      table.columns[0].push_back(time);
+      table.columns[1].push_back(x[0]);
+      table.columns[2].push_back(x[1]);
     }
   }
   return table;

@@ -18,21 +18,24 @@ struct SampleLine {
 /// Reads `x0,y0:x1,y1` (m). Throws InputError.
 SampleLine parse_line(const std::string& text);
 
+/// Reads `x,y` (m). Throws InputError.
+Vector<2> parse_place(const std::string& text);
+
 /// Reads `a,b,c`. Throws InputError on an empty name.
 std::vector<std::string> parse_field_names(const std::string& text);
 
-/// Samples `count` >= 2 points, evenly spaced from end to end of the line. The table has columns x,
-/// y and the fields, vectors as NAME_x and NAME_y.
-///
-/// The value in an element is, in this order of preference, that of the element's own linear field,
-/// of interpolated nodal values, or the element's mean. On an edge or node it is the mean over the
-/// elements of soil there, over those of free water where there is no soil. Between two snapshots
-/// values are linear in time.
-///
-/// Throws InputError for an unknown field, a field that lives on points only, a time outside the
-/// snapshots or a point outside the model.
-Table sample(const ResultsReader& results, double time, const SampleLine& line, int count,
-             const std::vector<std::string>& fields);
+/// Times of all snapshots for `all`, else those of `t1,t2,...`. Throws InputError.
+std::vector<double> parse_times(const ResultsReader& results, const std::string& text);
+
+/// `count` >= 2 places, evenly spaced from end to end of the line. Throws InputError.
+std::vector<Vector<2>> places_on(const SampleLine& line, int count);
+
+struct SampleRequest {
+  std::vector<double> times;         ///< s
+  std::vector<Vector<2>> positions;  ///< m
+  std::vector<std::string> fields;
+  bool change = false;  ///< since the start, instead of the fields themselves
+};
 
 /// Names of the command and its inputs in messages.
 struct SampleNames {
@@ -42,9 +45,17 @@ struct SampleNames {
   std::string fields = "--fields";
 };
 
-/// The same at any `positions` (m). `input_names` are used in messages.
-Table sample_places(const ResultsReader& results, double time,
-                    const std::vector<Vector<2>>& positions, const std::vector<std::string>& fields,
-                    const SampleNames& input_names = {});
+/// Samples fields at places and times. The table has a row per time and place, and columns t, x, y
+/// and the fields, vectors as NAME_x and NAME_y.
+///
+/// The value in an element is, in this order of preference, that of the element's own linear field,
+/// of interpolated nodal values, or the element's mean. On an edge or node it is the mean over the
+/// elements of soil there, over those of free water where there is no soil. Between two snapshots
+/// values are linear in time.
+///
+/// Throws InputError for an unknown field, a field that lives on points only, a time outside the
+/// snapshots or a point outside the model.
+Table sample(const ResultsReader& results, const SampleRequest& request,
+             const SampleNames& input_names = {});
 
 }  // namespace suffuse

@@ -27,8 +27,18 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(double end, bool quiet)
-    : end_(end),
+std::string outlook(const Standing& standing) {
+  char text[80];
+  if (standing.time_left) return clock_text(*standing.time_left) + " left";
+  if (!(standing.step > 2.0 * standing.first_step)) return "time left not known yet";
+  std::snprintf(text, sizeof text, "%ssteps grow from %.1g s",
+                standing.from_rest ? "starting from rest: " : "", standing.first_step);
+  return text;
+}
+
+Progress::Progress(double start, double end, bool from_rest, bool quiet)
+    : standing_{.time = start, .end = end, .from_rest = from_rest, .time_left = {}},
+      time_left_(start, end),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
@@ -37,27 +47,30 @@ Progress::Progress(double end, bool quiet)
 void Progress::report(double time, double dt) {
   if (quiet_) return;
   const Clock::time_point now = Clock::now();
-  const double since_last = std::chrono::duration<double>(now - last_).count();
-  if (since_last < (terminal_ ? seconds_between_redraws : seconds_between_lines)) return;
+  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+  standing_.time = time;
+  standing_.step = dt;
+  if (standing_.first_step == 0.0) standing_.first_step = dt;
+  standing_.time_left = time_left_.at(seconds(now - start_), time);
+  if (seconds(now - last_) < (terminal_ ? seconds_between_redraws : seconds_between_lines)) return;
   last_ = now;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double left = time > 0.0 ? elapsed * std::max(0.0, end_ - time) / time : 0.0;
   if (terminal_) {
-    draw_bar(time, dt, left);
+    draw_bar();
     bar_shown_ = true;
   } else {
-    std::fprintf(stderr, "t = %.6g of %.6g s, step %.3g s, %s left\n", time, end_, dt,
-                 clock_text(left).c_str());
+    std::fprintf(stderr, "t = %.6g of %.6g s, step %.3g s, %s\n", time, standing_.end, dt,
+                 outlook(standing_).c_str());
   }
 }
 
-void Progress::draw_bar(double time, double dt, double left) const {
-  const double share = std::clamp(time / end_, 0.0, 1.0);
+void Progress::draw_bar() const {
+  const double share = std::clamp(standing_.time / standing_.end, 0.0, 1.0);
   const int filled = static_cast<int>(share * bar_width);
   const std::string bar =
       std::string(filled, '#') + std::string(static_cast<std::size_t>(bar_width) - filled, '.');
-  std::fprintf(stderr, "\r[%s] %3.0f %%  t = %.5g of %.5g s  step %.3g s  %s left \033[K",
-               bar.c_str(), 100.0 * share, time, end_, dt, clock_text(left).c_str());
+  std::fprintf(stderr, "\r[%s] %3.0f %%  t = %.5g of %.5g s  step %.3g s  %s \033[K", bar.c_str(),
+               100.0 * share, standing_.time, standing_.end, standing_.step,
+               outlook(standing_).c_str());
   std::fflush(stderr);
 }
 

@@ -4,15 +4,33 @@
 /// when quiet.
 
 #include <chrono>
+#include <optional>
 #include <string>
+
+#include "driver/time_left.hpp"
 
 namespace suffuse {
 
+/// Where a run stands.
+struct Standing {
+  double time = 0.0;                ///< simulated, s
+  double end = 0.0;                 ///< of the run, s
+  double step = 0.0;                ///< length of the last step, s
+  double first_step = 0.0;          ///< of this process, s
+  bool from_rest = false;           ///< the run started from rest in this process
+  std::optional<double> time_left;  ///< wall time, s, where it is known
+};
+
+/// "3:20 left"; while that is unknown, why: "starting from rest: steps grow from 1e-10 s".
+std::string outlook(const Standing& standing);
+
 class Progress {
  public:
-  Progress(double end, bool quiet);
+  /// `start` and `end`: simulated times between which this process runs, s; `from_rest`: the flow
+  /// is at rest at the start.
+  Progress(double start, double end, bool from_rest, bool quiet);
 
-  /// Simulated time and length of the last step, s. May be called after every interval: most calls
+  /// Simulated time and length of the last step, s. To be called after every interval: most calls
   /// print nothing.
   void report(double time, double dt);
   /// Prints a line without breaking the bar, also when quiet.
@@ -22,9 +40,10 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void draw_bar(double time, double dt, double left) const;
+  void draw_bar() const;
 
-  double end_;
+  Standing standing_;
+  TimeLeft time_left_;
   bool quiet_;
   bool terminal_;
   bool bar_shown_ = false;

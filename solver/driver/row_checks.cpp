@@ -10,7 +10,7 @@ namespace suffuse {
 namespace {
 
 void check_finite(const HistoryRow& row) {
-  for (const auto& [name, member] : history_columns) {
+  for (const auto& [name, member, unit] : history_columns) {
     if (std::isfinite(row.*member)) continue;
     std::ostringstream message;
     message << name << " is no longer a number at t = " << row.t << " s";
@@ -18,12 +18,21 @@ void check_finite(const HistoryRow& row) {
   }
 }
 
+/// To two digits.
+std::string rounded(double value) {
+  std::ostringstream text;
+  text.precision(2);
+  text << value;
+  return text.str();
+}
+
 }  // namespace
 
 std::vector<std::string> RowChecks::check(const HistoryRow& row) {
   check_finite(row);
   std::vector<std::string> warnings = {check_compression(row), check_mass_scaling(row.speed_max),
-                                       check_momentum(row.speed_max)};
+                                       check_momentum(row.speed_max), check_fines_weight(row),
+                                       check_volume_defect(row)};
   std::erase(warnings, "");
   return warnings;
 }
@@ -72,6 +81,44 @@ std::string RowChecks::check_momentum(double speed) {
           << " m/s it passes the model before drag brings it to its speed, and the momentum that "
              "it carries along is not in the equations: pressures and fluxes are not to be "
              "trusted";
+  return message.str();
+}
+
+/// Fines in the liquid neither settle nor hold each other up in this model: their weight drives a
+/// flow, which where it erodes brings more of them.
+std::string RowChecks::check_fines_weight(const HistoryRow& row) {
+  constexpr double most_of_it = 0.5;
+  constexpr double noticed = 1e-3;  // concentration, below which density differs by a per mille
+  if (weight_warned_ || !(row.fines_weight_share > most_of_it)) return "";
+  if (!(row.concentration_max > noticed)) return "";
+  weight_warned_ = true;
+  std::ostringstream message;
+  message
+      << "the weight of fluidised fines drives the flow more than the boundaries do: "
+      << rounded(100.0 * row.fines_weight_share) << " % of its power at t = " << row.t
+      << " s, with concentrations up to " << rounded(row.concentration_max)
+      << ". That holds for fines that stay in the liquid; where they would settle, clog or stay "
+         "in place, more is lost here than in the soil. Look at soil.NAME.erosion "
+         "(critical_concentration, threshold, residual) and soil.NAME.deposition, or compute "
+         "without gravity, with heads as pressures";
+  return message.str();
+}
+
+/// On a mesh of even elements points fill them as they would at random: out of some thousand
+/// elements one differs from the mean of N points by 5 sqrt(N).
+std::string RowChecks::check_volume_defect(const HistoryRow& row) {
+  constexpr double deviations = 5.0;
+  const double points = scene_.points.liquid_per_element;
+  const double expected = std::max(1.0, deviations / std::sqrt(points));
+  if (defect_warned_ || !(row.volume_defect > expected)) return "";
+  defect_warned_ = true;
+  std::ostringstream message;
+  message << "liquid points have " << rounded(1.0 + row.volume_defect)
+          << " times the volume of the pores in " << row.volume_defect_at << " at t = " << row.t
+          << " s: a volume_defect of " << rounded(row.volume_defect) << ", where up to "
+          << rounded(expected) << " is usual with liquid_per_element = " << points
+          << ". Points that come from large elements do not fit into small ones: make the elements "
+             "more even, or take more points. Masses stay exact; concentrations there are rough";
   return message.str();
 }
 

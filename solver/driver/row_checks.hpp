@@ -23,19 +23,23 @@ class RowChecks {
   std::vector<std::string> check(const HistoryRow& row);
 
   void archive(StateArchive& archive) {
-    archive(scaling_warned_, momentum_warned_, compression_warned_);
+    archive(scaling_warned_, momentum_warned_, compression_warned_, weight_warned_, defect_warned_);
   }
 
  private:
   std::string check_compression(const HistoryRow& row);
   std::string check_mass_scaling(double speed);
   std::string check_momentum(double speed);
+  std::string check_fines_weight(const HistoryRow& row);
+  std::string check_volume_defect(const HistoryRow& row);
 
   const Scene& scene_;
   double speed_that_drag_follows_;
   bool scaling_warned_ = false;
   bool momentum_warned_ = false;
   bool compression_warned_ = false;
+  bool weight_warned_ = false;
+  bool defect_warned_ = false;
 };
 
 }  // namespace suffuse

@@ -15,6 +15,7 @@
 #include "driver/progress.hpp"
 #include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
+#include "driver/spent_energy.hpp"
 #include "driver/starting_point.hpp"
 #include "driver/stopwatch.hpp"
 #include "results/writer.hpp"
@@ -55,7 +56,8 @@ class Run final : public OutputSink<Dim> {
         folder_(starting_point.folder),
         loop_(case_, plan),
         checks_(case_.document.scene, plan.speed_that_drag_follows),
-        progress_(case_.document.scene.time.end, run.quiet),
+        progress_(starting_point.from ? starting_point.from->time : 0.0,
+                  case_.document.scene.time.end, starts_from_rest(starting_point), run.quiet),
         writer_(open_results(std::move(starting_point))) {
     // The model has points of its own by now.
     case_.liquid_points = {};
@@ -88,7 +90,8 @@ class Run final : public OutputSink<Dim> {
   }
 
   void write_row(const FlowState<Dim>& flow) override {
-    const HistoryRow row = loop_.model().history_row(flow);
+    HistoryRow row = loop_.model().history_row(flow);
+    row.energy = energy_.at(row);
     for (const std::string& warning : checks_.check(row)) warn(warning);
     writer_.append_history(row);
     append_tables(writer_, loop_.model(), flow);
@@ -116,10 +119,14 @@ class Run final : public OutputSink<Dim> {
     for (const std::string& warning : plan_.warnings) warn(warning);
     if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
     StateArchive state(std::move(starting_point.from->state));
-    state(loop_, checks_, warnings_);
+    state(loop_, checks_, energy_, warnings_);
     state.finish();
     resumed_at_ = starting_point.from->time;
     return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
+  }
+
+  [[nodiscard]] bool starts_from_rest(const StartingPoint& starting_point) const {
+    return !starting_point.from && case_.document.scene.initial_flow == InitialFlow::rest;
   }
 
   ExitCode stop() {
@@ -155,7 +162,7 @@ class Run final : public OutputSink<Dim> {
   }
 
   RestartPoint restart_point() {
-    RestartPoint point = loop_.restart_point(checks_, warnings_);
+    RestartPoint point = loop_.restart_point(checks_, energy_, warnings_);
     point.no_skip = options_.no_skip;
     point.case_digest = case_digest_;
     return point;
@@ -190,6 +197,7 @@ class Run final : public OutputSink<Dim> {
   Stopwatch since_saved_;  ///< since the last snapshot or checkpoint
   RunLoop<Dim> loop_;
   RowChecks checks_;
+  SpentEnergy energy_;
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
   std::vector<std::string> warnings_;
@@ -206,8 +214,8 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
   if (run.resume) {
     starting_point = find_starting_point(c, folder, options);
   } else {
-    starting_point =
-        StartingPoint{folder, std::nullopt, lock_for_results(folder, c.document.scene.name)};
+    const Replace replace = run.force ? Replace::any : Replace::same_case;
+    starting_point = StartingPoint{folder, std::nullopt, lock_for_results(folder, c, replace)};
   }
   if (!starting_point) {
     if (!run.quiet) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());

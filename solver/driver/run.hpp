@@ -12,6 +12,7 @@ namespace suffuse {
 struct RunOptions {
   bool quiet = false;   ///< no progress
   bool resume = false;  ///< continue the run in the folder, if there is one
+  bool force = false;   ///< replace the results of another case
   /// Wall time, s, after which a run that has written no snapshot writes a checkpoint; 0: never.
   double checkpoint_every = 600.0;
 };
@@ -20,7 +21,7 @@ struct RunOptions {
 /// SIGINT, SIGTERM or SIGHUP (with a checkpoint, and a line that says how to go on). A run that is
 /// resumed gives the same bits as one that never stopped, on any number of threads. Throws
 /// NumericalError and FileError, after noting it in run.json, and InputError where the folder holds
-/// the results of another scene. Takes the case by value and gives back the memory of its liquid
+/// the results of another case. Takes the case by value and gives back the memory of its liquid
 /// points once the model has its own: move it in. `case_path` is for messages.
 template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,

@@ -19,16 +19,19 @@ FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
       folder, has_liquid, table_files(c.document.scene, c.mesh.region_names.size()));
   if (!found.point) return found;
   const auto refuse = [&](const std::string& what, const std::string& how) {
-    throw InputError(folder + ": cannot be resumed: it holds the results of " + what + "; " + how +
-                     ", choose another folder with -o, or run anew without --resume");
+    throw InputError(folder + ": cannot be resumed: it holds the results of " + what +
+                     "; choose another folder with -o, " + how);
   };
   if (found.point->case_digest != digest_of(c)) {
-    refuse("another case (scene, mesh or points have changed since)",
-           "take the case it began with");
+    std::vector<std::string> differences = differences_from_run(folder, c);
+    if (differences.empty()) differences.emplace_back("comments, spaces or the order of keys");
+    refuse("another case",
+           "take the case it began with, or replace them with --force in the place of --resume. " +
+               listed_differences(differences));
   }
   if (found.point->no_skip != options.no_skip) {
     refuse(found.point->no_skip ? "a run with --no-skip" : "a run without --no-skip",
-           "take the same option");
+           "take the same option, or run anew without --resume");
   }
   return found;
 }

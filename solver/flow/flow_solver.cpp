@@ -178,6 +178,7 @@ void FlowSolver<Dim>::describe(const FlowState<Dim>& state, HistoryRow& row) con
   row.dt = state.dt;
   row.eos_error = state.eos_error;
   row.pressure_overshoot = state.pressure_overshoot;
+  row.fines_weight_share = fines_weight_share(state);
   CompensatedSum in;
   CompensatedSum out;
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -204,6 +205,23 @@ void FlowSolver<Dim>::describe(const FlowState<Dim>& state, HistoryRow& row) con
   }
   row.pressure_scatter = std::sqrt(square / volume);
   for (const Vector<Dim>& v : state.velocity) row.speed_max = std::max(row.speed_max, v.norm());
+}
+
+template <int Dim>
+double FlowSolver<Dim>::fines_weight_share(const FlowState<Dim>& state) const {
+  if (gravity().norm() == 0.0) return 0.0;
+  const std::vector<Vector<Dim>> flux = element_flux(grid_, state.face_flux);
+  double weight = 0.0;  // W
+  double spent = 0.0;   // W, by drag
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const double excess = coefficients_.mixture_density[e] - scene_.liquid.density;
+    double resistance = coefficients_.drag[e] / coefficients_.porosity[e];
+    if (!state.relative_conductivity.empty()) resistance /= state.relative_conductivity[e];
+    if (has_ergun()) resistance += coefficients_.quadratic_drag[e] * flux[e].norm();
+    weight += grid_.volume[e] * excess * gravity().dot(flux[e]);
+    spent += grid_.volume[e] * resistance * flux[e].squaredNorm();
+  }
+  return spent > 0.0 ? weight / spent : 0.0;
 }
 
 template <int Dim>

@@ -131,6 +131,11 @@ class FlowSolver {
   /// pressures and speeds, errors.
   void describe(const FlowState<Dim>& state, HistoryRow& row) const;
 
+  /// Of the power that drives the flow of `state`, through boundaries and by gravity, what the
+  /// weight of the fines in the liquid gives; negative where the flow lifts them. 0 of liquid at
+  /// rest.
+  [[nodiscard]] double fines_weight_share(const FlowState<Dim>& state) const;
+
   /// Adds a warning for each boundary through which liquid entered although the scene gives it no
   /// concentration, once. `entered`: volume along each face's normal, m3; `time` in s.
   void warn_of_unstated_inflow(double time, const std::vector<double>& entered);

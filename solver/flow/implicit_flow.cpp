@@ -384,7 +384,8 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
   result.eos_error = eos_error_;
   result.pressure_overshoot = scales_.overshoot(now_.state.face_pressure);
   NodalFields<Dim> nodes =
-      nodal_fields(this->grid(), now_, pressure_, this->coefficients_.porosity);
+      nodal_fields(this->grid(), now_, pressure_, this->coefficients_.porosity,
+                   Vector<Dim>(this->scene().liquid.density * this->gravity()));
   result.node_pressure = std::move(nodes.pressure);
   result.velocity = std::move(nodes.velocity);
   this->prescribe_at_nodes(result.node_pressure);

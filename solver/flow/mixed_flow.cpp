@@ -1,6 +1,8 @@
 #include "flow/mixed_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "grid/face_flux.hpp"
 #include "grid/parallel.hpp"
@@ -50,23 +52,53 @@ FaceVolumes face_volumes(const Grid<Dim>& grid, const std::vector<double>& start
   return result;
 }
 
+namespace {
+
+/// See `nodal_fields`.
+template <int Dim>
+void limit_to_surroundings(const Grid<Dim>& grid, const std::vector<double>& face_pressure,
+                           const std::vector<double>& element_pressure, const Vector<Dim>& weight,
+                           std::vector<double>& node_pressure) {
+  for (int i = 0; i < grid.mesh.node_count(); ++i) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    const auto include = [&](double pressure, const Vector<Dim>& place) {
+      const double here = pressure + weight.dot(grid.mesh.nodes[i] - place);
+      low = std::min(low, here);
+      high = std::max(high, here);
+    };
+    for (int k = grid.node_face_begin[i]; k < grid.node_face_begin[i + 1]; ++k) {
+      const int f = grid.node_face[k];
+      include(face_pressure[f], grid.face_centre(f));
+    }
+    for (int k = grid.node_element_begin[i]; k < grid.node_element_begin[i + 1]; ++k) {
+      const int e = grid.node_element[k];
+      include(element_pressure[e], element_centroid(grid.mesh, e));
+    }
+    node_pressure[i] = std::clamp(node_pressure[i], low, high);
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 NodalFields<Dim> nodal_fields(const Grid<Dim>& grid, const MixedFlow<Dim>& flow,
                               const std::vector<double>& element_pressure,
-                              const std::vector<double>& porosity) {
+                              const std::vector<double>& porosity, const Vector<Dim>& weight) {
   NodalFields<Dim> result{std::vector<double>(grid.mesh.node_count(), 0.0),
                           VectorField<Dim>(grid.mesh.node_count(), Vector<Dim>::Zero())};
   const std::vector<Vector<Dim>> flux = element_flux(grid, flow.face_flux);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     for (int k = 0; k <= Dim; ++k) {
       const int i = grid.mesh.elements[e][k];
-      const double weight = grid.volume[e] / (Dim + 1) / grid.node_volume[i];
+      const double share = grid.volume[e] / (Dim + 1) / grid.node_volume[i];
       const double at_vertex =
           (Dim + 1) * element_pressure[e] - Dim * flow.state.face_pressure[grid.element_face[e][k]];
-      result.pressure[i] += weight * at_vertex;
-      result.velocity[i] += weight / porosity[e] * flux[e];
+      result.pressure[i] += share * at_vertex;
+      result.velocity[i] += share / porosity[e] * flux[e];
     }
   }
+  limit_to_surroundings(grid, flow.state.face_pressure, element_pressure, weight, result.pressure);
   return result;
 }
 
@@ -76,13 +108,15 @@ template std::vector<double> element_pressure(const Grid<2>&, const std::vector<
 template FaceVolumes face_volumes(const Grid<2>&, const std::vector<double>&,
                                   const std::vector<double>&, const MixedStep<2>&, double, int);
 template NodalFields<2> nodal_fields(const Grid<2>&, const MixedFlow<2>&,
-                                     const std::vector<double>&, const std::vector<double>&);
+                                     const std::vector<double>&, const std::vector<double>&,
+                                     const Vector<2>&);
 template MixedFlow<3> flow_at_rest(const Grid<3>&, const std::vector<FaceCondition>&,
                                    const std::vector<double>&);
 template std::vector<double> element_pressure(const Grid<3>&, const std::vector<double>&, int);
 template FaceVolumes face_volumes(const Grid<3>&, const std::vector<double>&,
                                   const std::vector<double>&, const MixedStep<3>&, double, int);
 template NodalFields<3> nodal_fields(const Grid<3>&, const MixedFlow<3>&,
-                                     const std::vector<double>&, const std::vector<double>&);
+                                     const std::vector<double>&, const std::vector<double>&,
+                                     const Vector<3>&);
 
 }  // namespace suffuse

@@ -65,10 +65,13 @@ struct NodalFields {
 };
 
 /// At each node the mean of what the linear fields of the elements around have there, weighted with
-/// their volumes. `porosity` per element.
+/// their volumes. What an element's field has at a vertex lies beyond the pressures at its faces:
+/// where the mean leaves the range of the pressures at the faces and in the elements around the
+/// node, it is that range's end. Pressures are compared after the weight of water, `weight` = rho g
+/// in Pa/m, has been taken to the node: water at rest has equal ones. `porosity` per element.
 template <int Dim>
 NodalFields<Dim> nodal_fields(const Grid<Dim>& grid, const MixedFlow<Dim>& flow,
                               const std::vector<double>& element_pressure,
-                              const std::vector<double>& porosity);
+                              const std::vector<double>& porosity, const Vector<Dim>& weight);
 
 }  // namespace suffuse

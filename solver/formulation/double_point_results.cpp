@@ -32,17 +32,22 @@ double fines_outflow(const Grid<Dim>& grid, const std::vector<double>& face_flux
   return result.value();
 }
 
-/// Volume of each point per element against the pores there: the largest relative difference.
+/// Volume of the points of each element against the pores there: the largest relative difference,
+/// and where it is.
 template <int Dim>
-double volume_defect(const Grid<Dim>& grid, const LiquidPoints<Dim>& points,
-                     const std::vector<double>& volume, const std::vector<double>& porosity) {
+void describe_volume_defect(const Grid<Dim>& grid, const LiquidPoints<Dim>& points,
+                            const std::vector<double>& volume, const std::vector<double>& porosity,
+                            HistoryRow& row) {
   std::vector<double> filled(grid.mesh.elements.size(), 0.0);
   for (int p = 0; p < points.size(); ++p) filled[points.element[p]] += volume[p];
-  double worst = 0.0;
-  for (std::size_t e = 0; e < filled.size(); ++e) {
-    worst = std::max(worst, std::abs(filled[e] / (porosity[e] * grid.volume[e]) - 1.0));
+  int worst = -1;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double defect = std::abs(filled[e] / (porosity[e] * grid.volume[e]) - 1.0);
+    if (!(defect > row.volume_defect)) continue;
+    row.volume_defect = defect;
+    worst = e;
   }
-  return worst;
+  if (worst >= 0) row.volume_defect_at = element_text(grid, worst);
 }
 
 }  // namespace
@@ -66,7 +71,7 @@ HistoryRow DoublePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
   const ElementField<Dim> fit =
       concentration_fit(this->grid_, points, begins, volume, concentration);
   this->describe_outflow(fines_outflow(this->grid_, flow.face_flux, fit), row);
-  row.volume_defect = volume_defect(this->grid_, points, volume, this->solid_->element_porosity());
+  describe_volume_defect(this->grid_, points, volume, this->solid_->element_porosity(), row);
   liquid_->describe(flow, row);
   return row;
 }

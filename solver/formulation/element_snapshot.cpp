@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "formulation/seepage_measures.hpp"
 #include "grid/face_flux.hpp"
 #include "physics/head.hpp"
 
@@ -71,16 +72,17 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
 template <int Dim>
 void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Scene& scene,
               Snapshot& result) {
-  const auto vectors = [](const char* name, const VectorField<Dim>& from) {
-    Field field{name, "m/s", Dim, {}};
+  const auto vectors = [](const char* name, const char* unit, const VectorField<Dim>& from) {
+    Field field{name, unit, Dim, {}};
     for (const Vector<Dim>& v : from) field.values.insert(field.values.end(), v.begin(), v.end());
     return field;
   };
   result.cell.insert(result.cell.begin() + 1, {"pressure", "Pa", 1, flow.pressure});
-  result.cell.push_back(vectors("darcy_flux", element_flux(grid, flow.face_flux)));
+  result.cell.push_back(vectors("darcy_flux", "m/s", element_flux(grid, flow.face_flux)));
+  result.cell.push_back(vectors("hydraulic_gradient", "1", hydraulic_gradient(grid, flow, scene)));
   result.cell.push_back(
       {"region", "1", 1, {grid.mesh.element_region.begin(), grid.mesh.element_region.end()}});
-  result.node = {vectors("liquid_velocity", flow.velocity),
+  result.node = {vectors("liquid_velocity", "m/s", flow.velocity),
                  {"pressure", "Pa", 1, flow.node_pressure}};
   if (!flow.saturation.empty()) result.cell.push_back({"saturation", "1", 1, flow.saturation});
   if (!has_gravity(scene.gravity)) return;

@@ -75,6 +75,8 @@ class MassAccounts {
   [[nodiscard]] std::size_t count() const { return faces_.size(); }
   /// What is stored at the start, per account.
   void open(std::vector<Stored> initial) { initial_ = std::move(initial); }
+  /// In the whole model.
+  [[nodiscard]] const Stored& initial() const { return initial_[0]; }
 
   /// Books what crossed each face along its normal, kg.
   void book(const std::vector<double>& water, const std::vector<double>& fines);

@@ -1,5 +1,7 @@
 #include "formulation/observations.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "case/errors.hpp"
@@ -27,6 +29,29 @@ std::string text_of(const Vector<Dim>& x) {
 InputProblem problem(const SceneDocument& document, const std::string& key,
                      const std::string& found, const std::string& expected) {
   return {document.locate(key), key, found, expected, ""};
+}
+
+/// Pressure at a place `x` of an element, Pa: of the linear field of the element's face pressures,
+/// or of that of the node pressures where the flow has none at faces. The first may leave the range
+/// of the element's faces and nodes; it is that range's end then, where water of weight `weight` =
+/// rho g in Pa/m at rest has equal pressures.
+template <int Dim>
+double pressure_at(const Grid<Dim>& grid, const FlowState<Dim>& flow, const PointPlace<Dim>& place,
+                   const Vector<Dim>& x, const Vector<Dim>& weight) {
+  if (flow.face_pressure.empty()) return interpolate(grid, place, flow.node_pressure);
+  double result = 0.0;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (int k = 0; k <= Dim; ++k) {
+    const int f = grid.element_face[place.element][k];
+    const int i = grid.mesh.elements[place.element][k];
+    result += flow.face_pressure[f] * (1.0 - Dim * place.barycentric[k]);
+    const double of_face = flow.face_pressure[f] + weight.dot(x - grid.face_centre(f));
+    const double of_node = flow.node_pressure[i] + weight.dot(x - grid.mesh.nodes[i]);
+    low = std::min({low, of_face, of_node});
+    high = std::max({high, of_face, of_node});
+  }
+  return std::clamp(result, low, high);
 }
 
 }  // namespace
@@ -71,6 +96,7 @@ template <int Dim>
 std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
                                                     const FinesState<Dim>& liquid) const {
   const double weight = unit_weight(scene_.liquid.density, scene_.gravity);
+  const Vector<Dim> density_times_gravity = scene_.liquid.density * vector_of<Dim>(scene_.gravity);
   std::vector<ProbeRow> rows;
   for (std::size_t i = 0; i < probes_.size(); ++i) {
     const PointPlace<Dim>& place = probes_[i];
@@ -89,7 +115,7 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
     row.probe = static_cast<double>(i);
     row.x = x[0];
     row.y = x[1];
-    row.pressure = pressure_at(grid_, flow, place);
+    row.pressure = pressure_at(grid_, flow, place, x, density_times_gravity);
     row.head = row.pressure / weight + height(x, scene_.gravity);
     row.saturation = flow.saturation.empty() ? 1.0 : flow.saturation[e];
     row.porosity = FieldNodes<Dim>::value(porosity, place.barycentric) / row.saturation;
@@ -111,21 +137,6 @@ std::vector<SectionRow> Observations<Dim>::section_rows(const FlowState<Dim>& fl
   return rows;
 }
 
-template <int Dim>
-double pressure_at(const Grid<Dim>& grid, const FlowState<Dim>& flow,
-                   const PointPlace<Dim>& place) {
-  if (flow.face_pressure.empty()) return interpolate(grid, place, flow.node_pressure);
-  double result = 0.0;
-  for (int k = 0; k <= Dim; ++k) {
-    result += flow.face_pressure[grid.element_face[place.element][k]] *
-              (1.0 - Dim * place.barycentric[k]);
-  }
-  return result;
-}
-
 template class Observations<2>;
 template class Observations<3>;
-template double pressure_at(const Grid<2>&, const FlowState<2>&, const PointPlace<2>&);
-template double pressure_at(const Grid<3>&, const FlowState<3>&, const PointPlace<3>&);
-
 }  // namespace suffuse

@@ -39,9 +39,4 @@ class Observations {
   std::vector<CompensatedSum> volumes_;  ///< since the start, per section, m3
 };
 
-/// Pressure at a place, Pa: of the linear field of the element's face pressures, or of that of the
-/// node pressures where the flow has none at faces.
-template <int Dim>
-double pressure_at(const Grid<Dim>& grid, const FlowState<Dim>& flow, const PointPlace<Dim>& place);
-
 }  // namespace suffuse

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "flow/leaky_walls.hpp"
+#include "formulation/seepage_measures.hpp"
 #include "grid/face_flux.hpp"
 
 namespace suffuse {
@@ -178,7 +179,22 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
     volume.add(points.volume[p]);
   }
   row.porosity_mean = pores.value() / volume.value();
+  describe_losses(row);
+  const SeepagePower power = seepage_power(grid_, soils_, flow, scene());
+  row.power = power.now;
+  row.conductivity_ratio = power.conductivity_ratio();
   return row;
+}
+
+template <int Dim>
+void TwoPhaseModel<Dim>::describe_losses(HistoryRow& row) const {
+  const LedgerRow masses = ledger();
+  const Stored& initial = masses_.initial();
+  row.eroded = masses.eroded;
+  row.fines_left = masses.fines_out;
+  const double fines = initial.erodible + initial.fines;
+  if (fines > 0.0) row.fines_left_percent = 100.0 * masses.fines_out / fines;
+  row.solid_left_percent = 100.0 * masses.fines_out / initial.solid;
 }
 
 template <int Dim>

@@ -114,6 +114,8 @@ class TwoPhaseModel {
   [[nodiscard]] std::vector<double> element_flux_magnitude() const;
   /// The row's entries that do not depend on how liquid is carried.
   [[nodiscard]] HistoryRow common_history(const FlowState<Dim>& flow) const;
+  /// The row's entries on eroded mass and on what left.
+  void describe_losses(HistoryRow& row) const;
   /// The row's entries on the fines in the liquid that leaves; `fines_out`: their volume, m3/s.
   void describe_outflow(double fines_out, HistoryRow& row) const;
   /// The solid's masses, model first.

@@ -20,10 +20,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string this_process() {
+constexpr const char* on_host = " on ";
+
+std::string this_host() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
-  return "process " + std::to_string(::getpid()) + " on " + host.data();
+  return host.data();
+}
+
+std::string this_process() {
+  return "process " + std::to_string(::getpid()) + on_host + this_host();
+}
+
+/// Takes the lock of an open file. A reader that asks for it holds it for a moment: not at the
+/// first refusal is it taken.
+bool take_lock(int file) {
+  constexpr int attempts = 5;
+  for (int attempt = 1;; ++attempt) {
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno != EWOULDBLOCK || attempt == attempts) return false;
+    ::usleep(10000);
+  }
 }
 
 std::string lock_in(const std::string& folder) {
@@ -35,10 +52,15 @@ bool holds_one_file(const std::string& folder) {
   return std::distance(fs::directory_iterator(folder, ignored), {}) == 1;
 }
 
+/// The process that took the lock last, unless it gave the lock back; empty where it did.
 std::string holder(const std::string& path) {
   std::ifstream in = open_regular_file(path);
   std::string name;
   std::getline(in, name);
+  return name;
+}
+
+std::string in_brackets(const std::string& name) {
   return name.empty() ? "" : " (" + name + ")";
 }
 
@@ -52,11 +74,11 @@ FolderLock::FolderLock(const std::string& folder) {
   const std::string path = lock_in(folder);
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw FileError(folder + ": cannot be written to: " + std::strerror(errno));
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+  if (!take_lock(file_)) {
     const bool held = errno == EWOULDBLOCK;
     ::close(std::exchange(file_, -1));
     if (!held) return;
-    throw FileError(folder + ": another suffuse-solver writes there" + holder(path) +
+    throw FileError(folder + ": another suffuse-solver writes there" + in_brackets(holder(path)) +
                     "; wait for it, or choose another folder with -o");
   }
   // For the message of the one that comes too late; nothing depends on it.
@@ -76,6 +98,17 @@ FolderLock::~FolderLock() {
     fs::remove(folder_, ignored);
   }
   ::close(file_);
+}
+
+bool may_be_held(const std::string& folder) {
+  const std::string path = lock_in(folder);
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return errno != ENOENT;
+  const bool free = ::flock(file, LOCK_SH | LOCK_NB) == 0;
+  ::close(file);
+  if (!free) return true;
+  const std::string name = holder(path);
+  return !name.empty() && !name.ends_with(on_host + this_host());
 }
 
 }  // namespace suffuse

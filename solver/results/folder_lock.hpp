@@ -32,4 +32,9 @@ class FolderLock {
   bool made_folder_ = false;
 };
 
+/// Whether a solver may still be writing into the folder: it holds the lock, or nobody can tell.
+/// That is so where the file system knows no locks, and where a solver on another host left its
+/// name, as not every file system passes locks on from host to host.
+[[nodiscard]] bool may_be_held(const std::string& folder);
+
 }  // namespace suffuse

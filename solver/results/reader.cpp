@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
@@ -10,6 +11,7 @@
 #include "case/hdf5_io.hpp"
 #include "case/pending_file.hpp"
 #include "case/regular_file.hpp"
+#include "results/folder_lock.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
@@ -51,6 +53,12 @@ Json read_run_info(const std::string& folder) {
                     "; expected " + std::to_string(layout::format_version));
   }
   return json;
+}
+
+/// A run that was killed could not write how it ended.
+std::string status_in(const Json& info, const std::string& folder) {
+  std::string status = info.at("status").get<std::string>();
+  return status == "running" && !may_be_held(folder) ? "stopped without notice" : status;
 }
 
 struct Series {
@@ -125,7 +133,28 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sec
   return line;
 }
 
+/// "s" of "t [s]", which becomes "t"; nothing where there is no unit.
+std::string cut_unit(std::string& name) {
+  const auto start = name.find(" [");
+  if (start == std::string::npos || !name.ends_with(']')) return "";
+  const std::string unit = name.substr(start + 2, name.size() - start - 3);
+  name.resize(start);
+  return unit;
+}
+
+std::vector<std::string> headings(const Table& table) {
+  std::vector<std::string> result = table.names;
+  for (std::size_t k = 0; k < table.units.size(); ++k) {
+    if (!table.units[k].empty()) result[k] += " [" + table.units[k] + "]";
+  }
+  return result;
+}
+
 void write_whole(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    std::cout << text << std::flush;
+    return;
+  }
   PendingFile file(path);
   {
     std::ofstream out(file.temporary_path(), std::ios::binary);
@@ -175,14 +204,18 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
   std::ifstream in = open_file(path);
   std::string line;
   if (!std::getline(in, line)) throw FileError(path + ":1: got nothing; expected a line of names");
-  const std::vector<std::string> names = csv_cells(line);
+  std::vector<std::string> names = csv_cells(line);
+  std::vector<std::string> units;
+  for (std::string& name : names) units.push_back(cut_unit(name));
   const auto key = std::ranges::find(names, by) - names.begin();
   if (!by.empty() && key == std::ssize(names)) {
     throw FileError(path + ":1: got no column " + by);
   }
   Table empty;
-  for (const std::string& name : names) {
-    if (by.empty() || name != by) empty.names.push_back(name);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (!by.empty() && names[k] == by) continue;
+    empty.names.push_back(names[k]);
+    empty.units.push_back(units[k]);
   }
   empty.columns.resize(empty.names.size());
   std::vector<NamedTable> tables;
@@ -209,7 +242,7 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
 }
 
 void write_table(const std::string& path, const Table& table) {
-  std::string text = joined(table.names, "") + "\n";
+  std::string text = joined(headings(table), "") + "\n";
   for (std::size_t row = 0; row < table.rows(); ++row)
     text += joined(cells_of(table, row), "") + "\n";
   write_whole(path, text);
@@ -220,7 +253,7 @@ void write_tables(const std::string& path, const std::string& by,
   std::string text;
   std::size_t rows = 0;
   for (const auto& [name, table] : tables) {
-    if (text.empty()) text = joined(table.names, by) + "\n";
+    if (text.empty()) text = joined(headings(table), by) + "\n";
     rows = std::max(rows, table.rows());
   }
   for (std::size_t row = 0; row < rows; ++row) {
@@ -235,7 +268,7 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
   const Json info = read_run_info(folder);
   const std::string path = layout::in_folder(folder, layout::run_info);
   try {
-    status_ = info.at("status").get<std::string>();
+    status_ = status_in(info, folder);
     dimension_ = info.at("dimension").get<int>();
     regions_ = info.at("regions").get<std::vector<std::string>>();
     const auto& scene = info.at("scene");

@@ -18,6 +18,7 @@ namespace suffuse {
 struct Table {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;
+  std::vector<std::string> units{};  ///< of each column, "" where none is given; may be empty
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   [[nodiscard]] bool has(const std::string& name) const;
@@ -25,7 +26,8 @@ struct Table {
   [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
 };
 
-/// Reads a CSV file of numbers with one line of names. Throws FileError with file and line.
+/// Reads a CSV file of numbers with one line of names; `t [s]` is the
+/// column t of unit s. Throws FileError with file and line.
 Table read_table(const std::string& path);
 
 /// The rows of a table that share a value of a column of text.
@@ -37,7 +39,7 @@ struct NamedTable {
 /// first rows. Throws FileError with file and line.
 std::vector<NamedTable> read_tables(const std::string& path, const std::string& by);
 
-/// Writes numbers so that they read back exactly.
+/// Writes numbers so that they read back exactly. `-` is standard output.
 void write_table(const std::string& path, const Table& table);
 /// The same of tables of equal columns, row by row, with the column `by` in the second place.
 void write_tables(const std::string& path, const std::string& by,
@@ -52,6 +54,9 @@ class ResultsReader {
   [[nodiscard]] const std::string& folder() const { return folder_; }
   [[nodiscard]] const SceneDocument& scene() const { return scene_; }
   [[nodiscard]] const std::vector<std::string>& regions() const { return regions_; }
+  /// "running", "done", "failed", "interrupted", or "stopped without notice": nothing says how the
+  /// run ended and no solver holds the folder, so it was killed or its machine stopped. That of the
+  /// moment when this was made.
   [[nodiscard]] std::string status() const { return status_; }
   [[nodiscard]] int dimension() const { return dimension_; }
 

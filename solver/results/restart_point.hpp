@@ -30,6 +30,10 @@ std::string digest_of(const RestartPoint& point);
 template <int Dim>
 std::string digest_of(const Case<Dim>& c);
 
+/// The same of its mesh and points alone.
+template <int Dim>
+std::string digest_of_model(const Case<Dim>& c);
+
 /// Into `/Suffuse/restart`, which must not be there yet.
 void write_restart_point(Hdf5File& file, const RestartPoint& point);
 

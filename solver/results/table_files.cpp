@@ -12,7 +12,7 @@ namespace {
 template <class Columns>
 std::string names_of(const Columns& columns) {
   std::string line;
-  for (const auto& [name, member] : columns) {
+  for (const auto& [name, member, unit] : columns) {
     if (!line.empty()) line += ',';
     line += name;
   }
@@ -22,7 +22,7 @@ std::string names_of(const Columns& columns) {
 template <class Row, class Columns>
 std::string values_of(const Row& row, const Columns& columns) {
   std::string line;
-  for (const auto& [name, member] : columns) {
+  for (const auto& [name, member, unit] : columns) {
     if (!line.empty()) line += ',';
     line += number_text(row.*member);
   }

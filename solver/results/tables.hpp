@@ -6,13 +6,17 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace suffuse {
 
-/// A column of a table: its name in the CSV file and the member it holds.
+/// A column of a table: its name in the CSV file, the member it holds and its unit. Units of
+/// masses, volumes, discharges, power and energy are per metre of thickness in 2D.
 template <class Row>
-using Column = std::pair<std::string_view, double Row::*>;
+struct Column {
+  std::string_view name;
+  double Row::*member;
+  std::string_view unit;
+};
 
 /// One row of history.csv: the state of the flow at time t. Fluxes are liquid volumes per second
 /// (m3/s per metre of thickness in 2D).
@@ -42,29 +46,49 @@ struct HistoryRow {
   /// Implicit: how far pressures lie outside the range of their boundary and initial values, over
   /// that range; 0 where gravity or a prescribed flux leaves them without such bounds.
   double pressure_overshoot = 0.0;
-  double turbidity_out = 0.0;  ///< mass of fines per volume of the leaving liquid, g/l
+  double turbidity_out = 0.0;       ///< mass of fines per volume of the leaving liquid, g/l
+  double eroded = 0.0;              ///< grains eroded since the start, kg
+  double fines_left = 0.0;          ///< grains that left through the boundaries since the start, kg
+  double fines_left_percent = 0.0;  ///< the same in % of the fines at the start
+  double solid_left_percent = 0.0;  ///< the same in % of the solid at the start, the dry mass
+  /// Conductivity of all soil over that at the start (SeepagePower); 0 where nothing flows.
+  double conductivity_ratio = 0.0;
+  double power = 0.0;   ///< that water spends on the soil, W
+  double energy = 0.0;  ///< since the start, J: of the power in the rows, linear in between
+
+  // No columns: what the checks of the run ask for besides.
+  std::string volume_defect_at;  ///< the element of `volume_defect`; empty where there is none
+  /// Of the power that drives the flow, what the weight of the fines in the liquid gives.
+  double fines_weight_share = 0.0;
 };
 
-inline constexpr std::array<Column<HistoryRow>, 19> history_columns{{
-    {"t", &HistoryRow::t},
-    {"dt", &HistoryRow::dt},
-    {"porosity_mean", &HistoryRow::porosity_mean},
-    {"flux_in", &HistoryRow::flux_in},
-    {"flux_out", &HistoryRow::flux_out},
-    {"liquid_points", &HistoryRow::liquid_points},
-    {"empty_elements", &HistoryRow::empty_elements},
-    {"empty_elements_total", &HistoryRow::empty_elements_total},
-    {"concentration_out", &HistoryRow::concentration_out},
-    {"concentration_min", &HistoryRow::concentration_min},
-    {"concentration_max", &HistoryRow::concentration_max},
-    {"pressure_min", &HistoryRow::pressure_min},
-    {"pressure_max", &HistoryRow::pressure_max},
-    {"speed_max", &HistoryRow::speed_max},
-    {"volume_defect", &HistoryRow::volume_defect},
-    {"pressure_scatter", &HistoryRow::pressure_scatter},
-    {"eos_error", &HistoryRow::eos_error},
-    {"pressure_overshoot", &HistoryRow::pressure_overshoot},
-    {"turbidity_out", &HistoryRow::turbidity_out},
+inline constexpr std::array<Column<HistoryRow>, 26> history_columns{{
+    {"t", &HistoryRow::t, "s"},
+    {"dt", &HistoryRow::dt, "s"},
+    {"porosity_mean", &HistoryRow::porosity_mean, "1"},
+    {"flux_in", &HistoryRow::flux_in, "m3/s"},
+    {"flux_out", &HistoryRow::flux_out, "m3/s"},
+    {"liquid_points", &HistoryRow::liquid_points, "1"},
+    {"empty_elements", &HistoryRow::empty_elements, "1"},
+    {"empty_elements_total", &HistoryRow::empty_elements_total, "1"},
+    {"concentration_out", &HistoryRow::concentration_out, "1"},
+    {"concentration_min", &HistoryRow::concentration_min, "1"},
+    {"concentration_max", &HistoryRow::concentration_max, "1"},
+    {"pressure_min", &HistoryRow::pressure_min, "Pa"},
+    {"pressure_max", &HistoryRow::pressure_max, "Pa"},
+    {"speed_max", &HistoryRow::speed_max, "m/s"},
+    {"volume_defect", &HistoryRow::volume_defect, "1"},
+    {"pressure_scatter", &HistoryRow::pressure_scatter, "Pa"},
+    {"eos_error", &HistoryRow::eos_error, "1"},
+    {"pressure_overshoot", &HistoryRow::pressure_overshoot, "1"},
+    {"turbidity_out", &HistoryRow::turbidity_out, "g/l"},
+    {"eroded", &HistoryRow::eroded, "kg"},
+    {"fines_left", &HistoryRow::fines_left, "kg"},
+    {"fines_left_percent", &HistoryRow::fines_left_percent, "%"},
+    {"solid_left_percent", &HistoryRow::solid_left_percent, "%"},
+    {"conductivity_ratio", &HistoryRow::conductivity_ratio, "1"},
+    {"power", &HistoryRow::power, "W"},
+    {"energy", &HistoryRow::energy, "J"},
 }};
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross
@@ -92,23 +116,23 @@ struct LedgerRow {
 };
 
 inline constexpr std::array<Column<LedgerRow>, 17> ledger_columns{{
-    {"t", &LedgerRow::t},
-    {"solid", &LedgerRow::solid},
-    {"erodible", &LedgerRow::erodible},
-    {"water", &LedgerRow::water},
-    {"fines", &LedgerRow::fines},
-    {"eroded", &LedgerRow::eroded},
-    {"water_in", &LedgerRow::water_in},
-    {"fines_in", &LedgerRow::fines_in},
-    {"water_out", &LedgerRow::water_out},
-    {"fines_out", &LedgerRow::fines_out},
-    {"residual_water", &LedgerRow::residual_water},
-    {"residual_grains", &LedgerRow::residual_grains},
-    {"pending", &LedgerRow::pending},
-    {"points", &LedgerRow::points},
-    {"points_in", &LedgerRow::points_in},
-    {"points_out", &LedgerRow::points_out},
-    {"deposited", &LedgerRow::deposited},
+    {"t", &LedgerRow::t, "s"},
+    {"solid", &LedgerRow::solid, "kg"},
+    {"erodible", &LedgerRow::erodible, "kg"},
+    {"water", &LedgerRow::water, "kg"},
+    {"fines", &LedgerRow::fines, "kg"},
+    {"eroded", &LedgerRow::eroded, "kg"},
+    {"water_in", &LedgerRow::water_in, "kg"},
+    {"fines_in", &LedgerRow::fines_in, "kg"},
+    {"water_out", &LedgerRow::water_out, "kg"},
+    {"fines_out", &LedgerRow::fines_out, "kg"},
+    {"residual_water", &LedgerRow::residual_water, "1"},
+    {"residual_grains", &LedgerRow::residual_grains, "1"},
+    {"pending", &LedgerRow::pending, "kg"},
+    {"points", &LedgerRow::points, "1"},
+    {"points_in", &LedgerRow::points_in, "1"},
+    {"points_out", &LedgerRow::points_out, "1"},
+    {"deposited", &LedgerRow::deposited, "kg"},
 }};
 
 /// regions.csv: the ledger of one region, its boundary with other regions included in `*_in` and
@@ -135,14 +159,14 @@ struct BoundaryRow {
 };
 
 inline constexpr std::array<Column<BoundaryRow>, 8> boundary_columns{{
-    {"t", &BoundaryRow::t},
-    {"water_in", &BoundaryRow::water_in},
-    {"water_out", &BoundaryRow::water_out},
-    {"fines_in", &BoundaryRow::fines_in},
-    {"fines_out", &BoundaryRow::fines_out},
-    {"liquid_in", &BoundaryRow::liquid_in},
-    {"liquid_out", &BoundaryRow::liquid_out},
-    {"discharge", &BoundaryRow::discharge},
+    {"t", &BoundaryRow::t, "s"},
+    {"water_in", &BoundaryRow::water_in, "kg"},
+    {"water_out", &BoundaryRow::water_out, "kg"},
+    {"fines_in", &BoundaryRow::fines_in, "kg"},
+    {"fines_out", &BoundaryRow::fines_out, "kg"},
+    {"liquid_in", &BoundaryRow::liquid_in, "m3"},
+    {"liquid_out", &BoundaryRow::liquid_out, "m3"},
+    {"discharge", &BoundaryRow::discharge, "m3/s"},
 }};
 
 /// probes.csv: the state at a place that the scene names.
@@ -161,17 +185,17 @@ struct ProbeRow {
 };
 
 inline constexpr std::array<Column<ProbeRow>, 11> probe_columns{{
-    {"t", &ProbeRow::t},
-    {"probe", &ProbeRow::probe},
-    {"x", &ProbeRow::x},
-    {"y", &ProbeRow::y},
-    {"pressure", &ProbeRow::pressure},
-    {"head", &ProbeRow::head},
-    {"saturation", &ProbeRow::saturation},
-    {"porosity", &ProbeRow::porosity},
-    {"concentration", &ProbeRow::concentration},
-    {"flux_x", &ProbeRow::flux_x},
-    {"flux_y", &ProbeRow::flux_y},
+    {"t", &ProbeRow::t, "s"},
+    {"probe", &ProbeRow::probe, "1"},
+    {"x", &ProbeRow::x, "m"},
+    {"y", &ProbeRow::y, "m"},
+    {"pressure", &ProbeRow::pressure, "Pa"},
+    {"head", &ProbeRow::head, "m"},
+    {"saturation", &ProbeRow::saturation, "1"},
+    {"porosity", &ProbeRow::porosity, "1"},
+    {"concentration", &ProbeRow::concentration, "1"},
+    {"flux_x", &ProbeRow::flux_x, "m/s"},
+    {"flux_y", &ProbeRow::flux_y, "m/s"},
 }};
 
 /// sections.csv: the liquid that crosses a line that the scene names, positive from its left side
@@ -184,10 +208,10 @@ struct SectionRow {
 };
 
 inline constexpr std::array<Column<SectionRow>, 4> section_columns{{
-    {"t", &SectionRow::t},
-    {"section", &SectionRow::section},
-    {"discharge", &SectionRow::discharge},
-    {"volume", &SectionRow::volume},
+    {"t", &SectionRow::t, "s"},
+    {"section", &SectionRow::section, "1"},
+    {"discharge", &SectionRow::discharge, "m3/s"},
+    {"volume", &SectionRow::volume, "m3"},
 }};
 
 }  // namespace suffuse

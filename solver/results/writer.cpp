@@ -59,13 +59,6 @@ std::string dump(const OrderedJson& json) {
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
-OrderedJson run_info_in(const std::string& folder) {
-  std::ifstream in = open_regular_file(layout::in_folder(folder, layout::run_info));
-  const OrderedJson json = OrderedJson::parse(in, nullptr, false);
-  return json.is_object() && json.value("format", OrderedJson()) == layout::format ? json
-                                                                                   : OrderedJson();
-}
-
 /// Files that a run writes beside run.json and the lock.
 bool is_own_file(const std::string& name) {
   static const std::regex own(
@@ -76,14 +69,6 @@ bool is_own_file(const std::string& name) {
 bool is_own_snapshot(const std::string& name) {
   static const std::regex own(R"((mesh|solid|liquid)_\d{6,12}\.hdf(\.tmp)?)");
   return std::regex_match(name, own);
-}
-
-/// A solver was stopped as soon as it had started, or none has started.
-bool nothing_but_a_lock(const std::string& folder) {
-  return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
-    const std::string name = entry.path().filename().string();
-    return name == layout::lock || name == std::string(layout::run_info) + ".tmp";
-  });
 }
 
 /// Those for which `doomed(name)`.
@@ -211,45 +196,15 @@ void GrowingTable::append(const std::string& lines) {
   throw FileError(path_ + ": was removed or changed by another program while the run wrote to it");
 }
 
-void check_results_folder(const std::string& folder, const std::string& scene) {
-  try {
-    if (!fs::exists(folder)) return;
-    if (!fs::is_directory(folder)) {
-      throw FileError(folder + ": is a file; expected a folder for the results");
-    }
-    if (nothing_but_a_lock(folder)) return;
-    const OrderedJson info = run_info_in(folder);
-    if (info.is_null()) {
-      throw FileError(folder +
-                      ": is not empty and holds no results of suffuse-solver; "
-                      "not touched: choose another folder or empty it");
-    }
-    // A run that has just started has not written its scene yet.
-    const OrderedJson about = info.value("scene", OrderedJson());
-    const OrderedJson there = about.is_object() ? about.value("name", OrderedJson()) : about;
-    if (!there.is_string() || there == scene) return;
-    throw InputError(folder + ": holds results of scene " +
-                     there.dump(-1, ' ', true, OrderedJson::error_handler_t::replace) +
-                     ", not of \"" + scene +
-                     "\"; not touched: choose another folder with -o, or remove this one");
-  } catch (const fs::filesystem_error& error) {
-    throw FileError(folder + ": " + error.code().message());
-  }
-}
-
-FolderLock lock_for_results(const std::string& folder, const std::string& scene) {
-  check_results_folder(folder, scene);
-  return FolderLock(folder);
-}
-
 template <int Dim>
 ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c)
-    : ResultsWriter(folder, c, lock_for_results(folder, c.document.scene.name)) {}
+    : ResultsWriter(folder, c, lock_for_results(folder, c, Replace::same_case)) {}
 
 template <int Dim>
 ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock)
     : folder_(folder),
       case_(c),
+      model_digest_(digest_of_model(c)),
       lock_(std::move(lock)),
       files_(table_files(c.document.scene, c.mesh.region_names.size())) {
   write_run_info(RunInfo{});
@@ -265,6 +220,7 @@ ResultsWriter<Dim>::ResultsWriter(const std::string& folder, const Case<Dim>& c,
                                   const RestartPoint& point)
     : folder_(folder),
       case_(c),
+      model_digest_(digest_of_model(c)),
       lock_(std::move(lock)),
       files_(table_files(c.document.scene, c.mesh.region_names.size())) {
   const std::string case_copy = layout::in_folder(folder, layout::case_copy);
@@ -417,6 +373,7 @@ void ResultsWriter<Dim>::write_run_info(const RunInfo& info) {
       {"warnings", info.warnings},
       {"dimension", Dim},
       {"regions", case_.mesh.region_names},
+      {"model", model_digest_},
       {"scene",
        {{"name", document.scene.name},
         {"path", document.path},

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "results/earlier_run.hpp"
 #include "results/folder_lock.hpp"
 #include "results/pass_timer.hpp"
 #include "results/restart_point.hpp"
@@ -82,23 +83,16 @@ class GrowingTable {
   std::ofstream out_;
 };
 
-/// Refuses with an InputError or a FileError where `folder` is no place for results of a scene of
-/// this name: it is a file, holds something else, or the results of another scene. Touches nothing.
-void check_results_folder(const std::string& folder, const std::string& scene);
-
-/// The same, and then the lock of the folder, which is made if need be. Throws as FolderLock does.
-FolderLock lock_for_results(const std::string& folder, const std::string& scene);
-
 /// Owns the folder from construction on, and lets no other solver in. Rows are flushed as they
 /// come; a snapshot is written under a temporary name, renamed, and only then named in the .series
 /// files. Throws FileError.
 template <int Dim>
 class ResultsWriter {
  public:
-  /// Makes the folder, replacing the run that stood there before, and copies what a reader needs of
-  /// the case. Throws as `lock_for_results` does.
+  /// Makes the folder, replacing a run of the same case that stood there before, and copies what a
+  /// reader needs of the case. Throws as `lock_for_results` does.
   ResultsWriter(const std::string& folder, const Case<Dim>& c);
-  /// The same with the lock in hand.
+  /// The same with the lock in hand, replacing any run.
   ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock);
   /// Goes on with the run that stands there: drops what came after `point`.
   ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock,
@@ -134,6 +128,7 @@ class ResultsWriter {
 
   std::string folder_;
   const Case<Dim>& case_;
+  std::string model_digest_;  ///< of the case as it was at construction: it may lose its points
   FolderLock lock_;
   std::vector<TableFile> files_;
   std::vector<GrowingTable> tables_;  ///< one for each of `files_`

@@ -64,7 +64,8 @@ void go_on(const std::string& folder) {
   const Scene& scene = c.document.scene;
   check_results_folder(folder, scene.name);
   static_cast<void>(is_finished(folder));
-  FolderLock lock = lock_for_results(folder, scene.name);
+  static_cast<void>(differences_from_run(folder, c));
+  FolderLock lock = lock_for_results(folder, c, Replace::any);
   const FoundRestart found =
       newest_restart_point(folder, scene.formulation == Formulation::double_point,
                            table_files(scene, c.mesh.region_names.size()));

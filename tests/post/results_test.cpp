@@ -85,7 +85,7 @@ TEST(Results, TablesReadBackExactly) {
   const ResultsReader reader(scratch / "run.results");
   const Table read = reader.history();
   ASSERT_EQ(read.rows(), 1U);
-  for (const auto& [name, member] : history_columns) {
+  for (const auto& [name, member, unit] : history_columns) {
     EXPECT_EQ(read.column(std::string(name)).front(), history.*member) << name;
   }
   EXPECT_EQ(reader.ledger().column("residual_grains").front(), 1e-17);
@@ -116,7 +116,7 @@ TEST(Results, BoundariesReadBackByNameWhateverTheName) {
   for (std::size_t b = 0; b < 2; ++b) {
     EXPECT_EQ(read[b].name, rows[b].boundary);
     EXPECT_EQ(read[b].table.rows(), 2U);
-    for (const auto& [name, member] : boundary_columns) {
+    for (const auto& [name, member, unit] : boundary_columns) {
       EXPECT_EQ(read[b].table.column(std::string(name)).back(), rows[b].*member) << name;
     }
   }
@@ -138,10 +138,10 @@ TEST(Results, ProbesAndSectionsAreThereWhereTheSceneHasThem) {
   writer.append_sections(std::span(&section, 1));
   const ResultsReader reader(scratch / "run.results");
   EXPECT_EQ(reader.probes().names.size(), probe_columns.size());
-  for (const auto& [name, member] : probe_columns) {
+  for (const auto& [name, member, unit] : probe_columns) {
     EXPECT_EQ(reader.probes().column(std::string(name)).front(), probe.*member) << name;
   }
-  for (const auto& [name, member] : section_columns) {
+  for (const auto& [name, member, unit] : section_columns) {
     EXPECT_EQ(reader.sections().column(std::string(name)).front(), section.*member) << name;
   }
 }
@@ -275,6 +275,9 @@ TEST(Results, AnEarlierRunIsReplaced) {
   const std::string folder = scratch / "run.results";
   write_synthetic_results(folder);
   std::ofstream(folder + "/notes.txt") << "mine";
+  const Case<2> other = unit_square_case("synthetic", "constant", 2e-3);
+  EXPECT_THROW((ResultsWriter<2>(folder, other)), InputError) << "of the same name";
+  EXPECT_TRUE(fs::exists(folder + "/snapshots/mesh_000000.hdf"));
   const Case<2> c = unit_square_case();
   const ResultsWriter<2> writer(folder, c);
   EXPECT_FALSE(fs::exists(folder + "/snapshots/mesh_000000.hdf"));

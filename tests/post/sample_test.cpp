@@ -17,9 +17,11 @@ class Sample : public ::testing::Test {
   Sample() { write_synthetic_results(scratch_ / "run.results"); }
   [[nodiscard]] Table at(double t, const std::string& line, int count,
                          const std::string& fields) const {
-    return sample(ResultsReader(scratch_ / "run.results"), t, parse_line(line), count,
-                  parse_field_names(fields));
+    return sample(ResultsReader(scratch_ / "run.results"),
+                  {{t}, places_on(parse_line(line), count), parse_field_names(fields)});
   }
+
+  [[nodiscard]] ResultsReader results() const { return ResultsReader(scratch_ / "run.results"); }
 
  private:
   ScratchFolder scratch_;
@@ -29,7 +31,7 @@ TEST_F(Sample, LinearFieldIsExactInSpaceAndBetweenSnapshots) {
   for (const double t : {0.0, 10.0, 17.5, 40.0}) {
     const Table table = at(t, "0.03,0.1:0.95,0.9", 37, "porosity");
     ASSERT_EQ(table.rows(), 37U);
-    ASSERT_EQ(table.names, (std::vector<std::string>{"x", "y", "porosity"}));
+    ASSERT_EQ(table.names, (std::vector<std::string>{"t", "x", "y", "porosity"}));
     for (std::size_t i = 0; i < table.rows(); ++i) {
       EXPECT_NEAR(table.column("porosity")[i],
                   linear_porosity(table.column("x")[i], table.column("y")[i], t), 1e-14);
@@ -63,7 +65,7 @@ TEST_F(Sample, AnOuterEdgeTakesTheInnerValue) {
 TEST_F(Sample, CellMeansAndNodalVectors) {
   const Table table = at(0.0, "0.4,0.1:0.1,0.3", 2, "pressure,liquid_velocity,darcy_flux");
   EXPECT_EQ(table.names,
-            (std::vector<std::string>{"x", "y", "pressure", "liquid_velocity_x",
+            (std::vector<std::string>{"t", "x", "y", "pressure", "liquid_velocity_x",
                                       "liquid_velocity_y", "darcy_flux_x", "darcy_flux_y"}));
   EXPECT_EQ(table.column("pressure"), (std::vector<double>{0.0, 1000.0}));
   EXPECT_NEAR(table.column("liquid_velocity_x")[1], 0.3, 1e-15);
@@ -71,12 +73,28 @@ TEST_F(Sample, CellMeansAndNodalVectors) {
   EXPECT_EQ(table.column("darcy_flux_x")[1], 0.25);
 }
 
+TEST_F(Sample, SeveralTimesAtOnePlace) {
+  const ResultsReader run = results();
+  SampleRequest request{parse_times(run, "0,10,17.5"), {parse_place("0.3,0.2")}, {"porosity"}};
+  const Table table = sample(run, request);
+  EXPECT_EQ(table.column("t"), (std::vector<double>{0.0, 10.0, 17.5}));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(table.column("porosity")[i], linear_porosity(0.3, 0.2, table.column("t")[i]),
+                1e-14);
+  }
+  request.change = true;
+  EXPECT_NEAR(sample(run, request).column("porosity")[2], 1e-3 * 17.5 * 1.3, 1e-14);
+  EXPECT_EQ(parse_times(run, "all"), run.times());
+  EXPECT_THROW(parse_times(run, "0,,3"), InputError);
+  EXPECT_THROW(parse_place("0.3"), InputError);
+}
+
 class DoublePointSample : public ::testing::Test {
  protected:
   DoublePointSample() { testing::double_point::write_results(scratch_ / "run.results"); }
   [[nodiscard]] Table at(const std::string& line, const std::string& fields) const {
-    return sample(ResultsReader(scratch_ / "run.results"), 5.0, parse_line(line), 2,
-                  parse_field_names(fields));
+    return sample(ResultsReader(scratch_ / "run.results"),
+                  {{5.0}, places_on(parse_line(line), 2), parse_field_names(fields)});
   }
 
  private:
@@ -94,11 +112,12 @@ TEST_F(DoublePointSample, FieldsOfPointsAreRefusedWithTheReason) {
     static_cast<void>(at("0.3,0:0.3,1", "pressure"));
     ADD_FAILURE() << "not refused";
   } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "suffuse-post sample: --fields: got \"pressure\", which lives on the liquid points; "
-              "expected a field on cell: \"concentration\", \"porosity\", \"region\" or "
-              "\"saturation_state\"; on node: \"concentration\" or \"liquid_velocity\" "
-              "(suffuse-post render --on liquid shows it)");
+    EXPECT_EQ(
+        std::string(error.what()),
+        "suffuse-post sample: --fields: got \"pressure\", which lives on the liquid points; "
+        "expected a field on cell: \"concentration\", \"porosity\", \"region\", \"saturation\" "
+        "or \"saturation_state\"; on node: \"concentration\" or \"liquid_velocity\" "
+        "(suffuse-post render --on liquid shows it)");
   }
 }
 

@@ -5,13 +5,16 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <csignal>
 #include <memory>
 #include <thread>
 
 #include "case/errors.hpp"
 #include "case/hdf5_io.hpp"
+#include "results/folder_lock.hpp"
 #include "results/layout.hpp"
+#include "results/reader.hpp"
 #include "solver/own_mounts.hpp"
 #include "solver/solver_process.hpp"
 
@@ -136,13 +139,13 @@ TEST_F(Fault, AFileThatMayNotGrowFurther) {
 
   case_ = place_.make_case(
       test::with(mode(), "rows", {"output={every = 0.004, snapshot_every = 1.0}"}));
-  ASSERT_EQ(place_.solve(case_, whole_).code, 0);
+  ASSERT_EQ(place_.solve(case_, whole_, {"--force"}).code, 0);
   const std::uintmax_t history = fs::file_size(whole_ + "/history.csv");
   ASSERT_GT(history, 2 * fs::file_size(whole_ + "/snapshots/mesh_000001.hdf"));
   fs::remove_all(folder);
   // Tables grow at different paces: any may be the first, within a row.
   for (const std::uintmax_t limit : {history / 2, history / 2 + 50, history / 2 + 150}) {
-    outcome = place_.solve(case_, folder, {}, [=] { limit_files_to(limit); });
+    outcome = place_.solve(case_, folder, {"--force"}, [=] { limit_files_to(limit); });
     expect_error(outcome, 4, ".csv: cannot be written: File too large" + advice);
     EXPECT_EQ(test::flaws(folder), "");
     expect_same_when_resumed(folder);
@@ -210,6 +213,70 @@ TEST_F(Fault, ResultsOfAnotherSceneAreNotTouched) {
   expect_error(place_.solve(other, whole_), 2,
                whole_ + ": holds results of scene \"double\", not of \"other\"; not touched");
   EXPECT_TRUE(before == test::contents(whole_));
+}
+
+TEST_F(Fault, ResultsOfAnotherCaseAreReplacedByForceAlone) {
+  const std::string refusal =
+      whole_ +
+      ": holds results of another scene of the name \"double\"; not touched: "
+      "choose another folder with -o, or replace them with --force. What "
+      "differs:\n  ";
+  const std::string before = test::contents(whole_);
+  const std::string changed = place_.make_case(test::with(mode(), "changed", {"time.end=0.5"}));
+  expect_error(place_.solve(changed, whole_), 2, refusal + "time.end: ");
+  const std::string finer =
+      place_.make_case(test::with(mode(), "finer", {"points.liquid_per_element=6"}));
+  expect_error(place_.solve(finer, whole_), 2,
+               refusal + "points.liquid_per_element: 3 there, 6 here\n  the mesh or the points\n");
+  expect_error(place_.solve(changed, whole_, {"--resume"}), 2, "What differs:\n  time.end: ");
+  expect_error(place_.solve(changed, whole_, {"--resume", "--force"}), 2,
+               "--resume excludes --force");
+  EXPECT_TRUE(before == test::contents(whole_));
+
+  // The same case again, and other content with --force.
+  EXPECT_EQ(place_.solve(case_, whole_).code, 0);
+  EXPECT_EQ(place_.solve(changed, whole_, {"--force"}).code, 0);
+  EXPECT_EQ(ResultsReader(whole_).scene().scene.time.end, 0.5);
+  const std::string other = place_.make_case(test::with(mode(), "other", {"name=other"}));
+  EXPECT_EQ(place_.solve(other, whole_, {"--force"}).code, 0);
+  EXPECT_EQ(ResultsReader(whole_).scene().scene.name, "other");
+}
+
+TEST_F(Fault, ARunThatWasKilledNoLongerRuns) {
+  const std::string folder = place_.path("results");
+  const auto process = paused(folder);
+  EXPECT_EQ(ResultsReader(folder).status(), "running");
+  process->signal(SIGKILL);
+  EXPECT_EQ(process->wait().code, 128 + SIGKILL);
+  EXPECT_EQ(ResultsReader(folder).status(), "stopped without notice");
+  // Its lock has the name of another host there, which may hold it all the same.
+  const std::string lock = layout::in_folder(folder, layout::lock);
+  const std::string name = test::read_file(lock);
+  std::ofstream(lock) << "process 12 on elsewhere\n";
+  EXPECT_EQ(ResultsReader(folder).status(), "running");
+  std::ofstream(lock) << name;
+  // A folder that was copied without the lock.
+  fs::remove(lock);
+  EXPECT_EQ(ResultsReader(folder).status(), "stopped without notice");
+  expect_same_when_resumed(folder);
+  EXPECT_EQ(ResultsReader(folder).status(), "done");
+}
+
+TEST_F(Fault, AReaderDoesNotKeepASolverOut) {
+  const std::string folder = place_.path("results");
+  const auto process = paused(folder);
+  process->signal(SIGKILL);
+  process->wait();
+  std::atomic<bool> reads = true;
+  std::thread reader([&] {
+    while (reads) {
+      static_cast<void>(may_be_held(folder));
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  for (int i = 0; i < 20; ++i) EXPECT_NO_THROW(FolderLock{folder});
+  reads = false;
+  reader.join();
 }
 
 TEST_F(Fault, APipeInThePlaceOfAFileIsNotWaitedFor) {
@@ -325,7 +392,7 @@ TEST_F(Fault, StreamsThatAreClosed) {
   // A message that comes when tables are open already must not end up in one.
   const std::string warned = place_.make_case(
       test::with(mode(), "warned", {R"(boundary[0]={on = "inflow", darcy_flux = 0.012})"}));
-  const Outcome undisturbed = place_.solve(warned, whole_);
+  const Outcome undisturbed = place_.solve(warned, whole_, {"--force"});
   ASSERT_NE(undisturbed.error.find("clean water is taken"), std::string::npos);
   Process process({SUFFUSE_BIN "/suffuse-solver", warned, "-o", folder}, place_.path("error.txt"),
                   [] {
@@ -338,7 +405,7 @@ TEST_F(Fault, StreamsThatAreClosed) {
 TEST_F(Fault, NobodyReadsTheMessages) {
   const std::string folder = place_.path("results");
   const std::string explicit_case = place_.make_case(test::five_modes()[2]);
-  const Outcome undisturbed = place_.solve(explicit_case, whole_);
+  const Outcome undisturbed = place_.solve(explicit_case, whole_, {"--force"});
   ASSERT_NE(undisturbed.error, "") << "a run that has something to say";
   Process process({SUFFUSE_BIN "/suffuse-solver", explicit_case, "-o", folder},
                   place_.path("error.txt"), [] {

@@ -118,7 +118,8 @@ TEST(FlowScales, ObtuseAnglesUnderStrongContrastAreToldOf) {
 
 TEST(MixedFlow, LinearPressuresAndUniformFluxesAreExactAtNodes) {
   const FlowModel m(model::column_mesh(5, 4, 1.0, 1.0, model::jittered(0.04, 3)));
-  const auto pressure = [](const Vector<2>& x) { return 7.0 + 3.0 * x[0] - 2.0 * x[1]; };
+  const Vector<2> slope(3.0, -2.0);
+  const auto pressure = [&](const Vector<2>& x) { return 7.0 + slope.dot(x); };
   const Vector<2> velocity(0.3, -0.1);
   MixedFlow<2> flow;
   for (int f = 0; f < m.grid.face_count(); ++f) {
@@ -129,11 +130,24 @@ TEST(MixedFlow, LinearPressuresAndUniformFluxesAreExactAtNodes) {
   for (int e = 0; e < m.mesh.element_count(); ++e) {
     EXPECT_NEAR(mean[e], pressure(element_centroid(m.mesh, e)), 1e-14 * 10.0);
   }
-  const NodalFields<2> nodes = nodal_fields(m.grid, flow, mean, m.forcing.coefficients.porosity);
+  const std::vector<double>& porosity = m.forcing.coefficients.porosity;
+  const NodalFields<2> nodes = nodal_fields(m.grid, flow, mean, porosity, Vector<2>(0.0, 0.0));
+  const NodalFields<2> at_rest = nodal_fields(m.grid, flow, mean, porosity, slope);
+  const auto [low, high] = std::ranges::minmax(flow.state.face_pressure);
+  int limited = 0;
   for (int i = 0; i < m.mesh.node_count(); ++i) {
-    EXPECT_NEAR(nodes.pressure[i], pressure(m.mesh.nodes[i]), 1e-13);
+    const double exact = pressure(m.mesh.nodes[i]);
+    EXPECT_NEAR(at_rest.pressure[i], exact, 1e-13) << "water at rest";
+    if (exact >= low && exact <= high) {
+      EXPECT_NEAR(nodes.pressure[i], exact, 1e-13);
+    } else {
+      ++limited;
+      EXPECT_GE(nodes.pressure[i], low);
+      EXPECT_LE(nodes.pressure[i], high);
+    }
     EXPECT_LE((nodes.velocity[i] - velocity).norm(), 1e-14);
   }
+  EXPECT_EQ(limited, 2) << "the corners with the smallest and the largest pressure";
 }
 
 TEST(MixedFlow, WaterCrossesWithTheDensityOfWhereItComesFrom) {

@@ -24,7 +24,7 @@ class Resumed : public testing::TestWithParam<test::Mode> {
   void begin(const test::Mode& mode) {
     case_ = place_.make_case(mode);
     whole_ = place_.path("whole");
-    const Outcome outcome = place_.solve(case_, whole_);
+    const Outcome outcome = place_.solve(case_, whole_, {"--force"});
     ASSERT_EQ(outcome.code, 0) << outcome.error;
     ASSERT_GE(test::snapshots_in(whole_), 5);
   }

@@ -35,7 +35,7 @@ Judgement judged(const Scenario& scenario, const Arguments& arguments, const std
     const std::string path = stem + ".case.h5";
     const std::string results = stem + ".results";
     write_case(path, c);
-    const ChildEnd end = run_child({arguments.solver, path, "-o", results, "--quiet"},
+    const ChildEnd end = run_child({arguments.solver, path, "-o", results, "--force", "--quiet"},
                                    stem + ".log", arguments.limit);
     return judge_run(scenario, c, end, results);
   } catch (const InputError& error) {

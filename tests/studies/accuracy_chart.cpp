@@ -167,7 +167,8 @@ std::vector<Chart> accuracy_charts(const std::vector<AccuracyRun>& runs,
   for (auto& chart : charts) {
     chart.x_label = x_label;
     chart.y_label = "wall time of the solver (s)";
-    chart.logarithmic = true;
+    chart.logarithmic_x = true;
+    chart.logarithmic_y = true;
     for (const auto& run : own) {
       chart.extra_x.push_back(run.error);
       chart.extra_y.push_back(run.seconds);

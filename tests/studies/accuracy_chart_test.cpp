@@ -78,7 +78,7 @@ TEST(AccuracyCharts, OneForEachFormulationOnTheSameAxes) {
   const auto charts = accuracy_charts(runs, "a");
   ASSERT_EQ(charts.size(), 2U);
   for (const auto& chart : charts) {
-    EXPECT_TRUE(chart.logarithmic);
+    EXPECT_TRUE(chart.logarithmic_y);
     EXPECT_EQ(chart.extra_x.size(), 4U);
     EXPECT_EQ(chart.x_label, "relative error of the concentration of fluidised grains, L1 (-)");
   }

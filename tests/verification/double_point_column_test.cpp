@@ -81,6 +81,7 @@ Seen compare(const Scene& scene, const std::string& column) {
     note(seen.worst_residual, ledger.residual_grains);
     note(seen.worst_pending, ledger.pending);
     note(seen.worst_defect, row.volume_defect);
+    EXPECT_EQ(row.volume_defect_at.starts_with("element "), row.volume_defect > 0.0);
     note(seen.points_lost, initial + ledger.points_in - ledger.points_out - ledger.points);
     EXPECT_EQ(ledger.points, row.liquid_points);
     seen.concentration_min = std::min(seen.concentration_min, row.concentration_min);

@@ -7,7 +7,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$out"
 "$bin/suffuse-mesher" "$here/dam.toml" -o "$out/dam-reference.case.h5" --set "geometry.file=$here/weir-graded.geo" \
   --set mesh.size=0.02 --set mesh.structure=free --set time.tolerance=1e-4 > "$out/dam-reference.log"
-"$bin/suffuse-solver" "$out/dam-reference.case.h5" -o "$out/dam-reference.results" --quiet
+"$bin/suffuse-solver" "$out/dam-reference.case.h5" -o "$out/dam-reference.results" --force --quiet
 echo t,x,y,concentration
 for t in 5 10; do
   for y in 0.25 0.5 0.75; do

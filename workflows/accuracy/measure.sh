@@ -29,7 +29,7 @@ trap 'rm -rf "$work"' EXIT
 value() { sed -n "s/^  \"$1\": \([-+.e0-9]*\),*$/\1/p" "$work/run.results/run.json"; }
 exceeds() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > b) }'; }
 solve() {
-  "$bin/suffuse-solver" "$work/run.case.h5" -o "$work/run.results" --quiet 2> "$work/log" ||
+  "$bin/suffuse-solver" "$work/run.case.h5" -o "$work/run.results" --force --quiet 2> "$work/log" ||
     { echo "accuracy: $problem: $*" >&2; cat "$work/log" >&2; exit 1; }
 }
 

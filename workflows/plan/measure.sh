@@ -23,7 +23,7 @@ declare -A times=([with]="" [without]="") passes=([with]="" [without]="")
 run() { # FOLDER OPTION...
   local folder=$1
   shift
-  "$solver" "$case" -o "$stem.$folder.results" --quiet "$@" 2> "$stem.$folder.log" ||
+  "$solver" "$case" -o "$stem.$folder.results" --force --quiet "$@" 2> "$stem.$folder.log" ||
     { cat "$stem.$folder.log" >&2; exit 1; }
   times[$folder]+="$(value wall_seconds "$stem.$folder.results")"$'\n'
   passes[$folder]+="$(pass_seconds "$stem.$folder.results")"$'\n'

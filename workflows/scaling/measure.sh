@@ -53,7 +53,7 @@ once() { # times of one run through the pipeline, separated by commas
   t0=$(now)
   "$programs/suffuse-mesher" "$scene" "${set_options[@]}" -o "$stem.case.h5" > /dev/null
   t1=$(now)
-  "$programs/suffuse-solver" "$stem.case.h5" -o "$stem.results" --threads "$threads" --quiet
+  "$programs/suffuse-solver" "$stem.case.h5" -o "$stem.results" --force --threads "$threads" --quiet
   t2=$(now)
   "$programs/suffuse-post" ledger "$stem.results" > /dev/null
   t3=$(now)

@@ -1,46 +1,28 @@
-#include "values/column_units.hpp"
+#include "figures/sweep_axes.hpp"
 
 #include <algorithm>
 #include <map>
 #include <vector>
 
 #include "case/scene_schema.hpp"
+#include "tables/table_output.hpp"
 
 namespace suffuse {
 namespace {
 
-const std::map<std::string, std::string>& column_texts() {
-  static const std::map<std::string, std::string> texts{
-      {"t", "time (s)"},
-      {"dt", "step (s)"},
-      {"porosity_mean", "mean porosity (-)"},
-      {"flux_in", "liquid that enters (m3/s)"},
-      {"flux_out", "liquid that leaves (m3/s)"},
-      {"concentration_out", "concentration of what leaves (-)"},
-      {"concentration_min", "smallest concentration (-)"},
-      {"concentration_max", "largest concentration (-)"},
-      {"pressure_min", "smallest pressure (Pa)"},
-      {"pressure_max", "largest pressure (Pa)"},
-      {"speed_max", "largest speed of the liquid (m/s)"},
-      {"turbidity_out", "turbidity of what leaves (g/l)"},
-      {"turbidity_max", "largest turbidity of what leaves (g/l)"},
-      {"solid", "solid (kg)"},
-      {"erodible", "solid that can still erode (kg)"},
-      {"water", "water (kg)"},
-      {"fines", "fluidised fines (kg)"},
-      {"eroded", "fines eroded (kg)"},
-      {"deposited", "fines deposited (kg)"},
-      {"water_in", "water that entered (kg)"},
-      {"water_out", "water that left (kg)"},
-      {"fines_in", "fines that entered (kg)"},
-      {"fines_out", "fines that left (kg)"},
-      {"fines_lost", "fines lost (kg)"},
-      {"fines_lost_percent", "fines lost (%)"},
-      {"complete_computed", "time until all fines are eroded (s)"},
-      {"darcy_flux", "Darcy flux (m/s)"},
-      {"steps", "steps (-)"},
-  };
-  return texts;
+/// Units of columns of the table of runs that no table of a run has.
+const std::map<std::string, std::string>& run_table_units() {
+  static const std::map<std::string, std::string> units{{"fines_lost", "kg"},
+                                                        {"fines_lost_percent", "%"},
+                                                        {"turbidity_max", "g/l"},
+                                                        {"darcy_flux", "m/s"},
+                                                        {"complete_exact", "s"},
+                                                        {"complete_computed", "s"},
+                                                        {"error_solid_percent", "%"},
+                                                        {"error_eroded_percent", "%"},
+                                                        {"error_porosity_percent", "%"},
+                                                        {"steps", "1"}};
+  return units;
 }
 
 /// The steps of a dotted key, with a step `[]` for each entry of a list.
@@ -82,8 +64,12 @@ std::string unit_of(const SceneKey& key, const std::string& soil, const Scene* s
 }  // namespace
 
 std::string axis_text(const std::string& name, const Scene* scene) {
-  const auto text = column_texts().find(name);
-  if (text != column_texts().end()) return text->second;
+  constexpr int dimension = 2;
+  const auto own = run_table_units().find(name);
+  const std::string unit_of_column = own == run_table_units().end()
+                                         ? column_unit(name, dimension)
+                                         : shown_unit(own->second, dimension);
+  if (!unit_of_column.empty()) return name + " (" + unit_of_column + ")";
   for (const SceneKey& key : scene_keys()) {
     if (!fits(name, key.pattern)) continue;
     const auto steps = steps_of(name);

@@ -1,0 +1,18 @@
+#pragma once
+
+/// What differs between two scenes as written, for messages.
+
+#include <string>
+#include <vector>
+
+#include "case/scene.hpp"
+
+namespace suffuse {
+
+/// One line for each key whose value differs, `--set` applied, and for each file of values with
+/// another text: `time.end: 200 there, 100 here`. Comments, spaces and the order of keys do not
+/// count. Of both documents `text`, `overrides` and `files` count, nothing else. Empty where
+/// nothing differs.
+std::vector<std::string> scene_differences(const SceneDocument& there, const SceneDocument& here);
+
+}  // namespace suffuse

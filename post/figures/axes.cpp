@@ -1,0 +1,50 @@
+#include "figures/axes.hpp"
+
+#include <cmath>
+
+#include "case/errors.hpp"
+#include "results/number_text.hpp"
+#include "tables/table_output.hpp"
+
+namespace suffuse {
+
+std::array<double, 2> parse_range(const std::string& text, const std::string& command,
+                                  const std::string& option) {
+  const auto colon = text.find(':');
+  if (colon != std::string::npos) {
+    const auto low = parse_number(text.substr(0, colon));
+    const auto high = parse_number(text.substr(colon + 1));
+    if (low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high) {
+      return {*low, *high};
+    }
+  }
+  throw InputError(
+      std::vector{InputProblem{command, option, '"' + text + '"', "LO:HI with LO below HI", ""}});
+}
+
+void set_axes(const AxisOptions& options, const std::string& command, Chart& chart) {
+  if (!options.time_unit.empty() && chart.x_label == seconds_label) {
+    const TimeUnit unit = parse_time_unit(options.time_unit, command);
+    const auto convert = [&](std::vector<double>& times) {
+      for (double& t : times) t /= unit.seconds;
+    };
+    for (Curve& curve : chart.curves) convert(curve.x);
+    convert(chart.extra_x);
+    chart.x_label = "time (" + unit.name + ")";
+  }
+  chart.logarithmic_x = chart.logarithmic_x || options.log_x;
+  chart.logarithmic_y = chart.logarithmic_y || options.log_y;
+  const auto set = [&](const std::string& text, const std::string& option, bool logarithmic,
+                       std::optional<std::array<double, 2>>& range) {
+    if (text.empty()) return;
+    range = parse_range(text, command, option);
+    if (logarithmic && !((*range)[0] > 0.0)) {
+      throw InputError(std::vector{InputProblem{command, option, '"' + text + '"',
+                                                "positive numbers on a logarithmic axis", ""}});
+    }
+  };
+  set(options.x_range, "--x-range", chart.logarithmic_x, chart.x_range);
+  set(options.y_range, "--y-range", chart.logarithmic_y, chart.y_range);
+}
+
+}  // namespace suffuse

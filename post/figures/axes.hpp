@@ -1,0 +1,22 @@
+#pragma once
+
+/// Axes of charts as a user wants them.
+
+#include <string>
+
+#include "drawing/chart.hpp"
+#include "figures/figure_options.hpp"
+
+namespace suffuse {
+
+/// The label of an axis of times in seconds.
+inline const std::string seconds_label = "time (s)";
+
+/// Applies them to a chart. Throws InputError, naming `command`.
+void set_axes(const AxisOptions& options, const std::string& command, Chart& chart);
+
+/// Two numbers, `a:b` with a < b. Throws InputError, naming `command` and `option`.
+std::array<double, 2> parse_range(const std::string& text, const std::string& command,
+                                  const std::string& option);
+
+}  // namespace suffuse

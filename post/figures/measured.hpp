@@ -1,0 +1,28 @@
+#pragma once
+
+/// Points that a user measured, drawn over curves of runs.
+
+#include <string>
+#include <vector>
+
+#include "drawing/chart.hpp"
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// Points measured in the tests that runs stand for.
+struct MeasuredPoints {
+  std::string path;
+  std::vector<NamedTable> runs;  ///< by the label of the run; one without a name if it has none
+};
+
+/// Reads a table of numbers, with times in seconds. A column `run` says which run points belong to.
+/// Throws InputError for an unknown unit of time, FileError.
+MeasuredPoints read_measured(const std::string& path);
+
+/// Adds points of a column against `x` to a chart, as markers. `labels`: those of the runs; points
+/// of a run have its style. Throws InputError for points of a run that is not there.
+void add_measured(const MeasuredPoints& measured, const std::string& x, const std::string& column,
+                  const std::vector<std::string>& labels, Chart& chart);
+
+}  // namespace suffuse

@@ -1,0 +1,111 @@
+#include "figures/profile.hpp"
+
+#include "case/errors.hpp"
+#include "drawing/color_map.hpp"
+#include "drawing/ticks.hpp"
+#include "figures/measured.hpp"
+#include "tables/table_output.hpp"
+#include "values/run_names.hpp"
+#include "values/sample.hpp"
+
+namespace suffuse {
+namespace {
+
+const std::string command = "suffuse-post figure profile";
+constexpr std::size_t max_curves = 12;
+const std::string distance = "distance";
+
+[[noreturn]] void refuse(const std::string& option, const std::string& found,
+                         const std::string& expected) {
+  throw InputError(std::vector{InputProblem{command, option, found, expected, ""}});
+}
+
+/// Earlier curves are darker; dashes differ too, as colours may be lost.
+Curve curve_at(std::size_t number, std::size_t count) {
+  constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
+                                       Dash::dash_dot_dot};
+  constexpr double brightest = 0.75;  // lines on white must be seen
+  Curve curve;
+  curve.color = viridis(
+      count < 2 ? 0.0 : brightest * static_cast<double>(number) / static_cast<double>(count - 1));
+  curve.dash = dashes.at(number % dashes.size());
+  curve.width = 3.0F;
+  return curve;
+}
+
+SampleRequest request_of(const ResultsReader& run, const FigureOptions& options) {
+  SampleRequest request;
+  request.times =
+      options.times.empty() ? std::vector{run.times().back()} : parse_times(run, options.times);
+  request.positions = places_on(parse_line(options.line), options.count);
+  request.fields = parse_field_names(options.fields);
+  request.change = options.change;
+  return request;
+}
+
+std::string time_text(double time, const TimeUnit& unit) {
+  return "t = " + tick_text(time / unit.seconds) + " " + unit.name;
+}
+
+void add_curves(const Table& table, const SampleRequest& request, const std::string& label,
+                const TimeUnit& unit, std::size_t before, std::size_t count,
+                std::vector<Chart>& charts) {
+  const std::size_t places = request.positions.size();
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    for (std::size_t i = 0; i < request.times.size(); ++i) {
+      Curve curve = curve_at(before + i, count);
+      curve.label = label + time_text(request.times[i], unit);
+      for (std::size_t p = 0; p < places; ++p) {
+        curve.x.push_back((request.positions[p] - request.positions[0]).norm());
+        curve.y.push_back(table.columns[k + 3][i * places + p]);
+      }
+      charts[k].curves.push_back(std::move(curve));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Chart> profile_charts(const std::vector<ResultsReader>& runs,
+                                  const FigureOptions& options) {
+  if (options.line.empty()) refuse("--line", "nothing", "x0,y0:x1,y1 in metres");
+  if (options.fields.empty()) refuse("--fields", "nothing", "names of fields");
+  const SampleNames names{command, "--times", "--line", "--fields"};
+  const TimeUnit unit =
+      parse_time_unit(options.axes.time_unit.empty() ? "s" : options.axes.time_unit, command);
+  const std::vector<std::string> labels = run_labels(runs);
+  std::vector<SampleRequest> requests;
+  std::size_t count = 0;
+  for (const ResultsReader& run : runs) {
+    requests.push_back(request_of(run, options));
+    count += requests.back().times.size();
+  }
+  if (count > max_curves) {
+    refuse("--times", std::to_string(count) + " curves", "at most " + std::to_string(max_curves));
+  }
+  std::vector<Chart> charts;
+  std::vector<std::string> columns;
+  std::size_t before = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Table table = sample(runs[r], requests[r], names);
+    for (std::size_t k = charts.size() + 3; k < table.names.size(); ++k) {
+      const std::string what = options.change ? "change of " : "";
+      columns.push_back(table.names[k]);
+      charts.push_back({what + table.names[k] + " along " + options.line + " m",
+                        "distance along the line (m)",
+                        what + table.names[k] + " (" + table.units[k] + ")",
+                        {}});
+    }
+    const std::string label = runs.size() > 1 ? labels[r] + ", " : "";
+    add_curves(table, requests[r], label, unit, before, count, charts);
+    before += requests[r].times.size();
+  }
+  if (options.measured.empty()) return charts;
+  const MeasuredPoints measured = read_measured(options.measured);
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    add_measured(measured, distance, columns[k], labels, charts[k]);
+  }
+  return charts;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,182 @@
+#include "figures/table_curves.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "case/closest_name.hpp"
+#include "case/errors.hpp"
+#include "figures/axes.hpp"
+#include "figures/measured.hpp"
+#include "figures/run_curves.hpp"
+#include "results/number_text.hpp"
+#include "tables/table_output.hpp"
+
+namespace suffuse {
+namespace {
+
+const std::string command = "suffuse-post figure curves";
+
+[[noreturn]] void refuse(const std::string& key, const std::string& found,
+                         const std::string& expected, const std::string& suggestion = {}) {
+  throw InputError(std::vector{InputProblem{command, key, found, expected, suggestion}});
+}
+
+/// The parts of a table that share a value of its column `by`, which gets that value as a name.
+std::vector<NamedTable> parts_of(const Table& table, const std::string& by,
+                                 const std::vector<std::string>& names) {
+  std::vector<NamedTable> parts;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto number = static_cast<std::size_t>(table.column(by)[row]);
+    const std::string name = number < names.size() ? names[number] : std::to_string(number);
+    auto part = std::ranges::find(parts, name, &NamedTable::name);
+    if (part == parts.end()) {
+      part = parts.insert(part, {name, table});
+      for (auto& column : part->table.columns) column.clear();
+    }
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      part->table.columns[k].push_back(table.columns[k][row]);
+    }
+  }
+  return parts;
+}
+
+/// The tables of a run by their names; one that the scene has not asked for is not there.
+std::vector<NamedTable> read_parts(const ResultsReader& run, const std::string& table) {
+  const OutputSettings& output = run.scene().scene.output;
+  if (table == "history") return {{"", run.history()}};
+  if (table == "ledger") return {{"", run.ledger()}};
+  if (table == "boundaries") return run.boundaries();
+  if (table == "regions") return parts_of(run.region_ledgers(), "region", run.regions());
+  if (table == "probes" && !output.probes.empty()) return parts_of(run.probes(), "probe", {});
+  if (table == "sections" && !output.sections.empty()) {
+    return parts_of(run.sections(), "section", {});
+  }
+  return {};
+}
+
+const std::vector<std::string> table_names{"history",    "ledger", "regions",
+                                           "boundaries", "probes", "sections"};
+
+/// TABLE.COLUMN:NAME in its parts.
+struct ColumnName {
+  std::string text;
+  std::string table;  ///< may be empty
+  std::string column;
+  std::string part;  ///< may be empty
+};
+
+ColumnName parse_column(const std::string& text) {
+  ColumnName name{text, "", text, ""};
+  const auto colon = name.column.find(':');
+  if (colon != std::string::npos) {
+    name.part = name.column.substr(colon + 1);
+    name.column.resize(colon);
+  }
+  const auto dot = name.column.find('.');
+  if (dot == std::string::npos) return name;
+  name.table = name.column.substr(0, dot);
+  name.column.erase(0, dot + 1);
+  if (std::ranges::find(table_names, name.table) == table_names.end()) {
+    refuse("COLUMN", '"' + text + '"', "a table out of " + quoted_list(table_names),
+           closest_name(name.table, table_names));
+  }
+  return name;
+}
+
+/// The parts of the first table of a run that has the column.
+std::vector<NamedTable> find_parts(const ResultsReader& run, const ColumnName& name) {
+  std::vector<std::string> known;
+  for (const std::string& table : table_names) {
+    if (!name.table.empty() && table != name.table) continue;
+    std::vector<NamedTable> parts = read_parts(run, table);
+    if (parts.empty()) continue;
+    if (parts.front().table.has(name.column)) return parts;
+    for (const std::string& column : parts.front().table.names) {
+      if (std::ranges::find(known, column) == known.end()) known.push_back(column);
+    }
+  }
+  refuse("COLUMN", '"' + name.text + '"',
+         known.empty() ? "a table that " + run.folder() + " has" : quoted_list(known),
+         closest_name(name.column, known));
+}
+
+std::vector<NamedTable> wanted(std::vector<NamedTable> parts, const ColumnName& name) {
+  if (name.part.empty()) return parts;
+  std::vector<std::string> known;
+  for (const NamedTable& part : parts) {
+    if (part.name == name.part) return {part};
+    known.push_back(part.name);
+  }
+  refuse("COLUMN", '"' + name.text + '"', "behind the colon one of " + quoted_list(known),
+         closest_name(name.part, known));
+}
+
+std::string label_of(const std::string& column, int dimension) {
+  const std::string unit = column_unit(column, dimension);
+  return column + (unit.empty() ? "" : " (" + unit + ")");
+}
+
+/// The run, where there are several, and the part of the table.
+std::string label_of(const std::vector<std::string>& runs, std::size_t run,
+                     const std::string& part) {
+  if (runs.size() == 1) return part;
+  return part.empty() ? runs[run] : runs[run] + ": " + part;
+}
+
+Curve curve_of(const Table& table, const std::string& x, const std::string& y, std::size_t number) {
+  constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
+                                       Dash::dash_dot_dot};
+  Curve curve;
+  curve.x = table.column(x);
+  curve.y = table.column(y);
+  curve.color = curve_style(number).color;
+  curve.dash = dashes.at(number % dashes.size());
+  return curve;
+}
+
+Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::string>& labels,
+               const ColumnName& name, const std::string& x) {
+  const int dimension = runs.front().dimension();
+  Chart chart{name.text,
+              x == "t" ? seconds_label : label_of(x, dimension),
+              label_of(name.column, dimension),
+              {}};
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (const NamedTable& part : wanted(find_parts(runs[r], name), name)) {
+      if (!part.table.has(x)) refuse("--x", '"' + x + '"', quoted_list(part.table.names));
+      require_curve(runs[r], part.table, name.text);
+      Curve curve = curve_of(part.table, x, name.column, chart.curves.size());
+      curve.label = label_of(labels, r, name.part.empty() ? part.name : "");
+      chart.curves.push_back(std::move(curve));
+    }
+  }
+  return chart;
+}
+
+}  // namespace
+
+std::vector<Chart> table_curves(const std::vector<ResultsReader>& runs,
+                                const FigureOptions& options) {
+  if (options.columns.empty()) {
+    refuse("COLUMN", "none", "a column of a table, such as \"flux_out\", before the results");
+  }
+  const std::vector<std::string> labels = run_labels(runs);
+  const std::string x = options.x.empty() ? "t" : options.x;
+  MeasuredPoints measured;
+  if (!options.measured.empty()) measured = read_measured(options.measured);
+  std::vector<Chart> charts;
+  for (const std::string& text : options.columns) {
+    const ColumnName name = parse_column(text);
+    charts.push_back(chart_of(runs, labels, name, x));
+    add_measured(measured, x, name.column, labels, charts.back());
+  }
+  if (!options.measured.empty() && std::ranges::none_of(charts, [](const Chart& chart) {
+        return std::ranges::any_of(chart.curves, &Curve::markers);
+      })) {
+    refuse("--measured", options.measured,
+           "columns " + x + " and one of " + quoted_list(options.columns));
+  }
+  return charts;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,44 @@
+#pragma once
+
+/// Safety of the soil against being lifted by water that rises through it (heave, and the start of
+/// piping at exits), over all snapshots of a run.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// The least safety i_cr / i of one part of the model; i: upward component of the hydraulic
+/// gradient.
+struct LeastSafety {
+  double safety = 0.0;
+  double gradient = 0.0;           ///< i
+  double critical_gradient = 0.0;  ///< i_cr = (1 - n) (rho_s / rho_w - 1)
+  double time = 0.0;               ///< s, of the snapshot
+  Vector<2> place{0.0, 0.0};       ///< m
+};
+
+/// A boundary of the scene, or all soil.
+struct PartSafety {
+  std::string name;
+  /// At a boundary: over its faces through which water leaves, with the gradient in the element at
+  /// the face. Nothing where water rises nowhere.
+  std::optional<LeastSafety> least;
+  /// Liquid that leaves through a boundary minus what enters, at the last row of boundaries.csv,
+  /// m3/s (per metre of thickness in 2D).
+  std::optional<double> discharge;
+};
+
+/// All soil first, then the boundaries of the scene. Throws FileError.
+std::vector<PartSafety> safety_of(const ResultsReader& results);
+
+/// As an aligned table, with what it means.
+std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts);
+
+/// Throws NumericalError, naming part, place and time, where a safety is below `least`.
+void check_safety(const std::vector<PartSafety>& parts, double least);
+
+}  // namespace suffuse

@@ -1,0 +1,38 @@
+#pragma once
+
+/// Tables as users get them: a unit behind each name, and time in the unit of choice.
+
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// A unit of time: s, min, h, d, or a of 365.25 d.
+struct TimeUnit {
+  std::string name = "s";
+  double seconds = 1.0;
+};
+
+/// Throws InputError, naming `command`, for another word.
+TimeUnit parse_time_unit(const std::string& word, const std::string& command);
+/// "s|min|h|d|a"
+std::string time_unit_words();
+
+/// Unit of a column of the results' tables: "kg/m" where a mass is per metre of thickness, "-" for
+/// a number without one; empty for a name that they do not have.
+std::string column_unit(const std::string& name, int dimension);
+/// "kg/m" from "kg" in 2D, "-" from "1".
+std::string shown_unit(const std::string& unit, int dimension);
+
+/// The table with units, and its times in the unit.
+Table with_units(Table table, int dimension, const TimeUnit& time);
+std::vector<NamedTable> with_units(std::vector<NamedTable> tables, int dimension,
+                                   const TimeUnit& time);
+
+/// A table that a user gives, with times in seconds. Throws InputError, naming its path, for an
+/// unknown unit of time.
+Table with_seconds(Table table, const std::string& path);
+
+}  // namespace suffuse

@@ -1,0 +1,149 @@
+#include "values/derived_fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+
+#include "physics/head.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Saturation below 1 by no more than this is round-off.
+constexpr double saturated = 1.0 - 1e-9;
+
+bool is_stored(const ResultsReader& results, std::size_t index, const std::string& where,
+               const std::string& name) {
+  const auto names = results.field_names(index, where);
+  return std::ranges::find(names, name) != names.end();
+}
+
+double head_of(const Scene& scene, double pressure, const Vector<2>& x) {
+  return pressure / unit_weight(scene.liquid.density, scene.gravity) + height(x, scene.gravity);
+}
+
+std::vector<double> cell_head(const ResultsReader& results, std::size_t index) {
+  const Mesh<2> mesh = results.mesh();
+  std::vector<double> values = results.field(index, "cell", "pressure").values;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    values[e] = head_of(results.scene().scene, values[e], element_centroid(mesh, e));
+  }
+  return values;
+}
+
+std::vector<double> node_head(const ResultsReader& results, std::size_t index) {
+  const Mesh<2> mesh = results.mesh();
+  std::vector<double> values = results.field(index, "node", "pressure").values;
+  for (int i = 0; i < mesh.node_count(); ++i) {
+    values[i] = head_of(results.scene().scene, values[i], mesh.nodes[i]);
+  }
+  return values;
+}
+
+std::vector<double> full_saturation(const ResultsReader& results, std::size_t index) {
+  return std::vector<double>(results.field(index, "cell", "porosity").values.size(), 1.0);
+}
+
+std::vector<double> fines_content(const ResultsReader& results, std::size_t index,
+                                  const std::string& where) {
+  std::vector<double> values = results.field(index, where, "erodible_fraction").values;
+  const std::vector<double> porosity = results.field(index, where, "porosity").values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double solid = 1.0 - porosity[i];
+    values[i] = solid > 0.0 ? values[i] / solid : 0.0;
+  }
+  return values;
+}
+
+std::vector<double> safety(const ResultsReader& results, std::size_t index) {
+  std::vector<double> values = critical_gradient(results, results.mesh(), index);
+  const std::vector<double> gradient = upward_gradient(results, index);
+  for (std::size_t e = 0; e < values.size(); ++e) {
+    values[e] =
+        gradient[e] > 0.0 ? values[e] / gradient[e] : std::numeric_limits<double>::infinity();
+  }
+  return values;
+}
+
+/// A field that follows from stored ones, if `needs` is stored.
+struct DerivedField {
+  std::string where;
+  std::string name;
+  std::string unit;
+  std::string needs;
+  std::function<std::vector<double>(const ResultsReader&, std::size_t)> values;
+};
+
+const std::vector<DerivedField>& derived_fields() {
+  static const std::vector<DerivedField> fields{
+      {"cell", "head", "m", "pressure", cell_head},
+      {"node", "head", "m", "pressure", node_head},
+      {"cell", "saturation", "1", "porosity", full_saturation},
+      {"cell", "fines_content", "1", "erodible_fraction",
+       [](const auto& results, auto index) { return fines_content(results, index, "cell"); }},
+      {"solid", "fines_content", "1", "erodible_fraction",
+       [](const auto& results, auto index) { return fines_content(results, index, "solid"); }},
+      {"cell", "safety", "1", "hydraulic_gradient", safety}};
+  return fields;
+}
+
+}  // namespace
+
+std::vector<std::string> all_field_names(const ResultsReader& results, std::size_t index,
+                                         const std::string& where) {
+  std::vector<std::string> names = results.field_names(index, where);
+  const std::vector<std::string> stored = names;
+  const auto has = [&](const std::string& name) {
+    return std::ranges::find(stored, name) != stored.end();
+  };
+  for (const DerivedField& field : derived_fields()) {
+    if (field.where == where && has(field.needs) && !has(field.name)) names.push_back(field.name);
+  }
+  return names;
+}
+
+Field any_field(const ResultsReader& results, std::size_t index, const std::string& where,
+                const std::string& name) {
+  if (!is_stored(results, index, where, name)) {
+    for (const DerivedField& field : derived_fields()) {
+      if (field.where == where && field.name == name) {
+        return {name, field.unit, 1, field.values(results, index)};
+      }
+    }
+  }
+  return results.field(index, where, name);
+}
+
+std::vector<double> critical_gradient(const ResultsReader& results, const Mesh<2>& mesh,
+                                      std::size_t index) {
+  const Scene& scene = results.scene().scene;
+  std::vector<double> values = results.field(index, "cell", "porosity").values;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
+    values[e] = soil == nullptr
+                    ? std::numeric_limits<double>::quiet_NaN()
+                    : (1.0 - values[e]) * (soil->grain_density / scene.liquid.density - 1.0);
+  }
+  return values;
+}
+
+std::vector<double> upward_gradient(const ResultsReader& results, std::size_t index) {
+  const Vector<2> up = upward(results.scene().scene);
+  const std::vector<double> gradient = results.field(index, "cell", "hydraulic_gradient").values;
+  const std::vector<double> saturation = any_field(results, index, "cell", "saturation").values;
+  std::vector<double> values;
+  for (std::size_t e = 0; e < saturation.size(); ++e) {
+    const double component = gradient[2 * e] * up[0] + gradient[2 * e + 1] * up[1];
+    values.push_back(saturation[e] < saturated ? 0.0 : component);
+  }
+  return values;
+}
+
+Vector<2> upward(const Scene& scene) {
+  if (!has_gravity(scene.gravity)) return {0.0, 1.0};
+  return {height(Vector<2>(1.0, 0.0), scene.gravity), height(Vector<2>(0.0, 1.0), scene.gravity)};
+}
+
+}  // namespace suffuse

@@ -1,0 +1,39 @@
+#pragma once
+
+/// Fields of a snapshot: those that the solver stored, and those that follow from them.
+
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// Names of all fields of the snapshot `index` on `where`: "cell", "node", "element_vertex",
+/// "solid" or "liquid". Beside those stored:
+/// - "head", m, of cells at their centroids and of nodes: h = p / (rho_w g) + z, above the datum of
+///   the scene; without gravity p / (rho_w 9.81 m/s2)
+/// - "saturation" of cells, where every soil is saturated: 1
+/// - "fines_content" of cells and solid points: erodible share of the dry mass, n_e / (1 - n)
+/// - "safety" of cells, against heave: see `critical_gradient` and `upward_gradient`
+std::vector<std::string> all_field_names(const ResultsReader& results, std::size_t index,
+                                         const std::string& where);
+
+/// Any of these. Throws FileError when there is no such field.
+Field any_field(const ResultsReader& results, std::size_t index, const std::string& where,
+                const std::string& name);
+
+/// The hydraulic gradient at which water that rises lifts the soil (Terzaghi), per cell:
+/// i_cr = (1 - n) (rho_s / rho_w - 1). Not a number in free water.
+std::vector<double> critical_gradient(const ResultsReader& results, const Mesh<2>& mesh,
+                                      std::size_t index);
+
+/// The component of the hydraulic gradient against gravity, without gravity along y, per cell; 0
+/// where the soil is not saturated. The safety is the critical gradient over it, infinite where it
+/// is not positive.
+std::vector<double> upward_gradient(const ResultsReader& results, std::size_t index);
+
+/// Against gravity; along y without it.
+Vector<2> upward(const Scene& scene);
+
+}  // namespace suffuse

@@ -1,0 +1,28 @@
+#pragma once
+
+/// The energy that water has spent on the soil, from the power in the rows of the history.
+
+#include "results/state_archive.hpp"
+#include "results/tables.hpp"
+
+namespace suffuse {
+
+class SpentEnergy {
+ public:
+  /// J, until a row that comes after all rows before; power is linear in between.
+  double at(const HistoryRow& row) {
+    energy_ += 0.5 * (row.t - time_) * (power_ + row.power);
+    time_ = row.t;
+    power_ = row.power;
+    return energy_;
+  }
+
+  void archive(StateArchive& archive) { archive(time_, power_, energy_); }
+
+ private:
+  double time_ = 0.0;    ///< of the row before, s
+  double power_ = 0.0;   ///< W
+  double energy_ = 0.0;  ///< J
+};
+
+}  // namespace suffuse

@@ -1,0 +1,100 @@
+/// Safety at the exit beside a sheet pile of half the depth of a layer, through all programs. The
+/// gradient there is pi h / (B T) = 0.59907 h / T with B = Beta(1/4, 1/2), by the conformal map
+/// cosh(pi z / T).
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <sstream>
+
+#include "post/synthetic_results.hpp"
+#include "tables/safety_check.hpp"
+#include "values/sample.hpp"
+
+namespace suffuse {
+namespace {
+
+using testing::ScratchFolder;
+
+constexpr double head = 2.0;
+constexpr double conductivity = 1e-4;
+
+/// A layer 1 m deep and 12 m long; elements of `size` at the exit beside the pile.
+std::string geometry(double size) {
+  std::ostringstream text;
+  text << "h = " << size << ";\n"
+       << "Point(1) = {-6, -1, 0, 0.2}; Point(2) = {6, -1, 0, 0.2}; Point(3) = {6, 0, 0, 0.2};\n"
+       << "Point(4) = {0, 0, 0, h}; Point(5) = {-6, 0, 0, 0.2}; Point(6) = {0, -0.5, 0, h / 4};\n"
+       << "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};\n"
+       << "Line(5) = {5, 1}; Line(6) = {4, 6};\n"
+       << "Curve Loop(1) = {1, 2, 3, 4, 5}; Plane Surface(1) = {1}; Curve{6} In Surface{1};\n"
+       << "Physical Surface(\"sand\") = {1}; Physical Curve(\"downstream\") = {3};\n"
+       << "Physical Curve(\"upstream\") = {4}; Physical Curve(\"pile\") = {6};\n";
+  return text.str();
+}
+
+std::string scene() {
+  std::ostringstream text;
+  text << "name = \"pile\"\nformulation = \"single-point\"\ngeometry.file = \"pile.geo\"\n"
+       << "mesh = { size = 1.0, structure = \"free\" }\n"
+       << "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
+       << "soil.sand = { porosity = 0.4, skeleton_fraction = 0.6, grain_density = 2650.0, "
+       << "conductivity = " << conductivity << " }\n"
+       << "boundary = [{ on = \"upstream\", head = " << head << ", concentration = 0.0 }, "
+       << "{ on = \"downstream\", head = 0.0 }]\nwall = [{ on = \"pile\" }]\n"
+       << "initial.flow = \"steady\"\ntime.end = 1.0\noutput.every = 1.0\n"
+       << "[[output.section]]\nfrom = [0.0, -1.0]\nto = [0.0, -0.5]\n";
+  return text.str();
+}
+
+/// Meshes and solves into `scratch`.
+ResultsReader run(const ScratchFolder& scratch, double size) {
+  std::ofstream(scratch / "pile.geo") << geometry(size);
+  std::ofstream(scratch / "pile.toml") << scene();
+  const std::string programs = std::string(SUFFUSE_BIN) + "/";
+  const std::string folder = scratch / "pile.results";
+  const std::string commands = programs + "suffuse-mesher " + scratch / "pile.toml" + " -o " +
+                               scratch / "pile.case.h5" + " > " + scratch / "log" + " && " +
+                               programs + "suffuse-solver " + scratch / "pile.case.h5" + " -o " +
+                               folder + " --quiet";
+  EXPECT_EQ(std::system(commands.c_str()), 0);
+  return ResultsReader(folder);
+}
+
+TEST(ExitGradient, BesideASheetPileIsTheExactOne) {
+  const double exact = std::numbers::pi * head / std::beta(0.25, 0.5);
+  std::array<double, 2> error{};
+  for (int i = 0; i < 2; ++i) {
+    const ScratchFolder scratch;
+    const auto parts = safety_of(run(scratch, i == 0 ? 0.04 : 0.02));
+    const auto exit = std::ranges::find(parts, "downstream", &PartSafety::name);
+    ASSERT_TRUE(exit->least);
+    const double at_pile = exit->least->gradient;
+    error[i] = std::abs(at_pile / exact - 1.0);
+    std::cout << "exit gradient " << at_pile / head << " h / T, off by " << error[i] << '\n';
+    EXPECT_LT(std::abs(exit->least->place[0]), 0.05);
+    EXPECT_NEAR(exit->least->safety, 0.6 * 1.65 / at_pile, 1e-9);
+  }
+  EXPECT_LT(error[1], 0.02);
+  EXPECT_LT(error[1], 0.7 * error[0]);
+}
+
+/// The same water passes the boundaries of the check and the section under the pile.
+TEST(ExitGradient, DischargesAgree) {
+  const ScratchFolder scratch;
+  const ResultsReader results = run(scratch, 0.04);
+  const double section = results.sections().column("discharge").back();
+  EXPECT_NEAR(section, conductivity * head / 2.0, 0.02 * section);
+  int compared = 0;
+  for (const PartSafety& part : safety_of(results)) {
+    if (!part.discharge || part.name == "pile") continue;
+    EXPECT_NEAR(std::abs(*part.discharge), section, 1e-10 * section) << part.name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 2);
+}
+
+}  // namespace
+}  // namespace suffuse

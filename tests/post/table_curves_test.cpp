@@ -1,0 +1,143 @@
+/// The figures "curves" and "profile", and axes of choice.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "case/errors.hpp"
+#include "figures/figures.hpp"
+#include "post/picture_pixels.hpp"
+#include "post/synthetic_results.hpp"
+
+namespace suffuse {
+namespace {
+
+using testing::linear_porosity;
+using testing::ScratchFolder;
+using testing::write_synthetic_results;
+
+class TableCurves : public ::testing::Test {
+ protected:
+  TableCurves() {
+    write_synthetic_results(scratch_ / "a.results", "a");
+    write_synthetic_results(scratch_ / "b.results", "b", 2e-3);
+  }
+  [[nodiscard]] std::vector<ResultsReader> run() const {
+    return {ResultsReader(scratch_ / "a.results")};
+  }
+  [[nodiscard]] std::vector<ResultsReader> runs() const {
+    return {ResultsReader(scratch_ / "a.results"), ResultsReader(scratch_ / "b.results")};
+  }
+  static std::string message(const std::vector<ResultsReader>& runs, const FigureOptions& options) {
+    try {
+      make_figure("curves", runs, options);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  ScratchFolder scratch_;
+};
+
+TEST_F(TableCurves, AnyColumnOfAnyTable) {
+  FigureOptions options;
+  options.columns = {"porosity_mean", "ledger.eroded", "boundaries.discharge"};
+  const auto charts = make_figure("curves", run(), options);
+  ASSERT_EQ(charts.size(), 3U);
+  EXPECT_EQ(charts[0].curves[0].y, run()[0].history().column("porosity_mean"));
+  EXPECT_EQ(charts[1].curves[0].y, run()[0].ledger().column("eroded"));
+  EXPECT_EQ(charts[1].y_label, "eroded (kg/m)");
+  ASSERT_EQ(charts[2].curves.size(), 2U);
+  EXPECT_EQ(charts[2].curves[1].label, "bottom");
+  EXPECT_EQ(charts[2].curves[1].y.back(), 0.005);
+}
+
+TEST_F(TableCurves, OnePartOfATable) {
+  FigureOptions options;
+  options.columns = {"boundaries.liquid_out:bottom", "regions.eroded:specimen"};
+  const auto charts = make_figure("curves", runs(), options);
+  ASSERT_EQ(charts[0].curves.size(), 2U);
+  EXPECT_EQ(charts[0].curves[1].label, "b");
+  EXPECT_EQ(charts[1].curves[1].y, runs()[1].region_ledgers().column("eroded"));
+}
+
+TEST_F(TableCurves, AnotherColumnAlongXAndAxesOfChoice) {
+  FigureOptions options;
+  options.columns = {"eroded"};
+  options.x = "porosity_mean";
+  options.axes.log_y = true;
+  options.axes.x_range = "0.3:0.35";
+  const Chart chart = make_figure("curves", run(), options)[0];
+  EXPECT_EQ(chart.x_label, "porosity_mean (-)");
+  EXPECT_TRUE(chart.logarithmic_y);
+  EXPECT_EQ((*chart.x_range)[1], 0.35);
+  // Eroded mass starts at zero, which has no logarithm: it is left out.
+  draw_figure("curves", run(), scratch_ / "a.png", options);
+}
+
+TEST_F(TableCurves, TimeIsInTheUnitOfChoice) {
+  FigureOptions options;
+  options.axes.time_unit = "min";
+  const Chart chart = make_figure("porosity", run(), options)[0];
+  EXPECT_EQ(chart.x_label, "time (min)");
+  EXPECT_EQ(chart.curves.back().x.back(), 2.0);
+}
+
+TEST_F(TableCurves, MeasuredPointsLieBesideThem) {
+  const std::string path = scratch_ / "measured.csv";
+  std::ofstream(path) << "t [min],porosity_mean\n1,0.36\n2,0.4\n";
+  FigureOptions options;
+  options.columns = {"porosity_mean"};
+  options.measured = path;
+  const Chart chart = make_figure("curves", run(), options)[0];
+  EXPECT_EQ(chart.curves.back().label, "measured");
+  EXPECT_EQ(chart.curves.back().x, (std::vector<double>{60.0, 120.0}));
+  EXPECT_TRUE(chart.curves.back().markers);
+  options.columns = {"flux_out"};
+  EXPECT_NE(message(run(), options).find("--measured: got"), std::string::npos);
+}
+
+TEST_F(TableCurves, WhatIsNotThereIsRefused) {
+  FigureOptions options;
+  EXPECT_NE(message(run(), options).find("COLUMN: got none"), std::string::npos);
+  options.columns = {"porosity_meen"};
+  EXPECT_NE(message(run(), options).find("did you mean porosity_mean?"), std::string::npos);
+  options.columns = {"ledgers.eroded"};
+  EXPECT_NE(message(run(), options).find("did you mean ledger?"), std::string::npos);
+  options.columns = {"boundaries.discharge:topp"};
+  EXPECT_NE(message(run(), options).find("did you mean top?"), std::string::npos);
+  options.columns = {"probes.head"};
+  EXPECT_NE(message(run(), options).find("expected a table that"), std::string::npos);
+  options.columns = {"eroded"};
+  options.axes.y_range = "2:1";
+  EXPECT_NE(message(run(), options).find("--y-range: got \"2:1\"; expected LO:HI"),
+            std::string::npos);
+  options.axes.y_range = "";
+  options.line = "0,0:1,1";
+  EXPECT_NE(message(run(), options)
+                .find("--line: got it; expected it with a figure that uses it: "
+                      "\"profile\""),
+            std::string::npos);
+}
+
+TEST_F(TableCurves, ProfileAlongALineAtSeveralTimes) {
+  FigureOptions options;
+  options.line = "0.25,0.1:0.25,0.9";
+  options.fields = "porosity,darcy_flux";
+  options.times = "0,10";
+  options.count = 5;
+  const auto charts = make_figure("profile", runs(), options);
+  ASSERT_EQ(charts.size(), 3U);
+  EXPECT_EQ(charts[1].y_label, "darcy_flux_x (m/s)");
+  ASSERT_EQ(charts[0].curves.size(), 4U);
+  EXPECT_EQ(charts[0].curves[3].label, "b, t = 10 s");
+  EXPECT_NEAR(charts[0].curves[1].x[2], 0.4, 1e-15);
+  EXPECT_NEAR(charts[0].curves[1].y[2], linear_porosity(0.25, 0.5, 10.0), 1e-14);
+  EXPECT_EQ(charts[2].curves[0].y[0], -1.0);
+  options.change = true;
+  EXPECT_NEAR(make_figure("profile", run(), options)[0].curves[1].y[2], 1e-2 * 1.25, 1e-14);
+}
+
+}  // namespace
+}  // namespace suffuse

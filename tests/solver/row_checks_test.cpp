@@ -1,0 +1,88 @@
+/// Warnings about rows of the history: when, once, and with what to do.
+
+#include "driver/row_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "solver/double_point_case.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+class Rows : public testing::Test {
+ protected:
+  [[nodiscard]] std::string warning(const HistoryRow& row) {
+    const std::vector<std::string> warnings = checks_.check(row);
+    return warnings.empty() ? "" : warnings.front();
+  }
+  static HistoryRow with_defect(double defect) {
+    HistoryRow row;
+    row.t = 12.0;
+    row.volume_defect = defect;
+    row.volume_defect_at = "element 7 at (0.5 0.25)";
+    return row;
+  }
+  static HistoryRow with_fines(double share, double concentration) {
+    HistoryRow row;
+    row.t = 12.0;
+    row.fines_weight_share = share;
+    row.concentration_max = concentration;
+    return row;
+  }
+
+  Scene scene_ = model::paper_scene();
+  RowChecks checks_{scene_, infinite};
+};
+
+TEST_F(Rows, AVolumeDefectBeyondChanceIsToldOfOnce) {
+  scene_.points.liquid_per_element = 12;
+  EXPECT_EQ(warning(with_defect(1.4)), "");
+  const std::string text = warning(with_defect(3.0));
+  EXPECT_EQ(text,
+            "liquid points have 4 times the volume of the pores in element 7 at (0.5 0.25) at t = "
+            "12 s: a volume_defect of 3, where up to 1.4 is usual with liquid_per_element = 12. "
+            "Points that come from large elements do not fit into small ones: make the elements "
+            "more even, or take more points. Masses stay exact; concentrations there are rough");
+  EXPECT_EQ(warning(with_defect(4.0)), "");
+}
+
+TEST_F(Rows, FewerPointsAreLessEven) {
+  scene_.points.liquid_per_element = 1;
+  EXPECT_EQ(warning(with_defect(4.9)), "");
+  EXPECT_NE(warning(with_defect(5.1)), "");
+  scene_.points.liquid_per_element = 400;
+  RowChecks many(scene_, infinite);
+  EXPECT_TRUE(many.check(with_defect(0.99)).empty());
+  EXPECT_FALSE(many.check(with_defect(1.01)).empty());
+}
+
+TEST_F(Rows, FinesThatDriveTheFlowAreToldOfOnce) {
+  EXPECT_EQ(warning(with_fines(0.49, 0.1)), "");
+  EXPECT_EQ(warning(with_fines(1.0, 0.9e-3)), "") << "of next to nothing";
+  const std::string text = warning(with_fines(0.56, 0.026));
+  EXPECT_TRUE(
+      text.starts_with("the weight of fluidised fines drives the flow more than the "
+                       "boundaries do: 56 % of its power at t = 12 s, with concentrations "
+                       "up to 0.026."))
+      << text;
+  EXPECT_EQ(warning(with_fines(0.9, 0.1)), "");
+}
+
+TEST_F(Rows, WhatWasSaidIsRememberedAcrossAResume) {
+  ASSERT_NE(warning(with_defect(30.0)), "");
+  ASSERT_NE(warning(with_fines(0.9, 0.1)), "");
+  StateArchive saved;
+  checks_.archive(saved);
+  StateArchive stored(saved.finish());
+  RowChecks resumed(scene_, infinite);
+  resumed.archive(stored);
+  EXPECT_TRUE(resumed.check(with_defect(30.0)).empty());
+  EXPECT_TRUE(resumed.check(with_fines(0.9, 0.1)).empty());
+}
+
+}  // namespace
+}  // namespace suffuse
