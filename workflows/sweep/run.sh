@@ -15,8 +15,8 @@
 # and the next call goes on. PROGRESS=1: what the programs say is shown instead of kept in STEM.log.
 set -u
 programs=$1 stem=$2 tolerance=$3
-folder=$(dirname -- "$stem") name=$(basename -- "$stem")
-cd "$folder" || exit 4
+name=${stem##*/}
+cd "${stem%/*}" || exit 4
 # What the case was made of. The results belong to that case.
 started=.$name.started
 
@@ -36,9 +36,12 @@ fi
 # Stopped by a signal: let the solver write its checkpoint first.
 trap : INT TERM HUP
 
+# A process less for every run that has nothing to say.
+show_messages() { [ ! -s "$messages" ] || cat "$messages"; }
+
 # end WORD: with the messages of the last program.
 end() {
-  { echo "$1"; cat "$messages"; } > "$name.status.new" && mv "$name.status.new" "$name.status"
+  { echo "$1"; show_messages; } > "$name.status.new" && mv "$name.status.new" "$name.status"
   echo "$name $1" >&3
   exit 0
 }
@@ -51,7 +54,7 @@ step() {
     "$programs/$program" "$@" 3>&- || code=$?
   else
     "$programs/$program" "$@" 3>&- 2> "$messages" || code=$?
-    cat "$messages"
+    show_messages
   fi
   case $code in
     0) return ;;
@@ -63,7 +66,7 @@ step() {
   exit "$code"
 }
 
-if ! { [ -e "$name.case.h5" ] && cmp -s "$name.inputs" "$started"; }; then
+if ! { [ -e "$name.case.h5" ] && [ -e "$started" ] && cmp -s "$name.inputs" "$started"; }; then
   changes=()
   while IFS= read -r line; do
     case $line in
@@ -71,10 +74,9 @@ if ! { [ -e "$name.case.h5" ] && cmp -s "$name.inputs" "$started"; }; then
       set\ *) changes+=(--set "${line#set }") ;;
     esac
   done < "$name.inputs"
-  cp "$name.inputs" "$started.new"
   step suffuse-mesher refused "$scene" "${changes[@]}" -o "$name.case.h5"
-  rm -rf "$name.results" "$name.ledger.csv"
-  mv "$started.new" "$started"
+  [ ! -e "$name.results" ] || rm -rf "$name.results" "$name.ledger.csv"
+  cp "$name.inputs" "$started"
 fi
 step suffuse-solver failed "$name.case.h5" -o "$name.results" "${quiet[@]}" --resume
 step suffuse-post unbalanced ledger "$name.results" --csv "$name.ledger.csv" --tolerance "$tolerance"
