@@ -40,6 +40,7 @@ class Commands {
 void add_balance_commands(Commands& commands);
 void add_value_commands(Commands& commands);
 void add_picture_commands(Commands& commands);
+void add_sweep_command(Commands& commands);
 void add_file_commands(Commands& commands);
 
 /// The argument RESULTS: one folder, or several.

@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   add_balance_commands(commands);
   add_value_commands(commands);
   add_picture_commands(commands);
+  add_sweep_command(commands);
   add_file_commands(commands);
   refuse_empty_values(app);
   if (const auto code = parse_command_line(app, argc, argv)) return *code;

@@ -1,10 +1,12 @@
 #include "drawing/chart.hpp"
 
 #include <vtkAxis.h>
+#include <vtkBrush.h>
 #include <vtkChartXY.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPen.h>
+#include <vtkPlotArea.h>
 #include <vtkPlotPoints.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -73,7 +75,22 @@ void add_line(vtkChartXY& chart, const Curve& curve) {
   plot->GetPen()->SetLineType(vtk_line_type(curve.dash));
 }
 
+void add_band(vtkChartXY& chart, const Curve& curve) {
+  auto table = table_of(curve, false);
+  vtkNew<vtkDoubleArray> low;
+  low->SetName("low");
+  for (const double value : curve.low) low->InsertNextValue(value);
+  table->AddColumn(low);
+  auto* plot = vtkPlotArea::SafeDownCast(chart.AddPlot(vtkChart::AREA));
+  plot->SetInputData(table);
+  plot->SetInputArray(0, "x");
+  plot->SetInputArray(1, "low");
+  plot->SetInputArray(2, "y");
+  plot->GetBrush()->SetColorF(curve.color[0], curve.color[1], curve.color[2]);
+}
+
 void add_curve(vtkChartXY& chart, const Curve& curve) {
+  if (curve.is_band()) add_band(chart, curve);
   // VTK reports a line through one point as an error.
   if (curve.has_line() && curve.x.size() > 1) add_line(chart, curve);
   if (!curve.markers) return;
@@ -150,7 +167,10 @@ AxisTicks ticks_of(const Chart& chart, const ChartAxis& axis) {
       high = std::max(high, value);
     }
   };
-  for (const auto& curve : chart.curves) include(curve.*axis.values);
+  for (const auto& curve : chart.curves) {
+    include(curve.*axis.values);
+    if (axis.values == &Curve::y) include(curve.low);
+  }
   include(axis.extra);
   if (axis.range) {
     low = (*axis.range)[0];
@@ -172,11 +192,17 @@ Curve drawn_curve(const Chart& chart, const Curve& curve) {
   Curve result = curve;
   result.x.clear();
   result.y.clear();
+  result.low.clear();
   result.marked.clear();
   for (std::size_t row = 0; row < curve.x.size(); ++row) {
     double x = curve.x[row];
     double y = curve.y[row];
     if (!drawn(x_axis(chart), x) || !drawn(y_axis(chart), y)) continue;
+    if (curve.is_band()) {
+      double low = curve.low[row];
+      if (!drawn(y_axis(chart), low)) continue;
+      result.low.push_back(low);
+    }
     if (std::ranges::find(curve.marked, row) != curve.marked.end()) {
       result.marked.push_back(result.x.size());
     }

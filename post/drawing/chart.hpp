@@ -14,11 +14,12 @@ using Color = std::array<double, 3>;
 enum class Dash { solid, dashed, dash_dot, dash_dot_dot, dotted };
 enum class Marker { circle, square, diamond, target };
 
-/// One curve: a line (black for an exact solution), markers, or both.
+/// One curve: a line (black for an exact solution), markers, or both; or the band between two.
 struct Curve {
   std::string label;  ///< in the legend; empty leaves it out
   std::vector<double> x;
   std::vector<double> y;
+  std::vector<double> low{};  ///< lower end of a band whose upper end is y; else empty
   bool markers = false;
   bool joined = false;              ///< draw a line through the markers too
   std::vector<std::size_t> marked;  ///< rows that get a marker; empty: all rows
@@ -28,7 +29,8 @@ struct Curve {
   bool hollow = false;  ///< white inside; a target gets a smaller dot
   Color color{0.0, 0.0, 0.0};
 
-  [[nodiscard]] bool has_line() const { return joined || !markers; }
+  [[nodiscard]] bool is_band() const { return !low.empty(); }
+  [[nodiscard]] bool has_line() const { return joined || !(markers || is_band()); }
 };
 
 /// Rows of cells, the first row being the heading.

@@ -83,6 +83,11 @@ float ChartLegend::width(const std::vector<Curve>& curves) {
 bool ChartLegend::Paint(vtkContext2D* painter) {
   float y = top_ - row_height_ / 2.0F;
   for (const auto& curve : rows_) {
+    if (curve.is_band()) {
+      painter->GetPen()->SetLineType(vtkPen::NO_PEN);
+      painter->GetBrush()->SetColorF(curve.color[0], curve.color[1], curve.color[2]);
+      painter->DrawRect(left_, y - 0.3F * row_height_, symbol_width, 0.6F * row_height_);
+    }
     if (curve.has_line()) {
       painter->GetPen()->SetLineType(vtk_line_type(curve.dash));
       painter->GetPen()->SetWidth(curve.width);

@@ -118,6 +118,22 @@ double largest_magnitude(const Table& table, const std::string& name) {
   return largest;
 }
 
+/// What a study asks for at the end.
+void add_ends(Row& row, const Table& ledger, const Table& history) {
+  const double lost = ledger.column("fines_out").back() - ledger.column("fines_in").back();
+  const double erodible = ledger.column("erodible").front();
+  row["eroded"] = number_text(ledger.column("eroded").back());
+  row["fines_lost"] = number_text(lost);
+  if (erodible > 0.0) row["fines_lost_percent"] = number_text(100.0 * lost / erodible);
+  row["water_out"] = number_text(ledger.column("water_out").back());
+  row["flux_out"] = number_text(history.column("flux_out").back());
+  row["porosity_mean"] = number_text(history.column("porosity_mean").back());
+  // Results of earlier versions do not have it.
+  if (history.has("turbidity_out")) {
+    row["turbidity_max"] = number_text(largest_magnitude(history, "turbidity_out"));
+  }
+}
+
 Row row_of(const ResultsReader& run, const std::string& label) {
   const Specimen soil = specimen(run);
   const auto masses = computed_masses(run, soil);
@@ -134,6 +150,7 @@ Row row_of(const ResultsReader& run, const std::string& label) {
   const Table history = run.history();
   row["empty_elements_total"] = number_text(history.column("empty_elements_total").back());
   row["volume_defect_max"] = number_text(largest_magnitude(history, "volume_defect"));
+  add_ends(row, ledger, history);
   return row;
 }
 
@@ -167,7 +184,14 @@ const std::vector<std::string>& run_table_columns() {
                                                 "residual_water",
                                                 "residual_grains",
                                                 "empty_elements_total",
-                                                "volume_defect_max"};
+                                                "volume_defect_max",
+                                                "eroded",
+                                                "fines_lost",
+                                                "fines_lost_percent",
+                                                "water_out",
+                                                "flux_out",
+                                                "porosity_mean",
+                                                "turbidity_max"};
   return columns;
 }
 

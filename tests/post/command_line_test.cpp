@@ -106,7 +106,7 @@ TEST_F(PostCommand, AMisspeltCommandIsNamed) {
   expect_refusal("ledgr " + run, 2,
                  "suffuse-post: error: got \"ledgr\"; expected \"ledger\", \"history\", "
                  "\"boundaries\", \"check\", \"sample\", "
-                 "\"error\", \"render\", \"figure\", "
+                 "\"error\", \"render\", \"figure\", \"sweep\", "
                  "\"table\" or \"export\"; did you mean ledger?");
 }
 

@@ -74,6 +74,12 @@ TEST(RunTable, SinglePointRun) {
   EXPECT_EQ(rows[1]["complete_computed"], "22");
   EXPECT_NEAR(std::stod(rows[1]["complete_exact"]), 22.0, 1e-12);
   EXPECT_LT(std::stod(rows[1]["error_eroded_percent"]), 1e-9);
+  // At the end: all fines of the unit square, whose porosity rose from 0.3 to 0.4, have left.
+  EXPECT_NEAR(std::stod(rows[0]["eroded"]), 270.0, 1e-9);
+  EXPECT_NEAR(std::stod(rows[0]["fines_lost"]), 270.0, 1e-9);
+  EXPECT_NEAR(std::stod(rows[0]["fines_lost_percent"]), 100.0, 1e-9);
+  EXPECT_EQ(rows[0]["water_out"], "480");
+  EXPECT_NEAR(std::stod(rows[0]["porosity_mean"]), 0.4, 1e-12);
   EXPECT_EQ(std::stod(rows[1]["error_fines_relative"]), 1.0);
 }
 

@@ -1,0 +1,37 @@
+#pragma once
+
+/// Charts of a sweep: what came out of its runs, over a key or in time, with bands.
+
+#include <string>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "drawing/chart.hpp"
+#include "tables/sweep_table.hpp"
+
+namespace suffuse {
+
+/// The value below which a share of all lies, linear between the values in ascending order (type 7
+/// of Hyndman and Fan 1996). `sorted` is ascending and not empty.
+double quantile(const std::vector<double>& sorted, double share);
+
+/// The runs in groups of like x: those that share one, or up to ten groups of equal count. No group
+/// where runs are few, or hardly any share an x.
+std::vector<std::vector<std::size_t>> groups_of(const std::vector<double>& x);
+
+/// A chart for each of the columns `y`: all runs over the column `x`, their median and the band
+/// from 10 to 90 %. Of too few runs for a band, the runs joined. `scene`, that of a run, says what
+/// the unit of x depends on. The x axis is logarithmic where values cover a factor of 30.
+std::vector<Chart> over_key_charts(const SweepTable& sweep, const std::string& x,
+                                   const std::vector<std::string>& y, const Scene* scene = nullptr);
+
+/// A chart for each column: the share of runs with less than a value.
+std::vector<Chart> distribution_charts(const SweepTable& sweep, const std::vector<std::string>& y);
+
+/// A chart for each column of history.csv or ledger.csv: all runs in time, their median and the
+/// band from 10 to 90 %, up to where the first run ends. Throws FileError where results cannot be
+/// read, InputError for other columns.
+std::vector<Chart> over_time_charts(const SweepTable& sweep,
+                                    const std::vector<std::string>& columns);
+
+}  // namespace suffuse

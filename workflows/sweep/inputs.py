@@ -1,0 +1,80 @@
+#!/usr/bin/python3
+"""What a run is made of, in a file STEM.inputs: run.sh makes the run again when this changes.
+
+    scene /path/weir.toml                     the scene
+    set soil.foundation.porosity=0.3          what is changed in it, as for the mesher's --set
+    sha256 0123... /path/weir.geo             the content of every file that has a part in it
+
+    inputs.py SCENE PROGRAMS STEM [KEY=VALUE...]     writes STEM.inputs, where its text is another
+"""
+
+import functools
+import hashlib
+import pathlib
+import re
+import sys
+
+from problems import InputError
+
+PROGRAMS = ["suffuse-mesher", "suffuse-solver"]
+QUOTED = re.compile(r'"([^"\n]+)"|\'([^\'\n]+)\'')
+
+
+@functools.lru_cache(maxsize=None)
+def content(path):
+    """The line of a file; of an earlier run's results folder that of its run.json."""
+    file = path / "run.json" if path.is_dir() else path
+    return f"sha256 {hashlib.sha256(file.read_bytes()).hexdigest()} {file}"
+
+
+def named_files(text, folder):
+    """Files and results folders that a text in quotes names, from `folder`. A text that names none by chance does no harm."""
+    for groups in QUOTED.findall(text):
+        path = folder / (groups[0] or groups[1])
+        try:
+            if path.is_file() or (path / "run.json").is_file():
+                yield path
+        except OSError:  # too long for a name
+            pass
+
+
+@functools.lru_cache(maxsize=None)
+def common_lines(scene, programs):
+    text = scene.read_text(encoding="utf-8", errors="replace")
+    files = [scene, *named_files(text, scene.parent), *(programs / name for name in PROGRAMS)]
+    return [content(file) for file in files]
+
+
+def inputs_of(scene, programs, changes):
+    """The text of the file. `changes`: KEY=VALUE. Throws InputError where scene or programs cannot be read."""
+    try:
+        lines = [f"scene {scene}", *(f"set {change}" for change in changes), *common_lines(scene, programs)]
+        for change in changes:
+            value = change.split("=", 1)[1]
+            lines += [content(file) for file in named_files(f'{value}\n"{value}"', scene.parent)]
+    except OSError as error:
+        raise InputError([f"{error.filename}: {error.strerror}"]) from None
+    return "\n".join(lines) + "\n"
+
+
+def write_changed(path, text):
+    """Leaves a file of this very text alone, with its time."""
+    if path.is_file() and path.read_text(encoding="utf-8", errors="replace") == text:
+        return
+    pending = path.with_name(path.name + ".new")
+    pending.write_text(text, encoding="utf-8")
+    pending.replace(path)
+
+
+def main():
+    scene, programs, stem = (pathlib.Path(argument).absolute() for argument in sys.argv[1:4])
+    try:
+        text = inputs_of(scene, programs, sys.argv[4:])
+    except InputError as error:
+        sys.exit(f"inputs.py: {error}")
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    write_changed(stem.with_name(stem.name + ".inputs"), text)
+
+
+if __name__ == "__main__":
+    main()

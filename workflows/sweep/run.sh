@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# One run: mesh, solve, ledger. Goes on where an earlier call was stopped, and does nothing where one came to an end.
+#
+#     run.sh PROGRAMS STEM TOLERANCE
+#
+# PROGRAMS is the folder of the programs. STEM.inputs says what the run is made of (inputs.py). Makes STEM.case.h5,
+# STEM.results/, STEM.ledger.csv, STEM.log, and STEM.status when the run came to an end by itself: a word, then the messages.
+#
+#     done        to the end, and every kilogram is accounted for
+#     refused     the input is wrong
+#     failed      the computation could not go on
+#     unbalanced  a residual of the ledger is above TOLERANCE
+#
+# The exit code is 0 then, whatever the word; otherwise that of the program that was stopped or could not use a file,
+# and the next call goes on. PROGRESS=1: what the programs say is shown instead of kept in STEM.log.
+set -u
+programs=$1 stem=$2 tolerance=$3
+name=${stem##*/}
+cd "${stem%/*}" || exit 4
+# What the case was made of. The results belong to that case.
+started=.$name.started
+
+# A program goes on when make is killed above it. Programs inherit the lock, so this waits for them.
+exec 9> ".$name.lock"
+flock 9
+if [ "$name.status" -nt "$name.inputs" ]; then exit 0; fi
+
+exec 3>&1
+messages=.$name.messages
+: > "$messages"
+quiet=()
+if [ -z "${PROGRESS:-}" ]; then
+  exec > "$name.log" 2>&1
+  quiet=(--quiet)
+fi
+# Stopped by a signal: let the solver write its checkpoint first.
+trap : INT TERM HUP
+
+# A process less for every run that has nothing to say.
+show_messages() { [ ! -s "$messages" ] || cat "$messages"; }
+
+# end WORD: with the messages of the last program.
+end() {
+  { echo "$1"; show_messages; } > "$name.status.new" && mv "$name.status.new" "$name.status"
+  echo "$name $1" >&3
+  exit 0
+}
+
+# step PROGRAM WORD3 ARGUMENT...: WORD3 is what exit code 3 means.
+step() {
+  local program=$1 word=$2 code=0
+  shift 2
+  if [ -n "${PROGRESS:-}" ]; then
+    "$programs/$program" "$@" 3>&- || code=$?
+  else
+    "$programs/$program" "$@" 3>&- 2> "$messages" || code=$?
+    show_messages
+  fi
+  case $code in
+    0) return ;;
+    2) end refused ;;
+    3) end "$word" ;;
+  esac
+  echo "stopped with exit code $code of $program" >> "$messages"
+  echo "$name stopped with exit code $code of $program" >&3
+  exit "$code"
+}
+
+if ! { [ -e "$name.case.h5" ] && [ -e "$started" ] && cmp -s "$name.inputs" "$started"; }; then
+  changes=()
+  while IFS= read -r line; do
+    case $line in
+      scene\ *) scene=${line#scene } ;;
+      set\ *) changes+=(--set "${line#set }") ;;
+    esac
+  done < "$name.inputs"
+  step suffuse-mesher refused "$scene" "${changes[@]}" -o "$name.case.h5"
+  [ ! -e "$name.results" ] || rm -rf "$name.results" "$name.ledger.csv"
+  cp "$name.inputs" "$started"
+fi
+step suffuse-solver failed "$name.case.h5" -o "$name.results" "${quiet[@]}" --resume
+step suffuse-post unbalanced ledger "$name.results" --csv "$name.ledger.csv" --tolerance "$tolerance"
+end done

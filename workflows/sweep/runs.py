@@ -1,0 +1,137 @@
+"""The table SWEEP of a sweep: the keys that it changes, and their values in each run.
+
+Either columns are keys and rows are runs; an empty cell leaves the key as the scene has it. Or runs are sampled:
+
+    runs,100
+    seed,1
+    key,distribution,mean,deviation,min,max
+    soil.foundation.porosity,normal,0.3,0.02,0.2,0.4
+
+Empty lines, and lines that start with #, are left out.
+"""
+
+import csv
+import re
+
+from problems import InputError, problem
+from sampling import PARAMETERS, Distribution
+
+MOST_RUNS = 9999
+SAMPLED = ["key", "distribution", "mean", "deviation", "min", "max"]
+KEY = re.compile(r'[A-Za-z_"][^=\n]*')
+
+
+def lines_of(path):
+    """Pairs of line number and cells."""
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            reader = csv.reader(file, strict=True)
+            rows = [(reader.line_num, [cell.strip() for cell in row]) for row in reader]
+    except OSError as error:
+        raise InputError([f"{path}: {error.strerror}"]) from None
+    except (csv.Error, UnicodeDecodeError) as error:
+        raise InputError([f"{path}: is no table: {error}"]) from None
+    rows = [(line, row) for line, row in rows if any(row) and not row[0].startswith("#")]
+    if not rows:
+        raise InputError([problem(path, "", "no line", "a line of keys and a line for each run")])
+    return rows
+
+
+def check_keys(path, rows):
+    """`rows`: pairs of line number and key."""
+    problems = []
+    known = []
+    for line, key in rows:
+        if not KEY.fullmatch(key):
+            problems.append(problem(f"{path}:{line}", "", f'"{key}"', "a key of the scene"))
+        elif key in known:
+            problems.append(problem(f"{path}:{line}", "", f'"{key}" twice', "each key once"))
+        known.append(key)
+    return problems
+
+
+def listed_runs(path, rows):
+    line, keys = rows[0]
+    if len(keys) == 1 and ";" in keys[0]:
+        raise InputError([problem(f"{path}:{line}", "", f'"{keys[0]}"', "commas between columns")])
+    problems = check_keys(path, [(line, key) for key in keys])
+    if len(rows) == 1:
+        problems.append(problem(path, "", "no run", "a row for each run"))
+    for line, cells in rows[1:]:
+        if len(cells) != len(keys):
+            problems.append(problem(f"{path}:{line}", "", f"{len(cells)} cells", str(len(keys))))
+        for key, cell in zip(keys, cells):
+            if "\n" in cell:
+                problems.append(problem(f"{path}:{line}", key, "a value of several lines", "one of one line"))
+    if problems:
+        raise InputError(problems)
+    return keys, [cells for line, cells in rows[1:]]
+
+
+def read_setting(path, name, least, rows):
+    """The whole number of the line `name,NUMBER`."""
+    for line, cells in rows:
+        if cells[0] != name:
+            continue
+        found = ",".join(cells[1:]).rstrip(",")
+        if re.fullmatch(r"\d+", found) and int(found) >= least:
+            return int(found)
+        raise InputError([problem(f"{path}:{line}", name, f'"{found}"', f"a whole number, at least {least}")])
+    raise InputError([problem(path, name, "no such line", f'"{name},NUMBER" above the line of columns')])
+
+
+def read_distribution(path, line, cells):
+    key, name = cells[0], cells[1]
+    if name not in PARAMETERS:
+        raise InputError([problem(f"{path}:{line}", f"{key}: distribution", f'"{name}"',
+                                  '"normal", "lognormal" or "uniform"', PARAMETERS)])
+    parameters = {}
+    for parameter, cell in zip(SAMPLED[2:], cells[2:]):
+        if not cell:
+            continue
+        try:
+            parameters[parameter] = float(cell)
+        except ValueError:
+            parameters[parameter] = float("nan")
+        if not abs(parameters[parameter]) < float("inf"):
+            raise InputError([problem(f"{path}:{line}", f"{key}: {parameter}", f'"{cell}"', "a number")])
+    try:
+        return Distribution(name, parameters)
+    except ValueError as error:
+        raise InputError([problem(f"{path}:{line}", key, ",".join(cells[2:]), str(error))]) from None
+
+
+def sampled_runs(path, rows, start):
+    count = read_setting(path, "runs", 1, rows[:start])
+    seed = read_setting(path, "seed", 0, rows[:start])
+    problems = check_keys(path, [(line, cells[0]) for line, cells in rows[start + 1 :]])
+    if len(rows) == start + 1:
+        problems.append(problem(path, "", "no distribution", "a row for each key"))
+    columns = []
+    for line, cells in rows[start + 1 :]:
+        try:
+            if len(cells) > len(SAMPLED) or len(cells) < 2:
+                raise InputError([problem(f"{path}:{line}", "", f"{len(cells)} cells", ",".join(SAMPLED))])
+            columns.append((cells[0], read_distribution(path, line, cells)))
+        except InputError as error:
+            problems.append(str(error))
+    if problems:
+        raise InputError(problems)
+    if count > MOST_RUNS:
+        return [key for key, _ in columns], [[]] * count
+    samples = [distribution.sample(key, seed, count) for key, distribution in columns]
+    return [key for key, _ in columns], [list(cells) for cells in zip(*samples)]
+
+
+def read_runs(path):
+    """Keys, and a list of their values for each run. Throws InputError."""
+    rows = lines_of(path)
+    start = next((i for i, (_, cells) in enumerate(rows) if cells[0] == "key"), None)
+    if start is None and {cells[0] for _, cells in rows} & {"runs", "seed"}:
+        raise InputError([problem(path, "", "no line of columns", ",".join(SAMPLED))])
+    if start is not None and rows[start][1] != SAMPLED:
+        raise InputError([problem(f"{path}:{rows[start][0]}", "", ",".join(rows[start][1]), ",".join(SAMPLED))])
+    keys, runs = listed_runs(path, rows) if start is None else sampled_runs(path, rows, start)
+    if len(runs) > MOST_RUNS:
+        raise InputError([problem(path, "", f"{len(runs)} runs", f"at most {MOST_RUNS}")])
+    return keys, runs

@@ -1,0 +1,74 @@
+"""Distributions of a key, sampled with a seed: the same numbers on any machine.
+
+Python's documentation promises the sequence of random.Random(text).random(). Each value is the inverse of the
+distribution function at one of these numbers, and is rounded to ten digits, which hides differences between
+mathematical libraries. Each key has a sequence of its own: further keys change no other column, and further runs keep
+the ones before.
+"""
+
+import math
+import random
+import statistics
+
+# Parameters that a distribution needs, and those that it may have. Mean and deviation (standard) are those of the quantity
+# itself before it is cut off, also of a lognormal one.
+PARAMETERS = {
+    "normal": ({"mean", "deviation"}, {"min", "max"}),
+    "lognormal": ({"mean", "deviation"}, {"min", "max"}),
+    "uniform": ({"min", "max"}, set()),
+}
+DIGITS = 10
+
+
+class Distribution:
+    """Throws ValueError, which says what is expected, where parameters do not fit together."""
+
+    def __init__(self, name, parameters):
+        needed, possible = PARAMETERS[name]
+        for parameter in sorted(needed - parameters.keys()):
+            raise ValueError(f"a number for {parameter}, which {name} needs")
+        for parameter in sorted(parameters.keys() - needed - possible):
+            raise ValueError(f"no {parameter}, for which {name} has no use")
+        self.name = name
+        self.low = parameters.get("min", -math.inf)
+        self.high = parameters.get("max", math.inf)
+        if not self.low < self.high:
+            raise ValueError("min below max")
+        if name != "uniform":
+            self._set_normal(parameters["mean"], parameters["deviation"])
+            if not self._share(self.low) < self._share(self.high):
+                raise ValueError("min and max where values lie")
+
+    def _set_normal(self, mean, deviation):
+        """The normal distribution of the quantity, or of its logarithm."""
+        if not deviation > 0.0:
+            raise ValueError("a deviation above 0")
+        if self.name == "lognormal":
+            if not mean > 0.0:
+                raise ValueError("a mean above 0")
+            variance = math.log1p((deviation / mean) ** 2)
+            mean, deviation = math.log(mean) - variance / 2.0, math.sqrt(variance)
+        self.normal = statistics.NormalDist(mean, deviation)
+
+    def _share(self, value):
+        """Probability of less than `value`, nothing being cut off."""
+        if math.isinf(value):
+            return 0.0 if value < 0.0 else 1.0
+        if self.name == "lognormal":
+            return self.normal.cdf(math.log(value)) if value > 0.0 else 0.0
+        return self.normal.cdf(value)
+
+    def quantile(self, share):
+        """The value below which this share of all values lies, 0 < share < 1."""
+        if self.name == "uniform":
+            return self.low + share * (self.high - self.low)
+        low = self._share(self.low)
+        value = self.normal.inv_cdf(low + share * (self._share(self.high) - low))
+        return min(max(math.exp(value) if self.name == "lognormal" else value, self.low), self.high)
+
+    def sample(self, key, seed, count):
+        """`count` values of a key, as texts."""
+        generator = random.Random(f"{seed} {key}")
+        # random() may be 0, of which there is no inverse.
+        shares = (generator.random() or 2.0**-54 for _ in range(count))
+        return [f"{self.quantile(share):.{DIGITS}g}" for share in shares]

@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# Runs a command beside a Slurm of its own on this machine, and stops that Slurm afterwards:
+#
+#     slurm_here.sh CPUS COMMAND ARGUMENT...
+#
+# For tests: one node, no accounting, no limits of memory. Its keys, logs and state lie in a temporary folder.
+# Exit code 77, with a message, where the packages slurm-wlm and munge are missing.
+set -eu -o pipefail
+cpus=$1
+shift
+PATH=$PATH:/usr/sbin:/sbin
+for program in munged slurmctld slurmd srun sinfo; do
+  command -v $program > /dev/null ||
+    { echo "slurm_here.sh: there is no $program; skipped. apt-get install slurm-wlm munge" >&2; exit 77; }
+done
+[ "$(id -u)" -eq 0 ] || { echo "slurm_here.sh: slurmd has to be started by root; skipped" >&2; exit 77; }
+
+work=$(mktemp -d /tmp/slurm-here.XXXXXX)
+# munged asks that others can pass its folders and not write into them.
+chmod 755 "$work"
+daemons=()
+stop() {
+  local pid
+  for pid in ${daemons[@]+"${daemons[@]}"}; do kill "$pid" 2> /dev/null || true; done
+  for pid in ${daemons[@]+"${daemons[@]}"}; do wait "$pid" 2> /dev/null || true; done
+  rm -rf "$work"
+}
+trap stop EXIT
+trap 'exit 130' INT TERM HUP
+
+# port: a free one.
+port() { /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'; }
+
+host=$(hostname -s)
+mkdir "$work/munge" "$work/state" "$work/spool"
+chmod 700 "$work/munge"
+dd if=/dev/urandom of="$work/munge/key" bs=1024 count=1 status=none
+chmod 400 "$work/munge/key"
+cat > "$work/slurm.conf" <<END
+ClusterName=here
+SlurmctldHost=$host(127.0.0.1)
+SlurmctldPort=$(port)
+SlurmdPort=$(port)
+SlurmUser=root
+AuthType=auth/munge
+AuthInfo=socket=$work/munge.socket
+CredType=cred/munge
+StateSaveLocation=$work/state
+SlurmdSpoolDir=$work/spool
+SlurmctldPidFile=$work/slurmctld.pid
+SlurmdPidFile=$work/slurmd.pid
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+MpiDefault=none
+SwitchType=switch/none
+ReturnToService=2
+KillWait=5
+InactiveLimit=10
+SchedulerParameters=sched_min_interval=10000,batch_sched_delay=0
+SlurmctldTimeout=120
+SlurmdTimeout=120
+SlurmctldParameters=enable_configless
+NodeName=$host NodeAddr=127.0.0.1 CPUs=$cpus State=UNKNOWN
+PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP OverSubscribe=NO
+END
+export SLURM_CONF=$work/slurm.conf
+
+# start PROGRAM ARGUMENT...
+start() {
+  "$@" > "$work/$1.log" 2>&1 &
+  daemons+=($!)
+}
+
+# give_up WHAT: with the logs.
+give_up() {
+  echo "slurm_here.sh: $1" >&2
+  tail -n 20 "$work"/*.log >&2
+  exit 1
+}
+
+start munged --foreground --force --key-file="$work/munge/key" --socket="$work/munge.socket" \
+  --pid-file="$work/munge/pid" --log-file="$work/munged-file.log" --seed-file="$work/munge/seed"
+for ((i = 0; i < 100; ++i)); do [ -S "$work/munge.socket" ] && break; sleep 0.1; done
+[ -S "$work/munge.socket" ] || give_up 'munged did not start'
+start slurmctld -D -f "$SLURM_CONF"
+start slurmd -D -N "$host" -f "$SLURM_CONF"
+for ((i = 0; i < 300; ++i)); do
+  [ "$(sinfo --noheader --format=%t 2> /dev/null)" != idle ] || break
+  sleep 0.1
+done
+[ "$(sinfo --noheader --format=%t 2> /dev/null)" = idle ] || give_up 'the node did not get ready'
+code=0
+"$@" || code=$?
+exit $code

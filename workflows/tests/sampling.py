@@ -1,0 +1,165 @@
+#!/usr/bin/python3
+"""Are the distributions of a sweep the exact ones, and the same ones everywhere? Prints what fails."""
+
+import math
+import pathlib
+import statistics
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "sweep"))
+from problems import InputError
+from runs import read_runs
+from sampling import Distribution
+
+failures = 0
+
+
+def expect(what, expected, found):
+    global failures
+    if expected != found:
+        print(f"FAILED: {what}: expected {expected!r}, found {found!r}")
+        failures += 1
+
+
+def expect_near(what, expected, found, tolerance):
+    if not abs(found - expected) <= tolerance:
+        expect(what, f"{expected} +- {tolerance}", found)
+
+
+def integral(density, low, high, count=20000):
+    """By Simpson's rule."""
+    step = (high - low) / count
+    inner = sum((4 if i % 2 else 2) * density(low + i * step) for i in range(1, count))
+    return (density(low) + inner + density(high)) * step / 3.0
+
+
+def normal_density(mean, deviation):
+    return lambda x: math.exp(-0.5 * ((x - mean) / deviation) ** 2) / (deviation * math.sqrt(2.0 * math.pi))
+
+
+def lognormal_density(mean, deviation):
+    """Of x > 0 whose own mean and deviation these are, from its median and the variance of its logarithm."""
+    variance = math.log(1.0 + (deviation / mean) ** 2)
+    median = mean * math.exp(-variance / 2.0)
+    return lambda x: math.exp(-math.log(x / median) ** 2 / (2.0 * variance)) / (x * math.sqrt(2.0 * math.pi * variance))
+
+
+# A distribution, its density, and where next to nothing lies outside.
+CASES = [
+    ("normal", {"mean": 0.3, "deviation": 0.02}, normal_density(0.3, 0.02), 0.1, 0.5),
+    ("normal", {"mean": 0.3, "deviation": 0.1, "min": 0.25, "max": 0.5}, normal_density(0.3, 0.1), 0.25, 0.5),
+    ("lognormal", {"mean": 2.0, "deviation": 1.0}, lognormal_density(2.0, 1.0), 1e-3, 60.0),
+    ("lognormal", {"mean": 2.0, "deviation": 1.0, "max": 3.0}, lognormal_density(2.0, 1.0), 1e-3, 3.0),
+    ("uniform", {"min": -1.0, "max": 3.0}, lambda x: 0.25, -1.0, 3.0),
+]
+
+
+def check_distribution(name, parameters, density, low, high):
+    what = f"{name} {parameters}"
+    distribution = Distribution(name, parameters)
+    whole = integral(density, low, high)
+    for share in (0.001, 0.1, 0.25, 0.5, 0.9, 0.999):
+        below = integral(density, low, distribution.quantile(share)) / whole
+        expect_near(f"{what}: share below the quantile of {share}", share, below, 1e-6)
+    mean = integral(lambda x: x * density(x), low, high) / whole
+    deviation = math.sqrt(integral(lambda x: (x - mean) ** 2 * density(x), low, high) / whole)
+    count = 20000
+    values = [float(text) for text in distribution.sample("soil.a.porosity", 1, count)]
+    # Four standard errors; the seed is always the same.
+    expect_near(f"{what}: mean of a sample", mean, statistics.fmean(values), 4.0 * deviation / math.sqrt(count))
+    expect_near(f"{what}: deviation of a sample", deviation, statistics.pstdev(values), 0.05 * deviation)
+    values.sort()
+    for share in (0.1, 0.5, 0.9):
+        error = 4.0 * math.sqrt(share * (1.0 - share) / count)
+        below = integral(density, low, values[int(share * count)]) / whole
+        expect_near(f"{what}: quantile {share} of a sample", share, below, error)
+
+
+def check_seeds():
+    conductivity = Distribution("lognormal", {"mean": 2e-2, "deviation": 1e-2})
+    porosity = Distribution("normal", {"mean": 0.3, "deviation": 0.02})
+    pinned = conductivity.sample("soil.a.conductivity", 1, 3)
+    expect("seed 1", PINNED_LOGNORMAL, pinned)
+    expect("seed 1, normal", PINNED_NORMAL, porosity.sample("soil.a.porosity", 1, 3))
+    expect("more runs keep the first", pinned, conductivity.sample("soil.a.conductivity", 1, 9)[:3])
+    for other in (conductivity.sample("soil.a.conductivity", 2, 3), conductivity.sample("soil.b.conductivity", 1, 3)):
+        expect("another seed or key has other values", True, other != pinned)
+
+
+PINNED_LOGNORMAL = ["0.007637445206", "0.0253481138", "0.03726107624"]
+PINNED_NORMAL = ["0.2829463443", "0.2874452831", "0.3041719825"]
+HEADER = "key,distribution,mean,deviation,min,max"
+LISTED = "a,b\n1,2\n"
+SAMPLED = f"runs,2\nseed,1\n{HEADER}\n"
+
+# Texts of a table, and what is said of them; TABLE stands for its path.
+WRONG = [
+    ("", "TABLE: got no line; expected a line of keys and a line for each run"),
+    ("a,b\n", "TABLE: got no run; expected a row for each run"),
+    ("a;b\n1;2\n", 'TABLE:1: got "a;b"; expected commas between columns'),
+    ("a,a\n1,2\n", 'TABLE:1: got "a" twice; expected each key once'),
+    ("a,\n1,2\n", 'TABLE:1: got ""; expected a key of the scene'),
+    ("a,b=c\n1,2\n", 'TABLE:1: got "b=c"; expected a key of the scene'),
+    ("a,b\n1\n1,2,3\n", "TABLE:2: got 1 cells; expected 2\nTABLE:3: got 3 cells; expected 2"),
+    ('a\n"1\n2"\n', "TABLE:3: a: got a value of several lines; expected one of one line"),
+    ("a\n" + "1\n" * 10000, "TABLE: got 10000 runs; expected at most 9999"),
+    ("runs,2\nseed,1\n", f"TABLE: got no line of columns; expected {HEADER}"),
+    ("runs,2\nseed,1\nkey,distribution\n", f"TABLE:3: got key,distribution; expected {HEADER}"),
+    (SAMPLED, "TABLE: got no distribution; expected a row for each key"),
+    (SAMPLED.replace("seed,1\n", "") + "a,uniform,,,1,2\n",
+     'TABLE: seed: got no such line; expected "seed,NUMBER" above the line of columns'),
+    (SAMPLED.replace("runs,2", "runs,0") + "a,uniform,,,1,2\n", 'TABLE:1: runs: got "0"; expected a whole number, at least 1'),
+    (SAMPLED.replace("runs,2", "runs,20000") + "a,uniform,,,1,2\n", "TABLE: got 20000 runs; expected at most 9999"),
+    (SAMPLED + "a,gaussian,1,2,,\nb,lognormall,1,2,,\n",
+     'TABLE:4: a: distribution: got "gaussian"; expected "normal", "lognormal" or "uniform"\n'
+     'TABLE:5: b: distribution: got "lognormall"; expected "normal", "lognormal" or "uniform"; did you mean lognormal?'),
+    (SAMPLED + "a,normal,x,2,,\n", 'TABLE:4: a: mean: got "x"; expected a number'),
+    (SAMPLED + "a,normal,nan,2,,\n", 'TABLE:4: a: mean: got "nan"; expected a number'),
+    (SAMPLED + "a,normal,1,,,\n", "TABLE:4: a: got 1,,,; expected a number for deviation, which normal needs"),
+    (SAMPLED + "a,uniform,1,,1,2\n", "TABLE:4: a: got 1,,1,2; expected no mean, for which uniform has no use"),
+    (SAMPLED + "a,uniform,,,2,1\n", "TABLE:4: a: got ,,2,1; expected min below max"),
+    (SAMPLED + "a,normal,1,0,,\n", "TABLE:4: a: got 1,0,,; expected a deviation above 0"),
+    (SAMPLED + "a,lognormal,-1,1,,\n", "TABLE:4: a: got -1,1,,; expected a mean above 0"),
+    (SAMPLED + "a,normal,0,1,50,51\n", "TABLE:4: a: got 0,1,50,51; expected min and max where values lie"),
+    (SAMPLED + "a,uniform,,,1,2\na,uniform,,,1,2\n", 'TABLE:5: got "a" twice; expected each key once'),
+    (SAMPLED + "a,uniform,,,1,2,3\n", f"TABLE:4: got 7 cells; expected {HEADER}"),
+]
+
+
+def check_tables():
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "a table.csv"
+
+        def said_of(text):
+            path.write_text(text, encoding="utf-8")
+            try:
+                return read_runs(path)
+            except InputError as error:
+                return str(error).replace(str(path), "TABLE")
+
+        for text, message in WRONG:
+            expect(repr(text[:80]), message, said_of(text))
+        expect("no file", f"{folder}/none.csv: No such file or directory", message_of(f"{folder}/none.csv"))
+        expect("comments, empty cells, a byte order mark", (["a", "b"], [["1", ""], ["[[0, 1]]", "x"]]),
+               said_of('\ufeff# of keys\na, b\n1,\n\n"[[0, 1]]",x\n'))
+        keys, runs = said_of(SAMPLED + "a,uniform,,,1,2\nb,normal,0,1,,\n")
+        expect("sampled: keys", ["a", "b"], keys)
+        expect("sampled: runs", Distribution("uniform", {"min": 1.0, "max": 2.0}).sample("a", 1, 2), [run[0] for run in runs])
+
+
+def message_of(path):
+    try:
+        return read_runs(path)
+    except InputError as error:
+        return str(error)
+
+
+if __name__ == "__main__":
+    for case in CASES:
+        check_distribution(*case)
+    check_seeds()
+    check_tables()
+    if not failures:
+        print("ok: distributions, seeds and tables of a sweep")
+    sys.exit(failures > 0)
