@@ -125,9 +125,9 @@ void check_options(const Figure& figure, const Options& options) {
   const std::string command = "suffuse-post figure " + figure.name;
   for (const OptionUse& use : option_uses(options)) {
     if (!use.given || std::ranges::find(use.figures, figure.name) != use.figures.end()) continue;
-    throw InputError(std::vector{
-        InputProblem{command, use.option, "it",
-                     "it with a figure that uses it: " + quoted_list(use.figures), ""}});
+    throw InputError(
+        std::vector{InputProblem{command, use.option, "it with the figure \"" + figure.name + '"',
+                                 "it with " + quoted_list(use.figures), ""}});
   }
   const AxisOptions& axes = options.axes;
   const bool has_axes = axes.log_x || axes.log_y || !axes.x_range.empty() ||

@@ -300,13 +300,12 @@ TEST(SeepageMap, RefusesWhatItCannotDraw) {
               draw_figure("head", {run, run}, scratch / "a.png");
             }).find("RESULTS: got 2 folders; expected one"),
             std::string::npos);
-  EXPECT_NE(
-      refusal([&] {
-        draw_figure("porosity", {run}, scratch / "a.png", {1.0, ""});
-      })
-          .find("--time: got it; expected it with a figure that uses it: \"flownet\", \"head\" or "
-                "\"saturation\""),
-      std::string::npos);
+  EXPECT_NE(refusal([&] {
+              draw_figure("porosity", {run}, scratch / "a.png", {1.0, ""});
+            })
+                .find("--time: got it with the figure \"porosity\"; expected it with \"flownet\", "
+                      "\"head\" or \"saturation\""),
+            std::string::npos);
   EXPECT_NE(refusal([&] {
               draw_figure("head", {run}, scratch / "a.png", {HUGE_VAL, ""});
             }).find("expected a time from 0 to 10 s, the first and last"),
