@@ -70,8 +70,10 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureM
   const bool smooth = picture.where != "cell";
   const std::ptrdiff_t most = flat ? max_drawn_triangles : max_triangles;
   int division = 1;
-  const auto divided = [&](std::ptrdiff_t n) { return n * n * model.visible_count; };
-  while (smooth && division < max_division && divided(2 * division) <= most) division *= 2;
+  while (smooth && division < max_division &&
+         4L * division * division * model.visible_count <= most) {
+    division *= 2;
+  }
   ColoredTriangles triangles;
   for (int e = 0; e < mesh.element_count(); ++e) {
     if (model.visible[e] == 0) continue;
