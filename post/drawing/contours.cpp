@@ -1,6 +1,7 @@
 #include "drawing/contours.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -15,7 +16,9 @@ using Crossings = std::map<Edge, std::vector<Edge>>;
 
 Crossings crossings_of(const Mesh<2>& mesh, const std::vector<double>& at_nodes, double level) {
   Crossings crossings;
+  const auto is_finite = [&](int node) { return std::isfinite(at_nodes[node]); };
   for (const auto& nodes : mesh.elements) {
+    if (!std::ranges::all_of(nodes, is_finite)) continue;
     std::vector<Edge> crossed;
     for (int a = 0; a < 3; ++a) {
       const auto [i, j] = std::minmax(nodes[a], nodes[(a + 1) % 3]);

@@ -11,7 +11,7 @@ namespace suffuse {
 using Polyline = std::vector<Vector<2>>;
 
 /// The lines along which the field has the value `level`, each as long as it can be; a closed one
-/// ends where it starts.
+/// ends where it starts. They leave out elements with a value that is not finite.
 std::vector<Polyline> contour_lines(const Mesh<2>& mesh, const std::vector<double>& at_nodes,
                                     double level);
 

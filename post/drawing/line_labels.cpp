@@ -82,7 +82,14 @@ void LineLabels::paint(vtkContext2D& painter, const std::vector<Polyline>& lines
 }
 
 std::vector<Polyline> level_lines(const ContourField& field, double level) {
-  const auto [low, high] = std::ranges::minmax(field.at_nodes);
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  for (const double value : field.at_nodes) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  if (low > high) return {};
   return contour_lines(field.mesh, field.at_nodes, level + 1e-6 * (level - 0.5 * (low + high)));
 }
 

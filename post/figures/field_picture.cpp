@@ -46,8 +46,11 @@ void add_divided(ColoredTriangles& triangles, const std::array<Vector<2>, 3>& co
   const auto at = [&](int i, int j) {
     const double b = static_cast<double>(i) / n;
     const double c = static_cast<double>(j) / n;
+    const double value = (1.0 - b - c) * values[0] + b * values[1] + c * values[2];
+    // One value that is infinite must not become none.
+    const bool is_one = values[0] == values[1] && values[1] == values[2];
     return Corner{(1.0 - b - c) * corners[0] + b * corners[1] + c * corners[2],
-                  (1.0 - b - c) * values[0] + b * values[1] + c * values[2]};
+                  is_one ? values[0] : value};
   };
   const auto add = [&](const Corner& p, const Corner& q, const Corner& r) {
     const double mean = (p.value + q.value + r.value) / 3.0;
@@ -68,10 +71,10 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureM
                     const FieldPicture& picture, bool flat) {
   const Mesh<2>& mesh = model.mesh;
   const bool smooth = picture.where != "cell";
-  const int most = flat ? max_drawn_triangles : max_triangles;
+  const std::ptrdiff_t most = flat ? max_drawn_triangles : max_triangles;
   int division = 1;
   while (smooth && division < max_division &&
-         4 * division * division * model.visible_count <= most) {
+         4L * division * division * model.visible_count <= most) {
     division *= 2;
   }
   ColoredTriangles triangles;

@@ -77,7 +77,7 @@ Color FieldScale::color(double value) const {
   for (const auto& kind : kinds) {
     if (std::abs(value - kind.value) < 0.5) return kind.color;
   }
-  if (!kinds.empty() || !std::isfinite(value)) return no_value;
+  if (!kinds.empty() || std::isnan(value)) return no_value;
   if (logarithmic && !(value > 0.0)) return no_value;
   return viridis(fraction(value));
 }
@@ -98,6 +98,8 @@ FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& re
   FieldScale scale;
   scale.logarithmic = request.logarithmic;
   const auto all = values.size();
+  const bool infinite =
+      std::ranges::any_of(values, [](const WeightedValue& v) { return v.value == HUGE_VAL; });
   std::erase_if(values, [&](const WeightedValue& v) {
     return !std::isfinite(v.value) || (request.logarithmic && !(v.value > 0.0));
   });
@@ -106,7 +108,7 @@ FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& re
   if (request.range) {
     scale.range = *request.range;
     scale.exceeds_low = !values.empty() && values.front().value < scale.range[0];
-    scale.exceeds_high = !values.empty() && values.back().value > scale.range[1];
+    scale.exceeds_high = infinite || (!values.empty() && values.back().value > scale.range[1]);
     return scale;
   }
   if (values.empty()) {
@@ -122,6 +124,7 @@ FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& re
     return scale;
   }
   leave_out_extremes(scale, values, request.shares);
+  scale.exceeds_high = scale.exceeds_high || infinite;
   return scale;
 }
 

@@ -31,7 +31,7 @@ struct FieldScale {
   [[nodiscard]] std::string level_text(double level) const;
 };
 
-/// Grey: of values that are not finite, or cannot be on a logarithmic scale.
+/// Grey: of what is not a number, or cannot be on a logarithmic scale.
 inline constexpr Color no_value{0.75, 0.75, 0.75};
 
 /// A value with the area that has it, or 1 for each point.

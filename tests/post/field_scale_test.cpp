@@ -54,6 +54,17 @@ TEST(FieldScale, OfTheUserIsKept) {
   EXPECT_FALSE(scale.exceeds_high);
 }
 
+// A safety is infinite where no water rises.
+TEST(FieldScale, TakesInfiniteValuesForLargeOnes) {
+  auto values = thousand();
+  values.push_back({HUGE_VAL, 500.0});
+  const FieldScale scale = value_scale(values, {});
+  EXPECT_EQ(scale.range[1], 999.0);
+  EXPECT_TRUE(scale.exceeds_high);
+  EXPECT_EQ(scale.color(HUGE_VAL), viridis(1.0));
+  EXPECT_TRUE(value_scale(values, {.range = {{0.0, 5.0}}}).exceeds_high);
+}
+
 TEST(FieldScale, OfRoundOffIsOneColour) {
   FieldScale scale = value_scale({{0.3, 1.0}, {0.3 + 1e-13, 1.0}}, {});
   EXPECT_TRUE(scale.uniform);

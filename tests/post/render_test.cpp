@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "case/errors.hpp"
@@ -277,6 +278,20 @@ TEST_F(Render, AChangeIsThatSinceTheStart) {
     const Eigen::Vector2d at{axes_left + 800.0 * x, axes_bottom + 800.0 * 0.65};
     expect_color(pixels.at(at), viridis(x), "x = " + std::to_string(x));
   }
+}
+
+TEST_F(Render, InfiniteValuesAreAsTheLargestAndHaveNoContours) {
+  const Mesh<2> mesh = testing::unit_square_case().mesh;
+  FieldPicture picture = linear_picture(mesh);
+  picture.where = "cell";
+  picture.values.assign(mesh.elements.size(), 0.5);
+  picture.values[7] = HUGE_VAL;
+  picture.contours = true;
+  const std::string path = scratch / "infinite.png";
+  draw_field_picture(picture_model(mesh, {}), picture, path);
+  const Vector<2> x = element_centroid(mesh, 7);
+  const Eigen::Vector2d at{axes_left + 800.0 * x[0], axes_bottom + 30.0 + 800.0 * x[1]};
+  expect_color(Pixels(path).at(at), viridis(1.0), "infinite");
 }
 
 TEST_F(Render, AFieldOfElementsHasContoursOfItsMeans) {

@@ -150,6 +150,15 @@ TEST(Contours, AreTheStraightLinesOfALinearField) {
   EXPECT_TRUE(contour_lines(mesh, field, -1.0).empty());
 }
 
+TEST(Contours, LeaveOutWhatIsNotFinite) {
+  const Mesh<2> mesh = dam_mesh(9, 7);
+  std::vector<double> field;
+  for (const Vector<2>& x : mesh.nodes) field.push_back(x[0] > 20.0 ? HUGE_VAL : x[0] + x[1]);
+  for (const Polyline& line : contour_lines(mesh, field, 18.0)) {
+    for (const Vector<2>& x : line) EXPECT_NEAR(x[0] + x[1], 18.0, 1e-12);
+  }
+}
+
 TEST(Contours, ThatCloseAreOneLine) {
   const Mesh<2> mesh = dam_mesh(40, 20);
   std::vector<double> field;
