@@ -24,9 +24,11 @@ struct SeepageMap {
 };
 
 /// Of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes' pressures;
-/// without gravity there is no phreatic line. Throws InputError where every soil is saturated and
-/// the saturation is wanted; FileError.
-SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time);
+/// without gravity there is no phreatic line. Throws InputError, naming `command`, for a time
+/// outside the snapshots, and where every soil is saturated and the saturation is wanted;
+/// FileError.
+SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time,
+                    const std::string& command = "suffuse-post figure head");
 SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>& time);
 
 /// Values between which one colour is used, ascending: round numbers that enclose [low, high].
