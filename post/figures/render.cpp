@@ -61,6 +61,7 @@ struct Frame {
 std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
                                           const RenderRequest& request) {
   const auto& times = results.times();
+  if (!request.snapshots.empty()) return request.snapshots;
   if (!request.all) return {snapshot_at(results, request.time)};
   if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
   std::vector<std::size_t> every;
@@ -288,12 +289,13 @@ std::vector<std::string> render(const ResultsReader& results, const RenderReques
         InputProblem{command, "--time", number_text(*request.time), "a time in seconds", ""}});
   }
   const auto snapshots = wanted_snapshots(results, request);
-  const FieldPlace place =
-      find_field(results, snapshots.front(), request.field, request.on, command);
+  FieldPlace place = find_field(results, snapshots.front(), request.field, request.on, command);
+  place.change = request.change;
   const Mesh<2> mesh = results.mesh();
   Frame frame;
   frame.where = place.where;
   frame.scale = make_scale(results, snapshots, place, request);
+  const bool several = request.all || !request.snapshots.empty();
   std::vector<std::string> written;
   for (const std::size_t index : snapshots) {
     const ScalarField field = read_scalar(results, index, place);
@@ -303,7 +305,7 @@ std::vector<std::string> render(const ResultsReader& results, const RenderReques
     if (place.where == "solid" || place.where == "liquid") {
       frame.positions = results.point_positions(index, place.where);
     }
-    written.push_back(request.all ? numbered(request.output, index) : request.output);
+    written.push_back(several ? numbered(request.output, index) : request.output);
     draw_frame(mesh, frame, written.back());
   }
   return written;

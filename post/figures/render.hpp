@@ -14,11 +14,13 @@ namespace suffuse {
 /// points and liquid points is drawn.
 struct RenderRequest {
   std::string field;
-  std::string on;              ///< "cell", "node", "solid", "liquid" or empty
-  std::optional<double> time;  ///< s; the nearest snapshot is drawn; unset: the last
-  bool all = false;            ///< every snapshot, all with the same colours
+  std::string on;                        ///< "cell", "node", "solid", "liquid" or empty
+  std::optional<double> time;            ///< s; the nearest snapshot is drawn; unset: the last
+  bool all = false;                      ///< every snapshot, all with the same colours
+  std::vector<std::size_t> snapshots{};  ///< these alone, likewise; empty: as the members above say
+  bool change = false;                   ///< what changed since the start
   std::optional<std::array<double, 2>> range;  ///< of the colours; unset: that of the values
-  std::string output;                          ///< NAME.png; with `all` NAME_0000.png and so on
+  std::string output;                          ///< NAME.png; of several NAME_0000.png and so on
 };
 
 /// Reads `LO,HI`, LO < HI. Throws InputError.

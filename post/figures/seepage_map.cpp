@@ -256,6 +256,7 @@ ModelView view_of(const SeepageMap& map, float bottom) {
     for (const auto& corners : water.body) std::ranges::for_each(corners, include);
     std::ranges::for_each(water.level, include);
   }
+  std::ranges::for_each(map.covered_places, include);
   return {low, high, axes_left, bottom, Layout::max_width, Layout::max_height};
 }
 
@@ -326,16 +327,42 @@ std::vector<double> band_levels(double low, double high) {
   return levels;
 }
 
+void align_maps(std::vector<SeepageMap>& maps) {
+  std::array<double, 2> heads{HUGE_VAL, -HUGE_VAL};
+  std::vector<Vector<2>> places;
+  for (const SeepageMap& map : maps) {
+    const auto [low, high] = std::ranges::minmax(map.head);
+    heads = {std::min(heads[0], low), std::max(heads[1], high)};
+    for (const OutsideWater& water : map.water) {
+      for (const auto& corners : water.body) {
+        places.insert(places.end(), corners.begin(), corners.end());
+      }
+      places.insert(places.end(), water.level.begin(), water.level.end());
+    }
+  }
+  for (SeepageMap& map : maps) {
+    map.covered_heads = heads;
+    map.covered_places = places;
+  }
+}
+
 void draw_seepage_map(const SeepageMap& map, const std::string& path) {
   const std::vector<Polyline> phreatic = phreatic_lines(map);
   const auto& shown = map.saturation.empty() ? map.head : map.saturation;
-  const auto [low, high] = std::ranges::minmax(shown);
+  auto [low, high] = std::ranges::minmax(shown);
+  if (map.covered_heads) {
+    low = std::min(low, (*map.covered_heads)[0]);
+    high = std::max(high, (*map.covered_heads)[1]);
+  }
   const bool of_heads = map.saturation.empty();
   const std::vector<double> levels =
       of_heads ? band_levels(low, high) : band_levels(std::min(low, 0.9), 1.0);
   const std::vector<Curve> rows =
       legend_rows(map, of_heads && levels.size() > 2, !phreatic.empty());
-  const float legend_height = legend_row * static_cast<float>(rows.size());
+  // Maps that belong together have room for the same rows.
+  const std::size_t most_rows = map.pressure.empty() ? 1 : 3;
+  const float legend_height =
+      legend_row * static_cast<float>(map.covered_heads ? most_rows : rows.size());
   const Sheet sheet{map, view_of(map, axes_bottom + legend_height), levels};
   const ModelView& view = sheet.view;
   const float right = view.left() + view.width() + Layout::gap;

@@ -21,6 +21,10 @@ struct SeepageMap {
   std::vector<double> saturation;  ///< per element; coloured in the place of heads; or empty
   std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
   std::vector<OutsideWater> water;
+  /// Of maps that belong together, beside what each shows: colours for these heads, room for this
+  /// place, m.
+  std::optional<std::array<double, 2>> covered_heads{};
+  std::vector<Vector<2>> covered_places{};
 };
 
 /// Of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes' pressures;
@@ -28,6 +32,9 @@ struct SeepageMap {
 /// the saturation is wanted; FileError.
 SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time);
 SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>& time);
+
+/// Gives maps of heads of one run the same colours, and the model the same place in all of them.
+void align_maps(std::vector<SeepageMap>& maps);
 
 /// Values between which one colour is used, ascending: round numbers that enclose [low, high].
 std::vector<double> band_levels(double low, double high);

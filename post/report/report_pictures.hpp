@@ -1,0 +1,47 @@
+#pragma once
+
+/// The pictures of a report, drawn into files of a temporary folder and put into the page.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+#include "tables/table_output.hpp"
+
+namespace suffuse {
+
+/// A folder for files that are gone with the object. Throws FileError.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+  [[nodiscard]] std::string operator/(const std::string& name) const {
+    return (path_ / name).string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The unit in which times up to `end` (s) are small numbers.
+TimeUnit fitting_time_unit(double end);
+/// "6 d"
+std::string time_text(double seconds, const TimeUnit& unit);
+
+/// At most `count` snapshots, evenly in time, the first and the last among them.
+std::vector<std::size_t> snapshots_evenly(const std::vector<double>& times, std::size_t count);
+
+/// The sketch of a run's model. Throws FileError, as all that follow.
+std::string model_html(const ResultsReader& run);
+
+/// Charts of columns of tables, a curve per run; of those columns that all runs have.
+std::string curves_html(const std::vector<ResultsReader>& runs);
+
+/// Fields of a run at up to twelve times, with a slider: head, change of porosity, concentration,
+/// safety. A field that is the same number everywhere and always is a sentence.
+std::string fields_html(const ResultsReader& run);
+
+}  // namespace suffuse
