@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -12,14 +11,18 @@
 
 #include "case/consistency.hpp"
 #include "case/errors.hpp"
+#include "case/geometry_checks.hpp"
+#include "case/scene_schema.hpp"
 #include "case/short_number.hpp"
 #include "column.hpp"
+#include "curve_crossings.hpp"
 #include "geometry_scan.hpp"
 #include "gmsh_session.hpp"
 #include "hilbert_order.hpp"
 #include "inner_cuts.hpp"
 #include "mesh_extraction.hpp"
 #include "point_sizes.hpp"
+#include "time_limit.hpp"
 
 namespace suffuse {
 
@@ -30,28 +33,13 @@ namespace {
 /// Beyond this a misplaced decimal point is likelier than intent.
 constexpr double max_triangles = 5e6;
 
-std::string extension_of(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
-bool is_step_file(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".step" || extension == ".stp";
-}
-
-bool is_mesh_file(const std::string& path) {
-  return extension_of(path) == ".msh";
-}
-
 [[noreturn]] void refuse(const SceneDocument& document, const std::string& key,
                          const std::string& found, const std::string& expected) {
   throw InputError(
       std::vector<InputProblem>{{document.locate(key), key, found, expected, std::string()}});
 }
 
+/// \param area  m2
 /// \param strip  width of what is meshed besides, in rows of elements, all rows together, m
 void refuse_too_many(const SceneDocument& document, double area, double strip = 0.0) {
   const double size = document.scene.mesh.size;
@@ -97,6 +85,13 @@ void build_column(const SceneDocument& document, std::vector<std::string>& notes
 constexpr const char* advice_on_mesh =
     "a mesh that Gmsh can read: open it in Gmsh, look at it and save it anew";
 
+/// Gmsh names an edge of its own that it cannot recover; the user knows the curves.
+std::string crossings_behind(const std::string& complaint) {
+  const std::vector<std::string> crossings =
+      complaint.starts_with("Unable to recover") ? curve_crossings() : std::vector<std::string>{};
+  return listed(crossings, "and");
+}
+
 /// `'FILE', line N: MESSAGE` is how Gmsh places an error in a script.
 InputProblem gmsh_problem(const SceneDocument& document, const std::string& path,
                           const std::string& complaint) {
@@ -108,8 +103,13 @@ InputProblem gmsh_problem(const SceneDocument& document, const std::string& path
     return {complaint.substr(1, name_end - 1) + ":" + complaint.substr(line, message - line), "",
             complaint.substr(message + 2), "valid Gmsh text", ""};
   }
-  return {document.locate("geometry.file"), "geometry.file",
-          '"' + path + "\", of which Gmsh says: " + complaint,
+  const std::string where = document.locate("geometry.file");
+  if (const std::string crossings = crossings_behind(complaint); !crossings.empty()) {
+    return {where, "geometry.file", '"' + path + "\" with " + crossings,
+            "curves that meet at points of both alone: split them there, or use BooleanFragments",
+            ""};
+  }
+  return {where, "geometry.file", '"' + path + "\", of which Gmsh says: " + complaint,
           is_mesh_file(path) ? advice_on_mesh : "a geometry that Gmsh can mesh", ""};
 }
 
@@ -164,12 +164,12 @@ bool has_surface_mesh() {
 void generate_mesh(const SceneDocument& document, const std::string& path) {
   std::array<double, 6> box{};
   gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
-  refuse_too_many(document, (box[3] - box[0]) * (box[4] - box[1]));
+  const double scale = document.scene.geometry.scale;
+  refuse_too_many(document, (box[3] - box[0]) * scale * (box[4] - box[1]) * scale);
+  const double size = document.scene.mesh.size / scale;  // in the file's unit
   double largest = 0.0;
   gmsh::option::getNumber("Mesh.MeshSizeMax", largest);
-  if (document.scene.mesh.size < largest) {
-    gmsh::option::setNumber("Mesh.MeshSizeMax", document.scene.mesh.size);
-  }
+  if (size < largest) gmsh::option::setNumber("Mesh.MeshSizeMax", size);
   if (document.scene.mesh.structure == MeshStructure::crossed) {
     // Triangles twice as large, each then split into three quadrangles by Gmsh: its recombination
     // of triangles into quadrangles crashes on small models (4.8).
@@ -177,7 +177,7 @@ void generate_mesh(const SceneDocument& document, const std::string& path) {
     gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
   }
   run_gmsh(document, path, [&] {
-    if (std::isfinite(document.scene.mesh.size)) set_default_point_size(document.scene.mesh.size);
+    if (std::isfinite(size)) set_default_point_size(size);
     gmsh::model::mesh::generate(2);
   });
 }
@@ -199,11 +199,21 @@ void refuse_what_ends_gmsh(const SceneDocument& document, const std::string& pat
   }
 }
 
+InputProblem too_long(const SceneDocument& document, double max_seconds) {
+  return {document.locate("geometry.file"), "geometry.file",
+          '"' + document.scene.geometry.file + "\", over which Gmsh has spent " +
+              short_number(max_seconds) + " s of processor time without an end",
+          "a file without endless loops and with sizes that suit the model; for a large one a "
+          "longer --geometry-timeout",
+          ""};
+}
+
 /// Whether the mesh is the user's own, to be taken as it is.
-bool build_from_file(const SceneDocument& document, std::vector<std::string>& notes) {
+bool build_from_file(const SceneDocument& document, double max_seconds,
+                     std::vector<std::string>& notes) {
   const std::string path = geometry_path(document);
   const bool is_step = is_step_file(path);
-  if (!is_step && !is_mesh_file(path) && extension_of(path) != ".geo") {
+  if (!is_step && !is_mesh_file(path) && !is_geo_file(path)) {
     refuse(document, "geometry.file", '"' + document.scene.geometry.file + '"',
            "a file ending in .geo, .msh, .step or .stp");
   }
@@ -215,6 +225,7 @@ bool build_from_file(const SceneDocument& document, std::vector<std::string>& no
   if (!dangers.empty()) throw InputError(std::move(dangers));
 
   if (is_mesh_file(path)) refuse_what_ends_gmsh(document, path);
+  const TimeLimit limit(max_seconds, too_long(document, max_seconds).message());
   run_gmsh(document, path, [&] { is_step ? open_step(path) : gmsh::open(path); });
   if (is_mesh_file(path)) return true;
   if (has_surface_mesh()) {
@@ -238,6 +249,25 @@ void place_problems(const SceneDocument& document, std::vector<InputProblem>& pr
   }
 }
 
+/// One problem in the place of one for each boundary, wall and well, where the geometry has no
+/// named curves at all.
+/// \param curves  that could be named, as text
+void explain_missing_curves(const SceneDocument& document, const std::string& curves,
+                            std::vector<InputProblem>& problems) {
+  const auto is_name = [](const InputProblem& problem) { return problem.key.ends_with(".on"); };
+  std::vector<std::string> names;
+  for (const InputProblem& problem : problems) {
+    if (is_name(problem)) names.push_back(problem.found);
+  }
+  if (names.empty()) return;
+  std::erase_if(problems, is_name);
+  problems.push_back({document.locate("geometry.file"), "geometry.file",
+                      '"' + document.scene.geometry.file + "\" with no physical curve",
+                      "a physical curve for " + listed(names, "and") + ", as in Physical Curve(" +
+                          names.front() + ") = {1};" + curves,
+                      ""});
+}
+
 /// Gmsh reads names of faces from a STEP file, where the CAD program wrote any, but none of edges.
 void advise_on_step(const SceneDocument& document, std::vector<InputProblem>& problems) {
   const std::string& file = document.scene.geometry.file;
@@ -256,7 +286,7 @@ std::string geometry_path(const SceneDocument& document) {
   return (fs::path(document.path).parent_path() / document.scene.geometry.file).string();
 }
 
-Geometry build_geometry(const SceneDocument& document) {
+Geometry build_geometry(const SceneDocument& document, double max_seconds) {
   Geometry result;
   ExtractedMesh extracted;
   {
@@ -265,16 +295,20 @@ Geometry build_geometry(const SceneDocument& document) {
     if (document.scene.geometry.file.empty()) {
       build_column(document, result.notes);
     } else {
-      users_own = build_from_file(document, result.notes);
+      users_own = build_from_file(document, max_seconds, result.notes);
     }
     const bool crossed = document.scene.mesh.structure == MeshStructure::crossed && !users_own;
     extracted = extract_mesh(crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused);
   }
   place_problems(document, extracted.problems);
+  for (Vector<2>& x : extracted.mesh.nodes) x *= document.scene.geometry.scale;
   if (extracted.comparable) {
     const InnerNames inner = cut_walls_and_wells(document, extracted, result.notes);
     std::ranges::move(scene_problems(document, extracted.mesh, inner),
                       std::back_inserter(extracted.problems));
+    if (extracted.curves_to_name) {
+      explain_missing_curves(document, *extracted.curves_to_name, extracted.problems);
+    }
   }
   const bool lacks_names = !extracted.problems.empty() && extracted.mesh.boundaries.empty();
   if (lacks_names && is_step_file(document.scene.geometry.file)) {

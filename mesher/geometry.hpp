@@ -2,6 +2,7 @@
 
 /// The mesh that a scene asks for: the built-in column or the user's own file.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,17 @@ struct Geometry {
 
 /// Builds the mesh with Gmsh and holds the scene against it. Throws InputError with every problem
 /// found, FileError when the geometry file cannot be read. Problems name nodes and elements by
-/// Gmsh's numbers, those of the user's .msh; the mesh is in the order of `hilbert_order.hpp`.
+/// Gmsh's numbers, those of the user's .msh, and places of a file by its own coordinates; the mesh
+/// is in the order of `hilbert_order.hpp`.
 ///
 /// A .geo or .step file is meshed here: sizes and fields in the file hold, `mesh.size` is the size
 /// where the file says nothing and an upper bound elsewhere. A .geo that meshes itself and a .msh
 /// are used as they are. Lengths in a .step file are converted from its own unit to metres; those
-/// in .geo and .msh files are metres.
-Geometry build_geometry(const SceneDocument& document);
+/// in .geo and .msh files are in `geometry.scale` metres.
+/// \param max_seconds  of processor time that Gmsh may take over a file, which can hold an endless
+///   loop: beyond, the program ends with a message and the exit code of wrong input
+Geometry build_geometry(const SceneDocument& document,
+                        double max_seconds = std::numeric_limits<double>::infinity());
 
 /// The file that `geometry.file` names, relative to the scene's folder.
 std::string geometry_path(const SceneDocument& document);

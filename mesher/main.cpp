@@ -8,6 +8,7 @@
 #include "case/case_file.hpp"
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
+#include "case/plausibility.hpp"
 #include "case/scene_schema.hpp"
 #include "case/soil_grading.hpp"
 #include "geometry.hpp"
@@ -23,11 +24,21 @@ namespace fs = std::filesystem;
 
 constexpr const char* program = "suffuse-mesher";
 
+constexpr const char* exit_codes = R"(Exit codes:
+  0    done
+  2    the scene, the geometry or the command line is wrong
+  3    out of memory, or a bug
+  4    a file cannot be read or written
+  130  interrupted by Ctrl-C
+With another code than 0 there is no new case file.
+)";
+
 struct Arguments {
   std::string scene;
   std::string output;
   std::string msh;
   std::vector<std::string> overrides;
+  double geometry_timeout = 600.0;  // s of processor time
   bool check = false;
   bool version = false;
   bool scene_reference = false;
@@ -35,8 +46,8 @@ struct Arguments {
 
 void refuse_unknown(const std::vector<std::string>& unknown) {
   if (unknown.empty()) return;
-  const std::vector<std::string> known{
-      "--output", "--set", "--msh", "--check", "--version", "--scene-reference", "--help"};
+  const std::vector<std::string> known{"--output", "--set",     "--msh",  "--geometry-timeout",
+                                       "--check",  "--version", "--help", "--scene-reference"};
   const std::string& first = unknown.front();
   const bool is_option = first.starts_with("-");
   const std::string name = first.substr(0, first.find('='));
@@ -136,7 +147,7 @@ void check_gradings(const Arguments& arguments) {
 void make_case(const Arguments& arguments) {
   const SceneDocument document = scene_of(arguments);
   check_outputs(arguments, document);
-  Geometry geometry = build_geometry(document);
+  Geometry geometry = build_geometry(document, arguments.geometry_timeout);
   const Case<2> result = seed(document, std::move(geometry.mesh));
   if (!arguments.msh.empty()) write_gmsh(arguments.msh, result.mesh);
   write_case(output_path(arguments), result);
@@ -145,6 +156,8 @@ void make_case(const Arguments& arguments) {
             << case_summary(result, geometry.notes) << grading_summary(document);
   const std::string warning = angle_warning(result.mesh);
   if (!warning.empty()) warn({warning});
+  warn(plausibility_warnings(document, result.mesh));
+  warn(suction_warnings(document, result.mesh));
   warn(grading_warnings(document));
 }
 
@@ -166,11 +179,17 @@ int run(int argc, char** argv) {
   app.add_option("--msh", arguments.msh, "also write the mesh for the Gmsh program")
       ->check(refuse_empty)
       ->type_name("FILE.msh");
+  app.add_option("--geometry-timeout", arguments.geometry_timeout,
+                 "processor time after which Gmsh is stopped over geometry.file")
+      ->check(CLI::Range(1e-3, 1e9))
+      ->capture_default_str()
+      ->type_name("SECONDS");
   app.add_flag("--check", arguments.check,
                "only check the gradations of the soils, and write nothing");
   app.add_flag("--version", arguments.version, "print the version");
   app.add_flag("--scene-reference", arguments.scene_reference,
                "print the reference of all scene keys (Markdown)");
+  app.footer(exit_codes);
   app.allow_extras();
   try {
     app.parse(argc, argv);

@@ -258,7 +258,7 @@ class Extraction {
     if (regions.empty()) {
       report("no named physical surface",
              "each region as a physical surface, as in Physical Surface(\"specimen\") = {1};" +
-                 inventory());
+                 inventory({2, 1}));
       return;
     }
     std::map<int, std::vector<int>> regions_of;  // entity -> indices of regions
@@ -313,9 +313,9 @@ class Extraction {
   }
 
   /// What a user can name, when nothing is named.
-  static std::string inventory() {
+  static std::string inventory(const std::vector<int>& dimensions) {
     std::string text;
-    for (int dimension : {2, 1}) {
+    for (const int dimension : dimensions) {
       for (int entity : entities(dimension)) {
         std::array<double, 6> box{};
         gmsh::model::getBoundingBox(dimension, entity, box[0], box[1], box[2], box[3], box[4],
@@ -592,6 +592,9 @@ class Extraction {
   }
 
   void read_boundaries() {
+    gmsh::vectorpair named;
+    gmsh::model::getPhysicalGroups(named, 1);
+    if (named.empty()) result_.curves_to_name = inventory({1});
     const FaceTable<2> faces(mesh());
     Kind wrong_types(result_.problems, "edges of two nodes (in Gmsh: Mesh.ElementOrder = 1)");
     for (const Group& group : groups(1, "curve")) {

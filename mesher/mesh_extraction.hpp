@@ -2,6 +2,7 @@
 
 /// Makes a mesh from that of the current Gmsh model.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct ExtractedMesh {
   std::vector<NamedNode> points;
   /// What is wrong with it: `found` and `expected` only, the caller knows where the mesh came from.
   std::vector<InputProblem> problems;
+  /// Where there is no physical curve: curves that could be one, as the end of a message.
+  std::optional<std::string> curves_to_name;
   /// Clockwise triangles that were turned round.
   int turned = 0;
   /// False when so much is missing that holding a scene against it would only add noise.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "case/closest_name.hpp"
 #include "case/faces.hpp"
@@ -91,21 +92,31 @@ class SceneCheck {
     for (const Soil& soil : document_.scene.soils) {
       const auto region = std::ranges::find(mesh_.region_names, soil.region);
       if (region == mesh_.region_names.end()) {
+        const std::string meant = closest_name(soil.region, regions_without_soil());
+        meant_.insert(meant);
         report("soil." + soil.region, in_quotes(soil.region),
                "a region of the mesh: " + quoted_list(mesh_.region_names),
-               suggest(soil.region, mesh_.region_names));
+               meant.empty() ? "" : in_quotes(meant));
       } else {
         check_porosity(soil, static_cast<int>(region - mesh_.region_names.begin()));
       }
     }
   }
 
+  [[nodiscard]] std::vector<std::string> regions_without_soil() const {
+    std::vector<std::string> regions = mesh_.region_names;
+    const Scene& scene = document_.scene;
+    std::erase_if(regions, [&](const std::string& region) {
+      return scene.find_soil(region) != nullptr || scene.is_free_water(region);
+    });
+    return regions;
+  }
+
   void check_regions() {
     std::vector<std::string> soils;
     for (const Soil& soil : document_.scene.soils) soils.push_back(soil.region);
-    for (const std::string& region : mesh_.region_names) {
-      const Scene& scene = document_.scene;
-      if (scene.find_soil(region) != nullptr || scene.is_free_water(region)) continue;
+    for (const std::string& region : regions_without_soil()) {
+      if (meant_.contains(region)) continue;  // reported with the soil that has nearly its name
       std::string expected = "a table [soil." + region + "] for the mesh's region of that name";
       if (names_free_water(region)) {
         expected += ", or formulation = \"double-point\", where it is free water without one";
@@ -298,6 +309,7 @@ class SceneCheck {
   std::vector<std::string> inner_;   ///< these and points
   std::vector<std::string> outer_;   ///< boundaries
   std::vector<std::string> slit_;    ///< curves and points that are cut
+  std::set<std::string> meant_;      ///< regions that soils of other names most likely mean
   std::vector<InputProblem> problems_;
 };
 

@@ -32,6 +32,12 @@ class SceneCheckBase {
     return joined("soil", shown_name(soil.region));
   }
 
+  [[nodiscard]] static std::vector<std::string> keys_of(const std::string& table) {
+    std::vector<std::string> keys = scene_children(table);
+    for (std::string& key : keys) key = joined(table, key);
+    return keys;
+  }
+
   const Scene& scene_;
   const SceneInquiry& inquiry_;
 };

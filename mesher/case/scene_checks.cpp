@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "case/geometry_checks.hpp"
 #include "case/law_texts.hpp"
 #include "case/scene_check_base.hpp"
 #include "case/seepage_checks.hpp"
@@ -13,8 +14,6 @@
 namespace suffuse {
 namespace {
 
-using Vector3 = std::array<double, 3>;
-
 /// Of each table. More is likelier a slip than intent, and would fill the disk.
 constexpr double max_rows = 1e6;
 
@@ -23,8 +22,6 @@ class Checks : private SceneCheckBase {
   using SceneCheckBase::SceneCheckBase;
 
   void run() const {
-    check_geometry();
-    if (given("geometry.shape")) check_column();
     for (const Soil& soil : scene_.soils) check_soil(soil);
     check_viscosity();
     check_grains();
@@ -38,62 +35,6 @@ class Checks : private SceneCheckBase {
   }
 
  private:
-  void check_geometry() const {
-    const bool file = given("geometry.file");
-    const bool shape = given("geometry.shape");
-    if (file && shape)
-      report("geometry.shape", "a shape and a file", "one of the two", {"geometry.file"});
-    if (!file && !shape) report("geometry", "neither file nor shape", "one of the two");
-    if (file && !shape) check_file();
-  }
-
-  void check_file() const {
-    for (const std::string name : {"width", "height"}) {
-      const std::string key = joined("geometry", name);
-      if (given(key)) {
-        report(key, "a " + name + " beside geometry.file", name + " with shape = \"column\" only",
-               {"geometry.file"});
-      }
-    }
-    for (const std::string& key : keys_of("geometry.layers")) {
-      if (!given(key)) continue;
-      report(key, "a layer beside geometry.file",
-             "layers with shape = \"column\" only: a file has regions of its own",
-             {"geometry.file"});
-    }
-    if (given("mesh.structure") && scene_.mesh.structure == MeshStructure::regular) {
-      report("mesh.structure", "\"regular\" for geometry.file",
-             "\"crossed\" or \"free\": only the built-in shapes have a regular mesh",
-             {"geometry.file"});
-    }
-  }
-
-  void check_column() const {
-    const std::string why = "for shape = \"column\"";
-    for (const std::string key : {"geometry.width", "geometry.height", "mesh.size"}) {
-      require(key, key, why, "geometry.shape");
-    }
-    const double smallest = std::min(scene_.geometry.width, scene_.geometry.height);
-    if (scene_.mesh.size > smallest) {
-      report("mesh.size", shown_value(scene_.mesh.size),
-             "h <= " + shown_number(smallest) + " m, the smaller of width and height",
-             {"geometry.width", "geometry.height"});
-    }
-    check_two_dimensional("gravity", scene_.gravity);
-    for (const Soil& soil : scene_.soils) {
-      const std::string table = table_of(soil);
-      check_two_dimensional(table + ".porosity_gradient", soil.porosity_gradient);
-      check_two_dimensional(table + ".porosity_origin", soil.porosity_origin);
-    }
-  }
-
-  void check_two_dimensional(const std::string& key, const Vector3& value) const {
-    if (value[2] != 0.0) {
-      report(key, shown_value(std::vector(value.begin(), value.end())),
-             "two numbers: a column is two-dimensional", {"geometry.shape"});
-    }
-  }
-
   void check_soil(const Soil& soil) const {
     const std::string table = table_of(soil);
     if (soil.porosity + soil.skeleton_fraction > 1.0) {
@@ -304,12 +245,6 @@ class Checks : private SceneCheckBase {
     return keys;
   }
 
-  [[nodiscard]] static std::vector<std::string> keys_of(const std::string& table) {
-    std::vector<std::string> keys = scene_children(table);
-    for (std::string& key : keys) key = joined(table, key);
-    return keys;
-  }
-
   /// Without the third term of Eq. 2 no balance closes, so nothing else may be asked of the run.
   void check_third_term() const {
     const bool single_point = scene_.formulation == Formulation::single_point;
@@ -484,6 +419,7 @@ class Checks : private SceneCheckBase {
 }  // namespace
 
 void check_scene(const Scene& scene, const SceneInquiry& inquiry) {
+  check_geometry(scene, inquiry);
   Checks(scene, inquiry).run();
   check_seepage(scene, inquiry);
 }

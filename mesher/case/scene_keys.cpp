@@ -123,6 +123,14 @@ std::vector<SceneKey> declare_keys() {
           "Your own .geo, .msh or .step file, relative to the scene; its physical groups name "
           "regions and boundaries.")
           .otherwise_as("required without `shape`"),
+      key("geometry.scale", at(&Scene::geometry, &Geometry::scale),
+          "Metres per unit of length of a .geo or .msh `file`: 0.001 where it is in millimetres. "
+          "Sizes that a .geo file gives are in its unit, `mesh.size` and all else in the scene in "
+          "metres. A .step file states its own unit.")
+          .in("m")
+          .at_least(1e-9)
+          .at_most(1e6)
+          .otherwise(1.0),
       choice("geometry.shape", at(&Scene::geometry, &Geometry::shape), {{"column", "column"}},
              "A built-in geometry. A column has the region `specimen`, whose lower left corner is "
              "the origin, and the boundaries `top`, `bottom`, `left` and `right`.")
@@ -153,8 +161,7 @@ std::vector<SceneKey> declare_keys() {
 
       key("mesh.size", at(&Scene::mesh, &MeshSettings::size),
           "Size of the elements; with a .geo or .step file the largest size, and the one where the "
-          "file "
-          "gives none.")
+          "file gives none. Not with a .msh file.")
           .named("h")
           .in("m")
           .above(0.0)
@@ -165,7 +172,7 @@ std::vector<SceneKey> declare_keys() {
               {"free", MeshStructure::free}},
              "Two right triangles per square; four triangles per quadrangle, cut along its "
              "diagonals; or Gmsh's unstructured triangles. The explicit scheme follows flows that "
-             "turn on crossed meshes only.")
+             "turn on crossed meshes only. Not with a .msh file.")
           .otherwise_as("`\"regular\"`; with `file`, `\"crossed\"`"),
 
       key("points.solid_per_element", at(&Scene::points, &Points::solid_per_element),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <utility>
@@ -10,9 +9,9 @@
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "case/scene_checks.hpp"
+#include "case/scene_defaults.hpp"
 #include "case/scene_schema.hpp"
 #include "case/scene_tree.hpp"
-#include "case/soil_grading.hpp"
 #include "case/suggestion.hpp"
 #include "case/table_file.hpp"
 
@@ -20,7 +19,6 @@ namespace suffuse {
 namespace {
 
 using Form = SceneNode::Form;
-using Places = std::map<std::string, Place>;
 
 constexpr const char* like = "like";
 /// Of soils, each like the next.
@@ -42,16 +40,6 @@ std::string indexed(const std::string& key, std::size_t index) {
   return key + '[' + std::to_string(index) + ']';
 }
 
-/// The nearest enclosing key of `key` that `places` knows, `key` included; nullptr when none is.
-const Place* find_place(const Places& places, std::string key) {
-  while (!key.empty()) {
-    if (const auto found = places.find(key); found != places.end()) return &found->second;
-    const std::size_t end = key.find_last_of(".[");
-    key.resize(end == std::string::npos ? 0 : end);
-  }
-  return nullptr;
-}
-
 class SceneReader {
  public:
   SceneReader(const std::string& text, std::string path, const std::vector<std::string>& overrides,
@@ -68,7 +56,7 @@ class SceneReader {
     if (places_.contains("geometry.file")) scene_.mesh.structure = MeshStructure::crossed;
     bind();
     read_tables();
-    complete();
+    complete_scene(scene_, path_, [this](const auto& key) { return places_.contains(key); });
     check_scene(scene_,
                 {.given = [this](const std::string& key) { return places_.contains(key); },
                  .refused = [this](const std::string& key) { return refused_.contains(key); },
@@ -399,6 +387,7 @@ class SceneReader {
         bind(declared, instance, declared.pattern.substr(group->first.size()));
       }
     }
+    report_incomplete_soils(groups[0].second);
     if (root_.find("soil")) return;
     report_missing("soil", "at least one table [soil.NAME], NAME being its region's");
   }
@@ -417,7 +406,37 @@ class SceneReader {
     if (declared.default_value) declared.store(scene_, instance.index, *declared.default_value);
     const bool unknown = without_inheritance_.contains(instance.table->name);
     if (declared.required && !unknown && !instance.table->find(declared.unless)) {
-      report_missing(joined(instance.key, path), declared.expected());
+      if (declared.pattern.starts_with("soil.*.")) {
+        missing_[instance.key].emplace_back(path, declared.expected());
+      } else {
+        report_missing(joined(instance.key, path), declared.expected());
+      }
+    }
+  }
+
+  /// A soil that lacks much beside one that lacks nothing is most likely a misspelt name, which is
+  /// one problem and not one for each key.
+  void report_incomplete_soils(const std::vector<Instance>& soils) {
+    std::vector<std::string> complete;
+    for (const Instance& soil : soils) {
+      if (!missing_.contains(soil.key)) complete.push_back(soil.table->name);
+    }
+    for (const Instance& soil : soils) {
+      const auto missing = missing_.find(soil.key);
+      if (missing == missing_.end()) continue;
+      if (missing->second.size() > 1 && !complete.empty()) {
+        std::vector<std::string> keys;
+        for (const auto& [key, expected] : missing->second) keys.push_back(key);
+        const std::string meant = closest_name(soil.table->name, complete);
+        report(place_of(soil.key), soil.key, "a soil without " + listed(keys, "and"),
+               "these keys, or like = NAME, or the name of a soil that has them: " +
+                   quoted_list(complete),
+               meant.empty() ? "" : joined("soil", shown_name(meant)));
+        continue;
+      }
+      for (const auto& [key, expected] : missing->second) {
+        report_missing(joined(soil.key, key), expected);
+      }
     }
   }
 
@@ -444,42 +463,15 @@ class SceneReader {
     }
   }
 
-  /// The level that all boundaries with a head have at the start, to round-off. Wells do not count:
-  /// they may be pumped from the start on.
-  [[nodiscard]] std::optional<double> common_head() const {
-    constexpr double round_off = 1e-9;  // m
-    std::optional<double> common;
-    for (const BoundaryCondition& boundary : scene_.boundaries) {
-      if (!boundary.head || boundary.key.starts_with("well")) continue;
-      const double head = boundary.head->value(0.0);
-      if (common && std::abs(head - *common) > round_off) return std::nullopt;
-      if (!common) common = head;
-    }
-    return common;
-  }
-
-  /// Defaults that depend on other keys.
-  void complete() {
-    const bool drains = std::ranges::any_of(scene_.soils, &Soil::drains);
-    if (!places_.contains("time.stepping") && drains) scene_.time.stepping = TimeStepping::monotone;
-    if (!places_.contains("name")) scene_.name = std::filesystem::path(path_).stem().string();
-    if (!places_.contains("output.snapshot_every")) {
-      scene_.output.snapshot_every = scene_.output.every;
-    }
-    if (!places_.contains("points.equal_volume") && scene_.points.seeding == Seeding::gauss) {
-      scene_.points.equal_volume = false;
-    }
-    if (!places_.contains("initial.water_level")) scene_.water_level = common_head();
-    derive_skeletons(scene_, [this](const auto& key) { return places_.contains(key); });
-  }
-
   std::string path_;
   const FileLoader& load_;
   std::map<std::string, std::string> files_;  ///< what was read, by name
   std::vector<Problem> problems_;
   SceneNode root_;
   std::set<std::string> without_inheritance_;  ///< soils whose `like` leads nowhere
-  std::set<std::string> refused_;              ///< keys whose value is not allowed
+  /// By soil: required keys that it lacks, and what is expected of each.
+  std::map<std::string, std::vector<std::pair<std::string, std::string>>> missing_;
+  std::set<std::string> refused_;  ///< keys whose value is not allowed
   Places places_;
   Scene scene_;
 };

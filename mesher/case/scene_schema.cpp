@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "case/law_texts.hpp"
+#include "case/short_number.hpp"
 
 namespace suffuse {
 namespace {
@@ -74,7 +75,7 @@ const std::vector<SceneSection>& scene_sections() {
        "`file`), `seepage_face` and `rain`. Boundaries without an entry are impervious. Each value "
        "is a number, or changes in time: "
        "pairs `[[t, value], ...]`, linear between them, constant before the first and after the "
-       "last; two pairs at nearly the same time make a jump."},
+       "last; two pairs at nearly the same time, such as 5 and 5.001 s, make a jump."},
       {"wall[]", "[[wall]]",
        "Walls without thickness, such as sheet piles, on named curves inside the mesh: neither "
        "water nor grains get through, but for what the conductance says."},
@@ -238,7 +239,7 @@ std::string SceneKey::fault(const Value& value) const {
     std::string time = argument + " = " + shown_number(row[0]);
     if (!std::isfinite(row[0])) return time;
     if (earlier && row[0] <= earlier->front()) {
-      return time + " after " + argument + " = " + shown_number(earlier->front());
+      return out_of_order(argument, row[0], earlier->front());
     }
     if (!within(*this, row[1])) {
       return quantity_of(*this) + " = " + shown_number(row[1]) + " at " + time;
@@ -284,6 +285,16 @@ std::string shown_value(const Value& value) {
     for (const double x : std::get<std::vector<double>>(value)) add(x);
   }
   return '[' + text + ']';
+}
+
+std::string out_of_order(const std::string& argument, double value, double earlier) {
+  const std::string found = argument + " = " + shown_number(value);
+  if (value != earlier) return found + " after " + argument + " = " + shown_number(earlier);
+  // A little later, in few digits.
+  const double later =
+      std::stod(short_number(value + 1e-4 * (value == 0.0 ? 1.0 : std::abs(value))));
+  return found + " twice (for a jump give " + shown_number(value) + " and " + shown_number(later) +
+         ")";
 }
 
 std::string listed(const std::vector<std::string>& items, const std::string& last_joint) {

@@ -103,6 +103,10 @@ std::string shown_number(double value);
 /// A value as one would write it in a scene.
 std::string shown_value(const Value& value);
 
+/// What is wrong with a time, or another argument, that does not lie above the one before it; at a
+/// jump, where the two are the same, how to give one.
+std::string out_of_order(const std::string& argument, double value, double earlier);
+
 /// `a, b or c`
 std::string listed(const std::vector<std::string>& items, const std::string& last_joint = "or");
 

@@ -306,6 +306,15 @@ SceneNode read_override_value(const std::string& text, const Place& place) {
 
 }  // namespace
 
+const Place* find_place(const Places& places, std::string key) {
+  while (!key.empty()) {
+    if (const auto found = places.find(key); found != places.end()) return &found->second;
+    const std::size_t end = key.find_last_of(".[");
+    key.resize(end == std::string::npos ? 0 : end);
+  }
+  return nullptr;
+}
+
 SceneNode* SceneNode::find(const std::string& child) {
   const auto found = std::ranges::find(children, child, &SceneNode::name);
   return found == children.end() ? nullptr : &*found;

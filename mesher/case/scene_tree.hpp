@@ -3,6 +3,7 @@
 /// A scene as written: the tree of tables, lists of tables and values of a TOML file, each with the
 /// place it was given at. Nothing is checked here but TOML itself.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,12 @@ struct Place {
     return source != other.source ? source < other.source : line < other.line;
   }
 };
+
+/// By dotted key.
+using Places = std::map<std::string, Place>;
+
+/// The nearest enclosing key of `key` that `places` knows, `key` included; nullptr when none is.
+const Place* find_place(const Places& places, std::string key);
 
 struct SceneNode {
   enum class Form { value, table, list };

@@ -1,5 +1,6 @@
 #include "case/table_file.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -44,6 +45,13 @@ std::string shown_line(std::string_view line) {
 
 }  // namespace
 
+std::string separator_advice(const std::string& line) {
+  const bool semicolon = line.find(';') != std::string::npos;
+  if (!semicolon && line.find('\t') == std::string::npos) return "";
+  return std::string(", with commas between columns in the place of ") +
+         (semicolon ? "semicolons" : "tabs") + ", and decimal points in numbers";
+}
+
 TableReading read_head_table(const std::string& text, const std::string& path) {
   TableReading result;
   std::istringstream lines(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
@@ -60,7 +68,9 @@ TableReading read_head_table(const std::string& text, const std::string& path) {
     ++number;
     const std::string_view line = trimmed(raw);
     if (number == 1) {
-      if (without_blanks(line) != header) return fail(shown_line(line), "the header line t,head");
+      if (without_blanks(line) != header) {
+        return fail(shown_line(line), "the header line t,head" + separator_advice(raw));
+      }
       continue;
     }
     if (line.empty()) continue;
@@ -70,12 +80,13 @@ TableReading read_head_table(const std::string& text, const std::string& path) {
                            ? std::nullopt
                            : read_number(trimmed(line.substr(comma + 1)));
     if (!t || !value) {
-      return fail(shown_line(line), "two numbers t,head: a time in s and a head in m");
+      const bool more_commas = std::ranges::count(line, ',') > 1;
+      return fail(shown_line(line),
+                  "two numbers t,head: a time in s and a head in m" +
+                      (more_commas ? ", with decimal points" : separator_advice(raw)));
     }
     if (!result.rows.empty() && *t <= result.rows.back().first) {
-      return fail(
-          "t = " + shown_number(*t) + " after t = " + shown_number(result.rows.back().first),
-          "times that ascend");
+      return fail(out_of_order("t", *t, result.rows.back().first), "times that ascend");
     }
     result.rows.emplace_back(*t, *value);
   }

@@ -17,6 +17,10 @@ struct TableReading {
   std::optional<InputProblem> problem;          ///< the first, with its line
 };
 
+/// What to change in a line of a CSV file whose columns are not separated by commas: the end of a
+/// message, or empty where semicolons or tabs are not the reason.
+std::string separator_advice(const std::string& line);
+
 /// Reads lines `t,head` below a header line that says so. \param path  for messages
 TableReading read_head_table(const std::string& text, const std::string& path);
 

@@ -30,7 +30,13 @@ std::vector<double> round_ticks(double low, double high) {
 std::string tick_text(double tick) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", tick);
-  return text;
+  // 6e-6, not 6e-06.
+  std::string result = text;
+  const auto power = result.find('e');
+  if (power == std::string::npos) return result;
+  while (power + 2 < result.size() - 1 && result[power + 2] == '0') result.erase(power + 2, 1);
+  if (result[power + 1] == '+') result.erase(power + 1, 1);
+  return result;
 }
 
 LogarithmicTicks logarithmic_ticks(double low, double high) {

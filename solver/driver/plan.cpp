@@ -6,8 +6,10 @@
 #include <sstream>
 
 #include "case/errors.hpp"
+#include "case/plausibility.hpp"
 #include "case/scene_schema.hpp"
 #include "driver/exchange_sentences.hpp"
+#include "flow/flow_scales.hpp"
 #include "flow/nodal_operator.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
@@ -456,6 +458,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   const Grid<Dim> grid(c.mesh);
   const SoilMap<Dim> soils(c);
   Plan plan;
+  plan.warnings = plausibility_warnings(c.document, c.mesh);
   const bool fines_enter = largest_inflow_concentration(scene) > 0.0;
   plan.erosion = soils.erodes() || (soils.deposits() && fines_enter);
   plan.transport = plan.erosion || fines_enter;
@@ -477,6 +480,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   } else {
     refuse_ergun_beside_switching_faces(c, conditions);
     plan_implicit_step(scene, plan);
+    if (!plan.flow.inertia) plan.obtuse_elements = obtuse_elements(grid);
     plan.settling_time = settling_time(c);
     warn_of_free_water_with_inertia(c, plan);
   }

@@ -4,6 +4,7 @@
 /// from the scene, before anything runs.
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Plan : ModelOptions {
   double speed_that_drag_follows = std::numeric_limits<double>::infinity();
   /// Implicit only: after it a flow that starts from rest is steady to about 1e-5 of itself, s.
   double settling_time = 0.0;
+  /// Implicit only, without inertia: elements with an obtuse angle, which can take pressures beyond
+  /// those of the boundaries.
+  std::optional<int> obtuse_elements;
   std::vector<std::string> sentences;  ///< what runs, what is skipped, and why
   std::vector<std::string> warnings;
 };

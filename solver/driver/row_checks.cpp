@@ -30,9 +30,9 @@ std::string rounded(double value) {
 
 std::vector<std::string> RowChecks::check(const HistoryRow& row) {
   check_finite(row);
-  std::vector<std::string> warnings = {check_compression(row), check_mass_scaling(row.speed_max),
-                                       check_momentum(row.speed_max), check_fines_weight(row),
-                                       check_volume_defect(row)};
+  std::vector<std::string> warnings = {
+      check_compression(row),  check_mass_scaling(row.speed_max), check_momentum(row.speed_max),
+      check_fines_weight(row), check_volume_defect(row),          check_overshoot(row)};
   std::erase(warnings, "");
   return warnings;
 }
@@ -119,6 +119,32 @@ std::string RowChecks::check_volume_defect(const HistoryRow& row) {
           << rounded(expected) << " is usual with liquid_per_element = " << points
           << ". Points that come from large elements do not fit into small ones: make the elements "
              "more even, or take more points. Masses stay exact; concentrations there are rough";
+  return message.str();
+}
+
+/// Obtuse angles and long steps of second order can take pressures beyond those of the boundaries.
+/// On most such meshes they do not, so that only a run in which it happened says so.
+std::string RowChecks::check_overshoot(const HistoryRow& row) {
+  constexpr double noticed = 0.01;  // of the range of pressures
+  const bool second_order = scene_.time.stepping == TimeStepping::second_order;
+  if (overshoot_warned_ || !obtuse_elements_ || row.pressure_overshoot < noticed) return "";
+  if (*obtuse_elements_ == 0 && !second_order) return "";
+  overshoot_warned_ = true;
+  std::ostringstream message;
+  message.precision(3);
+  message << "pressures lie outside those of boundaries and start, by "
+          << 100.0 * row.pressure_overshoot << " % of their range at t = " << row.t
+          << " s (pressure_overshoot); volumes and masses balance all the same.";
+  if (*obtuse_elements_ > 0) {
+    message
+        << " Obtuse angles can do so, above all where conductivities differ: " << *obtuse_elements_
+        << " elements have one; mesh.structure = \"free\", or \"regular\" for a column, makes few "
+           "or none.";
+  }
+  if (second_order) {
+    message << " Long steps of second order can do so: time.stepping = \"monotone\", or a shorter "
+               "time.step.";
+  }
   return message.str();
 }
 

@@ -3,6 +3,7 @@
 /// Checks each row of the history: whether its numbers are within what the equations of the model
 /// describe.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,16 +15,21 @@ namespace suffuse {
 
 class RowChecks {
  public:
-  /// Keeps a reference to the scene. `speed_that_drag_follows` is the plan's, m/s.
-  RowChecks(const Scene& scene, double speed_that_drag_follows)
-      : scene_(scene), speed_that_drag_follows_(speed_that_drag_follows) {}
+  /// Keeps a reference to the scene. `speed_that_drag_follows`, m/s, and `obtuse_elements` are the
+  /// plan's.
+  RowChecks(const Scene& scene, double speed_that_drag_follows,
+            std::optional<int> obtuse_elements = {})
+      : scene_(scene),
+        speed_that_drag_follows_(speed_that_drag_follows),
+        obtuse_elements_(obtuse_elements) {}
 
   /// New warnings; each is given once in a run. Throws NumericalError where an entry is not finite
   /// or a pressure is above the bulk modulus of the liquid.
   std::vector<std::string> check(const HistoryRow& row);
 
   void archive(StateArchive& archive) {
-    archive(scaling_warned_, momentum_warned_, compression_warned_, weight_warned_, defect_warned_);
+    archive(scaling_warned_, momentum_warned_, compression_warned_, weight_warned_, defect_warned_,
+            overshoot_warned_);
   }
 
  private:
@@ -32,14 +38,17 @@ class RowChecks {
   std::string check_momentum(double speed);
   std::string check_fines_weight(const HistoryRow& row);
   std::string check_volume_defect(const HistoryRow& row);
+  std::string check_overshoot(const HistoryRow& row);
 
   const Scene& scene_;
   double speed_that_drag_follows_;
+  std::optional<int> obtuse_elements_;
   bool scaling_warned_ = false;
   bool momentum_warned_ = false;
   bool compression_warned_ = false;
   bool weight_warned_ = false;
   bool defect_warned_ = false;
+  bool overshoot_warned_ = false;
 };
 
 }  // namespace suffuse

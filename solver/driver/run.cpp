@@ -55,7 +55,7 @@ class Run final : public OutputSink<Dim> {
         case_digest_(digest_of(case_)),
         folder_(starting_point.folder),
         loop_(case_, plan),
-        checks_(case_.document.scene, plan.speed_that_drag_follows),
+        checks_(case_.document.scene, plan.speed_that_drag_follows, plan.obtuse_elements),
         progress_(starting_point.from ? starting_point.from->time : 0.0,
                   case_.document.scene.time.end, starts_from_rest(starting_point), run.quiet),
         writer_(open_results(std::move(starting_point))) {

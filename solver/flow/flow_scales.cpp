@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "case/errors.hpp"
 #include "flow/flow_values.hpp"
@@ -148,26 +147,12 @@ double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coeffici
 }
 
 template <int Dim>
-std::optional<std::string> obtuse_angle_warning(const Grid<Dim>& grid,
-                                                const FlowCoefficients<Dim>& coefficients) {
-  int obtuse = 0;
-  double min_resistance = std::numeric_limits<double>::infinity();
-  double max_resistance = 0.0;
+int obtuse_elements(const Grid<Dim>& grid) {
+  int count = 0;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    if (is_obtuse(grid, e)) ++obtuse;
-    const double resistance = coefficients.drag[e] / coefficients.porosity[e];
-    min_resistance = std::min(min_resistance, resistance);
-    max_resistance = std::max(max_resistance, resistance);
+    if (is_obtuse(grid, e)) ++count;
   }
-  if (obtuse == 0 || max_resistance < limits.strong_contrast * min_resistance) return std::nullopt;
-  std::ostringstream message;
-  message.precision(3);
-  message << obtuse << " of " << grid.mesh.element_count()
-          << " elements have obtuse angles, and conductivities differ by a factor of "
-          << max_resistance / min_resistance
-          << ": pressures may leave the range of their boundary values; history.csv has by how "
-             "much (pressure_overshoot)";
-  return message.str();
+  return count;
 }
 
 template FlowScales find_scales(ImplicitMixed<2>&, const FlowForcing<2>&, const BoundaryValues<2>&,
@@ -175,14 +160,12 @@ template FlowScales find_scales(ImplicitMixed<2>&, const FlowForcing<2>&, const 
 template void raise_over_round_off(FlowScales&, const Grid<2>&, const FlowCoefficients<2>&,
                                    const LiquidProperties&, double);
 template double fastest_rate(const Grid<2>&, const FlowCoefficients<2>&, double, bool);
-template std::optional<std::string> obtuse_angle_warning(const Grid<2>&,
-                                                         const FlowCoefficients<2>&);
+template int obtuse_elements(const Grid<2>&);
 template FlowScales find_scales(ImplicitMixed<3>&, const FlowForcing<3>&, const BoundaryValues<3>&,
                                 double, bool);
 template void raise_over_round_off(FlowScales&, const Grid<3>&, const FlowCoefficients<3>&,
                                    const LiquidProperties&, double);
 template double fastest_rate(const Grid<3>&, const FlowCoefficients<3>&, double, bool);
-template std::optional<std::string> obtuse_angle_warning(const Grid<3>&,
-                                                         const FlowCoefficients<3>&);
+template int obtuse_elements(const Grid<3>&);
 
 }  // namespace suffuse

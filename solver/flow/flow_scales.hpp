@@ -3,8 +3,6 @@
 /// How large fluxes and pressures of a scene are: errors of the implicit flow are relative to these
 /// scales, which come from what the boundary conditions can drive.
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "case/scene.hpp"
@@ -60,10 +58,8 @@ template <int Dim>
 double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                     double bulk_modulus, bool inertia);
 
-/// A warning where the mesh has obtuse angles and conductivities differ much, so that pressures may
-/// leave their bounds.
+/// Elements with an angle of more than 90 degrees (in three dimensions, between two sides).
 template <int Dim>
-std::optional<std::string> obtuse_angle_warning(const Grid<Dim>& grid,
-                                                const FlowCoefficients<Dim>& coefficients);
+int obtuse_elements(const Grid<Dim>& grid);
 
 }  // namespace suffuse

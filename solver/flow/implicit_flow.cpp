@@ -336,7 +336,6 @@ void ImplicitFlow<Dim>::start() {
   if (!at_once) scales_.include_in_bounds(now_.state.face_pressure);
   scales_.include(now_.state.face_pressure, now_.face_flux);
   raise_over_round_off(scales_, grid, this->coefficients_, scene.liquid, scene.time.end);
-  if (const auto warning = obtuse_angle_warning(grid, this->coefficients_)) this->warn(*warning);
   control_.start(first_step(at_rest), !at_rest);
 }
 

@@ -92,9 +92,6 @@ struct ImplicitThresholds {
   double state_round_off = 1e-12;
   /// Cosines of angles above this, negative, are obtuse.
   double obtuse_cosine = 1e-9;
-  /// Conductivities that differ by less than this factor keep pressures within their bounds even
-  /// where angles are obtuse, as far as the results show.
-  double strong_contrast = 100.0;
 };
 
 inline constexpr ImplicitThresholds implicit_thresholds;

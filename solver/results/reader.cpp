@@ -11,6 +11,7 @@
 #include "case/hdf5_io.hpp"
 #include "case/pending_file.hpp"
 #include "case/regular_file.hpp"
+#include "case/table_file.hpp"
 #include "results/folder_lock.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
@@ -204,6 +205,9 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
   std::ifstream in = open_file(path);
   std::string line;
   if (!std::getline(in, line)) throw FileError(path + ":1: got nothing; expected a line of names");
+  if (const std::string advice = separator_advice(line); !advice.empty()) {
+    throw FileError(path + ":1: got " + line + "; expected a line of names" + advice);
+  }
   std::vector<std::string> names = csv_cells(line);
   std::vector<std::string> units;
   for (std::string& name : names) units.push_back(cut_unit(name));
@@ -227,7 +231,9 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
     const std::string where = path + ":" + std::to_string(number) + ": ";
     if (cells.size() != names.size()) {
       throw FileError(where + "got " + std::to_string(cells.size()) + " columns; expected " +
-                      std::to_string(names.size()));
+                      std::to_string(names.size()) +
+                      (cells.size() > names.size() ? ", with decimal points in numbers"
+                                                   : separator_advice(line)));
     }
     std::string name;
     if (!by.empty()) {

@@ -196,6 +196,52 @@ TEST_F(CommandLine, EqualScenesGiveEqualFiles) {
   EXPECT_EQ(test::read_file(folder_.file("a.h5")), test::read_file(folder_.file("b.h5")));
 }
 
+TEST_F(CommandLine, WarnsOfWhatIsUnusual) {
+  const Outcome outcome = run(
+      "column.toml --set liquid.density=1.0 --set initial.water_level=0 --set gravity=[0,-9.81]");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(
+      outcome.text.find("suffuse-mesher: warning: --set liquid.density=1.0: liquid.density: 1 "
+                        "kg/m3; 500 to 2000 are usual, water has 1000\n"),
+      std::string::npos)
+      << outcome.text;
+  EXPECT_NE(outcome.text.find("warning: column.toml:19: soil.specimen.retention: none, and a "
+                              "suction of 1 m of water at (0, 1)"),
+            std::string::npos)
+      << outcome.text;
+  EXPECT_EQ(run("column.toml").text.find("warning"), std::string::npos);
+}
+
+TEST_F(CommandLine, AnEndlessGeometryIsStopped) {
+  folder_.write("endless.toml", test::scene_text("[geometry]\nfile = \"" SUFFUSE_TEST_DATA
+                                                 "/geometry/endless.geo\"\n"));
+  const Outcome outcome = run("endless.toml --geometry-timeout 0.5");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.text,
+            "endless.toml:4: geometry.file: got \"" SUFFUSE_TEST_DATA
+            "/geometry/endless.geo\", over which Gmsh has spent 0.5 s of processor time without an "
+            "end; expected a file without endless loops and with sizes that suit the model; for a "
+            "large one a longer --geometry-timeout\n");
+  EXPECT_EQ(folder_.count(), 2);
+}
+
+TEST_F(CommandLine, TheTimeLimitEndsWithTheGeometry) {
+  folder_.write("square.toml", test::scene_text("[geometry]\nfile = \"" SUFFUSE_TEST_DATA
+                                                "/geometry/square.geo\"\n[mesh]\nsize = 0.1\n"));
+  const Outcome outcome = run("square.toml --geometry-timeout 30");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+}
+
+TEST_F(CommandLine, HelpStatesTheExitCodes) {
+  const std::string help = run("--help").text;
+  EXPECT_NE(
+      help.find("Exit codes:\n  0    done\n  2    the scene, the geometry or the command line "
+                "is wrong\n  3    out of memory, or a bug\n  4    a file cannot be read or "
+                "written\n  130  interrupted by Ctrl-C\n"),
+      std::string::npos)
+      << help;
+}
+
 TEST_F(CommandLine, PrintsVersionReferenceAndHelp) {
   EXPECT_EQ(run("--version").text.substr(0, 15), "suffuse-mesher ");
   EXPECT_EQ(run("--version").code, 0);
@@ -241,6 +287,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"column.toml --check --msh a.msh", 2,
               "--check with --msh: it writes no file; expected one of the two"},
         Wrong{"--check", 2, "a scene file is missing; expected suffuse-mesher SCENE.toml"},
+        Wrong{"column.toml --geometry-timeout 0", 2, "--geometry-timeout: Value 0 not in range"},
+        Wrong{"column.toml --geometry-timout 9", 2, "did you mean --geometry-timeout?"},
         Wrong{"column.toml --chek", 2, "did you mean --check?"},
         Wrong{"column.toml --check --set soil.specimen.gradation=[[1,100]]", 2,
               "soil.specimen.gradation: got 1 point; expected at least 3 pairs"},

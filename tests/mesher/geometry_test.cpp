@@ -417,6 +417,95 @@ TEST_F(UserFile, HoldsNoFreeWaterInSinglePointScenes) {
       << message;
 }
 
+std::string changed(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+/// Soils of the regions of two_regions.geo, under these names.
+std::string two_soils(const std::string& sand, const std::string& gravel) {
+  std::string text = scene_text("[geometry]\nfile = \"two_regions.geo\"\n[mesh]\nsize = 0.5\n",
+                                "[soil." + gravel + "]\nlike = \"" + sand + "\"\n");
+  return changed(text, "[soil.specimen]", "[soil." + sand + "]");
+}
+
+TEST_F(UserFile, OneMisspeltNameIsOneProblem) {
+  const auto message = [&](const std::string& sand, const std::string& gravel) {
+    return refusal(
+        [&] { build_geometry(parse_scene(two_soils(sand, gravel), folder_.file("scene.toml"))); });
+  };
+  EXPECT_EQ(message("sand", "gravel"), "nothing refused");
+  EXPECT_EQ(message("Sand", "gravel"),
+            folder_.file("scene.toml") +
+                ":17: soil.Sand: got \"Sand\"; expected a region of the mesh: \"sand\" or "
+                "\"gravel\"; did you mean \"sand\"?");
+  // What has a soil already is not meant.
+  const std::string third = "[soil.sands]\nlike = \"sand\"\n";
+  EXPECT_EQ(refusal([&] {
+              build_geometry(
+                  parse_scene(two_soils("sand", "gravel") + third, folder_.file("scene.toml")));
+            }),
+            folder_.file("scene.toml") +
+                ":24: soil.sands: got \"sands\"; expected a region of the mesh: \"sand\" or "
+                "\"gravel\"");
+}
+
+TEST_F(UserFile, WithoutPhysicalCurvesItSaysHowToNameThem) {
+  const std::string ends =
+      "[[boundary]]\non = \"inlet\"\npressure = 1.0\n[[boundary]]\non = "
+      "\"outlet\"\npressure = 0.0\n[[wall]]\non = \"pile\"\n";
+  EXPECT_EQ(refusal([&] { build_file("no_physical_curve.geo", "0.5", ends); }),
+            folder_.file("scene.toml:4: geometry.file: got ") +
+                "\"no_physical_curve.geo\" with no physical curve; expected a physical curve for "
+                "\"inlet\", \"outlet\" and \"pile\", as in Physical Curve(\"inlet\") = {1}; the "
+                "model has\n    curve 1: x 0 to 1, y 0 to 0\n    curve 2: x 1 to 1, y 0 to 1\n    "
+                "curve 3: x 0 to 1, y 1 to 1\n    curve 4: x 0 to 0, y 0 to 1");
+  EXPECT_EQ(build_file("no_physical_curve.geo").mesh.boundaries.size(), 0U);
+}
+
+/// The same geometry in units that are `scale` metres long.
+std::string in_units(const std::string& scale) {
+  return "u = " + scale +
+         ";\nPoint(1) = {0, 0, 0};\nPoint(2) = {3/u, 0, 0, 0.2/u};\n"
+         "Point(3) = {2/u, 1.5/u, 0};\nPoint(4) = {0, 1/u, 0};\nLine(1) = {1, 2};\n"
+         "Line(2) = {2, 3};\nLine(3) = {3, 4};\nLine(4) = {4, 1};\n"
+         "Curve Loop(1) = {1, 2, 3, 4};\nPlane Surface(1) = {1};\n"
+         "Physical Surface(\"specimen\") = {1};\nPhysical Curve(\"left\") = {4};\n";
+}
+
+TEST_F(UserFile, InAnotherUnitGivesTheMeshInMetres) {
+  for (const std::string structure : {"free", "crossed"}) {
+    folder_.write("units.geo", in_units("1"));
+    const std::string probe = "[[output.probe]]\nat = [2.5, 0.5]\n";
+    const Mesh<2> metres = build_file("units.geo", "0.5", probe, structure).mesh;
+    for (const std::string scale : {"0.125", "1024", "0.001", "1000"}) {
+      folder_.write("units.geo", in_units(scale));
+      const std::string text =
+          scene_text("[geometry]\nfile = \"units.geo\"\nscale = " + scale +
+                         "\n[mesh]\nsize = 0.5\nstructure = \"" + structure + "\"\n",
+                     probe);
+      const Mesh<2> mesh = build_geometry(parse_scene(text, folder_.file("scene.toml"))).mesh;
+      ASSERT_EQ(mesh.elements, metres.elements) << scale << structure;
+      double worst = 0.0;
+      for (int n = 0; n < mesh.node_count(); ++n) {
+        worst = std::max(worst, (mesh.nodes[n] - metres.nodes[n]).norm());
+      }
+      // Gmsh places nodes on curves to about 1e-12, and quadrangles to a few units of the last
+      // digit.
+      const bool power_of_two = scale == "0.125" || scale == "1024";
+      const bool exact = power_of_two && structure == "free";
+      EXPECT_LE(worst, exact ? 0.0 : power_of_two ? 1e-14 : 1e-11) << scale << structure;
+    }
+  }
+}
+
+TEST_F(UserFile, AMeshInMillimetresIsReadInMetres) {
+  const std::string text = scene_text("[geometry]\nfile = \"square.msh\"\nscale = 0.001\n");
+  const Mesh<2> mesh = build_geometry(parse_scene(text, folder_.file("scene.toml"))).mesh;
+  EXPECT_EQ(mesh.nodes, (std::vector<Vector<2>>{{0, 0}, {1e-3, 1e-3}, {0, 1e-3}, {1e-3, 0}}));
+}
+
 struct Refused {
   std::string file;
   std::string message;  // its beginning
@@ -472,6 +561,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"open_loop.geo",
                 in_scene + "\"open_loop.geo\", of which Gmsh says: The 1D mesh seems not to be "
                            "forming a closed loop"},
+        Refused{"crossing.geo",
+                in_scene + "\"crossing.geo\" with curves 2 and 4 that meet at (1, 0.5); expected "
+                           "curves that meet at points of both alone: split them there, or use "
+                           "BooleanFragments"},
+        Refused{"touching.geo", in_scene + "\"touching.geo\" with curves 1 and "},
         Refused{"second_order.geo",
                 in_scene + "\"second_order.geo\" with element 1 (Triangle 6) at ("},
         Refused{"quadrilateral.msh",
@@ -550,12 +644,6 @@ const std::string mesh_41 =
     "$EndPhysicalNames\n$Entities\n0 1 1 0\n3 0 1 0 1 1 0 1 2 0\n1 0 0 0 1 1 0 1 1 0\n"
     "$EndEntities\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
     "$Elements\n2 3 1 3\n2 1 2 2\n1 1 2 3\n2 1 3 4\n1 3 1 1\n3 3 4\n$EndElements\n";
-
-std::string changed(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
-}
 
 class DamagedMeshFile : public UserFile, public testing::WithParamInterface<DamagedMesh> {
  protected:

@@ -710,13 +710,26 @@ TEST(TableFile, that_is_wrong_is_refused_at_its_line) {
   EXPECT_EQ(problems_with_table("0,2\n1,3\n"),
             at + "1: got \"0,2\"; expected the header line t,head");
   EXPECT_EQ(problems_with_table("t,head\n0,2\n1;3\n"),
-            at + "3: got \"1;3\"; expected two numbers t,head: a time in s and a head in m");
-  EXPECT_EQ(problems_with_table("t,head\n0,2\n1,3,4\n"),
-            at + "3: got \"1,3,4\"; expected two numbers t,head: a time in s and a head in m");
+            at + "3: got \"1;3\"; expected two numbers t,head: a time in s and a head in m, with "
+                 "commas between columns in the place of semicolons, and decimal points in "
+                 "numbers");
+  EXPECT_EQ(problems_with_table("t;head\n0;2,5\n"),
+            at + "1: got \"t;head\"; expected the header line t,head, with commas between columns "
+                 "in the place of semicolons, and decimal points in numbers");
+  EXPECT_EQ(problems_with_table("t\thead\n0\t2\n"),
+            at + "1: got \"t\thead\"; expected the header line t,head, with commas between columns "
+                 "in the place of tabs, and decimal points in numbers");
+  EXPECT_EQ(problems_with_table("t,head\n0,2,5\n"),
+            at + "2: got \"0,2,5\"; expected two numbers t,head: a time in s and a head in m, with "
+                 "decimal points");
   EXPECT_EQ(problems_with_table("t,head\n0,nan\n"),
             at + "2: got \"0,nan\"; expected two numbers t,head: a time in s and a head in m");
   EXPECT_EQ(problems_with_table("t,head\n5,2\n\n5,3\n"),
-            at + "4: got t = 5 after t = 5; expected times that ascend");
+            at + "4: got t = 5 twice (for a jump give 5 and 5.0005); expected times that ascend");
+  EXPECT_EQ(problems_with_table("t,head\n5,2\n4,3\n"),
+            at + "3: got t = 4 after t = 5; expected times that ascend");
+  EXPECT_EQ(problems_with_table("t,head\n0,2\n0,3\n"),
+            at + "3: got t = 0 twice (for a jump give 0 and 1e-4); expected times that ascend");
 }
 
 TEST(ClosestName, counts_letters_to_change) {

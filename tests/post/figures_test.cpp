@@ -348,6 +348,14 @@ TEST(LogarithmicTicks, EncloseWhatThereIs) {
   }
 }
 
+TEST(Ticks, AreWrittenAsOneWould) {
+  EXPECT_EQ(tick_text(6e-6), "6e-6");
+  EXPECT_EQ(tick_text(-2.5e-10), "-2.5e-10");
+  EXPECT_EQ(tick_text(3e7), "3e7");
+  EXPECT_EQ(tick_text(0.35), "0.35");
+  EXPECT_EQ(tick_text(0.0), "0");
+}
+
 TEST(LogarithmicTicks, Text) {
   EXPECT_EQ(logarithmic_tick_text(1e-5), "1e-5");
   EXPECT_EQ(logarithmic_tick_text(2e-4), "2e-4");

@@ -327,5 +327,31 @@ TEST(Results, ABadNumberIsNamedWithItsLine) {
   }
 }
 
+/// A spreadsheet in a country of decimal commas writes such tables.
+TEST(Results, OtherSeparatorsAreNamed) {
+  const ScratchFolder scratch;
+  const std::string path = scratch / "table.csv";
+  const auto message = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    try {
+      read_table(path);
+    } catch (const FileError& error) {
+      return std::string(error.what()).substr(path.size());
+    }
+    return std::string("accepted");
+  };
+  const std::string commas = ", with commas between columns in the place of ";
+  EXPECT_EQ(message("t;head\n0;2,5\n"), ":1: got t;head; expected a line of names" + commas +
+                                            "semicolons, and decimal points in numbers");
+  EXPECT_EQ(message("t,head\n0;2.5\n"),
+            ":2: got 1 columns; expected 2" + commas + "semicolons, and decimal points in numbers");
+  EXPECT_EQ(message("t,head\n0\t2.5\n"),
+            ":2: got 1 columns; expected 2" + commas + "tabs, and decimal points in numbers");
+  EXPECT_EQ(message("t,head\n0,2,5\n"),
+            ":2: got 3 columns; expected 2, with decimal points in numbers");
+  EXPECT_EQ(message("t,head\n0\n"), ":2: got 1 columns; expected 2");
+  EXPECT_EQ(message("t,head\n0,2.5\n"), "accepted");
+}
+
 }  // namespace
 }  // namespace suffuse

@@ -255,6 +255,17 @@ TEST(Plan, WarnsOfMassScalingThatDistortsTheFlow) {
   EXPECT_TRUE(make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).warnings.empty());
 }
 
+TEST(Plan, RepeatsTheWarningsOfTheMesher) {
+  Scene scene = fluxes(0.01, -0.01);
+  scene.liquid.density = 1.0;
+  const Plan plan = make_plan(model::make_case(model::column_mesh(4, 3), scene), {});
+  EXPECT_EQ(plan.warnings,
+            (Sentences{"model.toml: liquid.density: 1 kg/m3; 500 to 2000 are usual, water has 1000",
+                       "model.toml: geometry: the mesh has fewer than 4 elements across the region "
+                       "\"specimen\", from where water enters it to where it leaves; 4 or more are "
+                       "usual"}));
+}
+
 TEST(Plan, KnowsTheSpeedThatDragFollows) {
   Scene scene = fluxes(0.01, -0.01);
   const auto speed = [&] {

@@ -108,5 +108,36 @@ TEST(RowChecks, RefuseWhatTheEquationsDoNotDescribe) {
   EXPECT_THROW(checks.check(row), NumericalError);
 }
 
+TEST(RowChecks, SayWhatCanTakePressuresOutOfTheirBounds) {
+  Scene scene;
+  scene.liquid.density = 1000.0;
+  scene.liquid.bulk_modulus = 4e6;
+  const auto warning = [&](double overshoot, std::optional<int> obtuse) {
+    RowChecks checks(scene, 5.0, obtuse);
+    HistoryRow row;
+    row.t = 2.0;
+    row.pressure_overshoot = overshoot;
+    const std::vector<std::string> warnings = checks.check(row);
+    EXPECT_TRUE(checks.check(row).empty()) << "once";
+    return warnings.empty() ? "" : warnings.front();
+  };
+  const std::string start =
+      "pressures lie outside those of boundaries and start, by 3 % of their range at t = 2 s "
+      "(pressure_overshoot); volumes and masses balance all the same.";
+  const std::string angles =
+      " Obtuse angles can do so, above all where conductivities differ: 7 elements have one; "
+      "mesh.structure = \"free\", or \"regular\" for a column, makes few or none.";
+  const std::string steps =
+      " Long steps of second order can do so: time.stepping = \"monotone\", or a shorter "
+      "time.step.";
+  EXPECT_EQ(warning(0.03, 7), start + angles + steps);
+  EXPECT_EQ(warning(0.03, 0), start + steps);
+  EXPECT_EQ(warning(0.009, 7), "");
+  EXPECT_EQ(warning(0.03, std::nullopt), "") << "waves go beyond by themselves";
+  scene.time.stepping = TimeStepping::monotone;
+  EXPECT_EQ(warning(0.03, 7), start + angles);
+  EXPECT_EQ(warning(0.03, 0), "") << "nothing to change";
+}
+
 }  // namespace
 }  // namespace suffuse

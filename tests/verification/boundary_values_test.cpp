@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "driver/row_checks.hpp"
+#include "flow/flow_scales.hpp"
 #include "model_run.hpp"
 
 namespace suffuse {
@@ -50,6 +52,54 @@ TEST(BoundaryPressure, BoundsPressuresUntilTheEnd) {
   model::ModelRun run(model::make_case(model::column_mesh(2, 4), scene));
   const auto moments = run.run({5.0, 7.5, 10.0});
   for (const FlowState<2>& flow : moments.flows) EXPECT_LE(flow.pressure_overshoot, 1e-10);
+}
+
+/// The warnings of the rows of a run between 6 kPa on top and 0 on the bottom, through two layers
+/// whose conductivities differ 1e4 times, on a square whose nodes are moved.
+std::vector<std::string> warnings_of_layers(const std::function<Vector<2>(const Vector<2>&)>& move,
+                                            double bulk_modulus = 2e7) {
+  Mesh<2> mesh = model::column_mesh(8, 8, 1.0, 1.0, move);
+  mesh.region_names.emplace_back("upper");
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    mesh.element_region[e] = element_centroid(mesh, e)[1] > 0.5 ? 1 : 0;
+  }
+  Scene scene = model::paper_scene();
+  scene.soils.push_back(scene.soils[0]);
+  scene.soils[1].region = "upper";
+  scene.soils[1].conductivity *= 1e-4;
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.stepping = TimeStepping::monotone;
+  scene.liquid.bulk_modulus = bulk_modulus;
+  scene.time.inertia = false;
+  scene.time.end = 1.0;
+  scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
+  model::ModelRun run(model::make_case(mesh, scene));
+  RowChecks checks(run.input().document.scene, run.plan().speed_that_drag_follows,
+                   run.plan().obtuse_elements);
+  std::vector<std::string> warnings;
+  for (const auto& state : run.run({0.01, 0.1, 0.5, 1.0}).states) {
+    for (const std::string& warning : checks.check(state.history)) warnings.push_back(warning);
+  }
+  return warnings;
+}
+
+TEST(ObtuseAngles, AreWarnedOfWherePressuresLeaveTheirBounds) {
+  EXPECT_TRUE(warnings_of_layers([](const Vector<2>& x) { return x; }).empty());
+  // Rows of inner nodes moved to and fro: obtuse angles, and layers that the mesh follows.
+  const auto bent = [](const Vector<2>& x) {
+    const double way = std::lround(8.0 * x[1]) % 2 == 0 ? 0.2 : -0.2;
+    return Vector<2>(x[0] + way * x[0] * (1.0 - x[0]), x[1]);
+  };
+  EXPECT_GT(obtuse_elements(Grid<2>(model::column_mesh(8, 8, 1.0, 1.0, bent))), 16);
+  EXPECT_TRUE(warnings_of_layers(bent, std::numeric_limits<double>::infinity()).empty())
+      << "steady";
+  const auto warnings =
+      warnings_of_layers([](const Vector<2>& x) { return Vector<2>(x[0] + 0.5 * x[1], x[1]); });
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].find("pressures lie outside those of boundaries and start, by "), 0U);
+  EXPECT_NE(warnings[0].find("128 elements have one; mesh.structure = \"free\""), std::string::npos)
+      << warnings[0];
+  EXPECT_EQ(warnings[0].find("second order"), std::string::npos) << warnings[0];
 }
 
 /// Rest, a ramp within three times the time in which the flow settles, a jump down, and on.

@@ -1,0 +1,311 @@
+#include "case/plausibility.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "case/geometry_checks.hpp"
+#include "case/scene_schema.hpp"
+#include "case/short_number.hpp"
+#include "physics/head.hpp"
+
+namespace suffuse {
+namespace {
+
+// What raises no warning.
+constexpr double shortest_model = 1e-3;        // m
+constexpr double longest_model = 1e4;          // m
+constexpr double longest_without_scale = 1e3;  // m, of a file whose unit nothing tells
+constexpr double lightest_water = 500.0;       // kg/m3
+constexpr double heaviest_water = 2000.0;      // kg/m3
+constexpr double lightest_grains = 1500.0;     // kg/m3
+constexpr double fastest_soil = 1.0;           // m/s
+/// m of water: as much as fine sand holds before it drains.
+constexpr double unnoticed_suction = 0.5;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+template <int Dim>
+std::string place(const Vector<Dim>& x) {
+  std::string text = "(" + short_number(x[0]);
+  for (int d = 1; d < Dim; ++d) text += ", " + short_number(x[d]);
+  return text + ")";
+}
+
+std::string table_of(const Soil& soil) {
+  return joined("soil", shown_name(soil.region));
+}
+
+template <int Dim>
+class Plausibility {
+ public:
+  Plausibility(const SceneDocument& document, const Mesh<Dim>& mesh)
+      : document_(document), scene_(document.scene), mesh_(mesh) {}
+
+  std::vector<std::string> unusual() {
+    check_lengths();
+    check_water();
+    for (const Soil& soil : scene_.soils) check_soil(soil);
+    check_gravity();
+    check_resolution();
+    return std::move(warnings_);
+  }
+
+  std::vector<std::string> suction() {
+    if (!has_gravity(scene_.gravity)) return {};
+    for (std::size_t r = 0; r < mesh_.region_names.size(); ++r) {
+      const Soil* soil = scene_.find_soil(mesh_.region_names[r]);
+      if (soil && !soil->drains()) check_suction(*soil, static_cast<int>(r));
+    }
+    return std::move(warnings_);
+  }
+
+ private:
+  void warn(const std::string& key, const std::string& sentence) {
+    const std::string where = document_.locate(key);
+    warnings_.push_back((where.empty() ? "" : where + ": ") + key + ": " + sentence);
+  }
+
+  [[nodiscard]] bool given(const std::string& key) const { return document_.where.contains(key); }
+
+  void check_lengths() {
+    const Vector<Dim> sides = extent(mesh_);
+    const double longest = sides.maxCoeff();
+    const bool from_file = !scene_.geometry.file.empty();
+    const bool unit_unknown = from_file && !given("geometry.scale") && !states_unit();
+    const bool too_long = longest > (unit_unknown ? longest_without_scale : longest_model);
+    if (!too_long && longest >= shortest_model) return;
+    std::string text = "the model is " + short_number(sides[0]);
+    for (int d = 1; d < Dim; ++d) text += " x " + short_number(sides[d]);
+    text += " m; 1 mm to 1 km are usual";
+    if (unit_unknown && too_long) {
+      text +=
+          ". Where the file is in millimetres, give geometry.scale = 0.001; where it is in "
+          "metres, geometry.scale = 1";
+    } else if (from_file) {
+      text += states_unit() ? ": is the unit that the STEP file states the right one?"
+                            : ": geometry.scale is the length of a unit of the file, in m";
+    }
+    warn(from_file            ? "geometry.file"
+         : sides[1] < longest ? "geometry.width"
+                              : "geometry.height",
+         text);
+  }
+
+  /// Of .step files, which are read in metres.
+  [[nodiscard]] bool states_unit() const { return is_step_file(scene_.geometry.file); }
+
+  void check_water() {
+    const double density = scene_.liquid.density;
+    if (density >= lightest_water && density <= heaviest_water) return;
+    warn("liquid.density", short_number(density) + " kg/m3; " + short_number(lightest_water) +
+                               " to " + short_number(heaviest_water) +
+                               " are usual, water has 1000");
+  }
+
+  void check_soil(const Soil& soil) {
+    if (soil.grain_density < lightest_grains) {
+      warn(joined(table_of(soil), "grain_density"), short_number(soil.grain_density) + " kg/m3; " +
+                                                        short_number(lightest_grains) +
+                                                        " and more are usual, quartz has 2650");
+    }
+    const double across =
+        std::isnan(soil.conductivity_across) ? soil.conductivity : soil.conductivity_across;
+    const double fastest = std::max(soil.conductivity, across);
+    if (fastest > fastest_soil) {
+      warn(joined(table_of(soil), "conductivity"), short_number(fastest) + " m/s; at most " +
+                                                       short_number(fastest_soil) +
+                                                       " is usual, coarse gravel has some 0.1");
+    }
+  }
+
+  void check_gravity() {
+    if (!(scene_.gravity[Dim - 1] > 0.0)) return;
+    std::vector<double> g(scene_.gravity.begin(), scene_.gravity.begin() + Dim);
+    std::string text = shown_value(g) + " points upwards, along +" + (Dim == 2 ? "y" : "z");
+    g.assign(Dim, 0.0);
+    g.back() = -9.81;
+    warn("gravity", text + "; " + shown_value(g) + " is usual");
+  }
+
+  // Elements across a region.
+
+  /// Per node, edges from the nearest place at which liquid may enter or leave its region: 0 and 1;
+  /// 2 stands for all that is farther. An impervious side is none, as flow on both sides of a plane
+  /// of symmetry has one.
+  [[nodiscard]] std::vector<int> edges_from_flow() const {
+    constexpr int far = 2;
+    std::vector<int> edges(mesh_.nodes.size(), far);
+    std::vector<int> region(mesh_.nodes.size(), -1);
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      for (const int node : mesh_.elements[e]) {
+        if (region[node] < 0) region[node] = mesh_.element_region[e];
+        if (region[node] != mesh_.element_region[e]) edges[node] = 0;
+      }
+    }
+    for (const BoundaryCondition& condition : scene_.boundaries) {
+      const BoundarySet<Dim>* set = find_boundary(condition.on);
+      if (!set) continue;
+      for (const auto& face : set->faces) {
+        for (const int node : face) edges[node] = 0;
+      }
+    }
+    for (const auto& corners : mesh_.elements) {
+      if (std::ranges::none_of(corners, [&](int node) { return edges[node] == 0; })) continue;
+      for (const int node : corners) edges[node] = std::min(edges[node], 1);
+    }
+    return edges;
+  }
+
+  /// Rows of the layers of a column are as many as the scene says.
+  [[nodiscard]] bool is_layer(const std::string& region) const {
+    return !scene_.geometry.shape.empty() && region == "buffer";
+  }
+
+  void check_resolution() {
+    const std::vector<int> edges = edges_from_flow();
+    std::vector<bool> resolved(mesh_.region_names.size(), false);
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      // Two edges to either side make four elements.
+      const auto is_far = [&](int node) { return edges[node] > 1; };
+      if (std::ranges::any_of(mesh_.elements[e], is_far)) resolved[mesh_.element_region[e]] = true;
+    }
+    const bool sized = given("mesh.size");
+    const std::string found =
+        sized ? short_number(scene_.mesh.size) + " m leaves" : std::string("the mesh has");
+    for (std::size_t r = 0; r < resolved.size(); ++r) {
+      const std::string& name = mesh_.region_names[r];
+      if (resolved[r] || !scene_.find_soil(name) || is_layer(name)) continue;
+      warn(sized ? "mesh.size" : "geometry",
+           found + " fewer than 4 elements across the region " + shown_value(name) +
+               ", from where water enters it to where it leaves; 4 or more are usual");
+    }
+  }
+
+  // Suction in soil that stays full of water.
+
+  /// The highest suction found, as m of water, where and because of what.
+  struct Suction {
+    double height = unnoticed_suction;
+    Vector<Dim> at;
+    std::string cause;
+  };
+
+  [[nodiscard]] const BoundarySet<Dim>* find_boundary(const std::string& name) const {
+    const auto set = std::ranges::find(mesh_.boundaries, name, &BoundarySet<Dim>::name);
+    return set == mesh_.boundaries.end() ? nullptr : &*set;
+  }
+
+  [[nodiscard]] double z(int node) const { return height(mesh_.nodes[node], scene_.gravity); }
+
+  [[nodiscard]] double as_head(double pressure) const {
+    return pressure / unit_weight(scene_.liquid.density, scene_.gravity);
+  }
+
+  /// No head is above it once the flow is steady; nothing where liquid is pressed in, or no head is
+  /// prescribed.
+  [[nodiscard]] std::optional<double> highest_head() const {
+    double highest = -infinite;
+    for (const BoundaryCondition& b : scene_.boundaries) {
+      for (const auto& flux : {b.velocity, b.darcy_flux, b.rain, b.rate}) {
+        if (flux && flux->largest() > 0.0) return std::nullopt;
+      }
+      if (b.head) highest = std::max(highest, b.head->range(0.0, scene_.time.end).second);
+      const BoundarySet<Dim>* set = find_boundary(b.on);
+      if (!b.pressure || !set) continue;
+      const double head = as_head(b.pressure->range(0.0, scene_.time.end).second);
+      for (const auto& face : set->faces) {
+        for (const int node : face) highest = std::max(highest, z(node) + head);
+      }
+    }
+    return std::isfinite(highest) ? std::optional(highest) : std::nullopt;
+  }
+
+  void check_suction(const Soil& soil, int region) {
+    std::vector<bool> in_region(mesh_.nodes.size(), false);
+    int top = -1;
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      if (mesh_.element_region[e] != region) continue;
+      for (const int node : mesh_.elements[e]) {
+        in_region[node] = true;
+        if (top < 0 || z(node) > z(top)) top = node;
+      }
+    }
+    if (top < 0) return;
+    Suction worst;
+    const auto raise = [&](double suction, int node, const std::string& cause) {
+      if (suction > worst.height) worst = {suction, mesh_.nodes[node], cause};
+    };
+    const bool at_rest = scene_.initial_flow == InitialFlow::rest && scene_.initial_from.empty();
+    if (at_rest && scene_.water_level) {
+      raise(z(top) - *scene_.water_level, top,
+            "the water level at the start is " + short_number(*scene_.water_level) + " m");
+    }
+    if (const auto head = highest_head()) {
+      raise(z(top) - *head, top,
+            "no boundary prescribes a head above " + short_number(*head) + " m");
+    }
+    for (const BoundaryCondition& b : scene_.boundaries) {
+      const BoundarySet<Dim>* set = find_boundary(b.on);
+      if (!set) continue;
+      for (const auto& face : set->faces) {
+        const auto inside = [&](int node) { return in_region[node]; };
+        if (std::ranges::all_of(face, inside)) raise_at_face(b, face, raise);
+      }
+    }
+    if (!worst.cause.empty()) warn_of_suction(soil, worst);
+  }
+
+  /// What a boundary prescribes at its own faces.
+  template <class Raise>
+  void raise_at_face(const BoundaryCondition& b, const std::array<int, Dim>& face,
+                     const Raise& raise) const {
+    for (const int node : face) {
+      if (b.head && b.dry == DryPart::suction) {
+        const double lowest = b.head->range(0.0, scene_.time.end).first;
+        raise(z(node) - lowest, node,
+              b.key + " prescribes the suction of a head of " + short_number(lowest) + " m");
+      }
+      if (b.pressure) {
+        const double lowest = b.pressure->range(0.0, scene_.time.end).first;
+        raise(-as_head(lowest), node, b.key + " prescribes " + short_number(lowest) + " Pa");
+      }
+    }
+  }
+
+  void warn_of_suction(const Soil& soil, const Suction& worst) {
+    warn(joined(table_of(soil), "retention"),
+         "none, and a suction of " + short_number(worst.height) + " m of water at " +
+             place<Dim>(worst.at) + ": " + worst.cause +
+             ". Without a retention law the soil stays full of water there; real soil drains, and "
+             "conducts less. Up to " +
+             short_number(unnoticed_suction) + " m are usual");
+  }
+
+  const SceneDocument& document_;
+  const Scene& scene_;
+  const Mesh<Dim>& mesh_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::string> plausibility_warnings(const SceneDocument& document,
+                                               const Mesh<Dim>& mesh) {
+  return Plausibility<Dim>(document, mesh).unusual();
+}
+
+template <int Dim>
+std::vector<std::string> suction_warnings(const SceneDocument& document, const Mesh<Dim>& mesh) {
+  return Plausibility<Dim>(document, mesh).suction();
+}
+
+template std::vector<std::string> plausibility_warnings(const SceneDocument&, const Mesh<2>&);
+template std::vector<std::string> plausibility_warnings(const SceneDocument&, const Mesh<3>&);
+template std::vector<std::string> suction_warnings(const SceneDocument&, const Mesh<2>&);
+template std::vector<std::string> suction_warnings(const SceneDocument&, const Mesh<3>&);
+
+}  // namespace suffuse

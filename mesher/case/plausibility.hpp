@@ -1,0 +1,26 @@
+#pragma once
+
+/// What a scene may say but hardly ever means: numbers in another unit, gravity upwards, a mesh
+/// that is too coarse. Each warning is one sentence with place, key, value and what is usual.
+
+#include <string>
+#include <vector>
+
+#include "case/mesh.hpp"
+#include "case/scene.hpp"
+
+namespace suffuse {
+
+/// Warnings of unusual lengths, densities and conductivities, gravity that points upwards, and
+/// regions of soil with fewer than four elements from where water enters to where it leaves.
+template <int Dim>
+std::vector<std::string> plausibility_warnings(const SceneDocument& document,
+                                               const Mesh<Dim>& mesh);
+
+/// A warning for each soil without a retention law that the initial water level or prescribed heads
+/// and pressures put under a suction of more than 0.5 m of water somewhere. Under gravity only. The
+/// solver observes suction itself.
+template <int Dim>
+std::vector<std::string> suction_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
+
+}  // namespace suffuse

@@ -1,0 +1,81 @@
+# What `cmake --install` puts where, and what other CMake projects find. Two components: `programs`, and `development`,
+# the reader of results for programs of one's own.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+set(SUFFUSE_PYTHON_DIR ${CMAKE_INSTALL_DATADIR}/suffuse/python CACHE STRING
+    "Folder for suffuse.py, which reads results; a relative one is below the prefix")
+set(install_sources ${PROJECT_SOURCE_DIR}/workflows/install)
+set(install_texts ${PROJECT_BINARY_DIR}/install)
+set(command_line ${Python3_EXECUTABLE} ${install_sources}/command_line.py)
+set(programs suffuse-mesher suffuse-solver suffuse-post)
+set(documents ${CMAKE_INSTALL_DOCDIR})
+
+# --- Texts that are made of what the programs and the README say ---
+file(MAKE_DIRECTORY ${install_texts})
+foreach(program IN LISTS programs)
+  set(page ${install_texts}/${program}.1)
+  set(template ${PROJECT_SOURCE_DIR}/docs/man/${program}.1.in)
+  add_custom_command(OUTPUT ${page}
+    COMMAND ${command_line} man ${template} ${PROJECT_VERSION} ${CMAKE_INSTALL_FULL_DOCDIR} $<TARGET_FILE:${program}> > ${page}
+    DEPENDS ${program} ${template} ${PROJECT_SOURCE_DIR}/docs/man/exit-status.man ${install_sources}/command_line.py
+    COMMENT "Manual page of ${program}" VERBATIM)
+  list(APPEND manual_pages ${page})
+  list(APPEND program_files $<TARGET_FILE:${program}>)
+endforeach()
+set(completion ${install_texts}/completion.bash)
+add_custom_command(OUTPUT ${completion}
+  COMMAND ${command_line} complete ${install_sources}/completion.bash.in ${program_files} > ${completion}
+  DEPENDS ${programs} ${install_sources}/completion.bash.in ${install_sources}/command_line.py
+  COMMENT "Completion of command lines" VERBATIM)
+foreach(name weir.geo weir.toml)
+  set(example ${install_texts}/${name})
+  add_custom_command(OUTPUT ${example}
+    COMMAND awk -v name=${name} -f ${install_sources}/readme_file.awk ${PROJECT_SOURCE_DIR}/README.md > ${example}
+    DEPENDS ${PROJECT_SOURCE_DIR}/README.md ${install_sources}/readme_file.awk
+    COMMENT "Example ${name} of the README" VERBATIM)
+  list(APPEND weir_files ${example})
+endforeach()
+add_custom_target(suffuse_install_texts ALL DEPENDS ${manual_pages} ${completion} ${weir_files})
+
+# --- Programs ---
+install(TARGETS ${programs} RUNTIME COMPONENT programs)
+install(FILES ${manual_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+foreach(program IN LISTS programs)
+  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program}
+          COMPONENT programs)
+endforeach()
+install(FILES post/python/suffuse.py DESTINATION ${SUFFUSE_PYTHON_DIR} COMPONENT programs)
+install(FILES workflows/paraview/show_results.py DESTINATION ${CMAKE_INSTALL_DATADIR}/suffuse COMPONENT programs)
+
+# --- Documents and examples; links between the documents hold ---
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${documents} COMPONENT programs)
+install(DIRECTORY docs DESTINATION ${documents} COMPONENT programs PATTERN man EXCLUDE)
+install(FILES ${weir_files} DESTINATION ${documents}/examples/weir COMPONENT programs)
+foreach(example paper levee)
+  install(DIRECTORY workflows/${example} DESTINATION ${documents}/examples COMPONENT programs
+          FILES_MATCHING PATTERN *.toml PATTERN *.geo)
+endforeach()
+
+# --- find_package(Suffuse): the reader of results ---
+foreach(library physics case results)
+  set_target_properties(suffuse_${library} PROPERTIES EXPORT_NAME ${library})
+  target_include_directories(suffuse_${library} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/suffuse>)
+endforeach()
+target_compile_features(suffuse_physics INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
+if(SUFFUSE_NATIVE)
+  # How Eigen aligns what it allocates depends on the processor; both sides of a library must agree.
+  target_compile_options(suffuse_physics INTERFACE $<INSTALL_INTERFACE:-march=native>)
+endif()
+install(TARGETS suffuse_physics suffuse_case suffuse_results EXPORT SuffuseTargets
+        ARCHIVE COMPONENT development)
+foreach(folder mesher/case solver/physics solver/results)
+  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/suffuse COMPONENT development
+          FILES_MATCHING PATTERN *.hpp)
+endforeach()
+set(config ${CMAKE_INSTALL_LIBDIR}/cmake/Suffuse)
+install(EXPORT SuffuseTargets NAMESPACE Suffuse:: DESTINATION ${config} COMPONENT development)
+write_basic_package_version_file(${install_texts}/SuffuseConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${install_sources}/SuffuseConfig.cmake ${install_texts}/SuffuseConfigVersion.cmake
+        DESTINATION ${config} COMPONENT development)
