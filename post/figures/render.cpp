@@ -56,6 +56,7 @@ struct Frame {
   std::vector<double> values;
   std::vector<Vector<2>> positions;  ///< of points; empty for fields of elements and nodes
   Scale scale;
+  bool with_elements = true;
 };
 
 std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
@@ -155,9 +156,11 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const Mesh<2>&
 
 /// Paints the edges of elements where these are large enough not to hide the colours, the edges of
 /// regions and those of the model.
-void paint_mesh(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh) {
+void paint_mesh(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
+                bool with_elements) {
   const double pixels = double{view.width()} * view.height() / mesh.element_count();
-  if (pixels > 100.0) paint_edges(painter, view, mesh, all_edges(mesh), mesh_color, 0.7F);
+  if (with_elements && pixels > 100.0)
+    paint_edges(painter, view, mesh, all_edges(mesh), mesh_color, 0.7F);
   paint_edges(painter, view, mesh, region_edges(mesh), {0.25, 0.25, 0.25}, 1.0F);
   paint_edges(painter, view, mesh, outer_edges(mesh), {0.0, 0.0, 0.0}, 1.5F);
 }
@@ -244,7 +247,7 @@ void draw_frame(const Mesh<2>& mesh, const Frame& frame, const std::string& path
       const bool points =
           !frame.positions.empty() || frame.where == "solid" || frame.where == "liquid";
       if (!points) paint_elements(painter, view, mesh, frame);
-      paint_mesh(painter, view, mesh);
+      paint_mesh(painter, view, mesh, frame.with_elements);
       if (points) paint_points(painter, view, mesh, frame);
       view.paint_axes(painter);
       paint_title(painter, frame.title, width, height);
@@ -294,6 +297,7 @@ std::vector<std::string> render(const ResultsReader& results, const RenderReques
   const Mesh<2> mesh = results.mesh();
   Frame frame;
   frame.where = place.where;
+  frame.with_elements = request.mesh;
   frame.scale = make_scale(results, snapshots, place, request);
   const bool several = request.all || !request.snapshots.empty();
   std::vector<std::string> written;

@@ -19,6 +19,7 @@ struct RenderRequest {
   bool all = false;                      ///< every snapshot, all with the same colours
   std::vector<std::size_t> snapshots{};  ///< these alone, likewise; empty: as the members above say
   bool change = false;                   ///< what changed since the start
+  bool mesh = true;                      ///< edges of elements, where these are large
   std::optional<std::array<double, 2>> range;  ///< of the colours; unset: that of the values
   std::string output;                          ///< NAME.png; of several NAME_0000.png and so on
 };

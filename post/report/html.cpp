@@ -1,7 +1,6 @@
 #include "report/html.hpp"
 
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -81,8 +80,7 @@ std::string data_address(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in.is_open()) throw FileError(path + ": cannot be read");
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  const bool is_svg = std::filesystem::path(path).extension() == ".svg";
-  return std::string("data:image/") + (is_svg ? "svg+xml" : "png") + ";base64," + base64(bytes);
+  return "data:image/png;base64," + base64(bytes);
 }
 
 Cell cell(double value) {

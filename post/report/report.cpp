@@ -99,7 +99,8 @@ std::string report_html(const std::vector<ResultsReader>& runs) {
   }
   body += contents(labels) + "<h2 id=\"curves\">Curves</h2>\n" + curves_html(runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    body += "<section class=\"run\" id=\"" + id_of(r) + "\">\n" + html::element("h2", labels[r]);
+    body += "<section class=\"run\" id=\"" + id_of(r) + "\">\n" +
+            html::element("h2", several ? labels[r] : "The run");
     if (several) body += html::element("p", summary_text(runs[r], numbers[r]));
     body += run_section(runs[r], numbers[r], id_of(r)) + "</section>\n";
   }

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 
 #include "case/errors.hpp"
 #include "drawing/png_file.hpp"
+#include "drawing/temporary_folder.hpp"
 #include "figures/figures.hpp"
 #include "figures/render.hpp"
 #include "figures/seepage_map.hpp"
@@ -19,10 +18,7 @@
 namespace suffuse {
 namespace {
 
-namespace fs = std::filesystem;
 constexpr std::size_t max_snapshots = 12;
-/// In an SVG each point of a curve makes some 16 bytes; a PNG has some 25 kB.
-constexpr std::size_t max_svg_points = 3000;
 /// Safety beyond this is nobody's concern.
 constexpr double largest_safety = 5.0;
 
@@ -53,35 +49,29 @@ const std::vector<CurveColumn>& curve_columns() {
   return columns;
 }
 
-/// Rows of the column in a run, over all curves of its chart; 0 where it cannot be drawn.
-std::size_t rows_of(const ResultsReader& run, const CurveColumn& column) {
-  if (column.table == "history") {
-    const Table history = run.history();
-    return history.has(column.column) && history.rows() > 1 ? history.rows() : 0;
-  }
-  std::size_t rows = 0;
-  for (const NamedTable& part : run.boundaries()) {
-    if (!part.table.has(column.column) || part.table.rows() < 2) return 0;
-    rows += part.table.rows();
-  }
-  return rows;
+/// Whether a run has the column, and rows enough for curves.
+bool has_curve(const ResultsReader& run, const CurveColumn& column) {
+  const auto is_curve = [&](const Table& table) {
+    return table.has(column.column) && table.rows() > 1;
+  };
+  if (column.table == "history") return is_curve(run.history());
+  const std::vector<NamedTable> parts = run.boundaries();
+  return !parts.empty() &&
+         std::ranges::all_of(parts, [&](const NamedTable& part) { return is_curve(part.table); });
 }
 
 std::string curve_html(const std::vector<ResultsReader>& runs, const CurveColumn& column,
                        const TimeUnit& unit, const TemporaryFolder& folder) {
-  std::size_t points = 0;
   for (const ResultsReader& run : runs) {
-    const std::size_t rows = rows_of(run, column);
-    if (rows == 0) return "";
-    points += rows;
+    if (!has_curve(run, column)) return "";
   }
   FigureOptions options;
   options.columns = {column.table + "." + column.column};
   options.axes.time_unit = unit.name;
-  const std::string path = folder / (column.column + (points <= max_svg_points ? ".svg" : ".png"));
+  const std::string path = folder / (column.column + ".png");
   draw_figure("curves", runs, path, options);
-  return "<figure>" + card(image(path, column.title + " against time")) +
-         html::element("figcaption", column.title) + "</figure>\n";
+  return "<figure>" + html::element("figcaption", column.title) +
+         card(image(path, column.title + " against time")) + "</figure>\n";
 }
 
 /// A field as the report shows it.
@@ -133,8 +123,8 @@ std::string film_html(const ResultsReader& run, const std::vector<std::size_t>& 
       "<div class=\"time\"><label>time <input type=\"range\" min=\"0\" max=\"" + last +
       "\" value=\"" + last + "\" aria-valuetext=\"" + time + "\"></label> <output>" + time +
       "</output></div>\n";
-  return "<figure class=\"film\">" + card(frames) + (pictures.size() > 1 ? slider : "") +
-         html::element("figcaption", title) + "</figure>\n";
+  return "<figure class=\"film\">" + html::element("figcaption", title) + card(frames) +
+         (pictures.size() > 1 ? slider : "") + "</figure>\n";
 }
 
 std::string head_html(const ResultsReader& run, const std::vector<std::size_t>& snapshots,
@@ -164,23 +154,13 @@ std::string field_html(const ResultsReader& run, const ShownField& field,
   request.on = "cell";
   request.change = field.change;
   request.snapshots = snapshots;
+  request.mesh = false;  // thin lines make files large, and the sketch of the model has them
   if (field.name == "safety") request.range = {0.0, largest_safety};
   request.output = folder / (field.name + ".png");
   return film_html(run, snapshots, render(run, request), field.title);
 }
 
 }  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "suffuse-post-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw FileError(name + ": cannot be created");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 TimeUnit fitting_time_unit(double end) {
   for (const char* word : {"a", "d", "h", "min"}) {
@@ -213,8 +193,8 @@ std::string model_html(const ResultsReader& run) {
   const std::string path = folder / "model.png";
   draw_figure("model", {run}, path);
   return "<figure>" +
+         html::element("figcaption", "Mesh, regions, points, what boundaries prescribe") +
          card(image(path, "Sketch of the model: mesh, regions, points, boundary conditions")) +
-         html::element("figcaption", "Mesh, regions, points and what boundaries prescribe") +
          "</figure>\n";
 }
 

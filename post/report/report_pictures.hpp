@@ -2,7 +2,6 @@
 
 /// The pictures of a report, drawn into files of a temporary folder and put into the page.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,21 +9,6 @@
 #include "tables/table_output.hpp"
 
 namespace suffuse {
-
-/// A folder for files that are gone with the object. Throws FileError.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-  [[nodiscard]] std::string operator/(const std::string& name) const {
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The unit in which times up to `end` (s) are small numbers.
 TimeUnit fitting_time_unit(double end);
