@@ -23,11 +23,13 @@ struct FieldOptions {
   std::string results;
   RenderRequest request;
   std::string range;
+  std::string view;
 
   /// The request, with what is given as text.
   [[nodiscard]] RenderRequest read() const {
     RenderRequest result = request;
     if (!range.empty()) result.range = parse_range(range);
+    if (!view.empty()) result.view = parse_view(view);
     return result;
   }
 };
@@ -37,9 +39,19 @@ void declare_field(CLI::App& command, FieldOptions& o) {
   command.add_option("--field", o.request.field, "what to show")->required();
   command.add_option("--on", o.request.on, "where, if the field lives in several places")
       ->type_name("cell|node|solid|liquid");
+  command
+      .add_option("--range", o.range,
+                  "range of the colours; without it that of the values but for the outermost "
+                  "hundredth, where that is far outside")
+      ->type_name("LO:HI");
   command.add_flag("--change", o.request.change, "what changed since the start");
-  command.add_option("--range", o.range, "range of the colours; without it that of the values")
-      ->type_name("LO,HI");
+  command.add_flag("--log", o.request.logarithmic, "colours by the logarithm");
+  command.add_flag("--contours", o.request.contours, "lines of equal values");
+  command.add_flag("--vectors", o.request.vectors, "arrows of the flux");
+  command.add_flag("--streamlines", o.request.streamlines,
+                   "streamlines, with a tenth of the discharge between two");
+  command.add_option("--view", o.view, "two corners of the part to show, m")
+      ->type_name("X0,Y0:X1,Y1");
 }
 
 void declare_render(CLI::App& command, FieldOptions& o) {
@@ -50,8 +62,9 @@ void declare_render(CLI::App& command, FieldOptions& o) {
       .add_flag("--all", o.request.all, "every snapshot, in the same colours: FILE_0000.png, ...")
       ->excludes(time);
   command
-      .add_option("-o,--output", o.request.output, "picture to write; without it RESULTS-FIELD.png")
-      ->type_name("FILE.png");
+      .add_option("-o,--output", o.request.output,
+                  "picture to write: .png, .svg or .pdf; without it RESULTS-FIELD.png")
+      ->type_name("FILE");
 }
 
 void render_field(const FieldOptions& o) {
@@ -119,7 +132,11 @@ void declare_figure(CLI::App& command, FigureCommandOptions& o) {
       ->type_name("[COLUMN...] FOLDER...");
   command.add_option(
       "--time", o.figure.time,
-      "of \"head\" and \"saturation\", s: the nearest snapshot; without it the last");
+      "of \"flownet\", \"head\" and \"saturation\", s: the nearest snapshot; without it the last");
+  command
+      .add_option("--tubes", o.figure.tubes,
+                  "of \"flownet\": tubes of equal discharge; without it as many as make squares")
+      ->type_name("N");
   command.add_option("--line", o.figure.line, "of \"profile\": two ends, m")
       ->type_name("X0,Y0:X1,Y1");
   command.add_option("--fields", o.figure.fields, "of \"profile\"")->type_name("NAME,...");

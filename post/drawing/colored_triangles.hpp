@@ -1,6 +1,7 @@
 #pragma once
 
-/// Triangles with a colour at each corner, painted in one call of VTK.
+/// Triangles with a colour at each corner, painted in one call of VTK. In SVG and PDF, where VTK
+/// leaves such triangles out, each has one colour, and those of a colour are one path.
 
 #include <vtkCellArray.h>
 #include <vtkContext2D.h>
@@ -9,8 +10,13 @@
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <array>
+#include <vector>
+
 #include "case/mesh.hpp"
 #include "drawing/chart.hpp"
+
+class vtkOpenGLGL2PSHelper;
 
 namespace suffuse {
 
@@ -19,9 +25,13 @@ class ColoredTriangles {
   ColoredTriangles();
   /// Corners in pixels.
   void add(const std::array<Vector<2>, 3>& corners, const std::array<Color, 3>& colors);
+  /// A convex polygon of one colour, corners in pixels.
+  void add_polygon(const std::vector<Vector<2>>& corners, const Color& color);
   void paint(vtkContext2D& painter);
 
  private:
+  void write_paths(vtkOpenGLGL2PSHelper& file) const;
+
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> triangles_;
   vtkNew<vtkPolyData> grid_;

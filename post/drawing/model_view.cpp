@@ -33,9 +33,11 @@ std::vector<double> ticks_within(double low, double high, double scale, double m
   for (const std::size_t factor : {2, 5, 10}) {
     if (static_cast<double>(every) * spacing < min_distance) every = factor;
   }
-  std::vector<double> chosen;
-  for (std::size_t i = 0; i < inside.size(); i += every) chosen.push_back(inside[i]);
-  return chosen;
+  if (every == 1) return inside;
+  // Multiples of the wider step: zero is one of them where it is inside.
+  const double step = static_cast<double>(every) * (inside[1] - inside[0]);
+  std::erase_if(inside, [&](double tick) { return std::abs(std::remainder(tick, step)) > slack; });
+  return inside;
 }
 
 unsigned char byte_of(double value) {
@@ -83,6 +85,12 @@ ModelView::ModelView(const Vector<2>& low, const Vector<2>& high, float left, fl
 void ModelView::fit(float max_width, float max_height) {
   const Vector<2> size = high_ - low_;
   scale_ = std::min(max_width / size[0], max_height / size[1]);
+}
+
+bool ModelView::shows(const Vector<2>& middle, const Vector<2>& half) const {
+  const Vector<2> first = middle - half - pixel(low_);
+  const Vector<2> last = pixel(high_) - middle - half;
+  return std::min(first.minCoeff(), last.minCoeff()) >= 0.0;
 }
 
 void ModelView::paint_axes(vtkContext2D& painter) const {

@@ -48,6 +48,11 @@ class ModelView {
   [[nodiscard]] float bottom() const { return static_cast<float>(origin_[1]); }
   [[nodiscard]] float width() const { return static_cast<float>(scale_ * (high_ - low_)[0]); }
   [[nodiscard]] float height() const { return static_cast<float>(scale_ * (high_ - low_)[1]); }
+  /// Whether all of a rectangle is in view, with its middle and half its size in pixels.
+  [[nodiscard]] bool shows(const Vector<2>& middle, const Vector<2>& half) const;
+  /// Corners of the view, m.
+  [[nodiscard]] const Vector<2>& low() const { return low_; }
+  [[nodiscard]] const Vector<2>& high() const { return high_; }
   /// Pixels per metre.
   [[nodiscard]] double scale() const { return scale_; }
 

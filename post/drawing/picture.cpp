@@ -36,6 +36,7 @@ void write_png(vtkRenderWindow& window, const std::string& path) {
   image->ReadFrontBufferOff();
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName(path.c_str());
+  writer->SetCompressionLevel(9);
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
 }
@@ -99,11 +100,6 @@ std::string picture_format(const std::string& path, const std::string& command) 
   std::string suffix = std::filesystem::path(path).extension().string();
   if (suffix == ".png" || suffix == ".svg" || suffix == ".pdf") return suffix;
   throw wrong_format(path, command, "a name that ends in .png, .svg or .pdf");
-}
-
-void require_png(const std::string& path, const std::string& command) {
-  if (std::filesystem::path(path).extension() == ".png") return;
-  throw wrong_format(path, command, "a name that ends in .png");
 }
 
 void paint_text(vtkContext2D& painter, const std::string& text, int size, float x, float y,

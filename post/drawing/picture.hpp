@@ -16,9 +16,6 @@ namespace suffuse {
 std::string picture_format(const std::string& path,
                            const std::string& command = "suffuse-post figure");
 
-/// Throws InputError when `path` does not end in .png.
-void require_png(const std::string& path, const std::string& command);
-
 /// An item of a VTK scene that calls a function to paint itself.
 class PaintedItem : public vtkContextItem {
  public:

@@ -28,15 +28,26 @@ std::vector<double> round_ticks(double low, double high) {
 }
 
 std::string tick_text(double tick) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", tick);
-  // 6e-6, not 6e-06.
-  std::string result = text;
-  const auto power = result.find('e');
-  if (power == std::string::npos) return result;
-  while (power + 2 < result.size() - 1 && result[power + 2] == '0') result.erase(power + 2, 1);
-  if (result[power + 1] == '+') result.erase(power + 1, 1);
-  return result;
+  return digits_text(tick, 6);
+}
+
+std::string digits_text(double value, int digits) {
+  char buffer[64];
+  const double size = std::abs(value);
+  if (size == 0.0 || (size >= 0.999e-3 && size < 1e6)) {
+    // Whole numbers have more digits rather than an exponent.
+    const bool is_whole = size >= std::pow(10.0, digits);
+    std::snprintf(buffer, sizeof buffer, is_whole ? "%.*f" : "%.*g", is_whole ? 0 : digits, value);
+    return buffer;
+  }
+  std::snprintf(buffer, sizeof buffer, "%.*e", digits - 1, value);
+  std::string mantissa(buffer, std::find(buffer, buffer + sizeof buffer, 'e'));
+  const std::string exponent(std::find(buffer, buffer + sizeof buffer, 'e'));
+  if (mantissa.find('.') != std::string::npos) {
+    mantissa.erase(mantissa.find_last_not_of('0') + 1);
+    if (mantissa.back() == '.') mantissa.pop_back();
+  }
+  return mantissa + "e" + std::to_string(std::stoi(exponent.substr(1)));
 }
 
 LogarithmicTicks logarithmic_ticks(double low, double high) {

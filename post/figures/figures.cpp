@@ -1,7 +1,6 @@
 #include "figures/figures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "case/closest_name.hpp"
@@ -9,6 +8,7 @@
 #include "figures/axes.hpp"
 #include "figures/boundary_figures.hpp"
 #include "figures/flow_figures.hpp"
+#include "figures/flow_net.hpp"
 #include "figures/gradation_figure.hpp"
 #include "figures/model_sketch.hpp"
 #include "figures/permeameter_figure.hpp"
@@ -16,7 +16,6 @@
 #include "figures/seepage_map.hpp"
 #include "figures/soil_figures.hpp"
 #include "figures/table_curves.hpp"
-#include "results/number_text.hpp"
 
 namespace suffuse {
 namespace {
@@ -62,6 +61,10 @@ const std::vector<Figure>& figures() {
           "empty-elements",
           [](const Runs& runs, const Options&) { return std::vector{empty_elements_chart(runs)}; }),
       of_charts("fines-lost", fines_lost),
+      of_picture("flownet",
+                 [](const ResultsReader& run, const Path& path, const Options& options) {
+                   draw_flow_net(flow_net(run, options.time, options.tubes), path);
+                 }),
       of_charts("flux",
                 [](const Runs& runs, const Options&) { return std::vector{flux_chart(runs)}; }),
       of_charts("gradation", [](const Runs& runs,
@@ -105,7 +108,8 @@ struct OptionUse {
 
 std::vector<OptionUse> option_uses(const Options& o) {
   const Options none;
-  return {{"--time", o.time.has_value(), {"head", "saturation"}},
+  return {{"--time", o.time.has_value(), {"flownet", "head", "saturation"}},
+          {"--tubes", o.tubes.has_value(), {"flownet"}},
           {"--measured", !o.measured.empty(), {"curves", "fines-lost", "profile"}},
           {"COLUMN", !o.columns.empty(), {"curves"}},
           {"--x", !o.x.empty(), {"curves"}},
@@ -121,9 +125,9 @@ void check_options(const Figure& figure, const Options& options) {
   const std::string command = "suffuse-post figure " + figure.name;
   for (const OptionUse& use : option_uses(options)) {
     if (!use.given || std::ranges::find(use.figures, figure.name) != use.figures.end()) continue;
-    throw InputError(std::vector{
-        InputProblem{command, use.option, "it",
-                     "it with a figure that uses it: " + quoted_list(use.figures), ""}});
+    throw InputError(
+        std::vector{InputProblem{command, use.option, "it with the figure \"" + figure.name + '"',
+                                 "it with " + quoted_list(use.figures), ""}});
   }
   const AxisOptions& axes = options.axes;
   const bool has_axes = axes.log_x || axes.log_y || !axes.x_range.empty() ||
@@ -131,10 +135,6 @@ void check_options(const Figure& figure, const Options& options) {
   if (has_axes && figure.charts == nullptr) {
     throw InputError(std::vector{
         InputProblem{command, "axes", "an option of axes", "none: this figure is no chart", ""}});
-  }
-  if (options.time && !std::isfinite(*options.time)) {
-    throw InputError(std::vector{
-        InputProblem{command, "--time", number_text(*options.time), "a time in seconds", ""}});
   }
 }
 

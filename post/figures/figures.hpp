@@ -12,7 +12,8 @@
 namespace suffuse {
 
 /// Names of all figures, sorted. Some are no charts but pictures of one run: "model", the sketch of
-/// its model (model_sketch.hpp), "head" and "saturation" (seepage_map.hpp).
+/// its model (model_sketch.hpp), "head" and "saturation" (seepage_map.hpp), "flownet"
+/// (flow_net.hpp).
 std::vector<std::string> figure_names();
 
 /// The charts of a figure, drawn side by side: "porosity", "masses", "solid-mass"

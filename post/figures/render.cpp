@@ -1,264 +1,209 @@
 #include "figures/render.hpp"
 
-#include <vtkBrush.h>
-#include <vtkPen.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
+#include <map>
 
 #include "case/errors.hpp"
-#include "drawing/color_map.hpp"
-#include "drawing/colored_triangles.hpp"
-#include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
-#include "drawing/ticks.hpp"
 #include "figures/categories.hpp"
+#include "figures/map_water.hpp"
 #include "results/number_text.hpp"
 #include "values/fields.hpp"
+#include "values/sample.hpp"
+#include "values/snapshot_choice.hpp"
+#include "values/stream_function.hpp"
 
 namespace suffuse {
 namespace {
 
-using Layout = PictureLayout;
 const std::string command = "suffuse-post render";
-constexpr Color no_value{0.75, 0.75, 0.75};
-constexpr Color mesh_color{0.55, 0.55, 0.55};
-constexpr float top_room = 70.0F;
-constexpr float bar_room = 215.0F;
-constexpr int bar_bands = 256;
-constexpr int max_triangles = 400'000;
-constexpr int max_division = 16;
+/// Streamlines of one picture.
+constexpr double tubes = 10.0;
+/// In a picture of lines and areas each element makes 100 to 200 bytes.
+constexpr std::ptrdiff_t max_drawn_elements = 20'000;
+/// Values that stay in memory when all snapshots are drawn; more are read a second time.
+constexpr std::size_t max_kept_values = 20'000'000;
+/// Values that are nothing but round-off, in any unit, and of a flux relative to the conductivity.
+constexpr double round_off = 1e-15;
+constexpr double flux_round_off = 1e-10;
 
-/// The colours of values: one per kind, or the colour map over a range.
-struct Scale {
-  std::array<double, 2> range{0.0, 1.0};
-  bool exceeds_low = false;   ///< some values are below the range, which the user gave
-  bool exceeds_high = false;  ///< above it
-  std::vector<Category> kinds;
-
-  [[nodiscard]] Color color(double value) const {
-    for (const auto& kind : kinds) {
-      if (std::abs(value - kind.value) < 0.5) return kind.color;
-    }
-    if (!kinds.empty() || !std::isfinite(value)) return no_value;
-    return viridis((value - range[0]) / (range[1] - range[0]));
-  }
-};
-
-/// The content of one picture.
-struct Frame {
-  std::string title;
-  std::string label;
-  std::string where;
-  std::vector<double> values;
-  std::vector<Vector<2>> positions;  ///< of points; empty for fields of elements and nodes
-  Scale scale;
-  bool with_elements = true;
-};
+[[noreturn]] void refuse(const std::string& option, const std::string& found,
+                         const std::string& expected) {
+  throw InputError(std::vector{InputProblem{command, option, found, expected, ""}});
+}
 
 std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
                                           const RenderRequest& request) {
   const auto& times = results.times();
   if (!request.snapshots.empty()) return request.snapshots;
-  if (!request.all) return {snapshot_at(results, request.time)};
+  if (!request.all) return {chosen_snapshot(results, request.time, command)};
   if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
   std::vector<std::size_t> every;
   for (std::size_t i = 0; i < times.size(); ++i) every.push_back(i);
   return every;
 }
 
-/// The scale that covers the values of all snapshots. The range is widened where all values agree
-/// up to rounding.
-Scale make_scale(const ResultsReader& results, const std::vector<std::size_t>& snapshots,
-                 const FieldPlace& place, const RenderRequest& request) {
-  Scale scale;
-  scale.kinds = categories(results, place);
-  if (!scale.kinds.empty()) return scale;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const std::size_t index : snapshots) {
-    for (const double value : read_scalar(results, index, place).values) {
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
+/// A field at several times, read once where memory allows it.
+class FieldSeries {
+ public:
+  FieldSeries(const ResultsReader& results, FieldPlace place)
+      : results_(results), place_(std::move(place)) {}
+
+  const ScalarField& at(std::size_t index) {
+    const auto found = kept_.find(index);
+    if (found != kept_.end()) return found->second;
+    ScalarField field = read_scalar(results_, index, place_);
+    if (count_ + field.values.size() > max_kept_values) {
+      kept_.clear();
+      count_ = 0;
     }
+    count_ += field.values.size();
+    return kept_.emplace(index, std::move(field)).first->second;
   }
-  if (request.range) {
-    scale.range = *request.range;
-    scale.exceeds_low = low < scale.range[0];
-    scale.exceeds_high = high > scale.range[1];
-    return scale;
-  }
-  if (!(low <= high)) return scale;
-  const double size = std::max(std::abs(low), std::abs(high));
-  if (high - low <= 1e-9 * size || size == 0.0) {
-    const double middle = 0.5 * (low + high);
-    const double room = size > 0.0 ? 0.05 * size : 1.0;
-    low = middle - room;
-    high = middle + room;
-  }
-  scale.range = {low, high};
-  return scale;
+
+ private:
+  const ResultsReader& results_;
+  FieldPlace place_;
+  std::map<std::size_t, ScalarField> kept_;
+  std::size_t count_ = 0;
+};
+
+bool is_inside(const Vector<2>& x, const std::optional<ViewBox>& box) {
+  return !box || ((x.array() >= (*box)[0].array()).all() && (x.array() <= (*box)[1].array()).all());
 }
 
-/// Values of a frame at the corners of an element.
-std::array<double, 3> corner_values(const Frame& frame, const Mesh<2>& mesh, int element) {
-  std::array<double, 3> values{};
-  for (int a = 0; a < 3; ++a) {
-    auto at = static_cast<std::size_t>(element);
-    if (frame.where == "element_vertex") at = 3 * at + static_cast<std::size_t>(a);
-    if (frame.where == "node") at = static_cast<std::size_t>(mesh.elements[element][a]);
-    values.at(a) = frame.values[at];
+/// The values that are in view, with the area that has each.
+void add_values(const PictureModel& model, const FieldPicture& picture,
+                std::vector<WeightedValue>& values) {
+  if (picture.of_points()) {
+    for (std::size_t p = 0; p < picture.values.size(); ++p) {
+      if (is_inside(picture.positions[p], model.box)) values.push_back({picture.values[p], 1.0});
+    }
+    return;
   }
-  return values;
-}
-
-/// Adds an element as n^2 triangles. VTK interpolates colours, not values, between the corners of a
-/// triangle; only in small triangles is the difference too small to see.
-void add_divided(ColoredTriangles& triangles, const std::array<Vector<2>, 3>& corners,
-                 const std::array<double, 3>& values, const Scale& scale, int n) {
-  const auto at = [&](int i, int j) {
-    const double b = static_cast<double>(i) / n;
-    const double c = static_cast<double>(j) / n;
-    const Vector<2> x = (1.0 - b - c) * corners[0] + b * corners[1] + c * corners[2];
-    return std::pair{x, scale.color((1.0 - b - c) * values[0] + b * values[1] + c * values[2])};
-  };
-  const auto add = [&](const auto& p, const auto& q, const auto& r) {
-    triangles.add({p.first, q.first, r.first}, {p.second, q.second, r.second});
-  };
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; i + j < n; ++j) {
-      add(at(i, j), at(i + 1, j), at(i, j + 1));
-      if (i + j + 1 < n) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+  for (int e = 0; e < model.mesh.element_count(); ++e) {
+    if (model.visible[e] == 0) continue;
+    const double area = element_volume(model.mesh, e);
+    const auto corners = corner_values(picture, model.mesh, e);
+    const bool has_one = picture.where == "cell";
+    for (int a = 0; a < (has_one ? 1 : 3); ++a) {
+      values.push_back({corners.at(a), has_one ? area : area / 3.0});
     }
   }
 }
 
-void paint_elements(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
-                    const Frame& frame) {
-  const bool smooth = frame.where != "cell";
-  int division = 1;
-  while (smooth && division < max_division &&
-         4 * division * division * mesh.element_count() <= max_triangles) {
-    division *= 2;
+/// Values that are nothing but round-off: a flux of liquid at rest is not zero to the last digit.
+double round_off_of(const ResultsReader& results, const std::string& unit) {
+  double largest = 0.0;
+  for (const Soil& soil : results.scene().scene.soils) {
+    largest = std::max(largest, soil.conductivity);
   }
-  ColoredTriangles triangles;
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    std::array<Vector<2>, 3> corners;
-    for (int a = 0; a < 3; ++a) corners.at(a) = view.pixel(mesh.nodes[mesh.elements[e][a]]);
-    add_divided(triangles, corners, corner_values(frame, mesh, e), frame.scale, division);
+  return unit == "m/s" ? flux_round_off * largest : round_off;
+}
+
+FieldPlace wanted_place(const ResultsReader& results, std::size_t index,
+                        const RenderRequest& request) {
+  FieldPlace place = find_field(results, index, request.field, request.on, command);
+  place.change = request.change;
+  return place;
+}
+
+/// What every picture has but the values of its snapshot.
+class Frames {
+ public:
+  Frames(const ResultsReader& results, const RenderRequest& request)
+      : results_(results),
+        request_(request),
+        model_(picture_model(results.mesh(), request.view)),
+        snapshots_(wanted_snapshots(results, request)),
+        place_(wanted_place(results, snapshots_.front(), request)),
+        series_(results, place_) {}
+
+  std::vector<std::string> draw();
+
+ private:
+  void refuse_what_cannot_be_drawn() const;
+  /// The colours, for the values of all snapshots.
+  [[nodiscard]] FieldScale scale();
+  /// The picture of a snapshot without lines and arrows.
+  [[nodiscard]] FieldPicture picture(std::size_t index);
+  void add_flow(FieldPicture& picture, std::size_t index) const;
+
+  const ResultsReader& results_;
+  const RenderRequest& request_;
+  PictureModel model_;
+  std::vector<std::size_t> snapshots_;
+  FieldPlace place_;
+  FieldSeries series_;
+};
+
+void Frames::refuse_what_cannot_be_drawn() const {
+  if (model_.visible_count == 0) {
+    refuse("--view", "a part with nothing of the model in it", "x0,y0:x1,y1 in metres, with some");
   }
-  triangles.paint(painter);
-}
-
-/// Paints the edges of elements where these are large enough not to hide the colours, the edges of
-/// regions and those of the model.
-void paint_mesh(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
-                bool with_elements) {
-  const double pixels = double{view.width()} * view.height() / mesh.element_count();
-  if (with_elements && pixels > 100.0)
-    paint_edges(painter, view, mesh, all_edges(mesh), mesh_color, 0.7F);
-  paint_edges(painter, view, mesh, region_edges(mesh), {0.25, 0.25, 0.25}, 1.0F);
-  paint_edges(painter, view, mesh, outer_edges(mesh), {0.0, 0.0, 0.0}, 1.5F);
-}
-
-void paint_points(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
-                  const Frame& frame) {
-  std::vector<Color> colors;
-  for (const double value : frame.values) colors.push_back(frame.scale.color(value));
-  paint_discs(painter, view, frame.positions, colors,
-              disc_diameter(view, mesh, frame.positions.size()));
-}
-
-/// The label of an end of the range: four digits; zero where the value is rounding.
-std::string end_text(double value, double range) {
-  if (std::abs(value) < 1e-9 * range) value = 0.0;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
-void paint_bar(vtkContext2D& painter, const Frame& frame, float left, float bottom, float height) {
-  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
-  for (int band = 0; band < bar_bands; ++band) {
-    const Color color = viridis((band + 0.5) / bar_bands);
-    painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
-    const float step = height / static_cast<float>(bar_bands);
-    painter.DrawRect(left, bottom + static_cast<float>(band) * step, Layout::bar_width, step);
+  const bool drawn = picture_format(request_.output, command) != ".png";
+  if (drawn && model_.visible_count > max_drawn_elements) {
+    refuse("-o",
+           '"' + request_.output + "\" for " + std::to_string(model_.visible_count) + " elements",
+           "a .png, or at most " + std::to_string(max_drawn_elements) +
+               " elements: --view shows a part");
   }
-  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
-  painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
-  painter.GetPen()->SetWidth(1.5F);
-  const double low = frame.scale.range[0];
-  const double high = frame.scale.range[1];
-  const auto mark = [&](double value, const std::string& text) {
-    const float y = bottom + height * static_cast<float>((value - low) / (high - low));
-    painter.DrawLine(left + Layout::bar_width, y, left + Layout::bar_width + 8.0F, y);
-    paint_text(painter, text, 18, left + Layout::bar_width + 14.0F, y, Anchor::left);
-  };
-  mark(low, (frame.scale.exceeds_low ? "<= " : "") + end_text(low, high - low));
-  mark(high, (frame.scale.exceeds_high ? ">= " : "") + end_text(high, high - low));
-  for (const double tick : round_ticks(low, high)) {
-    const double room = 24.0 / height * (high - low);
-    if (tick > low + room && tick < high - room) {
-      mark(tick, tick_text(tick));
-    }
+  const bool has_kinds = !categories(results_, place_).empty();
+  const std::string option = request_.contours      ? "--contours"
+                             : request_.logarithmic ? "--log"
+                             : request_.change      ? "--change"
+                                                    : "";
+  if (has_kinds && !option.empty()) {
+    refuse(option, "a field of kinds, \"" + place_.name + '"', "a field of numbers");
   }
-  paint_text(painter, frame.label, 20, left + Layout::bar_width + 150.0F, bottom + height / 2.0F,
-             Anchor::center, 90.0);
-}
-
-/// Width of the legend of kinds, pixels.
-float kinds_width(const Frame& frame) {
-  std::size_t letters = frame.label.size();
-  for (const auto& kind : frame.scale.kinds) letters = std::max(letters, kind.name.size());
-  return 60.0F + 11.0F * static_cast<float>(letters);
-}
-
-void paint_kinds(vtkContext2D& painter, const Frame& frame, float left, float top) {
-  paint_text(painter, frame.label, 20, left, top - 12.0F, Anchor::left);
-  float y = top - 48.0F;
-  for (const auto& kind : frame.scale.kinds) {
-    painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
-    painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
-    painter.GetPen()->SetWidth(1.0F);
-    painter.GetBrush()->SetColorF(kind.color[0], kind.color[1], kind.color[2]);
-    painter.DrawRect(left, y - 11.0F, 30.0F, 22.0F);
-    paint_text(painter, kind.name, 18, left + 42.0F, y, Anchor::left);
-    y -= 34.0F;
+  if (request_.contours && (place_.where == "solid" || place_.where == "liquid")) {
+    refuse("--contours", "a field of points, \"" + place_.name + "\" on " + place_.where,
+           "a field on cell or node");
+  }
+  if (request_.logarithmic && request_.range && !((*request_.range)[0] > 0.0)) {
+    refuse("--range", number_text((*request_.range)[0]) + " with --log", "a range above zero");
   }
 }
 
-void draw_frame(const Mesh<2>& mesh, const Frame& frame, const std::string& path) {
-  const ModelView view(mesh, axes_left, axes_bottom, Layout::max_width, Layout::max_height);
-  const float right = view.left() + view.width() + Layout::gap;
-  const bool by_kind = !frame.scale.kinds.empty();
-  const float side = by_kind ? kinds_width(frame) : bar_room;
-  // Wide enough for a long title over a narrow model.
-  const float title = Layout::title_width(frame.title);
-  const auto width = static_cast<int>(std::max(right + side, title));
-  const auto height =
-      static_cast<int>(view.bottom() + std::max(view.height(), Layout::min_bar_height) + top_room);
-  draw_picture(width, height, frame.title, path, [&](vtkContextScene& scene) {
-    add_painted(scene, [&](vtkContext2D& painter) {
-      const bool points =
-          !frame.positions.empty() || frame.where == "solid" || frame.where == "liquid";
-      if (!points) paint_elements(painter, view, mesh, frame);
-      paint_mesh(painter, view, mesh, frame.with_elements);
-      if (points) paint_points(painter, view, mesh, frame);
-      view.paint_axes(painter);
-      paint_title(painter, frame.title, width, height);
-      if (by_kind) {
-        paint_kinds(painter, frame, right, view.bottom() + view.height());
-      } else {
-        paint_bar(painter, frame, right, view.bottom(),
-                  std::max(view.height(), Layout::min_bar_height));
-      }
-    });
-  });
+FieldScale Frames::scale() {
+  FieldScale kinds;
+  kinds.kinds = categories(results_, place_);
+  if (!kinds.kinds.empty()) return kinds;
+  std::vector<WeightedValue> values;
+  for (const std::size_t index : snapshots_) add_values(model_, picture(index), values);
+  const double zero = round_off_of(results_, series_.at(snapshots_.front()).unit);
+  const auto is_positive = [&](const WeightedValue& v) { return v.value > zero; };
+  if (request_.logarithmic && std::ranges::none_of(values, is_positive)) {
+    refuse("--log", '"' + place_.name + "\" without a value above zero", "a field with some");
+  }
+  const bool of_points = place_.where == "solid" || place_.where == "liquid";
+  return value_scale(std::move(values),
+                     {request_.range, request_.logarithmic, zero, of_points ? "points" : "area"});
+}
+
+FieldPicture Frames::picture(std::size_t index) {
+  const ScalarField& field = series_.at(index);
+  FieldPicture picture;
+  picture.title = snapshot_title(results_, index, request_.time);
+  picture.label = field_label(place_, field);
+  picture.where = place_.where;
+  picture.values = field.values;
+  if (picture.of_points()) picture.positions = results_.point_positions(index, place_.where);
+  return picture;
+}
+
+void Frames::add_flow(FieldPicture& picture, std::size_t index) const {
+  if (!request_.vectors && !request_.streamlines) return;
+  if (!flows(results_, index)) return;
+  if (request_.vectors) picture.arrows = results_.field(index, "cell", "darcy_flux").values;
+  if (!request_.streamlines) return;
+  StreamFunction stream = stream_function(results_, index, model_.mesh, command);
+  picture.streamfunction = std::move(stream.at_nodes);
+  picture.tube = stream.discharge / tubes;
+  picture.misfit = stream.misfit;
 }
 
 /// `FILE_0007.png` for `FILE.png` and 7.
@@ -270,49 +215,55 @@ std::string numbered(const std::string& path, std::size_t number) {
       .string();
 }
 
+std::vector<std::string> Frames::draw() {
+  refuse_what_cannot_be_drawn();
+  const FieldScale colors = scale();
+  std::vector<std::vector<OutsideWater>> waters;
+  std::vector<OutsideWater> room;
+  for (const std::size_t index : snapshots_) {
+    waters.push_back(water_outside(results_, index, model_.mesh));
+    room.insert(room.end(), waters.back().begin(), waters.back().end());
+  }
+  const bool several = request_.all || !request_.snapshots.empty();
+  std::vector<std::string> written;
+  for (std::size_t k = 0; k < snapshots_.size(); ++k) {
+    const std::size_t index = snapshots_[k];
+    FieldPicture frame = picture(index);
+    frame.scale = colors;
+    frame.contours = request_.contours;
+    frame.mesh_edges = request_.mesh;
+    frame.water = waters[k];
+    frame.room = room;
+    add_flow(frame, index);
+    written.push_back(several ? numbered(request_.output, index) : request_.output);
+    draw_field_picture(model_, frame, written.back());
+  }
+  return written;
+}
+
 }  // namespace
 
 std::array<double, 2> parse_range(const std::string& text) {
-  const auto comma = text.find(',');
-  if (comma != std::string::npos) {
-    const auto low = parse_number(text.substr(0, comma));
-    const auto high = parse_number(text.substr(comma + 1));
+  const auto between = text.find_first_of(":,");
+  if (between != std::string::npos) {
+    const auto low = parse_number(text.substr(0, between));
+    const auto high = parse_number(text.substr(between + 1));
     if (low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high) {
       return {*low, *high};
     }
   }
-  throw InputError(std::vector{
-      InputProblem{command, "--range", '"' + text + '"', "LO,HI with LO below HI", ""}});
+  refuse("--range", '"' + text + '"', "LO:HI with LO below HI");
+}
+
+ViewBox parse_view(const std::string& text) {
+  const SampleLine corners = parse_line(text, command, "--view");
+  if ((corners.from.array() < corners.to.array()).all()) return {corners.from, corners.to};
+  refuse("--view", '"' + text + '"', "x0,y0:x1,y1 with x0 below x1 and y0 below y1");
 }
 
 std::vector<std::string> render(const ResultsReader& results, const RenderRequest& request) {
-  require_png(request.output, command);
-  if (request.time && !std::isfinite(*request.time)) {
-    throw InputError(std::vector{
-        InputProblem{command, "--time", number_text(*request.time), "a time in seconds", ""}});
-  }
-  const auto snapshots = wanted_snapshots(results, request);
-  FieldPlace place = find_field(results, snapshots.front(), request.field, request.on, command);
-  place.change = request.change;
-  const Mesh<2> mesh = results.mesh();
-  Frame frame;
-  frame.where = place.where;
-  frame.with_elements = request.mesh;
-  frame.scale = make_scale(results, snapshots, place, request);
-  const bool several = request.all || !request.snapshots.empty();
-  std::vector<std::string> written;
-  for (const std::size_t index : snapshots) {
-    const ScalarField field = read_scalar(results, index, place);
-    frame.values = field.values;
-    frame.label = field_label(place, field);
-    frame.title = snapshot_title(results, index, request.time);
-    if (place.where == "solid" || place.where == "liquid") {
-      frame.positions = results.point_positions(index, place.where);
-    }
-    written.push_back(several ? numbered(request.output, index) : request.output);
-    draw_frame(mesh, frame, written.back());
-  }
-  return written;
+  picture_format(request.output, command);
+  return Frames(results, request).draw();
 }
 
 }  // namespace suffuse

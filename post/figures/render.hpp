@@ -1,11 +1,13 @@
 #pragma once
 
-/// Pictures of one field on the model: coloured elements or points, with axes and a colour bar.
+/// Pictures of one field on the model: coloured elements or points, with axes and a colour bar,
+/// and lines and arrows over them.
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "figures/field_picture.hpp"
 #include "results/reader.hpp"
 
 namespace suffuse {
@@ -17,15 +19,22 @@ struct RenderRequest {
   std::string on;                        ///< "cell", "node", "solid", "liquid" or empty
   std::optional<double> time;            ///< s; the nearest snapshot is drawn; unset: the last
   bool all = false;                      ///< every snapshot, all with the same colours
-  std::vector<std::size_t> snapshots{};  ///< these alone, likewise; empty: as the members above say
-  bool change = false;                   ///< what changed since the start
-  bool mesh = true;                      ///< edges of elements, where these are large
+  std::vector<std::size_t> snapshots{};  ///< these alone, likewise; empty: as said above
+  bool change = false;  ///< what changed since the start, instead of the field itself
+  bool mesh = true;     ///< edges of elements, where these are large
   std::optional<std::array<double, 2>> range;  ///< of the colours; unset: that of the values
-  std::string output;                          ///< NAME.png; of several NAME_0000.png and so on
+  bool logarithmic = false;                    ///< of the colours
+  bool contours = false;                       ///< lines of equal values
+  bool vectors = false;                        ///< arrows of the flux
+  bool streamlines = false;     ///< with equal discharge between them, ten for the whole
+  std::optional<ViewBox> view;  ///< unset: all of the model
+  std::string output;           ///< NAME.png, .svg or .pdf; of several NAME_0000.png and so on
 };
 
-/// Reads `LO,HI`, LO < HI. Throws InputError.
+/// Reads `LO:HI`, or `LO,HI`, with LO < HI. Throws InputError.
 std::array<double, 2> parse_range(const std::string& text);
+/// Reads `X0,Y0:X1,Y1` with X0 < X1 and Y0 < Y1. Throws InputError.
+ViewBox parse_view(const std::string& text);
 
 /// Draws one colour per element, nodal and element-vertex fields in smooth colours, points as discs
 /// over the mesh. Of vectors the magnitude is drawn. Fields whose values stand for kinds

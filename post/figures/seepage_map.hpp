@@ -21,16 +21,19 @@ struct SeepageMap {
   std::vector<double> saturation;  ///< per element; coloured in the place of heads; or empty
   std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
   std::vector<OutsideWater> water;
-  /// Of maps that belong together, beside what each shows: colours for these heads, room for this
-  /// place, m.
+  /// Of maps that are aligned: the colours are for these heads too, m.
   std::optional<std::array<double, 2>> covered_heads{};
-  std::vector<Vector<2>> covered_places{};
+  std::vector<OutsideWater> room{};  ///< likewise: there is room for this water
+};
+std::vector<Vector<2>> covered_places{};
 };
 
 /// Of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes' pressures;
-/// without gravity there is no phreatic line. Throws InputError where every soil is saturated and
-/// the saturation is wanted; FileError.
-SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time);
+/// without gravity there is no phreatic line. Throws InputError, naming `command`, for a time
+/// outside the snapshots, and where every soil is saturated and the saturation is wanted;
+/// FileError.
+SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time,
+                    const std::string& command = "suffuse-post figure head");
 SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>& time);
 
 /// Gives maps of heads of one run the same colours, and the model the same place in all of them.

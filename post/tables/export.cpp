@@ -66,7 +66,7 @@ void export_kind(const ResultsReader& results, const std::string& kind, const fs
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n"
       << entries << "  </Collection>\n</VTKFile>\n"
       << std::flush;
-  if (!out) throw FileError(path + ": cannot be written");
+  if (!out) throw FileError(path + ": could not be written whole; is the disk full?");
   file.commit();
 }
 

@@ -198,12 +198,13 @@ Vector<2> parse_place(const std::string& text) {
   return *place;
 }
 
-SampleLine parse_line(const std::string& text) {
+SampleLine parse_line(const std::string& text, const std::string& command,
+                      const std::string& option) {
   const auto ends = split(text, ':');
   const auto from = place_of(ends.front());
   const auto to = place_of(ends.back());
   if (ends.size() != 2 || !from || !to) {
-    throw wrong("--line", "\"" + text + "\"", "x0,y0:x1,y1 in metres");
+    throw wrong(option, "\"" + text + "\"", "x0,y0:x1,y1 in metres", "", command);
   }
   return {*from, *to};
 }

@@ -15,8 +15,9 @@ struct SampleLine {
   Vector<2> to;
 };
 
-/// Reads `x0,y0:x1,y1` (m). Throws InputError.
-SampleLine parse_line(const std::string& text);
+/// Reads `x0,y0:x1,y1` (m). Throws InputError, naming `command` and `option`.
+SampleLine parse_line(const std::string& text, const std::string& command = "suffuse-post sample",
+                      const std::string& option = "--line");
 
 /// Reads `x,y` (m). Throws InputError.
 Vector<2> parse_place(const std::string& text);

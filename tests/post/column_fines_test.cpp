@@ -93,6 +93,7 @@ std::optional<ColumnFlow> flow_of(const ScratchFolder& scratch, Case<2> c, const
   text.replace(at, from.size(), to);
   c.document = parse_scene(text, "changed.toml");
   const std::string folder = scratch / (c.document.scene.name + ".results");
+  std::filesystem::remove_all(folder);
   { const ResultsWriter<2> writer(folder, c); }
   return column_flow(ResultsReader(folder));
 }

@@ -278,7 +278,7 @@ TEST_F(PostCommand, RenderNamesItsPictures) {
                              scratch / "p_0002.png" + "\n");
   EXPECT_EQ(post("render " + run + " --field porosity --all --time 1 -o " + picture).code, 2);
   expect_refusal("render " + run + " --field porosity --range 2,1 -o " + picture, 2,
-                 "suffuse-post render: --range: got \"2,1\"; expected LO,HI with LO below HI");
+                 "suffuse-post render: --range: got \"2,1\"; expected LO:HI with LO below HI");
   expect_refusal("render " + run + " --field porosity -o " + run + "/a.png", 2,
                  "suffuse-post: -o: got \"" + run + "/a.png\"; expected a place outside " + run +
                      ", which belongs to suffuse-solver");
@@ -350,14 +350,15 @@ TEST_F(PostCommand, EmptyFieldName) {
 }
 
 TEST_F(PostCommand, UnknownFigure) {
-  expect_refusal("figure porosty " + run + " -o " + scratch / "f.png", 2,
-                 "suffuse-post figure: NAME: got \"porosty\"; expected \"boundaries\", "
-                 "\"comparison\", \"curves\", \"empty-elements\", \"fines-lost\", \"flux\", "
-                 "\"gradation\", \"head\", "
-                 "\"masses\", "
-                 "\"model\", \"outflow\", \"porosity\", \"profile\", \"saturation\" or "
-                 "\"solid-mass\"; did you mean "
-                 "porosity?");
+  expect_refusal(
+      "figure porosty " + run + " -o " + scratch / "f.png", 2,
+      "suffuse-post figure: NAME: got \"porosty\"; expected \"boundaries\", "
+      "\"comparison\", \"curves\", \"empty-elements\", \"fines-lost\", \"flownet\", \"flux\", "
+      "\"gradation\", \"head\", "
+      "\"masses\", "
+      "\"model\", \"outflow\", \"porosity\", \"profile\", \"saturation\" or "
+      "\"solid-mass\"; did you mean "
+      "porosity?");
   EXPECT_FALSE(fs::exists(scratch / "f.png"));
 }
 

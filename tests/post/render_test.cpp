@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "case/errors.hpp"
@@ -162,17 +163,127 @@ TEST_F(Render, AllFramesShareOneRange) {
   }
 }
 
-TEST_F(Render, OneValueEverywhereStillHasABar) {
-  auto r = request("erosion_rate");
-  const Pixels pixels = drawn(run(), r);
-  EXPECT_GT(pixels.color_count(), 200U);
+TEST_F(Render, OneValueEverywhereHasOneColourAndItsNumber) {
+  auto r = request("porosity");
+  r.range = {{0.0, 1.0}};
+  const std::size_t with_bar = drawn(run(), r).color_count();
+  r = request("erosion_rate");
+  EXPECT_LT(drawn(run(), r).color_count() + 150, with_bar);
+  r.output = scratch / "picture.svg";
+  render(run(), r);
+  EXPECT_NE(testing::file_text(r.output).find(">0.001<"), std::string::npos);
+}
+
+TEST_F(Render, LinesAndArrowsAreSaidInTheLegend) {
+  auto r = request("porosity");
+  r.on = "node";
+  r.contours = r.vectors = r.streamlines = true;
+  r.output = scratch / "picture.svg";
+  render(single(), r);
+  const std::string svg = testing::file_text(r.output);
+  // The flux of element e is (e / 4, -1) m/s, which has sources.
+  for (const auto* text : {">line of equal porosity n_L (-)<", ">flux q, 2 m/s<", ">streamline; ",
+                           " m3/s per m between two; unsteady flow: ", " % of the flux missed<"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
+  r.output = scratch / "picture.pdf";
+  render(single(), r);
+  EXPECT_GT(std::filesystem::file_size(r.output), 5000U);
+}
+
+TEST_F(Render, APartOfTheModelFillsThePictureWithItsOwnColours) {
+  auto r = request("porosity");
+  r.on = "node";
+  r.view = {{Vector<2>(0.0, 0.5), Vector<2>(0.5, 1.0)}};
+  const Pixels pixels = drawn(single(), r);
+  // 0.3 + 0.01 x + 0.02 y + 0.04 (1 + x) in all elements that reach into the part.
+  const auto porosity = [](double x, double y) { return testing::linear_porosity(x, y, 40.0); };
+  const double low = porosity(0.0, 0.5);
+  const double high = porosity(0.5, 1.0);
+  for (const auto& [x, y] : {std::pair{0.1, 0.7}, std::pair{0.4, 0.55}, std::pair{0.3, 0.95}}) {
+    const Eigen::Vector2d at{axes_left + 1600.0 * x, axes_bottom + 1600.0 * (y - 0.5)};
+    expect_color(pixels.at(at), viridis((porosity(x, y) - low) / (high - low)), "in view");
+  }
+  const Eigen::Vector2d beside{axes_left + 1600.0 * 0.51, axes_bottom + 400.0};
+  expect_color(pixels.at(beside), {1.0, 1.0, 1.0}, "out of view");
+}
+
+/// The unit square with a field x at its nodes.
+FieldPicture linear_picture(const Mesh<2>& mesh) {
+  FieldPicture picture;
+  picture.title = "x";
+  picture.label = "x (m)";
+  picture.where = "node";
+  for (const auto& x : mesh.nodes) picture.values.push_back(x[0]);
+  picture.scale.range = {0.0, 1.0};
+  return picture;
+}
+
+TEST_F(Render, ContoursLieOnRoundValuesAndStreamlinesBetweenTubes) {
+  const Mesh<2> mesh = testing::unit_square_case().mesh;
+  FieldPicture picture = linear_picture(mesh);
+  picture.contours = true;
+  for (const auto& x : mesh.nodes) picture.streamfunction.push_back(2.0 * x[1]);
+  picture.tube = 0.4;
+  const std::string path = scratch / "lines.png";
+  draw_field_picture(picture_model(mesh, {}), picture, path);
+  const Pixels pixels(path);
+  const double bottom = axes_bottom + 60.0;
+  const auto at = [&](double x, double y) {
+    return pixels.at(Eigen::Vector2d{axes_left + 800.0 * x, bottom + 800.0 * y});
+  };
+  const auto dark = [](const std::array<int, 3>& c) { return c[0] + c[1] + c[2] < 150; };
+  for (const double x : {0.2, 0.4, 0.8}) {
+    bool found = false;
+    for (const double off : {-1.0, 0.0, 1.0}) found = found || dark(at(x + off / 800.0, 0.25));
+    EXPECT_TRUE(found) << x;
+  }
+  // psi = 0.2, 0.6, ... 1.8, red on yellow.
+  for (const double y : {0.1, 0.3, 0.9}) {
+    int least = 255;  // of green
+    for (const double off : {-1.0, 0.0, 1.0}) least = std::min(least, at(0.93, y + off / 800.0)[1]);
+    EXPECT_LT(least, 100) << y;
+  }
+  expect_color(at(0.93, 0.2), viridis(0.93), "between two");
+}
+
+TEST_F(Render, ArrowsPointAlongTheFlux) {
+  const Mesh<2> mesh = testing::unit_square_case().mesh;
+  FieldPicture picture = linear_picture(mesh);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    picture.arrows.insert(picture.arrows.end(), {0.0, 3e-5});
+  }
+  const std::string path = scratch / "arrows.png";
+  draw_field_picture(picture_model(mesh, {}), picture, path);
+  const Pixels pixels(path);
+  // The first place of the grid is 21 pixels from both sides; the arrow is 38 long, upwards.
+  const Eigen::Vector2d middle{axes_left + 21.0, axes_bottom + 30.0 + 21.0};
+  const auto brightness = [&](double x, double y) {
+    const auto color = pixels.at(Eigen::Vector2d(middle + Eigen::Vector2d(x, y)));
+    return color[0] + color[1] + color[2];
+  };
+  EXPECT_LT(brightness(-0.5, 0.0), 400) << "shaft";
+  EXPECT_LT(brightness(1.5, 11.0), 200) << "head";
+  EXPECT_GT(brightness(1.5, -11.0), 400) << "white beside the shaft";
+}
+
+TEST_F(Render, AFieldOfElementsHasContoursOfItsMeans) {
+  const Mesh<2> mesh = testing::unit_square_case().mesh;
+  FieldPicture picture;
+  picture.where = "cell";
+  for (int e = 0; e < mesh.element_count(); ++e) picture.values.push_back(e);
+  const auto at_nodes = nodal_values(mesh, picture);
+  // The first node has elements 0 and 1, the one in the middle 0, 1, 3, 4, 6 and 7.
+  EXPECT_NEAR(at_nodes[0], 0.5, 1e-14);
+  EXPECT_NEAR(at_nodes[4], 3.5, 1e-14);
 }
 
 TEST_F(Render, AnUnknownFieldListsWhatThereIsAndWhere) {
   expect_refusal(
       run(), request("concentratoin"),
       "suffuse-post render: --field: got \"concentratoin\"; expected one of the fields on cell: "
-      "\"concentration\", \"porosity\", \"region\" or \"saturation_state\"; on node: "
+      "\"concentration\", \"porosity\", \"region\", \"saturation\" or \"saturation_state\"; on "
+      "node: "
       "\"concentration\" or \"liquid_velocity\"; on solid: \"erosion_rate\"; on liquid: "
       "\"concentration\", \"liquid_velocity\" or \"pressure\"; did you mean concentration?");
 }
@@ -185,16 +296,59 @@ TEST_F(Render, OtherRefusals) {
                  "\"solid\"");
   r.on.clear();
   r.time = std::nan("");
-  expect_refusal(run(), r, "suffuse-post render: --time: got nan; expected a time in seconds");
-  r.time.reset();
-  r.output = scratch / "picture.svg";
   expect_refusal(
       run(), r,
-      "suffuse-post render: -o: got \"" + r.output + "\"; expected a name that ends in .png");
+      "suffuse-post render: --time: got nan; expected a time from 0 to 40 s, the first and "
+      "last snapshot");
+  r.time.reset();
+  r.output = scratch / "picture.bmp";
+  expect_refusal(run(), r,
+                 "suffuse-post render: -o: got \"" + r.output +
+                     "\"; expected a name that ends in .png, .svg or .pdf");
+  EXPECT_EQ(parse_range("-1:2.5"), (std::array<double, 2>{-1.0, 2.5}));
   EXPECT_EQ(parse_range("-1,2.5"), (std::array<double, 2>{-1.0, 2.5}));
-  for (const std::string text : {"1", "1,1", "2,1", "1,x", "nan,1", "1,2,3", ","}) {
+  for (const std::string text : {"1", "1,1", "2,1", "1,x", "nan,1", "1,2,3", ",", "2:1", "1:2:3"}) {
     EXPECT_THROW(parse_range(text), InputError) << text;
   }
+  EXPECT_EQ(parse_view("-1,0:2,3")[1], Vector<2>(2.0, 3.0));
+  for (const std::string text : {"0,0:1", "1,0:0,1", "0,1:1,1", "x"}) {
+    EXPECT_THROW(parse_view(text), InputError) << text;
+  }
+}
+
+TEST_F(Render, RefusesLinesColoursAndPartsThatCannotBe) {
+  auto r = request("saturation_state");
+  r.contours = true;
+  expect_refusal(run(), r,
+                 "suffuse-post render: --contours: got a field of kinds, \"saturation_state\"; "
+                 "expected a field of numbers");
+  r = request("pressure");
+  r.on = "liquid";
+  r.contours = true;
+  expect_refusal(run(), r,
+                 "suffuse-post render: --contours: got a field of points, \"pressure\" on liquid; "
+                 "expected a field on cell or node");
+  r = request("concentration");
+  r.logarithmic = true;
+  r.range = {{-1.0, 1.0}};
+  expect_refusal(run(), r,
+                 "suffuse-post render: --range: got -1 with --log; expected a range above zero");
+  r = request("porosity");
+  r.view = {{Vector<2>(5.0, 5.0), Vector<2>(6.0, 6.0)}};
+  expect_refusal(run(), r,
+                 "suffuse-post render: --view: got a part with nothing of the model in it; "
+                 "expected x0,y0:x1,y1 in metres, with some");
+  r = request("porosity");
+  r.time = 1e9;
+  expect_refusal(
+      run(), r,
+      "suffuse-post render: --time: got 1e+09; expected a time from 0 to 40 s, the first "
+      "and last snapshot");
+  // Snapshots are at 0, 10 and 40 s: half an interval beyond the last is still taken for it.
+  r.time = 54.0;
+  EXPECT_EQ(render(run(), r).size(), 1U);
+  r.time = 56.0;
+  EXPECT_THROW(render(run(), r), InputError);
 }
 
 }  // namespace

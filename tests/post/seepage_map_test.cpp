@@ -205,6 +205,9 @@ TEST(SeepageMap, HasItsTextsLinesAndColours) {
                            "water level outside, with its head", ">4<", ">2.5<"}) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   }
+  // The bands are paths: the water's tint, and the highest band's colour.
+  EXPECT_NE(svg.find("fill=\"rgb(232,245,255)\""), std::string::npos);
+  EXPECT_GT(svg.size(), 200000U);
   draw_seepage_map(map, scratch / "head.png");
   const Pixels pixels(scratch / "head.png");
   // Pixels per metre; the downstream level ends 0.5 m beside the model.
@@ -300,12 +303,12 @@ TEST(SeepageMap, RefusesWhatItCannotDraw) {
   EXPECT_NE(refusal([&] {
               draw_figure("porosity", {run}, scratch / "a.png", {1.0, ""});
             })
-                .find("--time: got 1; expected no time: it is for the figures \"head\" and "
-                      "\"saturation\""),
+                .find("--time: got it with the figure \"porosity\"; expected it with \"flownet\", "
+                      "\"head\" or \"saturation\""),
             std::string::npos);
   EXPECT_NE(refusal([&] {
               draw_figure("head", {run}, scratch / "a.png", {HUGE_VAL, ""});
-            }).find("expected a time in seconds"),
+            }).find("expected a time from 0 to 10 s, the first and last"),
             std::string::npos);
 }
 

@@ -116,7 +116,7 @@ TEST_F(TableCurves, WhatIsNotThereIsRefused) {
   options.axes.y_range = "";
   options.line = "0,0:1,1";
   EXPECT_NE(message(run(), options)
-                .find("--line: got it; expected it with a figure that uses it: "
+                .find("--line: got it with the figure \"curves\"; expected it with "
                       "\"profile\""),
             std::string::npos);
 }

@@ -55,7 +55,8 @@ Record record(const Case<2>& c, const Plan& plan, const std::string& pass) {
   for (double next = 0.5; next <= end; next += 0.5) {
     while (model.time() < next) model.advance(next);
     const HistoryRow history = model.history_row(model.flow_state());
-    for (const auto& [name, member, unit] : history_columns) result.values.push_back(history.*member);
+    for (const auto& [name, member, unit] : history_columns)
+      result.values.push_back(history.*member);
     const LedgerRow ledger = model.ledger();
     for (const auto& [name, member, unit] : ledger_columns) result.values.push_back(ledger.*member);
     const std::vector<double>& porosity = model.solid().porosity();

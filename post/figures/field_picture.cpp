@@ -1,0 +1,307 @@
+#include "figures/field_picture.hpp"
+
+#include <vtkBrush.h>
+#include <vtkPen.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "drawing/chart_legend.hpp"
+#include "drawing/colored_triangles.hpp"
+#include "drawing/line_labels.hpp"
+#include "drawing/picture.hpp"
+#include "drawing/ticks.hpp"
+#include "figures/arrows.hpp"
+#include "figures/map_water.hpp"
+
+namespace suffuse {
+namespace {
+
+using Layout = PictureLayout;
+constexpr Color mesh_color{0.55, 0.55, 0.55};
+constexpr Color stream_color{0.75, 0.0, 0.1};
+constexpr Color region_color{0.25, 0.25, 0.25};
+constexpr float top_room = 70.0F;
+/// For the head beside a level that touches the top of the view.
+constexpr float level_room = 30.0F;
+constexpr float bar_room = 215.0F;
+constexpr float legend_row = 30.0F;
+constexpr float contour_width = 1.2F;
+constexpr float stream_width = 1.8F;
+constexpr double noticed_misfit = 0.01;
+/// Small triangles of one picture; fewer in a picture of lines and areas, whose file has each.
+constexpr int max_triangles = 400'000;
+constexpr int max_drawn_triangles = 10'000;
+constexpr int max_division = 16;
+
+/// Adds an element as n^2 triangles. VTK interpolates colours, not values, between the corners of a
+/// triangle; only in small triangles is the difference too small to see. `flat`: one colour each.
+void add_divided(ColoredTriangles& triangles, const std::array<Vector<2>, 3>& corners,
+                 const std::array<double, 3>& values, const FieldScale& scale, int n, bool flat) {
+  struct Corner {
+    Vector<2> at;
+    double value;
+  };
+  const auto at = [&](int i, int j) {
+    const double b = static_cast<double>(i) / n;
+    const double c = static_cast<double>(j) / n;
+    return Corner{(1.0 - b - c) * corners[0] + b * corners[1] + c * corners[2],
+                  (1.0 - b - c) * values[0] + b * values[1] + c * values[2]};
+  };
+  const auto add = [&](const Corner& p, const Corner& q, const Corner& r) {
+    const double mean = (p.value + q.value + r.value) / 3.0;
+    const auto color = [&](const Corner& corner) {
+      return scale.color(flat ? mean : corner.value);
+    };
+    triangles.add({p.at, q.at, r.at}, {color(p), color(q), color(r)});
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      add(at(i, j), at(i + 1, j), at(i, j + 1));
+      if (i + j + 1 < n) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+}
+
+void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
+                    const FieldPicture& picture, bool flat) {
+  const Mesh<2>& mesh = model.mesh;
+  const bool smooth = picture.where != "cell";
+  const int most = flat ? max_drawn_triangles : max_triangles;
+  int division = 1;
+  while (smooth && division < max_division &&
+         4 * division * division * model.visible_count <= most) {
+    division *= 2;
+  }
+  ColoredTriangles triangles;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (model.visible[e] == 0) continue;
+    std::array<Vector<2>, 3> corners;
+    for (int a = 0; a < 3; ++a) corners.at(a) = view.pixel(mesh.nodes[mesh.elements[e][a]]);
+    add_divided(triangles, corners, corner_values(picture, mesh, e), picture.scale, division, flat);
+  }
+  triangles.paint(painter);
+}
+
+/// Paints the edges of elements where these are large enough not to hide the colours, and where no
+/// lines of the field are.
+void paint_element_edges(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
+                         const FieldPicture& picture) {
+  const double pixels = double{view.width()} * view.height() /
+                        static_cast<double>(std::max<std::ptrdiff_t>(1, model.visible_count));
+  const bool lines = picture.contours || !picture.arrows.empty() || !picture.streamfunction.empty();
+  if (picture.mesh_edges && pixels > 100.0 && !lines) {
+    paint_edges(painter, view, model.mesh, model.all_edges, mesh_color, 0.7F);
+  }
+}
+
+/// Pixels; less than would touch in the smaller elements in view, so that the mesh and the
+/// ground are seen between points.
+float disc_size(const ModelView& view, const PictureModel& model, std::size_t points) {
+  std::vector<double> areas;
+  for (int e = 0; e < model.mesh.element_count(); ++e) {
+    if (model.visible[e] != 0) areas.push_back(element_volume(model.mesh, e));
+  }
+  const auto quarter = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 4);
+  std::nth_element(areas.begin(), quarter, areas.end());
+  const double per_element =
+      std::max(1.0, static_cast<double>(points) / model.mesh.element_count());
+  return static_cast<float>(
+      std::clamp(0.6 * view.scale() * std::sqrt(*quarter / per_element), 2.0, 9.0));
+}
+
+void paint_points(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
+                  const FieldPicture& picture) {
+  std::vector<Vector<2>> positions;
+  std::vector<Color> colors;
+  for (std::size_t p = 0; p < picture.values.size(); ++p) {
+    const Vector<2>& x = picture.positions[p];
+    if ((x.array() < view.low().array()).any() || (x.array() > view.high().array()).any()) continue;
+    positions.push_back(x);
+    colors.push_back(picture.scale.color(picture.values[p]));
+  }
+  paint_discs(painter, view, positions, colors, disc_size(view, model, picture.positions.size()));
+}
+
+/// Streamlines at whole multiples of the discharge of a tube, beginning with one half.
+std::vector<Polyline> streamlines_of(const PictureModel& model, const FieldPicture& picture) {
+  std::vector<Polyline> lines;
+  if (picture.streamfunction.empty()) return lines;
+  const double most = std::ranges::max(picture.streamfunction);
+  for (double psi = 0.5 * picture.tube; psi < most; psi += picture.tube) {
+    for (auto& line : contour_lines(model.mesh, picture.streamfunction, psi)) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+/// White over what reaches beyond a part of the model.
+void paint_margins(vtkContext2D& painter, const ModelView& view, int width, int height) {
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  painter.GetBrush()->SetColorF(1.0, 1.0, 1.0);
+  const float right = view.left() + view.width();
+  const float top = view.bottom() + view.height();
+  const auto w = static_cast<float>(width);
+  const auto h = static_cast<float>(height);
+  painter.DrawRect(0.0F, 0.0F, view.left(), h);
+  painter.DrawRect(right, 0.0F, std::max(1.0F, w - right), h);
+  painter.DrawRect(0.0F, 0.0F, w, view.bottom());
+  painter.DrawRect(0.0F, top, w, std::max(1.0F, h - top));
+  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  painter.GetPen()->SetColorF(mesh_color[0], mesh_color[1], mesh_color[2]);
+  painter.GetPen()->SetWidth(1.0F);
+  const std::array<std::array<float, 4>, 4> sides{
+      {{view.left(), view.bottom(), right, view.bottom()},
+       {right, view.bottom(), right, top},
+       {right, top, view.left(), top},
+       {view.left(), top, view.left(), view.bottom()}}};
+  for (const auto& s : sides) painter.DrawLine(s[0], s[1], s[2], s[3]);
+}
+
+std::vector<Curve> legend_rows(const FieldPicture& picture, bool has_water) {
+  std::vector<Curve> rows;
+  if (picture.contours) {
+    rows.push_back(legend_line("line of equal " + picture.label, black, contour_width));
+  }
+  if (!picture.streamfunction.empty()) {
+    std::string text = "streamline; " + digits_text(picture.tube, 4) + " m3/s per m between two";
+    if (picture.misfit > noticed_misfit) {
+      text +=
+          "; unsteady flow: " + digits_text(100.0 * picture.misfit, 4) + " % of the flux missed";
+    }
+    rows.push_back(legend_line(text, stream_color, stream_width));
+  }
+  add_water_legend(rows, false, has_water);
+  return rows;
+}
+
+/// One picture: where its parts are.
+struct Sheet {
+  const PictureModel& model;
+  const FieldPicture& picture;
+  ModelView view;
+  int width = 0;
+  int height = 0;
+  bool flat = false;
+};
+
+void paint_map(vtkContext2D& painter, const Sheet& sheet, const Arrows& arrows) {
+  const auto& [model, picture, view, width, height, flat] = sheet;
+  if (!model.box) paint_outside_water(painter, view, picture.water);
+  if (!picture.of_points()) paint_elements(painter, view, model, picture, flat);
+  paint_element_edges(painter, view, model, picture);
+  if (picture.of_points()) paint_points(painter, view, model, picture);
+  paint_edges(painter, view, model.mesh, model.region_edges, region_color, 1.5F);
+  LineLabels labels(view);
+  const auto streamlines = streamlines_of(model, picture);
+  paint_edged_polylines(painter, view, streamlines, stream_color, white, stream_width);
+  if (picture.contours) {
+    const auto at_nodes = nodal_values(model.mesh, picture);
+    paint_contours(painter, view, {model.mesh, at_nodes, picture.scale.levels()},
+                   {black, contour_width}, labels);
+  }
+  arrows.paint(painter);
+  paint_edges(painter, view, model.mesh, model.outer_edges, black, 1.5F);
+  if (model.box) paint_margins(painter, view, width, height);
+  view.paint_axes(painter);
+}
+
+ModelView view_of(const PictureModel& model, const FieldPicture& picture, float bottom) {
+  if (!model.box) return view_with_water(model.mesh, picture.room, bottom);
+  return {(*model.box)[0], (*model.box)[1],   axes_left,
+          bottom,          Layout::max_width, Layout::max_height};
+}
+
+}  // namespace
+
+PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box) {
+  PictureModel model{mesh, all_edges(mesh), region_edges(mesh), outer_edges(mesh), box, {}, 0};
+  for (const auto& nodes : mesh.elements) {
+    bool is_visible = true;
+    if (box) {
+      const auto& [a, b, c] = nodes;
+      const Vector<2> low = mesh.nodes[a].cwiseMin(mesh.nodes[b]).cwiseMin(mesh.nodes[c]);
+      const Vector<2> high = mesh.nodes[a].cwiseMax(mesh.nodes[b]).cwiseMax(mesh.nodes[c]);
+      is_visible =
+          (low.array() < (*box)[1].array()).all() && (high.array() > (*box)[0].array()).all();
+    }
+    model.visible.push_back(is_visible ? 1 : 0);
+    model.visible_count += is_visible ? 1 : 0;
+  }
+  return model;
+}
+
+std::array<double, 3> corner_values(const FieldPicture& picture, const Mesh<2>& mesh, int element) {
+  std::array<double, 3> values{};
+  for (int a = 0; a < 3; ++a) {
+    auto at = static_cast<std::size_t>(element);
+    if (picture.where == "element_vertex") at = 3 * at + static_cast<std::size_t>(a);
+    if (picture.where == "node") at = static_cast<std::size_t>(mesh.elements[element][a]);
+    values.at(a) = picture.values[at];
+  }
+  return values;
+}
+
+std::vector<double> nodal_values(const Mesh<2>& mesh, const FieldPicture& picture) {
+  if (picture.where == "node") return picture.values;
+  std::vector<double> sums(mesh.nodes.size(), 0.0);
+  std::vector<double> areas(mesh.nodes.size(), 0.0);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const double area = element_volume(mesh, e);
+    const auto values = corner_values(picture, mesh, e);
+    for (int a = 0; a < 3; ++a) {
+      sums[mesh.elements[e][a]] += area * values.at(a);
+      areas[mesh.elements[e][a]] += area;
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= areas[i];
+  return sums;
+}
+
+void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
+                        const std::string& path) {
+  const bool has_water = !picture.room.empty() && !model.box;
+  const std::vector<Curve> rows = legend_rows(picture, has_water);
+  const float legend_height = legend_row * static_cast<float>(rows.size());
+  const bool has_arrows = !picture.arrows.empty();
+  const float bottom = axes_bottom + legend_height + (has_arrows ? legend_row : 0.0F);
+  Sheet sheet{model, picture, view_of(model, picture, bottom)};
+  sheet.flat = std::filesystem::path(path).extension() != ".png";
+  const Arrows arrows(model.mesh, picture.arrows, sheet.view);
+  const ModelView& view = sheet.view;
+  const FieldScale& scale = picture.scale;
+  const float right = view.left() + view.width() + Layout::gap;
+  const bool by_kind = !scale.kinds.empty();
+  const float side = by_kind ? kinds_width(scale, picture.label) : bar_room;
+  const float bar_height = std::max(view.height(), Layout::min_bar_height);
+  // Wide enough for a long title over a narrow model, and for the legend beneath.
+  const float legend = view.left() + ChartLegend::width(rows) + Layout::gap;
+  sheet.width = static_cast<int>(
+      std::max({right + side, Layout::title_width(picture.title), rows.empty() ? 0.0F : legend}));
+  sheet.height =
+      static_cast<int>(view.bottom() + bar_height + top_room + (has_water ? level_room : 0.0F));
+  draw_picture(sheet.width, sheet.height, picture.title, path, [&](vtkContextScene& scene) {
+    add_painted(scene, [&](vtkContext2D& painter) {
+      paint_map(painter, sheet, arrows);
+      paint_title(painter, picture.title, sheet.width, sheet.height);
+      if (has_arrows) {
+        const float y = legend_height + 0.5F * legend_row + 6.0F;
+        arrows.paint_reference(painter, view.left(), y);
+        paint_text(painter, "flux q, " + digits_text(arrows.reference(), 4) + " m/s", 18,
+                   view.left() + 76.0F, y, Anchor::left);
+      }
+      if (by_kind) {
+        paint_kinds(painter, scale, picture.label, right, view.bottom() + view.height());
+      } else {
+        paint_bar(painter, scale, picture.label, right, view.bottom(), bar_height);
+      }
+    });
+    vtkNew<ChartLegend> lines;
+    lines->place(view.left(), legend_height + 6.0F, legend_height, rows);
+    if (!rows.empty()) scene.AddItem(lines);
+  });
+}
+
+}  // namespace suffuse

@@ -1,0 +1,62 @@
+#pragma once
+
+/// The picture of one field on the model, and the lines and arrows over it.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drawing/model_view.hpp"
+#include "figures/field_scale.hpp"
+#include "values/outside_water.hpp"
+
+namespace suffuse {
+
+/// Two corners of a part of the model, m.
+using ViewBox = std::array<Vector<2>, 2>;
+
+/// What all pictures of a run share.
+struct PictureModel {
+  Mesh<2> mesh;
+  Edges all_edges;
+  Edges region_edges;
+  Edges outer_edges;
+  std::optional<ViewBox> box;        ///< unset: all of the model is shown
+  std::vector<char> visible;         ///< per element: whether it reaches into the box
+  std::ptrdiff_t visible_count = 0;  ///< of elements
+};
+PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box);
+
+/// The content of one picture.
+struct FieldPicture {
+  std::string title;
+  std::string label;                 ///< of the colours, with the unit
+  std::string where;                 ///< "cell", "node", "element_vertex", "solid" or "liquid"
+  std::vector<double> values;        ///< of elements, nodes, vertices of elements or points
+  std::vector<Vector<2>> positions;  ///< of points; empty for fields of elements and nodes
+  FieldScale scale;
+  std::vector<OutsideWater> water;
+  std::vector<OutsideWater> room;      ///< the water of all pictures that show the model alike
+  bool mesh_edges = true;              ///< where elements are large
+  bool contours = false;               ///< of the field, at the round values of the bar
+  std::vector<double> arrows;          ///< two components per element, m/s; empty: none
+  std::vector<double> streamfunction;  ///< at nodes, m2/s; empty: no streamlines
+  double tube = 0.0;                   ///< discharge between two streamlines, m2/s
+  double misfit = 0.0;                 ///< of the stream function
+
+  [[nodiscard]] bool of_points() const { return where == "solid" || where == "liquid"; }
+};
+
+/// Values of a field of elements or nodes at the corners of an element.
+std::array<double, 3> corner_values(const FieldPicture& picture, const Mesh<2>& mesh, int element);
+
+/// Values at nodes of a field of elements or nodes: means over the elements around, by area.
+std::vector<double> nodal_values(const Mesh<2>& mesh, const FieldPicture& picture);
+
+/// Draws one colour per element, nodal and element-vertex fields in smooth colours, points as discs
+/// over the mesh. Throws InputError for an unknown suffix, FileError.
+void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
+                        const std::string& path);
+
+}  // namespace suffuse

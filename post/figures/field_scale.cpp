@@ -1,0 +1,187 @@
+#include "figures/field_scale.hpp"
+
+#include <vtkBrush.h>
+#include <vtkPen.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "drawing/color_map.hpp"
+#include "drawing/model_view.hpp"
+#include "drawing/picture.hpp"
+#include "drawing/ticks.hpp"
+
+namespace suffuse {
+namespace {
+
+using Layout = PictureLayout;
+constexpr int bar_bands = 256;
+/// Of the larger of both ends: values that lie closer agree.
+constexpr double agreement = 1e-9;
+constexpr double percentile = 0.01;
+
+/// A value on the scale on which colours are even.
+double even(double value, bool logarithmic) {
+  return logarithmic ? std::log10(value) : value;
+}
+
+/// The smallest value below which lies at least this share of the weights; values ascend.
+double quantile(const std::vector<WeightedValue>& values, double share) {
+  double all = 0.0;
+  for (const auto& v : values) all += v.weight;
+  double below = 0.0;
+  for (const auto& v : values) {
+    below += v.weight;
+    if (below >= share * all) return v.value;
+  }
+  return values.back().value;
+}
+
+/// Leaves out the outermost values where they are far outside.
+void leave_out_extremes(FieldScale& scale, const std::vector<WeightedValue>& values,
+                        const std::string& shares) {
+  const bool logarithmic = scale.logarithmic;
+  const auto [least, largest] = scale.range;
+  const std::array<double, 2> inner{quantile(values, percentile),
+                                    quantile(values, 1.0 - percentile)};
+  const double far = 0.5 * (even(inner[1], logarithmic) - even(inner[0], logarithmic));
+  if (!(far > 0.0)) return;
+  scale.exceeds_low = even(inner[0], logarithmic) - even(least, logarithmic) > far;
+  scale.exceeds_high = even(largest, logarithmic) - even(inner[1], logarithmic) > far;
+  if (scale.exceeds_low) scale.range[0] = inner[0];
+  if (scale.exceeds_high) scale.range[1] = inner[1];
+  if (!scale.exceeds_low && !scale.exceeds_high) return;
+  const bool both = scale.exceeds_low && scale.exceeds_high;
+  scale.notes.push_back((both ? "98 % of the " : "99 % of the ") + shares);
+  if (scale.exceeds_low) scale.notes.push_back("least " + digits_text(least, 4));
+  if (scale.exceeds_high) scale.notes.push_back("largest " + digits_text(largest, 4));
+}
+
+/// The label of an end of the range: four digits; zero where the value is rounding.
+std::string end_text(double value, const FieldScale& scale) {
+  const double range = scale.range[1] - scale.range[0];
+  if (!scale.logarithmic && std::abs(value) < agreement * range) value = 0.0;
+  return digits_text(value, 4);
+}
+
+}  // namespace
+
+double FieldScale::fraction(double value) const {
+  if (uniform) return 0.5;
+  const double low = even(range[0], logarithmic);
+  return (even(value, logarithmic) - low) / (even(range[1], logarithmic) - low);
+}
+
+Color FieldScale::color(double value) const {
+  for (const auto& kind : kinds) {
+    if (std::abs(value - kind.value) < 0.5) return kind.color;
+  }
+  if (!kinds.empty() || !std::isfinite(value)) return no_value;
+  if (logarithmic && !(value > 0.0)) return no_value;
+  return viridis(fraction(value));
+}
+
+std::vector<double> FieldScale::levels() const {
+  if (uniform || !kinds.empty()) return {};
+  std::vector<double> levels =
+      logarithmic ? logarithmic_ticks(range[0], range[1]).ticks : round_ticks(range[0], range[1]);
+  std::erase_if(levels, [&](double level) { return level < range[0] || level > range[1]; });
+  return levels;
+}
+
+std::string FieldScale::level_text(double level) const {
+  return logarithmic ? logarithmic_tick_text(level) : tick_text(level);
+}
+
+FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& request) {
+  FieldScale scale;
+  scale.logarithmic = request.logarithmic;
+  const auto all = values.size();
+  std::erase_if(values, [&](const WeightedValue& v) {
+    return !std::isfinite(v.value) || (request.logarithmic && !(v.value > 0.0));
+  });
+  std::ranges::sort(values, {}, &WeightedValue::value);
+  if (request.logarithmic && values.size() < all) scale.notes.emplace_back("grey: not above zero");
+  if (request.range) {
+    scale.range = *request.range;
+    scale.exceeds_low = !values.empty() && values.front().value < scale.range[0];
+    scale.exceeds_high = !values.empty() && values.back().value > scale.range[1];
+    return scale;
+  }
+  if (values.empty()) {
+    if (request.logarithmic) scale.range[0] = 0.1;
+    return scale;
+  }
+  scale.range = {values.front().value, values.back().value};
+  const double size = std::max(std::abs(scale.range[0]), std::abs(scale.range[1]));
+  if (size <= request.round_off) scale.range = {0.0, 0.0};
+  if (scale.range[1] - scale.range[0] <= agreement * size || size <= request.round_off) {
+    scale.uniform = true;
+    scale.logarithmic = false;
+    return scale;
+  }
+  leave_out_extremes(scale, values, request.shares);
+  return scale;
+}
+
+void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string& label, float left,
+               float bottom, float height) {
+  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+  const int bands = scale.uniform ? 1 : bar_bands;
+  for (int band = 0; band < bands; ++band) {
+    const Color color = viridis((band + 0.5) / bands);
+    painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
+    const float step = height / static_cast<float>(bands);
+    painter.DrawRect(left, bottom + static_cast<float>(band) * step, Layout::bar_width, step);
+  }
+  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+  painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
+  painter.GetPen()->SetWidth(1.5F);
+  std::size_t letters = 0;
+  const auto mark = [&](double value, const std::string& text) {
+    letters = std::max(letters, text.size());
+    const float y = bottom + height * static_cast<float>(scale.fraction(value));
+    painter.DrawLine(left + Layout::bar_width, y, left + Layout::bar_width + 8.0F, y);
+    paint_text(painter, text, 18, left + Layout::bar_width + 14.0F, y, Anchor::left);
+  };
+  const auto [low, high] = scale.range;
+  mark(low, (scale.exceeds_low ? "<= " : "") + end_text(low, scale));
+  if (!scale.uniform) mark(high, (scale.exceeds_high ? ">= " : "") + end_text(high, scale));
+  const double room = 24.0 / height;
+  for (const double level : scale.levels()) {
+    const double at = scale.fraction(level);
+    if (at > room && at < 1.0 - room) mark(level, scale.level_text(level));
+  }
+  paint_text(painter, label, 20,
+             left + Layout::bar_width + 50.0F + 10.5F * static_cast<float>(letters),
+             bottom + height / 2.0F, Anchor::center, 90.0);
+  float y = bottom - 30.0F;
+  for (const auto& note : scale.notes) {
+    paint_text(painter, note, 18, left, y, Anchor::left);
+    y -= 24.0F;
+  }
+}
+
+float kinds_width(const FieldScale& scale, const std::string& label) {
+  std::size_t letters = label.size();
+  for (const auto& kind : scale.kinds) letters = std::max(letters, kind.name.size());
+  return 60.0F + 11.0F * static_cast<float>(letters);
+}
+
+void paint_kinds(vtkContext2D& painter, const FieldScale& scale, const std::string& label,
+                 float left, float top) {
+  paint_text(painter, label, 20, left, top - 12.0F, Anchor::left);
+  float y = top - 48.0F;
+  for (const auto& kind : scale.kinds) {
+    painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+    painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
+    painter.GetPen()->SetWidth(1.0F);
+    painter.GetBrush()->SetColorF(kind.color[0], kind.color[1], kind.color[2]);
+    painter.DrawRect(left, y - 11.0F, 30.0F, 22.0F);
+    paint_text(painter, kind.name, 18, left + 42.0F, y, Anchor::left);
+    y -= 34.0F;
+  }
+}
+
+}  // namespace suffuse

@@ -1,0 +1,65 @@
+#pragma once
+
+/// The colours of a field's values: the range that they cover, its bar, its legend of kinds.
+
+#include <vtkContext2D.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "figures/categories.hpp"
+
+namespace suffuse {
+
+/// The colours of values: one per kind, or the colour map over a range.
+struct FieldScale {
+  std::array<double, 2> range{0.0, 1.0};
+  bool logarithmic = false;
+  bool uniform = false;            ///< all values agree up to round-off: both ends of the range
+  bool exceeds_low = false;        ///< some values are below the range
+  bool exceeds_high = false;       ///< above it
+  std::vector<std::string> notes;  ///< on what the range leaves out
+  std::vector<Category> kinds;
+
+  [[nodiscard]] Color color(double value) const;
+  /// Where a value is in the range: 0 to 1 within.
+  [[nodiscard]] double fraction(double value) const;
+  /// Round values within the range, ascending.
+  [[nodiscard]] std::vector<double> levels() const;
+  [[nodiscard]] std::string level_text(double level) const;
+};
+
+/// Grey: of values that are not finite, or cannot be on a logarithmic scale.
+inline constexpr Color no_value{0.75, 0.75, 0.75};
+
+/// A value with the area that has it, or 1 for each point.
+struct WeightedValue {
+  double value;
+  double weight;
+};
+
+struct ScaleRequest {
+  std::optional<std::array<double, 2>> range{};  ///< unset: that of the values
+  bool logarithmic = false;
+  double round_off = 0.0;       ///< values of this size are zero, in the unit of the field
+  std::string shares = "area";  ///< what weights are shares of
+};
+
+/// A range over values. Without one in the request it reaches from the least to the largest of
+/// them; where these are far outside, only from the 1st percentile, or to the 99th, so that a few
+/// elements at a corner do not take all colours. Far is farther than half the distance between the
+/// percentiles. Values that agree up to round-off have one colour. A logarithmic range has the
+/// positive values.
+FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& request);
+
+/// The bar with its ticks and the label beside it; notes beneath. Pixels.
+void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string& label, float left,
+               float bottom, float height);
+/// The legend of kinds and its width.
+void paint_kinds(vtkContext2D& painter, const FieldScale& scale, const std::string& label,
+                 float left, float top);
+float kinds_width(const FieldScale& scale, const std::string& label);
+
+}  // namespace suffuse

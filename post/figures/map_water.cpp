@@ -1,0 +1,106 @@
+#include "figures/map_water.hpp"
+
+#include <vtkBrush.h>
+#include <vtkPen.h>
+
+#include <algorithm>
+
+#include "drawing/colored_triangles.hpp"
+#include "drawing/line_labels.hpp"
+#include "drawing/picture.hpp"
+#include "drawing/ticks.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr Color water_blue{0.0, 0.27, 0.53};
+constexpr Color water_tint{0.91, 0.96, 1.0};
+constexpr float phreatic_width = 3.5F;
+constexpr float level_width = 2.5F;
+/// Of water beside an upright boundary, as a share of the model's larger extent.
+constexpr double water_breadth = 0.08;
+
+}  // namespace
+
+std::vector<OutsideWater> water_outside(const ResultsReader& results, std::size_t index,
+                                        const Mesh<2>& mesh) {
+  const double breadth = water_breadth * extent(mesh).maxCoeff();
+  return outside_water(mesh, results.scene().scene, results.times()[index], breadth);
+}
+
+ModelView view_with_water(const Mesh<2>& mesh, const std::vector<OutsideWater>& waters,
+                          float bottom) {
+  Vector<2> low = mesh.nodes.front();
+  Vector<2> high = low;
+  const auto include = [&](const Vector<2>& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  };
+  for (const Vector<2>& node : mesh.nodes) include(node);
+  for (const OutsideWater& water : waters) {
+    for (const auto& corners : water.body) std::ranges::for_each(corners, include);
+    std::ranges::for_each(water.level, include);
+  }
+  using Layout = PictureLayout;
+  return {low, high, axes_left, bottom, Layout::max_width, Layout::max_height};
+}
+
+void paint_outside_water(vtkContext2D& painter, const ModelView& view,
+                         const std::vector<OutsideWater>& waters) {
+  if (waters.empty()) return;
+  ColoredTriangles bodies;
+  for (const OutsideWater& water : waters) {
+    for (const auto& corners : water.body) {
+      Polyline polygon;
+      for (const Vector<2>& x : corners) polygon.push_back(view.pixel(x));
+      bodies.add_polygon(polygon, water_tint);
+    }
+  }
+  bodies.paint(painter);
+  for (const OutsideWater& water : waters) {
+    paint_polyline(painter, view, {water.level[0], water.level[1]}, water_blue, level_width);
+    // The sign of a water level: a triangle that stands on it, and the head over it.
+    const Vector<2> at = view.pixel(0.5 * (water.level[0] + water.level[1]));
+    const auto x = static_cast<float>(at[0]);
+    const auto y = static_cast<float>(at[1]);
+    std::array<float, 3> xs{x, x - 8.0F, x + 8.0F};
+    std::array<float, 3> ys{y + 1.0F, y + 14.0F, y + 14.0F};
+    painter.GetBrush()->SetColorF(1.0, 1.0, 1.0);
+    painter.GetPen()->SetWidth(1.5F);
+    painter.DrawPolygon(xs.data(), ys.data(), 3);
+    paint_text(painter, tick_text(water.head) + " m", 18, x, y + 27.0F);
+  }
+}
+
+std::vector<Polyline> phreatic_lines(const Mesh<2>& mesh, const std::vector<double>& pressure) {
+  if (pressure.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(pressure);
+  // Faces through which water seeps out have p = 0 up to round-off: a little less is taken, so that
+  // the line does not run along them.
+  return contour_lines(mesh, pressure, -1e-3 * (high - low));
+}
+
+void paint_phreatic_lines(vtkContext2D& painter, const ModelView& view,
+                          const std::vector<Polyline>& lines) {
+  paint_polylines(painter, view, lines, white, phreatic_width + 3.0F);
+  paint_polylines(painter, view, lines, water_blue, phreatic_width);
+}
+
+Curve legend_line(const std::string& label, const Color& color, float width) {
+  Curve row;
+  row.label = label;
+  row.color = color;
+  row.width = width;
+  return row;
+}
+
+void add_water_legend(std::vector<Curve>& rows, bool has_phreatic_line, bool has_outside_water) {
+  if (has_phreatic_line) {
+    rows.push_back(legend_line("phreatic line, p = 0", water_blue, phreatic_width));
+  }
+  if (has_outside_water) {
+    rows.push_back(legend_line("water level outside, with its head", water_blue, level_width));
+  }
+}
+
+}  // namespace suffuse

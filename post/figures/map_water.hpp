@@ -1,0 +1,41 @@
+#pragma once
+
+/// The water that a map of the model shows: what stands outside, and the phreatic line.
+
+#include <vtkContext2D.h>
+
+#include <vector>
+
+#include "drawing/contours.hpp"
+#include "drawing/model_view.hpp"
+#include "results/reader.hpp"
+#include "values/outside_water.hpp"
+
+namespace suffuse {
+
+inline constexpr Color black{0.0, 0.0, 0.0};
+inline constexpr Color white{1.0, 1.0, 1.0};
+
+/// At the time of the snapshot `index`, as broad as it is drawn.
+std::vector<OutsideWater> water_outside(const ResultsReader& results, std::size_t index,
+                                        const Mesh<2>& mesh);
+
+/// A view of the model and the water outside. `bottom`: room beneath, pixels.
+ModelView view_with_water(const Mesh<2>& mesh, const std::vector<OutsideWater>& waters,
+                          float bottom);
+
+/// Water and its level with the sign of one, its head beside it.
+void paint_outside_water(vtkContext2D& painter, const ModelView& view,
+                         const std::vector<OutsideWater>& waters);
+
+/// Where p = 0, of pressures at nodes.
+std::vector<Polyline> phreatic_lines(const Mesh<2>& mesh, const std::vector<double>& pressure);
+void paint_phreatic_lines(vtkContext2D& painter, const ModelView& view,
+                          const std::vector<Polyline>& lines);
+
+/// A line of a legend.
+Curve legend_line(const std::string& label, const Color& color, float width);
+/// Adds the lines of the water that there is.
+void add_water_legend(std::vector<Curve>& rows, bool has_phreatic_line, bool has_outside_water);
+
+}  // namespace suffuse
