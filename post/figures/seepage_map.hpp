@@ -3,6 +3,7 @@
 /// Maps of seepage: the head with its equipotentials, or the saturation, with the phreatic line and
 /// the water outside.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,8 +25,6 @@ struct SeepageMap {
   /// Of maps that are aligned: the colours are for these heads too, m.
   std::optional<std::array<double, 2>> covered_heads{};
   std::vector<OutsideWater> room{};  ///< likewise: there is room for this water
-};
-std::vector<Vector<2>> covered_places{};
 };
 
 /// Of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes' pressures;

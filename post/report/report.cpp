@@ -70,13 +70,21 @@ std::string contents(const std::vector<std::string>& labels) {
   return links + "</nav>\n";
 }
 
+/// The policy forbids the page to ask for anything.
+constexpr const char* page_start = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy"
+ content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<link rel="icon" href="data:,">
+)";
+
 std::string page(const std::string& title, const std::string& body) {
   const auto made_with = versions();
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-         "<link rel=\"icon\" href=\"data:,\">\n" +
-         html::element("title", title) + "<style>\n" + page_style + "</style>\n</head>\n<body>\n" +
-         html::element("h1", title) + body +
+  return page_start + html::element("title", title) + "<style>\n" + page_style +
+         "</style>\n</head>\n<body>\n" + html::element("h1", title) + body +
          html::element("footer", "Written by suffuse-post " + made_with.at("suffuse") + " (" +
                                      made_with.at("git") + ").") +
          "<script>\n" + page_script + "</script>\n</body>\n</html>\n";

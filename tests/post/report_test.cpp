@@ -64,20 +64,28 @@ void expect_number(const PageCell& cell, double value) {
   EXPECT_EQ(cell.text, six_digits(value));
 }
 
-/// A run and its report.
+/// A run whose name is no markup, and its report.
 class Report : public ::testing::Test {
  protected:
-  explicit Report(const std::string& name = "synthetic") {
-    write_synthetic_results(folder, name);
+  Report() {
+    write_synthetic_results(folder, "<script>alert('1')</script> & co");
     page = report_html({ResultsReader(folder)});
   }
+  void expect_ledger() const;
+  void expect_boundaries() const;
+  void expect_history() const;
+  void expect_no_address() const;
+  void expect_texts_of_pictures() const;
+  void expect_slider() const;
+  void expect_no_markup_in_text() const;
+  void expect_commands() const;
 
   const ScratchFolder scratch;
   const std::string folder = scratch / "run.results";
   std::string page;
 };
 
-TEST_F(Report, CellsOfTheLedgerAreThoseOfTheTable) {
+void Report::expect_ledger() const {
   const Table ledger = read_table(folder + "/ledger.csv");
   const auto last = [&](const char* name) { return ledger.column(name).back(); };
   const PageRows rows = table_of(page, "ledger");
@@ -96,7 +104,7 @@ TEST_F(Report, CellsOfTheLedgerAreThoseOfTheTable) {
   expect_number(rows[1][7], last("deposited"));
 }
 
-TEST_F(Report, CellsOfBoundariesAreThoseOfTheTable) {
+void Report::expect_boundaries() const {
   const auto boundaries = read_tables(folder + "/boundaries.csv", "boundary");
   const PageRows rows = table_of(page, "boundaries");
   ASSERT_EQ(rows.size(), boundaries.size());
@@ -110,7 +118,7 @@ TEST_F(Report, CellsOfBoundariesAreThoseOfTheTable) {
   }
 }
 
-TEST_F(Report, CellsOfTheHistoryAreThoseOfTheTable) {
+void Report::expect_history() const {
   const Table history = read_table(folder + "/history.csv");
   const PageRows rows = table_of(page, "history");
   ASSERT_EQ(rows.size(), history.names.size());
@@ -125,7 +133,7 @@ TEST_F(Report, CellsOfTheHistoryAreThoseOfTheTable) {
   }
 }
 
-TEST_F(Report, NothingComesFromOutsideThePage) {
+void Report::expect_no_address() const {
   for (const auto& address : matches(page, "(?:src|href)=\"([^\"]{0,6})")) {
     const std::string start = address[1];
     EXPECT_TRUE(start.starts_with("data:") || start.starts_with("#")) << start;
@@ -135,7 +143,7 @@ TEST_F(Report, NothingComesFromOutsideThePage) {
   }
 }
 
-TEST_F(Report, EveryPictureHasAText) {
+void Report::expect_texts_of_pictures() const {
   const auto pictures = matches(page, "<img[^>]{0,80}");
   EXPECT_GE(pictures.size(), 5U);
   for (const auto& picture : pictures) {
@@ -143,7 +151,7 @@ TEST_F(Report, EveryPictureHasAText) {
   }
 }
 
-TEST_F(Report, ASliderHasAPictureForEachTime) {
+void Report::expect_slider() const {
   EXPECT_EQ(matches(page, "data-time=\"").size(), 3U);  // the change of porosity
   EXPECT_NE(page.find("type=\"range\" min=\"0\" max=\"2\" value=\"2\""), std::string::npos);
   EXPECT_EQ(matches(page, "class=\"frame last shown\"").size(), 1U);
@@ -151,15 +159,38 @@ TEST_F(Report, ASliderHasAPictureForEachTime) {
             std::string::npos);
 }
 
-TEST_F(Report, SaysWhatRanAndHowToMakeItAgain) {
+void Report::expect_no_markup_in_text() const {
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_NE(page.find("<h1>&lt;script&gt;alert(&#39;1&#39;)&lt;/script&gt; &amp; co</h1>"),
+            std::string::npos);
+  EXPECT_EQ(matches(page, "<script").size(), 1U);
+}
+
+void Report::expect_commands() const {
+  const std::string scene = "'<script>alert('\\''1'\\'')</script> & co.toml'";
   EXPECT_NE(page.find("<li>no gravity</li>"), std::string::npos);
   EXPECT_NE(page.find("<li>mass scaling 1e4 is large</li>"), std::string::npos);
   EXPECT_NE(page.find("The solver gave one warning."), std::string::npos);
-  EXPECT_NE(page.find("suffuse-mesher synthetic.toml -o run.case.h5\n"
+  EXPECT_NE(page.find(html::escaped("suffuse-mesher " + scene + " -o run.case.h5\n") +
                       "suffuse-solver run.case.h5 -o run.results\n"
                       "suffuse-post report run.results -o run.html\n"),
             std::string::npos);
   EXPECT_NE(page.find("porosity = 0.3"), std::string::npos);  // of the scene
+}
+
+// Each makes the report anew.
+TEST_F(Report, CellsAreThoseOfTheTables) {
+  expect_ledger();
+  expect_boundaries();
+  expect_history();
+}
+
+TEST_F(Report, NeedsNothingElseAndSaysWhatItShows) {
+  expect_no_address();
+  expect_texts_of_pictures();
+  expect_slider();
+  expect_no_markup_in_text();
+  expect_commands();
 }
 
 TEST_F(Report, IsWrittenWholeOrNotAtAll) {
@@ -167,18 +198,6 @@ TEST_F(Report, IsWrittenWholeOrNotAtAll) {
   write_report({ResultsReader(folder)}, path);
   EXPECT_EQ(file_text(path), page);
   EXPECT_THROW(write_report({ResultsReader(folder)}, scratch / "none/report.html"), FileError);
-}
-
-class ReportOfHostileNames : public Report {
- protected:
-  ReportOfHostileNames() : Report("<script>alert('1')</script> & co") {}
-};
-
-TEST_F(ReportOfHostileNames, NoTextIsTakenForMarkup) {
-  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
-  EXPECT_NE(page.find("<h1>&lt;script&gt;alert(&#39;1&#39;)&lt;/script&gt; &amp; co</h1>"),
-            std::string::npos);
-  EXPECT_EQ(matches(page, "<script").size(), 1U);
 }
 
 TEST(ReportOfRuns, HasCurvesOfAllAndARowForEach) {
