@@ -71,7 +71,7 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureM
   const int most = flat ? max_drawn_triangles : max_triangles;
   int division = 1;
   while (smooth && division < max_division &&
-         4 * division * division * model.visible_count <= most) {
+         4L * division * division * model.visible_count <= most) {
     division *= 2;
   }
   ColoredTriangles triangles;

@@ -63,7 +63,8 @@ struct SafetyState {
   std::vector<double> flux;
 
   [[nodiscard]] double flux_through(const OuterFace& face) const {
-    return flux[2 * face.element] * face.outward[0] + flux[2 * face.element + 1] * face.outward[1];
+    const auto at = 2 * static_cast<std::size_t>(face.element);
+    return flux[at] * face.outward[0] + flux[at + 1] * face.outward[1];
   }
 };
 

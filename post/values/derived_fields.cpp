@@ -43,7 +43,9 @@ std::vector<double> node_head(const ResultsReader& results, std::size_t index) {
 }
 
 std::vector<double> full_saturation(const ResultsReader& results, std::size_t index) {
-  return std::vector<double>(results.field(index, "cell", "porosity").values.size(), 1.0);
+  std::vector<double> values = results.field(index, "cell", "porosity").values;
+  std::ranges::fill(values, 1.0);
+  return values;
 }
 
 std::vector<double> fines_content(const ResultsReader& results, std::size_t index,

@@ -61,8 +61,8 @@ std::vector<int> joined_nodes(const ElementFlow& flow) {
       }
     }
   }
-  std::vector<int> joined;
-  for (int i = 0; i < mesh.node_count(); ++i) joined.push_back(groups.first(i));
+  std::vector<int> joined(mesh.nodes.size());
+  for (int i = 0; i < mesh.node_count(); ++i) joined[i] = groups.first(i);
   return joined;
 }
 

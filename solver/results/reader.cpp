@@ -138,7 +138,7 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sec
 std::string cut_unit(std::string& name) {
   const auto start = name.find(" [");
   if (start == std::string::npos || !name.ends_with(']')) return "";
-  const std::string unit = name.substr(start + 2, name.size() - start - 3);
+  std::string unit = name.substr(start + 2, name.size() - start - 3);
   name.resize(start);
   return unit;
 }
@@ -209,8 +209,8 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
     throw FileError(path + ":1: got " + line + "; expected a line of names" + advice);
   }
   std::vector<std::string> names = csv_cells(line);
-  std::vector<std::string> units;
-  for (std::string& name : names) units.push_back(cut_unit(name));
+  std::vector<std::string> units(names.size());
+  std::ranges::transform(names, units.begin(), cut_unit);
   const auto key = std::ranges::find(names, by) - names.begin();
   if (!by.empty() && key == std::ssize(names)) {
     throw FileError(path + ":1: got no column " + by);
