@@ -32,4 +32,5 @@ make_file "$stem.history.csv" history "$stem.results" --csv
 for figure in porosity masses; do
   for format in png svg; do make_file "$stem.$figure.$format" figure "$figure" "$stem.results" -o; done
 done
+make_file "$stem.html" report "$stem.results" -o
 echo "The study's figures, tables and results are $(realpath -- "$OUT_FOLDER/study")/${file%.*}.*"

@@ -42,6 +42,7 @@ void add_value_commands(Commands& commands);
 void add_picture_commands(Commands& commands);
 void add_sweep_command(Commands& commands);
 void add_file_commands(Commands& commands);
+void add_report_command(Commands& commands);
 
 /// The argument RESULTS: one folder, or several.
 void add_results(CLI::App& command, std::string& folder);

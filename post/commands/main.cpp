@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
   add_picture_commands(commands);
   add_sweep_command(commands);
   add_file_commands(commands);
+  add_report_command(commands);
   refuse_empty_values(app);
   if (const auto code = parse_command_line(app, argc, argv)) return *code;
   commands.run();

@@ -1,4 +1,4 @@
-/// The subcommands `render` and `figure`.
+/// The subcommands `render`, `animate` and `figure`.
 
 #include <algorithm>
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include "commands/command.hpp"
 #include "drawing/picture.hpp"
 #include "figures/figures.hpp"
+#include "figures/film.hpp"
 #include "figures/render.hpp"
 #include "tables/table_output.hpp"
 #include "values/run_names.hpp"
@@ -17,21 +18,25 @@
 namespace suffuse {
 namespace {
 
-struct RenderOptions {
+/// What is drawn, in one picture or in many.
+struct FieldOptions {
   std::string results;
   RenderRequest request;
   std::string range;
   std::string view;
+
+  /// The request, with what is given as text.
+  [[nodiscard]] RenderRequest read() const {
+    RenderRequest result = request;
+    if (!range.empty()) result.range = parse_range(range);
+    if (!view.empty()) result.view = parse_view(view);
+    return result;
+  }
 };
 
-void declare_render(CLI::App& command, RenderOptions& o) {
+void declare_field(CLI::App& command, FieldOptions& o) {
   add_results(command, o.results);
   command.add_option("--field", o.request.field, "what to show")->required();
-  auto* time = command.add_option("--time", o.request.time,
-                                  "time, s: the nearest snapshot; without it the last");
-  command
-      .add_flag("--all", o.request.all, "every snapshot, in the same colours: FILE_0000.png, ...")
-      ->excludes(time);
   command.add_option("--on", o.request.on, "where, if the field lives in several places")
       ->type_name("cell|node|solid|liquid");
   command
@@ -47,20 +52,57 @@ void declare_render(CLI::App& command, RenderOptions& o) {
                    "streamlines, with a tenth of the discharge between two");
   command.add_option("--view", o.view, "two corners of the part to show, m")
       ->type_name("X0,Y0:X1,Y1");
+}
+
+void declare_render(CLI::App& command, FieldOptions& o) {
+  declare_field(command, o);
+  auto* time = command.add_option("--time", o.request.time,
+                                  "time, s: the nearest snapshot; without it the last");
+  command
+      .add_flag("--all", o.request.all, "every snapshot, in the same colours: FILE_0000.png, ...")
+      ->excludes(time);
   command
       .add_option("-o,--output", o.request.output,
                   "picture to write: .png, .svg or .pdf; without it RESULTS-FIELD.png")
       ->type_name("FILE");
 }
 
-void render_field(const RenderOptions& o) {
+void render_field(const FieldOptions& o) {
   const ResultsReader results(o.results);
-  RenderRequest request = o.request;
-  if (!o.range.empty()) request.range = parse_range(o.range);
-  if (!o.view.empty()) request.view = parse_view(o.view);
+  RenderRequest request = o.read();
   if (request.output.empty()) request.output = folder_name(results) + "-" + request.field + ".png";
   refuse_inside(results, "-o", request.output);
   for (const auto& path : render(results, request)) std::cout << path << "\n";
+}
+
+struct AnimateOptions {
+  FieldOptions field;
+  int rate = 10;
+  std::string output;
+};
+
+void declare_animate(CLI::App& command, AnimateOptions& o) {
+  declare_field(command, o.field);
+  command.add_option("--fps", o.rate, "snapshots per second")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command
+      .add_option("-o,--output", o.output,
+                  "film: .mp4 needs ffmpeg, .png is an animated PNG, a name that ends in / is a "
+                  "folder of pictures")
+      ->required()
+      ->type_name("FILE.mp4|FILE.png|FOLDER/");
+}
+
+void animate(const AnimateOptions& o) {
+  check_film_output(o.output);
+  const ResultsReader results(o.field.results);
+  refuse_inside(results, "-o", o.output);
+  const std::string written = write_film(results, {o.field.read(), o.rate, o.output});
+  if (written != o.output) {
+    std::cerr << "suffuse-post animate: there is no ffmpeg: the film is an animated PNG\n";
+  }
+  std::cout << written << "\n";
 }
 
 struct FigureCommandOptions {
@@ -145,6 +187,7 @@ void figure(const FigureCommandOptions& o) {
 
 void add_picture_commands(Commands& commands) {
   commands.add("render", "Pictures of a field on the model", declare_render, render_field);
+  commands.add("animate", "A film of a field on the model", declare_animate, animate);
   commands.add("figure", "A figure of one or more runs", declare_figure, figure);
 }
 

@@ -265,9 +265,12 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
   const float height = static_cast<float>(lines) * cell_height;
   const ChartTable& table = charts.front().table;
   const float legend_width = std::max(ChartLegend::width(rows), table_width(table));
+  // Without a legend nothing stands beside the charts.
+  const float charts_width = static_cast<float>(columns) * cell_width;
   const float width =
-      std::max(legend_left + legend_width + margin,
-               std::max(static_cast<float>(columns) * cell_width, float{min_width}));
+      rows.empty() && table.empty()
+          ? charts_width
+          : std::max({legend_left + legend_width + margin, charts_width, float{min_width}});
   draw_picture(static_cast<int>(width), static_cast<int>(height), charts.front().title, path,
                [&](vtkContextScene& scene) {
                  for (std::size_t i = 0; i < count; ++i) {

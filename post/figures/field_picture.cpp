@@ -94,7 +94,7 @@ void paint_element_edges(vtkContext2D& painter, const ModelView& view, const Pic
   const double pixels = double{view.width()} * view.height() /
                         static_cast<double>(std::max<std::ptrdiff_t>(1, model.visible_count));
   const bool lines = picture.contours || !picture.arrows.empty() || !picture.streamfunction.empty();
-  if (pixels > 100.0 && !lines) {
+  if (picture.mesh_edges && pixels > 100.0 && !lines) {
     paint_edges(painter, view, model.mesh, model.all_edges, mesh_color, 0.7F);
   }
 }
@@ -212,7 +212,7 @@ void paint_map(vtkContext2D& painter, const Sheet& sheet, const Arrows& arrows) 
 }
 
 ModelView view_of(const PictureModel& model, const FieldPicture& picture, float bottom) {
-  if (!model.box) return view_with_water(model.mesh, picture.water, bottom);
+  if (!model.box) return view_with_water(model.mesh, picture.room, bottom);
   return {(*model.box)[0], (*model.box)[1],   axes_left,
           bottom,          Layout::max_width, Layout::max_height};
 }
@@ -265,7 +265,7 @@ std::vector<double> nodal_values(const Mesh<2>& mesh, const FieldPicture& pictur
 
 void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
                         const std::string& path) {
-  const bool has_water = !picture.water.empty() && !model.box;
+  const bool has_water = !picture.room.empty() && !model.box;
   const std::vector<Curve> rows = legend_rows(picture, has_water);
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const bool has_arrows = !picture.arrows.empty();

@@ -37,6 +37,8 @@ struct FieldPicture {
   std::vector<Vector<2>> positions;  ///< of points; empty for fields of elements and nodes
   FieldScale scale;
   std::vector<OutsideWater> water;
+  std::vector<OutsideWater> room;      ///< the water of all pictures that show the model alike
+  bool mesh_edges = true;              ///< where elements are large
   bool contours = false;               ///< of the field, at the round values of the bar
   std::vector<double> arrows;          ///< two components per element, m/s; empty: none
   std::vector<double> streamfunction;  ///< at nodes, m2/s; empty: no streamlines

@@ -38,6 +38,7 @@ constexpr double flux_round_off = 1e-10;
 std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
                                           const RenderRequest& request) {
   const auto& times = results.times();
+  if (!request.snapshots.empty()) return request.snapshots;
   if (!request.all) return {chosen_snapshot(results, request.time, command)};
   if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
   std::vector<std::size_t> every;
@@ -217,14 +218,24 @@ std::string numbered(const std::string& path, std::size_t number) {
 std::vector<std::string> Frames::draw() {
   refuse_what_cannot_be_drawn();
   const FieldScale colors = scale();
-  std::vector<std::string> written;
+  std::vector<std::vector<OutsideWater>> waters;
+  std::vector<OutsideWater> room;
   for (const std::size_t index : snapshots_) {
+    waters.push_back(water_outside(results_, index, model_.mesh));
+    room.insert(room.end(), waters.back().begin(), waters.back().end());
+  }
+  const bool several = request_.all || !request_.snapshots.empty();
+  std::vector<std::string> written;
+  for (std::size_t k = 0; k < snapshots_.size(); ++k) {
+    const std::size_t index = snapshots_[k];
     FieldPicture frame = picture(index);
     frame.scale = colors;
     frame.contours = request_.contours;
-    frame.water = water_outside(results_, index, model_.mesh);
+    frame.mesh_edges = request_.mesh;
+    frame.water = waters[k];
+    frame.room = room;
     add_flow(frame, index);
-    written.push_back(request_.all ? numbered(request_.output, index) : request_.output);
+    written.push_back(several ? numbered(request_.output, index) : request_.output);
     draw_field_picture(model_, frame, written.back());
   }
   return written;

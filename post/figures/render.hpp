@@ -16,17 +16,19 @@ namespace suffuse {
 /// points and liquid points is drawn.
 struct RenderRequest {
   std::string field;
-  std::string on;              ///< "cell", "node", "solid", "liquid" or empty
-  std::optional<double> time;  ///< s; the nearest snapshot is drawn; unset: the last
-  bool all = false;            ///< every snapshot, all with the same colours
-  bool change = false;         ///< what changed since the start, instead of the field itself
+  std::string on;                        ///< "cell", "node", "solid", "liquid" or empty
+  std::optional<double> time;            ///< s; the nearest snapshot is drawn; unset: the last
+  bool all = false;                      ///< every snapshot, all with the same colours
+  std::vector<std::size_t> snapshots{};  ///< these alone, likewise; empty: as said above
+  bool change = false;  ///< what changed since the start, instead of the field itself
+  bool mesh = true;     ///< edges of elements, where these are large
   std::optional<std::array<double, 2>> range;  ///< of the colours; unset: that of the values
   bool logarithmic = false;                    ///< of the colours
   bool contours = false;                       ///< lines of equal values
   bool vectors = false;                        ///< arrows of the flux
   bool streamlines = false;     ///< with equal discharge between them, ten for the whole
   std::optional<ViewBox> view;  ///< unset: all of the model
-  std::string output;           ///< NAME.png, .svg or .pdf; with `all` NAME_0000.png and so on
+  std::string output;           ///< NAME.png, .svg or .pdf; of several NAME_0000.png and so on
 };
 
 /// Reads `LO:HI`, or `LO,HI`, with LO < HI. Throws InputError.

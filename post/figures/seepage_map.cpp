@@ -176,10 +176,28 @@ std::vector<double> band_levels(double low, double high) {
   return levels;
 }
 
+void align_maps(std::vector<SeepageMap>& maps) {
+  std::array<double, 2> heads{HUGE_VAL, -HUGE_VAL};
+  std::vector<OutsideWater> room;
+  for (const SeepageMap& map : maps) {
+    const auto [low, high] = std::ranges::minmax(map.head);
+    heads = {std::min(heads[0], low), std::max(heads[1], high)};
+    room.insert(room.end(), map.water.begin(), map.water.end());
+  }
+  for (SeepageMap& map : maps) {
+    map.covered_heads = heads;
+    map.room = room;
+  }
+}
+
 void draw_seepage_map(const SeepageMap& map, const std::string& path) {
   const std::vector<Polyline> phreatic = phreatic_lines(map.mesh, map.pressure);
   const auto& shown = map.saturation.empty() ? map.head : map.saturation;
-  const auto [low, high] = std::ranges::minmax(shown);
+  auto [low, high] = std::ranges::minmax(shown);
+  if (map.covered_heads) {
+    low = std::min(low, (*map.covered_heads)[0]);
+    high = std::max(high, (*map.covered_heads)[1]);
+  }
   const bool of_heads = map.saturation.empty();
   const std::vector<double> levels =
       of_heads ? band_levels(low, high) : band_levels(std::min(low, 0.9), 1.0);
@@ -187,9 +205,12 @@ void draw_seepage_map(const SeepageMap& map, const std::string& path) {
   if (of_heads && levels.size() > 2) {
     rows.push_back(legend_line("equipotential, head in m", black, line_width));
   }
-  add_water_legend(rows, !phreatic.empty(), !map.water.empty());
+  // Maps that are aligned have the same rows.
+  const std::vector<OutsideWater>& room = map.covered_heads ? map.room : map.water;
+  add_water_legend(rows, map.covered_heads ? !map.pressure.empty() : !phreatic.empty(),
+                   !room.empty());
   const float legend_height = legend_row * static_cast<float>(rows.size());
-  const Sheet sheet{map, view_with_water(map.mesh, map.water, axes_bottom + legend_height), levels};
+  const Sheet sheet{map, view_with_water(map.mesh, room, axes_bottom + legend_height), levels};
   const ModelView& view = sheet.view;
   const float right = view.left() + view.width() + Layout::gap;
   const float bar_height = std::max(view.height(), Layout::min_bar_height);

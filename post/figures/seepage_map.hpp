@@ -3,6 +3,7 @@
 /// Maps of seepage: the head with its equipotentials, or the saturation, with the phreatic line and
 /// the water outside.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct SeepageMap {
   std::vector<double> saturation;  ///< per element; coloured in the place of heads; or empty
   std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
   std::vector<OutsideWater> water;
+  /// Of maps that are aligned: the colours are for these heads too, m.
+  std::optional<std::array<double, 2>> covered_heads{};
+  std::vector<OutsideWater> room{};  ///< likewise: there is room for this water
 };
 
 /// Of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes' pressures;
@@ -30,6 +34,9 @@ struct SeepageMap {
 SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time,
                     const std::string& command = "suffuse-post figure head");
 SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>& time);
+
+/// Gives maps of heads of one run the same colours, and the model the same place in all of them.
+void align_maps(std::vector<SeepageMap>& maps);
 
 /// Values between which one colour is used, ascending: round numbers that enclose [low, high].
 std::vector<double> band_levels(double low, double high);

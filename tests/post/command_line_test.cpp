@@ -106,8 +106,8 @@ TEST_F(PostCommand, AMisspeltCommandIsNamed) {
   expect_refusal("ledgr " + run, 2,
                  "suffuse-post: error: got \"ledgr\"; expected \"ledger\", \"history\", "
                  "\"boundaries\", \"check\", \"sample\", "
-                 "\"error\", \"render\", \"figure\", \"sweep\", "
-                 "\"table\" or \"export\"; did you mean ledger?");
+                 "\"error\", \"render\", \"animate\", \"figure\", \"sweep\", "
+                 "\"table\", \"export\" or \"report\"; did you mean ledger?");
 }
 
 TEST_F(PostCommand, LedgerRefusesAResidual) {

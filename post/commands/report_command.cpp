@@ -1,0 +1,32 @@
+/// The subcommand `report`.
+
+#include "commands/command.hpp"
+#include "report/report.hpp"
+
+namespace suffuse {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::string> results;
+  std::string output;
+};
+
+void declare_report(CLI::App& command, ReportOptions& o) {
+  add_results(command, o.results);
+  command.add_option("-o,--output", o.output, "page to write")->required()->type_name("FILE.html");
+}
+
+void report(const ReportOptions& o) {
+  const auto runs = open_all(o.results);
+  for (const auto& run : runs) refuse_inside(run, "-o", o.output);
+  write_report(runs, o.output);
+}
+
+}  // namespace
+
+void add_report_command(Commands& commands) {
+  commands.add("report", "A page with summary, tables, curves and fields of one run or several",
+               declare_report, report);
+}
+
+}  // namespace suffuse

@@ -1,0 +1,49 @@
+#pragma once
+
+/// Pieces of an HTML page.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace suffuse::html {
+
+/// Text as a page shows it: no character of it is taken for markup, in attributes neither.
+std::string escaped(const std::string& text);
+
+/// `<NAME>text</NAME>`, with the text escaped.
+std::string element(const std::string& name, const std::string& text);
+
+/// `<ul>` of texts.
+std::string list(const std::vector<std::string>& texts);
+
+/// A text that the reader opens.
+std::string folded(const std::string& summary, const std::string& inner_html);
+
+/// A file within the page: its bytes as a `data:` address. The suffix, .png or .svg, gives the
+/// type. Throws FileError.
+std::string data_address(const std::string& path);
+
+/// A cell of a table.
+struct Cell {
+  std::string text;
+  /// By which the column is sorted, exactly; unset: by the text.
+  std::optional<double> value{};
+};
+
+/// A number in six digits.
+Cell cell(double value);
+/// The same with a text of its own.
+Cell cell(double value, const std::string& text);
+Cell cell(const std::string& text);
+
+/// A table whose rows the reader can sort.
+struct Table {
+  std::string name;  ///< of the element, by which programs find it
+  std::vector<std::string> heads;
+  std::vector<std::vector<Cell>> rows;
+
+  [[nodiscard]] std::string html() const;
+};
+
+}  // namespace suffuse::html

@@ -1,0 +1,18 @@
+#pragma once
+
+/// The report of one or more runs: a page that needs no other file and asks nothing of a network.
+
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// The page as HTML. Throws FileError.
+std::string report_html(const std::vector<ResultsReader>& runs);
+
+/// Writes the page, whole or not at all. Throws FileError.
+void write_report(const std::vector<ResultsReader>& runs, const std::string& path);
+
+}  // namespace suffuse

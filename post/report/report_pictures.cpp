@@ -1,0 +1,229 @@
+#include "report/report_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/errors.hpp"
+#include "drawing/png_file.hpp"
+#include "drawing/temporary_folder.hpp"
+#include "figures/figures.hpp"
+#include "figures/render.hpp"
+#include "figures/seepage_map.hpp"
+#include "report/html.hpp"
+#include "results/number_text.hpp"
+#include "values/derived_fields.hpp"
+#include "values/fields.hpp"
+#include "values/run_names.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr std::size_t max_snapshots = 12;
+/// Safety beyond this is nobody's concern.
+constexpr double largest_safety = 5.0;
+
+std::string card(const std::string& images) {
+  return "<div class=\"card\">" + images + "</div>\n";
+}
+
+std::string image(const std::string& path, const std::string& what,
+                  const std::string& attributes = {}) {
+  return "<img" + attributes + " alt=\"" + html::escaped(what) + "\" src=\"" +
+         html::data_address(path) + "\">\n";
+}
+
+/// A column of a table, and what its chart is called.
+struct CurveColumn {
+  std::string table;
+  std::string column;
+  std::string title;
+};
+
+const std::vector<CurveColumn>& curve_columns() {
+  static const std::vector<CurveColumn> columns{
+      {"history", "porosity_mean", "Mean porosity of the soil that erodes, or of all soil"},
+      {"history", "fines_left_percent", "Fines that left the model, in % of those at the start"},
+      {"boundaries", "discharge", "Discharge through the boundaries, out minus in"},
+      {"history", "turbidity_out", "Turbidity of the liquid that leaves"},
+      {"history", "conductivity_ratio", "Conductivity of the soil over that at the start"}};
+  return columns;
+}
+
+/// Whether a run has the column, and rows enough for curves.
+bool has_curve(const ResultsReader& run, const CurveColumn& column) {
+  const auto is_curve = [&](const Table& table) {
+    return table.has(column.column) && table.rows() > 1;
+  };
+  if (column.table == "history") return is_curve(run.history());
+  const std::vector<NamedTable> parts = run.boundaries();
+  return !parts.empty() &&
+         std::ranges::all_of(parts, [&](const NamedTable& part) { return is_curve(part.table); });
+}
+
+std::string curve_html(const std::vector<ResultsReader>& runs, const CurveColumn& column,
+                       const TimeUnit& unit, const TemporaryFolder& folder) {
+  for (const ResultsReader& run : runs) {
+    if (!has_curve(run, column)) return "";
+  }
+  FigureOptions options;
+  options.columns = {column.table + "." + column.column};
+  options.axes.time_unit = unit.name;
+  const std::string path = folder / (column.column + ".png");
+  draw_figure("curves", runs, path, options);
+  return "<figure>" + html::element("figcaption", column.title) +
+         card(image(path, column.title + " against time")) + "</figure>\n";
+}
+
+/// A field as the report shows it.
+struct ShownField {
+  std::string name;
+  bool change;
+  std::string title;
+};
+
+bool has_field(const ResultsReader& run, const std::vector<std::size_t>& snapshots,
+               const std::string& where, const std::string& name) {
+  const auto names = all_field_names(run, snapshots.back(), where);
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string missing(const std::string& title) {
+  return html::element("p", title + ": these results do not have it.");
+}
+
+/// Least and largest finite value over snapshots.
+std::array<double, 2> range_of(const ResultsReader& run, const FieldPlace& place,
+                               const std::vector<std::size_t>& snapshots) {
+  std::array<double, 2> range{HUGE_VAL, -HUGE_VAL};
+  for (const std::size_t index : snapshots) {
+    for (const double value : read_scalar(run, index, place).values) {
+      if (!std::isfinite(value)) continue;
+      range = {std::min(range[0], value), std::max(range[1], value)};
+    }
+  }
+  return range;
+}
+
+/// Pictures of one field with a slider in time.
+std::string film_html(const ResultsReader& run, const std::vector<std::size_t>& snapshots,
+                      const std::vector<std::string>& pictures, const std::string& title) {
+  make_equal_size(pictures);
+  const TimeUnit unit = fitting_time_unit(run.times().back());
+  std::string frames;
+  std::string time;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    time = html::escaped(time_text(run.times()[snapshots[k]], unit));
+    const bool last = k + 1 == pictures.size();
+    frames += image(pictures[k], title + " at t = " + time,
+                    std::string(" class=\"frame") + (last ? " last shown" : "") +
+                        "\" data-time=\"" + time + "\"");
+  }
+  const std::string last = std::to_string(pictures.size() - 1);
+  const std::string slider =
+      "<div class=\"time\"><label>time <input type=\"range\" min=\"0\" max=\"" + last +
+      "\" value=\"" + last + "\" aria-valuetext=\"" + time + "\"></label> <output>" + time +
+      "</output></div>\n";
+  return "<figure class=\"film\">" + html::element("figcaption", title) + card(frames) +
+         (pictures.size() > 1 ? slider : "") + "</figure>\n";
+}
+
+std::string head_html(const ResultsReader& run, const std::vector<std::size_t>& snapshots,
+                      const TemporaryFolder& folder) {
+  if (!has_field(run, snapshots, "node", "head")) return missing("Head");
+  std::vector<SeepageMap> maps;
+  for (const std::size_t index : snapshots) maps.push_back(head_map(run, run.times()[index]));
+  align_maps(maps);
+  std::vector<std::string> pictures;
+  for (const SeepageMap& map : maps) {
+    pictures.push_back(folder / ("head_" + std::to_string(pictures.size()) + ".png"));
+    draw_seepage_map(map, pictures.back());
+  }
+  return film_html(run, snapshots, pictures, "Head");
+}
+
+std::string field_html(const ResultsReader& run, const ShownField& field,
+                       const std::vector<std::size_t>& snapshots, const TemporaryFolder& folder) {
+  if (!has_field(run, snapshots, "cell", field.name)) return missing(field.title);
+  const auto [low, high] = range_of(run, {field.name, "cell", field.change}, snapshots);
+  if (low > high) return html::element("p", field.title + ": water rises nowhere.");
+  if (low == high) {
+    return html::element("p", field.title + ": " + short_text(low) + " everywhere and always.");
+  }
+  RenderRequest request;
+  request.field = field.name;
+  request.on = "cell";
+  request.change = field.change;
+  request.snapshots = snapshots;
+  request.mesh = false;  // thin lines make files large, and the sketch of the model has them
+  if (field.name == "safety") request.range = {0.0, largest_safety};
+  request.output = folder / (field.name + ".png");
+  return film_html(run, snapshots, render(run, request), field.title);
+}
+
+}  // namespace
+
+TimeUnit fitting_time_unit(double end) {
+  for (const char* word : {"a", "d", "h", "min"}) {
+    const TimeUnit unit = parse_time_unit(word, "");
+    if (end >= 2.0 * unit.seconds && end >= 600.0) return unit;
+  }
+  return {};
+}
+
+std::string time_text(double seconds, const TimeUnit& unit) {
+  return short_text(seconds / unit.seconds) + " " + unit.name;
+}
+
+std::vector<std::size_t> snapshots_evenly(const std::vector<double>& times, std::size_t count) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count && !times.empty(); ++k) {
+    const double share = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 1.0;
+    const double wanted = times.front() + share * (times.back() - times.front());
+    const auto nearest =
+        std::ranges::min_element(times, {}, [&](double t) { return std::abs(t - wanted); });
+    const auto index = static_cast<std::size_t>(nearest - times.begin());
+    if (chosen.empty() || chosen.back() != index) chosen.push_back(index);
+  }
+  return chosen;
+}
+
+std::string model_html(const ResultsReader& run) {
+  if (run.times().empty()) return html::element("p", "The run has no snapshot yet.");
+  const TemporaryFolder folder;
+  const std::string path = folder / "model.png";
+  draw_figure("model", {run}, path);
+  return "<figure>" +
+         html::element("figcaption", "Mesh, regions, points, what boundaries prescribe") +
+         card(image(path, "Sketch of the model: mesh, regions, points, boundary conditions")) +
+         "</figure>\n";
+}
+
+std::string curves_html(const std::vector<ResultsReader>& runs) {
+  const TemporaryFolder folder;
+  double end = 0.0;
+  for (const ResultsReader& run : runs) {
+    const Table history = run.history();
+    if (history.rows() > 0) end = std::max(end, history.column("t").back());
+  }
+  std::string charts;
+  for (const CurveColumn& column : curve_columns()) {
+    charts += curve_html(runs, column, fitting_time_unit(end), folder);
+  }
+  if (charts.empty()) return html::element("p", "There are too few rows for curves yet.");
+  return "<div class=\"charts\">" + charts + "</div>\n";
+}
+
+std::string fields_html(const ResultsReader& run) {
+  const std::vector<std::size_t> snapshots = snapshots_evenly(run.times(), max_snapshots);
+  if (snapshots.empty()) return html::element("p", "The run has no snapshot yet.");
+  static const std::vector<ShownField> fields{
+      {"porosity", true, "Change of porosity since the start"},
+      {"concentration", false, "Concentration of fines in the liquid"},
+      {"safety", false, "Safety against heave; grey: water does not rise"}};
+  const TemporaryFolder folder;
+  std::string films = head_html(run, snapshots, folder);
+  for (const ShownField& field : fields) films += field_html(run, field, snapshots, folder);
+  return films;
+}
+
+}  // namespace suffuse

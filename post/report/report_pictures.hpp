@@ -1,0 +1,31 @@
+#pragma once
+
+/// The pictures of a report, drawn into files of a temporary folder and put into the page.
+
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+#include "tables/table_output.hpp"
+
+namespace suffuse {
+
+/// The unit in which times up to `end` (s) are small numbers.
+TimeUnit fitting_time_unit(double end);
+/// "6 d"
+std::string time_text(double seconds, const TimeUnit& unit);
+
+/// At most `count` snapshots, evenly in time, the first and the last among them.
+std::vector<std::size_t> snapshots_evenly(const std::vector<double>& times, std::size_t count);
+
+/// The sketch of a run's model. Throws FileError, as all that follow.
+std::string model_html(const ResultsReader& run);
+
+/// Charts of columns of tables, a curve per run; of those columns that all runs have.
+std::string curves_html(const std::vector<ResultsReader>& runs);
+
+/// Fields of a run at up to twelve times, with a slider: head, change of porosity, concentration,
+/// safety. A field that is the same number everywhere and always is a sentence.
+std::string fields_html(const ResultsReader& run);
+
+}  // namespace suffuse

@@ -1,0 +1,92 @@
+#include "report/run_numbers.hpp"
+
+#include <algorithm>
+
+#include "report/report_pictures.hpp"
+#include "results/number_text.hpp"
+#include "values/derived_fields.hpp"
+#include "values/scene_words.hpp"
+
+namespace suffuse {
+namespace {
+
+std::optional<double> last_of(const Table& table, const std::string& column) {
+  if (table.rows() == 0 || !table.has(column)) return std::nullopt;
+  return table.column(column).back();
+}
+
+bool has_gradients(const ResultsReader& run) {
+  if (run.times().empty()) return false;
+  const auto names = run.field_names(0, "cell");
+  return std::ranges::find(names, "hydraulic_gradient") != names.end();
+}
+
+std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
+  if (!numbers.fines_left) return "";
+  const std::string unit = run.dimension() == 2 ? " kg per metre of thickness" : " kg";
+  std::string text = short_text(*numbers.fines_left) + unit + " of fines left the model";
+  if (numbers.fines_percent) {
+    text += ", " + short_text(*numbers.fines_percent) + " % of those at the start";
+  }
+  return text + ". ";
+}
+
+std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
+  if (numbers.safety.empty()) return "";
+  const auto& least = numbers.safety.front().least;
+  if (!least) return "Water rises nowhere. ";
+  std::string text = "The least safety against heave is " + short_text(least->safety) + ", at " +
+                     place_text(least->place) + " m and t = " + time_text(least->time, unit);
+  if (least->safety < 1.0) {
+    text +=
+        ": below 1 water lifts the soil, and from then on results of a skeleton that stays in "
+        "place mean nothing";
+  }
+  return text + ". ";
+}
+
+}  // namespace
+
+RunNumbers run_numbers(const ResultsReader& run) {
+  RunNumbers numbers;
+  numbers.record = read_run_record(run.folder());
+  const Table history = run.history();
+  numbers.rows = history.rows();
+  numbers.end = last_of(history, "t").value_or(0.0);
+  numbers.fines_left = last_of(history, "fines_left");
+  numbers.fines_percent = last_of(history, "fines_left_percent");
+  if (run.ledger().rows() > 0) numbers.balances = balances(run);
+  for (const Balance& balance : numbers.balances) {
+    const bool is_worse =
+        !numbers.worst || !(balance.worst_residual <= numbers.worst->worst_residual);
+    if (is_worse) numbers.worst = balance;
+  }
+  if (has_gradients(run)) numbers.safety = safety_of(run);
+  return numbers;
+}
+
+std::string summary_text(const ResultsReader& run, const RunNumbers& numbers) {
+  const RunInfo& info = numbers.record.info;
+  const TimeUnit unit = fitting_time_unit(numbers.end);
+  std::string text = "Status: " + run.status() + (info.message.empty() ? "" : ", " + info.message) +
+                     ". The run is a " + scene_word(run.scene().scene.formulation) + " model of " +
+                     std::to_string(info.elements) +
+                     " elements, computed until t = " + time_text(numbers.end, unit) + " in " +
+                     std::to_string(info.steps) + " steps. ";
+  text += fines_text(run, numbers) + safety_sentence(numbers, unit);
+  if (numbers.worst) {
+    text += "The largest residual of the mass balance is " +
+            short_text(numbers.worst->worst_residual) + ", of " + numbers.worst->constituent +
+            " in " + (numbers.worst->place == "model" ? "the model" : numbers.worst->place) + ". ";
+  }
+  const std::size_t warnings = info.warnings.size();
+  return text + (warnings == 0   ? "The solver gave no warning."
+                 : warnings == 1 ? "The solver gave one warning."
+                                 : "The solver gave " + std::to_string(warnings) + " warnings.");
+}
+
+std::string place_text(const Vector<2>& place) {
+  return "(" + short_text(place[0]) + ", " + short_text(place[1]) + ")";
+}
+
+}  // namespace suffuse

@@ -1,0 +1,37 @@
+#pragma once
+
+/// The numbers of a run that decide, for the top of a report.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/reader.hpp"
+#include "results/run_record.hpp"
+#include "tables/ledger_report.hpp"
+#include "tables/safety_check.hpp"
+
+namespace suffuse {
+
+/// What a run does not have yet, or in results of an earlier version, is unset or empty.
+struct RunNumbers {
+  RunRecord record;
+  double end = 0.0;                     ///< of the tables, s
+  std::size_t rows = 0;                 ///< of the tables
+  std::optional<double> fines_left;     ///< kg (per metre of thickness in 2D)
+  std::optional<double> fines_percent;  ///< of the fines at the start
+  std::vector<Balance> balances;
+  std::optional<Balance> worst;    ///< that with the largest residual
+  std::vector<PartSafety> safety;  ///< all soil first
+};
+
+/// Throws FileError.
+RunNumbers run_numbers(const ResultsReader& run);
+
+/// A paragraph with the numbers.
+std::string summary_text(const ResultsReader& run, const RunNumbers& numbers);
+
+/// "(2.05, 0.967)"
+std::string place_text(const Vector<2>& place);
+
+}  // namespace suffuse

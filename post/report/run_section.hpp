@@ -1,0 +1,18 @@
+#pragma once
+
+/// The part of a report that is about one run.
+
+#include <string>
+
+#include "report/run_numbers.hpp"
+
+namespace suffuse {
+
+/// Model, scene, plan, warnings, tables, fields, safety, and how to make it again. `id` is the
+/// start of its anchors. Throws FileError.
+std::string run_section(const ResultsReader& run, const RunNumbers& numbers, const std::string& id);
+
+/// An argument as a shell takes it: in quotes where it has other than letters, digits and ._-/=
+std::string shell_argument(const std::string& text);
+
+}  // namespace suffuse

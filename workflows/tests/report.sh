@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# A report in headless Chromium: report.sh POST RESULTS FOLDER. Writes the page and pictures of it into FOLDER. Fails
+# where the page writes to the console, asks for anything, or where its sliders and tables do not do what they must.
+# Says so and does nothing where Chromium is missing.
+set -euo pipefail
+post=$(realpath "$1") results=$(realpath "$2") folder=$3
+mkdir -p "$folder"
+cd "$folder"
+if ! command -v chromium > /dev/null; then
+  echo "skipped: chromium is not installed"
+  exit 0
+fi
+failures=0
+check() {
+  if [ "$2" == "$3" ]; then echo "ok: $1"; else echo "FAILED: $1: got '$2'; expected '$3'"; failures=$((failures + 1)); fi
+}
+profile=$(mktemp -d)
+trap 'rm -rf "$profile"' EXIT
+# browse PAGE OPTION...
+browse() {
+  timeout 120 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --no-first-run --user-data-dir="$profile" \
+    --disable-background-networking --disable-component-update --disable-sync --enable-logging=stderr "${@:2}" \
+    "file://$PWD/$1" 2> browser.log
+}
+
+"$post" report "$results" -o report.html
+
+# The page with what watches it before its own script, and what uses it behind.
+watch='<script>window.seen=[];addEventListener("error",e=>seen.push(e.message));
+addEventListener("securitypolicyviolation",e=>seen.push(e.blockedURI));</script>'
+use='<script>
+const say = (name, text) => { document.title += " " + name + "=" + text; };
+document.title = "";
+const film = document.querySelector(".film"), slider = film.querySelector("input");
+slider.value = 0;
+slider.dispatchEvent(new Event("input"));
+const frames = [...film.querySelectorAll(".frame")];
+say("shown", frames.map(frame => getComputedStyle(frame).display === "none" ? 0 : 1).join(""));
+say("first", film.querySelector("output").textContent === frames[0].dataset.time);
+say("together", [...document.querySelectorAll(".film output")].every(o => o.textContent === frames[0].dataset.time));
+say("pictures", [...document.images].every(i => i.alt && i.src.startsWith("data:image/png")));
+const table = document.querySelector("table.ledger"), head = table.tHead.rows[0].cells[3];
+const column = () => [...table.tBodies[0].rows].map(row => Number(row.cells[3].dataset.value));
+const sorted = values => values.every((v, i) => i === 0 || values[i - 1] <= v);
+head.firstElementChild.click();
+say("ascending", sorted(column()) && head.getAttribute("aria-sort") === "ascending");
+head.firstElementChild.click();
+say("descending", sorted(column().reverse()) && head.getAttribute("aria-sort") === "descending");
+addEventListener("load", async () => {
+  await Promise.all([...document.images].map(image => image.decode()));
+  say("decoded", "true");
+  say("requests", performance.getEntriesByType("resource").filter(r => !r.name.startsWith("data:")).length);
+  say("errors", window.seen.length);
+});</script>'
+while IFS= read -r line; do
+  case $line in
+    '<script>') printf '%s\n%s\n' "$watch" "$line" ;;
+    '</body>') printf '%s\n%s\n' "$use" "$line" ;;
+    *) printf '%s\n' "$line" ;;
+  esac
+done < report.html > watched.html
+title=$(browse watched.html --virtual-time-budget=20000 --log-net-log="$profile/net.json" --dump-dom |
+  sed -n 's:^<title>\(.*\)</title>.*:\1:p')
+value() { sed -n "s/.* $1=\([^ ]*\).*/\1/p" <<< "$title "; }
+frames=$(value shown)
+check 'the slider at its start shows the first picture alone' "$frames" "1${frames:1}"
+check 'and no other' "${frames//[!1]/}" 1
+for name in first together pictures ascending descending decoded; do check "$name" "$(value $name)" true; done
+check 'requests of the page' "$(value requests)" 0
+check 'errors of the page' "$(value errors)" 0
+check 'messages in the console' "$(grep -c 'CONSOLE' browser.log || true)" 0
+check 'addresses in the log of the network' \
+  "$(grep -o '"url":"[^"]*"' "$profile/net.json" | grep -cv '"url":"\(file\|data\|chrome\|devtools\|about\)' || true)" 0
+
+for width in 1600 800; do
+  browse report.html --window-size=$width,5200 --screenshot="light-$width.png"
+  browse report.html --window-size=$width,5200 --force-dark-mode --screenshot="dark-$width.png"
+done
+browse report.html --no-pdf-header-footer --print-to-pdf=report.pdf
+for file in light-1600.png light-800.png dark-1600.png dark-800.png report.pdf; do
+  check "$file is there" "$([ -s "$file" ] && echo yes)" yes
+done
+echo "The page and its pictures are in $PWD"
+exit $((failures > 0))
