@@ -183,7 +183,7 @@ float disc_diameter(const ModelView& view, const Mesh<2>& mesh, std::size_t poin
   for (int e = 0; e < mesh.element_count(); ++e) area += element_volume(mesh, e);
   const double distance =
       view.scale() * std::sqrt(area / static_cast<double>(std::max<std::size_t>(points, 1)));
-  return static_cast<float>(std::clamp(0.6 * distance, 2.0, 14.0));
+  return static_cast<float>(std::clamp<double>(0.6 * distance, smallest_disc, 14.0));
 }
 
 }  // namespace suffuse

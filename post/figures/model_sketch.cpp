@@ -192,16 +192,19 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     rows.push_back(line_row(boundaries[b].label, boundary_color(boundaries, b), boundary_width));
   }
+  const ModelView view(mesh, axes_left, axes_bottom, max_width, max_height);
+  const float small = disc_diameter(view, mesh, std::max(liquid.size(), solid.size()));
+  const bool shows_points = small > smallest_disc;
   rows.push_back(
-      marker_row(count_text(solid.size(), double_point ? "solid point" : "material point"), red,
-                 Marker::circle));
+      marker_row(count_text(solid.size(), double_point ? "solid point" : "material point") +
+                     (shows_points ? "" : ", too dense to draw"),
+                 red, Marker::circle));
   if (double_point) {
     rows.push_back(marker_row(count_text(liquid.size(), "liquid point"), blue, Marker::circle));
   }
   rows.push_back(line_row(count_text(mesh.elements.size(), "element"), black, 1.0F));
   for (const auto& tint : tints) rows.push_back(marker_row(tint.label, tint.color, Marker::square));
 
-  const ModelView view(mesh, axes_left, axes_bottom, max_width, max_height);
   const float legend_left = view.left() + view.width() + legend_gap;
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const float shown_height = std::max(view.height(), legend_height);
@@ -211,7 +214,6 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
       run.scene().scene.name + (double_point ? ", double-point model" : ", single-point model");
   draw_picture(width, height, title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
-      const float small = disc_diameter(view, mesh, std::max(liquid.size(), solid.size()));
       paint_tints(painter, view, mesh, tints);
       paint_edges(painter, view, mesh, all_edges(mesh), black, small < 5.0F ? 0.5F : 1.0F);
       paint_edges(painter, view, mesh, region_edges(mesh), black, 2.5F);
@@ -219,8 +221,10 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
         paint_edges(painter, view, mesh, boundaries[b].edges, boundary_color(boundaries, b),
                     boundary_width);
       }
-      paint_discs(painter, view, liquid, {blue}, small);
-      paint_discs(painter, view, solid, {red}, double_point ? 1.6F * small : small);
+      if (shows_points) {
+        paint_discs(painter, view, liquid, {blue}, small);
+        paint_discs(painter, view, solid, {red}, double_point ? 1.6F * small : small);
+      }
       view.paint_axes(painter);
       paint_text(painter, title, 24, static_cast<float>(width) / 2.0F,
                  static_cast<float>(height) - 36.0F);

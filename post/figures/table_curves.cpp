@@ -123,6 +123,19 @@ std::string label_of(const std::vector<std::string>& runs, std::size_t run,
   return part.empty() ? runs[run] : runs[run] + ": " + part;
 }
 
+/// Without the rows in which a ratio has no value, which tables give as 0.
+void remove_missing(Curve& curve, const std::string& column) {
+  if (column != "conductivity_ratio") return;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < curve.y.size(); ++k) {
+    if (curve.y[k] == 0.0) continue;
+    curve.x[kept] = curve.x[k];
+    curve.y[kept++] = curve.y[k];
+  }
+  curve.x.resize(kept);
+  curve.y.resize(kept);
+}
+
 Curve curve_of(const Table& table, const std::string& x, const std::string& y, std::size_t number) {
   constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
                                        Dash::dash_dot_dot};
@@ -137,7 +150,7 @@ Curve curve_of(const Table& table, const std::string& x, const std::string& y, s
 Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::string>& labels,
                const ColumnName& name, const std::string& x) {
   const int dimension = runs.front().dimension();
-  Chart chart{name.text,
+  Chart chart{name.column + (name.part.empty() ? "" : " of " + name.part),
               x == "t" ? seconds_label : label_of(x, dimension),
               label_of(name.column, dimension),
               {}};
@@ -146,6 +159,7 @@ Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::st
       if (!part.table.has(x)) refuse("--x", '"' + x + '"', quoted_list(part.table.names));
       require_curve(runs[r], part.table, name.text);
       Curve curve = curve_of(part.table, x, name.column, chart.curves.size());
+      remove_missing(curve, name.column);
       curve.label = label_of(labels, r, name.part.empty() ? part.name : "");
       chart.curves.push_back(std::move(curve));
     }

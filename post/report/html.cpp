@@ -29,6 +29,7 @@ std::string base64(const std::string& bytes) {
 }
 
 std::string cell_html(const Cell& cell) {
+  if (cell.text == "-") return "<td class=\"empty\">-</td>";
   if (!cell.value) return "<td>" + escaped(cell.text) + "</td>";
   return "<td class=\"number\" data-value=\"" + number_text(*cell.value) + "\">" +
          escaped(cell.text) + "</td>";

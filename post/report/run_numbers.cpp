@@ -23,8 +23,9 @@ bool has_gradients(const ResultsReader& run) {
 
 std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
   if (!numbers.fines_left) return "";
-  const std::string unit = run.dimension() == 2 ? " kg per metre of thickness" : " kg";
-  std::string text = short_text(*numbers.fines_left) + unit + " of fines left the model";
+  std::string text = short_text(*numbers.fines_left) + " kg of fines";
+  if (run.dimension() == 2) text += " per metre of thickness";
+  text += " left the model";
   if (numbers.fines_percent) {
     text += ", " + short_text(*numbers.fines_percent) + " % of those at the start";
   }

@@ -136,6 +136,7 @@ void write_rows(ResultsWriter<2>& writer, double end, const PorosityAt& porosity
     history.t = t;
     history.dt = 0.0851;
     history.porosity_mean = porosity;
+    history.conductivity_ratio = porosity > 0.3 ? porosity / 0.3 : 0.0;
     LedgerRow row;
     row.t = t;
     row.solid = (1.0 - porosity) * 2700.0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "case/errors.hpp"
@@ -51,6 +52,17 @@ TEST_F(TableCurves, AnyColumnOfAnyTable) {
   ASSERT_EQ(charts[2].curves.size(), 2U);
   EXPECT_EQ(charts[2].curves[1].label, "bottom");
   EXPECT_EQ(charts[2].curves[1].y.back(), 0.005);
+}
+
+TEST_F(TableCurves, ARatioWithoutAValueIsLeftOut) {
+  FigureOptions options;
+  options.columns = {"conductivity_ratio"};
+  const Curve curve = make_figure("curves", run(), options)[0].curves[0];
+  const std::vector<double> t = run()[0].history().column("t");
+  const std::vector<double> ratio = run()[0].history().column("conductivity_ratio");
+  EXPECT_EQ(std::ranges::count(ratio, 0.0), 3);
+  EXPECT_EQ(curve.x, std::vector<double>(t.begin() + 3, t.end()));
+  EXPECT_EQ(curve.y, std::vector<double>(ratio.begin() + 3, ratio.end()));
 }
 
 TEST_F(TableCurves, OnePartOfATable) {
