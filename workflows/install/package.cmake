@@ -34,7 +34,7 @@ ParaView opens the results; suffuse.py reads them into numpy.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME suffuse-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libhdf5-dev, libtomlplusplus-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libhdf5-dev, libtomlplusplus-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
 "Headers, static libraries and CMake files for programs that read the results
 of Suffuse: find_package(Suffuse) gives the target Suffuse::results.")

@@ -100,7 +100,7 @@ cp "$work/paper/sp-logarithmic.toml" "$work/elsewhere/mine.toml"
 inventory > "$work/before"
 (cd "$work/elsewhere" && run_make study SCENE=mine.toml)
 expect 'study works on a scene elsewhere' \
-  "$({ made_from study/mine; printf '%s\n' study/mine.{inputs,status}; } | sort)" \
+  "$({ made_from study/mine; printf '%s\n' study/mine.{html,inputs,status}; } | sort)" \
   "$(redone "$work/before" | insides_removed | sort)"
 
 inventory > "$work/before"

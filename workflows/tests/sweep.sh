@@ -133,7 +133,7 @@ expect 'a scheduler that refuses' "2 $(printf '%s\n' unfinished unfinished)" \
   "$code $(sed 1d "$work/o ut/sweep/launched/sweep.csv" | sed 's/"[^"]*"//g' | cut -d, -f4)"
 
 run_make study SCENE="a column.toml"
-expect 'a study of a scene with spaces' "0 $(printf '%s\n' 'a column.case.h5' 'a column.history.csv' 'a column.inputs' \
+expect 'a study of a scene with spaces' "0 $(printf '%s\n' 'a column.case.h5' 'a column.history.csv' 'a column.html' 'a column.inputs' \
   'a column.ledger.csv' 'a column.masses.png' 'a column.masses.svg' 'a column.porosity.png' \
   'a column.porosity.svg' 'a column.results' 'a column.status')" "$code $(ls "$work/o ut/study")"
 
