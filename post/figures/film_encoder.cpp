@@ -21,6 +21,7 @@ namespace {
 /// Its exit code, 128 where a signal ended it, or nothing where there is no such program.
 std::optional<int> run_program(std::vector<std::string> arguments, const std::string& messages) {
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions{};

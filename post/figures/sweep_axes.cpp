@@ -74,7 +74,9 @@ std::string axis_text(const std::string& name, const Scene* scene) {
     if (!fits(name, key.pattern)) continue;
     const auto steps = steps_of(name);
     const std::string unit = unit_of(key, steps.size() > 1 ? steps[1] : "", scene);
-    return unit.empty() ? name : name + " (" + unit + ")";
+    std::string label = name;
+    if (!unit.empty()) label.append(" (").append(unit).append(")");
+    return label;
   }
   return name;
 }

@@ -104,6 +104,7 @@ std::vector<std::size_t> order_of(const std::vector<double>& x) {
 std::vector<double> picked(const std::vector<double>& values,
                            const std::vector<std::size_t>& rows) {
   std::vector<double> found;
+  found.reserve(rows.size());
   for (const std::size_t row : rows) found.push_back(values[row]);
   return found;
 }
@@ -262,10 +263,12 @@ std::vector<Chart> over_time_charts(const SweepTable& sweep,
   std::vector<Chart> charts;
   for (const auto& column : columns) {
     std::vector<Curve> runs;
+    runs.reserve(readers.size());
     for (const auto& reader : readers) runs.push_back(in_time(reader, column));
     Quantiles quantiles;
     for (const double t : common_times(runs)) {
       std::vector<double> values;
+      values.reserve(runs.size());
       for (const Curve& run : runs) values.push_back(value_at(run, t));
       quantiles.add(t, std::move(values));
     }

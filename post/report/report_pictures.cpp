@@ -114,9 +114,9 @@ std::string film_html(const ResultsReader& run, const std::vector<std::size_t>& 
   for (std::size_t k = 0; k < pictures.size(); ++k) {
     time = html::escaped(time_text(run.times()[snapshots[k]], unit));
     const bool last = k + 1 == pictures.size();
-    frames += image(pictures[k], title + " at t = " + time,
-                    std::string(" class=\"frame") + (last ? " last shown" : "") +
-                        "\" data-time=\"" + time + "\"");
+    std::string attributes = last ? " class=\"frame last shown\"" : " class=\"frame\"";
+    attributes.append(" data-time=\"").append(time).append("\"");
+    frames += image(pictures[k], std::string(title).append(" at t = ").append(time), attributes);
   }
   const std::string last = std::to_string(pictures.size() - 1);
   const std::string slider =
@@ -131,6 +131,7 @@ std::string head_html(const ResultsReader& run, const std::vector<std::size_t>& 
                       const TemporaryFolder& folder) {
   if (!has_field(run, snapshots, "node", "head")) return missing("Head");
   std::vector<SeepageMap> maps;
+  maps.reserve(snapshots.size());
   for (const std::size_t index : snapshots) maps.push_back(head_map(run, run.times()[index]));
   align_maps(maps);
   std::vector<std::string> pictures;
@@ -164,7 +165,7 @@ std::string field_html(const ResultsReader& run, const ShownField& field,
 
 TimeUnit fitting_time_unit(double end) {
   for (const char* word : {"a", "d", "h", "min"}) {
-    const TimeUnit unit = parse_time_unit(word, "");
+    TimeUnit unit = parse_time_unit(word, "");
     if (end >= 2.0 * unit.seconds && end >= 600.0) return unit;
   }
   return {};

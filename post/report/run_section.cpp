@@ -144,7 +144,7 @@ std::string commands(const ResultsReader& run) {
 std::string reproduce_html(const ResultsReader& run, const RunRecord& record) {
   std::string versions;
   for (const auto& [program, version] : record.versions) {
-    versions += (versions.empty() ? "" : ", ") + program + " " + version;
+    versions.append(versions.empty() ? "" : ", ").append(program).append(" ").append(version);
   }
   std::string text = "<pre>" + html::escaped(commands(run)) + "</pre>\n" +
                      html::element("p", "Made with " + versions + ".");

@@ -192,7 +192,7 @@ void refuse_links(const Hdf5File& file, const std::string& grid) {
   for (const std::string group : {"/VTKHDF", "/VTKHDF/CellData", "/VTKHDF/PointData"}) {
     if (!file.exists(group)) continue;
     for (const std::string& name : file.children(group)) {
-      const std::string object = group + "/" + name;
+      const std::string object = std::string(group).append("/").append(name);
       // To ask whether a link exists throws.
       if (!file.is_in(object, grid)) static_cast<void>(file.exists(object));
     }
