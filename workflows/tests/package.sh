@@ -69,7 +69,7 @@ awk '/^## Ten minutes/ { inside = 1 } /^## More/ { exit } inside && (/^    suffu
 [ "$(grep -c '^suffuse-' commands.sh)" -ge 15 ]
 # As an ordinary user: libraries keep caches and settings in HOME.
 HOME=$PWD setpriv --reuid 1000 --regid 1000 --clear-groups bash -eux commands.sh > output 2>&1 || { cat output; exit 1; }
-for picture in porosity.png masses.svg boundaries.png model.png head.png concentration.png; do
+for picture in porosity.png masses.svg curves.png model.png head.png flownet.png concentration.png profile.png; do
   [ "$(stat -c %s $picture)" -gt 5000 ] || { echo "$picture is empty"; exit 1; }
 done
 grep -q 'status.*done' weir.results/run.json
