@@ -5,6 +5,7 @@
 /// (2017) 108).
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "physics/skeleton/skeleton_law.hpp"
 
@@ -40,7 +41,7 @@ inline constexpr SkeletonParameter young{.key = "young",
                                          .sentence = "Young's modulus.",
                                          .lower = 0.0,
                                          .lower_allowed = false,
-                                         .upper = 1e15,
+                                         .upper = std::numeric_limits<double>::infinity(),
                                          .follows_fines = true,
                                          .required = true,
                                          .value = &SkeletonModel::young};
@@ -72,7 +73,7 @@ inline constexpr SkeletonParameter cohesion{
     .sentence = "Cohesion, effective: the shear strength without normal stress.",
     .lower = 0.0,
     .lower_allowed = true,
-    .upper = 1e15,
+    .upper = std::numeric_limits<double>::infinity(),
     .follows_fines = true,
     .required = true,
     .value = &SkeletonModel::cohesion};
