@@ -33,7 +33,7 @@ grain_density = 2700
 conductivity = 1e-5
 [soil.sand.skeleton]
 law = "mohr-coulomb"
-young = [[1, 2e7], [0, 1e7]]
+young = [[1, 2e7], [0, 1.8e7]]
 poisson = 0.3
 friction = [[1, 34], [0, 28]]
 cohesion = 0
