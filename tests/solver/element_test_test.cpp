@@ -226,7 +226,7 @@ TEST(ElementTest, program_refuses_and_writes_nothing) {
   const std::string test =
       program.path + " --element-test " + program.table + " -o " + program.folder.file("a.csv");
   EXPECT_EQ(program.run(test), 2);
-  EXPECT_EQ(program.errors(), program.path +
+  EXPECT_EQ(program.errors(), "suffuse-solver: error: " + program.path +
                                   ": got 2 soils with a law of the skeleton; expected "
                                   "--soil with \"sand\" or \"clay\"\n");
   EXPECT_EQ(program.run(test + " --soil sandy"), 2);

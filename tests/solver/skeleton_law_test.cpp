@@ -200,24 +200,22 @@ TEST(SkeletonLaw, plane_strain_is_space_without_strain_across) {
 }
 
 TEST(SkeletonLaw, equal_principal_strains_cost_no_accuracy) {
-  // The tangent is Lipschitz-continuous there: nothing may grow as the strains approach each other.
+  // The tangent is Lipschitz-continuous there: nothing may grow as strains approach each other.
+  Matrix3d direction;
+  direction << 1.0, 0.3, -0.2, 0.3, -1.0, 0.4, -0.2, 0.4, 0.5;
   for (const SkeletonLaw* law : skeleton_laws()) {
-    for (const Vector3d& strain : {Vector3d(-0.01, -0.01, -0.01), Vector3d(0.0, 0.0, 0.0),
-                                   Vector3d(-0.05, -0.05, -0.001), Vector3d(-0.1, -0.02, -0.02)}) {
+    // Elastic, at the edge of the largest stress and of the smallest, and beyond the apex.
+    for (const Vector3d& strain :
+         {Vector3d(-0.01, -0.01, -0.01), Vector3d(0.0, 0.0, 0.0), Vector3d(-0.2, 0.02, 0.02),
+          Vector3d(0.05, -0.1, -0.1), Vector3d(0.1, 0.1, 0.1)}) {
+      const Matrix3d increment = Matrix3d::Identity();
       DeformationTangent<3> equal;
-      const auto at =
-          skeleton_response<3>(*law, sand(), b_of(strain), Matrix3d::Identity(), &equal);
-      ASSERT_TRUE(equal.allFinite() && at.stress.allFinite()) << law->word;
+      skeleton_response<3>(*law, sand(), b_of(strain), increment, &equal);
       for (const double apart : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16}) {
-        const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).matrix();
-        const Matrix3d b =
-            b_of(strain, turn) + b_of(apart * Vector3d(1.0, -1.0, 0.5)) - Matrix3d::Identity();
         DeformationTangent<3> tangent;
-        skeleton_response<3>(*law, sand(), b, Matrix3d::Identity(), &tangent);
-        DeformationTangent<3> turned;
-        skeleton_response<3>(*law, sand(), b_of(strain, turn), Matrix3d::Identity(), &turned);
-        const double difference = (tangent - turned).cwiseAbs().maxCoeff() / sand().young;
-        EXPECT_LT(difference, 2e3 * apart + 1e-11) << law->word << ' ' << apart;
+        skeleton_response<3>(*law, sand(), b_of(strain) + apart * direction, increment, &tangent);
+        const double difference = (tangent - equal).cwiseAbs().maxCoeff() / sand().young;
+        EXPECT_LT(difference, 100.0 * apart + 1e-12) << law->word << ' ' << strain.transpose();
       }
     }
   }
