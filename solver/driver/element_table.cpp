@@ -94,7 +94,7 @@ class ElementTableReader {
       const std::string strain = "strain_" + component;
       const std::string stress = "stress_" + component;
       if (!has(strain) && !has(stress)) {
-        report(strain, "no column", strain + " or " + stress + ", or both");
+        report(strain, "no column", listed({strain, stress}) + ", or both");
       }
     }
     if (has("t") && has("step")) report("step", "a column beside t", "one of the two");

@@ -17,7 +17,7 @@ namespace {
 std::string header(const std::string& moment) {
   std::string text = moment;
   for (const std::string kind : {"stress_", "strain_"}) {
-    for (const char* component : component_names) text += ',' + kind + component;
+    for (const char* component : component_names) text.append(",").append(kind).append(component);
   }
   return text + ",mean_stress,deviator_stress,volumetric_strain,plastic_strain,fines_left\n";
 }
