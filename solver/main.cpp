@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "case/command_line.hpp"
+#include "driver/deformation_checks.hpp"
 #include "driver/estimate.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
@@ -57,6 +58,7 @@ int solve(const Arguments& arguments) {
   }
   give_memory_back();
   Case<2> c = read_case<2>(arguments.case_path);
+  refuse_moving_skeletons(c.document);
   const Plan plan = make_plan(c, arguments.solver);
   if (arguments.explain) return explain(c, plan, arguments.solver.threads);
   const std::string folder =

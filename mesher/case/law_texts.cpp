@@ -84,4 +84,12 @@ std::vector<std::string> laws_with_retention_parameter(std::string_view key) {
   return words_with(retention_laws(), key);
 }
 
+std::vector<SkeletonParameter> skeleton_parameters() {
+  return parameters_of<SkeletonParameter>(skeleton_laws());
+}
+
+std::vector<std::string> laws_with_skeleton_parameter(std::string_view key) {
+  return words_with(skeleton_laws(), key);
+}
+
 }  // namespace suffuse

@@ -10,6 +10,7 @@
 
 #include "physics/exchange.hpp"
 #include "physics/retention/retention_law.hpp"
+#include "physics/skeleton/skeleton_law.hpp"
 
 namespace suffuse {
 
@@ -51,5 +52,9 @@ std::vector<std::string> laws_with_conductivity_parameter(std::string_view key);
 /// The same of the retention laws.
 std::vector<RetentionParameter> retention_parameters();
 std::vector<std::string> laws_with_retention_parameter(std::string_view key);
+
+/// The same of the laws of the skeleton.
+std::vector<SkeletonParameter> skeleton_parameters();
+std::vector<std::string> laws_with_skeleton_parameter(std::string_view key);
 
 }  // namespace suffuse

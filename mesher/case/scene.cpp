@@ -44,6 +44,10 @@ bool Scene::is_free_water(const std::string& region) const {
          find_soil(region) == nullptr;
 }
 
+bool Scene::moves() const {
+  return std::ranges::any_of(soils, [](const Soil& soil) { return soil.skeleton.moves(); });
+}
+
 const Soil* Scene::find_soil(const std::string& region) const {
   const auto found = std::ranges::find(soils, region, &Soil::region);
   return found == soils.end() ? nullptr : &*found;

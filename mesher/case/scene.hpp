@@ -16,6 +16,7 @@
 #include "case/time_function.hpp"
 #include "physics/exchange.hpp"
 #include "physics/retention/retention_law.hpp"
+#include "physics/skeleton/skeleton_model.hpp"
 
 namespace suffuse {
 
@@ -30,6 +31,8 @@ enum class InitialFlow { rest, steady };
 enum class Seeding { gauss, random, low_discrepancy };
 /// What a boundary with a head does above its water level.
 enum class DryPart { seepage, impervious, suction };
+/// Directions in which the soil at a boundary stays in its place: normal to it, or all.
+enum class Fixing { none, normal, both };
 enum class SoilDrag { darcy, ergun };
 enum class MassTransfer { nodal, element };
 enum class EmptyElements { wet, dry };
@@ -111,6 +114,7 @@ struct Soil {
   SoilDrag drag = SoilDrag::darcy;
   ErosionSettings erosion;
   DepositionModel deposition;
+  SkeletonModel skeleton;  ///< without a law: rigid
 
   /// Air can be in the pores.
   [[nodiscard]] bool drains() const { return retention.law != nullptr; }
@@ -146,7 +150,8 @@ struct Soil {
   }
 };
 
-/// What holds on one named boundary, or at one well: at most one flow condition.
+/// What holds on one named boundary, or at one well: at most one flow condition, and what holds or
+/// loads the soil there.
 struct BoundaryCondition {
   std::string key;  ///< of its entry in the scene: `boundary[0]`, `well[0]`
   std::string on;
@@ -163,6 +168,9 @@ struct BoundaryCondition {
   /// Of a well: volume of liquid per second that enters through all its faces, m3/s per m.
   std::optional<TimeFunction> rate;
   std::optional<TimeFunction> concentration;  ///< c of the liquid that enters
+  Fixing fix = Fixing::none;
+  /// Force per area on the soil and the liquid in its pores, Pa, in the directions of the axes.
+  std::optional<VectorFunction> traction;
 };
 
 /// A wall without thickness on a named curve inside the mesh.
@@ -230,10 +238,14 @@ struct Scene {
   std::string initial_from;  ///< results folder whose last state is the initial one; may be empty
   /// Of the liquid at rest, m above the datum: as given, or that of the head boundaries at t = 0.
   std::optional<double> water_level;
+  /// K_0: horizontal over vertical effective stress at the start; unset: equilibrium under gravity.
+  std::optional<double> earth_pressure;
   FlowSettings flow;
   TimeSettings time;
   OutputSettings output;
 
+  /// Some soil has a skeleton that moves.
+  [[nodiscard]] bool moves() const;
   [[nodiscard]] const Soil* find_soil(const std::string& region) const;
   /// Free water (n_L = 1, no solid): a region without a soil that is called inflow, outflow,
   /// free_above or free_below, in a double-point scene.

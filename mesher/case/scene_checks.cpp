@@ -9,6 +9,7 @@
 #include "case/scene_check_base.hpp"
 #include "case/seepage_checks.hpp"
 #include "case/short_number.hpp"
+#include "case/skeleton_checks.hpp"
 #include "case/soil_grading.hpp"
 
 namespace suffuse {
@@ -363,12 +364,14 @@ class Checks : private SceneCheckBase {
       keys.push_back(joined(entry, name));
     }
     if (conditions.size() > 1) report(entry, listed(conditions, "and"), one_of, keys);
-    if (conditions.empty()) {
+    const bool of_soil = given(joined(entry, "fix")) || given(joined(entry, "traction"));
+    if (conditions.empty() && (!of_soil || given(entry + ".concentration"))) {
       const bool concentration = given(entry + ".concentration");
       report(entry, concentration ? "a concentration and no flow" : "no condition",
              entry.starts_with("well")
                  ? one_of
-                 : one_of + "; a boundary without is impervious and needs no entry");
+                 : one_of + (concentration ? "" : ", or fix or traction") +
+                       "; a boundary without is impervious and needs no entry");
     }
     if (boundary.seepage_face && boundary.concentration) {
       report(entry + ".concentration",
@@ -422,6 +425,7 @@ void check_scene(const Scene& scene, const SceneInquiry& inquiry) {
   check_geometry(scene, inquiry);
   Checks(scene, inquiry).run();
   check_seepage(scene, inquiry);
+  check_skeletons(scene, inquiry);
 }
 
 }  // namespace suffuse

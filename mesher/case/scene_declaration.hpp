@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -49,6 +50,11 @@ auto in_deposition(Member DepositionModel::*member) {
 template <class Member>
 auto in_retention(Member RetentionModel::*member) {
   return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].retention.*member; };
+}
+
+template <class Member>
+auto in_skeleton(Member SkeletonModel::*member) {
+  return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].skeleton.*member; };
 }
 
 /// Of a list of the scene.
@@ -111,6 +117,29 @@ inline void keep(std::array<double, 3>& member, const Value& value) {
   std::ranges::copy(std::get<std::vector<double>>(value), member.begin());
 }
 
+inline void keep(FinesFunction& member, const Value& value) {
+  if (const auto* constant = std::get_if<double>(&value)) {
+    member = *constant;
+    return;
+  }
+  std::vector<std::pair<double, double>> pairs;
+  for (const auto& row : std::get<Rows>(value)) pairs.emplace_back(row[0], row[1]);
+  member = FinesFunction(std::move(pairs));
+}
+inline void keep(std::optional<VectorFunction>& member, const Value& value) {
+  VectorFunction result;
+  const auto add = [&](double time, std::span<const double> components) {
+    std::ranges::copy(components,
+                      result.knots.emplace_back(time, VectorFunction::Components{}).second.begin());
+  };
+  if (const auto* constant = std::get_if<std::vector<double>>(&value)) {
+    add(0.0, *constant);
+  } else {
+    for (const auto& row : std::get<Rows>(value)) add(row[0], std::span(row).subspan(1));
+  }
+  member = std::move(result);
+}
+
 inline void keep(Gradation& member, const Value& value) {
   std::vector<GradationPoint> points;
   for (const auto& row : std::get<Rows>(value)) points.push_back({row[0], row[1]});
@@ -128,6 +157,12 @@ inline ValueKind kind_of(const std::optional<TimeFunction>&) {
 }
 inline ValueKind kind_of(const ResidualFraction&) {
   return ValueKind::function;
+}
+inline ValueKind kind_of(const FinesFunction&) {
+  return ValueKind::function;
+}
+inline ValueKind kind_of(const std::optional<VectorFunction>&) {
+  return ValueKind::vector_function;
 }
 inline ValueKind kind_of(const int&) {
   return ValueKind::integer;
@@ -171,6 +206,13 @@ struct Declaration : SceneKey {
   Declaration&& of_argument(std::string letter, std::string in_words) && {
     argument = std::move(letter);
     return set(arguments, std::move(in_words));
+  }
+  /// Of pairs by the share of fines left.
+  Declaration&& of_fines() && {
+    argument_is_share = true;
+    return std::move(*this).of_argument("share",
+                                        "shares of the erodible fines that are left (0 to "
+                                        "1, ascending or descending)");
   }
   Declaration&& otherwise(Value value) && { return set(default_value, std::move(value)); }
   Declaration&& otherwise_as(std::string note) && { return set(default_note, std::move(note)); }

@@ -67,6 +67,48 @@ std::vector<std::pair<std::string, const RetentionLaw*>> retention_meanings() {
   return meanings;
 }
 
+/// A number that only some laws of the skeleton ask for.
+Declaration skeleton_parameter(const SkeletonParameter& parameter) {
+  std::vector<std::string> laws = laws_with_skeleton_parameter(parameter.key);
+  const bool of_all = laws.size() == skeleton_laws().size();
+  Declaration d = key("soil.*.skeleton." + std::string(parameter.key), in_skeleton(parameter.value),
+                      std::string(parameter.sentence) +
+                          (of_all ? "" : " Of the law " + listed(laws, "and") + "."))
+                      .named(std::string(parameter.symbol))
+                      .in(std::string(parameter.unit));
+  d.lower = Bound{parameter.lower, !parameter.lower_allowed};
+  if (std::isfinite(parameter.upper)) d.upper = Bound{parameter.upper, true};
+  if (parameter.follows_fines) {
+    std::move(d).of_fines();
+  } else {
+    d.kind = ValueKind::number;
+  }
+  return parameter.required ? std::move(d).otherwise_as("required by its law")
+                            : std::move(d).otherwise(0.0);
+}
+
+/// The laws, and the word for a skeleton that does not move.
+std::vector<std::pair<std::string, const SkeletonLaw*>> skeleton_meanings() {
+  auto meanings = by_word(skeleton_laws());
+  meanings.insert(meanings.begin(), {"rigid", nullptr});
+  return meanings;
+}
+
+/// `"gravity"`, or K_0.
+Declaration initial_stress() {
+  Declaration d = key("initial.stress", at(&Scene::earth_pressure),
+                      "Effective stress at the start: equilibrium under gravity, from which "
+                      "displacements count; or K_0, horizontal over vertical stress, with the "
+                      "vertical stress of level ground.");
+  d.kind = ValueKind::number_or_word;
+  d.words = {"gravity"};
+  d.store = [](Scene& scene, std::size_t, const Value& value) {
+    const auto* ratio = std::get_if<double>(&value);
+    scene.earth_pressure = ratio ? std::optional(*ratio) : std::nullopt;
+  };
+  return d;
+}
+
 /// One number in all directions, or one along and one across bedding.
 Declaration conductivity() {
   Declaration d = key("soil.*.conductivity", in_soil(&Soil::conductivity),
@@ -390,6 +432,11 @@ std::vector<SceneKey> declare_keys() {
           .below(1.0)
           .otherwise(0.0),
 
+      choice(
+          "soil.*.skeleton.law", in_skeleton(&SkeletonModel::law), skeleton_meanings(),
+          described(skeleton_laws(), &SkeletonLaw::description) + "; \"rigid\": it does not move.")
+          .otherwise_as("`\"rigid\"`; required with any other skeleton key"),
+
       key("boundary[].on", on_boundary(&Boundary::on), "Name of the boundary.").mandatory(),
       key("boundary[].pressure", on_boundary(&Boundary::pressure), "Pore pressure there.")
           .named("p")
@@ -438,6 +485,17 @@ std::vector<SceneKey> declare_keys() {
           .below(1.0)
           .otherwise_as("clean liquid"),
 
+      choice("boundary[].fix", on_boundary(&Boundary::fix),
+             {{"none", Fixing::none}, {"normal", Fixing::normal}, {"both", Fixing::both}},
+             "Whether the soil there can move: in any direction; along the boundary only; or not "
+             "at all.")
+          .otherwise("none"),
+      key("boundary[].traction", on_boundary(&Boundary::traction),
+          "Force per area on the soil there, with the pressure of the liquid in it, in the "
+          "directions of the axes: a load of 10 kPa on level ground is `[0.0, -1.0e4]`.")
+          .in("Pa")
+          .otherwise_as("the pressure of the water outside of a `head`; else none"),
+
       key("wall[].on", in_list(&Scene::walls, &Wall::on),
           "Name of a curve inside the mesh, along which the mesh is cut.")
           .mandatory(),
@@ -484,6 +542,8 @@ std::vector<SceneKey> declare_keys() {
           .in("m")
           .otherwise_as("the head of the boundaries that have one at t = 0; where they differ or "
                         "there is none, p = 0 without gravity, **required** under gravity at rest"),
+
+      initial_stress().named("K_0").above(0.0).otherwise_as("`\"gravity\"`"),
 
       key("initial.from", at(&Scene::initial_from),
           "Folder with the results of a run that is done, relative to the scene's folder: its last "
@@ -618,6 +678,9 @@ const std::vector<SceneKey>& scene_keys() {
     std::vector<SceneKey> of_retention;
     for (const auto& p : retention_parameters()) of_retention.push_back(retention_parameter(p));
     insert_after("soil.*.retention.model", std::move(of_retention));
+    std::vector<SceneKey> of_skeleton;
+    for (const auto& p : skeleton_parameters()) of_skeleton.push_back(skeleton_parameter(p));
+    insert_after("soil.*.skeleton.law", std::move(of_skeleton));
     return all;
   }();
   return keys;

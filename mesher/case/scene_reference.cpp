@@ -248,6 +248,11 @@ std::string type_of(const SceneKey& key) {
       return key.infinite_allowed ? "number or `inf`" : "number";
     case ValueKind::number_or_pair:
       return "number, or pair `[along, across]`";
+    case ValueKind::number_or_word:
+      for (const std::string& word : key.words) all.push_back(code(shown_value(word)));
+      return listed(all) + ", or number";
+    case ValueKind::vector_function:
+      return "array of 2 or 3 numbers, or `[[t, x, y], ...]`";
     case ValueKind::function:
       return "number, or pairs " + code("[[" + key.argument + ", value], ...]");
     case ValueKind::gradation:

@@ -70,9 +70,15 @@ const std::vector<SceneSection>& scene_sections() {
        "How much liquid the pores of this soil hold under suction, psi = p/(rho_w g) < 0, and how "
        "well it then conducts: S = S_r + (1 - S_r) S_e, conductivity k_r k. Without this table the "
        "soil is saturated at any pressure."},
+      {"soil.*.skeleton", "[soil.NAME.skeleton]",
+       "How the skeleton of this soil deforms and fails, in effective stress. Without this table "
+       "it is rigid. Some values may change as fines leave: pairs `[[share, value], ...]` of the "
+       "share of the erodible fines that is left (1: all, 0: none), linear between them, constant "
+       "beyond the first and the last."},
       {"boundary[]", "[[boundary]]",
-       "One entry per named boundary, with one of `pressure`, `velocity`, `darcy_flux`, `head` (or "
-       "`file`), `seepage_face` and `rain`. Boundaries without an entry are impervious. Each value "
+       "One entry per named boundary, with at most one of `pressure`, `velocity`, `darcy_flux`, "
+       "`head` (or `file`), `seepage_face` and `rain`; without one it is impervious, as are "
+       "boundaries without an entry. `fix` and `traction` hold or load the soil. Each value "
        "is a number, or changes in time: "
        "pairs `[[t, value], ...]`, linear between them, constant before the first and after the "
        "last; two pairs at nearly the same time, such as 5 and 5.001 s, make a jump."},
@@ -155,6 +161,12 @@ std::string SceneKey::expected() const {
     case ValueKind::number_or_pair:
       return "a number" + limits + measure +
              ", or a pair of such numbers, along and across bedding";
+    case ValueKind::number_or_word:
+      for (const std::string& word : words) all.push_back(quoted(word));
+      return listed(all) + ", or a number" + limits + measure;
+    case ValueKind::vector_function:
+      return "an array of 2 or 3 numbers" + measure +
+             ", or such arrays behind times, [[t, x, y], ...] (s, ascending)";
     case ValueKind::function:
       return "a number" + limits + measure + ", or pairs [[" + argument + ", " +
              quantity_of(*this) + "], ...] of " + arguments + " and such numbers";
@@ -208,6 +220,20 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
         break;
       }
       return accept_number(value);
+    case ValueKind::number_or_word:
+      if (!text) return accept_number(value);
+      accepted = std::ranges::count(words, *text) > 0;
+      break;
+    case ValueKind::vector_function:
+      if (const auto* rows = std::get_if<Rows>(&value)) {
+        accepted = !rows->empty() && fault(value).empty();
+        break;
+      }
+      [[fallthrough]];
+    case ValueKind::vector:
+      accepted = numbers && (numbers->size() == 2 || numbers->size() == 3) &&
+                 std::ranges::all_of(*numbers, [](double x) { return std::isfinite(x); });
+      break;
     case ValueKind::function:
       if (const auto* rows = std::get_if<Rows>(&value)) {
         accepted = !rows->empty() && fault(value).empty();
@@ -219,10 +245,6 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
       break;
     case ValueKind::number:
       return accept_number(value);
-    case ValueKind::vector:
-      accepted = numbers && (numbers->size() == 2 || numbers->size() == 3) &&
-                 std::ranges::all_of(*numbers, [](double x) { return std::isfinite(x); });
-      break;
   }
   return accepted ? std::optional<Value>(value) : std::nullopt;
 }
@@ -230,19 +252,32 @@ std::optional<Value> SceneKey::accept(const Value& value) const {
 std::string SceneKey::fault(const Value& value) const {
   const auto* rows = std::get_if<Rows>(&value);
   if (kind == ValueKind::gradation && rows) return gradation_fault(*rows);
-  if (kind != ValueKind::function || !rows) return {};
+  if (!rows || rows->empty()) return {};
+  return kind == ValueKind::function || kind == ValueKind::vector_function ? fault_of_pairs(*rows)
+                                                                           : "";
+}
+
+std::string SceneKey::fault_of_pairs(const Rows& rows) const {
+  const bool of_vectors = kind == ValueKind::vector_function;
+  const bool descends = argument_is_share && rows.size() > 1 && !rows.front().empty() &&
+                        !rows[1].empty() && rows[1].front() < rows.front().front();
+  const std::size_t width = of_vectors && rows.front().size() == 4 ? 4 : of_vectors ? 3 : 2;
   const std::vector<double>* earlier = nullptr;
-  for (const std::vector<double>& row : *rows) {
-    if (row.size() != 2) {
-      return "entry " + std::to_string(&row - rows->data() + 1) + ", " + shown_value(row);
+  for (const std::vector<double>& row : rows) {
+    if (row.size() != width) {
+      return "entry " + std::to_string(&row - rows.data() + 1) + ", " + shown_value(row);
     }
-    std::string time = argument + " = " + shown_number(row[0]);
-    if (!std::isfinite(row[0])) return time;
-    if (earlier && row[0] <= earlier->front()) {
+    std::string place = argument + " = " + shown_number(row[0]);
+    if (!std::isfinite(row[0])) return place;
+    if (argument_is_share && (row[0] < 0.0 || row[0] > 1.0)) return place;
+    if (earlier && argument_is_share && row[0] == earlier->front()) return place + " twice";
+    if (earlier && (descends ? row[0] >= earlier->front() : row[0] <= earlier->front())) {
       return out_of_order(argument, row[0], earlier->front());
     }
-    if (!within(*this, row[1])) {
-      return quantity_of(*this) + " = " + shown_number(row[1]) + " at " + time;
+    for (std::size_t k = 1; k < width; ++k) {
+      if (!within(*this, row[k])) {
+        return quantity_of(*this) + " = " + shown_number(row[k]) + " at " + place;
+      }
     }
     earlier = &row;
   }

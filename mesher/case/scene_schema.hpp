@@ -30,7 +30,9 @@ enum class ValueKind {
   integer,
   boolean,
   vector,
-  function,  ///< a number, or pairs of numbers
+  number_or_word,   ///< a number, or one of `words`
+  function,         ///< a number, or pairs of numbers
+  vector_function,  ///< a vector, or a time and a vector in each of many
   gradation
 };
 
@@ -52,6 +54,7 @@ struct SceneKey {
   /// What the pairs of a function go by: its symbol, and it in words.
   std::string argument = "t";
   std::string arguments = "times (s, ascending)";
+  bool argument_is_share = false;      ///< between 0 and 1; pairs may descend too
   std::vector<std::string> words;      ///< all there are, for ValueKind::word
   std::vector<std::int64_t> integers;  ///< all there are, or empty for any within the bounds
   bool required = false;
@@ -71,6 +74,7 @@ struct SceneKey {
   [[nodiscard]] std::string fault(const Value& value) const;
 
  private:
+  [[nodiscard]] std::string fault_of_pairs(const Rows& rows) const;
   [[nodiscard]] std::optional<Value> accept_number(const Value& value) const;
 };
 

@@ -132,7 +132,7 @@ class SeepageChecks : private SceneCheckBase {
   /// Liquid at rest under gravity has a level, which must be known: p = 0 everywhere is no rest.
   void check_start() const {
     if (given("initial.from")) {
-      for (const std::string other : {"initial.flow", "initial.water_level"}) {
+      for (const std::string other : {"initial.flow", "initial.water_level", "initial.stress"}) {
         if (!given(other)) continue;
         report(other, "a start beside that from an earlier run", "initial.from alone",
                {"initial.from"});

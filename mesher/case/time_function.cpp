@@ -8,16 +8,39 @@ namespace {
 
 constexpr auto by_value = [](const auto& knot) { return knot.second; };
 
-}  // namespace
+double between(double before, double after, double share) {
+  return std::lerp(before, after, share);
+}
 
-double TimeFunction::value(double time) const {
+VectorFunction::Components between(const VectorFunction::Components& before,
+                                   const VectorFunction::Components& after, double share) {
+  VectorFunction::Components result{};
+  for (std::size_t d = 0; d < result.size(); ++d) result[d] = std::lerp(before[d], after[d], share);
+  return result;
+}
+
+template <class Value>
+Value interpolated(const std::vector<std::pair<double, Value>>& knots, double time) {
   const auto after =
       std::ranges::upper_bound(knots, time, {}, [](const auto& knot) { return knot.first; });
   if (after == knots.begin()) return knots.front().second;
   if (after == knots.end()) return knots.back().second;
   const auto before = after - 1;
-  return std::lerp(before->second, after->second,
-                   (time - before->first) / (after->first - before->first));
+  return between(before->second, after->second,
+                 (time - before->first) / (after->first - before->first));
+}
+
+template <class Value>
+std::vector<double> times_of(const std::vector<std::pair<double, Value>>& knots) {
+  std::vector<double> times;
+  for (const auto& [time, value] : knots) times.push_back(time);
+  return times;
+}
+
+}  // namespace
+
+double TimeFunction::value(double time) const {
+  return interpolated(knots, time);
 }
 
 bool TimeFunction::is_constant() const {
@@ -43,9 +66,15 @@ std::pair<double, double> TimeFunction::range(double begin, double end) const {
 }
 
 std::vector<double> TimeFunction::breakpoints() const {
-  std::vector<double> times;
-  for (const auto& [time, value] : knots) times.push_back(time);
-  return times;
+  return times_of(knots);
+}
+
+VectorFunction::Components VectorFunction::value(double time) const {
+  return interpolated(knots, time);
+}
+
+std::vector<double> VectorFunction::breakpoints() const {
+  return times_of(knots);
 }
 
 }  // namespace suffuse

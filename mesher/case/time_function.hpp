@@ -2,6 +2,7 @@
 
 /// A value that may change in time, as a boundary condition of the scene gives it.
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,18 @@ struct TimeFunction {
   friend bool operator==(const TimeFunction&, const TimeFunction&) = default;
 
   std::vector<std::pair<double, double>> knots;  ///< (s, value), times strictly ascending
+};
+
+/// A vector that may change in time, in the same way.
+struct VectorFunction {
+  using Components = std::array<double, 3>;
+
+  [[nodiscard]] Components value(double time) const;
+  [[nodiscard]] std::vector<double> breakpoints() const;
+
+  friend bool operator==(const VectorFunction&, const VectorFunction&) = default;
+
+  std::vector<std::pair<double, Components>> knots;  ///< (s, value), times strictly ascending
 };
 
 }  // namespace suffuse

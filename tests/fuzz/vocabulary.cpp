@@ -30,6 +30,7 @@ std::vector<std::string> values_of(const SceneKey& key) {
   if (key.default_value) values.push_back(shown_value(*key.default_value));
   switch (key.kind) {
     case ValueKind::number:
+    case ValueKind::number_or_word:
       values.insert(values.end(), {"0.3", "0.999999", "1e-3", "1e-12", "1e-300", "5e-324", "1e3",
                                    "1e12", "1e300", "inf", "-inf", "10.0"});
       break;
@@ -44,6 +45,10 @@ std::vector<std::string> values_of(const SceneKey& key) {
     case ValueKind::vector:
       values.insert(values.end(), {"[0,-9.81]", "[1e300,1e300]", "[0.1,0]", "[0,0,1]", "[]",
                                    "[nan,0]", "[1e-300,-1e-300]"});
+      break;
+    case ValueKind::vector_function:
+      values.insert(values.end(), {"[0,-1e4]", "[0,0,1]", "[[0,0,0],[1,0,-1e4]]", "[[0,0,0,0]]",
+                                   "[[0,0,0],[1,0]]", "[[1,0,0],[1,0,0]]", "[[]]", "[nan,0]"});
       break;
     case ValueKind::function:
       values.insert(values.end(),
