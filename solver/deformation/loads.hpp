@@ -22,8 +22,9 @@ template <int Dim>
 class LoadedSurface {
  public:
   LoadedSurface() = default;
-  /// \param faces  of the grid, on its border; soil lies in their elements
-  LoadedSurface(const Grid<Dim>& grid, const std::vector<int>& faces);
+  /// \param faces  of the grid, at its border or between an element with soil and one without
+  LoadedSurface(const Grid<Dim>& grid, const PointsByElement& sorted,
+                const std::vector<int>& faces);
 
   /// Adds a traction, Pa, on the area that the surface had at the start: a dead load. Where no soil
   /// is left in the element of a place, the nearest element with soil below takes the load, as if
