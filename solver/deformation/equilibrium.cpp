@@ -65,8 +65,8 @@ auto Equilibrium<Dim>::displacement_gradient(const NodeVectors<Dim>& displacemen
     -> Gradient {
   Gradient gradient = Gradient::Zero();
   for (int a = 0; a <= Dim; ++a) {
-    gradient += displacement[body_.grid.mesh.elements[e][a]] *
-                body_.grid.shape_gradient[e][a].transpose();
+    gradient +=
+        displacement[body_.grid.mesh.elements[e][a]] * body_.grid.shape_gradient[e][a].transpose();
   }
   return gradient;
 }
@@ -124,8 +124,8 @@ void Equilibrium<Dim>::add_pressure(int e, bool with_tangents) {
   if (!with_tangents) return;
   for (int k = 0; k < Dim; ++k) {
     for (int l = 0; l < Dim; ++l) {
-      const Gradient change =
-          inverse.transpose() * inverse(l, k) - inverse.row(l).transpose() * inverse.col(k).transpose();
+      const Gradient change = inverse.transpose() * inverse(l, k) -
+                              inverse.row(l).transpose() * inverse.col(k).transpose();
       tangent_[e].col(k + Dim * l) += factor * change.reshaped();
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Forces of the solid on the nodes and their tangent, as functions of the displacement over a step.
+/// Forces of the solid on the nodes and their tangent, as functions of the displacement over a
+/// step.
 
 #include <Eigen/SparseCore>
 #include <array>
@@ -68,8 +69,8 @@ class Equilibrium {
   void assemble(Eigen::SparseMatrix<double>& tangent) const;
   /// The derivative times a displacement, N.
   [[nodiscard]] NodeVectors<Dim> tangent_times(const NodeVectors<Dim>& displacement) const;
-  /// The stiffness of a body without stress that has the elastic numbers of this one: symmetric and,
-  /// where the soil is held, positive definite, so that its factor serves as a preconditioner.
+  /// The stiffness of a body without stress that has the elastic numbers of this one: symmetric
+  /// and, where the soil is held, positive definite, so that its factor serves as a preconditioner.
   void assemble_elastic(Eigen::SparseMatrix<double>& stiffness) const;
   /// A matrix of the unknowns with places for both; its values are zero.
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
@@ -102,8 +103,8 @@ class Equilibrium {
   std::vector<int> elements_;  ///< those with points
   DisplacementUnknowns<Dim> unknowns_;
   std::vector<double> pressure_;
-  double least_force_ = 0.0;      ///< of `force_scale`, N
-  std::vector<double> soft_;      ///< per element: stiffness against grad du, Pa m3
+  double least_force_ = 0.0;       ///< of `force_scale`, N
+  std::vector<double> soft_;       ///< per element: stiffness against grad du, Pa m3
   std::vector<Gradient> inverse_;  ///< F^-1 per element
   std::vector<double> ratio_;      ///< det F per element
   std::vector<Gradient> stress_;   ///< V_e P per element, Pa m3

@@ -89,8 +89,7 @@ PointPlace<Dim> LoadedSurface<Dim>::carrier(const Grid<Dim>& grid, const PointsB
 
 template <int Dim>
 void LoadedSurface<Dim>::add_traction(const Grid<Dim>& grid, const PointsByElement& sorted,
-                                      const Vector<Dim>& traction,
-                                      NodeVectors<Dim>& loads) const {
+                                      const Vector<Dim>& traction, NodeVectors<Dim>& loads) const {
   for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
     add_force<Dim>(grid, carrier(grid, sorted, i), area_[i] * traction, loads);
   }
@@ -127,10 +126,10 @@ void LoadedSurface<Dim>::move(const Grid<Dim>& grid, const PointsByElement& sort
   }
 }
 
-template void add_point_forces(const Grid<2>&, const SolidPoints<2>&,
-                               const std::vector<Vector<2>>&, NodeVectors<2>&);
-template void add_point_forces(const Grid<3>&, const SolidPoints<3>&,
-                               const std::vector<Vector<3>>&, NodeVectors<3>&);
+template void add_point_forces(const Grid<2>&, const SolidPoints<2>&, const std::vector<Vector<2>>&,
+                               NodeVectors<2>&);
+template void add_point_forces(const Grid<3>&, const SolidPoints<3>&, const std::vector<Vector<3>>&,
+                               NodeVectors<3>&);
 template class LoadedSurface<2>;
 template class LoadedSurface<3>;
 

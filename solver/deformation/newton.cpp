@@ -25,7 +25,15 @@ class NewtonIterations {
   NewtonIterations(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads)
       : equilibrium_(equilibrium), loads_(loads) {
     equilibrium.assemble_elastic(matrix_);
-    if (unknowns().count() > 0) system_.factorise(matrix_);
+    if (unknowns().count() == 0) return;
+    try {
+      system_.factorise(matrix_);
+    } catch (const NumericalError&) {
+      throw NumericalError(
+          "the displacements could not be solved for: nothing holds the soil, or a piece of it; "
+          "fix "
+          "a boundary that it lies on");
+    }
   }
 
   NewtonSolution<Dim> solve(const NodeVectors<Dim>& prescribed, const NewtonLimits& limits) {
@@ -63,13 +71,18 @@ class NewtonIterations {
     result.residuals.push_back(relative(unbalanced_.norm()));
   }
 
-  /// Newton's step for these forces.
-  Eigen::VectorXd step_for(const Eigen::VectorXd& force) {
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(force.size());
-    if (force.size() == 0) return step;
+  /// Newton's step for these forces; false where the tangent is singular: what the soil can carry
+  /// has been reached.
+  bool find_step(const Eigen::VectorXd& force, Eigen::VectorXd& step) {
+    step = Eigen::VectorXd::Zero(force.size());
+    if (force.size() == 0) return true;
     equilibrium_.assemble(matrix_);
-    system_.solve(matrix_, force, step);
-    return step;
+    try {
+      system_.solve(matrix_, force, step);
+    } catch (const NumericalError&) {
+      return false;
+    }
+    return true;
   }
 
   /// Goes where the linear model at the start has the nodes that are held, and the others with
@@ -80,7 +93,9 @@ class NewtonIterations {
     unknowns().add(unknowns().components(prescribed), -1.0, displacement);
     const Eigen::VectorXd force =
         unbalanced() - unknowns().components(equilibrium_.tangent_times(displacement));
-    unknowns().add(step_for(force), 1.0, displacement);
+    Eigen::VectorXd step;
+    if (!find_step(force, step)) return false;
+    unknowns().add(step, 1.0, displacement);
     if (!equilibrium_.is_possible(displacement)) return false;
     equilibrium_.displace(displacement, true);
     return true;
@@ -88,7 +103,8 @@ class NewtonIterations {
 
   /// One iteration. Returns false where no part of the step makes the residual smaller.
   bool improve(NodeVectors<Dim>& displacement) {
-    const Eigen::VectorXd step = step_for(unbalanced_);
+    Eigen::VectorXd step;
+    if (!find_step(unbalanced_, step)) return false;
     const double before = unbalanced_.norm();
     double share = 1.0;
     for (int halving = 0; halving <= max_halvings; ++halving, share *= 0.5) {

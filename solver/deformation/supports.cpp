@@ -24,8 +24,8 @@ void add_normal(std::vector<Vector<Dim>>& normals, const Vector<Dim>& normal) {
 /// The direction of what a vector has across `count` orthonormal ones; zero where that is little.
 /// Of the axes, which it serves to choose, enough have much across any directions.
 template <int Dim>
-Vector<Dim> direction_across(const Eigen::Matrix<double, Dim, Dim>& directions, int from,
-                              int count, Vector<Dim> v) {
+Vector<Dim> direction_across(const Eigen::Matrix<double, Dim, Dim>& directions, int from, int count,
+                             Vector<Dim> v) {
   const double length = v.norm();
   for (int k = from; k < from + count; ++k) v -= directions.col(k).dot(v) * directions.col(k);
   if (v.norm() < 0.1 * length) return Vector<Dim>::Zero();

@@ -49,10 +49,9 @@ inline std::vector<QuadraturePoint<2>> places_in_triangle(int count) {
 /// Soil in the elements whose centroid `holds` names, and what a step does to it.
 class SolidModel {
  public:
-  SolidModel(Mesh<2> mesh_in, int points_per_element, const SkeletonModel& soil,
-             const std::function<bool(const Vector<2>&)>& holds = [](const Vector<2>&) {
-               return true;
-             })
+  SolidModel(
+      Mesh<2> mesh_in, int points_per_element, const SkeletonModel& soil,
+      const std::function<bool(const Vector<2>&)>& holds = [](const Vector<2>&) { return true; })
       : mesh(std::move(mesh_in)), grid(mesh), face_support(grid.face_count(), Support::none) {
     std::vector<PointPlace<2>> places;
     std::vector<double> volume;
@@ -68,6 +67,9 @@ class SolidModel {
     skeleton.assign(points.size(), {soil.law, soil.at(1.0)});
     sort();
   }
+
+  SolidModel(const SolidModel&) = delete;  // the grid refers to the mesh
+  SolidModel& operator=(const SolidModel&) = delete;
 
   /// Holds the soil at a boundary of the mesh.
   void support(const std::string& boundary, Support how) {
@@ -127,9 +129,8 @@ class SolidModel {
 
   /// sigma of a point, Pa.
   [[nodiscard]] Eigen::Matrix3d stress(int p) const {
-    const auto response =
-        skeleton_response<2>(*skeleton[p].law, skeleton[p].parameters, points.elastic_b[p],
-                             Eigen::Matrix2d::Identity());
+    const auto response = skeleton_response<2>(*skeleton[p].law, skeleton[p].parameters,
+                                               points.elastic_b[p], Eigen::Matrix2d::Identity());
     return response.stress * points.reference_volume[p] / points.volume[p];
   }
   [[nodiscard]] double soil_volume() const {
