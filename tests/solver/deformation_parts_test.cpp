@@ -13,7 +13,7 @@
 namespace suffuse {
 namespace {
 
-using model::SolidModel;
+using model::PlaneModel;
 
 TEST(SolidPoints, OfAnElementAscendWhateverTheirOrderWas) {
   const PointsByElement sorted(4, {2, 0, 2, 3, 0, 2});
@@ -29,7 +29,7 @@ TEST(SolidPoints, OfAnElementAscendWhateverTheirOrderWas) {
 
 TEST(ElementClasses, FullWhereAllAroundHoldPoints) {
   // Four rows of cells, soil in the lower three: the third row touches the empty one.
-  const SolidModel m(model::column_mesh(3, 4), 3, model::elastic_soil(1e6, 0.3),
+  const PlaneModel m(model::column_mesh(3, 4), 3, model::elastic_soil(1e6, 0.3),
                      [](const Vector<2>& x) { return x[1] < 0.75; });
   for (int e = 0; e < m.mesh.element_count(); ++e) {
     const double y = element_centroid(m.mesh, e)[1];
@@ -42,7 +42,7 @@ TEST(ElementClasses, FullWhereAllAroundHoldPoints) {
 }
 
 TEST(ElementClasses, AreFullToTheEndOfTheMeshAndFillFullElements) {
-  SolidModel m(model::column_mesh(3, 3), 4, model::elastic_soil(1e6, 0.3));
+  PlaneModel m(model::column_mesh(3, 3), 4, model::elastic_soil(1e6, 0.3));
   for (double& v : m.points.volume) v *= 0.7;
   m.sort();
   for (int e = 0; e < m.mesh.element_count(); ++e) {
@@ -286,7 +286,7 @@ TEST(Equilibrium, ElasticStiffnessIsTheTangentWithoutStress) {
 /// The patch test: an affine displacement of the border, at large strain and turned, is that of
 /// all nodes, and every point has its stress.
 TEST(Equilibrium, AffineDisplacementOfTheBorderGoesThroughAnIrregularMesh) {
-  SolidModel m(model::column_mesh(6, 6, 1.0, 1.0, model::jittered(0.05, 5)), 3,
+  PlaneModel m(model::column_mesh(6, 6, 1.0, 1.0, model::jittered(0.05, 5)), 3,
                model::elastic_soil(1e6, 0.3));
   Eigen::Matrix2d f;
   f << 0.7, 0.15, -0.1, 0.7;
@@ -316,7 +316,7 @@ TEST(Equilibrium, AffineDisplacementOfTheBorderGoesThroughAnIrregularMesh) {
 }
 
 TEST(Equilibrium, SoilThatNothingHoldsIsRefused) {
-  SolidModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
+  PlaneModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
   try {
     const NewtonSolution<2> solution = m.step(m.weight(1e3));
     FAIL() << "converged: " << solution.converged;
@@ -328,7 +328,7 @@ TEST(Equilibrium, SoilThatNothingHoldsIsRefused) {
 }
 
 TEST(PointMotion, RefusesAPointThatLeavesTheMeshAndKeepsTheOthers) {
-  SolidModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
+  PlaneModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
   const std::vector<Vector<2>> before = m.points.position;
   NodeVectors<2> displacement(m.mesh.node_count(), Vector<2>(0.0, 0.3));
   try {
@@ -404,7 +404,7 @@ class Course {
     return faces;
   }
 
-  SolidModel m_;
+  PlaneModel m_;
 };
 
 TEST(SolidStep, HasTheSameBitsOnAnyNumberOfThreads) {

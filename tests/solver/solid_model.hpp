@@ -10,6 +10,7 @@
 #include "deformation/loads.hpp"
 #include "deformation/newton.hpp"
 #include "deformation/point_motion.hpp"
+#include "grid/element_field.hpp"
 #include "seeding.hpp"
 #include "solver/model_case.hpp"
 
@@ -46,23 +47,37 @@ inline std::vector<QuadraturePoint<2>> places_in_triangle(int count) {
   return places;
 }
 
+/// The four Gauss points of a tetrahedron.
+inline std::vector<QuadraturePoint<3>> places_in_tetrahedron() {
+  std::vector<QuadraturePoint<3>> places(4);
+  for (int k = 0; k < 4; ++k) {
+    places[k].weight = 0.25;
+    places[k].barycentric.fill(FieldNodes<3>::far_vertex);
+    places[k].barycentric[k] = FieldNodes<3>::near_vertex;
+  }
+  return places;
+}
+
 /// Soil in the elements whose centroid `holds` names, and what a step does to it.
+template <int Dim>
 class SolidModel {
  public:
   SolidModel(
-      Mesh<2> mesh_in, int points_per_element, const SkeletonModel& soil,
-      const std::function<bool(const Vector<2>&)>& holds = [](const Vector<2>&) { return true; })
+      Mesh<Dim> mesh_in, const std::vector<QuadraturePoint<Dim>>& places_in_element,
+      const SkeletonModel& soil,
+      const std::function<bool(const Vector<Dim>&)>& holds =
+          [](const Vector<Dim>&) { return true; })
       : mesh(std::move(mesh_in)), grid(mesh), face_support(grid.face_count(), Support::none) {
-    std::vector<PointPlace<2>> places;
+    std::vector<PointPlace<Dim>> places;
     std::vector<double> volume;
     for (int e = 0; e < mesh.element_count(); ++e) {
       if (!holds(element_centroid(mesh, e))) continue;
-      for (const QuadraturePoint<2>& at : places_in_triangle(points_per_element)) {
+      for (const QuadraturePoint<Dim>& at : places_in_element) {
         places.push_back({e, at.barycentric});
         volume.push_back(at.weight * grid.volume[e]);
       }
     }
-    points = SolidPoints<2>(mesh, places, volume);
+    points = SolidPoints<Dim>(mesh, places, volume);
     start = points.position;
     skeleton.assign(points.size(), {soil.law, soil.at(1.0)});
     sort();
@@ -77,44 +92,35 @@ class SolidModel {
   }
   [[nodiscard]] std::vector<int> faces_of(const std::string& boundary) const {
     std::vector<int> faces;
-    for (const BoundarySet<2>& set : mesh.boundaries) {
+    for (const BoundarySet<Dim>& set : mesh.boundaries) {
       if (set.name != boundary) continue;
       for (const auto& nodes : set.faces) faces.push_back(grid.find_face(nodes));
     }
     if (faces.empty()) throw std::invalid_argument("no boundary " + boundary);
     return faces;
   }
-  /// Faces between soil and elements without soil, or at the border, whose centre lies at y.
-  [[nodiscard]] std::vector<int> faces_at_height(double y) const {
-    std::vector<int> faces;
-    for (int f = 0; f < grid.face_count(); ++f) {
-      const bool level = std::abs(grid.face_normal[f][0]) < 1e-9 * grid.face_normal[f].norm();
-      if (level && std::abs(grid.face_centre(f)[1] - y) < 1e-9) faces.push_back(f);
-    }
-    return faces;
+  [[nodiscard]] NodeVectors<Dim> no_loads() const {
+    return NodeVectors<Dim>(mesh.node_count(), Vector<Dim>::Zero());
   }
-
-  [[nodiscard]] NodeVectors<2> no_loads() const {
-    return NodeVectors<2>(mesh.node_count(), Vector<2>::Zero());
-  }
-  /// Weight of `weight`, N per m3 of what the points held at the start.
-  [[nodiscard]] NodeVectors<2> weight(double weight) const {
-    std::vector<Vector<2>> force;
-    for (const double v : points.reference_volume) force.emplace_back(0.0, -weight * v);
-    NodeVectors<2> loads = no_loads();
+  /// Weight, N per m3 of the soil's volume at the start, along the last axis.
+  [[nodiscard]] NodeVectors<Dim> weight(double weight) const {
+    std::vector<Vector<Dim>> force;
+    for (const double v : points.reference_volume)
+      force.emplace_back(-weight * v * Vector<Dim>::Unit(Dim - 1));
+    NodeVectors<Dim> loads = no_loads();
     add_point_forces(grid, points, force, loads);
     return loads;
   }
 
-  [[nodiscard]] SolidBody<2> body() const { return {grid, points, sorted, skeleton, *classes}; }
+  [[nodiscard]] SolidBody<Dim> body() const { return {grid, points, sorted, skeleton, *classes}; }
 
   /// A step under these loads at its end; the points move where it converges.
-  NewtonSolution<2> step(const NodeVectors<2>& loads, const NodeVectors<2>& prescribed = {},
-                         const std::vector<int>& held = {}) {
-    Supports<2> supports(grid, face_support);
+  NewtonSolution<Dim> step(const NodeVectors<Dim>& loads, const NodeVectors<Dim>& prescribed = {},
+                           const std::vector<int>& held = {}) {
+    Supports<Dim> supports(grid, face_support);
     for (const int i : held) supports.hold(i);
-    Equilibrium<2> equilibrium(body(), supports, threads);
-    NewtonSolution<2> solution = solve_equilibrium(equilibrium, loads, prescribed, limits);
+    Equilibrium<Dim> equilibrium(body(), supports, threads);
+    NewtonSolution<Dim> solution = solve_equilibrium(equilibrium, loads, prescribed, limits);
     if (!solution.converged) return solution;
     surface.move(grid, sorted, solution.displacement);
     move_points(grid, skeleton, solution.displacement, points, threads);
@@ -129,8 +135,9 @@ class SolidModel {
 
   /// sigma of a point, Pa.
   [[nodiscard]] Eigen::Matrix3d stress(int p) const {
-    const auto response = skeleton_response<2>(*skeleton[p].law, skeleton[p].parameters,
-                                               points.elastic_b[p], Eigen::Matrix2d::Identity());
+    const auto response =
+        skeleton_response<Dim>(*skeleton[p].law, skeleton[p].parameters, points.elastic_b[p],
+                               Eigen::Matrix<double, Dim, Dim>::Identity());
     return response.stress * points.reference_volume[p] / points.volume[p];
   }
   [[nodiscard]] double soil_volume() const {
@@ -139,17 +146,25 @@ class SolidModel {
     return sum;
   }
 
-  Mesh<2> mesh;
-  Grid<2> grid;
+  Mesh<Dim> mesh;
+  Grid<Dim> grid;
   std::vector<Support> face_support;
-  SolidPoints<2> points;
-  std::vector<Vector<2>> start;  ///< places of the points at the start
+  SolidPoints<Dim> points;
+  std::vector<Vector<Dim>> start;  ///< places of the points at the start
   std::vector<PointSkeleton> skeleton;
   PointsByElement sorted;
   std::unique_ptr<ElementClasses> classes;
-  LoadedSurface<2> surface;
+  LoadedSurface<Dim> surface;
   NewtonLimits limits;
   int threads = 1;
+};
+
+/// Triangles with points as `places_in_triangle` has them.
+struct PlaneModel : SolidModel<2> {
+  PlaneModel(
+      Mesh<2> mesh_in, int points_per_element, const SkeletonModel& soil,
+      const std::function<bool(const Vector<2>&)>& holds = [](const Vector<2>&) { return true; })
+      : SolidModel<2>(std::move(mesh_in), places_in_triangle(points_per_element), soil, holds) {}
 };
 
 inline SkeletonModel elastic_soil(double young, double poisson) {

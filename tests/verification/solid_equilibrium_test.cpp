@@ -16,7 +16,7 @@
 namespace suffuse {
 namespace {
 
-using model::SolidModel;
+using model::PlaneModel;
 
 enum class MeshKind { regular, crossed, irregular };
 
@@ -48,7 +48,7 @@ Mesh<2> column_of_cells(MeshKind kind, int columns, int soil_rows, int rows, dou
   return mesh;
 }
 
-void stand_between_smooth_walls(SolidModel& m) {
+void stand_between_smooth_walls(PlaneModel& m) {
   for (const char* side : {"bottom", "left", "right"}) m.support(side, Support::normal);
 }
 
@@ -74,7 +74,7 @@ ColumnResult column_under_weight(const ReferenceRow& exact, const ColumnCase& c)
   const double gamma = exact.number("gamma");
   const double h = length / c.rows;
   const int columns = c.mesh == MeshKind::irregular ? 4 : 1;
-  SolidModel m(column_of_cells(c.mesh, columns, c.rows, c.rows + 2, h), c.points,
+  PlaneModel m(column_of_cells(c.mesh, columns, c.rows, c.rows + 2, h), c.points,
                model::elastic_soil(exact.number("E_oed"), 0.0),
                [&](const Vector<2>& x) { return x[1] < length; });
   stand_between_smooth_walls(m);
@@ -154,6 +154,32 @@ TEST(ColumnUnderItsWeight, WithOtherNumbersOfPoints) {
   EXPECT_LE(std::abs(column_under_weight(rows[1], {.points = 1, .steps = 40}).length_error), 5e-3);
 }
 
+TEST(ColumnUnderItsWeight, HasItsLengthInThreeDimensions) {
+  // Points go from tetrahedron to tetrahedron.
+  const ReferenceRow exact = read_reference("self-weight-column.csv")[1];
+  const double length = exact.number("l0");
+  const int rows = 32;
+  const double h = length / rows;
+  const Vector<3> size(2.0 * h, 2.0 * h, length + 2.0 * h);
+  model::SolidModel<3> m(model::box_mesh({2, 2, rows + 2}, size), model::places_in_tetrahedron(),
+                         model::elastic_soil(exact.number("E_oed"), 0.0),
+                         [&](const Vector<3>& x) { return x[2] < length; });
+  for (const char* side : {"bottom", "left", "right", "front", "back"}) {
+    m.support(side, Support::normal);
+  }
+  const double volume = m.soil_volume();
+  double iterations = 0.0;
+  for (int step = 1; step <= 40; ++step) {
+    const auto solution = m.step(m.weight(exact.number("gamma") * step / 40));
+    ASSERT_TRUE(solution.converged);
+    iterations += solution.iterations() / 40.0;
+  }
+  const double error = m.soil_volume() / volume * length / exact.number("length") - 1.0;
+  std::cout << "three dimensions, 4 points, 32 rows: length " << 100.0 * error << " %, iterations "
+            << iterations << "\n";
+  EXPECT_LE(std::abs(error), 2e-3);
+}
+
 // ------------------------------------------------------------------------------- the oedometer
 
 /// 2 W(1/2), the height of soil without lateral strain (nu 0) under a load of half its modulus,
@@ -169,9 +195,9 @@ TEST(Oedometer, HasTheValueOfTheTable) {
 }
 
 /// Soil that fills its mesh, [0, 2/rows] x [0, 1], loaded on its top.
-struct OedometerModel : SolidModel {
+struct OedometerModel : PlaneModel {
   OedometerModel(MeshKind kind, int rows, int points_per_element)
-      : SolidModel(column_of_cells(kind, 2, rows, rows, 1.0 / rows), points_per_element,
+      : PlaneModel(column_of_cells(kind, 2, rows, rows, 1.0 / rows), points_per_element,
                    model::elastic_soil(1e6, 0.0)) {
     stand_between_smooth_walls(*this);
     surface = LoadedSurface<2>(grid, sorted, faces_of("top"));
@@ -231,37 +257,18 @@ TEST(Oedometer, KeepsItsHeightWhileTheSurfaceSinksThroughElements) {
 }
 
 TEST(Oedometer, IsExactInThreeDimensions) {
-  const Mesh<3> mesh = model::box_mesh({2, 2, 3}, Vector<3>::Ones(), model::disturbed(0.05));
-  const Grid<3> grid(mesh);
-  const MaterialPoints<3> seeded = model::gauss_points(mesh, 4);
-  std::vector<PointPlace<3>> places;
-  for (int p = 0; p < seeded.size(); ++p) {
-    places.push_back({seeded.element[p], seeded.barycentric[p]});
+  model::SolidModel<3> m(model::box_mesh({2, 2, 3}, Vector<3>::Ones(), model::disturbed(0.05)),
+                         model::places_in_tetrahedron(), model::elastic_soil(1e6, 0.0));
+  for (const char* side : {"bottom", "left", "right", "front", "back"}) {
+    m.support(side, Support::normal);
   }
-  SolidPoints<3> points(mesh, places, seeded.volume);
-  const SkeletonModel soil = model::elastic_soil(1e6, 0.0);
-  const std::vector<PointSkeleton> skeleton(points.size(), {soil.law, soil.at(1.0)});
-  const PointsByElement sorted(mesh.element_count(), points.element);
-  const ElementClasses classes(grid, points, sorted);
-  std::vector<Support> on(grid.face_count(), Support::none);
-  std::vector<int> top;
-  for (const BoundarySet<3>& set : mesh.boundaries) {
-    for (const auto& nodes : set.faces) {
-      const int f = grid.find_face(nodes);
-      set.name == "top" ? top.push_back(f) : void(on[f] = Support::normal);
-    }
-  }
-  const Supports<3> supports(grid, on);
-  LoadedSurface<3> surface(grid, sorted, top);
-  NodeVectors<3> loads(mesh.node_count(), Vector<3>::Zero());
-  surface.add_traction(grid, sorted, Vector<3>(0.0, 0.0, -5e5), loads);
-  Equilibrium<3> equilibrium({grid, points, sorted, skeleton, classes}, supports, 1);
-  const NewtonSolution<3> solution = solve_equilibrium(equilibrium, loads, {});
-  ASSERT_TRUE(solution.converged);
-  move_points(grid, skeleton, solution.displacement, points, 1);
-  for (int p = 0; p < points.size(); ++p) {
-    EXPECT_NEAR(points.volume[p] / points.reference_volume[p], oedometer_stretch(), 1e-8);
-    EXPECT_EQ(element_at(grid, 0, points.position[p]), points.element[p]);
+  m.surface = LoadedSurface<3>(m.grid, m.sorted, m.faces_of("top"));
+  NodeVectors<3> loads = m.no_loads();
+  m.surface.add_pressure(m.grid, m.sorted, 5e5, loads);
+  ASSERT_TRUE(m.step(loads).converged);
+  for (int p = 0; p < m.points.size(); ++p) {
+    EXPECT_NEAR(m.points.volume[p] / m.points.reference_volume[p], oedometer_stretch(), 1e-8);
+    EXPECT_NEAR(m.points.position[p][2], oedometer_stretch() * m.start[p][2], 1e-8);
   }
 }
 
@@ -282,7 +289,7 @@ struct RigidMotion {
 TEST(CarriedBlock, HasNoStressAndItsVolumeAfterManyTurns) {
   const int cells = 20;
   for (const MeshKind kind : {MeshKind::regular, MeshKind::crossed, MeshKind::irregular}) {
-    SolidModel m(column_of_cells(kind, cells, cells, cells, 1.0 / cells), 4,
+    PlaneModel m(column_of_cells(kind, cells, cells, cells, 1.0 / cells), 4,
                  model::elastic_soil(1e6, 0.3), [](const Vector<2>& x) {
                    return std::abs(x[0] - 0.5) < 0.15 && std::abs(x[1] - 0.4) < 0.15;
                  });
@@ -316,7 +323,7 @@ TEST(CarriedBlock, HasNoStressAndItsVolumeAfterManyTurns) {
 /// many steps; the worst is bounded here.
 double stress_of_turned_block(int steps) {
   const int cells = 12;
-  SolidModel m(model::crossed_mesh(cells, cells, 1.0, 1.0), 4, model::elastic_soil(1e6, 0.3),
+  PlaneModel m(model::crossed_mesh(cells, cells, 1.0, 1.0), 4, model::elastic_soil(1e6, 0.3),
                [](const Vector<2>& x) {
                  return std::abs(x[0] - 0.5) < 0.25 && std::abs(x[1] - 0.5) < 0.25;
                });
@@ -361,7 +368,7 @@ TEST(CarriedBlock, TurnsAboutANodeByWhichItHangsAsFarAsTheSoftStiffnessLetsIt) {
   // moment is weight V a/2; turned by theta, |grad du|^2 = 2 theta^2.
   const double weight = 1e3;
   const double young = 1e6;
-  SolidModel m(model::column_mesh(4, 4), 4, model::elastic_soil(young, 0.3),
+  PlaneModel m(model::column_mesh(4, 4), 4, model::elastic_soil(young, 0.3),
                [](const Vector<2>& x) {
                  return (x[0] < 0.5 && x[1] < 0.5) ||
                         (x[0] > 0.5 && x[0] < 0.75 && x[1] > 0.5 && x[1] < 0.75);
@@ -381,7 +388,7 @@ TEST(CarriedBlock, TurnsAboutANodeByWhichItHangsAsFarAsTheSoftStiffnessLetsIt) {
 
 TEST(Newton, ConvergesQuadratically) {
   // A column that bulges to the right.
-  SolidModel m(column_of_cells(MeshKind::irregular, 8, 16, 18, 1.0 / 16), 4,
+  PlaneModel m(column_of_cells(MeshKind::irregular, 8, 16, 18, 1.0 / 16), 4,
                model::elastic_soil(1e5, 0.3),
                [](const Vector<2>& x) { return x[1] < 1.0 && x[0] < 0.25; });
   m.support("bottom", Support::both);
