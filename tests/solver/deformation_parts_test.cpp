@@ -361,6 +361,86 @@ TEST(PointMotion, FindsElementsAcrossAMeshAndAroundCorners) {
   }
 }
 
+/// Soil below y = 0.5, loaded on top.
+struct LoadedHalf : PlaneModel {
+  LoadedHalf()
+      : PlaneModel(model::column_mesh(4, 4), 3, model::elastic_soil(1e6, 0.3),
+                   [](const Vector<2>& x) { return x[1] < 0.5; }) {
+    std::vector<int> top;
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (std::abs(grid.face_centre(f)[1] - 0.5) < 1e-9 && grid.face_normal[f][0] == 0.0) {
+        top.push_back(f);
+      }
+    }
+    surface = LoadedSurface<2>(grid, sorted, top);
+  }
+  /// Moves the surface, and not the soil.
+  void displace_surface(const Eigen::Matrix2d& gradient, const Vector<2>& shift) {
+    NodeVectors<2> displacement;
+    for (const Vector<2>& x : mesh.nodes) displacement.emplace_back(gradient * x + shift);
+    surface.move(grid, sorted, displacement);
+  }
+  static Vector<2> sum(const NodeVectors<2>& loads) {
+    Vector<2> all = Vector<2>::Zero();
+    for (const Vector<2>& f : loads) all += f;
+    return all;
+  }
+};
+
+TEST(LoadedSurface, LoadsTheSoilBelowWithTheSameForceAndMoment) {
+  LoadedHalf m;
+  m.displace_surface(Eigen::Matrix2d::Zero(), Vector<2>(0.0, 0.2));  // in the next cell
+  NodeVectors<2> loads = m.no_loads();
+  m.surface.add_traction(m.grid, m.sorted, Vector<2>(3.0, -8.0), loads);
+  EXPECT_NEAR((LoadedHalf::sum(loads) - Vector<2>(3.0, -8.0)).norm(), 0.0, 1e-13);
+  double moment = 0.0;
+  for (int i = 0; i < m.mesh.node_count(); ++i) {
+    moment += m.mesh.nodes[i][0] * loads[i][1] - m.mesh.nodes[i][1] * loads[i][0];
+    if (m.mesh.nodes[i][1] > 0.6) {
+      EXPECT_EQ(loads[i].norm(), 0.0);
+    }
+  }
+  EXPECT_NEAR(moment, 0.5 * -8.0 - 0.7 * 3.0, 1e-13);
+}
+
+TEST(LoadedSurface, PressureFollowsItsAreaAndNormalAndATractionDoesNot) {
+  LoadedHalf m;
+  Eigen::Matrix2d f;
+  f << 0.8, 0.1, -0.2, 0.9;
+  m.displace_surface(f - Eigen::Matrix2d::Identity(), Vector<2>(0.05, 0.1));
+  NodeVectors<2> pressed = m.no_loads();
+  m.surface.add_pressure(m.grid, m.sorted, 5.0, pressed);
+  // From (0, 0.5) to (1, 0.5) before; the normal looks to the left of this way.
+  const Vector<2> along = f * Vector<2>(1.0, 0.0);
+  EXPECT_NEAR((LoadedHalf::sum(pressed) + 5.0 * Vector<2>(-along[1], along[0])).norm(), 0.0, 1e-13);
+  NodeVectors<2> pulled = m.no_loads();
+  m.surface.add_traction(m.grid, m.sorted, Vector<2>(3.0, -8.0), pulled);
+  EXPECT_NEAR((LoadedHalf::sum(pulled) - Vector<2>(3.0, -8.0)).norm(), 0.0, 1e-13);
+}
+
+TEST(LoadedSurface, RefusesToLeaveTheMeshOrItsSoil) {
+  const auto message_of = [](const auto& action) {
+    try {
+      action();
+    } catch (const NumericalError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  LoadedHalf m;
+  EXPECT_EQ(message_of([&] { m.displace_surface(Eigen::Matrix2d::Zero(), Vector<2>(0.0, 0.6)); }),
+            "the loaded surface moves to (0.0528312       1.1), which is outside the mesh; make "
+            "the mesh larger");
+  LoadedHalf empty;
+  empty.sorted = PointsByElement(empty.mesh.element_count(), {});
+  NodeVectors<2> loads = empty.no_loads();
+  EXPECT_EQ(message_of([&] {
+              empty.surface.add_traction(empty.grid, empty.sorted, Vector<2>(0.0, 1.0), loads);
+            }),
+            "the loaded surface at (0.0528312       0.5) has lost its soil: there is none within 4 "
+            "elements below");
+}
+
 /// A block falls, settles and is sheared; the state of the points as bytes.
 class Course {
  public:

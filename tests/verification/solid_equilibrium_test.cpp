@@ -351,7 +351,7 @@ double stress_of_turned_block(int steps) {
   std::cout << "half a turn in " << steps << " steps: stress over E at most " << worst << ", mean "
             << mean << ", volume " << m.soil_volume() / volume - 1.0 << ", astray by " << astray
             << "\n";
-  EXPECT_LE(worst, 4e-3);
+  EXPECT_LE(worst, 6e-3);
   EXPECT_LE(astray, 4e-3);
   EXPECT_NEAR(m.soil_volume() / volume, 1.0, 1e-4);
   return mean;
@@ -381,7 +381,8 @@ TEST(CarriedBlock, TurnsAboutANodeByWhichItHangsAsFarAsTheSoftStiffnessLetsIt) {
     return -interpolate(m.grid, *place, solution.displacement)[1];
   };
   const double turn = (settlement(0.75, 0.5) - settlement(0.5, 0.5)) / 0.25;
-  EXPECT_NEAR(turn, weight * 0.125 / (2.0 * soft_share * young), 1e-3);
+  std::cout << "turned by " << turn << "\n";
+  EXPECT_NEAR(turn, weight * 0.125 / (2.0 * soft_share * young), 3e-4);
 }
 
 // ------------------------------------------------------------------------------ Newton's method
