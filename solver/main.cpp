@@ -6,6 +6,7 @@
 
 #include "case/command_line.hpp"
 #include "driver/deformation_checks.hpp"
+#include "driver/element_test.hpp"
 #include "driver/estimate.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
@@ -20,6 +21,7 @@ struct Arguments {
   suffuse::SolverOptions solver;
   bool explain = false;
   suffuse::RunOptions run;
+  suffuse::ElementTestOptions element;
 };
 
 std::string default_folder(const std::string& case_path) {
@@ -73,6 +75,31 @@ std::string refuse_empty(const std::string& name) {
   return name.empty() ? "got an empty name; expected that of a folder" : "";
 }
 
+/// Has the options of a test at one point.
+void add_element_test(CLI::App& app, suffuse::ElementTestOptions& element) {
+  CLI::Option* table =
+      app.add_option("--element-test", element.table,
+                     "Run no case: put a soil of a scene, SCENE.toml in the place of the case, "
+                     "through this table of strains and stresses; -o names the table of what it "
+                     "answers (default: -, standard output)")
+          ->type_name("TABLE.csv");
+  app.add_option("--soil", element.soil, "Soil to test, where several have a law of the skeleton")
+      ->type_name("NAME")
+      ->needs(table);
+  app.add_option("--set", element.overrides, "Change a key of the scene to test, repeatable")
+      ->type_name("KEY=VALUE")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->needs(table);
+  app.add_option("--steps", element.steps, "Rows of the answer for each row of the table")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str()
+      ->needs(table);
+  for (const char* other : {"--explain", "--no-skip", "--resume", "--force"}) {
+    table->excludes(app.get_option(other));
+  }
+}
+
 int run(int argc, char** argv) {
   Arguments arguments;
   CLI::App app{"suffuse-solver: suffusion by the material point method", "suffuse-solver"};
@@ -101,8 +128,13 @@ int run(int argc, char** argv) {
       ->capture_default_str()
       ->type_name("SECONDS");
   app.add_flag("--quiet", arguments.run.quiet, "No progress, warnings only");
+  add_element_test(app, arguments.element);
   if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
-  return solve(arguments);
+  if (arguments.element.table.empty()) return solve(arguments);
+  arguments.element.scene = arguments.case_path;
+  arguments.element.output = arguments.folder.empty() ? "-" : arguments.folder;
+  suffuse::run_element_test(arguments.element);
+  return static_cast<int>(suffuse::ExitCode::done);
 }
 
 }  // namespace

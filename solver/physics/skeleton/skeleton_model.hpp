@@ -48,11 +48,11 @@ struct SkeletonParameters {
 /// One soil's law with its numbers, as the scene gives them: angles in degrees.
 struct SkeletonModel {
   const SkeletonLaw* law = nullptr;  ///< null: rigid
-  FinesFunction young;               ///< E, Pa
-  FinesFunction poisson;             ///< nu
-  FinesFunction friction;            ///< phi, degrees
-  FinesFunction cohesion;            ///< c, Pa
-  FinesFunction dilation;            ///< psi, degrees
+  FinesFunction young = {};          ///< E, Pa
+  FinesFunction poisson = {};        ///< nu
+  FinesFunction friction = {};       ///< phi, degrees
+  FinesFunction cohesion = {};       ///< c, Pa
+  FinesFunction dilation = {};       ///< psi, degrees
 
   [[nodiscard]] bool moves() const { return law != nullptr; }
   /// The numbers where this share of the erodible fines is left.
