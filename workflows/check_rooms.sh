@@ -8,8 +8,8 @@ set -eu
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 # A room is a folder; it may include itself and what stands before it.
-rooms='solver/physics mesher/case solver/results solver/grid solver/linear solver/solid solver/flow '
-rooms+='solver/transport solver/formulation solver/driver solver/main.cpp '
+rooms='solver/physics mesher/case solver/results solver/grid solver/linear solver/solid solver/deformation '
+rooms+='solver/flow solver/transport solver/formulation solver/driver solver/main.cpp '
 rooms+='post/drawing post/values post/tables post/figures post/report post/commands'
 # Programs beside the solver, and all that they may include.
 others='mesher:solver/physics,mesher/case post:solver/physics,mesher/case,solver/results'

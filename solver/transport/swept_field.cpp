@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "grid/parallel.hpp"
-#include "linear/fixed_point.hpp"
+#include "transport/fixed_point.hpp"
 #include "transport/linear_fines.hpp"
 
 namespace suffuse {

@@ -1,4 +1,4 @@
-#include "linear/fixed_point.hpp"
+#include "transport/fixed_point.hpp"
 
 namespace suffuse {
 

@@ -1,0 +1,33 @@
+#include "deformation/solid_points.hpp"
+
+#include <numeric>
+
+namespace suffuse {
+
+template <int Dim>
+SolidPoints<Dim>::SolidPoints(const Mesh<Dim>& mesh, const std::vector<PointPlace<Dim>>& places,
+                              std::vector<double> volume_in)
+    : reference_volume(volume_in),
+      volume(std::move(volume_in)),
+      elastic_b(places.size(), Eigen::Matrix3d::Identity()),
+      plastic_strain(places.size(), 0.0) {
+  for (const PointPlace<Dim>& place : places) {
+    position.push_back(place.position(mesh));
+    element.push_back(place.element);
+  }
+}
+
+PointsByElement::PointsByElement(int element_count, const std::vector<int>& element_of_point)
+    : begin_(element_count + 1, 0), point_(element_of_point.size()) {
+  for (const int e : element_of_point) ++begin_[e + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  std::vector<int> next(begin_.begin(), begin_.end() - 1);
+  for (int i = 0; i < static_cast<int>(point_.size()); ++i) {
+    point_[next[element_of_point[i]]++] = i;
+  }
+}
+
+template struct SolidPoints<2>;
+template struct SolidPoints<3>;
+
+}  // namespace suffuse

@@ -1,0 +1,54 @@
+#pragma once
+
+/// Solid points that move: their state, and which of them lie in an element.
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "grid/point_place.hpp"
+
+namespace suffuse {
+
+/// What a solid point carries with it. Solid volumes, which erosion changes, are in `SolidState`.
+template <int Dim>
+struct SolidPoints {
+  SolidPoints() = default;
+  /// Points without stress.
+  /// \param volume  of soil with its pores, per point, m3 (per metre of thickness in 2D)
+  SolidPoints(const Mesh<Dim>& mesh, const std::vector<PointPlace<Dim>>& places,
+              std::vector<double> volume);
+
+  [[nodiscard]] int size() const { return static_cast<int>(element.size()); }
+  void archive(auto& archive) {
+    archive(position, element, reference_volume, volume, elastic_b, plastic_strain);
+  }
+
+  std::vector<Vector<Dim>> position;  ///< m
+  std::vector<int> element;           ///< that holds the point
+  /// Of soil with its pores at the start, m3: the volume to which Kirchhoff stress refers.
+  std::vector<double> reference_volume;
+  std::vector<double> volume;  ///< today, m3
+  /// Elastic left Cauchy-Green tensor: the stress follows from it.
+  std::vector<Eigen::Matrix3d> elastic_b;
+  std::vector<double> plastic_strain;  ///< equivalent, since the start
+};
+
+/// The points of each element, in ascending order: the order of every sum over them, which depends
+/// on neither threads nor the way by which the points came.
+class PointsByElement {
+ public:
+  PointsByElement() = default;
+  PointsByElement(int element_count, const std::vector<int>& element_of_point);
+
+  [[nodiscard]] std::span<const int> of(int element) const {
+    return std::span(point_).subspan(begin_[element], begin_[element + 1] - begin_[element]);
+  }
+  [[nodiscard]] bool is_empty(int element) const { return begin_[element] == begin_[element + 1]; }
+
+ private:
+  std::vector<int> begin_;
+  std::vector<int> point_;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,67 @@
+#pragma once
+
+/// Where the soil is held, and the unknowns that are left.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "grid/grid.hpp"
+
+namespace suffuse {
+
+/// A vector per node of the mesh.
+template <int Dim>
+using NodeVectors = std::vector<Vector<Dim>>;
+
+/// What faces do to the nodes on them.
+enum class Support : char { none, normal, both };
+
+/// Directions in which each node is held.
+template <int Dim>
+class Supports {
+ public:
+  /// \param face_support  per face of the grid
+  Supports(const Grid<Dim>& grid, const std::vector<Support>& face_support);
+
+  /// Holds a node in all directions; its displacement may be prescribed.
+  void hold(int node) { free_count_[node] = 0; }
+
+  /// Number of directions in which a node is free.
+  [[nodiscard]] int free_count(int node) const { return free_count_[node]; }
+  /// Orthonormal directions in columns, the free ones first.
+  [[nodiscard]] const Eigen::Matrix<double, Dim, Dim>& directions(int node) const {
+    return directions_[node];
+  }
+
+ private:
+  std::vector<int> free_count_;
+  std::vector<Eigen::Matrix<double, Dim, Dim>> directions_;
+};
+
+/// Numbers the displacements that are not known: those of free directions of nodes in use.
+template <int Dim>
+class DisplacementUnknowns {
+ public:
+  /// \param used  per node; Supports are kept by reference
+  DisplacementUnknowns(const Supports<Dim>& supports, const std::vector<char>& used);
+
+  [[nodiscard]] int count() const { return count_; }
+  /// First unknown of a node; the others of its free directions follow.
+  [[nodiscard]] int first(int node) const { return first_[node]; }
+  /// How many a node has.
+  [[nodiscard]] int count(int node) const { return count_of_[node]; }
+  [[nodiscard]] const Supports<Dim>& supports() const { return supports_; }
+
+  /// Components of nodal vectors along free directions.
+  [[nodiscard]] Eigen::VectorXd components(const NodeVectors<Dim>& vectors) const;
+  /// Adds `share` times the vectors that have these components.
+  void add(const Eigen::VectorXd& components, double share, NodeVectors<Dim>& vectors) const;
+
+ private:
+  const Supports<Dim>& supports_;
+  std::vector<int> first_;
+  std::vector<int> count_of_;
+  int count_ = 0;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,514 @@
+/// The parts of the solid's equilibrium by themselves: classes of elements, supports, forces and
+/// their tangent, the motion of points.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "box_mesh.hpp"
+#include "results/state_archive.hpp"
+#include "solver/solid_model.hpp"
+
+namespace suffuse {
+namespace {
+
+using model::PlaneModel;
+
+TEST(SolidPoints, OfAnElementAscendWhateverTheirOrderWas) {
+  const PointsByElement sorted(4, {2, 0, 2, 3, 0, 2});
+  const auto of = [&](int e) {
+    const auto span = sorted.of(e);
+    return std::vector<int>(span.begin(), span.end());
+  };
+  EXPECT_EQ(of(0), (std::vector<int>{1, 4}));
+  EXPECT_TRUE(sorted.is_empty(1));
+  EXPECT_EQ(of(2), (std::vector<int>{0, 2, 5}));
+  EXPECT_EQ(of(3), (std::vector<int>{3}));
+}
+
+TEST(ElementClasses, FullWhereAllAroundHoldPoints) {
+  // Four rows of cells, soil in the lower three: the third row touches the empty one.
+  const PlaneModel m(model::column_mesh(3, 4), 3, model::elastic_soil(1e6, 0.3),
+                     [](const Vector<2>& x) { return x[1] < 0.75; });
+  for (int e = 0; e < m.mesh.element_count(); ++e) {
+    const double y = element_centroid(m.mesh, e)[1];
+    const ElementClass expected = y > 0.75  ? ElementClass::empty
+                                  : y > 0.5 ? ElementClass::partial
+                                            : ElementClass::full;
+    EXPECT_EQ(m.classes->kind[e], expected) << e;
+    EXPECT_DOUBLE_EQ(m.classes->scale[e], y > 0.75 ? 0.0 : 1.0);
+  }
+}
+
+TEST(ElementClasses, AreFullToTheEndOfTheMeshAndFillFullElements) {
+  PlaneModel m(model::column_mesh(3, 3), 4, model::elastic_soil(1e6, 0.3));
+  for (double& v : m.points.volume) v *= 0.7;
+  m.sort();
+  for (int e = 0; e < m.mesh.element_count(); ++e) {
+    EXPECT_EQ(m.classes->kind[e], ElementClass::full);
+    EXPECT_NEAR(m.classes->scale[e], 1.0 / 0.7, 1e-14);
+  }
+}
+
+TEST(Supports, LeaveDirectionsAlongFlatCurvedAndCorneredBoundaries) {
+  // The upper side bends by 11 degrees at x = 0.5; the left one meets it at about a right angle.
+  const Mesh<2> mesh = model::column_mesh(2, 1, 1.0, 1.0, [](const Vector<2>& x) {
+    return Vector<2>(x[0], x[1] + (x[1] > 0.0 && x[0] == 0.5 ? 0.05 : 0.0));
+  });
+  const Grid<2> grid(mesh);
+  std::vector<Support> on(grid.face_count(), Support::none);
+  for (const auto& nodes : mesh.boundaries[0].faces) on[grid.find_face(nodes)] = Support::normal;
+  for (const auto& nodes : mesh.boundaries[2].faces) on[grid.find_face(nodes)] = Support::normal;
+  for (const auto& nodes : mesh.boundaries[3].faces) on[grid.find_face(nodes)] = Support::both;
+  const Supports<2> supports(grid, on);
+  const auto node = [&](double x, double y) {
+    for (int i = 0; i < mesh.node_count(); ++i) {
+      if ((mesh.nodes[i] - Vector<2>(x, y)).norm() < 1e-9) return i;
+    }
+    throw std::invalid_argument("no node there");
+  };
+  EXPECT_EQ(supports.free_count(node(0.5, 0.0)), 2);
+  EXPECT_EQ(supports.free_count(node(0.0, 1.0)), 0);
+  EXPECT_EQ(supports.free_count(node(1.0, 0.0)), 0);
+  EXPECT_EQ(supports.free_count(node(0.0, 0.0)), 1);
+  EXPECT_EQ(supports.directions(node(0.0, 0.0)).col(0), Vector<2>(0.0, 1.0));
+  // Along the chord of the bend.
+  EXPECT_EQ(supports.free_count(node(0.5, 1.05)), 1);
+  EXPECT_NEAR(std::abs(supports.directions(node(0.5, 1.05))(0, 0)), 1.0, 1e-15);
+}
+
+TEST(Supports, InThreeDimensionsAreOrthonormal) {
+  // A sheared box: its sides are oblique.
+  const Mesh<3> mesh = model::box_mesh({2, 2, 2}, Vector<3>::Ones(), [](const Vector<3>& x) {
+    return Vector<3>(x[0] + 0.3 * x[1] - 0.2 * x[2], x[1] + 0.4 * x[2], x[2] + 0.1 * x[0]);
+  });
+  const Grid<3> grid(mesh);
+  std::vector<Support> on(grid.face_count(), Support::none);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (grid.is_outer(f)) on[f] = Support::normal;
+  }
+  const Supports<3> supports(grid, on);
+  std::array<int, 4> count{};
+  for (int i = 0; i < mesh.node_count(); ++i) {
+    const Eigen::Matrix3d& q = supports.directions(i);
+    EXPECT_LE((q.transpose() * q - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+    ++count[supports.free_count(i)];
+    for (int k = grid.node_face_begin[i]; k < grid.node_face_begin[i + 1]; ++k) {
+      const int f = grid.node_face[k];
+      if (!grid.is_outer(f)) continue;
+      for (int free = 0; free < supports.free_count(i); ++free) {
+        EXPECT_NEAR(q.col(free).dot(grid.face_normal[f].normalized()), 0.0, 1e-14);
+      }
+    }
+  }
+  // Corners, edges, sides and the middle of the box.
+  EXPECT_EQ(count, (std::array<int, 4>{8, 12, 6, 1}));
+}
+
+/// A body with some stress in a box of tetrahedra or a square of triangles, some of it empty.
+template <int Dim>
+struct StressedBody {
+  Mesh<Dim> mesh;
+  Grid<Dim> grid;
+  SolidPoints<Dim> points;
+  std::vector<PointSkeleton> skeleton;
+  PointsByElement sorted;
+  ElementClasses classes;
+  Supports<Dim> supports;
+
+  StressedBody(Mesh<Dim> mesh_in, const std::string& law)
+      : mesh(std::move(mesh_in)),
+        grid(mesh),
+        points(stressed_points(mesh)),
+        skeleton(points.size(), {skeleton_law(law), {1e6, 0.3, 0.5, 2e4, 0.1}}),
+        sorted(mesh.element_count(), points.element),
+        classes(grid, points, sorted),
+        supports(grid, std::vector<Support>(grid.face_count(), Support::none)) {}
+
+  static SolidPoints<Dim> stressed_points(const Mesh<Dim>& mesh) {
+    std::vector<PointPlace<Dim>> places;
+    std::vector<double> volume;
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      if (element_centroid(mesh, e)[0] > 0.75) continue;
+      for (int j = 0; j <= Dim; ++j) {
+        PointPlace<Dim> place{e, {}};
+        place.barycentric.fill(FieldNodes<Dim>::far_vertex);
+        place.barycentric[j] = FieldNodes<Dim>::near_vertex;
+        places.push_back(place);
+        volume.push_back(element_volume(mesh, e) / (Dim + 1) * (1.0 + 0.1 * j));
+      }
+    }
+    SolidPoints<Dim> points(mesh, places, volume);
+    for (int p = 0; p < points.size(); ++p) {
+      Eigen::Matrix3d& b = points.elastic_b[p];
+      b.diagonal() << 0.96, 0.95 + 0.02 * std::sin(p), 0.97;
+      b(0, 1) = b(1, 0) = 0.02 * std::cos(p);
+    }
+    return points;
+  }
+
+  [[nodiscard]] Equilibrium<Dim> equilibrium() const {
+    return Equilibrium<Dim>({grid, points, sorted, skeleton, classes}, supports, 1);
+  }
+  [[nodiscard]] NodeVectors<Dim> some_displacement(double amount, unsigned seed) const {
+    std::mt19937_64 random(seed);
+    NodeVectors<Dim> u(mesh.node_count());
+    for (auto& v : u) {
+      for (int d = 0; d < Dim; ++d) {
+        v[d] = amount * (2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0);
+      }
+    }
+    return u;
+  }
+  [[nodiscard]] std::vector<double> some_pressure() const {
+    std::vector<double> pressure(mesh.element_count());
+    for (int e = 0; e < mesh.element_count(); ++e) pressure[e] = 2e4 * std::sin(e);
+    return pressure;
+  }
+};
+
+template <int Dim>
+Mesh<Dim> small_mesh();
+template <>
+Mesh<2> small_mesh() {
+  return model::column_mesh(4, 3, 1.0, 1.0, model::jittered(0.05, 3));
+}
+template <>
+Mesh<3> small_mesh() {
+  return model::box_mesh({4, 2, 2}, Vector<3>::Ones(), model::disturbed(0.05));
+}
+
+/// Relative distance of the derivative from central differences over steps of `h`.
+template <int Dim>
+double tangent_error(const StressedBody<Dim>& body, double h) {
+  Equilibrium<Dim> equilibrium = body.equilibrium();
+  equilibrium.set_pressure(body.some_pressure());
+  const NodeVectors<Dim> at = body.some_displacement(0.01, 1);
+  const NodeVectors<Dim> along = body.some_displacement(0.1, 2);
+  const auto forces_at = [&](double share) {
+    NodeVectors<Dim> u = at;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += share * along[i];
+    equilibrium.displace(u, false);
+    return equilibrium.unknowns().components(equilibrium.forces());
+  };
+  const Eigen::VectorXd differences = (forces_at(h) - forces_at(-h)) / (2.0 * h);
+  equilibrium.displace(at, true);
+  Eigen::SparseMatrix<double> tangent;
+  equilibrium.assemble(tangent);
+  const Eigen::VectorXd product = tangent * equilibrium.unknowns().components(along);
+  const Eigen::VectorXd same = equilibrium.unknowns().components(equilibrium.tangent_times(along));
+  EXPECT_LE((product - same).norm(), 1e-13 * product.norm());
+  return (product - differences).norm() / product.norm();
+}
+
+TEST(Equilibrium, TangentIsTheDerivativeOfTheForces) {
+  const StressedBody<2> flat(small_mesh<2>(), "elastic");
+  EXPECT_LE(tangent_error(flat, 1e-4), 1e-7);
+  EXPECT_NEAR(tangent_error(flat, 4e-2) / tangent_error(flat, 2e-2), 4.0, 0.3);
+  const StressedBody<3> solid(small_mesh<3>(), "elastic");
+  EXPECT_LE(tangent_error(solid, 1e-4), 1e-7);
+  EXPECT_NEAR(tangent_error(solid, 4e-2) / tangent_error(solid, 2e-2), 4.0, 0.3);
+}
+
+TEST(Equilibrium, TangentOfYieldingSoilIsTheDerivativeToo) {
+  EXPECT_LE(tangent_error(StressedBody<2>(small_mesh<2>(), "mohr-coulomb"), 1e-6), 1e-6);
+}
+
+template <int Dim>
+void check_volume_gradient() {
+  const StressedBody<Dim> body(small_mesh<Dim>(), "elastic");
+  Equilibrium<Dim> equilibrium = body.equilibrium();
+  const NodeVectors<Dim> at = body.some_displacement(0.01, 1);
+  const NodeVectors<Dim> along = body.some_displacement(0.1, 2);
+  const double h = 1e-5;
+  const auto volumes = [&](double share) {
+    NodeVectors<Dim> u = at;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += share * along[i];
+    equilibrium.displace(u, false);
+    std::vector<double> result;
+    for (int e = 0; e < body.mesh.element_count(); ++e) {
+      result.push_back(body.grid.volume[e] * equilibrium.volume_ratio(e));
+    }
+    return result;
+  };
+  const std::vector<double> more = volumes(h);
+  const std::vector<double> less = volumes(-h);
+  // The pressure's forces are minus the same derivative.
+  equilibrium.displace(at, false);
+  NodeVectors<Dim> without = equilibrium.forces();
+  const std::vector<double> pressure = body.some_pressure();
+  NodeVectors<Dim> expected(body.mesh.node_count(), Vector<Dim>::Zero());
+  for (int e = 0; e < body.mesh.element_count(); ++e) {
+    if (body.sorted.is_empty(e)) continue;
+    double change = 0.0;
+    const auto gradient = equilibrium.volume_gradient(e);
+    for (int a = 0; a <= Dim; ++a) {
+      change += gradient[a].dot(along[body.mesh.elements[e][a]]);
+      expected[body.mesh.elements[e][a]] -= pressure[e] * gradient[a];
+    }
+    EXPECT_NEAR(change, (more[e] - less[e]) / (2.0 * h), 1e-8 * std::abs(change) + 1e-12);
+  }
+  equilibrium.set_pressure(pressure);
+  equilibrium.displace(at, false);
+  const NodeVectors<Dim> with = equilibrium.forces();
+  for (int i = 0; i < body.mesh.node_count(); ++i) {
+    EXPECT_NEAR((with[i] - without[i] - expected[i]).norm(), 0.0, 1e-8);
+  }
+}
+
+TEST(Equilibrium, PressureWorksOnTheVolumeOfElements) {
+  check_volume_gradient<2>();
+  check_volume_gradient<3>();
+}
+
+TEST(Equilibrium, ForcesOfABodyBalance) {
+  const StressedBody<3> body(small_mesh<3>(), "elastic");
+  Equilibrium<3> equilibrium = body.equilibrium();
+  equilibrium.displace(body.some_displacement(0.01, 1), false);
+  Vector<3> sum = Vector<3>::Zero();
+  for (const Vector<3>& f : equilibrium.forces()) sum += f;
+  EXPECT_LE(sum.norm(), 1e-13 * equilibrium.force_scale());
+}
+
+TEST(Equilibrium, ElasticStiffnessIsTheTangentWithoutStress) {
+  StressedBody<3> body(small_mesh<3>(), "elastic");
+  for (auto& b : body.points.elastic_b) b.setIdentity();
+  Equilibrium<3> equilibrium = body.equilibrium();
+  equilibrium.displace(NodeVectors<3>(body.mesh.node_count(), Vector<3>::Zero()), true);
+  Eigen::SparseMatrix<double> tangent;
+  Eigen::SparseMatrix<double> elastic;
+  equilibrium.assemble(tangent);
+  equilibrium.assemble_elastic(elastic);
+  EXPECT_LE((tangent - elastic).norm(), 1e-14 * elastic.norm());
+}
+
+/// The patch test: an affine displacement of the border, at large strain and turned, is that of
+/// all nodes, and every point has its stress.
+TEST(Equilibrium, AffineDisplacementOfTheBorderGoesThroughAnIrregularMesh) {
+  PlaneModel m(model::column_mesh(6, 6, 1.0, 1.0, model::jittered(0.05, 5)), 3,
+               model::elastic_soil(1e6, 0.3));
+  Eigen::Matrix2d f;
+  f << 0.7, 0.15, -0.1, 0.7;
+  // Inwards, so that no point leaves the mesh.
+  const Vector<2> shift(0.05, 0.2);
+  NodeVectors<2> prescribed;
+  for (const Vector<2>& x : m.mesh.nodes) prescribed.emplace_back(shift + f * x - x);
+  const NodeVectors<2> wanted = prescribed;
+  std::vector<int> held;
+  for (int k = 0; k < m.grid.face_count(); ++k) {
+    if (!m.grid.is_outer(k)) continue;
+    for (const int i : m.grid.face_nodes[k]) held.push_back(i);
+  }
+  // What is said about nodes that are free is not used.
+  prescribed[8 * 3] = Vector<2>(99.0, 99.0);
+  const NewtonSolution<2> solution = m.step(m.no_loads(), prescribed, held);
+  ASSERT_TRUE(solution.converged);
+  for (int i = 0; i < m.mesh.node_count(); ++i) {
+    EXPECT_LE((solution.displacement[i] - wanted[i]).norm(), 1e-10) << i;
+  }
+  const auto exact = skeleton_response<2>(*m.skeleton[0].law, m.skeleton[0].parameters,
+                                          Eigen::Matrix3d::Identity(), f);
+  for (int p = 0; p < m.points.size(); ++p) {
+    EXPECT_LE((m.stress(p) - exact.stress / f.determinant()).norm(), 1e-8 * exact.stress.norm());
+    EXPECT_NEAR(m.points.volume[p] / m.points.reference_volume[p], f.determinant(), 1e-10);
+  }
+}
+
+TEST(Equilibrium, SoilThatNothingHoldsIsRefused) {
+  PlaneModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
+  try {
+    const NewtonSolution<2> solution = m.step(m.weight(1e3));
+    FAIL() << "converged: " << solution.converged;
+  } catch (const NumericalError& error) {
+    EXPECT_STREQ(error.what(),
+                 "the displacements could not be solved for: nothing holds the soil, or a piece of "
+                 "it; fix a boundary that it lies on");
+  }
+}
+
+TEST(PointMotion, RefusesAPointThatLeavesTheMeshAndKeepsTheOthers) {
+  PlaneModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
+  const std::vector<Vector<2>> before = m.points.position;
+  NodeVectors<2> displacement(m.mesh.node_count(), Vector<2>(0.0, 0.3));
+  try {
+    move_points(m.grid, m.skeleton, displacement, m.points, 1);
+    FAIL();
+  } catch (const NumericalError& error) {
+    EXPECT_STREQ(error.what(),
+                 "solid point 5 moves from (0.166667 0.833333) to (0.166667  1.13333), which is "
+                 "outside the mesh; make the mesh larger, fix the boundary that it passes, or take "
+                 "shorter steps");
+  }
+  EXPECT_EQ(m.points.position, before);
+}
+
+TEST(PointMotion, FindsElementsAcrossAMeshAndAroundCorners) {
+  // Without its upper right quarter: from there to the upper left the straight way is outside.
+  Mesh<2> mesh = model::column_mesh(8, 8, 1.0, 1.0, model::jittered(0.03, 4));
+  std::erase_if(mesh.elements, [&](const auto& nodes) {
+    Vector<2> centre = Vector<2>::Zero();
+    for (const int i : nodes) centre += mesh.nodes[i] / 3.0;
+    return centre[0] > 0.5 && centre[1] > 0.5;
+  });
+  mesh.element_region.resize(mesh.elements.size());
+  const Grid<2> grid(mesh);
+  for (int from = 0; from < mesh.element_count(); from += 7) {
+    for (int to = 0; to < mesh.element_count(); ++to) {
+      EXPECT_EQ(element_at(grid, from, element_centroid(mesh, to)), to);
+    }
+    EXPECT_EQ(element_at(grid, from, Vector<2>(0.8, 0.8)), -1);
+  }
+}
+
+/// Soil below y = 0.5, loaded on top.
+struct LoadedHalf : PlaneModel {
+  LoadedHalf()
+      : PlaneModel(model::column_mesh(4, 4), 3, model::elastic_soil(1e6, 0.3),
+                   [](const Vector<2>& x) { return x[1] < 0.5; }) {
+    std::vector<int> top;
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (std::abs(grid.face_centre(f)[1] - 0.5) < 1e-9 && grid.face_normal[f][0] == 0.0) {
+        top.push_back(f);
+      }
+    }
+    surface = LoadedSurface<2>(grid, sorted, top);
+  }
+  /// Moves the surface, and not the soil.
+  void displace_surface(const Eigen::Matrix2d& gradient, const Vector<2>& shift) {
+    NodeVectors<2> displacement;
+    for (const Vector<2>& x : mesh.nodes) displacement.emplace_back(gradient * x + shift);
+    surface.move(grid, sorted, displacement);
+  }
+  static Vector<2> sum(const NodeVectors<2>& loads) {
+    Vector<2> all = Vector<2>::Zero();
+    for (const Vector<2>& f : loads) all += f;
+    return all;
+  }
+};
+
+TEST(LoadedSurface, LoadsTheSoilBelowWithTheSameForceAndMoment) {
+  LoadedHalf m;
+  m.displace_surface(Eigen::Matrix2d::Zero(), Vector<2>(0.0, 0.2));  // in the next cell
+  NodeVectors<2> loads = m.no_loads();
+  m.surface.add_traction(m.grid, m.sorted, Vector<2>(3.0, -8.0), loads);
+  EXPECT_NEAR((LoadedHalf::sum(loads) - Vector<2>(3.0, -8.0)).norm(), 0.0, 1e-13);
+  double moment = 0.0;
+  for (int i = 0; i < m.mesh.node_count(); ++i) {
+    moment += m.mesh.nodes[i][0] * loads[i][1] - m.mesh.nodes[i][1] * loads[i][0];
+    if (m.mesh.nodes[i][1] > 0.6) {
+      EXPECT_EQ(loads[i].norm(), 0.0);
+    }
+  }
+  EXPECT_NEAR(moment, 0.5 * -8.0 - 0.7 * 3.0, 1e-13);
+}
+
+TEST(LoadedSurface, PressureFollowsItsAreaAndNormalAndATractionDoesNot) {
+  LoadedHalf m;
+  Eigen::Matrix2d f;
+  f << 0.8, 0.1, -0.2, 0.9;
+  m.displace_surface(f - Eigen::Matrix2d::Identity(), Vector<2>(0.05, 0.1));
+  NodeVectors<2> pressed = m.no_loads();
+  m.surface.add_pressure(m.grid, m.sorted, 5.0, pressed);
+  // From (0, 0.5) to (1, 0.5) before; the normal looks to the left of this way.
+  const Vector<2> along = f * Vector<2>(1.0, 0.0);
+  EXPECT_NEAR((LoadedHalf::sum(pressed) + 5.0 * Vector<2>(-along[1], along[0])).norm(), 0.0, 1e-13);
+  NodeVectors<2> pulled = m.no_loads();
+  m.surface.add_traction(m.grid, m.sorted, Vector<2>(3.0, -8.0), pulled);
+  EXPECT_NEAR((LoadedHalf::sum(pulled) - Vector<2>(3.0, -8.0)).norm(), 0.0, 1e-13);
+}
+
+TEST(LoadedSurface, RefusesToLeaveTheMeshOrItsSoil) {
+  const auto message_of = [](const auto& action) {
+    try {
+      action();
+    } catch (const NumericalError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  LoadedHalf m;
+  EXPECT_EQ(message_of([&] { m.displace_surface(Eigen::Matrix2d::Zero(), Vector<2>(0.0, 0.6)); }),
+            "the loaded surface moves to (0.0528312       1.1), which is outside the mesh; make "
+            "the mesh larger");
+  LoadedHalf empty;
+  empty.sorted = PointsByElement(empty.mesh.element_count(), {});
+  NodeVectors<2> loads = empty.no_loads();
+  EXPECT_EQ(message_of([&] {
+              empty.surface.add_traction(empty.grid, empty.sorted, Vector<2>(0.0, 1.0), loads);
+            }),
+            "the loaded surface at (0.0528312       0.5) has lost its soil: there is none within 4 "
+            "elements below");
+}
+
+/// A block falls, settles and is sheared; the state of the points as bytes.
+class Course {
+ public:
+  explicit Course(int threads)
+      : m_(model::column_mesh(40, 40, 1.0, 1.0, model::jittered(0.005, 2)), 4,
+           model::elastic_soil(1e6, 0.3),
+           [](const Vector<2>& x) { return x[1] < 0.5 && x[0] < 0.6; }) {
+    m_.threads = threads;
+    m_.support("bottom", Support::both);
+    m_.support("left", Support::normal);
+    m_.surface = LoadedSurface<2>(m_.grid, m_.sorted, upper_side());
+  }
+  void go(int from, int to) {
+    for (int step = from; step < to; ++step) {
+      NodeVectors<2> loads = m_.weight(2e4 * (step + 1));
+      m_.surface.add_traction(m_.grid, m_.sorted, Vector<2>(1e3, -4e3 * (step + 1)), loads);
+      ASSERT_TRUE(m_.step(loads).converged);
+    }
+  }
+  void archive(StateArchive& archive) {
+    archive(m_.points, m_.surface);
+    if (archive.restores()) m_.sort();
+  }
+  [[nodiscard]] std::vector<std::uint8_t> state() {
+    StateArchive bytes;
+    archive(bytes);
+    return bytes.finish();
+  }
+
+ private:
+  [[nodiscard]] std::vector<int> upper_side() const {
+    std::vector<int> faces;
+    for (int f = 0; f < m_.grid.face_count(); ++f) {
+      const int left = m_.grid.face_left[f];
+      const int right = m_.grid.face_right[f];
+      if (right < 0 || m_.sorted.is_empty(left) == m_.sorted.is_empty(right)) continue;
+      if (std::abs(m_.grid.face_normal[f][1]) > 0.9 * m_.grid.face_normal[f].norm()) {
+        faces.push_back(f);
+      }
+    }
+    return faces;
+  }
+
+  PlaneModel m_;
+};
+
+TEST(SolidStep, HasTheSameBitsOnAnyNumberOfThreads) {
+  Course one(1);
+  Course two(2);
+  Course three(3);
+  one.go(0, 4);
+  two.go(0, 4);
+  three.go(0, 4);
+  EXPECT_EQ(one.state(), two.state());
+  EXPECT_EQ(one.state(), three.state());
+}
+
+TEST(SolidStep, GoesOnFromItsArchiveToTheLastBit) {
+  Course all(1);
+  all.go(0, 6);
+  Course part(1);
+  part.go(0, 3);
+  StateArchive bytes(part.state());
+  Course rest(1);
+  rest.archive(bytes);
+  rest.go(3, 6);
+  EXPECT_EQ(rest.state(), all.state());
+}
+
+}  // namespace
+}  // namespace suffuse
