@@ -33,6 +33,7 @@ Value interpolated(const std::vector<std::pair<double, Value>>& knots, double ti
 template <class Value>
 std::vector<double> times_of(const std::vector<std::pair<double, Value>>& knots) {
   std::vector<double> times;
+  times.reserve(knots.size());
   for (const auto& [time, value] : knots) times.push_back(time);
   return times;
 }
