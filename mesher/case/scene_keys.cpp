@@ -78,13 +78,10 @@ Declaration skeleton_parameter(const SkeletonParameter& parameter) {
                       .in(std::string(parameter.unit));
   d.lower = Bound{parameter.lower, !parameter.lower_allowed};
   if (std::isfinite(parameter.upper)) d.upper = Bound{parameter.upper, true};
-  if (parameter.follows_fines) {
-    std::move(d).of_fines();
-  } else {
-    d.kind = ValueKind::number;
-  }
-  return parameter.required ? std::move(d).otherwise_as("required by its law")
-                            : std::move(d).otherwise(0.0);
+  if (!parameter.follows_fines) d.kind = ValueKind::number;
+  Declaration whole = parameter.follows_fines ? std::move(d).of_fines() : std::move(d);
+  return parameter.required ? std::move(whole).otherwise_as("required by its law")
+                            : std::move(whole).otherwise(0.0);
 }
 
 /// The laws, and the word for a skeleton that does not move.

@@ -111,7 +111,7 @@ class Equilibrium {
   std::vector<Tangent> tangent_;   ///< its derivative by F
   Eigen::SparseMatrix<double> pattern_;
   /// Per element with points: place of each entry of its matrix, or -1.
-  std::vector<std::array<int, size * size>> slots_;
+  std::vector<std::array<int, ElementMatrix::SizeAtCompileTime>> slots_;
 };
 
 }  // namespace suffuse
