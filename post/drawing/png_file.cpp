@@ -4,6 +4,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkPNGWriter.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -39,14 +40,8 @@ std::uint32_t number_at(const std::string& bytes, std::size_t place) {
 }
 
 std::uint32_t checksum(const std::string& bytes) {
-  std::uint32_t rest = 0xFFFFFFFFU;
-  for (const char byte : bytes) {
-    rest ^= static_cast<unsigned char>(byte);
-    for (int bit = 0; bit < 8; ++bit) {
-      rest = (rest & 1U) != 0U ? rest >> 1U ^ 0xEDB88320U : rest >> 1U;
-    }
-  }
-  return ~rest;
+  const auto* first = reinterpret_cast<const Bytef*>(bytes.data());
+  return static_cast<std::uint32_t>(crc32_z(0, first, bytes.size()));
 }
 
 struct Chunk {

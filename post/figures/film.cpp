@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "case/errors.hpp"
+#include "case/scratch_folder.hpp"
 #include "drawing/png_file.hpp"
-#include "drawing/temporary_folder.hpp"
 #include "figures/film_encoder.hpp"
 
 namespace suffuse {
@@ -40,10 +40,10 @@ void check_film_output(const std::string& output) {
 
 std::string write_film(const ResultsReader& results, const FilmRequest& request) {
   check_film_output(request.output);
-  const TemporaryFolder folder;
+  const ScratchFolder folder("suffuse-post");
   RenderRequest picture = request.picture;
   picture.all = true;
-  picture.output = folder / (picture.field + ".png");
+  picture.output = (folder.path() / (picture.field + ".png")).string();
   const std::vector<std::string> pictures = render(results, picture);
   make_equal_size(pictures);
   if (request.output.ends_with('/')) {
@@ -52,8 +52,9 @@ std::string write_film(const ResultsReader& results, const FilmRequest& request)
   }
   fs::path output = request.output;
   if (output.extension() == ".mp4") {
-    const std::string pattern = folder / (picture.field + "_%04d.png");
-    if (encode_mp4(pattern, request.rate, folder / "", output.string())) return output.string();
+    const std::string pattern = (folder.path() / (picture.field + "_%04d.png")).string();
+    if (encode_mp4(pattern, request.rate, folder.path().string(), output.string()))
+      return output.string();
     output.replace_extension(".png");
   }
   write_animated_png(pictures, request.rate, output.string());

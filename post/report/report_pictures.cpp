@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "case/errors.hpp"
+#include "case/scratch_folder.hpp"
 #include "drawing/png_file.hpp"
-#include "drawing/temporary_folder.hpp"
 #include "figures/figures.hpp"
 #include "figures/render.hpp"
 #include "figures/seepage_map.hpp"
@@ -61,14 +61,14 @@ bool has_curve(const ResultsReader& run, const CurveColumn& column) {
 }
 
 std::string curve_html(const std::vector<ResultsReader>& runs, const CurveColumn& column,
-                       const TimeUnit& unit, const TemporaryFolder& folder) {
+                       const TimeUnit& unit, const ScratchFolder& folder) {
   for (const ResultsReader& run : runs) {
     if (!has_curve(run, column)) return "";
   }
   FigureOptions options;
   options.columns = {column.table + "." + column.column};
   options.axes.time_unit = unit.name;
-  const std::string path = folder / (column.column + ".png");
+  const std::string path = (folder.path() / (column.column + ".png")).string();
   draw_figure("curves", runs, path, options);
   return "<figure>" + html::element("figcaption", column.title) +
          card(image(path, column.title + " against time")) + "</figure>\n";
@@ -128,7 +128,7 @@ std::string film_html(const ResultsReader& run, const std::vector<std::size_t>& 
 }
 
 std::string head_html(const ResultsReader& run, const std::vector<std::size_t>& snapshots,
-                      const TemporaryFolder& folder) {
+                      const ScratchFolder& folder) {
   if (!has_field(run, snapshots, "node", "head")) return missing("Head");
   std::vector<SeepageMap> maps;
   maps.reserve(snapshots.size());
@@ -136,14 +136,15 @@ std::string head_html(const ResultsReader& run, const std::vector<std::size_t>& 
   align_maps(maps);
   std::vector<std::string> pictures;
   for (const SeepageMap& map : maps) {
-    pictures.push_back(folder / ("head_" + std::to_string(pictures.size()) + ".png"));
+    pictures.push_back(
+        (folder.path() / ("head_" + std::to_string(pictures.size()) + ".png")).string());
     draw_seepage_map(map, pictures.back());
   }
   return film_html(run, snapshots, pictures, "Head");
 }
 
 std::string field_html(const ResultsReader& run, const ShownField& field,
-                       const std::vector<std::size_t>& snapshots, const TemporaryFolder& folder) {
+                       const std::vector<std::size_t>& snapshots, const ScratchFolder& folder) {
   if (!has_field(run, snapshots, "cell", field.name)) return missing(field.title);
   const auto [low, high] = range_of(run, {field.name, "cell", field.change}, snapshots);
   if (low > high) return html::element("p", field.title + ": water rises nowhere.");
@@ -157,7 +158,7 @@ std::string field_html(const ResultsReader& run, const ShownField& field,
   request.snapshots = snapshots;
   request.mesh = false;  // thin lines make files large, and the sketch of the model has them
   if (field.name == "safety") request.range = {0.0, largest_safety};
-  request.output = folder / (field.name + ".png");
+  request.output = (folder.path() / (field.name + ".png")).string();
   return film_html(run, snapshots, render(run, request), field.title);
 }
 
@@ -190,8 +191,8 @@ std::vector<std::size_t> snapshots_evenly(const std::vector<double>& times, std:
 
 std::string model_html(const ResultsReader& run) {
   if (run.times().empty()) return html::element("p", "The run has no snapshot yet.");
-  const TemporaryFolder folder;
-  const std::string path = folder / "model.png";
+  const ScratchFolder folder("suffuse-post");
+  const std::string path = (folder.path() / "model.png").string();
   draw_figure("model", {run}, path);
   return "<figure>" +
          html::element("figcaption", "Mesh, regions, points, what boundaries prescribe") +
@@ -200,7 +201,7 @@ std::string model_html(const ResultsReader& run) {
 }
 
 std::string curves_html(const std::vector<ResultsReader>& runs) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder("suffuse-post");
   double end = 0.0;
   for (const ResultsReader& run : runs) {
     const Table history = run.history();
@@ -221,7 +222,7 @@ std::string fields_html(const ResultsReader& run) {
       {"porosity", true, "Change of porosity since the start"},
       {"concentration", false, "Concentration of fines in the liquid"},
       {"safety", false, "Safety against heave; grey: water does not rise"}};
-  const TemporaryFolder folder;
+  const ScratchFolder folder("suffuse-post");
   std::string films = head_html(run, snapshots, folder);
   for (const ShownField& field : fields) films += field_html(run, field, snapshots, folder);
   return films;
