@@ -24,8 +24,8 @@ struct ElementTestOptions {
 /// InputError, naming the row, where the soil cannot carry the stresses.
 std::string element_test(const Soil& soil, const ElementTable& table, int steps);
 
-/// Reads scene and table, tests, and writes: the whole table, or nothing. Throws InputError,
-/// FileError.
+/// Reads the scene and the table, tests the soil, and writes the answer whole or not at all. Throws
+/// InputError, FileError.
 void run_element_test(const ElementTestOptions& options);
 
 }  // namespace suffuse

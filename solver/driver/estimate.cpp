@@ -56,7 +56,7 @@ class WrittenSnapshots {
   void write(long index, Snapshot snapshot) {
     const Stopwatch watch;
     writer_.write_snapshot(std::move(snapshot));
-    // The first takes more time than those that follow: the mean is of those.
+    // The first snapshot takes longer than the others, so the mean leaves it out.
     const auto followers = static_cast<double>(std::max<std::size_t>(samples_.size(), 1));
     const double before = samples_.size() > 1 ? seconds_ : 0.0;
     seconds_ = before + (watch.seconds() - before) / followers;
@@ -213,7 +213,7 @@ class Trial final : public OutputSink<Dim> {
       append_tables(files_->writer(), loop_.model(), flow);
     };
     const double others = files_->size_without_snapshots();
-    write();  // the first takes more time than those that follow
+    write();  // not timed: the first one takes longer than the others
     const double before = files_->size_without_snapshots();
     const Stopwatch watch;
     write();

@@ -223,7 +223,7 @@ class Run final : public OutputSink<Dim> {
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
   ResultsWriter<Dim> writer_;
-  /// Of a snapshot by another thread, the only one then that uses HDF5. Tables go on meanwhile.
+  /// A thread that writes a snapshot. While it works no other thread uses HDF5; tables still grow.
   std::future<void> writing_;
 };
 
