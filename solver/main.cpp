@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "case/command_line.hpp"
-#include "driver/deformation_checks.hpp"
 #include "driver/element_test.hpp"
 #include "driver/estimate.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/run.hpp"
 #include "driver/source_run.hpp"
+#include "driver/strength_table.hpp"
 
 namespace {
 
@@ -22,6 +22,8 @@ struct Arguments {
   bool explain = false;
   suffuse::RunOptions run;
   suffuse::ElementTestOptions element;
+  bool strength_reduction = false;
+  suffuse::StrengthReductionOptions strength;
 };
 
 std::string default_folder(const std::string& case_path) {
@@ -51,16 +53,19 @@ int explain(const suffuse::Case<2>& c, const suffuse::Plan& plan, int threads) {
   return static_cast<int>(ExitCode::done);
 }
 
+suffuse::Case<2> read_plane_case(const std::string& path) {
+  const int dimension = suffuse::read_case_dimension(path);
+  if (dimension != 2) {
+    throw suffuse::InputError(path + ": got a case of dimension " + std::to_string(dimension) +
+                              "; expected 2");
+  }
+  return suffuse::read_case<2>(path);
+}
+
 int solve(const Arguments& arguments) {
   using namespace suffuse;
-  const int dimension = read_case_dimension(arguments.case_path);
-  if (dimension != 2) {
-    throw InputError(arguments.case_path + ": got a case of dimension " +
-                     std::to_string(dimension) + "; expected 2");
-  }
   give_memory_back();
-  Case<2> c = read_case<2>(arguments.case_path);
-  refuse_moving_skeletons(c.document);
+  Case<2> c = read_plane_case(arguments.case_path);
   const Plan plan = make_plan(c, arguments.solver);
   if (arguments.explain) return explain(c, plan, arguments.solver.threads);
   const std::string folder =
@@ -100,6 +105,44 @@ void add_element_test(CLI::App& app, suffuse::ElementTestOptions& element) {
   }
 }
 
+/// Has the options of the factor of safety.
+void add_strength_reduction(CLI::App& app, Arguments& arguments) {
+  CLI::Option* mode = app.add_flag(
+      "--strength-reduction", arguments.strength_reduction,
+      "Do not run the case: find the factor of safety of its soil, by which tan(friction) and "
+      "cohesion can be divided, at the start of the case; -o names the table of what it answers "
+      "(default: -, standard output)");
+  CLI::Option* state =
+      app.add_option("--state", arguments.strength.state,
+                     "Find it in the last state of a run on the same mesh and points, not at the "
+                     "start: places, porosities, fines left and pore pressures of that run, "
+                     "strengths and boundary loads of the case")
+          ->check(refuse_empty)
+          ->type_name("FOLDER")
+          ->needs(mode);
+  app.add_option("--time", arguments.strength.time,
+                 "Time of a snapshot of that run, s, in the place of the last; all: a row for each")
+      ->type_name("TIME")
+      ->needs(state);
+  app.add_option("--mechanism", arguments.strength.mechanism,
+                 "Write how the soil fails, on the mesh, as a file for ParaView")
+      ->check(refuse_empty)
+      ->type_name("FILE.hdf")
+      ->needs(mode);
+  for (const char* other :
+       {"--explain", "--no-skip", "--resume", "--force", "--checkpoint-every", "--element-test"}) {
+    mode->excludes(app.get_option(other));
+  }
+}
+
+int find_strength(Arguments& arguments) {
+  if (!arguments.folder.empty()) arguments.strength.output = arguments.folder;
+  arguments.strength.threads = arguments.solver.threads;
+  arguments.strength.quiet = arguments.run.quiet;
+  suffuse::run_strength_reduction(read_plane_case(arguments.case_path), arguments.strength);
+  return static_cast<int>(suffuse::ExitCode::done);
+}
+
 int run(int argc, char** argv) {
   Arguments arguments;
   CLI::App app{"suffuse-solver: suffusion by the material point method", "suffuse-solver"};
@@ -129,7 +172,9 @@ int run(int argc, char** argv) {
       ->type_name("SECONDS");
   app.add_flag("--quiet", arguments.run.quiet, "No progress, warnings only");
   add_element_test(app, arguments.element);
+  add_strength_reduction(app, arguments);
   if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
+  if (arguments.strength_reduction) return find_strength(arguments);
   if (arguments.element.table.empty()) return solve(arguments);
   arguments.element.scene = arguments.case_path;
   arguments.element.output = arguments.folder.empty() ? "-" : arguments.folder;

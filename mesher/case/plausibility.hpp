@@ -11,8 +11,9 @@
 
 namespace suffuse {
 
-/// Warnings of unusual lengths, densities and conductivities, gravity that points upwards, and
-/// regions of soil with fewer than four elements from where water enters to where it leaves.
+/// Warnings of unusual lengths, densities and conductivities, gravity that points upwards, regions
+/// of soil with fewer than four elements from where water enters to where it leaves, and soil that
+/// yields on triangles that are not crossed.
 template <int Dim>
 std::vector<std::string> plausibility_warnings(const SceneDocument& document,
                                                const Mesh<Dim>& mesh);

@@ -17,7 +17,9 @@ class SkeletonChecks : private SceneCheckBase {
     for (const Soil& soil : scene_.soils) check_soil(soil, table_of(soil) + ".skeleton");
     for (const BoundaryCondition& boundary : scene_.boundaries) check_boundary(boundary);
     check_start();
+    if (!scene_.moves()) return;
     check_scheme();
+    check_others();
   }
 
  private:
@@ -98,6 +100,19 @@ class SkeletonChecks : private SceneCheckBase {
       report(table_of(soil) + ".skeleton.law",
              shown_value(std::string(soil.skeleton.law->word)) + " with scheme = \"explicit\"",
              "\"rigid\", or scheme = \"implicit\"", {"time.scheme"});
+    }
+  }
+
+  /// What the motion of the solid knows nothing of: liquid points, and a mesh that is cut open.
+  void check_others() const {
+    if (scene_.formulation == Formulation::double_point && !refused("formulation")) {
+      report("formulation", "\"double-point\" with a skeleton that moves",
+             "\"single-point\", or law = \"rigid\"");
+    }
+    const std::string expected = "none beside a skeleton that moves, or law = \"rigid\"";
+    if (!scene_.walls.empty()) report("wall[0].on", "a wall", expected);
+    for (const BoundaryCondition& boundary : scene_.boundaries) {
+      if (boundary.key.starts_with("well[")) report(boundary.key + ".on", "a well", expected);
     }
   }
 };

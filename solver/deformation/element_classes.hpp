@@ -8,20 +8,21 @@
 
 namespace suffuse {
 
-/// An element is full where each element that shares a node with it holds a point. This asks for
-/// no volume: a limit on the volume takes sparse inner elements for partial ones.
-enum class ElementClass : char { empty, partial, full };
-
+/// Inside the soil an element is full: its mean stress fills it, whatever the volumes of its points
+/// are. At the surface it counts as far as its points do. Between the two it goes over without a
+/// jump, with the share of the volume around its nodes that soil fills: a jump would load the pore
+/// water at once, however short the step.
 struct ElementClasses {
   /// \param points  sorted by the elements of the grid
   template <int Dim>
   ElementClasses(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                  const PointsByElement& sorted);
 
-  std::vector<ElementClass> kind;  ///< per element
+  /// Per element: 1 where it is full, 0 where it counts as its points do, or has none.
+  std::vector<double> full;
   /// Per element, what a volume of its points counts for in the integral of the stress: in full
   /// elements V_e over the sum of the points' volumes, so that the mean stress fills the element; 1
-  /// in partial ones; 0 in empty ones.
+  /// where it counts as they do; 0 where there are none.
   std::vector<double> scale;
 };
 

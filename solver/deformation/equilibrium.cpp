@@ -32,6 +32,11 @@ std::vector<char> nodes_of(const Mesh<Dim>& mesh, const std::vector<int>& elemen
 
 }  // namespace
 
+PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left) {
+  if (model.moves()) return {model.law, model.at(fines_left)};
+  return {skeleton_law("elastic"), {.young = 1.0}};
+}
+
 template <int Dim>
 Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& supports,
                               int threads)
@@ -44,12 +49,19 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
   inverse_.assign(count, Gradient::Identity());
   ratio_.assign(count, 1.0);
   stress_.assign(count, Gradient::Zero());
+  effective_.assign(count, Gradient::Zero());
+  soil_volume_.assign(count, 0.0);
   for (const int e : elements_) {
-    if (body.classes.kind[e] == ElementClass::full) continue;
+    for (const int p : body.sorted.of(e)) {
+      soil_volume_[e] += body.classes.scale[e] * body.points.volume[p];
+    }
+  }
+  for (const int e : elements_) {
+    if (body.classes.full[e] == 1.0) continue;
     double young = 0.0;
     for (const int p : body.sorted.of(e)) young += body.skeleton[p].parameters.young;
     const auto points = static_cast<double>(body.sorted.of(e).size());
-    soft_[e] = soft_share * young / points * body.grid.volume[e];
+    soft_[e] = (1.0 - body.classes.full[e]) * body.soft * young / points * body.grid.volume[e];
   }
   double sum = 0.0;
   for (const int e : elements_) {
@@ -111,7 +123,8 @@ void Equilibrium<Dim>::displace_element(const NodeVectors<Dim>& displacement, bo
                               .stress;
     if (with_tangents) tangent_[e] += volume * tangent;
   }
-  stress += kirchhoff.template topLeftCorner<Dim, Dim>() * inverse_[e].transpose();
+  effective_[e] = kirchhoff.template topLeftCorner<Dim, Dim>();
+  stress += effective_[e] * inverse_[e].transpose();
   if (!pressure_.empty()) add_pressure(e, with_tangents);
 }
 
@@ -119,7 +132,9 @@ void Equilibrium<Dim>::displace_element(const NodeVectors<Dim>& displacement, bo
 template <int Dim>
 void Equilibrium<Dim>::add_pressure(int e, bool with_tangents) {
   const Gradient& inverse = inverse_[e];
-  const double factor = -pressure_[e] * body_.grid.volume[e] * ratio_[e];
+  const double stiffness = stiffness_.empty() ? 0.0 : stiffness_[e];
+  const double pressure = pressure_[e] - stiffness * (ratio_[e] - 1.0);
+  const double factor = -pressure * body_.grid.volume[e] * ratio_[e];
   stress_[e] += factor * inverse.transpose();
   if (!with_tangents) return;
   for (int k = 0; k < Dim; ++k) {
@@ -127,6 +142,10 @@ void Equilibrium<Dim>::add_pressure(int e, bool with_tangents) {
       const Gradient change = inverse.transpose() * inverse(l, k) -
                               inverse.row(l).transpose() * inverse.col(k).transpose();
       tangent_[e].col(k + Dim * l) += factor * change.reshaped();
+      if (stiffness == 0.0) continue;
+      const double growth = stiffness * ratio_[e] * inverse(l, k);
+      tangent_[e].col(k + Dim * l) +=
+          growth * body_.grid.volume[e] * ratio_[e] * inverse.transpose().reshaped();
     }
   }
 }
@@ -168,14 +187,22 @@ NodeVectors<Dim> Equilibrium<Dim>::tangent_times(const NodeVectors<Dim>& displac
 }
 
 template <int Dim>
-auto Equilibrium<Dim>::elastic_tangent(int e) const -> Tangent {
-  double lame = 0.0;
-  double shear = 0.0;
+auto Equilibrium<Dim>::mean_moduli(int e) const -> Moduli {
+  Moduli sum;
   for (const int p : body_.sorted.of(e)) {
-    const double volume = body_.classes.scale[e] * body_.points.reference_volume[p];
-    lame += volume * body_.skeleton[p].parameters.lame();
-    shear += volume * body_.skeleton[p].parameters.shear_modulus();
+    const double share =
+        body_.classes.scale[e] * body_.points.reference_volume[p] / soil_volume_[e];
+    sum.lame += share * body_.skeleton[p].parameters.lame();
+    sum.shear += share * body_.skeleton[p].parameters.shear_modulus();
   }
+  return sum;
+}
+
+template <int Dim>
+auto Equilibrium<Dim>::elastic_tangent(int e) const -> Tangent {
+  const Moduli mean = mean_moduli(e);
+  const double lame = soil_volume_[e] * mean.lame;
+  const double shear = soil_volume_[e] * mean.shear;
   Tangent tangent = soft_[e] * Tangent::Identity();
   for (int i = 0; i < Dim; ++i) {
     for (int j = 0; j < Dim; ++j) {

@@ -19,6 +19,15 @@ struct PointSkeleton {
   SkeletonParameters parameters;
 };
 
+/// Those of a soil where this share of its erodible fines is left. Soil of a rigid skeleton is held
+/// at its nodes: its law is never asked for more than no stress.
+PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left);
+
+/// Share of the stiffness of full elements that acts in partial ones on the displacement of each
+/// step. Without it a piece of soil that hangs by one node can turn freely, and Newton's method
+/// stalls; it does not act on what went before, so it does not carry the soil.
+inline constexpr double soft_share = 0.01;
+
 /// The solid at the start of a step. Refers to what the caller keeps.
 template <int Dim>
 struct SolidBody {
@@ -27,12 +36,8 @@ struct SolidBody {
   const PointsByElement& sorted;
   const std::vector<PointSkeleton>& skeleton;  ///< per point
   const ElementClasses& classes;
+  double soft = soft_share;
 };
-
-/// Share of the stiffness of full elements that acts in partial ones on the displacement of each
-/// step. Without it a piece of soil that hangs by one node can turn freely, and Newton's method
-/// stalls; it does not act on what went before, so it does not carry the soil.
-inline constexpr double soft_share = 0.01;
 
 /// Equilibrium over one step in the places at its start (updated Lagrangian), linear displacements,
 /// F = I + grad du:
@@ -52,7 +57,11 @@ class Equilibrium {
 
   [[nodiscard]] const DisplacementUnknowns<Dim>& unknowns() const { return unknowns_; }
   /// Pore pressure per element, Pa; empty: none.
-  void set_pressure(std::vector<double> pressure) { pressure_ = std::move(pressure); }
+  /// \param stiffness  the pressure falls by this times J - 1, per element, Pa; empty: it does not
+  void set_pressure(std::vector<double> pressure, std::vector<double> stiffness = {}) {
+    pressure_ = std::move(pressure);
+    stiffness_ = std::move(stiffness);
+  }
 
   /// Whether a displacement leaves each element with soil more than `min_ratio` of its volume.
   [[nodiscard]] bool is_possible(const NodeVectors<Dim>& displacement) const;
@@ -74,6 +83,21 @@ class Equilibrium {
   void assemble_elastic(Eigen::SparseMatrix<double>& stiffness) const;
   /// A matrix of the unknowns with places for both; its values are zero.
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
+
+  /// Mean effective stress sigma' of an element with soil, after the displacement, Pa; tension is
+  /// positive. Its part in the plane, in two dimensions.
+  [[nodiscard]] Gradient mean_stress(int element) const {
+    return effective_[element] / (soil_volume_[element] * ratio_[element]);
+  }
+  /// Mean elastic numbers of an element with soil: Lame's first parameter and the shear modulus,
+  /// Pa.
+  struct Moduli {
+    double lame = 0.0;
+    double shear = 0.0;
+  };
+  [[nodiscard]] Moduli mean_moduli(int element) const;
+  /// Volume of an element that counts as soil at the start of the step, m3: all of a full one.
+  [[nodiscard]] double soil_volume(int element) const { return soil_volume_[element]; }
 
   /// J = det F of an element.
   [[nodiscard]] double volume_ratio(int element) const { return ratio_[element]; }
@@ -103,12 +127,15 @@ class Equilibrium {
   std::vector<int> elements_;  ///< those with points
   DisplacementUnknowns<Dim> unknowns_;
   std::vector<double> pressure_;
-  double least_force_ = 0.0;       ///< of `force_scale`, N
-  std::vector<double> soft_;       ///< per element: stiffness against grad du, Pa m3
-  std::vector<Gradient> inverse_;  ///< F^-1 per element
-  std::vector<double> ratio_;      ///< det F per element
-  std::vector<Gradient> stress_;   ///< V_e P per element, Pa m3
-  std::vector<Tangent> tangent_;   ///< its derivative by F
+  std::vector<double> stiffness_;
+  double least_force_ = 0.0;         ///< of `force_scale`, N
+  std::vector<double> soft_;         ///< per element: stiffness against grad du, Pa m3
+  std::vector<Gradient> inverse_;    ///< F^-1 per element
+  std::vector<double> ratio_;        ///< det F per element
+  std::vector<Gradient> stress_;     ///< V_e P per element, Pa m3
+  std::vector<Gradient> effective_;  ///< V_e J sigma' per element, Pa m3
+  std::vector<double> soil_volume_;  ///< per element, m3
+  std::vector<Tangent> tangent_;     ///< its derivative by F
   Eigen::SparseMatrix<double> pattern_;
   /// Per element with points: place of each entry of its matrix, or -1.
   std::vector<std::array<int, ElementMatrix::SizeAtCompileTime>> slots_;

@@ -1,12 +1,16 @@
 #include "deformation/loads.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "deformation/point_motion.hpp"
 
 namespace suffuse {
 namespace {
+
+/// Barycentric coordinates of a place above the mesh may be so far below zero.
+constexpr double allowed_above = 0.5;
 
 /// Places on a face, in barycentric coordinates, which share its area equally: the Gauss points of
 /// degree 3 (two nodes) or 2 (three nodes).
@@ -23,8 +27,8 @@ std::array<std::array<double, Dim>, Dim> places_on_face() {
 
 /// Adds the force at a place; the functions of its element may be continued beyond it.
 template <int Dim>
-void add_force(const Grid<Dim>& grid, const PointPlace<Dim>& place, const Vector<Dim>& force,
-               NodeVectors<Dim>& loads) {
+void add_force_at(const Grid<Dim>& grid, const PointPlace<Dim>& place, const Vector<Dim>& force,
+                  NodeVectors<Dim>& loads) {
   for (int a = 0; a <= Dim; ++a) {
     loads[grid.mesh.elements[place.element][a]] += place.barycentric[a] * force;
   }
@@ -37,7 +41,24 @@ void add_point_forces(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                       const std::vector<Vector<Dim>>& force, NodeVectors<Dim>& loads) {
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
-    add_force<Dim>(grid, {e, barycentric(grid.mesh, e, points.position[p])}, force[p], loads);
+    add_force_at<Dim>(grid, {e, barycentric(grid.mesh, e, points.position[p])}, force[p], loads);
+  }
+}
+
+template <int Dim>
+void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                const PointsByElement& sorted, const ElementClasses& classes, const SoilMass& mass,
+                const std::array<double, 3>& gravity, NodeVectors<Dim>& loads) {
+  const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(gravity.data());
+  std::vector<Vector<Dim>> weight(points.size());
+  for (int p = 0; p < points.size(); ++p) weight[p] = mass.solid[p] * g;
+  add_point_forces(grid, points, weight, loads);
+  if (mass.liquid.empty()) return;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    double volume = 0.0;
+    for (const int p : sorted.of(e)) volume += classes.scale[e] * points.volume[p];
+    const Vector<Dim> of_node = mass.liquid[e] * volume / (Dim + 1) * g;
+    for (const int i : grid.mesh.elements[e]) loads[i] += of_node;
   }
 }
 
@@ -88,19 +109,24 @@ PointPlace<Dim> LoadedSurface<Dim>::carrier(const Grid<Dim>& grid, const PointsB
 }
 
 template <int Dim>
+void LoadedSurface<Dim>::add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
+                                   const Vector<Dim>& force, NodeVectors<Dim>& loads) const {
+  add_force_at<Dim>(grid, carrier(grid, sorted, place), force, loads);
+}
+
+template <int Dim>
 void LoadedSurface<Dim>::add_traction(const Grid<Dim>& grid, const PointsByElement& sorted,
                                       const Vector<Dim>& traction, NodeVectors<Dim>& loads) const {
   for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
-    add_force<Dim>(grid, carrier(grid, sorted, i), area_[i] * traction, loads);
+    add_force(grid, sorted, i, area_[i] * traction, loads);
   }
 }
 
 template <int Dim>
 void LoadedSurface<Dim>::add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted,
                                       double pressure, NodeVectors<Dim>& loads) const {
-  for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
-    add_force<Dim>(grid, carrier(grid, sorted, i), -pressure * normal_[i], loads);
-  }
+  add_pressures(
+      grid, sorted, [&](const Vector<Dim>&) { return pressure; }, loads);
 }
 
 template <int Dim>
@@ -116,10 +142,15 @@ void LoadedSurface<Dim>::move(const Grid<Dim>& grid, const PointsByElement& sort
     position_[i] += interpolate(grid, place, displacement);
     normal_[i] = f.determinant() * (f.inverse().transpose() * normal_[i]);
     const int e = element_at(grid, place.element, position_[i]);
+    const auto above = barycentric(grid.mesh, place.element, position_[i]);
+    if (e < 0 && *std::ranges::min_element(above) > -allowed_above) {
+      element_[i] = place.element;
+      continue;
+    }
     if (e < 0) {
       std::ostringstream message;
       message << "the loaded surface moves to (" << position_[i].transpose()
-              << "), which is outside the mesh; make the mesh larger";
+              << "), which is far outside the mesh; make the mesh larger";
       throw NumericalError(message.str());
     }
     element_[i] = e;
@@ -130,6 +161,12 @@ template void add_point_forces(const Grid<2>&, const SolidPoints<2>&, const std:
                                NodeVectors<2>&);
 template void add_point_forces(const Grid<3>&, const SolidPoints<3>&, const std::vector<Vector<3>>&,
                                NodeVectors<3>&);
+template void add_weight(const Grid<2>&, const SolidPoints<2>&, const PointsByElement&,
+                         const ElementClasses&, const SoilMass&, const std::array<double, 3>&,
+                         NodeVectors<2>&);
+template void add_weight(const Grid<3>&, const SolidPoints<3>&, const PointsByElement&,
+                         const ElementClasses&, const SoilMass&, const std::array<double, 3>&,
+                         NodeVectors<3>&);
 template class LoadedSurface<2>;
 template class LoadedSurface<3>;
 

@@ -2,9 +2,10 @@
 
 /// Loads on the solid, as forces on the nodes.
 
+#include <array>
 #include <vector>
 
-#include "deformation/solid_points.hpp"
+#include "deformation/element_classes.hpp"
 #include "deformation/supports.hpp"
 
 namespace suffuse {
@@ -13,6 +14,19 @@ namespace suffuse {
 template <int Dim>
 void add_point_forces(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                       const std::vector<Vector<Dim>>& force, NodeVectors<Dim>& loads);
+
+/// What the soil weighs.
+struct SoilMass {
+  std::vector<double> solid;   ///< per point, kg
+  std::vector<double> liquid;  ///< per volume of soil and element, kg/m3; empty: none
+};
+
+/// Adds the weight of the solid at its points and of the liquid in its pores, N.
+/// \param gravity  m/s2
+template <int Dim>
+void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                const PointsByElement& sorted, const ElementClasses& classes, const SoilMass& mass,
+                const std::array<double, 3>& gravity, NodeVectors<Dim>& loads);
 
 /// A surface of the soil that carries a load. It starts on faces of the mesh, and moves with the
 /// soil from there, so that it may come to lie inside elements: places on it carry shares of its
@@ -35,7 +49,17 @@ class LoadedSurface {
   void add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted, double pressure,
                     NodeVectors<Dim>& loads) const;
 
-  /// Moves with the soil. Throws NumericalError when the surface would leave the mesh.
+  /// The same for a pressure that goes with the place, Pa: `pressure(x)`.
+  template <class Pressure>
+  void add_pressures(const Grid<Dim>& grid, const PointsByElement& sorted, const Pressure& pressure,
+                     NodeVectors<Dim>& loads) const {
+    for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
+      add_force(grid, sorted, i, -pressure(position_[i]) * normal_[i], loads);
+    }
+  }
+
+  /// Moves with the soil. A place may rise a little above the mesh, and loads the last element
+  /// then. Throws NumericalError where it would rise by more than half an element.
   void move(const Grid<Dim>& grid, const PointsByElement& sorted,
             const NodeVectors<Dim>& displacement);
 
@@ -45,6 +69,8 @@ class LoadedSurface {
  private:
   [[nodiscard]] PointPlace<Dim> carrier(const Grid<Dim>& grid, const PointsByElement& sorted,
                                         int place) const;
+  void add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
+                 const Vector<Dim>& force, NodeVectors<Dim>& loads) const;
 
   std::vector<Vector<Dim>> position_;  ///< m
   std::vector<int> element_;           ///< of the soil below

@@ -13,6 +13,25 @@ namespace {
 /// A place so little outside an element, in barycentric coordinates, belongs to it: a point on a
 /// face does not leave the mesh by round-off.
 constexpr double on_face = 1e-12;
+/// Soil may rise over the border of the mesh by this share of the height of the element there,
+/// which its points then still belong to.
+constexpr double over_border = 0.5;
+
+template <int Dim>
+double least(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
+  return std::ranges::min(barycentric(grid.mesh, element, x));
+}
+
+/// The element with a node of this one that holds a place; -1 where there is none.
+template <int Dim>
+int neighbour_at(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
+  for (const int i : grid.mesh.elements[element]) {
+    for (int k = grid.node_element_begin[i]; k < grid.node_element_begin[i + 1]; ++k) {
+      if (least(grid, grid.node_element[k], x) >= -on_face) return grid.node_element[k];
+    }
+  }
+  return -1;
+}
 
 template <int Dim>
 Vector<Dim> displacement_at(const Grid<Dim>& grid, const PointPlace<Dim>& place,
@@ -25,8 +44,8 @@ template <int Dim>
   std::ostringstream message;
   message << "solid point " << point << " moves from (" << from.transpose() << ") to ("
           << to.transpose()
-          << "), which is outside the mesh; make the mesh larger, fix the boundary that it passes, "
-             "or take shorter steps";
+          << "), which is far outside the mesh; make the mesh larger, fix the boundary that it "
+             "passes, or take shorter steps";
   throw NumericalError(message.str());
 }
 
@@ -43,8 +62,13 @@ int element_at(const Grid<Dim>& grid, int start, const Vector<Dim>& x) {
     if (next < 0) break;  // outside, or beyond a corner of the border that points inwards
     e = next;
   }
+  const int neighbour = neighbour_at(grid, e, x);
+  if (neighbour >= 0) return neighbour;
+  const bool is_near = least(grid, e, x) >= -over_border;
+  if (is_near && e == start) return e;
   const auto place = find_place(grid, x);
-  return place ? place->element : -1;
+  if (place) return place->element;
+  return is_near ? e : -1;
 }
 
 template <int Dim>

@@ -16,7 +16,8 @@ template <int Dim>
 void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
                  const NodeVectors<Dim>& displacement, SolidPoints<Dim>& points, int threads);
 
-/// The element that holds a place, from an element nearby; -1 where the place is outside the mesh.
+/// The element that holds a place, from an element nearby, or the one at the border that the place
+/// lies little over, with a barycentric coordinate down to -0.5; -1 farther outside the mesh.
 template <int Dim>
 int element_at(const Grid<Dim>& grid, int start, const Vector<Dim>& x);
 

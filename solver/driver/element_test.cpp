@@ -1,13 +1,11 @@
 #include "driver/element_test.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iostream>
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
-#include "case/pending_file.hpp"
 #include "case/scene_schema.hpp"
+#include "driver/text_output.hpp"
 #include "physics/skeleton/soil_element.hpp"
 #include "results/number_text.hpp"
 
@@ -145,17 +143,7 @@ void run_element_test(const ElementTestOptions& options) {
   const SceneDocument document = read_scene(options.scene, options.overrides);
   const Soil& soil = find_soil(document, options.soil);
   const std::string text = element_test(soil, read_element_table(options.table), options.steps);
-  if (options.output == "-") {
-    std::cout << text << std::flush;
-    if (!std::cout) throw FileError("standard output: cannot be written");
-    return;
-  }
-  PendingFile pending(options.output);
-  std::ofstream file(pending.temporary_path(), std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw FileError(options.output + ": cannot be written");
-  pending.commit();
+  TextOutput(options.output).write(text);
 }
 
 }  // namespace suffuse

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/scene.hpp"
+#include "flow/flow_values.hpp"
 
 namespace suffuse {
 
@@ -15,8 +16,16 @@ class OutputTimes {
  public:
   OutputTimes(double every, double end) : every_(every), end_(end) {}
 
-  [[nodiscard]] double next() const { return std::min(multiple(), end_); }
+  [[nodiscard]] double next() const {
+    return is_same_time(multiple(), end_) ? end_ : std::min(multiple(), end_);
+  }
+  /// Whether the next time has come, but for round-off.
+  [[nodiscard]] bool is_due(double time) const {
+    return !finished() && (next() <= time || is_same_time(next(), time));
+  }
   [[nodiscard]] bool finished() const { return last_ >= end_; }
+  /// The time before `next`, s; negative: none.
+  [[nodiscard]] double last() const { return last_; }
   /// Number of times that are past.
   [[nodiscard]] long past() const { return past_; }
   /// The end is that of the scene: a run that has reached it may be restored with a later one.
@@ -75,8 +84,7 @@ class OutputSchedule {
 
   /// What is due at `time`; moves on to the output after it.
   Due take(double time) {
-    const Due due{!rows_.finished() && rows_.next() <= time,
-                  !snapshots_.finished() && snapshots_.next() <= time};
+    const Due due{rows_.is_due(time), snapshots_.is_due(time)};
     if (due.row) rows_.advance();
     if (due.snapshot) snapshots_.advance();
     return due;

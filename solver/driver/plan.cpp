@@ -11,12 +11,12 @@
 #include "driver/exchange_sentences.hpp"
 #include "flow/flow_scales.hpp"
 #include "flow/nodal_operator.hpp"
+#include "formulation/point_checks.hpp"
+#include "formulation/single_point.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
 #include "physics/liquid.hpp"
 #include "results/number_text.hpp"
-#include "solid/pores.hpp"
-#include "transport/field_transport.hpp"
 
 namespace suffuse {
 namespace {
@@ -165,45 +165,6 @@ void refuse_ergun_beside_switching_faces(const Case<Dim>& c,
                      "\"darcy\": where faces open, close or fall dry, drag is linear", ""}});
 }
 
-/// The volume that a point erodes is distributed over the field nodes of its element, and those far
-/// from the point get a negative share. The sum is right as long as each node keeps a pore volume.
-template <int Dim>
-void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
-                                const SoilMap<Dim>& soils) {
-  if (c.document.scene.formulation != Formulation::single_point) return;
-  const MaterialPoints<Dim>& points = soils.points();
-  const ElementField<Dim> pores = initial_pore_volume(grid, soils);
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const ErosionModel& model = soils.erosion_of_element(e);
-    const DepositionModel& deposition = soils.exchange_of_element(e).deposition;
-    const bool fills = deposition.deposits() && deposition.has_room_limit();
-    if (!erodes(model) && !fills) continue;
-    ElementValues<Dim> least = pores[e];
-    ElementValues<Dim> filled = pores[e];
-    for (int p = soils.points_begin(e); p < soils.points_begin(e + 1); ++p) {
-      const double porosity = soils.initial_porosity(p);
-      const double erodible =
-          erodes(model) ? points.volume[p] * (model.porosity_max - porosity) : 0.0;
-      const double room = fills ? points.volume[p] * (porosity - deposition.porosity_min) : 0.0;
-      for (int j = 0; j <= Dim; ++j) {
-        const double basis = FieldNodes<Dim>::basis(points.barycentric[p][j]);
-        least[j] += erodible * std::min(0.0, basis);
-        filled[j] -= room * basis;
-      }
-    }
-    if (std::min(*std::ranges::min_element(least), *std::ranges::min_element(filled)) > 0.0) {
-      continue;
-    }
-    std::ostringstream found;
-    found << "solid points so near the corners of element " << e << " at ("
-          << element_centroid(grid.mesh, e).transpose()
-          << ") that what they erode or catch leaves no pores elsewhere in it";
-    throw InputError(
-        {{c.document.locate("points.jitter"), "points", found.str(),
-          "points nearer to their Gauss positions, with less jitter, or more of them", ""}});
-  }
-}
-
 /// Longest time constant with which drag stops the flow in a soil, k / (n g), s.
 double longest_relaxation(const Scene& scene) {
   double relaxation = 0.0;
@@ -322,7 +283,7 @@ std::string how_fines_are_carried(const Scene& scene) {
       break;
   }
   return "explicit; implicit while the flow is so fast that the run would take more than " +
-         short_text(explicit_steps_of_a_run) + " explicit steps";
+         short_text(FieldTransportSettings{}.explicit_steps) + " explicit steps";
 }
 
 void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
@@ -351,7 +312,9 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
           " s, no grains in the liquid");
     }
   }
-  say("skip: motion of the solid, the skeleton is rigid");
+  say(scene.moves() ? "run: motion of the solid, in equilibrium (quasi-static), with each step of "
+                      "the flow"
+                    : "skip: motion of the solid, the skeleton is rigid");
   say(has_gravity(scene.gravity) ? "run: gravity" : "skip: gravity, none is given");
   const auto outputs = [&](double every) {
     return short_text(std::ceil(scene.time.end / every * (1.0 - 1e-12)) + 1.0);

@@ -77,6 +77,13 @@ class Run final : public OutputSink<Dim> {
       writer_.remove_checkpoint();
       write_info("done", "");
       return ExitCode::done;
+    } catch (const EquilibriumLost& error) {
+      progress_.finish();
+      write_last_equilibrium();
+      note_failure(error.what());
+      throw NumericalError(std::string(error.what()) +
+                           "\nWhat is written is complete, with the last equilibrium in the last "
+                           "row and the last snapshot");
     } catch (const FileError& error) {
       progress_.finish();
       note_failure(error.what());
@@ -152,6 +159,20 @@ class Run final : public OutputSink<Dim> {
          << " s; what is written is complete. To go on:\n  " << resume_command_;
     progress_.say(line.str());
     return ExitCode::interrupted;
+  }
+
+  /// The state before soil fails is what one wants to see, whenever that is. A run that goes on
+  /// from there drops this output again.
+  void write_last_equilibrium() {
+    const double now = loop_.model().time();
+    const OutputSchedule& schedule = loop_.schedule();
+    const FlowState<Dim> flow = loop_.model().flow_state();
+    finish_writing();
+    if (schedule.rows().last() < now) write_row(flow);
+    if (schedule.snapshots().last() < now) {
+      writer_.write_snapshot(loop_.model().snapshot(flow));
+    }
+    write_checkpoint();
   }
 
   /// Waits for the snapshot that is being written. Throws what its writing threw.

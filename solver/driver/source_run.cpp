@@ -96,16 +96,6 @@ class Comparison {
   throw InputError({{document.locate(key), key, found, expected, ""}});
 }
 
-template <int Dim>
-bool same_places(const Case<Dim>& a, const Case<Dim>& b) {
-  return a.mesh.nodes == b.mesh.nodes && a.mesh.elements == b.mesh.elements &&
-         a.mesh.element_region == b.mesh.element_region &&
-         a.mesh.region_names == b.mesh.region_names &&
-         a.solid_points.element == b.solid_points.element &&
-         a.solid_points.barycentric == b.solid_points.barycentric &&
-         a.solid_points.volume == b.solid_points.volume;
-}
-
 /// Puts a model of that case into the state of its last snapshot.
 template <int Dim>
 EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, int threads) {
@@ -119,6 +109,16 @@ EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, int threads) 
 }
 
 }  // namespace
+
+template <int Dim>
+bool have_same_points(const Case<Dim>& a, const Case<Dim>& b) {
+  return a.mesh.nodes == b.mesh.nodes && a.mesh.elements == b.mesh.elements &&
+         a.mesh.element_region == b.mesh.element_region &&
+         a.mesh.region_names == b.mesh.region_names &&
+         a.solid_points.element == b.solid_points.element &&
+         a.solid_points.barycentric == b.solid_points.barycentric &&
+         a.solid_points.volume == b.solid_points.volume;
+}
 
 template <int Dim>
 std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads) {
@@ -137,8 +137,12 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads) {
   }
   const Case<Dim> earlier = read_case<Dim>(layout::in_folder(folder, layout::case_copy));
   const Scene& scene = earlier.document.scene;
+  if (scene.moves()) {
+    refuse(document, shown + ", whose soil has moved",
+           "a run whose skeletons are rigid: --resume goes on with a run of another kind");
+  }
   Comparison(document, scene, folder).run();
-  if (!same_places(earlier, c)) {
+  if (!have_same_points(earlier, c)) {
     refuse(document, shown + ", whose mesh or solid points differ",
            "a run on the same mesh and points: the keys of [geometry], [mesh] and "
            "points.solid_per_element as there");
@@ -162,6 +166,7 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads) {
   return result;
 }
 
+template bool have_same_points(const Case<2>&, const Case<2>&);
 template std::optional<SourceRun<2>> read_source_run(const Case<2>&, int);
 
 }  // namespace suffuse

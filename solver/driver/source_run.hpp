@@ -20,6 +20,10 @@ struct SourceRun {
   std::vector<std::string> sentences;
 };
 
+/// Whether two cases have the same mesh, but for its boundaries, and the same solid points.
+template <int Dim>
+bool have_same_points(const Case<Dim>& a, const Case<Dim>& b);
+
 /// Reads the last state of the run; nothing where the scene names none. Throws InputError where the
 /// run is not done, or is of another formulation, mesh, water or soil; FileError where its files
 /// cannot be read.

@@ -44,6 +44,11 @@ void FlowScales::include(const std::vector<double>& face_pressure,
   pressure = std::max(pressure, high - low);
 }
 
+void FlowScales::include_loads(double change, double stiffness) {
+  has_bounds = false;
+  pressure = std::max({pressure, change, limits.nothing_strain * stiffness});
+}
+
 void FlowScales::include_in_bounds(const std::vector<double>& face_pressure) {
   const auto [low, high] = std::ranges::minmax(face_pressure);
   min_pressure = std::min(min_pressure, low);

@@ -22,6 +22,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
       grid_(grid),
       boundary_values_(c, grid),
       soils_(solid.soils()),
+      skeleton_(solid),
       threads_(threads),
       grain_density_(scene_.soils.front().grain_density),
       inflow_warned_(scene_.boundaries.size(), false) {
@@ -31,8 +32,11 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
         soils_.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
   }
   breakpoints_ = soils_.erosion_breakpoints();
-  const std::vector<double>& kinks = boundary_values_.breakpoints();
-  breakpoints_.insert(breakpoints_.end(), kinks.begin(), kinks.end());
+  kinks_ = boundary_values_.breakpoints();
+  const std::vector<double> of_loads = solid.load_breakpoints();
+  kinks_.insert(kinks_.end(), of_loads.begin(), of_loads.end());
+  std::ranges::sort(kinks_);
+  breakpoints_.insert(breakpoints_.end(), kinks_.begin(), kinks_.end());
   std::ranges::sort(breakpoints_);
   const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
                                  [](const Soil& s) { return s.drag == SoilDrag::ergun; });
@@ -123,9 +127,11 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
     const double concentration = pores.concentration[e];
     const ExchangeModel& model = soils_.exchange_of_element(e);
     result.mixture_density[e] = mixture_density(concentration, water_density, grain_density_);
-    result.drag[e] = darcy_drag(porosity, water_density,
-                                conductivity_at(model.conductivity, model.viscosity,
-                                                initial_porosity_[e], porosity, concentration));
+    const SurfaceSoil soil = surface_soil(e, porosity);
+    result.drag[e] = darcy_drag(
+        porosity, water_density,
+        soil.easier * conductivity_at(model.conductivity, model.viscosity, initial_porosity_[e],
+                                      soil.porosity, concentration));
     if (!grain_size_.empty()) {
       result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
     }
@@ -138,6 +144,18 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
     }
   });
   return result;
+}
+
+template <int Dim>
+typename FlowSolver<Dim>::SurfaceSoil FlowSolver<Dim>::surface_soil(int element,
+                                                                    double porosity) const {
+  /// Water without soil conducts as well as soil many times thinner than the element.
+  constexpr double thinnest = 1e-3;
+  const std::vector<SoilFilling>& filling = skeleton_.filling();
+  if (filling.empty() || filling[element].share == 1.0) return {porosity, 1.0};
+  const SoilFilling& part = filling[element];
+  if (part.share == 0.0) return {initial_porosity_[element], 1.0 / thinnest};
+  return {part.porosity, 1.0 / std::max(part.share, thinnest)};
 }
 
 template <int Dim>

@@ -72,8 +72,16 @@ struct FlowProgress {
   double dt = 0.0;      ///< length of the last one, s
   double end = 0.0;     ///< of the interval, s: its latest end, or before where the flow chose so
   FaceVolumes volumes;  ///< that crossed the faces since its start
-  /// Per element: volume of air that liquid has displaced, m3; empty where all soil is saturated.
-  std::vector<double> displaced_air = {};
+  /// Per element: volume that liquid has gained in the pores, m3: air that it has displaced, solid
+  /// that has moved out. Empty where there is neither.
+  std::vector<double> room_gained = {};
+  /// The liquid that crossed faces relative to the solid, m3; empty where the solid stays in place:
+  /// then `volumes` are that.
+  std::vector<double> relative = {};
+
+  [[nodiscard]] const std::vector<double>& relative_volumes() const {
+    return relative.empty() ? volumes.liquid : relative;
+  }
 };
 
 /// How the plan of a run wants the flow stepped.
@@ -146,6 +154,8 @@ class FlowSolver {
   [[nodiscard]] virtual std::vector<double> face_flux(double time) const {
     return state(time).face_flux;
   }
+  /// Iterations between flow and motion of the solid since the start; 0 where it stays in place.
+  [[nodiscard]] virtual long coupling_iterations() const { return 0; }
   /// Calls and seconds of each pass of the scheme, for run.json.
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
 
@@ -175,6 +185,8 @@ class FlowSolver {
       double time, const PoreState& pores, const std::vector<double>& face_concentration) const;
   /// Times at which erosion starts or ends or a boundary value has a kink, ascending, s.
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
+  /// Of these the times at which boundary values or loads have a kink, s, ascending.
+  [[nodiscard]] const std::vector<double>& kinks() const { return kinks_; }
   /// The first breakpoint after `start`, or `latest` where that comes first, s.
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; at a prescribed pressure, that pressure.
@@ -209,8 +221,18 @@ class FlowSolver {
   const Grid<Dim>& grid_;
   BoundaryValues<Dim> boundary_values_;
   const SoilMap<Dim>& soils_;
+  const Skeleton<Dim>& skeleton_;
   int threads_;
+  /// Porosity that resists the flow in an element, and how many times better it conducts than
+  /// soil that fills it, where soil has a surface in it.
+  struct SurfaceSoil {
+    double porosity;
+    double easier;
+  };
+  [[nodiscard]] SurfaceSoil surface_soil(int element, double porosity) const;
+
   std::vector<double> breakpoints_;
+  std::vector<double> kinks_;
   std::vector<double> initial_porosity_;  ///< per element, at its centroid
   std::vector<double> grain_size_;  ///< per element, of Ergun's drag; empty where no soil has it, m
   double grain_density_ = unset;
@@ -219,10 +241,10 @@ class FlowSolver {
   std::vector<std::string> warnings_;
 };
 
-/// The flow solver of the scheme that the scene asks for.
+/// The flow solver of the scheme that the scene asks for. A solid that moves does so in its steps.
 template <int Dim>
 std::unique_ptr<FlowSolver<Dim>> make_flow(const Case<Dim>& c, const Grid<Dim>& grid,
-                                           const Skeleton<Dim>& solid, const FlowOptions& options);
+                                           Skeleton<Dim>& solid, const FlowOptions& options);
 
 /// Throws InputError where the scene's scheme does not work in this dimension.
 template <int Dim>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "case/errors.hpp"
 #include "flow/implicit_settings.hpp"
@@ -18,19 +19,22 @@ constexpr const ImplicitThresholds& limits = implicit_thresholds;
 }  // namespace
 
 template <int Dim>
-ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
-                                const Skeleton<Dim>& solid, const FlowOptions& options)
+ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skeleton<Dim>& solid,
+                                const FlowOptions& options)
     : FlowSolver<Dim>(c, grid, solid, options.threads),
       options_(options),
+      solid_(solid),
       scheme_(grid, scheme_settings(this->scene(), options), this->gravity(),
               flow_soils(this->scene(), solid.soils()), leaky_faces(c, grid)),
+      coupling_(grid, solid, options.threads),
       has_gravity_(this->gravity().norm() > 0.0),
       follows_pores_(depends_on_pores(this->scene(), this->conditions_, options) || has_gravity_),
-      control_(step_settings(this->scene(), options, follows_pores_, this->conditions_,
-                             this->boundary_values().breakpoints())),
+      control_(
+          step_settings(this->scene(), options, follows_pores_, this->conditions_, this->kinks())),
       blending_(blending_settings(this->scene(), options, follows_pores_)),
-      reuse_({options.reuse_steady && !scheme_.has_retention(), this->scene().time.tolerance,
-              has_gravity_, has_condition(this->conditions_, FaceKind::velocity)}) {}
+      reuse_({options.reuse_steady && !scheme_.has_retention() && !solid.moves(),
+              this->scene().time.tolerance, has_gravity_,
+              has_condition(this->conditions_, FaceKind::velocity)}) {}
 
 template <int Dim>
 FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
@@ -38,10 +42,10 @@ FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
   double dt = control_.propose(interval.start, until, interval.longest);
   MixedStep<Dim> step = reuse_.active() ? steady_step(dt) : accepted_step(interval, dt);
   const double end = dt < until - interval.start ? interval.start + dt : until;
-  FlowProgress progress{1, dt, end,
-                        face_volumes(this->grid(), now_.state.face_pressure, pressure_, step,
-                                     this->scene().liquid.bulk_modulus, this->threads()),
-                        displaced_air(now_.state.air, step.end.air)};
+  FlowProgress progress{1, dt, end, {}, displaced_air(now_.state.air, step.end.air)};
+  if (solid_.moves()) move_solid(step, progress);
+  progress.volumes = face_volumes(this->grid(), now_.state.face_pressure, pressure_, step,
+                                  this->scene().liquid.bulk_modulus, this->threads());
   remember(std::move(step), dt);
   this->update_boundary_values(interval.start, end);
   if (contains_time(this->breakpoints(), end)) {
@@ -53,6 +57,19 @@ FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
 }
 
 template <int Dim>
+void ImplicitFlow<Dim>::move_solid(MixedStep<Dim>& step, FlowProgress& progress) {
+  const SolidMotion& motion = solid_.accept_motion();
+  progress.relative = step.face_volume;
+  for (std::size_t f = 0; f < step.face_volume.size(); ++f) {
+    step.face_volume[f] += motion.face_volume[f] - motion.solid_face_volume[f];
+  }
+  progress.room_gained.resize(motion.solid_gain.size(), 0.0);
+  for (std::size_t e = 0; e < motion.solid_gain.size(); ++e) {
+    progress.room_gained[e] -= motion.solid_gain[e];
+  }
+}
+
+template <int Dim>
 MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, double& dt) {
   const PassTimer timer(solving_);
   for (;;) {
@@ -60,7 +77,7 @@ MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interva
     std::vector<const FlowForcing<Dim>*> stages;
     for (const FlowForcing<Dim>& forcing : forcing_) stages.push_back(&forcing);
     ++solving_.calls;
-    std::optional<MixedStep<Dim>> tried = try_step(interval.start, dt, stages);
+    std::optional<MixedStep<Dim>> tried = try_step(interval, dt, stages);
     if (!tried) continue;
     MixedStep<Dim>& step = *tried;
     const double error = control_.has_given_step() ? 0.0 : error_of(step, interval.start, dt);
@@ -106,6 +123,7 @@ void ImplicitFlow<Dim>::let_out_expansion(double dt,
                                           const std::vector<const FlowForcing<Dim>*>& stages,
                                           MixedStep<Dim>& step) {
   if (std::isinf(this->scene().liquid.bulk_modulus) || scheme_.is_nonlinear()) return;
+  if (solid_.moves()) return;  // its steps are short against what a flow needs to fill an element
   if (dt < limits.expansion_time * filling_time()) return;
   const std::vector<double>& holds = this->coefficients_.water_volume;
   const std::vector<double> released = relaxation_.released(dt, filling_time());
@@ -127,15 +145,37 @@ void ImplicitFlow<Dim>::let_out_expansion(double dt,
 
 template <int Dim>
 std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::try_step(
-    double start, double& dt, const std::vector<const FlowForcing<Dim>*>& stages) {
+    const FlowInterval<Dim>& interval, double& dt,
+    const std::vector<const FlowForcing<Dim>*>& stages) {
+  const double start = interval.start;
   try {
+    if (solid_.moves()) {
+      return coupling_.step(scheme_, now_.state, pressure_, interval.pores.of_points_at(start + dt),
+                            start + dt, dt, *stages.back());
+    }
     return scheme_.step(now_.state, dt, stages);
   } catch (const NotConverged& error) {
     const double whole = this->scene().time.end;
-    if (dt < limits.min_unsolved_step * whole) throw NumericalError(error.what());
+    if (dt < limits.min_unsolved_step * whole) refuse_unsolved(start, error);
     control_.reject(start, dt);
     return std::nullopt;
   }
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::refuse_unsolved(double time, const NotConverged& error) const {
+  if (!solid_.moves()) throw NumericalError(error.what());
+  std::ostringstream message;
+  message << "t = " << time << " s: ";
+  if (dynamic_cast<const NoEquilibrium*>(&error) != nullptr) {
+    message << "the soil has lost its equilibrium: it cannot carry its weight, its loads and the "
+               "pressure of the water any longer. It fails from here on, and a run in equilibrium "
+               "(quasi-static) cannot follow it";
+  } else {
+    message << error.what()
+            << ", however short the step is: soil that yields is about to lose its equilibrium";
+  }
+  throw EquilibriumLost(message.str());
 }
 
 template <int Dim>
@@ -190,12 +230,14 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
         {{before(flux), now_.flux_through, step.flux_through, flux_scale, true},
          {before(air_of), air(now_.state), air(step.end), scales_.pore_volume, true}});
   }
-  const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
   const auto pressure = [](const MixedFlow<Dim>& flow) { return Span(flow.state.face_pressure); };
+  const ControlledField of_pressure{before(pressure), now_.state.face_pressure,
+                                    step.end.face_pressure, scales_.pressure};
+  // A load that comes at once drives water out of its boundary at any rate, for no time.
+  if (solid_.moves()) return control_.error(start, dt, {of_pressure});
+  const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
   return control_.error(
-      start, dt,
-      {{before(flux), now_.flux_through, step.flux_through, flux_scale},
-       {before(pressure), now_.state.face_pressure, step.end.face_pressure, scales_.pressure}});
+      start, dt, {{before(flux), now_.flux_through, step.flux_through, flux_scale}, of_pressure});
 }
 
 template <int Dim>
@@ -225,7 +267,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::pass_breakpoint(double time, double dt) {
   if (!reuse_.active()) previous_.reset();
   if (follows_pores_) blending_.shorten(dt);
-  const bool boundary_kink = contains_time(this->boundary_values().breakpoints(), time);
+  const bool boundary_kink = contains_time(this->kinks(), time);
   // Where erosion starts, the steady flow still fits its coefficients, but not those to come.
   if (boundary_kink || follows_pores_ || has_gravity_) reuse_.stop();
 }
@@ -354,7 +396,14 @@ void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>*
   if (!at_once) scales_.include_in_bounds(now_.state.face_pressure);
   scales_.include(now_.state.face_pressure, now_.face_flux);
   raise_over_round_off(scales_, grid, this->coefficients_, scene.liquid, scene.time.end);
-  control_.start(first_step(at_rest), !at_rest);
+  if (solid_.moves()) {
+    scales_.include_loads(solid_.largest_load_change(), solid_.stiffness());
+    solid_.start_motion({.pressure = pressure_on_solid(
+                             grid, pressure_, this->coefficients_.porosity, now_.state.air),
+                         .liquid_mass = liquid_mass(grid, this->coefficients_, now_.state.air)});
+  }
+  // Loads may come at once, and the pressures with them.
+  control_.start(first_step(at_rest), !at_rest && !solid_.moves());
 }
 
 template <int Dim>
@@ -413,19 +462,23 @@ template <int Dim>
 void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   FlowSolver<Dim>::archive(archive);
   scheme_.archive(archive, this->conditions_);
-  archive(control_, blending_, relaxation_, reuse_, scales_);
+  archive(control_, blending_, relaxation_, reuse_, scales_, coupling_);
   archive(now_, previous_, pressure_, eos_error_, solving_, reusing_);
 }
 
 template <int Dim>
 std::vector<PassTiming> ImplicitFlow<Dim>::passes() const {
   const SolveCounts counts = scheme_.counts();
-  return {solving_,
-          {"flow, rejected steps", control_.rejected(), 0.0},
-          {"flow, systems solved", counts.solves, 0.0},
-          {"flow, matrices factored", counts.factorisations, 0.0},
-          {"flow, conjugate gradients", counts.iterations, 0.0},
-          reusing_};
+  std::vector<PassTiming> result{solving_,
+                                 {"flow, rejected steps", control_.rejected(), 0.0},
+                                 {"flow, systems solved", counts.solves, 0.0},
+                                 {"flow, matrices factored", counts.factorisations, 0.0},
+                                 {"flow, conjugate gradients", counts.iterations, 0.0},
+                                 reusing_};
+  if (solid_.moves()) {
+    result.push_back({"flow, iterations with the solid", coupling_.iterations(), 0.0});
+  }
+  return result;
 }
 
 template class ImplicitFlow<2>;

@@ -14,6 +14,7 @@
 #include "flow/implicit_mixed.hpp"
 #include "flow/mass_relaxation.hpp"
 #include "flow/mixed_flow.hpp"
+#include "flow/solid_coupling.hpp"
 #include "flow/steady_reuse.hpp"
 #include "flow/step_control.hpp"
 
@@ -22,7 +23,7 @@ namespace suffuse {
 template <int Dim>
 class ImplicitFlow final : public FlowSolver<Dim> {
  public:
-  ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+  ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skeleton<Dim>& solid,
                const FlowOptions& options);
 
   void update(double time, const PoreState& pores,
@@ -48,9 +49,12 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<double> face_flux(double /*time*/) const override {
     return now_.face_flux;
   }
+  [[nodiscard]] long coupling_iterations() const override { return coupling_.iterations(); }
   [[nodiscard]] std::vector<PassTiming> passes() const override;
 
  private:
+  /// Moves the solid as the step has found, and adds what it takes along to what has crossed faces.
+  void move_solid(MixedStep<Dim>& step, FlowProgress& progress);
   /// The start from this flow, or from the steady one where water flows at once. `air`: none to
   /// take that of the pressures.
   void start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air);
@@ -59,7 +63,8 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] MixedStep<Dim> accepted_step(const FlowInterval<Dim>& interval, double& dt);
   /// A step, or nothing and a shorter `dt` where its iteration does not converge.
   [[nodiscard]] std::optional<MixedStep<Dim>> try_step(
-      double start, double& dt, const std::vector<const FlowForcing<Dim>*>& stages);
+      const FlowInterval<Dim>& interval, double& dt,
+      const std::vector<const FlowForcing<Dim>*>& stages);
   /// Water expands as it moves towards lower pressures. Where a step is so long that it would not
   /// fit its elements, solves it again with the sources that let it out.
   void let_out_expansion(double dt, const std::vector<const FlowForcing<Dim>*>& stages,
@@ -68,6 +73,8 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<double> expansion_in(const MixedStep<Dim>& step) const;
   /// Coefficients, boundary values and sources at each stage of a step of `dt`.
   void find_forcing(const FlowInterval<Dim>& interval, double dt);
+  /// Steps have become too short for what `error` says.
+  [[noreturn]] void refuse_unsolved(double time, const NotConverged& error) const;
   /// Coefficients at a time within the interval, as erosion will have made them.
   [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
                                                       double time) const;
@@ -99,7 +106,9 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<double> losses() const;
 
   FlowOptions options_;
+  Skeleton<Dim>& solid_;
   ImplicitMixed<Dim> scheme_;
+  SolidCoupling<Dim> coupling_;
   bool has_gravity_;
   bool follows_pores_;  ///< coefficients change with porosity within a step
 

@@ -162,6 +162,9 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
     w.face_push[e] = w.law.mobility[e] * push;
     w.round_off[e] = 2.0 * epsilon * w.law.mobility[e] * (w.law.drive[e].norm() + gradient.norm());
   });
+  const auto known_in_mean = [&](int e) {
+    return stored_in_mean(e, [&](int f) { return w.pressure.offset[f] + w.known_rise[f]; });
+  };
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
     const int row = matrix_.unknown(f);
     if (row < 0) return;
@@ -173,7 +176,7 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
       if (e < 0) continue;
       const int k = grid_.side_of(e, f);
       w.load[row] += w.face_push[e].dot(grid_.outward_normal(e, k)) + w.net_source[e] / (Dim + 1) -
-                     w.storage[e] * w.pressure.offset[f];
+                     w.storage[e] * w.pressure.offset[f] - known_in_mean(e) / (Dim + 1);
       if (!w.displaced.empty()) w.load[row] -= w.displaced[e][k];
       w.tolerance[row] += w.round_off[e] * face_area_[f];
     }
@@ -183,12 +186,12 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
 
 template <int Dim>
 void ImplicitMixed<Dim>::solve_pressure(const FlowForcing<Dim>& forcing) {
-  matrix_.assemble(work_.law, work_.storage);
+  matrix_.assemble(work_.law, work_.storage, {}, work_.mean_storage);
   for (const LeakyFace& wall : work_.walls) matrix_.couple(wall);
   find_load(forcing);
 
   for (const int e : correction_->sealed_root()) {
-    if (work_.storage[e] == 0.0) matrix_.hold_level(e);
+    if (!stores(e)) matrix_.hold_level(e);
   }
 
   const Eigen::VectorXd solution =
@@ -214,6 +217,8 @@ void ImplicitMixed<Dim>::find_resistance(const MixedState<Dim>& base, double dur
     if (inertia > 0.0) w.drive[e] += inertia * base.velocity[e];
     w.storage[e] = c.water_volume[e] / (settings_.bulk_modulus * (Dim + 1) * duration);
   });
+  w.mean_storage = forcing.mean_storage;
+  for (double& storage : w.mean_storage) storage /= duration;
   const auto wrong = std::find_if_not(w.resistance.begin(), w.resistance.end(),
                                       [](double r) { return r > 0.0 && std::isfinite(r); });
   if (wrong == w.resistance.end()) {
@@ -289,7 +294,10 @@ void ImplicitMixed<Dim>::solve_linear(const MixedState<Dim>& base,
 
 template <int Dim>
 double ImplicitMixed<Dim>::stored(int e, int k, double rise) const {
-  const double compressed = work_.storage[e] * rise;
+  const double compressed =
+      work_.storage[e] * rise + stored_in_mean(e, [&](int f) {
+                                  return work_.pressure.offset[f] + work_.pressure.rise[f];
+                                }) / (Dim + 1);
   return work_.displaced.empty() ? compressed : compressed + work_.displaced[e][k];
 }
 
@@ -312,7 +320,7 @@ void ImplicitMixed<Dim>::find_face_flux(const MixedState<Dim>& base, double dura
     double trace = Dim;
     if (!w.law.direction.empty()) trace -= w.law.direction[e].squaredNorm();
     w.conductance[e] = w.law.mobility[e] * trace / grid_.volume[e];
-    w.net_outflow[e] = w.net_source[e];
+    w.net_outflow[e] = w.net_source[e] - stored_in_mean(e, [&](int f) { return stage.rise[f]; });
     for (int k = 0; k <= Dim; ++k) {
       const int f = grid_.element_face[e][k];
       w.net_outflow[e] -= w.storage[e] * stage.rise[f];

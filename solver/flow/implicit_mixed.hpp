@@ -29,6 +29,7 @@
 #include "grid/grid.hpp"
 #include "linear/lagged_preconditioner.hpp"
 #include "linear/newton_system.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -56,6 +57,9 @@ struct FlowForcing {
   std::vector<FaceCondition> conditions;  ///< per face
   /// Per element: liquid that leaves it beyond what it stores, m3/s. Empty where there is none.
   std::vector<double> source;
+  /// Per element: liquid that it stores beside as its mean pressure rises, m3/Pa. Empty where there
+  /// is none.
+  std::vector<double> mean_storage = {};
 };
 
 /// The nonlinear iteration of a step did not converge: a shorter one may.
@@ -149,10 +153,11 @@ class ImplicitMixed {
     /// pressure or a flux.
     const std::vector<FaceCondition>* conditions = nullptr;
     std::vector<FaceCondition> resolved;
-    std::vector<double> storage;     ///< per face of the element, m3/(s Pa)
-    std::vector<double> net_source;  ///< outflow asked for, m3/s
-    std::vector<double> surplus;     ///< of inflow and sources of each sealed piece, m3/s
-    std::vector<LeakyFace> walls;    ///< conductance as the stage has it
+    std::vector<double> storage;       ///< per face of the element, m3/(s Pa)
+    std::vector<double> mean_storage;  ///< per element, m3/(s Pa); may be empty
+    std::vector<double> net_source;    ///< outflow asked for, m3/s
+    std::vector<double> surplus;       ///< of inflow and sources of each sealed piece, m3/s
+    std::vector<LeakyFace> walls;      ///< conductance as the stage has it
     MomentumLaw<Dim> law;
     FacePressure pressure;
     Field flux;  ///< per element, m/s
@@ -214,6 +219,17 @@ class ImplicitMixed {
                                       const std::vector<double>& quadratic_drag) const;
   /// The water that a sealed piece stores takes up what enters it.
   void level_sealed_pieces(const MixedState<Dim>& base, std::vector<double>& rise) const;
+  /// Whether an element stores liquid as its pressure rises.
+  [[nodiscard]] bool stores(int e) const {
+    return work_.storage[e] > 0.0 || (!work_.mean_storage.empty() && work_.mean_storage[e] > 0.0);
+  }
+  /// What an element stores with its mean pressure, m3/s, as it rises by these.
+  [[nodiscard]] double stored_in_mean(int e, const auto& rise_of_face) const {
+    if (work_.mean_storage.empty()) return 0.0;
+    double sum = 0.0;
+    for (const int f : grid_.element_face[e]) sum += rise_of_face(f);
+    return work_.mean_storage[e] * sum / (Dim + 1);
+  }
   /// What the share of a side stores in a stage in which its pressure rises by this, m3/s.
   [[nodiscard]] double stored(int e, int k, double rise) const;
   /// Flux out of the element through the side, m3/s.
@@ -252,6 +268,9 @@ class ImplicitMixed {
   void evaluate(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing);
   /// Round-off of what gravity drives and of the contents of the elements, m3/s.
   [[nodiscard]] double balance_round_off(double duration, const FlowForcing<Dim>& forcing) const;
+  /// Round-off of what pressures of this size drive, m3/s.
+  [[nodiscard]] double drive_round_off(const std::vector<double>& face_pressure,
+                                       const FlowCoefficients<Dim>& c) const;
   /// Finds the step of Newton's method. Throws NotConverged.
   void solve_newton();
   /// Takes this share of it.

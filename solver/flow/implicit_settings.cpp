@@ -22,7 +22,8 @@ ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options)
   ImplicitSettings settings;
   settings.bulk_modulus = scene.liquid.bulk_modulus;
   settings.inertia = options.inertia;
-  settings.stepping = scene.time.stepping;
+  // The motion of the solid is found at the end of a step alone.
+  settings.stepping = scene.moves() ? TimeStepping::monotone : scene.time.stepping;
   settings.threads = options.threads;
   return settings;
 }
@@ -37,7 +38,10 @@ StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool 
   settings.unnoticed = options.unnoticed;
   settings.length_alone_changes_matrix = !follows_pores;
   settings.kinks = kinks;
-  settings.crosses_jumps = std::ranges::any_of(conditions, &FaceCondition::switches) ||
+  // Where soil leaves an element or enters one, forces on its nodes jump.
+  settings.starts_anew_after_jumps = scene.moves();
+  settings.crosses_jumps = scene.moves() ||
+                           std::ranges::any_of(conditions, &FaceCondition::switches) ||
                            std::ranges::any_of(scene.soils, &Soil::drains);
   settings.threads = options.threads;
   return settings;

@@ -88,6 +88,8 @@ struct ImplicitThresholds {
   /// pressure drives, and of an element's water per duration of the run counts as nothing: water
   /// at rest flows by round-off, and no step is short enough for the relative error of that.
   double nothing = 1e-9;
+  /// Stresses of soil that moves count as nothing at such a strain.
+  double nothing_strain = 1e-8;
   /// Pressures below this share of the bulk modulus are round-off of the equation of state.
   double state_round_off = 1e-12;
   /// Cosines of angles above this, negative, are obtuse.

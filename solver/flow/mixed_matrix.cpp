@@ -88,14 +88,18 @@ double MixedMatrix<Dim>::entry(const MomentumLaw<Dim>& law, int e, int a, int b)
 
 template <int Dim>
 void MixedMatrix<Dim>::assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage,
-                                const ElementField<Dim>& side_storage) {
+                                const ElementField<Dim>& side_storage,
+                                const std::vector<double>& mean_storage) {
+  constexpr double share = 1.0 / ((Dim + 1) * (Dim + 1));
+  const auto in_mean = [&](int e) { return mean_storage.empty() ? 0.0 : share * mean_storage[e]; };
   // An entry beside the diagonal belongs to the one element that has both faces; to those on the
   // diagonal both neighbours of the face add.
   double* values = values_.valuePtr();
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     for (int a = 0; a <= Dim; ++a) {
       for (int b = 0; b <= Dim; ++b) {
-        if (a != b && position_[e][a][b] >= 0) values[position_[e][a][b]] = entry(law, e, a, b);
+        if (a == b || position_[e][a][b] < 0) continue;
+        values[position_[e][a][b]] = entry(law, e, a, b) + in_mean(e);
       }
     }
   });
@@ -104,7 +108,7 @@ void MixedMatrix<Dim>::assemble(const MomentumLaw<Dim>& law, const std::vector<d
     const auto diagonal = [&](int e) {
       const int k = grid_.side_of(e, f);
       const double stored = side_storage.empty() ? storage[e] : storage[e] + side_storage[e][k];
-      return entry(law, e, k, k) + stored;
+      return entry(law, e, k, k) + stored + in_mean(e);
     };
     const int left = grid_.face_left[f];
     const int k = grid_.side_of(left, f);

@@ -21,6 +21,8 @@ constexpr int max_iterations = 60;
 /// of what gravity drives and of the contents of the elements.
 constexpr double flux_accuracy = 1e-8;
 constexpr double round_off_units = 64.0;
+/// Where the iteration does not come nearer: of what the pressures themselves drive.
+constexpr double many_round_off_units = 512.0;
 /// From here on seepage faces open and close.
 constexpr double near_solution = 0.1;
 /// Of a step of Newton's method that is taken at least.
@@ -176,7 +178,7 @@ template <int Dim>
 bool ImplicitMixed<Dim>::is_level_held(int piece) const {
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     if (correction_->sealed_piece()[e] != piece) continue;
-    if (work_.storage[e] > 0.0) return true;
+    if (stores(e)) return true;
     if (work_.side_storage.empty()) continue;
     if (std::ranges::any_of(work_.side_storage[e], [](double s) { return s > 0.0; })) return true;
   }
@@ -219,7 +221,7 @@ void ImplicitMixed<Dim>::solve_newton() try {
       on_diagonal[e][k] += std::max(0.0, -flux[e][k] * w.gain[e][k]);
     }
   });
-  matrix_.assemble(w.law, w.storage, on_diagonal);
+  matrix_.assemble(w.law, w.storage, on_diagonal, w.mean_storage);
   for (const LeakyFace& wall : w.walls) matrix_.couple(wall);
   for (const int e : w.level_elements) matrix_.hold_level(e);
   for (const int f : switching_) {
@@ -265,6 +267,22 @@ double ImplicitMixed<Dim>::balance_round_off(double duration,
 }
 
 template <int Dim>
+double ImplicitMixed<Dim>::drive_round_off(const std::vector<double>& face_pressure,
+                                           const FlowCoefficients<Dim>& c) const {
+  double pressure = 0.0;
+  for (const double p : face_pressure) pressure = std::max(pressure, std::abs(p));
+  return many_round_off_units * epsilon *
+         largest_of(grid_.mesh.element_count(), settings_.threads, 0.0, [&](int e) {
+           double steepest = 0.0;  // squared, 1/m2
+           for (const Vector<Dim>& g : grid_.shape_gradient[e]) {
+             steepest = std::max(steepest, g.squaredNorm());
+           }
+           const double drives = c.porosity[e] / c.drag[e] * grid_.volume[e] * steepest * pressure;
+           return std::max(gravity_flux(e, c), drives);
+         });
+}
+
+template <int Dim>
 void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double duration,
                                          const FlowForcing<Dim>& forcing) {
   Work& w = work_;
@@ -295,6 +313,8 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
                           switch_faces(forcing, allowed, pressure_accuracy());
     if (!switched && left <= allowed) return;
     if (!std::isfinite(left) || iterations_ == max_iterations) {
+      // Water that stands still next to everywhere: what is left is round-off of its pressures.
+      if (!switched && left <= drive_round_off(base.face_pressure, forcing.coefficients)) return;
       refuse_unsettled(iterations_, left, scale, switched);
     }
     share = 1.0;
@@ -361,6 +381,9 @@ void ImplicitMixed<Dim>::settle_air(const MixedState<Dim>& base, double duration
     // What the pressures say, and what left by the fluxes: equal but for round-off, or for what the
     // iteration missed in a piece without an outlet.
     double missing = -work_.net_source[e] * duration;
+    if (!work_.mean_storage.empty()) {
+      missing += duration * stored_in_mean(e, [&](int f) { return stage.rise[f]; });
+    }
     for (int k = 0; k <= Dim; ++k) {
       const int f = grid_.element_face[e][k];
       missing += duration * (grid_.element_face_sign[e][k] * stage.face_flux[f] +

@@ -38,7 +38,7 @@ void ImplicitMixed<Dim>::balance_sealed_pieces(const FlowForcing<Dim>& forcing) 
     gross[p] += std::abs(prescribed_inflow(forcing, f));
   }
   for (std::size_t p = 0; p < pieces; ++p) {
-    if (w.storage[correction_->sealed_root()[p]] > 0.0) continue;
+    if (stores(correction_->sealed_root()[p])) continue;
     if (!(std::abs(w.surplus[p]) <= 1e-9 * gross[p])) {
       std::ostringstream text;
       text.precision(10);
@@ -50,7 +50,7 @@ void ImplicitMixed<Dim>::balance_sealed_pieces(const FlowForcing<Dim>& forcing) 
   }
   // The round-off that remains is spread over the piece.
   for (int e = 0; e < elements; ++e) {
-    if (piece[e] >= 0 && w.storage[correction_->sealed_root()[piece[e]]] == 0.0) {
+    if (piece[e] >= 0 && !stores(correction_->sealed_root()[piece[e]])) {
       w.net_source[e] -= w.surplus[piece[e]] * grid_.volume[e] / volume[piece[e]];
     }
   }
@@ -69,6 +69,9 @@ void ImplicitMixed<Dim>::level_sealed_pieces(const MixedState<Dim>& base,
     if (piece[e] < 0) continue;
     for (const int f : grid_.element_face[e]) stored[piece[e]] += work_.storage[e] * rise[f];
     capacity[piece[e]] += (Dim + 1) * work_.storage[e];
+    if (work_.mean_storage.empty()) continue;
+    stored[piece[e]] += stored_in_mean(e, [&](int f) { return rise[f]; });
+    capacity[piece[e]] += work_.mean_storage[e];
   }
   std::vector<double> shift(pieces);
   for (std::size_t p = 0; p < pieces; ++p) {

@@ -90,6 +90,7 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
                      error > 0.5 * rejected_error_ * (1.0 + dt / rejected_dt_);
   if (jumps) {
     next_ = dt;
+    jumped_ = settings_.starts_anew_after_jumps;
     return true;
   }
   ++rejected_;
@@ -122,7 +123,8 @@ void StepControl::refuse_too_short(double start, double dt) const {
 
 void StepControl::finish(double dt) {
   last_ = dt;
-  smooth_ = true;
+  smooth_ = !jumped_;
+  jumped_ = false;
 }
 
 void StepControl::grow(double dt) {

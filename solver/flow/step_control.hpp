@@ -29,6 +29,9 @@ struct StepSettings {
   /// Fields may jump: a step whose error does not fall with its length is accepted. Seepage faces
   /// open and close at once, and no step is short enough for that.
   bool crosses_jumps = false;
+  /// After such a jump the next step has no error that could be estimated: the slope of a jump
+  /// predicts nothing.
+  bool starts_anew_after_jumps = false;
   int threads = 1;
 };
 
@@ -91,6 +94,7 @@ class StepControl {
   double last_ = 0.0;
   double next_ = 0.0;
   bool smooth_ = true;
+  bool jumped_ = false;  ///< the step that was accepted last has crossed a jump
   long rejected_ = 0;
   bool shortened_ = false;  ///< the step at hand has been rejected before
   // Of its last rejected attempt.

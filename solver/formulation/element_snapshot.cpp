@@ -123,11 +123,7 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
     const double c = Nodes::value(c_node, points.barycentric[p]);
     concentration.values.push_back(c);
     fines.values.push_back(Nodes::value(f_node, points.barycentric[p]));
-    PlaceFlow at_point = flows.at(p, e, flow.time, flow.time);
-    at_point.concentration = c;
-    rate.values.push_back(exchange_rate(solid.soils().exchange_of_element(e),
-                                        {solid.initial_porosity()[p], n}, at_point, flow.time)
-                              .eroded);
+    rate.values.push_back(solid.exchange_rate_at(p, n, c, flow.time, flows).eroded);
     pressure.values.push_back(flow.pressure[e]);
   }
   result.solid = {{"porosity", "1", 1, solid.porosity()},
@@ -151,6 +147,7 @@ Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   add_pores(grid, solid, liquid, flow.saturation, result);
   add_flow(grid, flow, scene, result);
   add_solid_points(grid, solid, liquid, flow, result);
+  solid.describe(result);
   return result;
 }
 

@@ -37,9 +37,10 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.points_out = crossed.points_out;
   row.residual_water =
       relative((stored.water - initial.water) + crossed.water_net, initial.water, crossed.water_in);
-  row.residual_grains = relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
-                                     (stored.pending - initial.pending) + crossed.fines_net,
-                                 initial.solid + initial.fines + initial.pending, crossed.fines_in);
+  row.residual_grains =
+      relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
+                   (stored.pending - initial.pending) - stored.carried + crossed.fines_net,
+               initial.solid + initial.fines + initial.pending, crossed.fines_in);
   return row;
 }
 

@@ -37,17 +37,18 @@ struct Stored {
   double eroded = 0.0;     ///< since the start
   double deposited = 0.0;  ///< since the start
   double pending = 0.0;    ///< eroded, but not yet with any liquid
+  double carried = 0.0;    ///< solid that points have carried in, minus out, since the start
   double points = 0.0;     ///< liquid points, number
 };
 
 /// Running sums behind one `Stored`.
 struct StoredSums {
-  CompensatedSum solid, erodible, water, fines, eroded, deposited, pending;
+  CompensatedSum solid, erodible, water, fines, eroded, deposited, pending, carried;
   double points = 0.0;
 
   [[nodiscard]] Stored totals() const {
-    return {solid.value(),  erodible.value(),  water.value(),   fines.value(),
-            eroded.value(), deposited.value(), pending.value(), points};
+    return {solid.value(),     erodible.value(), water.value(),   fines.value(), eroded.value(),
+            deposited.value(), pending.value(),  carried.value(), points};
   }
 };
 

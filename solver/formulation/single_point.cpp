@@ -15,7 +15,8 @@ FieldTransportSettings field_settings(const Scene& scene, const ModelOptions& op
   const bool is_explicit = scene.time.scheme == FlowScheme::explicit_nodal;
   return {is_explicit ? TransportScheme::explicit_steps : scene.time.transport,
           options.transport ? options.fines_from : never,
-          {scene.time.end, scene.time.tolerance, scene.time.step.has_value()}};
+          {scene.time.end, scene.time.tolerance, scene.time.step.has_value()},
+          scene.moves()};
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ template <int Dim>
 void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   const typename SoilMap<Dim>::Dependence& needed = soils_.exchange_depends_on();
   flux_history_.duration = flow.end - start;
-  flux_history_.mean = per_time(flow.volumes.liquid, flux_history_.duration);
+  flux_history_.mean = per_time(flow.relative_volumes(), flux_history_.duration);
   flux_history_.end = needed.flux ? flow_->face_flux(flow.end) : flux_history_.mean;
   if (needed.resistance) relative_conductivity_ = flow_->relative_conductivity();
   flows_ = point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration,
@@ -167,13 +167,13 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   HistoryRow row;
   row.t = time_;
   flow_->describe(flow, row);
-  // Over regions that exchange fines, or over all soil where none does.
+  // Over soils that exchange fines, or over all of them where none does.
   const MaterialPoints<Dim>& points = soils_.points();
   const bool any_changes = soils_.erodes() || soils_.deposits();
   CompensatedSum pores;
   CompensatedSum volume;
   for (int p = 0; p < points.size(); ++p) {
-    const bool changes = soils_.exchange_of_element(points.element[p]).exchanges();
+    const bool changes = soils_.exchange_of_point(p).exchanges();
     if (any_changes && !changes) continue;
     pores.add(points.volume[p] * solid_->porosity()[p]);
     volume.add(points.volume[p]);
@@ -183,6 +183,7 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   const SeepagePower power = seepage_power(grid_, soils_, flow, scene());
   row.power = power.now;
   row.conductivity_ratio = power.conductivity_ratio();
+  solid_->describe(row);
   return row;
 }
 
@@ -216,12 +217,16 @@ std::vector<StoredSums> TwoPhaseModel<Dim>::solid_masses() const {
       if (!solid.deposited_volume.empty()) {
         sum->deposited.add(grain_density_ * solid.deposited_volume[p]);
       }
-      if (!erodes(soils_.erosion_of_element(points.element[p]))) continue;
-      sum->eroded.add(mass * (solid_->porosity()[p] - solid_->initial_porosity()[p]));
+      if (!erodes(soils_.exchange_of_point(p).erosion)) continue;
+      sum->eroded.add(mass * solid_->eroded_share(p));
       if (!solid.deposited_volume.empty()) {
         sum->eroded.add(grain_density_ * solid.deposited_volume[p]);
       }
     }
+  }
+  const std::vector<double> carried = solid_->region_gain();
+  for (std::size_t r = 0; r < carried.size(); ++r) {
+    sums[r + 1].carried.add(grain_density_ * carried[r]);
   }
   return sums;
 }

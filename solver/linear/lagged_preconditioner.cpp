@@ -35,21 +35,6 @@ void LaggedPreconditioner::factorise(const Matrix& matrix) {
   copy_values(matrix, factored_values_);
 }
 
-void LaggedPreconditioner::archive(StateArchive& archive, const Matrix& pattern) {
-  std::vector<double> factored = factored_values_;
-  archive(factored, iterated_values_);
-  if (archive.restores()) {
-    factored_values_.clear();
-    if (!factored.empty()) {
-      Matrix matrix = pattern;
-      if (factored.size() != static_cast<std::size_t>(matrix.nonZeros())) StateArchive::misfit();
-      std::copy(factored.begin(), factored.end(), matrix.valuePtr());
-      factorise(matrix);
-    }
-  }
-  archive(last_iterations_, repeated_iterations_, counts_);
-}
-
 Eigen::VectorXd LaggedPreconditioner::solve_directly(const SymmetricSystem& system) {
   Eigen::VectorXd x;
   factor_->solve(system.rhs, x);

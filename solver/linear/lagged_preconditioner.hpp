@@ -3,12 +3,13 @@
 /// Solves a sequence of similar symmetric positive definite systems with as few factorisations as
 /// it takes.
 
+#include <Eigen/SparseCore>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "linear/cholesky_factor.hpp"
 #include "linear/conjugate_gradients.hpp"
-#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -57,7 +58,20 @@ class LaggedPreconditioner {
 
   /// Which matrix is factored decides how the next ones are solved. Its factor is made again, of
   /// the same values and thus with the same bits; `pattern` is that of the matrices.
-  void archive(StateArchive& archive, const Eigen::SparseMatrix<double>& pattern);
+  void archive(auto& archive, const Eigen::SparseMatrix<double>& pattern) {
+    std::vector<double> factored = factored_values_;
+    archive(factored, iterated_values_);
+    if (archive.restores()) {
+      factored_values_.clear();
+      if (!factored.empty()) {
+        Matrix matrix = pattern;
+        if (factored.size() != static_cast<std::size_t>(matrix.nonZeros())) archive.misfit();
+        std::copy(factored.begin(), factored.end(), matrix.valuePtr());
+        factorise(matrix);
+      }
+    }
+    archive(last_iterations_, repeated_iterations_, counts_);
+  }
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;

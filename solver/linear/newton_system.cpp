@@ -8,7 +8,6 @@
 namespace suffuse {
 namespace {
 
-constexpr double accuracy = 1e-9;  ///< of the residual, relative to the right-hand side
 constexpr int max_iterations = 60;
 
 /// The factor, as Eigen's iterations call a preconditioner.
@@ -48,7 +47,7 @@ void NewtonSystem::factorise(const Eigen::SparseMatrix<double>& nearly) {
 }
 
 void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
-                         Eigen::VectorXd& x) {
+                         Eigen::VectorXd& x, double accuracy) {
   ++counts_.solves;
   Eigen::BiCGSTAB<Eigen::SparseMatrix<double>, FactorPreconditioner> iterations;
   iterations.preconditioner().factor = &factor_;
@@ -63,15 +62,6 @@ void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const Eigen:
   if (direct.info() != Eigen::Success || !x.allFinite()) {
     throw NumericalError("the pressures could not be solved for: the system is singular");
   }
-}
-
-void NewtonSystem::archive(StateArchive& archive, const Eigen::SparseMatrix<double>& pattern) {
-  archive(counts_, factored_);
-  if (!archive.restores() || factored_.size() == 0) return;
-  if (factored_.size() != pattern.nonZeros()) StateArchive::misfit();
-  Eigen::SparseMatrix<double> matrix = pattern;
-  Eigen::Map<Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()) = factored_;
-  factor_.factorise(matrix);
 }
 
 }  // namespace suffuse

@@ -8,7 +8,6 @@
 
 #include "linear/cholesky_factor.hpp"
 #include "linear/lagged_preconditioner.hpp"
-#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -19,14 +18,22 @@ class NewtonSystem {
   void factorise(const Eigen::SparseMatrix<double>& nearly);
 
   /// Sets x to the solution of matrix x = rhs. Throws NumericalError where there is none.
+  /// \param accuracy  of the residual, relative to the right-hand side
   void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
-             Eigen::VectorXd& x);
+             Eigen::VectorXd& x, double accuracy = 1e-9);
 
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
 
   /// The factor is made again, of the same values and thus with the same bits; `pattern` is that of
   /// the matrices.
-  void archive(StateArchive& archive, const Eigen::SparseMatrix<double>& pattern);
+  void archive(auto& archive, const Eigen::SparseMatrix<double>& pattern) {
+    archive(counts_, factored_);
+    if (!archive.restores() || factored_.size() == 0) return;
+    if (factored_.size() != pattern.nonZeros()) archive.misfit();
+    Eigen::SparseMatrix<double> matrix = pattern;
+    Eigen::Map<Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()) = factored_;
+    factor_.factorise(matrix);
+  }
 
  private:
   CholeskyFactor factor_;

@@ -55,6 +55,12 @@ struct HistoryRow {
   double conductivity_ratio = 0.0;
   double power = 0.0;   ///< that water spends on the soil, W
   double energy = 0.0;  ///< since the start, J: of the power in the rows, linear in between
+  // Of a skeleton that moves; else 0.
+  double settlement_max = 0.0;  ///< largest displacement along gravity, or down in y without it, m
+  double displacement_max = 0.0;  ///< m
+  /// What makes the solid's flux fit its volumes, over the flux of its motion, in the last step.
+  double solid_correction = 0.0;
+  double newton_iterations = 0.0;  ///< of the solid's equilibrium, since the start
 
   // No columns: what the checks of the run ask for besides.
   std::string volume_defect_at;  ///< the element of `volume_defect`; empty where there is none
@@ -62,7 +68,7 @@ struct HistoryRow {
   double fines_weight_share = 0.0;
 };
 
-inline constexpr std::array<Column<HistoryRow>, 26> history_columns{{
+inline constexpr std::array<Column<HistoryRow>, 30> history_columns{{
     {"t", &HistoryRow::t, "s"},
     {"dt", &HistoryRow::dt, "s"},
     {"porosity_mean", &HistoryRow::porosity_mean, "1"},
@@ -89,6 +95,10 @@ inline constexpr std::array<Column<HistoryRow>, 26> history_columns{{
     {"conductivity_ratio", &HistoryRow::conductivity_ratio, "1"},
     {"power", &HistoryRow::power, "W"},
     {"energy", &HistoryRow::energy, "J"},
+    {"settlement_max", &HistoryRow::settlement_max, "m"},
+    {"displacement_max", &HistoryRow::displacement_max, "m"},
+    {"solid_correction", &HistoryRow::solid_correction, "1"},
+    {"newton_iterations", &HistoryRow::newton_iterations, "1"},
 }};
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross

@@ -364,8 +364,12 @@ void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
   };
   const std::string solid_name = layout::snapshot("solid", index);
   write(solid_name, [&](Hdf5File& file) {
-    write_vtkhdf_on(file, layout::grid_name("solid"), {},
-                    {.point = std::move(snapshot.solid), .precision = precision});
+    const VtkFields fields{.point = std::move(snapshot.solid), .precision = precision};
+    if (snapshot.solid_positions.empty()) {
+      write_vtkhdf_on(file, layout::grid_name("solid"), {}, fields);
+    } else {
+      write_vtkhdf(file, vtk_grid(std::move(snapshot.solid_positions)), fields);
+    }
   });
   const bool has_liquid = case_.document.scene.formulation == Formulation::double_point;
   const std::string liquid_name = layout::snapshot("liquid", index);

@@ -38,9 +38,11 @@ struct Field {
 struct Snapshot {
   double time = 0.0;
   long step = 0;
-  std::vector<Field> cell;               ///< per element: means
-  std::vector<Field> node;               ///< per mesh node
-  std::vector<Field> solid;              ///< per solid point
+  std::vector<Field> cell;   ///< per element: means
+  std::vector<Field> node;   ///< per mesh node
+  std::vector<Field> solid;  ///< per solid point
+  /// x, y, z of every solid point; empty where they stay where the case has them.
+  std::vector<double> solid_positions = {};
   std::vector<double> liquid_positions;  ///< x, y, z of every liquid point; double-point only
   std::vector<Field> liquid;             ///< per liquid point
   /// The element's own linear scalar at its vertices: Dim + 1 components per element, in the order

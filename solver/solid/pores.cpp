@@ -32,16 +32,23 @@ ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid) 
 }
 
 template <int Dim>
-PoreState PoreForecast<Dim>::at(double time) const {
-  PoreState result = now_;
-  if (!solid_.exchanges_within(time_, time)) return result;
+std::vector<double> PoreForecast<Dim>::of_points_at(double time) const {
+  if (!solid_.exchanges_within(time_, time)) return {};
   const SoilMap<Dim>& soils = solid_.soils();
   PointFlows ahead = point_flows(grid_, soils, flux_.extrapolated(time - time_), flux_.duration,
                                  relative_conductivity_, threads_);
   ahead.concentration = liquid_.concentration;
   ahead.saturation = liquid_.saturation;
   ahead.motion = liquid_.motion;
-  const std::vector<double> after = solid_.porosity_after(time_, time, ahead);
+  return solid_.porosity_after(time_, time, ahead);
+}
+
+template <int Dim>
+PoreState PoreForecast<Dim>::at(double time) const {
+  PoreState result = now_;
+  const std::vector<double> after = of_points_at(time);
+  if (after.empty()) return result;
+  const SoilMap<Dim>& soils = solid_.soils();
   const std::vector<double>& before = solid_.porosity();
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     double growth = 0.0;

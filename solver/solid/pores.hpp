@@ -48,6 +48,8 @@ class PoreForecast {
         threads_(threads) {}
 
   [[nodiscard]] PoreState at(double time) const;
+  /// n_L per solid point then, if the soil were not deformed; empty where it stays as it is.
+  [[nodiscard]] std::vector<double> of_points_at(double time) const;
 
  private:
   const Grid<Dim>& grid_;

@@ -2,70 +2,20 @@
 
 /// A skeleton that stays in place: its points erode and do not move.
 
-#include "solid/skeleton.hpp"
+#include "solid/eroding_skeleton.hpp"
 
 namespace suffuse {
 
 template <int Dim>
-class RigidSkeleton final : public Skeleton<Dim> {
+class RigidSkeleton final : public ErodingSkeleton<Dim> {
  public:
   RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const TimeSpan& span,
                 int threads);
 
-  [[nodiscard]] const SoilMap<Dim>& soils() const override { return soils_; }
-  [[nodiscard]] const SolidState& state() const override { return state_; }
-  [[nodiscard]] const std::vector<double>& porosity() const override { return porosity_; }
-  [[nodiscard]] const std::vector<double>& initial_porosity() const override {
-    return initial_porosity_;
-  }
   [[nodiscard]] std::vector<double> element_porosity() const override;
   [[nodiscard]] const std::vector<double>& face_volume_rate() const override { return at_rest_; }
 
-  [[nodiscard]] bool exchanges_within(double from, double to) const override {
-    return span_.meets(from, to);
-  }
-  [[nodiscard]] std::vector<double> porosity_after(double from, double to,
-                                                   const PointFlows& flows) const override;
-  void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& waiting,
-                std::vector<double>& exchange) override;
-  [[nodiscard]] Exchange exchange_at(int point, double porosity, double concentration, double from,
-                                     double to, const PointFlows& flows) const override;
-  [[nodiscard]] Exchange exchange_rate_at(int point, double porosity, double concentration,
-                                          double time, const PointFlows& flows) const override;
-  [[nodiscard]] bool is_possible(int point, double porosity, double time,
-                                 const PointFlows& flows) const override;
-  void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) override;
-  void deposit(const std::vector<double>& volume) override;
-
-  void start_from(const SolidState& state) override;
-  void archive(StateArchive& archive) override;
-
  private:
-  /// n_L of a point from what it holds.
-  [[nodiscard]] double porosity_of(int point) const {
-    return 1.0 - state_.solid_volume(point) / soils_.points().volume[point];
-  }
-  void update_porosity();
-  /// Changes the state of a point; returns the volume that went into the liquid, m3.
-  double take(int point, const Exchange& change);
-  /// Throws NumericalError where deposits leave hardly any pores.
-  void refuse_full() const;
-  /// What erodes where nothing but the flux drives it: in closed form, without the rest of what
-  /// exchange may depend on.
-  [[nodiscard]] Exchange eroded_at(int point, double porosity, double from, double to,
-                                   const PointFlows& flows) const;
-  /// Calls `take(point, exchange)` for every point of an element whose soil exchanges fines.
-  template <class Take>
-  void exchange_in(int element, double from, double to, const PointFlows& flows,
-                   const Take& take) const;
-
-  const Grid<Dim>& grid_;
-  const SoilMap<Dim>& soils_;
-  TimeSpan span_;
-  int threads_;
-  SolidState state_;
-  std::vector<double> initial_porosity_;
-  std::vector<double> porosity_;
   std::vector<double> initial_pores_;  ///< volume per element, m3
   std::vector<double> at_rest_;        ///< empty: no solid crosses a face
 };

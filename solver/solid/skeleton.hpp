@@ -1,13 +1,17 @@
 #pragma once
 
 /// The solid phase as an interface for the rest of the solver: soil at material points, of which a
-/// part can erode into the liquid. The skeleton that stays in place is `RigidSkeleton`.
+/// part can erode into the liquid. The skeleton that stays in place is `RigidSkeleton`, the one
+/// that moves is `MovingSkeleton` (deformation/).
 
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
+#include "case/errors.hpp"
 #include "grid/grid.hpp"
 #include "results/state_archive.hpp"
+#include "results/writer.hpp"
 #include "solid/point_flows.hpp"
 
 namespace suffuse {
@@ -25,6 +29,51 @@ struct SolidState {
   void archive(auto& archive) { archive(skeleton_volume, erodible_volume, deposited_volume); }
 };
 
+/// The soil cannot carry what loads it any longer, or is about to fail. Thrown before a step
+/// changes anything: the model is as it was in the last equilibrium.
+class EquilibriumLost : public NumericalError {
+ public:
+  using NumericalError::NumericalError;
+};
+
+/// What drives the motion of the skeleton in a step.
+struct MotionForcing {
+  double end = 0.0;                 ///< time at the end of the step, s
+  double duration = 0.0;            ///< of the step, s
+  std::vector<double> pressure;     ///< of the pores at the end, per element, Pa
+  std::vector<double> liquid_mass;  ///< water and fines in the pores, per volume of soil and
+                                    ///< element, kg/m3
+  /// n_L of each solid point at the end, with what it will have exchanged with the liquid, if it
+  /// were not deformed; empty: as now.
+  std::vector<double> porosity = {};
+  /// Pressures fall by this times the growth of the soil, per element, Pa; empty: they are given.
+  std::vector<double> stiffness = {};
+};
+
+/// How the skeleton moves in a step.
+struct SolidMotion {
+  /// Whether an equilibrium was found; else the step must be shorter.
+  bool converged = true;
+  /// Volume of soil with its pores that crosses each face along its normal, m3 (S_f). What leaves
+  /// an element is what its soil grows by, V_e (J - 1), and what the bubbles of its faces carry
+  /// (docs/theory.md). 0 between elements without soil.
+  std::vector<double> face_volume;
+  /// Of that the solid itself, m3 (s_f), and what each element gains by it, m3. Empty until the
+  /// motion is accepted.
+  std::vector<double> solid_face_volume;
+  std::vector<double> solid_gain;
+  int iterations = 0;   ///< of Newton's method, in the last try
+  double travel = 0.0;  ///< largest displacement over the height of an element there
+  /// Of s_f, what makes it balance over what the motion carries; of accepted motions.
+  double solid_correction = 0.0;
+};
+
+/// How far soil fills an element at its surface.
+struct SoilFilling {
+  double share = 1.0;     ///< of the element; 0: free water
+  double porosity = 0.0;  ///< n_L of the soil there; not used where the share is 0 or 1
+};
+
 template <int Dim>
 class Skeleton {
  public:
@@ -39,6 +88,9 @@ class Skeleton {
   [[nodiscard]] virtual const std::vector<double>& porosity() const = 0;
   /// n_L per solid point at the start.
   [[nodiscard]] virtual const std::vector<double>& initial_porosity() const = 0;
+  /// Volume that a point has given to the liquid since the start, per volume of its soil today;
+  /// what was deposited there counts as given back.
+  [[nodiscard]] virtual double eroded_share(int point) const = 0;
   /// Mean n_L per element.
   [[nodiscard]] virtual std::vector<double> element_porosity() const = 0;
   /// Volume of solid that crosses each face per second, along its normal, m3/s. Empty while the
@@ -76,11 +128,50 @@ class Skeleton {
   virtual void start_from(const SolidState& state) = 0;
 
   virtual void archive(StateArchive& archive) = 0;
+
+  // Of a skeleton that moves. The others stay in place, and nobody asks them for more.
+
+  [[nodiscard]] virtual bool moves() const { return false; }
+  /// Times at which what loads the solid has a kink, s.
+  [[nodiscard]] virtual std::vector<double> load_breakpoints() const { return {}; }
+  /// Finds the stress at the start. `forcing`: without a duration. Throws NumericalError where
+  /// there is no equilibrium.
+  virtual void start_motion(const MotionForcing& /*forcing*/) {}
+  /// Volume by which each element's soil would shrink per Pa of pore pressure less if it could not
+  /// move sideways, V_e / E_oed, m3/Pa: about how strongly pressure and motion depend on each
+  /// other.
+  [[nodiscard]] virtual std::vector<double> compressibility() const { return {}; }
+  /// Largest modulus of soil that cannot move sideways, Pa.
+  [[nodiscard]] virtual double stiffness() const { return 0.0; }
+  /// By how much tractions change in the run, from that at the start, Pa.
+  [[nodiscard]] virtual double largest_load_change() const { return 0.0; }
+  /// The equilibrium at the end of a step, from its start, without changing the state. To ask again
+  /// with other pressures starts from the last answer.
+  virtual const SolidMotion& try_motion(const MotionForcing& /*forcing*/) {
+    throw std::logic_error("a rigid skeleton does not move");
+  }
+  /// Takes the last motion that was tried: points move, and solid with them.
+  virtual const SolidMotion& accept_motion() {
+    throw std::logic_error("a rigid skeleton does not move");
+  }
+  /// Solid that points have carried into each region of the mesh since the start, minus what they
+  /// have carried out of it, m3. Empty while the solid stays in place.
+  [[nodiscard]] virtual std::vector<double> region_gain() const { return {}; }
+  /// Per element; empty while soil fills all elements that it filled at the start.
+  [[nodiscard]] virtual const std::vector<SoilFilling>& filling() const {
+    static const std::vector<SoilFilling> all;
+    return all;
+  }
+  /// Adds what is known of the motion to a row and to a snapshot, whose fields of solid points are
+  /// in the order of `soils().points()`.
+  virtual void describe(HistoryRow& /*row*/) const {}
+  virtual void describe(Snapshot& /*snapshot*/) const {}
 };
 
-/// The skeleton that the scene asks for. Exchange happens within `span` alone.
+/// The skeleton that the scene asks for, which moves the points of `soils` if it moves. Exchange
+/// happens within `span` alone. (deformation/make_skeleton.cpp)
 template <int Dim>
-std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils,
                                              const TimeSpan& span, int threads);
 
 }  // namespace suffuse

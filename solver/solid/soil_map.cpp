@@ -54,8 +54,9 @@ Vector<Dim> across_bedding(const Soil& soil) {
 
 template <int Dim>
 SoilMap<Dim>::SoilMap(const Case<Dim>& c)
-    : mesh_(c.mesh),
-      points_(c.solid_points),
+    : scene_(c.document.scene),
+      mesh_(c.mesh),
+      points_(&c.solid_points),
       free_water_(std::make_shared<const Soil>(free_water(c.document.scene))) {
   const double most_conductive = free_water_->conductivity / free_water_ratio;
   for (const std::string& region : mesh_.region_names) {
@@ -71,9 +72,22 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
     still_flux_.push_back(still_gradient * across + still_share * most_conductive);
   }
   find_dependence();
+  find_points_begin();
+}
+
+template <int Dim>
+void SoilMap<Dim>::find_points_begin() {
   points_begin_.assign(mesh_.element_count() + 1, 0);
-  for (const int e : points_.element) ++points_begin_[e + 1];
+  for (const int e : points_->element) ++points_begin_[e + 1];
   std::partial_sum(points_begin_.begin(), points_begin_.end(), points_begin_.begin());
+}
+
+template <int Dim>
+void SoilMap<Dim>::move_points(MaterialPoints<Dim> points, std::vector<int> region) {
+  moved_ = std::make_unique<const MaterialPoints<Dim>>(std::move(points));
+  moved_region_ = std::move(region);
+  points_ = moved_.get();
+  find_points_begin();
 }
 
 template <int Dim>
@@ -107,8 +121,8 @@ std::vector<double> SoilMap<Dim>::erosion_breakpoints() const {
   for (std::size_t r = 0; r < exchange_of_region_.size(); ++r) {
     double lowest = 1.0;
     double highest = 0.0;
-    for (int p = 0; p < points_.size(); ++p) {
-      if (mesh_.element_region[points_.element[p]] != static_cast<int>(r)) continue;
+    for (int p = 0; p < points_->size(); ++p) {
+      if (region_of_point(p) != static_cast<int>(r)) continue;
       lowest = std::min(lowest, initial_porosity(p));
       highest = std::max(highest, initial_porosity(p));
     }
@@ -138,14 +152,15 @@ TimeSpan SoilMap<Dim>::exchange_span(bool fines_enter) const {
   constexpr double round_off = 1e-6;
   constexpr double never = std::numeric_limits<double>::infinity();
   TimeSpan span{never, -never};
-  for (int p = 0; p < points_.size(); ++p) {
-    const ErosionModel& model = erosion_of_element(points_.element[p]);
+  for (int p = 0; p < points_->size(); ++p) {
+    const ErosionModel& model = exchange_of_point(p).erosion;
     if (!suffuse::erodes(model)) continue;
     span.start = std::min(span.start, model.start);
-    const bool waits_for_liquid =
-        soil_of_element(points_.element[p]).erosion.empty_elements == EmptyElements::dry;
+    // Fines also last longer where soil is compressed: a rate is per volume of today.
+    const bool waits = soil_of_point(p).erosion.empty_elements == EmptyElements::dry ||
+                       soil_of_point(p).skeleton.moves();
     const double gone = exhaustion_time(model, initial_porosity(p)) * (1.0 + round_off);
-    span.end = std::max(span.end, waits_for_liquid ? never : gone);
+    span.end = std::max(span.end, waits ? never : gone);
   }
   if (deposits() && fines_enter) span.start = -never;
   if (deposits() && (fines_enter || erodes())) span.end = never;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Which soil fills each element and each solid point, how it erodes, and when. Constant through a
-/// run.
+/// run, but for the points of a skeleton that moves.
 
 #include <limits>
 #include <memory>
@@ -33,13 +33,17 @@ Vector<Dim> across_bedding(const Soil& soil);
 template <int Dim>
 class SoilMap {
  public:
-  /// Keeps references to the mesh and the solid points of the case. Throws InputError when a region
-  /// of the mesh has no soil (also checked by the mesher).
+  /// Keeps references to the scene, the mesh and the solid points of the case. Throws InputError
+  /// when a region of the mesh has no soil (also checked by the mesher).
   explicit SoilMap(const Case<Dim>& c);
+  SoilMap(const SoilMap&) = delete;
+  SoilMap& operator=(const SoilMap&) = delete;
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
 
   [[nodiscard]] const Mesh<Dim>& mesh() const { return mesh_; }
-  /// The solid points, sorted by element.
-  [[nodiscard]] const MaterialPoints<Dim>& points() const { return points_; }
+  /// The solid points, sorted by element: those of the case, or where they have moved to.
+  [[nodiscard]] const MaterialPoints<Dim>& points() const { return *points_; }
   /// Points of element e: from points_begin(e) to points_begin(e + 1).
   [[nodiscard]] int points_begin(int element) const { return points_begin_[element]; }
 
@@ -55,15 +59,32 @@ class SoilMap {
   [[nodiscard]] const ExchangeModel& exchange_of_element(int element) const {
     return exchange_of_region_[mesh_.element_region[element]];
   }
+  /// A point keeps the soil of the region that it comes from (index into the mesh's
+  /// `region_names`).
+  [[nodiscard]] int region_of_point(int point) const {
+    return moved_region_.empty() ? mesh_.element_region[points_->element[point]]
+                                 : moved_region_[point];
+  }
+  [[nodiscard]] const Soil& soil_of_point(int point) const {
+    return *soil_of_region_[region_of_point(point)];
+  }
+  [[nodiscard]] const ExchangeModel& exchange_of_point(int point) const {
+    return exchange_of_region_[region_of_point(point)];
+  }
+  /// Points that have moved take the place of those of the case.
+  /// \param points  sorted by element; where the soil is today
+  /// \param region  per point: the one it comes from
+  void move_points(MaterialPoints<Dim> points, std::vector<int> region);
+
   /// |q| up to which water counts as standing still, m/s: round-off.
   [[nodiscard]] double still_flux(int element) const {
     return still_flux_[mesh_.element_region[element]];
   }
   /// Gradient along a flux over |q|/k, k being that along bedding; 1 for no flux.
   [[nodiscard]] double resistance_along(int element, const Vector<Dim>& flux) const;
-  /// n_0 of a solid point.
+  /// n_0 of a solid point that has not moved.
   [[nodiscard]] double initial_porosity(int point) const {
-    return soil_of_element(points_.element[point]).initial_porosity(points_.position(mesh_, point));
+    return soil_of_point(point).initial_porosity(points_->position(mesh_, point));
   }
 
   /// Some soil erodes.
@@ -88,9 +109,13 @@ class SoilMap {
 
  private:
   void find_dependence();
+  void find_points_begin();
 
+  const Scene& scene_;
   const Mesh<Dim>& mesh_;
-  const MaterialPoints<Dim>& points_;
+  const MaterialPoints<Dim>* points_;                 ///< of the case, or `moved_`
+  std::unique_ptr<const MaterialPoints<Dim>> moved_;  ///< null while they stay in place
+  std::vector<int> moved_region_;                     ///< per point; empty while they stay
   std::vector<int> points_begin_;
   std::shared_ptr<const Soil> free_water_;
   std::vector<const Soil*> soil_of_region_;

@@ -64,10 +64,14 @@ void ElementBalance<Dim>::find_points(const ElementStart<Dim>& start,
   const int e = start.element;
   begin_ = soils_.points_begin(e);
   end_ = soils_.points_begin(e + 1);
-  const ExchangeModel& model = soils_.exchange_of_element(e);
   given_ = Values::Zero();
-  exchanges_ = solid.exchanges && model.exchanges() && end_ > begin_;
-  coupled_ = exchanges_ && model.depends_on_concentration();
+  exchanges_ = false;
+  coupled_ = false;
+  for (int p = begin_; solid.exchanges && p < end_; ++p) {
+    const ExchangeModel& model = soils_.exchange_of_point(p);
+    exchanges_ |= model.exchanges();
+    coupled_ |= model.exchanges() && model.depends_on_concentration();
+  }
   if (!exchanges_) return;
   const auto count = static_cast<std::size_t>(end_ - begin_);
   basis_.resize(count);

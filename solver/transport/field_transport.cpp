@@ -87,15 +87,16 @@ bool FieldTransport<Dim>::is_implicit(const std::vector<double>& face_rate) cons
     return settings_.scheme == TransportScheme::implicit_sweeps;
   }
   return settings_.implicit.end >
-         explicit_steps_of_a_run * scheme_.steps_allowed(state_, face_rate);
+         settings_.explicit_steps * scheme_.steps_allowed(state_, face_rate);
 }
 
 template <int Dim>
 std::vector<TransportStep> FieldTransport<Dim>::start_interval(double start,
                                                                const FlowProgress& flow) {
+  if (settings_.points_move) find_basis();
   carries_ = flow.end > settings_.fines_from;
   sweeps_ = false;
-  gained_ = flow.displaced_air;
+  gained_ = flow.room_gained;
   if (!carries_) {
     gain(state_, gained_);
     return {{start, flow.end, 1.0}};

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "grid/parallel.hpp"
-#include "transport/fixed_point.hpp"
+#include "linear/anderson_mixing.hpp"
 #include "transport/linear_fines.hpp"
 
 namespace suffuse {

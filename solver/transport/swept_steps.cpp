@@ -27,7 +27,7 @@ void SweptSteps<Dim>::start(double start, const FlowProgress& flow) {
   const PassTimer timer(timing_);
   start_ = time_ = start;
   end_ = flow.end;
-  field_.start(flow.volumes.liquid, flow.displaced_air);
+  field_.start(flow.volumes.liquid, flow.room_gained);
 }
 
 template <int Dim>

@@ -12,7 +12,6 @@
 #include <sstream>
 
 #include "case/errors.hpp"
-#include "driver/deformation_checks.hpp"
 #include "mesher/temporary_folder.hpp"
 
 namespace suffuse {
@@ -179,21 +178,6 @@ TEST(ElementTest, says_what_is_wrong_in_a_table) {
             "6: got 2 values; expected 6, as many as columns");
   EXPECT_EQ(answer("stress_xx,stress_yy,stress_zz,strain_yy\n0,0,0,\n0,-1,0,-0.1\n"),
             "3: stress_yy: got a value beside that of strain_yy; expected one of the two");
-}
-
-TEST(ElementTest, a_run_refuses_skeletons_that_move) {
-  try {
-    refuse_moving_skeletons(parse_scene(scene, "scene.toml"));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "scene.toml:13: soil.sand.skeleton.law: got \"mohr-coulomb\"; expected \"rigid\": "
-              "this version moves no skeleton in a run, but tests a soil element (suffuse-solver "
-              "--element-test)\n"
-              "scene.toml:20: soil.clay.skeleton.law: got \"von-mises\"; expected \"rigid\": this "
-              "version moves no skeleton in a run, but tests a soil element (suffuse-solver "
-              "--element-test)");
-  }
 }
 
 /// The program, with what it shows.

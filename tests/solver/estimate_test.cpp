@@ -120,6 +120,21 @@ TEST(OutputSchedule, MergesRowsAndSnapshots) {
   EXPECT_EQ(outputs, "0 row snapshot, 0.25 row, 0.5 row snapshot, 0.75 row, 1 row snapshot, ");
 }
 
+TEST(OutputSchedule, TimesThatDifferByRoundOffAreOne) {
+  Scene scene;
+  scene.time.end = 3.0 * 0.1;  // more than 0.3
+  scene.output.every = 0.1;
+  scene.output.snapshot_every = 0.3;
+  OutputSchedule schedule(scene);
+  int count = 0;
+  for (; !schedule.finished(); ++count) {
+    const OutputSchedule::Due due = schedule.take(schedule.next());
+    EXPECT_EQ(due.snapshot, count == 0 || count == 3);
+    EXPECT_TRUE(due.row);
+  }
+  EXPECT_EQ(count, 4);
+}
+
 TEST(Estimate, OfAWholeTrialIsTheRun) {
   for (const auto& [name, input] : examples()) {
     SCOPED_TRACE(name);

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -221,7 +222,7 @@ class Judge {
 
   void check_mean_porosity(const std::vector<double>& t, const std::vector<double>& mean) {
     const KnownPorosity exact(scene_);
-    if (!exact.known()) return;
+    if (scene_.moves() || !exact.known()) return;
     for (std::size_t i = 0; i < t.size(); ++i) {
       j_.porosity_error = std::max(j_.porosity_error, std::abs(mean[i] - exact.at(t[i])));
     }
@@ -317,7 +318,12 @@ class Judge {
     expect(porosity.size() == static_cast<std::size_t>(case_.solid_points.size()),
            "solid points were lost in " + where);
     const int count = std::min(static_cast<int>(porosity.size()), case_.solid_points.size());
-    for (int p = 0; p < count; ++p) {
+    if (scene_.moves()) {
+      // Points change their volumes, their elements and their order.
+      expect(std::ranges::all_of(porosity, [](double n) { return n > 0.0 && n < 1.0; }),
+             "porosity of a solid point outside 0 to 1 in " + where);
+    }
+    for (int p = 0; p < (scene_.moves() ? 0 : count); ++p) {
       const int e = case_.solid_points.element[p];
       const Soil& soil = *scene_.find_soil(case_.mesh.region_names[case_.mesh.element_region[e]]);
       const double first = soil.initial_porosity(case_.solid_points.position(case_.mesh, p));
@@ -434,6 +440,12 @@ std::string cell(std::string text) {
   return text;
 }
 
+Judgement with_end(Judgement judgement, const ChildEnd& end) {
+  judgement.exit_code = end.exit_code;
+  judgement.seconds = end.seconds;
+  return judgement;
+}
+
 }  // namespace
 
 Judgement judge_refusal(const Scenario& scenario, const std::string& message) {
@@ -452,6 +464,8 @@ Judgement judge_run(const Scenario& scenario, const Case<2>& c, const ChildEnd& 
     result = refusal(scenario, end.exit_code, error_line(end.output));
   } else if (end.exit_code == 0 || gave_up) {
     if (gave_up) result = refusal(scenario, end.exit_code, error_line(end.output));
+    // Without a start there is nothing to write.
+    if (gave_up && !std::filesystem::exists(folder)) return with_end(std::move(result), end);
     if (!gave_up) result.verdict = scenario.expected == Expected::refused ? "failed" : "pass";
     if (result.verdict == "failed" && !gave_up) result.message = "ran; expected a refusal";
     std::vector<std::string> wrong;
@@ -471,9 +485,7 @@ Judgement judge_run(const Scenario& scenario, const Case<2>& c, const ChildEnd& 
         : end.signal  ? "ended by signal " + std::to_string(end.signal)
                      : "exit code " + std::to_string(end.exit_code) + ": " + error_line(end.output);
   }
-  result.exit_code = end.exit_code;
-  result.seconds = end.seconds;
-  return result;
+  return with_end(std::move(result), end);
 }
 
 std::string table_head() {

@@ -72,6 +72,11 @@ std::vector<Sweep> all_sweeps();
 Sweep seepage_sweep();
 /// The mesh of one of them, of two soils: 1 m high, slopes of 0 to 2 m.
 Mesh<2> levee_mesh(unsigned seed);
+/// Soils, flood, landside and rain of one of them; the run lasts as long as water needs to pass.
+Changes levee_changes(unsigned seed, double end);
+
+/// Soils that move: levees under floods, and columns that consolidate.
+Sweep motion_sweep();
 
 /// Every way in which soils give fines away and catch them.
 Sweep soils_sweep();

@@ -70,7 +70,8 @@ std::string flood(Random& random, double end) {
   return text + "]";
 }
 
-/// Soils, flood, landside and rain of a seed; the run lasts as long as water needs to pass.
+}  // namespace
+
 Changes levee_changes(unsigned seed, double end) {
   Random random(seed + 9000);
   const double conductivity = random.decades(1e-9, 1e-1);
@@ -99,8 +100,6 @@ Changes levee_changes(unsigned seed, double end) {
   changes.push_back(std::string("liquid.bulk_modulus=") + moduli[random.below(3)]);
   return changes;
 }
-
-}  // namespace
 
 /// A levee 1 m high: a crest of up to 1 m, slopes of 0 to 2 m on either side, up to 14 rows.
 Mesh<2> levee_mesh(unsigned seed) {

@@ -15,6 +15,12 @@ const SkeletonLaw* skeleton_law(std::string_view word) {
   throw std::invalid_argument("no skeleton law '" + std::string(word) + "'");
 }
 
+bool SkeletonLaw::yields() const {
+  return std::ranges::any_of(parameters, [](const SkeletonParameter& parameter) {
+    return parameter.value == &SkeletonModel::cohesion;
+  });
+}
+
 FinesFunction::FinesFunction(std::vector<std::pair<double, double>> all) : pairs(std::move(all)) {
   if (pairs.front().first > pairs.back().first) std::ranges::reverse(pairs);
 }

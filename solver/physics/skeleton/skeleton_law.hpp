@@ -26,6 +26,9 @@ struct PrincipalResponse {
 
 /// A law, as its file declares it.
 struct SkeletonLaw {
+  /// Whether it has a strength, which can be divided by a factor of safety.
+  [[nodiscard]] bool yields() const;
+
   std::string_view word;         ///< what `law` is in a scene
   std::string_view description;  ///< for the scene reference
   std::span<const SkeletonParameter> parameters;

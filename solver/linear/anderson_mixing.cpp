@@ -1,4 +1,4 @@
-#include "transport/fixed_point.hpp"
+#include "linear/anderson_mixing.hpp"
 
 namespace suffuse {
 

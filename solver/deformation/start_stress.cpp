@@ -1,0 +1,107 @@
+#include "deformation/start_stress.hpp"
+
+#include <algorithm>
+
+#include "grid/parallel.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Each pass takes the displacement of the one before back, and errs by its strain squared.
+constexpr int max_passes = 60;
+/// The loads come in so many parts where soil yields too much for all at once.
+constexpr int load_parts = 20;
+/// Elastic soil must have a volume to lose.
+constexpr double max_poisson = 0.45;
+
+template <int Dim>
+void take_stress(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step, SolidPoints<Dim>& points,
+                 int threads) {
+  using Gradient = Eigen::Matrix<double, Dim, Dim>;
+  for_each_index(points.size(), threads, [&](int p) {
+    const int e = points.element[p];
+    Gradient f = Gradient::Identity();
+    for (int a = 0; a <= Dim; ++a) {
+      f += step.displacement()[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
+    }
+    const auto& [law, parameters] = step.skeleton()[p];
+    points.elastic_b[p] =
+        skeleton_response<Dim>(*law, parameters, points.elastic_b[p], f).elastic_b;
+  });
+}
+
+/// Shares of the loads, one after the other, each until the points carry it where they are.
+template <int Dim>
+bool settle(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+            const Supports<Dim>& supports, const StartLoads<Dim>& loads, int parts,
+            SolidPoints<Dim>& points, int threads) {
+  StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);
+  for (int part = 1; part <= parts; ++part) {
+    const double share = static_cast<double>(part) / parts;
+    NodeVectors<Dim> forces = loads.forces;
+    for (Vector<Dim>& force : forces) force *= share;
+    std::vector<double> pressure = loads.pressure;
+    for (double& p : pressure) p *= share;
+    for (int pass = 0;; ++pass) {
+      if (pass == max_passes || !step.solve(forces, pressure)) return false;
+      if (step.iterations() == 0) break;
+      take_stress(grid, step, points, threads);
+      step.restart();
+    }
+  }
+  return true;
+}
+
+/// The stress whose vertical part is that of the points, and whose horizontal one is K_0 times it.
+template <int Dim>
+void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
+                        const std::vector<PointSkeleton>& skeleton, const StartLoads<Dim>& loads,
+                        SolidPoints<Dim>& points) {
+  const Eigen::Vector3d up = Eigen::Vector3d(loads.gravity.data()).normalized();
+  const double ratio = *loads.earth_pressure;
+  for (int p = 0; p < points.size(); ++p) {
+    const auto& [law, parameters] = elastic[p];
+    const Eigen::Matrix3d stress =
+        skeleton_response<Dim>(*law, parameters, points.elastic_b[p],
+                               Eigen::Matrix<double, Dim, Dim>::Identity())
+            .stress;
+    const double vertical = up.dot(stress * up);
+    points.elastic_b[p] = elastic_b_under(
+        skeleton[p].parameters,
+        vertical * (ratio * Eigen::Matrix3d::Identity() + (1.0 - ratio) * up * up.transpose()));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+                       const Supports<Dim>& supports, const StartLoads<Dim>& loads,
+                       SolidPoints<Dim>& points, int threads) {
+  std::vector<PointSkeleton> elastic = skeleton;
+  for (PointSkeleton& of_point : elastic) {
+    of_point.law = skeleton_law("elastic");
+    if (!loads.earth_pressure) continue;
+    const double ratio = *loads.earth_pressure;
+    of_point.parameters.poisson = std::min(max_poisson, ratio / (1.0 + ratio));
+  }
+  const auto from_rest = [&](const std::vector<PointSkeleton>& soil, int parts) {
+    std::ranges::fill(points.elastic_b, Eigen::Matrix3d::Identity());
+    return settle(grid, soil, supports, loads, parts, points, threads);
+  };
+  bool found = from_rest(elastic, 1) || from_rest(elastic, load_parts);
+  if (found && loads.earth_pressure) set_earth_pressure(elastic, skeleton, loads, points);
+  found = found && settle(grid, skeleton, supports, loads, 1, points, threads);
+  if (!found && !from_rest(skeleton, load_parts)) {
+    throw NumericalError(
+        "the soil has no equilibrium at the start: it cannot carry its weight and the loads at "
+        "t = 0; give it more strength or stiffness, or fix a boundary that it leans on");
+  }
+}
+
+template void find_start_stress(const Grid<2>&, const std::vector<PointSkeleton>&,
+                                const Supports<2>&, const StartLoads<2>&, SolidPoints<2>&, int);
+template void find_start_stress(const Grid<3>&, const std::vector<PointSkeleton>&,
+                                const Supports<3>&, const StartLoads<3>&, SolidPoints<3>&, int);
+
+}  // namespace suffuse

@@ -1,0 +1,56 @@
+#pragma once
+
+/// The equilibrium of one step, to be asked again and again for other loads and pore pressures.
+
+#include "deformation/newton.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class StepEquilibrium {
+ public:
+  /// Keeps references to grid, points and supports.
+  /// \param skeleton  per point
+  /// Throws NumericalError when nothing holds the soil.
+  StepEquilibrium(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                  std::vector<PointSkeleton> skeleton, const Supports<Dim>& supports, int threads,
+                  const NewtonLimits& limits = {});
+  StepEquilibrium(const StepEquilibrium&) = delete;
+  StepEquilibrium& operator=(const StepEquilibrium&) = delete;
+
+  /// Finds the displacement over the step, from the last one that was found. Returns false where
+  /// there is none.
+  /// \param loads     per node, N
+  /// \param pressure  of the pores, per element, Pa; empty: none
+  bool solve(const NodeVectors<Dim>& loads, std::vector<double> pressure,
+             std::vector<double> stiffness = {});
+  /// Goes back to the start of the step: the stress of the points has changed.
+  void restart();
+
+  /// Of the last solution, m.
+  [[nodiscard]] const NodeVectors<Dim>& displacement() const { return displacement_; }
+  /// Iterations of Newton's method that it took.
+  [[nodiscard]] int iterations() const { return iterations_; }
+  [[nodiscard]] const PointsByElement& sorted() const { return sorted_; }
+  [[nodiscard]] const ElementClasses& classes() const { return classes_; }
+  [[nodiscard]] const std::vector<PointSkeleton>& skeleton() const { return skeleton_; }
+  [[nodiscard]] const Equilibrium<Dim>& equilibrium() const { return equilibrium_; }
+  /// Mean effective stress of each element at the start of the step, Pa.
+  [[nodiscard]] const std::vector<Eigen::Matrix<double, Dim, Dim>>& start_stress() const {
+    return start_stress_;
+  }
+
+ private:
+  const Grid<Dim>& grid_;
+  PointsByElement sorted_;
+  std::vector<PointSkeleton> skeleton_;
+  ElementClasses classes_;
+  Equilibrium<Dim> equilibrium_;
+  EquilibriumSolver<Dim> solver_;
+  NewtonLimits limits_;
+  std::vector<Eigen::Matrix<double, Dim, Dim>> start_stress_;
+  NodeVectors<Dim> displacement_;
+  int iterations_ = 0;
+};
+
+}  // namespace suffuse

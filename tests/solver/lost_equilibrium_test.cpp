@@ -1,0 +1,68 @@
+/// A run whose soil fails: what it says, and what it leaves behind.
+
+#include <gtest/gtest.h>
+
+#include "case/hdf5_io.hpp"
+#include "results/layout.hpp"
+#include "results/reader.hpp"
+#include "solver/solver_process.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Water rises through sand until it floats: from 1 - 1/1.7 = 0.41 of pores on, or a little before,
+/// as fines make it heavier.
+const test::Mode heave{"heave",
+                       R"(name = "heave"
+formulation = "single-point"
+gravity = [0.0, -9.81]
+geometry = {shape = "column", width = 0.25, height = 1.0}
+mesh = {size = 0.125, structure = "crossed"}
+output = {every = 10.0, snapshot_every = 50.0}
+liquid = {density = 1000.0, bulk_modulus = 2.0e9, viscosity = 1.0e-3}
+boundary = [
+  {on = "top", pressure = 0.0, concentration = 0.0},
+  {on = "bottom", darcy_flux = 0.1, concentration = 0.0, fix = "both"},
+  {on = "left", fix = "normal"},
+  {on = "right", fix = "normal"},
+]
+initial.flow = "steady"
+time = {scheme = "implicit", end = 200.0}
+[soil.specimen]
+porosity = 0.3
+skeleton_fraction = 0.5
+grain_density = 2700.0
+conductivity = 0.1
+erosion = {law = "constant", rate = 1e-3}
+skeleton = {law = "mohr-coulomb", young = 1e8, poisson = 0.25, friction = 35.0, cohesion = 0.0}
+)",
+                       {}};
+
+TEST(LostEquilibrium, StopsTheRunWithItsLastStateWritten) {
+  const test::Workplace place;
+  const std::string case_path = place.make_case(heave);
+  const std::string folder = place.path("results");
+  for (const bool again : {false, true}) {
+    // A run that goes on fails once more, and leaves the same behind.
+    const test::Outcome outcome =
+        place.solve(case_path, folder,
+                    again ? std::vector<std::string>{"--resume"} : std::vector<std::string>{});
+    EXPECT_EQ(outcome.code, 3) << outcome.error;
+    EXPECT_NE(outcome.error.find(" s: the soil has lost its equilibrium: it cannot carry"),
+              std::string::npos)
+        << outcome.error;
+    EXPECT_NE(outcome.error.find("the last equilibrium in the last row and the last snapshot"),
+              std::string::npos)
+        << outcome.error;
+    const ResultsReader results(folder);
+    EXPECT_EQ(results.status(), "failed");
+    const double last = results.history().column("t").back();
+    EXPECT_NEAR(last, 108.0, 4.0);
+    EXPECT_EQ(results.times().back(), last);
+    EXPECT_EQ(results.times().size(), 4U);
+    EXPECT_EQ(results.history().rows(), 12U);
+  }
+}
+
+}  // namespace
+}  // namespace suffuse

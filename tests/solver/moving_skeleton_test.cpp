@@ -1,0 +1,571 @@
+/// The skeleton that moves, driven with given pore pressures: equilibrium, fluxes of soil and
+/// solid, points that change their element, erosion, the stress at the start.
+
+#include "deformation/moving_skeleton.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <iostream>
+#include <numeric>
+#include <random>
+
+#include "box_mesh.hpp"
+#include "deformation/element_gains.hpp"
+#include "reference_table.hpp"
+#include "solid/rigid_skeleton.hpp"
+#include "solver/solid_model.hpp"
+
+namespace suffuse {
+namespace {
+
+BoundaryCondition held(const std::string& name) {
+  BoundaryCondition b;
+  b.on = name;
+  b.fix = Fixing::normal;
+  return b;
+}
+
+/// A load on top that comes from 0 to 1 s and stays.
+BoundaryCondition loaded(const std::string& name, double traction) {
+  BoundaryCondition b;
+  b.on = name;
+  b.traction = VectorFunction{{{0.0, {0.0, 0.0, 0.0}}, {1.0, {0.0, traction, 0.0}}}};
+  return b;
+}
+
+/// Soil between smooth walls, without gravity.
+Scene oedometer_scene(const SkeletonModel& skeleton, double load) {
+  Scene scene = model::paper_scene();
+  scene.soils[0].skeleton = skeleton;
+  scene.boundaries = {held("bottom"), held("left"), held("right"), loaded("top", -load)};
+  return scene;
+}
+
+struct Body {
+  Body(Mesh<2> mesh, const Scene& scene, int threads = 1)
+      : input(model::make_case(std::move(mesh), scene)),
+        grid(input.mesh),
+        soils(input),
+        solid(grid, soils, soils.exchange_span(false), threads) {}
+
+  [[nodiscard]] MotionForcing forcing(double end, double duration, double pressure = 0.0,
+                                      double liquid_mass = 0.0) const {
+    const std::size_t count = input.mesh.elements.size();
+    return {end, duration, std::vector<double>(count, pressure),
+            std::vector<double>(count, liquid_mass)};
+  }
+  /// Steps of equal length; the load comes in the first second.
+  void run(double from, double to, int steps) {
+    const double dt = (to - from) / steps;
+    for (int k = 1; k <= steps; ++k) {
+      ASSERT_TRUE(solid.try_motion(forcing(from + k * dt, dt)).converged);
+      solid.accept_motion();
+    }
+  }
+  [[nodiscard]] double stretch() const {
+    const auto& v = solid.points().volume;
+    const auto& v0 = solid.points().reference_volume;
+    return std::reduce(v.begin(), v.end(), 0.0) / std::reduce(v0.begin(), v0.end(), 0.0);
+  }
+  [[nodiscard]] double solid_of_points() const {
+    double sum = 0.0;
+    for (int p = 0; p < soils.points().size(); ++p) sum += solid.state().solid_volume(p);
+    return sum;
+  }
+  [[nodiscard]] std::vector<std::uint8_t> bytes() {
+    StateArchive archive;
+    solid.archive(archive);
+    return archive.finish();
+  }
+
+  Case<2> input;
+  Grid<2> grid;
+  SoilMap<2> soils;
+  MovingSkeleton<2> solid;
+};
+
+double total(const std::vector<double>& values) {
+  return std::reduce(values.begin(), values.end(), 0.0);
+}
+
+/// Leaves an element, of volumes through faces.
+template <int Dim>
+double outflow(const Grid<Dim>& grid, const std::vector<double>& face_volume, int e) {
+  double sum = 0.0;
+  for (int k = 0; k <= Dim; ++k) {
+    sum += grid.element_face_sign[e][k] * face_volume[grid.element_face[e][k]];
+  }
+  return sum;
+}
+
+/// s with E ln s = -q s.
+double stretch_under(double load_over_modulus) {
+  double s = 1.0;
+  for (int k = 0; k < 50; ++k) {
+    s -= (std::log(s) + load_over_modulus * s) / (1.0 / s + load_over_modulus);
+  }
+  return s;
+}
+
+// ----------------------------------------------------------------------------------- equilibrium
+
+TEST(MovingSkeleton, DrainedCompressionIsExactUnderAnyPressureThatTheLoadCarriesToo) {
+  const SkeletonModel soil = model::elastic_soil(1e6, 0.3);
+  const double modulus = soil.at(1.0).oedometer_modulus();
+  for (const double pressure : {0.0, 3e5}) {
+    Body b(model::column_mesh(2, 4, 0.5, 1.0, [](const Vector<2>& x) { return x; }),
+           oedometer_scene(soil, 1e5 + pressure));
+    ASSERT_TRUE(b.solid.try_motion(b.forcing(1.0, 1.0, pressure)).converged);
+    b.solid.accept_motion();
+    const double exact = stretch_under(1e5 / modulus);
+    for (int p = 0; p < b.soils.points().size(); ++p) {
+      const double stretch = b.solid.points().volume[p] / b.solid.points().reference_volume[p];
+      EXPECT_NEAR(stretch, exact, 1e-8);
+      EXPECT_NEAR(b.solid.effective_stress(p)(1, 1), -1e5, 1e-3);
+      EXPECT_NEAR(b.solid.porosity()[p], 1.0 - 0.7 / exact, 1e-8);
+      EXPECT_EQ(b.soils.points().volume[p], b.solid.points().volume[p]);
+    }
+  }
+}
+
+TEST(MovingSkeleton, ATryChangesNothingAndTheNextStartsFromIt) {
+  Body b(model::column_mesh(2, 8), oedometer_scene(model::elastic_soil(1e6, 0.3), 1e5));
+  const auto before = b.bytes();
+  const int first = b.solid.try_motion(b.forcing(1.0, 1.0, 2e4)).iterations;
+  EXPECT_GE(first, 2);
+  EXPECT_EQ(b.solid.try_motion(b.forcing(1.0, 1.0, 2e4)).iterations, 0);
+  EXPECT_LT(b.solid.try_motion(b.forcing(1.0, 1.0, 2.0001e4)).iterations, first);
+  EXPECT_EQ(b.bytes(), before);
+  // The way to an answer changes it by the tolerance alone.
+  const std::vector<double> face_volume = b.solid.try_motion(b.forcing(1.0, 1.0)).face_volume;
+  Body same(model::column_mesh(2, 8), oedometer_scene(model::elastic_soil(1e6, 0.3), 1e5));
+  const std::vector<double> direct = same.solid.try_motion(b.forcing(1.0, 1.0)).face_volume;
+  for (std::size_t f = 0; f < direct.size(); ++f) EXPECT_NEAR(face_volume[f], direct[f], 1e-10);
+}
+
+TEST(MovingSkeleton, RefusesAStepThatPassesElements) {
+  Body b(model::column_mesh(2, 40), oedometer_scene(model::elastic_soil(1e6, 0.0), 3e5));
+  const SolidMotion& motion = b.solid.try_motion(b.forcing(1.0, 1.0));
+  EXPECT_GT(motion.travel, b.solid.max_travel);
+  EXPECT_FALSE(motion.converged);
+  EXPECT_LT(b.solid.try_motion(b.forcing(0.02, 0.02)).travel, b.solid.max_travel);
+}
+
+// ----------------------------------------------------------------------------------------- fluxes
+
+template <int Dim>
+void check_swept_volumes(const Mesh<Dim>& mesh) {
+  const Grid<Dim> grid(mesh);
+  std::vector<int> element(mesh.elements.size());
+  std::iota(element.begin(), element.end(), 0);
+  const PointsByElement sorted(mesh.element_count(), element);
+  std::mt19937_64 random(5);
+  const auto uniform = [&] { return 2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0; };
+  for (const double distort : {0.0, 0.03}) {
+    // Turns by half a radian.
+    Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+    turn.template topLeftCorner<2, 2>() << std::cos(0.5), -std::sin(0.5), std::sin(0.5),
+        std::cos(0.5);
+    NodeVectors<Dim> u;
+    for (const Vector<Dim>& x : mesh.nodes) {
+      u.push_back(turn * x - x);
+      for (int d = 0; d < Dim; ++d) u.back()[d] += distort * uniform();
+    }
+    const std::vector<double> swept = swept_volumes(grid, sorted, u);
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      Eigen::Matrix<double, Dim, Dim> f = Eigen::Matrix<double, Dim, Dim>::Identity();
+      for (int a = 0; a <= Dim; ++a) {
+        f += u[mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
+      }
+      EXPECT_NEAR(outflow(grid, swept, e), grid.volume[e] * (f.determinant() - 1.0), 1e-15);
+    }
+  }
+}
+
+TEST(SweptVolumes, AddUpToTheGrowthOfElementsThatTurn) {
+  check_swept_volumes<2>(model::column_mesh(4, 4, 1.0, 1.0, model::jittered(0.05, 3)));
+  check_swept_volumes<3>(model::box_mesh({2, 2, 2}, Vector<3>::Ones(), model::disturbed(0.05)));
+}
+
+TEST(FaceBubbles, CarryAPressureJumpOverTheirOwnStiffness) {
+  const SkeletonModel soil = model::elastic_soil(1e6, 0.2);
+  model::PlaneModel m(model::column_mesh(3, 3, 1.0, 1.0, model::jittered(0.05, 3)), 3, soil);
+  m.support("bottom", Support::both);
+  const Supports<2> supports(m.grid, m.face_support);
+  StepEquilibrium<2> step(m.grid, m.points, m.skeleton, supports, 1);
+  const FaceBubbles<2> bubbles(m.grid, step);
+  std::vector<double> change(m.mesh.elements.size(), 7.0);
+  std::vector<double> volume(m.grid.face_count(), 0.0);
+  bubbles.add(change, volume);
+  for (const double v : volume) EXPECT_NEAR(v, 0.0, 1e-20);
+  const int e = 8;
+  change[e] += 1e3;
+  bubbles.add(change, volume);
+  const SkeletonParameters numbers = soil.at(1.0);
+  for (int k = 0; k < 3; ++k) {
+    const int f = m.grid.element_face[e][k];
+    if (m.grid.is_outer(f)) continue;
+    const double length = m.grid.face_normal[f].norm();
+    const Vector<2> n = m.grid.face_normal[f] / length;
+    // The energy of the unit bubble 4 N_1 N_2 n, whose gradients are linear: by the midpoints of
+    // the sides.
+    double stiffness = 0.0;
+    for (const int side : {m.grid.face_left[f], m.grid.face_right[f]}) {
+      const int opposite = m.grid.side_of(side, f);
+      const int a = (opposite + 1) % 3;
+      const int b = (opposite + 2) % 3;
+      for (int middle = 0; middle < 3; ++middle) {
+        const Vector<2> g = 4.0 * ((middle == b ? 0.0 : 0.5) * m.grid.shape_gradient[side][b] +
+                                   (middle == a ? 0.0 : 0.5) * m.grid.shape_gradient[side][a]);
+        Eigen::Matrix2d strain = 0.5 * (n * g.transpose() + g * n.transpose());
+        stiffness += m.grid.volume[side] / 3.0 *
+                     (numbers.lame() * strain.trace() * strain.trace() +
+                      2.0 * numbers.shear_modulus() * strain.squaredNorm());
+      }
+    }
+    const double out = m.grid.element_face_sign[e][k] * volume[f];
+    EXPECT_NEAR(out, 1e3 * std::pow(2.0 / 3.0 * length, 2) / stiffness, 1e-12 * out);
+    EXPECT_GT(out, 0.0);
+  }
+}
+
+TEST(SolidGains, StayInTheirPieceAndLeaveNoElementLessThanNothing) {
+  const std::vector<double> before{0.0, 0.4, 0.6, 0.5};
+  const std::vector<double> after{0.3, 0.3, 0.4, 0.5};
+  const std::vector<double> solid{0.2, 0.3, 0.5, 0.5};  // their sum is that of the smooth volumes
+  const std::vector<double> volume(4, 1.0);
+  const std::vector<int> piece{0, 0, 0, 1};
+  const auto gains = [&](double travel, const std::vector<double>& to) {
+    return element_gains({before, to, solid, volume, travel, piece, 2});
+  };
+  for (const double gain : gains(0.0, before)) EXPECT_EQ(gain, 0.0);
+  const std::vector<double> some = gains(0.25, after);
+  EXPECT_NEAR(some[0], 0.3 - 0.25 * 0.2, 1e-15);
+  EXPECT_NEAR(some[1], -0.1 + 0.25 * 0.1, 1e-15);
+  EXPECT_NEAR(total(some), 0.0, 1e-15);
+  EXPECT_EQ(some[3], 0.0);
+  // The first difference is 0.2, the others -0.1: the second element may keep half of it.
+  const std::vector<double> little = gains(0.25, {0.5, 0.05, 0.45, 0.5});
+  EXPECT_NEAR(solid[1] + little[1], 0.0, 1e-15);
+  EXPECT_NEAR(solid[0] + little[0], 0.6, 1e-15);
+  EXPECT_NEAR(total(little), 0.0, 1e-15);
+}
+
+/// A column whose porosity changes with the height sinks through its elements.
+Scene sinking_scene() {
+  Scene scene = oedometer_scene(model::elastic_soil(1e6, 0.2), 3e5);
+  scene.soils[0].porosity_gradient = {0.02, 0.05, 0.0};
+  return scene;
+}
+
+TEST(SolidFlux, ClosesToRoundOffWhileASoftColumnSinksThroughElements) {
+  Body b(model::column_mesh(3, 12, 0.25, 1.0), sinking_scene());
+  const double solid = b.solid_of_points();
+  EXPECT_NEAR(total(b.solid.element_solid_volume()), solid, 1e-14);
+  double largest = 0.0;
+  for (int k = 1; k <= 40; ++k) {
+    ASSERT_TRUE(b.solid.try_motion(b.forcing(k / 40.0, 1.0 / 40.0)).converged);
+    const std::vector<double> before = b.solid.element_solid_volume();
+    const SolidMotion& motion = b.solid.accept_motion();
+    EXPECT_NEAR(total(motion.solid_gain), 0.0, 1e-16);
+    for (int e = 0; e < b.input.mesh.element_count(); ++e) {
+      EXPECT_NEAR(outflow(b.grid, motion.solid_face_volume, e), -motion.solid_gain[e], 1e-17);
+      EXPECT_NEAR(b.solid.element_solid_volume()[e], before[e] + motion.solid_gain[e], 1e-17);
+      EXPECT_GE(b.solid.element_solid_volume()[e], -1e-15);
+    }
+    for (int f = 0; f < b.grid.face_count(); ++f) {
+      if (b.grid.is_outer(f)) {
+        EXPECT_EQ(motion.solid_face_volume[f], 0.0);
+      }
+    }
+    largest = std::max(largest, motion.solid_correction);
+  }
+  std::cout << "largest correction of the solid's flux " << largest << "\n";
+  EXPECT_LE(largest, 0.6);
+  EXPECT_NEAR(total(b.solid.element_solid_volume()), solid, 1e-14);
+  EXPECT_NEAR(b.solid_of_points(), solid, 1e-15);
+}
+
+// ---------------------------------------------------------------------- points that cross elements
+
+TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
+  Body b(model::column_mesh(3, 12, 0.25, 1.0), sinking_scene());
+  const SolidState start = b.solid.state();
+  const std::vector<double> porosity = b.solid.initial_porosity();
+  // The same motion without sorting.
+  SolidPoints<2> points = b.solid.points();
+  const Supports<2> supports = scene_supports(b.grid, b.soils);
+  const PointSkeleton law{skeleton_law("elastic"), model::elastic_soil(1e6, 0.2).at(1.0)};
+  const std::vector<PointSkeleton> skeleton(points.size(), law);
+  BoundaryLoads<2> boundary(b.grid, b.soils,
+                            PointsByElement(b.grid.mesh.element_count(), points.element));
+  for (int k = 1; k <= 40; ++k) {
+    StepEquilibrium<2> step(b.grid, points, skeleton, supports, 1);
+    NodeVectors<2> loads(b.input.mesh.node_count(), Vector<2>::Zero());
+    boundary.add(step.sorted(), k / 40.0, loads);
+    ASSERT_TRUE(step.solve(loads, {}));
+    boundary.move(step.sorted(), step.displacement());
+    move_points(b.grid, skeleton, step.displacement(), points, 1);
+  }
+  b.run(0.0, 1.0, 40);
+  int moved = 0;
+  for (int p = 0; p < points.size(); ++p) {
+    const int id = b.solid.id()[p];
+    if (id != p) ++moved;
+    EXPECT_EQ(b.soils.points().element[p], points.element[id]);
+    EXPECT_NEAR((b.solid.points().position[p] - points.position[id]).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((b.solid.points().elastic_b[p] - points.elastic_b[id]).norm(), 0.0, 1e-8);
+    EXPECT_NEAR(b.solid.points().volume[p], points.volume[id], 1e-9 * points.volume[id]);
+    EXPECT_EQ(b.solid.state().skeleton_volume[p], start.skeleton_volume[id]);
+    EXPECT_EQ(b.solid.state().erodible_volume[p], start.erodible_volume[id]);
+    EXPECT_EQ(b.solid.initial_porosity()[p], porosity[id]);
+    if (p > 0) {
+      EXPECT_LE(b.soils.points().element[p - 1], b.soils.points().element[p]);
+    }
+    EXPECT_NEAR((b.soils.points().position(b.input.mesh, p) - b.solid.points().position[p]).norm(),
+                0.0, 1e-14);
+  }
+  EXPECT_GT(moved, points.size() / 2);
+}
+
+TEST(MovingPoints, KeepTheirSoilInAnotherRegion) {
+  // Soft soil that erodes above a row of soil that does not.
+  Mesh<2> mesh = model::column_mesh(2, 8);
+  mesh.region_names = {"base", "specimen"};
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    mesh.element_region[e] = element_centroid(mesh, e)[1] > 0.5 ? 1 : 0;
+  }
+  Scene scene = oedometer_scene(model::elastic_soil(1e6, 0.0), 4e5);
+  scene.soils[0].erosion.law = erosion_law("constant");
+  scene.soils[0].erosion.rate = 1e-3;
+  scene.soils[0].erosion.start = 1.0;
+  scene.soils.push_back(scene.soils[0]);
+  scene.soils[1].region = "base";
+  scene.soils[1].erosion = {};
+  Body b(std::move(mesh), scene);
+  b.run(0.0, 1.0, 40);
+  std::vector<double> exchange;
+  b.solid.exchange(1.0, 11.0, {}, {}, exchange);
+  int strangers = 0;
+  for (int p = 0; p < b.soils.points().size(); ++p) {
+    const bool erodes = b.soils.soil_of_point(p).region == "specimen";
+    if (erodes != (b.input.mesh.element_region[b.soils.points().element[p]] == 1)) ++strangers;
+    EXPECT_NEAR(exchange[p], erodes ? 1e-2 * b.soils.points().volume[p] : 0.0, 1e-15);
+  }
+  EXPECT_GT(strangers, 0);
+}
+
+TEST(MovingSkeleton, IsRestoredToTheLastBit) {
+  const auto mesh = [] { return model::column_mesh(3, 12, 0.25, 1.0); };
+  Body whole(mesh(), sinking_scene());
+  whole.run(0.0, 0.5, 20);
+  const auto half = whole.bytes();
+  whole.run(0.5, 1.0, 20);
+  Body resumed(mesh(), sinking_scene());
+  StateArchive archive(half);
+  resumed.solid.archive(archive);
+  archive.finish();
+  EXPECT_EQ(resumed.soils.points().element.size(), whole.soils.points().element.size());
+  resumed.run(0.5, 1.0, 20);
+  EXPECT_EQ(resumed.bytes(), whole.bytes());
+}
+
+TEST(MovingSkeleton, HasTheSameBitsOnTwoThreads) {
+  const auto course = [](int threads) {
+    Scene scene = sinking_scene();
+    scene.soils[0].erosion.law = erosion_law("first-order");
+    scene.soils[0].erosion.rate = 0.1;
+    Body b(model::column_mesh(28, 28, 1.0, 1.0, model::jittered(0.005, 2)), scene, threads);
+    EXPECT_GT(b.soils.points().size(), 4096);
+    std::vector<double> exchange;
+    for (int k = 0; k < 2; ++k) {
+      b.solid.exchange(0.02 * k, 0.02 * (k + 1), {}, {}, exchange);
+      b.run(0.02 * k, 0.02 * (k + 1), 1);
+    }
+    return b.bytes();
+  };
+  EXPECT_EQ(course(1), course(2));
+}
+
+// ---------------------------------------------------------------------------------------- erosion
+
+TEST(MovingSkeleton, OfStiffSoilIsTheRigidOne) {
+  Scene scene = sinking_scene();
+  scene.soils[0].erosion.law = erosion_law("first-order");
+  scene.soils[0].erosion.rate = 0.1;
+  const auto difference = [&](double young) {
+    scene.soils[0].skeleton.young = young;
+    Body b(model::column_mesh(3, 6, 0.5, 1.0), scene);
+    const Case<2> same = model::make_case(b.input.mesh, scene);
+    const SoilMap<2> soils(same);
+    RigidSkeleton<2> reference(b.grid, soils, soils.exchange_span(false), 1);
+    std::vector<double> exchange;
+    double largest = 0.0;
+    for (int k = 0; k < 10; ++k) {
+      b.solid.exchange(k, k + 1, {}, {}, exchange);
+      reference.exchange(k, k + 1, {}, {}, exchange);
+      EXPECT_TRUE(b.solid.try_motion(b.forcing(k + 1, 1.0)).converged);
+      for (const double v : b.solid.accept_motion().face_volume) {
+        largest = std::max(largest, std::abs(v));
+      }
+    }
+    const std::vector<double> porosity = b.solid.element_porosity();
+    const std::vector<double> expected = reference.element_porosity();
+    for (std::size_t e = 0; e < porosity.size(); ++e) {
+      largest = std::max(largest, std::abs(porosity[e] - expected[e]));
+    }
+    for (std::size_t p = 0; p < exchange.size(); ++p) {
+      largest = std::max(largest, std::abs(b.solid.porosity()[p] - reference.porosity()[p]));
+    }
+    return largest;
+  };
+  const double stiff = difference(1e10);
+  const double stiffer = difference(1e12);
+  std::cout << "E 1e10: " << stiff << ", 1e12: " << stiffer << "\n";
+  EXPECT_NEAR(stiff / stiffer, 100.0, 2.0);
+  EXPECT_LE(difference(1e20), 1e-13);
+}
+
+TEST(MovingSkeleton, SettlesAsItsFinesErode) {
+  SkeletonModel soil = model::elastic_soil(1e6, 0.0);
+  soil.young = FinesFunction({{1.0, 1e6}, {0.0, 4e5}});
+  Scene scene = oedometer_scene(soil, 1e5);
+  scene.soils[0].erosion.law = erosion_law("constant");
+  scene.soils[0].erosion.rate = 1e-3;
+  scene.soils[0].erosion.start = 1.0;
+  const int rows = 64;
+  Body b(model::column_mesh(1, rows, 1.0 / rows, 1.0), scene);
+  b.run(0.0, 1.0, 40);
+  // As long as the rate is per volume of today, fines last longer than 0.1/1e-3 s.
+  EXPECT_TRUE(b.solid.exchanges_within(110.0, 111.0));
+  double now = 0.0;
+  std::vector<double> exchange;
+  double worst = 0.0;
+  for (const ReferenceRow& row : read_reference("oedometer-eroding.csv")) {
+    const double next = row.number("t");
+    const int steps = next > now ? 20 : 0;
+    for (int k = 0; k < steps; ++k) {
+      const double dt = (next - now) / steps;
+      const double from = 1.0 + now + k * dt;
+      b.solid.exchange(from, from + dt, {}, {}, exchange);
+      ASSERT_TRUE(b.solid.try_motion(b.forcing(from + dt, dt)).converged);
+      b.solid.accept_motion();
+    }
+    now = next;
+    const double error = b.stretch() / row.number("stretch") - 1.0;
+    const double solid = b.solid_of_points() * rows;
+    const double porosity = 1.0 - solid / b.stretch();
+    const double left = total(b.solid.state().erodible_volume) / 0.1 * rows;
+    std::cout << "t " << now << ": stretch off by " << error << ", n by "
+              << porosity - row.number("n_L") << ", fines by " << left - row.number("erodible_left")
+              << "\n";
+    worst = std::max({worst, std::abs(error), std::abs(porosity - row.number("n_L")),
+                      std::abs(left - row.number("erodible_left"))});
+  }
+  EXPECT_LE(worst, 1e-3);
+}
+
+// ------------------------------------------------------------------------------------ at the start
+
+/// Ground under water up to 1 m above it, with smooth sides.
+struct Ground : Body {
+  static constexpr double height = 2.0;
+  static constexpr double level = 3.0;
+  static Scene scene_of(const SkeletonModel& soil, std::optional<double> earth_pressure) {
+    Scene scene = model::paper_scene();
+    scene.gravity = {0.0, -9.81, 0.0};
+    scene.soils[0].skeleton = soil;
+    scene.earth_pressure = earth_pressure;
+    BoundaryCondition top;
+    top.on = "top";
+    top.head = level;
+    scene.boundaries = {held("bottom"), held("left"), held("right"), top};
+    return scene;
+  }
+  explicit Ground(const SkeletonModel& soil, std::optional<double> earth_pressure = {})
+      : Body(model::column_mesh(3, 8, 1.0, height), scene_of(soil, earth_pressure)) {
+    at_rest = forcing(0.0, 0.0, 0.0, 300.0);
+    for (int e = 0; e < input.mesh.element_count(); ++e) {
+      at_rest.pressure[e] = 9810.0 * (level - element_centroid(input.mesh, e)[1]);
+    }
+    solid.start_motion(at_rest);
+  }
+  /// Means over the points of each row of elements: height, vertical and horizontal stress.
+  [[nodiscard]] std::array<Eigen::Vector3d, 8> rows() const {
+    std::array<Eigen::Vector3d, 8> result;
+    for (Eigen::Vector3d& row : result) row.setZero();
+    for (int p = 0; p < soils.points().size(); ++p) {
+      const double y = solid.points().position[p][1];
+      const Eigen::Matrix3d stress = solid.effective_stress(p);
+      Eigen::Vector3d& row = result[static_cast<int>(y / height * 8.0)];
+      row += Eigen::Vector3d(y, stress(1, 1), stress(0, 0)) / 18.0;
+    }
+    return result;
+  }
+  MotionForcing at_rest;
+};
+
+TEST(StartMotion, CarriesTheBuoyantWeightWhereThePointsAre) {
+  Ground g(model::elastic_soil(1e7, 0.25));
+  for (const Eigen::Vector3d& row : g.rows()) {
+    const double exact = -0.7 * 1700.0 * 9.81 * (g.height - row[0]);
+    EXPECT_NEAR(row[1], exact, 1e-6 * std::abs(exact));
+    EXPECT_NEAR(row[2], exact / 3.0, 0.02 * std::abs(exact));
+  }
+  for (int p = 0; p < g.soils.points().size(); ++p) {
+    EXPECT_NEAR(
+        (g.solid.points().position[p] - g.input.solid_points.position(g.input.mesh, p)).norm(), 0.0,
+        1e-15);
+    EXPECT_EQ(g.solid.points().volume[p], g.input.solid_points.volume[p]);
+    EXPECT_EQ(g.solid.points().plastic_strain[p], 0.0);
+  }
+  // It stays: the first step moves nothing.
+  const SolidMotion& motion = g.solid.try_motion(g.at_rest);
+  EXPECT_TRUE(motion.converged);
+  EXPECT_LE(motion.travel, 1e-9);
+}
+
+TEST(StartMotion, TakesTheRatioOfStressesThatTheSceneGives) {
+  Ground g(model::elastic_soil(1e7, 0.25), 0.6);
+  for (const Eigen::Vector3d& row : g.rows()) {
+    const double exact = -0.7 * 1700.0 * 9.81 * (g.height - row[0]);
+    EXPECT_NEAR(row[1], exact, 1e-6 * std::abs(exact));
+    EXPECT_NEAR(row[2], 0.6 * exact, 0.02 * std::abs(exact));
+  }
+  EXPECT_LE(g.solid.try_motion(g.at_rest).travel, 1e-9);
+}
+
+TEST(StartMotion, YieldsToTheActivePressure) {
+  SkeletonModel soil = model::elastic_soil(1e7, 0.0);
+  soil.law = skeleton_law("mohr-coulomb");
+  soil.friction = 30.0;
+  soil.cohesion = 10.0;
+  Ground g(soil);
+  for (const Eigen::Vector3d& row : g.rows()) {
+    const double exact = -0.7 * 1700.0 * 9.81 * (g.height - row[0]);
+    EXPECT_NEAR(row[1], exact, 1e-6 * std::abs(exact));
+    EXPECT_NEAR(row[2], exact / 3.0, 0.02 * std::abs(exact) + 20.0);
+  }
+}
+
+TEST(StartMotion, SaysWhenThereIsNoEquilibrium) {
+  SkeletonModel soil = model::elastic_soil(1e7, 0.3);
+  soil.law = skeleton_law("von-mises");
+  soil.cohesion = 1.0;
+  Scene scene = oedometer_scene(soil, 0.0);
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.boundaries.erase(scene.boundaries.begin() + 1);  // the left side stands free
+  Body b(model::column_mesh(4, 4), scene);
+  try {
+    b.solid.start_motion(b.forcing(0.0, 0.0));
+    FAIL() << "a cut that cannot stand stood";
+  } catch (const NumericalError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 43),
+              "the soil has no equilibrium at the start: i");
+  }
+}
+
+}  // namespace
+}  // namespace suffuse

@@ -1,0 +1,128 @@
+/// Soils that move: levees of random strength under floods, and columns under loads.
+
+#include <algorithm>
+#include <sstream>
+
+#include "solver/solid_model.hpp"
+#include "stress/scenario.hpp"
+#include "stress/stress_mesh.hpp"
+
+namespace suffuse::stress {
+namespace {
+
+constexpr unsigned seeds = 100;
+
+std::string text_of(double value) {
+  std::ostringstream text;
+  text.precision(17);
+  text << value;
+  return text.str();
+}
+
+/// A number, or one that falls with the fines.
+std::string falling(Random& random, double value, double share) {
+  if (random.chance(0.5)) return text_of(value);
+  return "[[1.0, " + text_of(value) + "], [0.0, " + text_of(share * value) + "]]";
+}
+
+/// A law of the skeleton and its numbers. `strong`: the soil stands.
+std::string skeleton(Random& random, double stiffness, bool strong) {
+  const double poisson = random.chance(0.3) ? 0.0 : random.between(0.0, 0.49);
+  const std::string elastic = "young = " + falling(random, stiffness, random.between(0.3, 0.9)) +
+                              ", poisson = " + text_of(poisson);
+  const double least = strong ? 30.0 : 10.0;
+  switch (random.below(3)) {
+    case 0:
+      return "{law = \"elastic\", " + elastic + "}";
+    case 1:
+      return "{law = \"von-mises\", " + elastic +
+             ", cohesion = " + text_of(random.decades(strong ? 2e4 : 1e3, 1e6)) + "}";
+    default:
+      return "{law = \"mohr-coulomb\", " + elastic +
+             ", friction = " + falling(random, random.between(least, 45.0), 0.8) + ", cohesion = " +
+             falling(random, random.decades(strong ? 1e4 : 1e2, 1e5), random.between(0.1, 1.0)) +
+             ", dilation = " + text_of(random.chance(0.5) ? 0.0 : random.between(0.0, 8.0)) + "}";
+  }
+}
+
+Changes moving_levee_changes(unsigned seed, double end) {
+  Changes changes = levee_changes(seed, end);
+  Random random(seed + 11000);
+  for (const char* name : {"specimen", "other"}) {
+    changes.push_back("soil." + std::string(name) + ".skeleton=" +
+                      skeleton(random, random.decades(1e5, 1e9), random.chance(0.7)));
+  }
+  const bool rain = std::ranges::any_of(
+      changes, [](const std::string& change) { return change.starts_with("boundary[2]"); });
+  changes.push_back("boundary[" + std::to_string(rain ? 3 : 2) +
+                    "]={on = \"bottom\", fix = \"both\"}");
+  changes.emplace_back("initial.stress=gravity");
+  return changes;
+}
+
+/// A column of two soils that drains at its top, under loads that come and go.
+Changes column_changes(unsigned seed, double end) {
+  Random random(seed + 12000);
+  const double stiffness = random.decades(1e5, 1e9);
+  Changes changes{"time.tolerance=" + text_of(random.decades(1e-4, 1e-2))};
+  const double permeability = 1000.0 * 9.81 * random.decades(1e-2, 1e2) / (stiffness * end);
+  for (const char* name : {"specimen", "other"}) {
+    const std::string soil = "soil." + std::string(name);
+    if (std::string(name) == "other") changes.push_back(soil + ".like=specimen");
+    changes.push_back(soil + ".conductivity=" + text_of(permeability * random.decades(1.0, 1e3)));
+    changes.push_back(soil +
+                      ".skeleton=" + skeleton(random, stiffness * random.decades(1.0, 1e2), true));
+  }
+  const double load = random.decades(1e-4, 0.3) * std::min(stiffness, 1e5);
+  std::string course = "[[0.0, 0.0, 0.0]";
+  const int pairs = 1 + random.below(3);
+  for (int i = 1; i <= pairs; ++i) {
+    course += ", [" + text_of(end * (i - random.between(0.0, 0.99)) / pairs) + ", " +
+              text_of(random.chance(0.3) ? random.between(-0.05, 0.05) * load : 0.0) + ", " +
+              text_of(-random.share() * load) + "]";
+  }
+  changes.push_back("boundary[0]={on = \"top\", pressure = " +
+                    (random.chance(0.5) ? "0" : text_of(random.share() * load)) +
+                    ", concentration = 0, traction = " + course + "]}");
+  changes.push_back(std::string("boundary[1]={on = \"bottom\", ") +
+                    (random.chance(0.3) ? "pressure = 0, " : "") + "fix = \"both\"}");
+  changes.emplace_back("boundary[2]={on = \"left\", fix = \"normal\"}");
+  changes.emplace_back("boundary[3]={on = \"right\", fix = \"normal\"}");
+  changes.emplace_back(random.chance(0.5) ? "liquid.bulk_modulus=2e9" : "liquid.bulk_modulus=2e7");
+  return changes;
+}
+
+Mesh<2> two_soil_column(unsigned seed) {
+  Random random(seed + 13000);
+  Mesh<2> mesh =
+      random.chance(0.5) ? plain_column() : model::crossed_mesh(2, 4 + random.below(8), 0.5, 1.0);
+  if (random.chance(0.5)) jitter_nodes(mesh, 0.02, seed);
+  const double border = random.between(0.3, 0.7);
+  name_regions(mesh, [&](const Vector<2>& x) { return x[1] < border ? "other" : "specimen"; });
+  return mesh;
+}
+
+}  // namespace
+
+Sweep motion_sweep() {
+  Sweep sweep{"motion", "soils that move: levees under floods, columns under loads; erosion", {}};
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    for (const bool levee : {true, false}) {
+      Scenario scenario;
+      scenario.scheme = Scheme::sp_implicit;
+      scenario.parameters = levee ? "levee" : "column";
+      scenario.seed = seed;
+      scenario.end = Random(seed + 14000).decades(1e3, 1e7);
+      scenario.mesh = [seed, levee] { return levee ? levee_mesh(seed) : two_soil_column(seed); };
+      scenario.changes = [seed, levee](const Span& span) {
+        return levee ? moving_levee_changes(seed, span.end) : column_changes(seed, span.end);
+      };
+      // Weak soil has no equilibrium, and the run says so.
+      scenario.expected = Expected::either;
+      sweep.scenarios.push_back(std::move(scenario));
+    }
+  }
+  return sweep;
+}
+
+}  // namespace suffuse::stress

@@ -1,0 +1,233 @@
+/// Soil that consolidates: the skeleton moves as water leaves its pores.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+#include "moving_soil.hpp"
+#include "reference_table.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double young = 1e7;             // Pa
+constexpr double conductivity = 1e-6;     // m/s
+constexpr double weight = 1000.0 * 9.81;  // of water, N/m3
+
+using model::fixed_on;
+using model::pressure_at;
+
+/// A column that drains at its top, where a load comes at once.
+class Column {
+ public:
+  Column(int rows, double poisson, double load, double bulk_modulus, double tolerance = 1e-3)
+      : oedometer_(SkeletonParameters{young, poisson}.oedometer_modulus()),
+        load_(load),
+        run_(make(rows, poisson, bulk_modulus, tolerance)) {}
+
+  /// c_v t / H2 of a time, and the time of it, s.
+  [[nodiscard]] double time_of(double T) const { return T * weight / (conductivity * oedometer_); }
+  [[nodiscard]] model::ModelRun& run() { return run_; }
+  [[nodiscard]] double oedometer() const { return oedometer_; }
+
+ private:
+  Case<2> make(int rows, double poisson, double bulk_modulus, double tolerance) const {
+    Scene scene = model::paper_scene();
+    scene.time.scheme = FlowScheme::implicit_mixed;
+    scene.time.tolerance = tolerance;
+    scene.time.end = 2.0 * time_of(1.0);
+    scene.liquid.bulk_modulus = bulk_modulus;
+    Soil& soil = scene.soils[0];
+    soil.conductivity = conductivity;
+    soil.skeleton.law = skeleton_law("elastic");
+    soil.skeleton.young = young;
+    soil.skeleton.poisson = poisson;
+    BoundaryCondition top = model::pressure_on("top", 0.0);
+    top.concentration = 0.0;
+    top.traction = model::sudden_traction({0.0, -load_}, scene.time.end);
+    scene.boundaries = {top, fixed_on("bottom", Fixing::both), fixed_on("left", Fixing::normal),
+                        fixed_on("right", Fixing::normal)};
+    const double width = 2.0 / rows;
+    return model::make_case(model::crossed_mesh(2, rows, width, 1.0), scene);
+  }
+
+  double oedometer_;
+  double load_;
+  model::ModelRun run_;
+};
+
+struct Deviation {
+  double settlement = 0.0;
+  double pressure = 0.0;
+  long steps = 0;
+};
+
+/// Largest distances from Terzaghi's solution from T = 0.1 on, over the final settlement and the
+/// first pressure.
+Deviation deviation_from_terzaghi(int rows, double poisson, double tolerance) {
+  constexpr double load = 1e3;
+  Column column(rows, poisson, load, 2e9, tolerance);
+  const double first = load / (1.0 + 0.3 * column.oedometer() / 2e9);
+  const double last = load / column.oedometer();
+  double below = 1.0;
+  for (int p = 0; p < column.run().input().solid_points.size(); ++p) {
+    const Vector<2> x = column.run().input().solid_points.position(column.run().input().mesh, p);
+    below = std::min(below, 1.0 - x[1]);
+  }
+  Deviation worst;
+  for (const ReferenceRow& row : read_reference("terzaghi.csv")) {
+    const double T = row.number("T");
+    if (T < 0.1 || T > 1.0) continue;
+    const auto moments = column.run().run({column.time_of(T)});
+    // The highest points lie below the surface, which drains: the soil between has its last strain.
+    const double settlement = moments.states.back().history.settlement_max + last * below;
+    const double elastic = last * (1.0 - first / load);
+    const double exact = elastic + (last - elastic) * row.number("U");
+    worst.settlement = std::max(worst.settlement, std::abs(settlement - exact) / last);
+    for (const double depth : {0.25, 0.5, 0.75}) {
+      std::ostringstream name;
+      name << "u(" << depth << ")";
+      const double error = pressure_at(column.run(), 1.0 - depth) - first * row.number(name.str());
+      worst.pressure = std::max(worst.pressure, std::abs(error) / first);
+    }
+  }
+  EXPECT_LT(column.run().worst_residual(), 1e-12);
+  std::cout << rows << " rows, nu " << poisson << ", tolerance " << tolerance << ": "
+            << column.run().steps() << " steps, "
+            << column.run().model().flow().coupling_iterations() << " iterations, settlement "
+            << worst.settlement << ", pressure " << worst.pressure << "\n";
+  worst.steps = column.run().steps();
+  return worst;
+}
+
+TEST(Consolidation, TerzaghiColumn) {
+  for (const double poisson : {0.0, 0.3}) {
+    const Deviation off = deviation_from_terzaghi(32, poisson, 2e-4);
+    EXPECT_LT(off.settlement, 5e-3);
+    EXPECT_LT(off.pressure, 5e-3);
+  }
+}
+
+TEST(Consolidation, StepsAreOfFirstOrder) {
+  const Deviation coarse = deviation_from_terzaghi(32, 0.3, 4e-3);
+  const Deviation fine = deviation_from_terzaghi(32, 0.3, 2.5e-4);
+  const double refinement =
+      std::log(static_cast<double>(fine.steps) / static_cast<double>(coarse.steps));
+  EXPECT_GT(std::log(coarse.pressure / fine.pressure) / refinement, 0.8);
+  EXPECT_GT(std::log(coarse.settlement / fine.settlement) / refinement, 0.8);
+}
+
+/// A column that a load of half its modulus squeezes to two thirds of its height, on a mesh that
+/// stays where it was: errors of settlement, over the height, and of pressure at the base, over the
+/// load, from a time on.
+Deviation deviation_at_large_strain(const std::string& law, int rows, double from) {
+  constexpr double modulus = 1e6;
+  constexpr double load = 0.5 * modulus;
+  constexpr double second = weight / (conductivity * modulus);  // of T = 1
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.end = 1.5 * second;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  Soil& soil = scene.soils[0];
+  soil.porosity = 0.5;
+  soil.skeleton_fraction = 0.5;
+  soil.conductivity = conductivity;
+  soil.conductivity_law = conductivity_law(law);
+  soil.skeleton.law = skeleton_law("elastic");
+  soil.skeleton.young = modulus;
+  BoundaryCondition top = model::pressure_on("top", 0.0);
+  top.concentration = 0.0;
+  top.traction = model::sudden_traction({0.0, -load}, scene.time.end);
+  scene.boundaries = {top, fixed_on("bottom", Fixing::both), fixed_on("left", Fixing::normal),
+                      fixed_on("right", Fixing::normal)};
+  model::ModelRun run(model::make_case(model::crossed_mesh(2, rows, 2.0 / rows, 1.0), scene));
+  Deviation worst;
+  for (const ReferenceRow& row : read_reference("consolidation-large-strain.csv")) {
+    const double T = row.number("T");
+    if ((row.text("conductivity_law") == "kc") != (law == "kozeny-carman")) continue;
+    const auto moments = run.run({T * second});
+    if (T < from) continue;
+    const double settlement = moments.states.back().history.settlement_max;
+    const double base = pressure_at(run, 0.0) / load;
+    worst.settlement =
+        std::max(worst.settlement, std::abs(settlement - row.number("settlement_over_H")));
+    worst.pressure =
+        std::max(worst.pressure, std::abs(base - row.number("base_pressure_over_load")));
+    std::cout << law << " " << rows << " T " << T << " s " << settlement << " "
+              << row.number("settlement_over_H") << " p " << base << " "
+              << row.number("base_pressure_over_load") << "\n";
+  }
+  EXPECT_LT(run.worst_residual(), 1e-12);
+  std::cout << run.steps() << " steps, " << run.model().flow().coupling_iterations() << "\n";
+  return worst;
+}
+
+TEST(Consolidation, DISABLED_LargeStrain) {
+  const Deviation off = deviation_at_large_strain("constant", 32, 0.05);
+  EXPECT_LT(off.settlement, 0.01);
+  EXPECT_LT(off.pressure, 0.01);
+}
+
+TEST(Consolidation, DISABLED_LargeStrainWithPoresThatClose) {
+  const Deviation off = deviation_at_large_strain("kozeny-carman", 32, 0.4);
+  EXPECT_LT(off.settlement, 0.01);
+  EXPECT_LT(off.pressure, 0.01);
+}
+
+/// A foundation that is 1e4 times as stiff as the soil under it, and drains it: forces of soft soil
+/// are small beside those that stiff soil would have at a strain that counts.
+TEST(Consolidation, UnderAStiffFoundation) {
+  constexpr double load = 1e3;
+  constexpr double second = weight / (conductivity * young);  // of T = 1
+  Mesh<2> mesh = model::crossed_mesh(4, 32, 0.25, 2.0);
+  mesh.region_names = {"specimen", "foundation"};
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    mesh.element_region[e] = element_centroid(mesh, e)[1] > 1.0 ? 1 : 0;
+  }
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.tolerance = 2e-4;
+  scene.time.end = second;
+  scene.liquid.bulk_modulus = 2e9;
+  scene.soils[0].conductivity = conductivity;
+  scene.soils[0].skeleton = model::elastic_soil(young, 0.0);
+  scene.soils.push_back(scene.soils[0]);
+  scene.soils[1].region = "foundation";
+  scene.soils[1].conductivity = 1e4 * conductivity;
+  scene.soils[1].skeleton.young = 1e4 * young;
+  BoundaryCondition top = model::pressure_on("top", 0.0);
+  top.concentration = 0.0;
+  top.traction = model::sudden_traction({0.0, -load}, scene.time.end);
+  scene.boundaries = {top, fixed_on("bottom", Fixing::both), fixed_on("left", Fixing::normal),
+                      fixed_on("right", Fixing::normal)};
+  model::ModelRun run(model::make_case(std::move(mesh), scene));
+  const double first = load / (1.0 + 0.3 * young / 2e9);
+  double worst = 0.0;
+  for (const ReferenceRow& row : read_reference("terzaghi.csv")) {
+    const double T = row.number("T");
+    if (T < 0.1 || T > 1.0) continue;
+    run.run({T * second});
+    const double error = pressure_at(run, 0.5) / first - row.number("u(0.5)");
+    worst = std::max(worst, std::abs(error));
+  }
+  std::cout << "under a stiff foundation: pressure off by " << worst << ", " << run.steps()
+            << " steps, " << run.model().flow().coupling_iterations() << " iterations\n";
+  EXPECT_LT(worst, 1e-2);
+  EXPECT_LT(run.worst_residual(), 1e-12);
+}
+
+TEST(Consolidation, UndrainedLoadGoesToTheWater) {
+  constexpr double load = 1e3;
+  Column column(16, 0.3, load, 2e9);
+  column.run().run({column.time_of(1e-6)});
+  const double first = load / (1.0 + 0.3 * column.oedometer() / 2e9);
+  // Above, pressures overshoot by layers: the boundary drains less than an element so far.
+  for (const double depth : {0.5, 0.75}) {
+    EXPECT_NEAR(pressure_at(column.run(), 1.0 - depth), first, 1e-4 * load);
+  }
+}
+
+}  // namespace
+}  // namespace suffuse

@@ -1,0 +1,134 @@
+#pragma once
+
+/// Limit loads of strip footings on weightless soil, by displacements of a rough rigid footing in
+/// stiff soil: its shape stays.
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+
+#include "solver/solid_model.hpp"
+
+namespace suffuse::footing {
+
+using model::PlaneModel;
+
+/// Half of a footing of width 2, at the left of the top of a box that the whole mechanism fits in.
+struct Footing {
+  const char* law = "mohr-coulomb";
+  double friction = 0.0;  ///< degrees; flow is associated
+  double cohesion = 0.0;
+  double surcharge = 0.0;  ///< beside the footing, and in the soil all around at the start
+  bool crossed = true;
+  int steps = 6;
+  double push = 80.0;  ///< the last displacement, over the unit of stress over E
+};
+
+/// tan^2(45 + phi/2) exp(pi tan phi)
+inline double exact_surcharge_factor(double friction) {
+  const double phi = friction * std::numbers::pi / 180.0;
+  return std::pow(std::tan(0.25 * std::numbers::pi + 0.5 * phi), 2) *
+         std::exp(std::numbers::pi * std::tan(phi));
+}
+
+inline double exact_cohesion_factor(double friction) {
+  if (friction == 0.0) return 2.0 + std::numbers::pi;
+  return (exact_surcharge_factor(friction) - 1.0) / std::tan(friction * std::numbers::pi / 180.0);
+}
+
+/// Where the mechanism ends beside the footing, from its middle; it is as deep as a third of that.
+inline double mechanism(double friction) {
+  const double phi = friction * std::numbers::pi / 180.0;
+  return 1.0 + 2.0 * std::tan(0.25 * std::numbers::pi + 0.5 * phi) *
+                   std::exp(0.5 * std::numbers::pi * std::tan(phi));
+}
+
+/// Soil and footing, `cells` under its half.
+struct FootingModel : PlaneModel {
+  FootingModel(const Footing& footing, int cells)
+      : PlaneModel(mesh_of(footing, cells), 1, soil_of(footing)) {
+    support("left", Support::normal);
+    support("right", Support::normal);
+    support("bottom", Support::both);
+    limits = {.max_iterations = 40, .tolerance = 1e-7};
+    for (Eigen::Matrix3d& b : points.elastic_b) {
+      b = elastic_b_under(skeleton[0].parameters, -footing.surcharge * Eigen::Matrix3d::Identity());
+    }
+    const double edge = 1.0 + 0.1 / cells;
+    for (const int f : faces_of("top")) {
+      const bool below = grid.face_centre(f)[0] < edge;
+      if (!below) beside.push_back(f);
+      for (const int i : grid.face_nodes[f]) {
+        if (below && std::ranges::find(held, i) == held.end()) held.push_back(i);
+      }
+    }
+  }
+
+  static Mesh<2> mesh_of(const Footing& footing, int cells) {
+    const int nx = static_cast<int>(std::ceil(cells * 1.1 * mechanism(footing.friction)));
+    const int ny = static_cast<int>(std::ceil(nx / 1.8));
+    const double width = static_cast<double>(nx) / cells;
+    const double height = static_cast<double>(ny) / cells;
+    return footing.crossed ? model::crossed_mesh(nx, ny, width, height)
+                           : model::column_mesh(nx, ny, width, height);
+  }
+  static SkeletonModel soil_of(const Footing& footing) {
+    SkeletonModel soil;
+    soil.law = skeleton_law(footing.law);
+    soil.young = young;
+    soil.poisson = 0.3;
+    soil.friction = footing.friction;
+    soil.dilation = footing.friction;
+    soil.cohesion = footing.cohesion;
+    return soil;
+  }
+
+  static constexpr double young = 1e6;
+  std::vector<int> held;    ///< nodes under the footing
+  std::vector<int> beside;  ///< faces that carry the surcharge
+};
+
+/// The mean pressure under the footing at last: the forces at its nodes, all of them, over its own
+/// width. Throws NumericalError where Newton's method does not converge.
+inline double limit_load(const Footing& footing, int cells) {
+  FootingModel m(footing, cells);
+  NodeVectors<2> loads = m.no_loads();
+  LoadedSurface<2>(m.grid, m.sorted, m.beside)
+      .add_traction(m.grid, m.sorted, Vector<2>(0.0, -footing.surcharge), loads);
+  NodeVectors<2> down = m.no_loads();
+  const double unit = std::max(footing.cohesion, footing.surcharge);
+  for (const int i : m.held) {
+    down[i][1] = -footing.push * unit / FootingModel::young / footing.steps;
+  }
+  int iterations = 0;
+  for (int step = 0; step < footing.steps; ++step) {
+    const NewtonSolution<2> solution = m.step(loads, down, m.held);
+    if (!solution.converged) throw NumericalError("Newton's method did not converge");
+    iterations += solution.iterations();
+  }
+  const Supports<2> supports(m.grid, m.face_support);
+  Equilibrium<2> equilibrium(m.body(), supports, 1);
+  equilibrium.displace(m.no_loads(), false);
+  const NodeVectors<2> forces = equilibrium.forces();
+  double load = 0.0;
+  for (const int i : m.held) load += loads[i][1] - forces[i][1];
+  std::cout << footing.law << (footing.crossed ? ", " : ", regular, ") << footing.friction
+            << " degrees, " << cells << " cells, " << m.mesh.element_count()
+            << " elements: " << load << ", iterations a step "
+            << static_cast<double>(iterations) / footing.steps << std::endl;
+  return load;
+}
+
+/// What the loads of 2 and 4 cells tend to: the edge of the footing makes their errors
+/// proportional to the size of cells. Both are above what is `exact`, as flow is associated and the
+/// displacements are possible ones.
+inline double limit_of_fine_meshes(const Footing& footing, double exact) {
+  const double coarse = limit_load(footing, 2);
+  const double fine = limit_load(footing, 4);
+  if (!(coarse > fine && fine > exact)) throw NumericalError("the loads are no upper bounds");
+  std::cout << "limit " << 2.0 * fine - coarse << ", exact " << exact << std::endl;
+  return 2.0 * fine - coarse;
+}
+
+}  // namespace suffuse::footing

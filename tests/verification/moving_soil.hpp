@@ -1,0 +1,57 @@
+#pragma once
+
+/// Whole runs with soil that moves: boundaries, and what to read from a run.
+
+#include <cmath>
+
+#include "model_run.hpp"
+#include "solver/solid_model.hpp"
+
+namespace suffuse::model {
+
+inline BoundaryCondition fixed_on(const std::string& name, Fixing fix) {
+  BoundaryCondition b;
+  b.on = name;
+  b.fix = fix;
+  return b;
+}
+
+/// A boundary at a pressure, Pa, through which clean water enters, if any does.
+inline BoundaryCondition clean_pressure_on(const std::string& name, double pressure) {
+  BoundaryCondition b = pressure_on(name, pressure);
+  b.concentration = 0.0;
+  return b;
+}
+
+/// Fines that could erode at the start are left, in the liquid, or have left with it: what is
+/// missing, kg.
+inline double missing_fines(const LedgerRow& now, double erodible_at_start) {
+  return now.erodible + now.fines + now.fines_out - now.fines_in - erodible_at_start;
+}
+
+/// A traction, Pa, that comes at once and stays.
+inline VectorFunction sudden_traction(const Vector<2>& traction, double end) {
+  return VectorFunction{{{0.0, {0.0, 0.0, 0.0}}, {1e-12 * end, {traction[0], traction[1], 0.0}}}};
+}
+
+/// Pressure where `at` holds, mean of the nodes there, Pa.
+template <class Place>
+double mean_pressure(ModelRun& run, const Place& at) {
+  const Grid<2>& grid = run.model().grid();
+  const FlowState<2> flow = run.model().flow_state();
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < grid.mesh.node_count(); ++i) {
+    if (!at(grid.mesh.nodes[i])) continue;
+    sum += flow.node_pressure[i];
+    ++count;
+  }
+  return sum / count;
+}
+
+/// Pressure at a height, Pa.
+inline double pressure_at(ModelRun& run, double y) {
+  return mean_pressure(run, [y](const Vector<2>& x) { return std::abs(x[1] - y) < 1e-9; });
+}
+
+}  // namespace suffuse::model
