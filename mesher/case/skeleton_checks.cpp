@@ -103,7 +103,7 @@ class SkeletonChecks : private SceneCheckBase {
     }
   }
 
-  /// What the motion of the solid knows nothing of: liquid points, and a mesh that is cut open.
+  /// Refuses what cannot be computed with a moving skeleton: liquid points, and a mesh with slits.
   void check_others() const {
     if (scene_.formulation == Formulation::double_point && !refused("formulation")) {
       report("formulation", "\"double-point\" with a skeleton that moves",

@@ -32,21 +32,6 @@ std::vector<char> near_surface(const Grid<Dim>& grid, const PointsByElement& sor
   return near;
 }
 
-/// Per node, the volume of soil over that of the mesh that belongs to it.
-template <int Dim>
-std::vector<double> filled_share(const Grid<Dim>& grid, const SolidPoints<Dim>& points) {
-  std::vector<double> share(grid.mesh.node_count(), 0.0);
-  for (int p = 0; p < points.size(); ++p) {
-    const int e = points.element[p];
-    const auto shape = barycentric(grid.mesh, e, points.position[p]);
-    for (int a = 0; a <= Dim; ++a) {
-      share[grid.mesh.elements[e][a]] += shape[a] * points.volume[p];
-    }
-  }
-  for (int i = 0; i < grid.mesh.node_count(); ++i) share[i] /= grid.node_volume[i];
-  return share;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -54,7 +39,7 @@ ElementClasses::ElementClasses(const Grid<Dim>& grid, const SolidPoints<Dim>& po
                                const PointsByElement& sorted) {
   const int elements = grid.mesh.element_count();
   const std::vector<char> near = near_surface(grid, sorted);
-  const std::vector<double> filled = filled_share(grid, points);
+  const std::vector<double> filled = node_shares(grid, points, points.volume);
   full.assign(elements, 0.0);
   scale.assign(elements, 0.0);
   for (int e = 0; e < elements; ++e) {

@@ -119,28 +119,36 @@ std::vector<double> MovingSkeleton<Dim>::solid_volumes() const {
 
 template <int Dim>
 double MovingSkeleton<Dim>::fines_left(int point) const {
+  return share_left(point, this->state_.erodible_volume[point]);
+}
+
+template <int Dim>
+double MovingSkeleton<Dim>::share_left(int point, double erodible_volume) const {
   const double start = initial_erodible_[point];
-  return start > 0.0 ? (this->state_.erodible_volume[point] - loss_of(point)) / start : 1.0;
+  return start > 0.0 ? erodible_volume / start : 1.0;
 }
 
 // ----------------------------------------------------------------------------------- equilibrium
 
 template <int Dim>
-PointSkeleton MovingSkeleton<Dim>::skeleton_of(int point) const {
-  return skeleton_at(this->soils().soil_of_point(point).skeleton, fines_left(point));
+PointSkeleton MovingSkeleton<Dim>::skeleton_of(int point, double fines_left) const {
+  return skeleton_at(this->soils().soil_of_point(point).skeleton, fines_left);
 }
 
 template <int Dim>
 std::vector<PointSkeleton> MovingSkeleton<Dim>::skeletons() const {
   std::vector<PointSkeleton> result;
   result.reserve(points_.size());
-  for (int p = 0; p < points_.size(); ++p) result.push_back(skeleton_of(p));
+  for (int p = 0; p < points_.size(); ++p) {
+    const double left = this->state_.erodible_volume[p] - loss_of(p);
+    result.push_back(skeleton_of(p, share_left(p, left)));
+  }
   return result;
 }
 
 template <int Dim>
 Eigen::Matrix3d MovingSkeleton<Dim>::effective_stress(int point) const {
-  const PointSkeleton skeleton = skeleton_of(point);
+  const PointSkeleton skeleton = skeleton_of(point, fines_left(point));
   const auto response =
       skeleton_response<Dim>(*skeleton.law, skeleton.parameters, points_.elastic_b[point],
                              Eigen::Matrix<double, Dim, Dim>::Identity());
@@ -154,7 +162,8 @@ std::vector<double> MovingSkeleton<Dim>::compressibility() const {
   for (int p = 0; p < points_.size(); ++p) {
     if (!this->soils().soil_of_point(p).skeleton.moves()) continue;
     const int e = points_.element[p];
-    stiffness[e] += points_.volume[p] * skeleton_of(p).parameters.oedometer_modulus();
+    stiffness[e] +=
+        points_.volume[p] * skeleton_of(p, fines_left(p)).parameters.oedometer_modulus();
     volume[e] += points_.volume[p];
   }
   for (std::size_t e = 0; e < solid_.size(); ++e) {
@@ -168,7 +177,7 @@ double MovingSkeleton<Dim>::stiffness() const {
   double largest = 0.0;
   for (int p = 0; p < points_.size(); ++p) {
     if (!this->soils().soil_of_point(p).skeleton.moves()) continue;
-    largest = std::max(largest, skeleton_of(p).parameters.oedometer_modulus());
+    largest = std::max(largest, skeleton_of(p, fines_left(p)).parameters.oedometer_modulus());
   }
   return largest;
 }

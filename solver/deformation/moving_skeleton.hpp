@@ -71,7 +71,9 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
  private:
   /// Laws and numbers of the points with the fines that they will have at the end of the step.
   [[nodiscard]] std::vector<PointSkeleton> skeletons() const;
-  [[nodiscard]] PointSkeleton skeleton_of(int point) const;
+  [[nodiscard]] PointSkeleton skeleton_of(int point, double fines_left) const;
+  /// That an erodible volume, m3, is of the one at the start.
+  [[nodiscard]] double share_left(int point, double erodible_volume) const;
   [[nodiscard]] std::vector<double> solid_volumes() const;
   /// Keeps what points will have lost by the end of the step.
   void expect_losses(const std::vector<double>& porosity);

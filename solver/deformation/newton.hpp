@@ -14,8 +14,9 @@ struct NewtonLimits {
   int max_iterations = 12;
   /// Largest residual over the forces of the elements and the loads together.
   double tolerance = 1e-10;
-  /// Where this is smaller, iterations go on to it as long as each comes nearer: forces of soft
-  /// soil are small beside those that stiff soil would have at a strain that counts.
+  /// A residual smaller than the tolerance, which iterations try to reach: they stop at the first
+  /// that does not come nearer. For soft soil beside stiff soil: the tolerance refers to the forces
+  /// of the stiff soil, which are much larger than those of the soft soil.
   double goal = std::numeric_limits<double>::infinity();
 };
 

@@ -7,13 +7,7 @@ namespace suffuse {
 template <int Dim>
 std::vector<double> smooth_volumes(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                    const std::vector<double>& solid_volume) {
-  std::vector<double> share(grid.mesh.node_count(), 0.0);
-  for (int p = 0; p < points.size(); ++p) {
-    const int e = points.element[p];
-    const auto at = barycentric(grid.mesh, e, points.position[p]);
-    for (int a = 0; a <= Dim; ++a) share[grid.mesh.elements[e][a]] += at[a] * solid_volume[p];
-  }
-  for (int i = 0; i < grid.mesh.node_count(); ++i) share[i] /= grid.node_volume[i];
+  const std::vector<double> share = node_shares(grid, points, solid_volume);
   std::vector<double> result(grid.mesh.element_count(), 0.0);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     for (const int i : grid.mesh.elements[e]) result[e] += grid.volume[e] / (Dim + 1) * share[i];

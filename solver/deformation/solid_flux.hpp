@@ -11,9 +11,8 @@
 namespace suffuse {
 
 /// Solid volume per element, m3, as the points' volumes have it that are carried to the nodes and
-/// back: V_e times the mean of phi_i = sum_p N_i(x_p) V_s / (node's share of the mesh). Its total
-/// is theirs. (To count the points in an element errs by a whole point.) It spreads over the
-/// elements next to those with points.
+/// back: V_e times the mean of the nodes' shares. Its total is theirs. (To count the points in an
+/// element errs by a whole point.) It spreads over the elements next to those with points.
 template <int Dim>
 std::vector<double> smooth_volumes(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                    const std::vector<double>& solid_volume);

@@ -27,7 +27,24 @@ PointsByElement::PointsByElement(int element_count, const std::vector<int>& elem
   }
 }
 
+template <int Dim>
+std::vector<double> node_shares(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                                const std::vector<double>& volume) {
+  std::vector<double> share(grid.mesh.node_count(), 0.0);
+  for (int p = 0; p < points.size(); ++p) {
+    const int e = points.element[p];
+    const auto shape = barycentric(grid.mesh, e, points.position[p]);
+    for (int a = 0; a <= Dim; ++a) share[grid.mesh.elements[e][a]] += shape[a] * volume[p];
+  }
+  for (int i = 0; i < grid.mesh.node_count(); ++i) share[i] /= grid.node_volume[i];
+  return share;
+}
+
 template struct SolidPoints<2>;
 template struct SolidPoints<3>;
+template std::vector<double> node_shares(const Grid<2>&, const SolidPoints<2>&,
+                                         const std::vector<double>&);
+template std::vector<double> node_shares(const Grid<3>&, const SolidPoints<3>&,
+                                         const std::vector<double>&);
 
 }  // namespace suffuse

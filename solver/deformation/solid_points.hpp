@@ -51,4 +51,10 @@ class PointsByElement {
   std::vector<int> point_;
 };
 
+/// Per node, what the points have, m3 per point, over the volume of the mesh that belongs to the
+/// node: phi_i = sum_p N_i(x_p) V_p / V_i.
+template <int Dim>
+std::vector<double> node_shares(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                                const std::vector<double>& volume);
+
 }  // namespace suffuse

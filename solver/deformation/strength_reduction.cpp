@@ -109,7 +109,8 @@ class StrengthReduction {
     for (std::size_t i = 0; i < elastic_.size(); ++i) failure.displacement[i] -= elastic_[i];
   }
 
-  /// The smallest factor above those that hold at which a trial failed; infinite: none did.
+  /// Of the factors above the largest that holds, the smallest whose trial failed. Infinite: no
+  /// trial failed.
   [[nodiscard]] double next_failure() const {
     const auto next = failed_.upper_bound(result_.holds);
     return next == failed_.end() ? std::numeric_limits<double>::infinity() : next->first;

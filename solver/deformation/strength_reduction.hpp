@@ -52,10 +52,15 @@ struct SafetyFactor {
 /// one increment: what a perfectly plastic body can carry does not depend on the stress before.
 /// Newton's method starts at the displacement of the largest factor that holds; that a factor fails
 /// is believed when it has failed from the one below it and from no displacement too.
-/// Neither does it depend on Young's modulus, so trials make all of the soil stiffer by one number,
-/// and its shape stays. Displacements are those of the soil as it is, to first order. \param body
-/// stresses and `plastic_strain` of its points are not looked at \param loads     per node, N
+///
+/// The factor does not depend on Young's modulus either. The trials multiply it by one number in
+/// all of the soil, so that its shape stays. Displacements are those of the soil as it is, to first
+/// order.
+///
+/// \param body      stresses and `plastic_strain` of its points are not used
+/// \param loads     per node, N
 /// \param pressure  pore pressure per element, Pa; empty: none
+///
 /// Throws NumericalError when nothing holds the soil.
 template <int Dim>
 SafetyFactor find_safety_factor(const SolidBody<Dim>& body, const Supports<Dim>& supports,

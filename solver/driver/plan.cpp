@@ -283,7 +283,7 @@ std::string how_fines_are_carried(const Scene& scene) {
       break;
   }
   return "explicit; implicit while the flow is so fast that the run would take more than " +
-         short_text(FieldTransportSettings{}.explicit_steps) + " explicit steps";
+         short_text(explicit_steps_of_a_run) + " explicit steps";
 }
 
 void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {

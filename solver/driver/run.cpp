@@ -161,8 +161,8 @@ class Run final : public OutputSink<Dim> {
     return ExitCode::interrupted;
   }
 
-  /// The state before soil fails is what one wants to see, whenever that is. A run that goes on
-  /// from there drops this output again.
+  /// Writes row and snapshot of the last state in equilibrium, also between two output times. A run
+  /// that goes on from there drops this output again.
   void write_last_equilibrium() {
     const double now = loop_.model().time();
     const OutputSchedule& schedule = loop_.schedule();

@@ -27,8 +27,10 @@ struct FlowScales {
   /// Raises the scales to those of a flow with these pressures and fluxes at the faces. A known
   /// flux scale stays: a passing peak, as at a start from rest, is no measure of what follows.
   void include(const std::vector<double>& face_pressure, const std::vector<double>& face_flux);
-  /// Loads on soil that moves drive the flow too, and pressures then have no bounds. \param change
-  /// of the loads, Pa \param stiffness  of the soil, Pa: stresses of tiny strains count as nothing
+  /// Loads on soil that moves drive the flow too, and pressures then have no bounds.
+  ///
+  /// \param change     largest change of a load, Pa
+  /// \param stiffness  of the soil, Pa: stresses of tiny strains count as nothing
   void include_loads(double change, double stiffness);
   /// Widens the bounds to these pressures, from which the flow starts.
   void include_in_bounds(const std::vector<double>& face_pressure);

@@ -393,10 +393,11 @@ void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
     extend(liquid_series_, liquid_name, time);
     write_series(liquid_series_);
   }
-  extend(mesh_series_, mesh_name, time);
-  write_series(mesh_series_);
   extend(solid_series_, solid_name, time);
   write_series(solid_series_);
+  // Last: a snapshot that the mesh has is in every series, also after a kill.
+  extend(mesh_series_, mesh_name, time);
+  write_series(mesh_series_);
   const long old = static_cast<long>(index) - case_.document.scene.output.restarts;
   if (old < 0) return;
   std::error_code ignored;

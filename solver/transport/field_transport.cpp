@@ -87,7 +87,7 @@ bool FieldTransport<Dim>::is_implicit(const std::vector<double>& face_rate) cons
     return settings_.scheme == TransportScheme::implicit_sweeps;
   }
   return settings_.implicit.end >
-         settings_.explicit_steps * scheme_.steps_allowed(state_, face_rate);
+         explicit_steps_of_a_run * scheme_.steps_allowed(state_, face_rate);
 }
 
 template <int Dim>

@@ -9,13 +9,14 @@
 
 namespace suffuse {
 
+/// A run of more explicit steps than this takes implicit ones (docs/accuracy.md).
+inline constexpr double explicit_steps_of_a_run = 2000.0;
+
 struct FieldTransportSettings {
   TransportScheme scheme = TransportScheme::by_count;
   double fines_from = 0.0;  ///< fines can be in the liquid after this time, s
   SweptSettings implicit;
   bool points_move = false;  ///< solid points change their places in the elements
-  /// A run of more explicit steps than this takes implicit ones (docs/accuracy.md).
-  double explicit_steps = 2000.0;
 };
 
 template <int Dim>

@@ -7,16 +7,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <map>
 #include <numbers>
 #include <sstream>
 
 #include "case/errors.hpp"
 #include "mesher/temporary_folder.hpp"
+#include "solver/csv_columns.hpp"
 
 namespace suffuse {
 namespace {
 
+using test::columns_of;
 using test::TemporaryFolder;
 
 constexpr const char* scene = R"(formulation = "single-point"
@@ -56,26 +57,6 @@ std::string text_of(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();
-}
-
-/// Columns by name.
-std::map<std::string, std::vector<double>> columns_of(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::getline(lines, line);
-  std::vector<std::string> names;
-  std::istringstream header(line);
-  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
-  std::map<std::string, std::vector<double>> columns;
-  while (std::getline(lines, line)) {
-    std::istringstream cells(line);
-    std::string cell;
-    for (const std::string& name : names) {
-      std::getline(cells, cell, ',');
-      columns[name].push_back(std::stod(cell));
-    }
-  }
-  return columns;
 }
 
 /// What a test answers, or its messages with the file's name left out.

@@ -467,6 +467,29 @@ TEST(MovingSkeleton, SettlesAsItsFinesErode) {
   EXPECT_LE(worst, 1e-3);
 }
 
+TEST(MovingSkeleton, ShowsItsStateWhileAStepIsTried) {
+  SkeletonModel soil = model::elastic_soil(1e6, 0.0);
+  soil.young = FinesFunction({{1.0, 1e6}, {0.0, 4e5}});
+  Body b(model::column_mesh(1, 4, 0.25, 1.0), oedometer_scene(soil, 1e5));
+  b.run(0.0, 1.0, 4);
+  const double left = b.solid.fines_left(0);
+  const double stiffness = b.solid.stiffness();
+  const std::vector<double> compressibility = b.solid.compressibility();
+  const Eigen::Matrix3d stress = b.solid.effective_stress(0);
+  const MotionForcing without = b.forcing(2.0, 1.0);
+  ASSERT_TRUE(b.solid.try_motion(without).converged);
+  const double travel = b.solid.try_motion(without).travel;
+  MotionForcing eroding = without;
+  eroding.porosity = b.solid.porosity();
+  for (double& n : eroding.porosity) n += 0.05;
+  ASSERT_TRUE(b.solid.try_motion(eroding).converged);
+  EXPECT_GT(b.solid.try_motion(eroding).travel, travel + 1e-3);
+  EXPECT_EQ(b.solid.fines_left(0), left);
+  EXPECT_EQ(b.solid.stiffness(), stiffness);
+  EXPECT_EQ(b.solid.compressibility(), compressibility);
+  EXPECT_EQ(b.solid.effective_stress(0), stress);
+}
+
 // ------------------------------------------------------------------------------------ at the start
 
 /// Ground under water up to 1 m above it, with smooth sides.

@@ -7,45 +7,25 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <numbers>
-#include <sstream>
 #include <vector>
 
 #include "case/hdf5_io.hpp"
 #include "mesher/temporary_folder.hpp"
 #include "results/number_text.hpp"
 #include "results/vtkhdf.hpp"
+#include "solver/csv_columns.hpp"
 
 namespace suffuse {
 namespace {
 
+using test::Columns;
+using test::columns_of;
 using test::TemporaryFolder;
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double gravity = 9.81;
 constexpr double water_weight = 1000.0 * gravity;
-
-using Columns = std::map<std::string, std::vector<double>>;
-
-Columns columns_of(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::getline(lines, line);
-  std::vector<std::string> names;
-  std::istringstream header(line);
-  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
-  Columns columns;
-  while (std::getline(lines, line)) {
-    std::istringstream cells(line);
-    std::string cell;
-    for (const std::string& name : names) {
-      std::getline(cells, cell, ',');
-      columns[name].push_back(std::stod(cell));
-    }
-  }
-  return columns;
-}
 
 /// Text with numbers in the places of `%`.
 std::string filled(const std::string& pattern, const std::vector<double>& numbers) {

@@ -1,8 +1,8 @@
 /// Soils that move: levees of random strength under floods, and columns under loads.
 
 #include <algorithm>
-#include <sstream>
 
+#include "results/number_text.hpp"
 #include "solver/solid_model.hpp"
 #include "stress/scenario.hpp"
 #include "stress/stress_mesh.hpp"
@@ -12,36 +12,30 @@ namespace {
 
 constexpr unsigned seeds = 100;
 
-std::string text_of(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
-
 /// A number, or one that falls with the fines.
 std::string falling(Random& random, double value, double share) {
-  if (random.chance(0.5)) return text_of(value);
-  return "[[1.0, " + text_of(value) + "], [0.0, " + text_of(share * value) + "]]";
+  if (random.chance(0.5)) return number_text(value);
+  return "[[1.0, " + number_text(value) + "], [0.0, " + number_text(share * value) + "]]";
 }
 
 /// A law of the skeleton and its numbers. `strong`: the soil stands.
 std::string skeleton(Random& random, double stiffness, bool strong) {
   const double poisson = random.chance(0.3) ? 0.0 : random.between(0.0, 0.49);
   const std::string elastic = "young = " + falling(random, stiffness, random.between(0.3, 0.9)) +
-                              ", poisson = " + text_of(poisson);
+                              ", poisson = " + number_text(poisson);
   const double least = strong ? 30.0 : 10.0;
   switch (random.below(3)) {
     case 0:
       return "{law = \"elastic\", " + elastic + "}";
     case 1:
       return "{law = \"von-mises\", " + elastic +
-             ", cohesion = " + text_of(random.decades(strong ? 2e4 : 1e3, 1e6)) + "}";
+             ", cohesion = " + number_text(random.decades(strong ? 2e4 : 1e3, 1e6)) + "}";
     default:
       return "{law = \"mohr-coulomb\", " + elastic +
              ", friction = " + falling(random, random.between(least, 45.0), 0.8) + ", cohesion = " +
              falling(random, random.decades(strong ? 1e4 : 1e2, 1e5), random.between(0.1, 1.0)) +
-             ", dilation = " + text_of(random.chance(0.5) ? 0.0 : random.between(0.0, 8.0)) + "}";
+             ", dilation = " + number_text(random.chance(0.5) ? 0.0 : random.between(0.0, 8.0)) +
+             "}";
   }
 }
 
@@ -64,12 +58,13 @@ Changes moving_levee_changes(unsigned seed, double end) {
 Changes column_changes(unsigned seed, double end) {
   Random random(seed + 12000);
   const double stiffness = random.decades(1e5, 1e9);
-  Changes changes{"time.tolerance=" + text_of(random.decades(1e-4, 1e-2))};
+  Changes changes{"time.tolerance=" + number_text(random.decades(1e-4, 1e-2))};
   const double permeability = 1000.0 * 9.81 * random.decades(1e-2, 1e2) / (stiffness * end);
   for (const char* name : {"specimen", "other"}) {
     const std::string soil = "soil." + std::string(name);
     if (std::string(name) == "other") changes.push_back(soil + ".like=specimen");
-    changes.push_back(soil + ".conductivity=" + text_of(permeability * random.decades(1.0, 1e3)));
+    changes.push_back(soil +
+                      ".conductivity=" + number_text(permeability * random.decades(1.0, 1e3)));
     changes.push_back(soil +
                       ".skeleton=" + skeleton(random, stiffness * random.decades(1.0, 1e2), true));
   }
@@ -77,12 +72,12 @@ Changes column_changes(unsigned seed, double end) {
   std::string course = "[[0.0, 0.0, 0.0]";
   const int pairs = 1 + random.below(3);
   for (int i = 1; i <= pairs; ++i) {
-    course += ", [" + text_of(end * (i - random.between(0.0, 0.99)) / pairs) + ", " +
-              text_of(random.chance(0.3) ? random.between(-0.05, 0.05) * load : 0.0) + ", " +
-              text_of(-random.share() * load) + "]";
+    course += ", [" + number_text(end * (i - random.between(0.0, 0.99)) / pairs) + ", " +
+              number_text(random.chance(0.3) ? random.between(-0.05, 0.05) * load : 0.0) + ", " +
+              number_text(-random.share() * load) + "]";
   }
   changes.push_back("boundary[0]={on = \"top\", pressure = " +
-                    (random.chance(0.5) ? "0" : text_of(random.share() * load)) +
+                    (random.chance(0.5) ? "0" : number_text(random.share() * load)) +
                     ", concentration = 0, traction = " + course + "]}");
   changes.push_back(std::string("boundary[1]={on = \"bottom\", ") +
                     (random.chance(0.3) ? "pressure = 0, " : "") + "fix = \"both\"}");

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "results/number_text.hpp"
 #include "solver/model_case.hpp"
 #include "stress/scenario.hpp"
 #include "stress/stress_mesh.hpp"
@@ -13,15 +13,8 @@ namespace {
 
 constexpr unsigned seeds = 100;
 
-std::string text_of(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
-
 std::string entry(const std::string& key, double value) {
-  return key + " = " + text_of(value);
+  return key + " = " + number_text(value);
 }
 
 std::string retention(Random& random, double residual) {
@@ -39,8 +32,8 @@ std::string soil(Random& random, double conductivity, double end) {
                      entry("skeleton_fraction", (1.0 - n) * random.between(0.7, 0.95)) +
                      ", grain_density = 2700";
   if (random.chance(0.3)) {
-    text += ", conductivity = [" + text_of(conductivity) + ", " +
-            text_of(conductivity / random.decades(1.0, 100.0)) + "], " +
+    text += ", conductivity = [" + number_text(conductivity) + ", " +
+            number_text(conductivity / random.decades(1.0, 100.0)) + "], " +
             entry("bedding", random.between(-90.0, 90.0));
   } else {
     text += ", " + entry("conductivity", conductivity);
@@ -61,11 +54,11 @@ std::string soil(Random& random, double conductivity, double end) {
 
 /// Heads that rise and fall four times at most.
 std::string flood(Random& random, double end) {
-  std::string text = "[[0.0, " + text_of(random.between(0.0, 0.6)) + "]";
+  std::string text = "[[0.0, " + number_text(random.between(0.0, 0.6)) + "]";
   const int pairs = 1 + random.below(4);
   for (int i = 1; i <= pairs; ++i) {
-    text += ", [" + text_of(end * (i - random.between(0.0, 0.9)) / pairs) + ", " +
-            text_of(random.between(-0.2, 1.1)) + "]";
+    text += ", [" + number_text(end * (i - random.between(0.0, 0.9)) / pairs) + ", " +
+            number_text(random.between(-0.2, 1.1)) + "]";
   }
   return text + "]";
 }
@@ -88,13 +81,13 @@ Changes levee_changes(unsigned seed, double end) {
   if (random.chance(0.6)) {
     const double rain = random.decades(1e-3, 3.0) * conductivity;
     changes.push_back("boundary[2]={on = \"top\", rain = [[0.0, 0.0], [" +
-                      text_of(end * random.between(0.1, 0.5)) + ", " + text_of(rain) +
+                      number_text(end * random.between(0.1, 0.5)) + ", " + number_text(rain) +
                       "]], concentration = 0}");
   }
   if (random.chance(0.5)) {
     changes.emplace_back("initial.flow=steady");
   } else {
-    changes.push_back("initial.water_level=" + text_of(random.between(-1.0, 0.5)));
+    changes.push_back("initial.water_level=" + number_text(random.between(-1.0, 0.5)));
   }
   constexpr std::array<const char*, 3> moduli{"2e7", "2e9", "inf"};
   changes.push_back(std::string("liquid.bulk_modulus=") + moduli[random.below(3)]);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
+#include "results/number_text.hpp"
 #include "stress/scenario.hpp"
 #include "stress/stress_mesh.hpp"
 
@@ -18,15 +18,8 @@ constexpr double weight = 1000.0 * gravity;
 
 enum class Shape { column, weir, levee };
 
-std::string text_of(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
-
 std::string entry(const std::string& key, double value) {
-  return key + " = " + text_of(value);
+  return key + " = " + number_text(value);
 }
 
 std::string word(const std::string& key, const std::string& value) {
@@ -95,7 +88,7 @@ std::string residual(Random& random, double erodible, double flux) {
   double q = random.between(0.0, 0.5) * flux;
   double stays = random.between(0.0, 0.9) * erodible;
   for (int i = 0; i < pairs; ++i) {
-    text += "[" + text_of(q) + ", " + text_of(stays) + "], ";
+    text += "[" + number_text(q) + ", " + number_text(stays) + "], ";
     q += random.between(0.05, 1.0) * flux;
     stays *= random.between(0.0, 1.0);  // flow that is faster takes more
   }
@@ -169,8 +162,8 @@ std::string soil(Random& random, const Scales& s, double end, Scheme scheme) {
                                  "grain_density = 2700"};
   const bool bedded = !is_explicit(scheme) && !is_double_point(scheme) && random.chance(0.15);
   if (bedded) {
-    parts.push_back("conductivity = [" + text_of(s.conductivity) + ", " +
-                    text_of(s.conductivity / random.decades(1.0, 10.0)) + "]");
+    parts.push_back("conductivity = [" + number_text(s.conductivity) + ", " +
+                    number_text(s.conductivity / random.decades(1.0, 10.0)) + "]");
     parts.push_back(entry("bedding", random.between(-90.0, 90.0)));
   } else {
     parts.push_back(entry("conductivity", s.conductivity * random.decades(0.3, 3.0)));
@@ -196,12 +189,12 @@ std::string soil(Random& random, const Scales& s, double end, Scheme scheme) {
 
 /// Values that go between `highest` and less, and below nothing where the flow turns back.
 std::string flood(Random& random, double end, double highest, bool reverses) {
-  std::string text = "[[0.0, " + text_of(highest * random.between(0.3, 1.0)) + "]";
+  std::string text = "[[0.0, " + number_text(highest * random.between(0.3, 1.0)) + "]";
   const int pairs = 1 + random.below(4);
   for (int i = 1; i <= pairs; ++i) {
     const double low = reverses ? -1.0 : 0.0;
-    text += ", [" + text_of(end * (i - random.between(0.0, 0.9)) / pairs) + ", " +
-            text_of(highest * random.between(low, 1.0)) + "]";
+    text += ", [" + number_text(end * (i - random.between(0.0, 0.9)) / pairs) + ", " +
+            number_text(highest * random.between(low, 1.0)) + "]";
   }
   return text + "]";
 }
@@ -209,8 +202,9 @@ std::string flood(Random& random, double end, double highest, bool reverses) {
 /// Richness of the liquid that enters.
 std::string concentration(Random& random, const Scales& s, double end) {
   if (s.inflow == 0.0 || random.chance(0.5)) return ", " + entry("concentration", s.inflow);
-  return ", concentration = [[0, " + text_of(s.inflow) + "], [" +
-         text_of(random.between(0.1, 0.9) * end) + ", " + text_of(s.inflow * random.share()) + "]]";
+  return ", concentration = [[0, " + number_text(s.inflow) + "], [" +
+         number_text(random.between(0.1, 0.9) * end) + ", " +
+         number_text(s.inflow * random.share()) + "]]";
 }
 
 Changes flows(Random& random, const Scales& s, double end) {
@@ -224,7 +218,7 @@ Changes flows(Random& random, const Scales& s, double end) {
                 ? "boundary[1]={on = \"right\", seepage_face = true}"
                 : "boundary[1]={on = \"right\", " + entry("head", random.between(0.0, 0.5)) +
                       ", concentration = 0}",
-            "initial.water_level=" + text_of(random.between(0.0, 0.5))};
+            "initial.water_level=" + number_text(random.between(0.0, 0.5))};
   }
   const bool column = s.shape == Shape::column;
   const std::string one = column ? "top" : "left";
@@ -246,10 +240,10 @@ Changes soils_changes(unsigned seed, Scheme scheme, double end) {
   Changes changes{"soil.specimen" + soil(random, s, end, scheme),
                   "soil.other" + soil(random, s, end, scheme)};
   for (std::string& change : flows(random, s, end)) changes.push_back(std::move(change));
-  changes.push_back("liquid.bulk_modulus=" + text_of(s.modulus));
+  changes.push_back("liquid.bulk_modulus=" + number_text(s.modulus));
   if (s.viscous) {
     changes.emplace_back("liquid.viscosity_law=krieger-dougherty");
-    changes.push_back("liquid.maximum_concentration=" + text_of(s.locks_at));
+    changes.push_back("liquid.maximum_concentration=" + number_text(s.locks_at));
   }
   if (is_explicit(scheme)) changes.emplace_back("time.mass_scaling=100");
   const bool field = scheme == Scheme::sp_implicit || scheme == Scheme::sp_monotone;
