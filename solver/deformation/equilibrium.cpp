@@ -94,6 +94,7 @@ bool Equilibrium<Dim>::is_possible(const NodeVectors<Dim>& displacement) const {
 
 template <int Dim>
 void Equilibrium<Dim>::displace(const NodeVectors<Dim>& displacement, bool with_tangents) {
+  displacement_ = displacement;
   if (with_tangents) tangent_.resize(body_.grid.mesh.element_count());
   for_each_index(
       static_cast<int>(elements_.size()), threads_,
@@ -158,7 +159,28 @@ NodeVectors<Dim> Equilibrium<Dim>::forces() const {
       result[body_.grid.mesh.elements[e][a]] += stress_[e] * body_.grid.shape_gradient[e][a];
     }
   }
+  for (std::size_t i = 0; i < inertia_.size(); ++i) result[i] += inertia_force(static_cast<int>(i));
   return result;
+}
+
+template <int Dim>
+void Equilibrium<Dim>::set_inertia(const std::vector<double>& mass,
+                                   const NodeVectors<Dim>& velocity, double dt) {
+  inertia_.resize(mass.size());
+  coasting_.resize(mass.size());
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    inertia_[i] = mass[i] / (dt * dt);
+    coasting_[i] = dt * velocity[i];
+  }
+}
+
+template <int Dim>
+double Equilibrium<Dim>::inertia_norm() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < inertia_.size(); ++i) {
+    sum += inertia_force(static_cast<int>(i)).squaredNorm();
+  }
+  return std::sqrt(sum);
 }
 
 template <int Dim>
@@ -183,6 +205,7 @@ NodeVectors<Dim> Equilibrium<Dim>::tangent_times(const NodeVectors<Dim>& displac
       result[body_.grid.mesh.elements[e][a]] += stress * body_.grid.shape_gradient[e][a];
     }
   }
+  for (std::size_t i = 0; i < inertia_.size(); ++i) result[i] += inertia_[i] * displacement[i];
   return result;
 }
 
@@ -279,6 +302,18 @@ void Equilibrium<Dim>::scatter(const auto& tangent_of, Eigen::SparseMatrix<doubl
     const ElementMatrix of_element = element_matrix(elements_[at], tangent_of(elements_[at]));
     for (int k = 0; k < size * size; ++k) {
       if (slots_[at][k] >= 0) values[slots_[at][k]] += of_element.data()[k];
+    }
+  }
+  add_inertia(matrix);
+}
+
+template <int Dim>
+void Equilibrium<Dim>::add_inertia(Eigen::SparseMatrix<double>& matrix) const {
+  for (std::size_t i = 0; i < inertia_.size(); ++i) {
+    const auto node = static_cast<int>(i);
+    for (int k = 0; k < unknowns_.count(node); ++k) {
+      const int unknown = unknowns_.first(node) + k;
+      matrix.coeffRef(unknown, unknown) += inertia_[i];
     }
   }
 }

@@ -43,6 +43,7 @@ struct SolidBody {
 /// F = I + grad du:
 ///
 ///     R_u = sum_e [scale sum_p V_0 tau F^-T + soft E V_e grad du - p V_e J F^-T] grad N - loads
+///           + M (du - dt v*)/dt^2 where inertia counts (backward Euler)
 ///
 /// with the Kirchhoff stress tau of each point of the element, the law's, J = det F and the pore
 /// pressure p of the element (docs/theory.md, "Equilibrium of the solid"). Everything is per
@@ -63,6 +64,9 @@ class Equilibrium {
     stiffness_ = std::move(stiffness);
   }
 
+  /// Inertia over a step of `dt`, s: the mass of each node, kg, and its velocity at the start, m/s.
+  void set_inertia(const std::vector<double>& mass, const NodeVectors<Dim>& velocity, double dt);
+
   /// Whether a displacement leaves each element with soil more than `min_ratio` of its volume.
   [[nodiscard]] bool is_possible(const NodeVectors<Dim>& displacement) const;
   /// Takes this displacement over the step, m, which must be possible. Tangents cost more than
@@ -71,6 +75,8 @@ class Equilibrium {
 
   /// Forces of the solid and its pore water on the nodes, N.
   [[nodiscard]] NodeVectors<Dim> forces() const;
+  /// Norm of the forces of inertia, N.
+  [[nodiscard]] double inertia_norm() const;
   /// Norm of the forces of all elements, whether they balance or not, and of those at a strain of
   /// `least_strain`, N: what residuals are relative to, without stress too.
   [[nodiscard]] double force_scale() const;
@@ -119,6 +125,10 @@ class Equilibrium {
   void displace_element(const NodeVectors<Dim>& displacement, bool with_tangents, int element);
   void add_pressure(int element, bool with_tangents);
   [[nodiscard]] ElementMatrix element_matrix(int element, const Tangent& tangent) const;
+  [[nodiscard]] Vector<Dim> inertia_force(int node) const {
+    return inertia_[node] * (displacement_[node] - coasting_[node]);
+  }
+  void add_inertia(Eigen::SparseMatrix<double>& matrix) const;
   void make_pattern();
   void scatter(const auto& tangent_of, Eigen::SparseMatrix<double>& matrix) const;
 
@@ -128,6 +138,9 @@ class Equilibrium {
   DisplacementUnknowns<Dim> unknowns_;
   std::vector<double> pressure_;
   std::vector<double> stiffness_;
+  std::vector<double> inertia_;      ///< M/dt^2 per node, N/m; empty: none
+  NodeVectors<Dim> coasting_;        ///< dt v* per node, m
+  NodeVectors<Dim> displacement_;    ///< the last one, m
   double least_force_ = 0.0;         ///< of `force_scale`, N
   std::vector<double> soft_;         ///< per element: stiffness against grad du, Pa m3
   std::vector<Gradient> inverse_;    ///< F^-1 per element
