@@ -1,0 +1,121 @@
+#pragma once
+
+/// Bodies of dry soil whose inertia counts, for tests: no files, no flow.
+
+#include <algorithm>
+
+#include "deformation/inertial_motion.hpp"
+#include "solver/solid_model.hpp"
+
+namespace suffuse::model {
+
+/// Soil on crossed triangles with four points each.
+struct InertialModel : PlaneModel {
+  InertialModel(Mesh<2> mesh_in, const SkeletonModel& soil, double density, const Vector<2>& g,
+                const std::function<bool(const Vector<2>&)>& holds)
+      : PlaneModel(std::move(mesh_in), 4, soil, holds), gravity(g) {
+    for (const double v : points.volume) mass.push_back(density * v);
+  }
+
+  /// After all supports are set.
+  void start_motion(const InertialLimits& inertial = {}) {
+    supports = std::make_unique<Supports<2>>(grid, face_support);
+    motion = std::make_unique<InertialMotion<2>>(grid, *supports, points.size(), threads, inertial);
+  }
+
+  [[nodiscard]] NodeVectors<2> loads() const {
+    std::vector<Vector<2>> force;
+    for (const double m : mass) force.emplace_back(m * gravity);
+    NodeVectors<2> result = no_loads();
+    add_point_forces(grid, points, force, result);
+    return result;
+  }
+  /// One step of at most `longest` seconds.
+  InertialStep move(double longest) {
+    const InertialStep step = motion->step(points, skeleton, mass, loads(), longest);
+    time += step.duration;
+    return step;
+  }
+  [[nodiscard]] double weight() const {
+    double sum = 0.0;
+    for (const double m : mass) sum += m;
+    return sum * gravity.norm();
+  }
+  [[nodiscard]] double energy() const { return motion->velocities().kinetic_energy(mass); }
+
+  Vector<2> gravity;
+  std::vector<double> mass;  ///< per point, kg
+  std::unique_ptr<Supports<2>> supports;
+  std::unique_ptr<InertialMotion<2>> motion;
+  double time = 0.0;
+};
+
+inline SkeletonModel frictional_soil(double young, double friction, double cohesion = 0.0) {
+  SkeletonModel soil = elastic_soil(young, 0.3);
+  soil.law = skeleton_law("mohr-coulomb");
+  soil.friction = friction;
+  soil.cohesion = cohesion;
+  return soil;
+}
+
+/// A column of dry sand of width 1 and height `aspect`, which a gate has held at its right; a
+/// symmetry plane lies at its left.
+struct Collapse {
+  double aspect = 1.0;
+  int cells = 8;  ///< per width of the column
+  double reach = 3.5;
+  double longest = 0.01;  ///< s
+  double end = 5.0;       ///< s
+  int threads = 1;
+};
+
+struct CollapseResult {
+  double runout = 0.0;  ///< of the farthest point but 0.5 % of them, over the width
+  double height = 0.0;
+  double time = 0.0;  ///< at which the soil rests, or `end`, s
+  bool rests = false;
+  int steps = 0;
+  double iterations = 0.0;  ///< per step
+  int tries = 0;
+  double volume = 0.0;  ///< over the one at the start
+  std::vector<Vector<2>> places;
+};
+
+inline CollapseResult collapse(const Collapse& c) {
+  const double h = 1.0 / c.cells;
+  const double tall = c.aspect + 2.0 * h;
+  const int columns = static_cast<int>(std::lround(c.reach * c.cells));
+  const int rows = static_cast<int>(std::lround(tall * c.cells));
+  InertialModel m(crossed_mesh(columns, rows, columns * h, rows * h), frictional_soil(1e6, 31.0),
+                  1600.0, {0.0, -9.81},
+                  [&](const Vector<2>& x) { return x[0] < 1.0 && x[1] < c.aspect; });
+  m.threads = c.threads;
+  m.support("left", Support::normal);
+  m.support("right", Support::normal);
+  m.support("bottom", Support::both);
+  m.start_motion();
+  CollapseResult result;
+  const double before = m.soil_volume();
+  while (m.time < c.end && !result.rests) {
+    const InertialStep step = m.move(std::min(c.longest, c.end - m.time));
+    ++result.steps;
+    result.iterations += step.iterations;
+    result.tries += step.tries;
+    // At the very start nothing has moved yet.
+    result.rests = m.time > 0.5 && is_at_rest(step, m.energy(), m.weight(), c.aspect);
+  }
+  result.iterations /= result.steps;
+  result.time = m.time;
+  result.volume = m.soil_volume() / before;
+  result.places = m.points.position;
+  std::vector<double> x;
+  for (const Vector<2>& place : m.points.position) {
+    x.push_back(place[0]);
+    result.height = std::max(result.height, place[1]);
+  }
+  std::ranges::sort(x);
+  result.runout = x[static_cast<std::size_t>(0.995 * static_cast<double>(x.size()))] - 1.0;
+  return result;
+}
+
+}  // namespace suffuse::model
