@@ -4,7 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "case/errors.hpp"
 #include "deformation/point_motion.hpp"
 
 namespace suffuse {
@@ -89,10 +88,10 @@ InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
   }
 }
 
-bool is_at_rest(const InertialStep& step, double kinetic_energy, double weight, double length) {
+bool is_at_rest(const InertialStep& step, double kinetic_energy, double weight, double height) {
   constexpr double small_share = 1e-2;
   constexpr double small_energy = 1e-6;
-  return step.inertia_share < small_share && kinetic_energy < small_energy * weight * length;
+  return step.inertia_share < small_share && kinetic_energy < small_energy * weight * height;
 }
 
 template class InertialMotion<2>;

@@ -66,10 +66,9 @@ class InertialMotion {
   double next_ = 0.0;  ///< length of the next step, s; 0: not known
 };
 
-/// Whether soil has come to rest: a step with so small a share of inertia, at the end of which its
-/// points have so little energy of motion over the energy that their weight loses per height of
-/// `length`, m, rests in equilibrium from then on.
+/// Whether soil has come to rest: inertia carries less than 1 % of the loads, and the kinetic
+/// energy, J, is less than 1e-6 of the soil's weight, N, times its height, m.
 [[nodiscard]] bool is_at_rest(const InertialStep& step, double kinetic_energy, double weight,
-                              double length);
+                              double height);
 
 }  // namespace suffuse

@@ -7,6 +7,7 @@
 
 #include "inertial_soil.hpp"
 #include "reference_table.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 namespace {
@@ -67,13 +68,13 @@ TEST(Waves, HaveTheSpeedOfTheReference) {
       std::cout << "c " << exact << ", " << rows << " rows: off by " << error << ", order "
                 << (last > 0.0 ? std::log2(last / error) : 0.0) << "\n";
       if (last > 0.0) {
-        EXPECT_GT(std::log2(last / error), 0.9);
+        EXPECT_GT(std::log2(last / error), 1.8);
       }
       last = error;
     }
     worst = std::max(worst, last);
   }
-  EXPECT_LT(worst, 0.01);
+  EXPECT_LT(worst, 1e-3);
 }
 
 // ----------------------------------------------------------------------------------- thrown block
@@ -166,7 +167,11 @@ TEST(WeakeningBank, FailsRunsOutAndStandsAgain) {
   std::cout << quasi_static << " steps in equilibrium, failure with " << failed_at
             << " of the fines left, " << inertial << " steps with inertia, at rest after " << m.time
             << " s at " << farthest() << " m, " << standing << " m before\n";
-  EXPECT_GT(failed_at, 0.0);
+  // A vertical bank of height H needs c = gamma H / (3.83 tan(45 + phi/2)), 2318 Pa: 0.29 of 8 kPa.
+  EXPECT_NEAR(failed_at, 0.27, 0.03);
+  const double resting = farthest();
+  EXPECT_TRUE(m.step(m.loads()).converged);
+  EXPECT_NEAR(farthest(), resting, 1e-3);
   EXPECT_GT(quasi_static, 3);
   EXPECT_LT(m.time, 20.0);
   EXPECT_LT(standing, 1.1);
@@ -179,6 +184,30 @@ TEST(Collapse, HasTheSameBitsOnTwoThreads) {
   const CollapseResult one = model::collapse(c);
   c.threads = 2;
   EXPECT_EQ(model::collapse(c).places, one.places);
+}
+
+TEST(Collapse, GoesOnFromItsArchiveToTheLastBit) {
+  const auto sand = [] {
+    auto m = std::make_unique<InertialModel>(
+        model::crossed_mesh(12, 5, 3.0, 1.25), model::frictional_soil(1e6, 31.0), 1600.0,
+        Vector<2>(0.0, -9.81), [](const Vector<2>& x) { return x[0] < 1.0 && x[1] < 1.0; });
+    for (const char* side : {"left", "bottom"}) m->support(side, Support::both);
+    m->start_motion();
+    return m;
+  };
+  const auto whole = sand();
+  const auto part = sand();
+  for (int step = 0; step < 60; ++step) whole->move(0.01);
+  for (int step = 0; step < 30; ++step) part->move(0.01);
+  StateArchive archive;
+  archive(part->points, *part->motion);
+  const auto rest = sand();
+  StateArchive restored(archive.finish());
+  restored(rest->points, *rest->motion);
+  restored.finish();
+  for (int step = 30; step < 60; ++step) rest->move(0.01);
+  EXPECT_EQ(rest->points.position, whole->points.position);
+  EXPECT_EQ(rest->energy(), whole->energy());
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ struct InertialModel : PlaneModel {
   InertialStep move(double longest) {
     const InertialStep step = motion->step(points, skeleton, mass, loads(), longest);
     time += step.duration;
+    sort();
     return step;
   }
   [[nodiscard]] double weight() const {
