@@ -103,12 +103,8 @@ class SkeletonChecks : private SceneCheckBase {
     }
   }
 
-  /// Refuses what cannot be computed with a moving skeleton: liquid points, and a mesh with slits.
+  /// Refuses what cannot be computed with a moving skeleton: a mesh with slits.
   void check_others() const {
-    if (scene_.formulation == Formulation::double_point && !refused("formulation")) {
-      report("formulation", "\"double-point\" with a skeleton that moves",
-             "\"single-point\", or law = \"rigid\"");
-    }
     const std::string expected = "none beside a skeleton that moves, or law = \"rigid\"";
     if (!scene_.walls.empty()) report("wall[0].on", "a wall", expected);
     for (const BoundaryCondition& boundary : scene_.boundaries) {

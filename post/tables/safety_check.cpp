@@ -95,6 +95,13 @@ std::string cell(const char* format, double value, int width) {
   return cell(std::string(text), width);
 }
 
+std::string motion_text(const Table& history) {
+  const auto now = [&](const char* name) { return cell("%.4g", history.column(name).back(), 0); };
+  return "at t = " + cell("%.6g", history.column("t").back(), 0) +
+         " s the largest settlement of the soil is " + now("settlement_max") +
+         " m, its largest displacement " + now("displacement_max") + " m\n";
+}
+
 }  // namespace
 
 std::vector<PartSafety> safety_of(const ResultsReader& results) {
@@ -152,11 +159,12 @@ std::string safety_text(const ResultsReader& results, const std::vector<PartSafe
   }
   const bool lifts = std::ranges::any_of(
       parts, [](const PartSafety& part) { return part.least && part.least->safety < 1.0; });
+  const bool moves = results.scene().scene.moves();
   if (lifts) {
-    text +=
-        "a safety below 1 means that water lifts the soil there: from then on results of a "
-        "skeleton that stays in place mean nothing\n";
+    text += "a safety below 1 means that water lifts the soil there";
+    text += moves ? "\n" : ": from then on results of a skeleton that stays in place mean nothing\n";
   }
+  if (moves) text += motion_text(results.history());
   return text;
 }
 

@@ -154,8 +154,12 @@ int walk_along_faces(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, Poi
     for (int k = 0; k <= Dim; ++k) {
       if (place.barycentric[k] < 0.0) put_on_face(place.barycentric, k);
     }
-    if ((change != 0.0 || field.all_passages) && shares > 0.0) {
-      FacePassage<Dim> passage{e, start, (porosity.now + shares * change) / porosity.now};
+    const double exchanged = field.exchanged == nullptr ? change : (*field.exchanged)[e];
+    if ((exchanged != 0.0 || field.all_passages) && shares > 0.0) {
+      const double growth = field.exchanged == nullptr
+                                ? (porosity.now + shares * change) / porosity.now
+                                : std::exp(exchanged * clock);
+      FacePassage<Dim> passage{e, start, growth};
       if (field.all_passages && !stays) {
         passage.path = flow.path_length(grid.mesh, e, start, clock);
         passage.clock = clock;

@@ -17,6 +17,9 @@ struct FaceWalkField {
   const std::vector<double>& porosity_start;  ///< per element
   const std::vector<double>& porosity_end;    ///< per element
   bool all_passages = false;  ///< tell passages through pores that did not change too
+  /// Of the change of porosity, per element, what solid and liquid exchange. Null: all of it. The
+  /// rest is solid that moves, and liquid that crosses faces in its place.
+  const std::vector<double>* exchanged = nullptr;
 };
 
 /// The path of a point through an element.
@@ -24,7 +27,7 @@ template <int Dim>
 struct FacePassage {
   int element;
   std::array<double, Dim + 1> barycentric;  ///< half-way between its ends
-  double growth;                            ///< porosity at the end over that at the start
+  double growth;                            ///< of the pores around the point by exchange, 1: none
   double path = 0.0;                        ///< its length, m; with `all_passages` only
   double clock = 0.0;                       ///< integral of ds/n, s in shares of the interval
 };

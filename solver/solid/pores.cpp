@@ -20,6 +20,14 @@ ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>&
 
 template <int Dim>
 ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid) {
+  if (solid.moves()) {
+    const std::vector<double> porosity = solid.element_porosity();
+    ElementField<Dim> even(grid.mesh.element_count());
+    for (int e = 0; e < grid.mesh.element_count(); ++e) {
+      even[e].fill(porosity[e] * grid.volume[e] / (Dim + 1));
+    }
+    return even;
+  }
   ElementField<Dim> result = initial_pore_volume(grid, solid.soils());
   const MaterialPoints<Dim>& points = solid.soils().points();
   for (int p = 0; p < points.size(); ++p) {

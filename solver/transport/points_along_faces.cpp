@@ -94,9 +94,32 @@ std::vector<TransportStep> PointsAlongFaces<Dim>::start_interval(double start,
                                                                  const FlowProgress& flow) {
   this->start_crossings();
   porosity_ = this->solid_.element_porosity();
+  if (this->solid_.moves()) {
+    solid_porosity_ = porosity_;
+    opening_ = flow.room_gained;
+    for (std::size_t e = 0; e < opening_.size(); ++e) {
+      opening_[e] /= this->grid_.volume[e];
+      porosity_[e] -= opening_[e];
+    }
+  }
   // In shares of the interval, as these volumes are those of all of it.
   const double allowed = longest_step(flow.volumes.liquid);
   return equal_steps(start, flow.end, checked_step_count(allowed, start, flow.end - start));
+}
+
+template <int Dim>
+std::vector<double> PointsAlongFaces<Dim>::porosity_after(double share, bool exchanges) {
+  std::vector<double> now = exchanges ? this->solid_.element_porosity() : porosity_;
+  if (opening_.empty()) return now;
+  if (!exchanges) now = solid_porosity_;
+  exchanged_.resize(now.size());
+  std::vector<double> result = porosity_;
+  for (std::size_t e = 0; e < now.size(); ++e) {
+    exchanged_[e] = now[e] - solid_porosity_[e];
+    result[e] += exchanged_[e] + share * opening_[e];
+  }
+  solid_porosity_ = std::move(now);
+  return result;
 }
 
 template <int Dim>
@@ -106,7 +129,7 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
   std::vector<double> volume = volumes.liquid;
   for (double& v : volume) v *= step.share;
   const bool erodes = !exchange.empty();
-  std::vector<double> porosity_end = erodes ? this->solid_.element_porosity() : porosity_;
+  std::vector<double> porosity_end = porosity_after(step.share, erodes);
   if (this->deposition_.active()) this->deposition_.start(step.end - step.start);
   if (erodes) mean_fines_ = mean_fines();
   Paths paths;
@@ -135,7 +158,13 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
 template <int Dim>
 void PointsAlongFaces<Dim>::follow_deposits() {
   // Else the next step would take them for pores that close while points pass, and take fines back.
-  porosity_ = this->solid_.element_porosity();
+  std::vector<double> now = this->solid_.element_porosity();
+  if (opening_.empty()) {
+    porosity_ = std::move(now);
+    return;
+  }
+  for (std::size_t e = 0; e < now.size(); ++e) porosity_[e] += now[e] - solid_porosity_[e];
+  solid_porosity_ = std::move(now);
 }
 
 template <int Dim>
@@ -171,7 +200,8 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
   inject(volume, pressure, paths, start);
   paths.fines = points_.fines_mass;
 
-  const FaceWalkField<Dim> field{volume, porosity_, porosity_end, this->deposition_.active()};
+  const FaceWalkField<Dim> field{volume, porosity_, porosity_end, this->deposition_.active(),
+                                 opening_.empty() ? nullptr : &exchanged_};
   const int count = points_.size();
   paths.left_by.assign(count, -1);
   // One list for each block of points: their order does not depend on the threads.

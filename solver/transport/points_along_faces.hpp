@@ -58,6 +58,8 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   [[nodiscard]] bool has_points(int element) const override {
     return begins_[element + 1] > begins_[element];
   }
+  /// Porosity at the end of a step over this share of the interval.
+  [[nodiscard]] std::vector<double> porosity_after(double share, bool exchanges);
   void inject(const std::vector<double>& volume, const std::vector<double>& pressure, Paths& paths,
               std::vector<double>& start);
   /// Moves every point: injected ones from the moment at which they come in, those that leave until
@@ -84,6 +86,11 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   std::vector<double> mean_fines_;  ///< at the start of the step
   std::vector<int> begins_;         ///< points of each element
   std::vector<double> porosity_;    ///< per element, at the start of the step
+  // Of solid that moves; else empty.
+  std::vector<double> opening_;         ///< change of porosity by motion in the interval
+  std::vector<double> solid_porosity_;  ///< that the solid has after its motion, without the last
+                                        ///< exchange
+  std::vector<double> exchanged_;       ///< change of porosity by exchange in the step
 };
 
 }  // namespace suffuse

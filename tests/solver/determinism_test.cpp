@@ -77,7 +77,12 @@ TEST_P(Determinism, StepsEndOnOutputs) {
 std::string name_of(const testing::TestParamInfo<test::Mode>& info) {
   return info.param.name;
 }
-INSTANTIATE_TEST_SUITE_P(Modes, Determinism, testing::ValuesIn(test::five_modes()), name_of);
+std::vector<test::Mode> modes() {
+  std::vector<test::Mode> result = test::five_modes();
+  result.push_back(test::moving_mode());
+  return result;
+}
+INSTANTIATE_TEST_SUITE_P(Modes, Determinism, testing::ValuesIn(modes()), name_of);
 
 }  // namespace
 }  // namespace suffuse

@@ -65,18 +65,12 @@ inline Scene double_point_scene(double flux, double rate) {
 }
 
 inline Case<2> make_double_point_case(Mesh<2> mesh, Scene scene) {
-  Case<2> c;
-  c.mesh = std::move(mesh);
-  c.document.path = "model.toml";
   // Soils without a region would be refused.
   std::erase_if(scene.soils, [&](const Soil& soil) {
-    return std::find(c.mesh.region_names.begin(), c.mesh.region_names.end(), soil.region) ==
-           c.mesh.region_names.end();
+    return std::find(mesh.region_names.begin(), mesh.region_names.end(), soil.region) ==
+           mesh.region_names.end();
   });
-  c.document.scene = std::move(scene);
-  c.solid_points = seed_solid_points(c.mesh, c.document.scene);
-  c.liquid_points = seed_liquid_points(c.mesh, c.document.scene);
-  return c;
+  return make_case(std::move(mesh), std::move(scene));
 }
 
 }  // namespace suffuse::model

@@ -135,7 +135,13 @@ inline Case<2> make_case(Mesh<2> mesh, Scene scene) {
   c.mesh = std::move(mesh);
   c.document.path = "model.toml";
   c.document.scene = std::move(scene);
-  c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
+  const Scene& of = c.document.scene;
+  if (of.formulation == Formulation::double_point) {
+    c.solid_points = seed_solid_points(c.mesh, of);
+    c.liquid_points = seed_liquid_points(c.mesh, of);
+  } else {
+    c.solid_points = seed_solid_points(c.mesh, of.points);
+  }
   return c;
 }
 

@@ -146,6 +146,7 @@ std::vector<test::Mode> variants() {
                   R"(boundary=[{on = "left", pressure = 6e3, concentration = 0.01}, )"
                   R"({on = "right", pressure = 0.0, concentration = 0.0}])",
                   R"(wall=[{on = "pile", conductance = 1e-2}])", "mesh.size=0.4"}),
+      test::moving_mode(),
       test::with(modes[0], "explicit_with_implicit_drag", {"time.drag=implicit"}),
       test::with(modes[3], "boundary_values_in_time_with_points",
                  {R"(boundary[0]={on = "inflow", darcy_flux = [[0.0, 0.0], [5.0, 0.02]]})"}),

@@ -100,8 +100,7 @@ TEST(StiffSoil, DiffersFromRigidSoilByItsCompressibility) {
   }
 }
 
-// ------------------------------------------------------------------------- fines that stay in
-// place
+// ------------------------------------------------------------------------- fines that stay in place
 
 /// Means over the points of each row of elements: height, and vertical effective stress, Pa.
 std::vector<std::pair<double, double>> vertical_stress(const Snapshot& snapshot, int rows) {
@@ -123,10 +122,12 @@ std::vector<std::pair<double, double>> vertical_stress(const Snapshot& snapshot,
   return result;
 }
 
-TEST(SealedBox, FinesThatGoIntoTheLiquidMakeTheSoilLighterAndTheLiquidHeavier) {
+template <class Run>
+void expect_weight_of_what_is_there() {
   constexpr double rate = 1e-3;
   constexpr int rows = 16;
   Scene scene = model::paper_scene();
+  scene.formulation = Run::formulation;
   scene.gravity = {0.0, -9.81, 0.0};
   scene.time.scheme = FlowScheme::implicit_mixed;
   scene.time.end = 81.0;
@@ -140,7 +141,7 @@ TEST(SealedBox, FinesThatGoIntoTheLiquidMakeTheSoilLighterAndTheLiquidHeavier) {
   scene.boundaries = smooth_walls();
   scene.boundaries.push_back(clean_pressure_on("top", 0.0));
   scene.boundaries.push_back(fixed_on("bottom", Fixing::both));
-  model::ModelRun run(model::make_case(model::crossed_mesh(2, rows, 2.0 / rows, 1.0), scene));
+  Run run(model::make_case(model::crossed_mesh(2, rows, 2.0 / rows, 1.0), scene));
   const double erodible = run.model().ledger().erodible;
   for (const double time : {1.0, 41.0, 81.0}) {
     const auto moments = run.run({time}, true);
@@ -161,8 +162,15 @@ TEST(SealedBox, FinesThatGoIntoTheLiquidMakeTheSoilLighterAndTheLiquidHeavier) {
   EXPECT_LT(run.worst_residual(), 1e-12);
 }
 
-// ----------------------------------------------------------------------- points in another's
-// region
+TEST(SealedBox, FinesThatGoIntoTheLiquidMakeTheSoilLighterAndTheLiquidHeavier) {
+  expect_weight_of_what_is_there<model::ModelRun>();
+}
+
+TEST(SealedBox, TheSameWithLiquidPoints) {
+  expect_weight_of_what_is_there<model::DoublePointRun>();
+}
+
+// ---------------------------------------------------------------- points in the region of another
 
 /// Soft soil that erodes above soft soil that does not: squeezed, the upper soil comes into
 /// elements of the lower region.

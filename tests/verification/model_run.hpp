@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "driver/plan.hpp"
@@ -35,6 +36,10 @@ struct ModelState {
 template <template <int> class Model>
 class FormulationRun {
  public:
+  static constexpr Formulation formulation = std::is_same_v<Model<2>, DoublePoint<2>>
+                                                 ? Formulation::double_point
+                                                 : Formulation::single_point;
+
   explicit FormulationRun(Case<2> c, SolverOptions options = {})
       : case_(std::move(c)), plan_(make_plan(case_, options)), model_(case_, plan_) {}
 

@@ -35,8 +35,8 @@ inline VectorFunction sudden_traction(const Vector<2>& traction, double end) {
 }
 
 /// Pressure where `at` holds, mean of the nodes there, Pa.
-template <class Place>
-double mean_pressure(ModelRun& run, const Place& at) {
+template <class Run, class Place>
+double mean_pressure(Run& run, const Place& at) {
   const Grid<2>& grid = run.model().grid();
   const FlowState<2> flow = run.model().flow_state();
   double sum = 0.0;
@@ -50,7 +50,8 @@ double mean_pressure(ModelRun& run, const Place& at) {
 }
 
 /// Pressure at a height, Pa.
-inline double pressure_at(ModelRun& run, double y) {
+template <class Run>
+double pressure_at(Run& run, double y) {
   return mean_pressure(run, [y](const Vector<2>& x) { return std::abs(x[1] - y) < 1e-9; });
 }
 
