@@ -351,7 +351,7 @@ TEST(StrengthTable, SnapshotsOfARunWithARigidSkeleton) {
 
 /// Not yet: the run stops at t = 6.9e4 s, as fines in the liquid fall below zero by 2 % of their
 /// concentration in an element that soil moves through. With transport = "explicit" it goes on.
-TEST(StrengthTable, DISABLED_SnapshotsOfSoftSoilThatHasMoved) {
+TEST(StrengthTable, SnapshotsOfSoftSoilThatHasMoved) {
   const Workshop w;
   w.folder().write("infinite.geo", InfiniteSlope::geometry());
   w.mesh("soft", InfiniteSlope::scene(true, 2e6));
