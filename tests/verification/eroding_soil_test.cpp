@@ -231,7 +231,6 @@ TEST(TwoSoils, KeepTheirLawsWhenTheirPointsCrossElements) {
   check_two_soils(TransportScheme::explicit_steps);
 }
 
-/// The liquid gets what points give where they are today, in implicit steps too.
 TEST(TwoSoils, KeepTheirLawsInImplicitTransport) {
   check_two_soils(TransportScheme::implicit_sweeps);
 }
