@@ -38,6 +38,7 @@ double StepControl::propose(double start, double until, double longest) {
   }
   if (is_jump(start, left)) return left;
   double dt = std::min(next_, longest);
+  planned_ = dt;
   // No short step before the end: two halves are better than nine tenths and one.
   if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
   return dt * (1.0 + limits.end_margin) >= left ? left : dt;
@@ -89,8 +90,8 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
   const bool jumps = settings_.crosses_jumps && rejected_dt_ > 0.0 &&
                      error > 0.5 * rejected_error_ * (1.0 + dt / rejected_dt_);
   if (jumps) {
-    next_ = dt;
     jumped_ = settings_.starts_anew_after_jumps;
+    next_ = jumped_ ? planned_ : dt;
     return true;
   }
   ++rejected_;

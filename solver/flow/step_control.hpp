@@ -29,8 +29,8 @@ struct StepSettings {
   /// Fields may jump: a step whose error does not fall with its length is accepted. Seepage faces
   /// open and close at once, and no step is short enough for that.
   bool crosses_jumps = false;
-  /// After such a jump the next step has no error that could be estimated: the slope of a jump
-  /// predicts nothing.
+  /// After such a jump the next step has the length that was planned before it, and no error that
+  /// could be estimated: neither length nor slope of the jump predict anything.
   bool starts_anew_after_jumps = false;
   int threads = 1;
 };
@@ -96,6 +96,7 @@ class StepControl {
   bool smooth_ = true;
   bool jumped_ = false;  ///< the step that was accepted last has crossed a jump
   long rejected_ = 0;
+  double planned_ = 0.0;    ///< length of the step at hand, before it was rejected, s
   bool shortened_ = false;  ///< the step at hand has been rejected before
   // Of its last rejected attempt.
   double rejected_dt_ = 0.0;

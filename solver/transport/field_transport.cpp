@@ -141,6 +141,7 @@ void FieldTransport<Dim>::receive(const std::vector<double>& exchange) {
 
 template <int Dim>
 void FieldTransport<Dim>::start_implicit(double start, const FlowProgress& flow) {
+  if (settings_.points_move) find_basis();
   carries_ = sweeps_ = true;
   implicit_.start(start, flow);
 }

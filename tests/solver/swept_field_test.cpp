@@ -7,6 +7,7 @@
 #include "solid/pores.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
+#include "transport/field_transport.hpp"
 
 namespace suffuse {
 namespace {
@@ -135,6 +136,43 @@ TEST(SweptField, KeepsAConstantConcentration) {
   const auto [low, high] = box.range();
   EXPECT_NEAR(low, 0.15, 1e-12);
   EXPECT_NEAR(high, 0.15, 1e-12);
+}
+
+/// What points give comes into the liquid where they are today: in an element that has got a
+/// neighbour's points, as in one that has lost its own.
+TEST(ImplicitTransport, ReceivesWherePointsHaveMovedTo) {
+  Box box(around);
+  FieldTransport<2> transport(box.grid, box.soils, box.values.at(0.0), box.values,
+                              {.scheme = TransportScheme::implicit_sweeps,
+                               .implicit = {.end = 1.0, .step_is_given = true},
+                               .points_move = true},
+                              1);
+  MaterialPoints<2> moved = box.soils.points();
+  for (int p = 0; p < moved.size(); ++p) {
+    moved.barycentric[p] = {0.7, 0.2, 0.1};
+    if (moved.element[p] == 1) moved.element[p] = 0;
+  }
+  const auto points = static_cast<std::size_t>(moved.size());
+  box.soils.move_points(moved, std::vector<int>(points, 0));
+  const FinesState<2> before = transport.state();
+  FlowProgress flow;
+  flow.end = 1.0;
+  flow.volumes.liquid.assign(box.grid.face_count(), 0.0);
+  transport.start_implicit(0.0, flow);
+  transport.solve(box.skeleton, {});
+  constexpr double given = 1e-6;
+  transport.finish(std::vector<double>(points, given));
+  ElementField<2> expected = before.liquid_volume;
+  for (int p = 0; p < moved.size(); ++p) {
+    for (int j = 0; j < 3; ++j) {
+      expected[moved.element[p]][j] += given * FieldNodes<2>::basis(moved.barycentric[p][j]);
+    }
+  }
+  for (int e = 0; e < box.grid.mesh.element_count(); ++e) {
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_NEAR(transport.state().liquid_volume[e][j], expected[e][j], 1e-15);
+    }
+  }
 }
 
 }  // namespace
