@@ -345,18 +345,15 @@ template <int Dim>
 void MovingSkeleton<Dim>::find_filling() {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
+  // Carried to nodes and back: the points in an element would make the drag jump as they leave it.
+  const std::vector<double> volume = smooth_volumes(this->grid_, points_, points_.volume);
+  const std::vector<double> solid = smooth_volumes(this->grid_, points_, solid_volumes());
   filling_.assign(solid_.size(), {});
   for (std::size_t e = 0; e < solid_.size(); ++e) {
     if (classes.full[e] == 1.0) continue;
-    double solid = 0.0;
-    double volume = 0.0;
-    for (const int p : sorted.of(static_cast<int>(e))) {
-      solid += this->state_.solid_volume(p);
-      volume += points_.volume[p];
-    }
-    const double share = std::min(1.0, volume / this->grid_.volume[e]);
+    const double share = std::min(1.0, volume[e] / this->grid_.volume[e]);
     filling_[e] = {std::lerp(share, 1.0, classes.full[e]),
-                   volume > 0.0 ? 1.0 - solid / volume : 1.0};
+                   volume[e] > 0.0 ? 1.0 - solid[e] / volume[e] : 1.0};
   }
 }
 

@@ -58,7 +58,10 @@ TEST_P(Determinism, OneAndTwoThreadsGiveTheSameFiles) {
 TEST_P(Determinism, StepsEndOnOutputs) {
   const auto every = [&](const std::string& name, double rows) {
     const std::string output = "output={every = " + number_text(rows) + ", snapshot_every = 2.0}";
-    return solve(place_.make_case(test::with(GetParam(), name, {output, "time.end=4.0"})), name);
+    std::vector<std::string> sets{output, "time.end=4.0"};
+    // With that of 1e-3 porosities of soil that moves differ by 1.5e-5.
+    if (GetParam().name == test::moving_mode().name) sets.emplace_back("time.tolerance=2e-4");
+    return solve(place_.make_case(test::with(GetParam(), name, sets)), name);
   };
   const std::string often = every("often", 0.125);
   const std::string seldom = every("seldom", 1.0);

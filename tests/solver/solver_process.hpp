@@ -61,8 +61,7 @@ std::ostream& operator<<(std::ostream& out, const Mode& mode);
 /// Runs of a tenth of a second with fifty rows and ten snapshots, in which everything moves. Every
 /// snapshot keeps its state.
 std::vector<Mode> five_modes();
-/// Single-point implicit: soil that is loaded, loses fines and settles by a tenth of its height, so
-/// that its points cross elements.
+/// Single-point implicit: soil that is loaded, loses fines, settles and yields.
 Mode moving_mode();
 /// The same mode with more --set.
 Mode with(Mode mode, const std::string& name, const std::vector<std::string>& sets);
