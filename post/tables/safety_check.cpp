@@ -162,7 +162,8 @@ std::string safety_text(const ResultsReader& results, const std::vector<PartSafe
   const bool moves = results.scene().scene.moves();
   if (lifts) {
     text += "a safety below 1 means that water lifts the soil there";
-    text += moves ? "\n" : ": from then on results of a skeleton that stays in place mean nothing\n";
+    text +=
+        moves ? "\n" : ": from then on results of a skeleton that stays in place mean nothing\n";
   }
   if (moves) text += motion_text(results.history());
   return text;

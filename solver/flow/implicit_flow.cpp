@@ -322,8 +322,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
   if (blending_.expects()) {
     // Points that cross from element to element make densities and pores scatter: a drift is what
     // lasts.
-    const bool scattered =
-        this->scene().formulation == Formulation::double_point || solid_.moves();
+    const bool scattered = this->scene().formulation == Formulation::double_point || solid_.moves();
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
     // Resistances were right at the start of the step: their mean error is half that at its end.

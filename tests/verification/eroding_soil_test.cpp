@@ -100,7 +100,8 @@ TEST(StiffSoil, DiffersFromRigidSoilByItsCompressibility) {
   }
 }
 
-// ------------------------------------------------------------------------- fines that stay in place
+// ------------------------------------------------------------------------- fines that stay in
+// place
 
 /// Means over the points of each row of elements: height, and vertical effective stress, Pa.
 std::vector<std::pair<double, double>> vertical_stress(const Snapshot& snapshot, int rows) {
