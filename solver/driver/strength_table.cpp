@@ -81,6 +81,7 @@ Snapshot read_snapshot(const ResultsReader& results, std::size_t index) {
 std::string shown_times(const std::vector<double>& times) {
   constexpr std::size_t most = 10;
   std::vector<std::string> texts;
+  texts.reserve(times.size());
   for (const double t : times) texts.push_back(shown_number(t));
   if (times.size() <= most) return listed(texts) + " s";
   return std::to_string(times.size()) + " times from " + texts.front() + " to " + texts.back() +
