@@ -26,7 +26,7 @@ Vector<Dim> mean_normal(const Corners<Dim>& x, const Corners<Dim>& u) {
     for (int k = 0; k < Dim; ++k) moved[k] = x[k] + share * u[k];
     return normal_of(moved);
   };
-  const Vector<Dim> middle = normal_at(0.5);
+  Vector<Dim> middle = normal_at(0.5);
   if (Dim == 2) return middle;
   return (normal_at(0.0) + 4.0 * middle + normal_at(1.0)) / 6.0;
 }

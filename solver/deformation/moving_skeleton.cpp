@@ -18,6 +18,7 @@ namespace {
 template <int Dim>
 SolidPoints<Dim> points_of(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points) {
   std::vector<PointPlace<Dim>> places;
+  places.reserve(points.size());
   for (int p = 0; p < points.size(); ++p) {
     places.push_back({points.element[p], points.barycentric[p]});
   }

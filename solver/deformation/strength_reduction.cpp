@@ -125,7 +125,7 @@ class StrengthReduction {
     }
     double force = 0.0;
     for (const Vector<Dim>& f : loads_) force += f.norm();
-    for (std::size_t p = 0; p < skeleton_.size(); ++p) skeleton_[p].law = elastic;
+    for (PointSkeleton& point : skeleton_) point.law = elastic;
     // First so much that the sum of all forces would hardly move one element.
     const double size = element_size(body_.grid);
     stiffness_ = 1e6 * std::max(force / std::pow(size, Dim - 1), 1.0) / young;
