@@ -219,7 +219,8 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
   FoundRestart found;
   const long whole = whole_snapshots(folder, has_liquid_files, found.damage);
   const long rows = output_times_in(folder, tables);
-  found.holds_results = whole > 0 || rows > 1 || !found.damage.empty();
+  // The first snapshot without its state: the run was killed while it wrote the first files.
+  found.holds_results = whole > 1 || rows > 1 || !found.damage.empty();
   const auto usable_point = [&](const std::string& path) -> std::optional<RestartPoint> {
     if (!fs::exists(path)) return std::nullopt;
     try {

@@ -52,8 +52,8 @@ struct FoundRestart {
   std::optional<RestartPoint> point;
   std::string path;                 ///< of the file that holds it
   std::vector<std::string> damage;  ///< newer ones that could not be read, with the reason
-  /// Whether the folder holds more than what a run has that was stopped before its first snapshot:
-  /// who begins anew does away with something.
+  /// Whether the folder holds more than what a run has that was stopped before its first snapshot
+  /// and the state that belongs to it were complete: a run that begins anew would remove results.
   bool holds_results = false;
 };
 

@@ -269,6 +269,15 @@ TEST_F(ResumedRun, WithoutAnythingThereItBeginsAnew) {
   std::ofstream(folder + "/snapshots/solid_000000.hdf.tmp") << "half";
   std::ofstream(folder + "/.case.4711.part.h5") << "half";
   expect_same_when_resumed(folder);
+  // Killed between the first snapshot and its state.
+  folder = stopped_after(0);
+  fs::remove(layout::in_folder(folder, layout::state(0)));
+  for (const char* table : {layout::history, layout::ledger}) {
+    const std::string path = layout::in_folder(folder, table);
+    const std::string text = test::read_file(path);
+    fs::resize_file(path, text.find('\n', text.find('\n') + 1) + 1);
+  }
+  expect_same_when_resumed(folder);
 }
 
 TEST_F(ResumedRun, FromTheCopyOfTheCaseInTheResults) {
