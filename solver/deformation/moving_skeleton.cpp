@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "deformation/element_gains.hpp"
@@ -237,8 +238,9 @@ const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing)
   }
   tried_ = forcing;
   motion_ = {};
-  motion_.converged = step_->solve(loads(forcing, step_->sorted(), step_->classes()),
-                                   forcing.pressure, forcing.stiffness);
+  NodeVectors<Dim> forces = loads(forcing, step_->sorted(), step_->classes());
+  crossing_forces_.add(forcing.duration, forces);
+  motion_.converged = step_->solve(forces, forcing.pressure, forcing.stiffness);
   motion_.iterations = step_->iterations();
   step_iterations_ += motion_.iterations;
   motion_.travel = largest_travel(this->grid_, step_->sorted(), step_->displacement());
@@ -259,6 +261,7 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   boundary_loads_.move(step_->sorted(), step_->displacement());
   const std::vector<int> element = points_.element;
   move_points(this->grid_, step_->skeleton(), step_->displacement(), points_, this->threads_);
+  find_crossing_forces();
   book_regions(element);
   carry_solid(before, motion_.travel);
   correction_ = motion_.solid_correction;
@@ -272,6 +275,39 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   for (double& v : face_rate_) v /= tried_.duration;
   sort_points();
   return motion_;
+}
+
+template <int Dim>
+void MovingSkeleton<Dim>::find_crossing_forces() {
+  const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
+  const ElementClasses classes(this->grid_, points_, sorted);
+  Equilibrium<Dim> moved({this->grid_, points_, sorted, step_->skeleton(), classes}, supports_,
+                         this->threads_);
+  moved.set_pressure(tried_.pressure);
+  moved.displace(NodeVectors<Dim>(this->grid_.mesh.node_count(), Vector<Dim>::Zero()), false);
+  crossing_forces_.find(this->grid_, sorted, moved, loads(tried_, sorted, classes),
+                        diffusivity(sorted));
+}
+
+/// c_v = k E_oed / gamma_w per element, with the least k of its points, m2/s; 0 without soil that
+/// moves.
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::diffusivity(const PointsByElement& sorted) const {
+  const Scene& scene = this->soils().scene();
+  std::vector<double> result = compressibility();
+  for (int e = 0; e < this->grid_.mesh.element_count(); ++e) {
+    if (result[e] == 0.0) continue;
+    const double modulus = this->grid_.volume[e] / result[e];
+    double conductivity = std::numeric_limits<double>::infinity();
+    for (const int p : sorted.of(e)) {
+      const Soil& soil = this->soils().soil_of_point(p);
+      const double porosity = 1.0 - this->state_.solid_volume(p) / points_.volume[p];
+      const double along = soil.conductivity_model().at(this->initial_porosity_[p], porosity);
+      conductivity = std::min({conductivity, along, along * soil.anisotropy()});
+    }
+    result[e] = conductivity * modulus / unit_weight(scene.liquid.density, scene.gravity);
+  }
+  return result;
 }
 
 template <int Dim>
@@ -407,8 +443,8 @@ template <int Dim>
 void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
-          boundary_loads_, solid_, region_gain_, pressure_, face_rate_, correction_,
-          newton_iterations_);
+          boundary_loads_, crossing_forces_, solid_, region_gain_, pressure_, face_rate_,
+          correction_, newton_iterations_);
   if (!archive.restores()) return;
   step_.reset();
   show_points();

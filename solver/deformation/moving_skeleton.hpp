@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "deformation/boundary_loads.hpp"
+#include "deformation/crossing_forces.hpp"
 #include "deformation/motion_flux.hpp"
 #include "deformation/solid_flux.hpp"
 #include "grid/compensated_sum.hpp"
@@ -87,6 +88,9 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void find_filling();
   /// Adds what the points gained, m3 per point, to their elements.
   void add_to_elements(const std::vector<double>& gain);
+  /// After the points have moved and before they are sorted.
+  void find_crossing_forces();
+  [[nodiscard]] std::vector<double> diffusivity(const PointsByElement& sorted) const;
   void carry_solid(const std::vector<double>& smooth_before, double travel);
   /// Books the solid of points that have come into another region from `element`, per point.
   void book_regions(const std::vector<int>& element);
@@ -99,6 +103,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   std::vector<double> initial_erodible_;  ///< per point, m3
   Supports<Dim> supports_;
   BoundaryLoads<Dim> boundary_loads_;
+  CrossingForces<Dim> crossing_forces_;
   std::vector<double> solid_;                ///< per element, m3
   std::vector<CompensatedSum> region_gain_;  ///< per region of the mesh, m3
   std::vector<double> loss_;          ///< per point, in the step that is tried, m3; empty: none

@@ -72,8 +72,11 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
     forcing.source = source_of(motion, own, forcing.mean_storage, rise, dt);
     MixedStep<Dim> step = scheme.step(start, dt, {&forcing});
     const std::vector<double> found = element_pressure(grid_, step.end.face_pressure, threads_);
-    const Eigen::VectorXd new_rise =
-        Eigen::Map<const Eigen::VectorXd>(found.data(), elements) - before;
+    Eigen::VectorXd new_rise = Eigen::Map<const Eigen::VectorXd>(found.data(), elements) - before;
+    // The pressure of free water and of soil that cannot move does not act on the motion.
+    for (int e = 0; e < elements; ++e) {
+      if (forcing.mean_storage[e] == 0.0) new_rise[e] = 0.0;
+    }
     const double allowed = accuracy * largest(new_rise) + round_off * largest(before) + floor;
     if (largest(new_rise - rise) <= allowed) {
       rise_rate_.assign(new_rise.data(), new_rise.data() + elements);

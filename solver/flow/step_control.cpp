@@ -39,6 +39,7 @@ double StepControl::propose(double start, double until, double longest) {
   if (is_jump(start, left)) return left;
   double dt = std::min(next_, longest);
   planned_ = dt;
+  if (dt < left) refuse_too_short(start, dt);
   // No short step before the end: two halves are better than nine tenths and one.
   if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
   return dt * (1.0 + limits.end_margin) >= left ? left : dt;

@@ -53,7 +53,7 @@ class StepControl {
   void start(double first_step, bool smooth);
 
   /// Length of the step to try from `start`, s: ends at `until` at the latest, and takes no longer
-  /// than `longest`.
+  /// than `longest`. Throws as `accept` does.
   [[nodiscard]] double propose(double start, double until, double longest);
   /// Estimated local error of a step of `dt` from `start`, over the tolerance; zero where a jump or
   /// a start that is not smooth leaves nothing to compare with.

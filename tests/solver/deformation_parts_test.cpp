@@ -7,6 +7,7 @@
 #include <random>
 
 #include "box_mesh.hpp"
+#include "deformation/crossing_forces.hpp"
 #include "results/state_archive.hpp"
 #include "solver/solid_model.hpp"
 
@@ -237,6 +238,35 @@ TEST(Equilibrium, TangentIsTheDerivativeOfTheForces) {
 
 TEST(Equilibrium, TangentOfYieldingSoilIsTheDerivativeToo) {
   EXPECT_LE(tangent_error(StressedBody<2>(small_mesh<2>(), "mohr-coulomb"), 1e-6), 1e-6);
+}
+
+TEST(CrossingForces, KeepTheBalanceAndFadeWhileWaterLeavesTheElements) {
+  const StressedBody<2> body(model::column_mesh(4, 2), "elastic");
+  Equilibrium<2> equilibrium = body.equilibrium();
+  equilibrium.set_pressure(body.some_pressure());
+  equilibrium.displace(body.some_displacement(0.0, 1), false);
+  const NodeVectors<2> loads = body.some_displacement(1e5, 2);
+  const NodeVectors<2> forces = equilibrium.forces();
+  CrossingForces<2> crossing;
+  NodeVectors<2> carried = loads;
+  crossing.add(0.0, carried);
+  EXPECT_EQ(carried[7], loads[7]);  // none yet
+  // Slow drainage on the left, fast on the right. The height of every element is 1/sqrt(20).
+  std::vector<double> diffusivity;
+  for (int e = 0; e < body.mesh.element_count(); ++e) {
+    diffusivity.push_back(element_centroid(body.mesh, e)[0] < 0.5 ? 0.01 : 0.02);
+  }
+  crossing.find(body.grid, body.sorted, equilibrium, loads, diffusivity);
+  for (const double duration : {0.0, 40.0}) {
+    carried = loads;
+    crossing.add(duration, carried);
+    for (int i = 0; i < body.mesh.node_count(); ++i) {
+      const double x = body.mesh.nodes[i][0];
+      if (x > 0.8) continue;  // no soil around
+      const double left = std::exp(-(x < 0.6 ? 0.01 : 0.02) * duration);
+      EXPECT_NEAR((carried[i] - (loads[i] + left * (forces[i] - loads[i]))).norm(), 0.0, 1e-9);
+    }
+  }
 }
 
 template <int Dim>

@@ -175,6 +175,16 @@ TEST(StepControl, GivenStepsDivideTheIntervalEvenly) {
   EXPECT_EQ(control.next_step(), 0.0851);
 }
 
+TEST(StepControl, ProposesNoStepThatIsTooShortToChangeTheTime) {
+  const StepSettings s = settings(1e-3, 100.0);
+  StepControl control = after_step(s, 1e-12);
+  EXPECT_EQ(control.propose(0.8, 10.0, 1e9), 1e-12);
+  control.account_for(1e9);
+  control.finish(control.next_step());
+  control.account_for(1e9);
+  EXPECT_THROW((void)control.propose(0.8, 10.0, 1e9), NumericalError);
+}
+
 TEST(StepControl, CrossesJumpsInOneStepWithoutAnError) {
   StepSettings s = settings(1e-3, 100.0);
   const double jump = 0.9 * 1e-12 * 100.0 / 1e-3;

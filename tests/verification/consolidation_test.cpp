@@ -173,10 +173,14 @@ Deviation deviation_at_large_strain(const std::string& law, int rows, double fro
   return worst;
 }
 
-TEST(Consolidation, DISABLED_LargeStrain) {
-  const Deviation off = deviation_at_large_strain("constant", 32, 0.05);
-  EXPECT_LT(off.settlement, 0.01);
-  EXPECT_LT(off.pressure, 0.01);
+TEST(Consolidation, LargeStrain) {
+  // Refinement does not make it better from 32 rows on: what points lose as they cross an element
+  // falls with its size, and there are as many more elements to cross.
+  for (const int rows : {32, 64}) {
+    const Deviation off = deviation_at_large_strain("constant", rows, 0.05);
+    EXPECT_LT(off.settlement, 0.01);
+    EXPECT_LT(off.pressure, 0.01);
+  }
 }
 
 TEST(Consolidation, DISABLED_LargeStrainWithPoresThatClose) {
