@@ -179,9 +179,10 @@ TEST(StepControl, ProposesNoStepThatIsTooShortToChangeTheTime) {
   const StepSettings s = settings(1e-3, 100.0);
   StepControl control = after_step(s, 1e-12);
   EXPECT_EQ(control.propose(0.8, 10.0, 1e9), 1e-12);
-  control.account_for(1e9);
-  control.finish(control.next_step());
-  control.account_for(1e9);
+  for (int k = 0; k < 3; ++k) {
+    control.account_for(1e9);
+    control.finish(control.next_step());
+  }
   EXPECT_THROW((void)control.propose(0.8, 10.0, 1e9), NumericalError);
 }
 
