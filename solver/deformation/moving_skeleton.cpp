@@ -444,11 +444,10 @@ void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
           boundary_loads_, crossing_forces_, solid_, region_gain_, pressure_, face_rate_,
-          correction_, newton_iterations_);
+          filling_, correction_, newton_iterations_);
   if (!archive.restores()) return;
   step_.reset();
   show_points();
-  find_filling();
 }
 
 template class MovingSkeleton<2>;

@@ -109,7 +109,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   std::vector<double> loss_;          ///< per point, in the step that is tried, m3; empty: none
   std::vector<double> pressure_;      ///< of the pores at the last equilibrium, per element, Pa
   std::vector<double> face_rate_;     ///< m3/s
-  std::vector<SoilFilling> filling_;  ///< follows from the points
+  std::vector<SoilFilling> filling_;  ///< after the last motion
   SolidFlux<Dim> solid_flux_;
   double correction_ = 0.0;  ///< see HistoryRow::solid_correction
   long newton_iterations_ = 0;

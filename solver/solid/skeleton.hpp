@@ -70,6 +70,8 @@ struct SolidMotion {
 
 /// How far soil fills an element at its surface.
 struct SoilFilling {
+  void archive(auto& archive) { archive(share, porosity); }
+
   double share = 1.0;     ///< of the element; 0: free water
   double porosity = 0.0;  ///< n_L of the soil there; not used where the share is 0 or 1
 };

@@ -193,7 +193,7 @@ Mode moving_mode() {
           single_point,
           {"output={every = 0.1, snapshot_every = 0.5, restarts = 1000}",
            "soil.specimen.conductivity_law=kozeny-carman",
-           R"(soil.specimen.skeleton={law = "mohr-coulomb", young = [[1.0, 6e6], [0.0, 2e6]], )"
+           R"(soil.specimen.skeleton={law = "mohr-coulomb", young = [[1.0, 6e5], [0.0, 2e5]], )"
            R"(poisson = 0.2, friction = [[1.0, 35.0], [0.0, 28.0]], cohesion = 2e3})",
            R"(boundary=[{on = "top", pressure = 6e3, concentration = 0.01, )"
            R"(traction = [[0.0, 0.0, -6e3], [2.0, 0.0, -3e4]]}, )"

@@ -10,10 +10,18 @@
 set -u -o pipefail
 programs=$(cd "$1" && pwd) folder=$2 kills=$3
 scene=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/kill.toml
-modes=(sp-explicit sp-implicit dp-explicit dp-implicit dp-points)
+modes=(sp-explicit sp-implicit sp-moving dp-explicit dp-implicit dp-points dp-moving)
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 RANDOM=${SEED:-1}
+
+# A column that a load squeezes by half an element while its fines erode.
+moving() {
+  echo --set 'time={end=4.0,tolerance=2e-3}' --set 'soil.specimen.skeleton={law="elastic",young=3e5,poisson=0.2}'
+  echo --set 'boundary[0]={on="top",pressure=[[0.0,2e3],[2.0,6e3]],concentration=0.01,traction=[[0.0,0.0,-2e3],[2.0,0.0,-3e4]]}'
+  echo --set 'boundary[1]={on="bottom",pressure=0.0,concentration=0.0,fix="both"}'
+  echo --set 'boundary[2]={on="left",fix="normal"}' --set 'boundary[3]={on="right",fix="normal"}'
+}
 
 # Of half a second, with forty snapshots: much of the time one is being written.
 set_options() { # MODE
@@ -22,6 +30,7 @@ set_options() { # MODE
     sp-implicit) echo --set 'time={end=4.0,tolerance=2e-4}' ;;
     dp-explicit) echo --set 'time={end=4.0,scheme="explicit",mass_scaling=100.0}' ;;
     dp-implicit) echo --set 'time={end=4.0,step=0.02}' ;;
+    *-moving) moving ;;
     dp-points) echo --set 'time={end=4.0,scheme="explicit",mass_scaling=100.0}' --set flow.integration=material-point ;;
   esac
   case $1 in dp-*) echo --set formulation=double-point --set points.liquid_per_element=3 ;; esac
@@ -113,6 +122,7 @@ for index in "${!modes[@]}"; do
   case $mode in dp-*) formulation=double-point ;; esac
   scheme=${mode#*-}
   [ "$scheme" != points ] || scheme='explicit at material points'
+  [ "$scheme" != moving ] || scheme='implicit with soil that moves'
   echo "$formulation,$scheme,$seconds,$done_kills,$unreadable,$runs,$resumes,$ends" >> "$table"
   [ "$unreadable" -eq 0 ] && [ "$resumes" -eq "$runs" ] && [ "$ends" -eq "$runs" ] || wrong=$((wrong + 1))
   rm -rf "$folder/$mode/exported"
