@@ -443,8 +443,8 @@ template <int Dim>
 void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
-          boundary_loads_, crossing_forces_, solid_, region_gain_, pressure_, face_rate_,
-          filling_, correction_, newton_iterations_);
+          boundary_loads_, crossing_forces_, solid_, region_gain_, pressure_, face_rate_, filling_,
+          correction_, newton_iterations_);
   if (!archive.restores()) return;
   step_.reset();
   show_points();
