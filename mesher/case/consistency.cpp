@@ -119,7 +119,9 @@ class SceneCheck {
       if (meant_.contains(region)) continue;  // reported with the soil that has nearly its name
       std::string expected = "a table [soil." + region + "] for the mesh's region of that name";
       if (names_free_water(region)) {
-        expected += ", or formulation = \"double-point\", where it is free water without one";
+        expected +=
+            ", or formulation = \"double-point\" or a skeleton that moves, where it is free "
+            "water without one";
       }
       expected += "; the soils are " + quoted_list(soils);
       report("soil." + region, "nothing", expected, suggest(region, soils));

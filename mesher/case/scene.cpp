@@ -40,7 +40,7 @@ bool names_free_water(const std::string& region) {
 }
 
 bool Scene::is_free_water(const std::string& region) const {
-  return formulation == Formulation::double_point && names_free_water(region) &&
+  return (formulation == Formulation::double_point || moves()) && names_free_water(region) &&
          find_soil(region) == nullptr;
 }
 

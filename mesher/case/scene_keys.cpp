@@ -608,6 +608,12 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .at_most(0.1)
           .otherwise(1e-3),
+      choice("time.failure", at(&Scene::time, &TimeSettings::failure),
+             {{"stop", AtFailure::stop}, {"follow", AtFailure::follow}},
+             "When soil whose skeleton moves loses its equilibrium: stop, with exit code 3 and the "
+             "last equilibrium as the last snapshot; or follow it with its inertia, until it has "
+             "come to rest.")
+          .otherwise("stop"),
       key("time.mass_scaling", at(&Scene::time, &TimeSettings::mass_scaling),
           "Factor on the liquid's inertia that allows larger steps and slows the flow's start-up. "
           "Explicit only.")

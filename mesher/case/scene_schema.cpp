@@ -56,9 +56,10 @@ const std::vector<SceneSection>& scene_sections() {
       {"points", "[points]", "Material points."},
       {"liquid", "[liquid]", "Weakly compressible or incompressible water."},
       {"soil.*", "[soil.NAME]",
-       "One table per region, NAME being the region's. In double-point scenes the regions "
-       "`inflow`, `outflow`, `free_above` and `free_below`, of a column or of your own file, need "
-       "none: without a soil they are free water, n_L = 1."},
+       "One table per region, NAME being the region's. In double-point scenes, and where a "
+       "skeleton "
+       "moves, the regions `inflow`, `outflow`, `free_above` and `free_below`, of a column or of "
+       "your own file, need none: without a soil they are free water, n_L = 1."},
       {"soil.*.erosion", "[soil.NAME.erosion]",
        "How fines of this soil turn into fluidised grains: phi_e = state . rate . <D - D_cr> . "
        "<1 - c/c_cr>, <x> = max(x, 0). The state comes from the law, D is the drive. n_e = "

@@ -55,6 +55,22 @@ ElementClasses::ElementClasses(const Grid<Dim>& grid, const SolidPoints<Dim>& po
   }
 }
 
+template <int Dim>
+std::vector<double> soil_volumes(const SolidPoints<Dim>& points, const PointsByElement& sorted,
+                                 const ElementClasses& classes) {
+  std::vector<double> result(classes.scale.size(), 0.0);
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    for (const int p : sorted.of(static_cast<int>(e))) {
+      result[e] += classes.scale[e] * points.volume[p];
+    }
+  }
+  return result;
+}
+
+template std::vector<double> soil_volumes(const SolidPoints<2>&, const PointsByElement&,
+                                          const ElementClasses&);
+template std::vector<double> soil_volumes(const SolidPoints<3>&, const PointsByElement&,
+                                          const ElementClasses&);
 template ElementClasses::ElementClasses(const Grid<2>&, const SolidPoints<2>&,
                                         const PointsByElement&);
 template ElementClasses::ElementClasses(const Grid<3>&, const SolidPoints<3>&,

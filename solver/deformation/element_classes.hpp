@@ -26,4 +26,9 @@ struct ElementClasses {
   std::vector<double> scale;
 };
 
+/// Volume that counts as soil, per element, m3: all of a full one.
+template <int Dim>
+std::vector<double> soil_volumes(const SolidPoints<Dim>& points, const PointsByElement& sorted,
+                                 const ElementClasses& classes);
+
 }  // namespace suffuse

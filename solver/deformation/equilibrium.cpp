@@ -50,12 +50,7 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
   ratio_.assign(count, 1.0);
   stress_.assign(count, Gradient::Zero());
   effective_.assign(count, Gradient::Zero());
-  soil_volume_.assign(count, 0.0);
-  for (const int e : elements_) {
-    for (const int p : body.sorted.of(e)) {
-      soil_volume_[e] += body.classes.scale[e] * body.points.volume[p];
-    }
-  }
+  soil_volume_ = soil_volumes(body.points, body.sorted, body.classes);
   for (const int e : elements_) {
     if (body.classes.full[e] == 1.0) continue;
     double young = 0.0;

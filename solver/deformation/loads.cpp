@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "deformation/point_motion.hpp"
+#include "physics/head.hpp"
 
 namespace suffuse {
 namespace {
@@ -54,12 +55,17 @@ void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
   for (int p = 0; p < points.size(); ++p) weight[p] = mass.solid[p] * g;
   add_point_forces(grid, points, weight, loads);
   if (mass.liquid.empty()) return;
+  const std::vector<double> volume = soil_volumes(points, sorted, classes);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    double volume = 0.0;
-    for (const int p : sorted.of(e)) volume += classes.scale[e] * points.volume[p];
-    const Vector<Dim> of_node = mass.liquid[e] * volume / (Dim + 1) * g;
+    const Vector<Dim> of_node = mass.liquid[e] * volume[e] / (Dim + 1) * g;
     for (const int i : grid.mesh.elements[e]) loads[i] += of_node;
   }
+}
+
+template <int Dim>
+Vector<Dim> downwards(const std::array<double, 3>& gravity) {
+  if (!has_gravity(gravity)) return -Vector<Dim>::UnitY();
+  return Eigen::Map<const Vector<Dim>>(gravity.data()).normalized();
 }
 
 template <int Dim>
@@ -161,6 +167,8 @@ template void add_point_forces(const Grid<2>&, const SolidPoints<2>&, const std:
                                NodeVectors<2>&);
 template void add_point_forces(const Grid<3>&, const SolidPoints<3>&, const std::vector<Vector<3>>&,
                                NodeVectors<3>&);
+template Vector<2> downwards<2>(const std::array<double, 3>&);
+template Vector<3> downwards<3>(const std::array<double, 3>&);
 template void add_weight(const Grid<2>&, const SolidPoints<2>&, const PointsByElement&,
                          const ElementClasses&, const SoilMass&, const std::array<double, 3>&,
                          NodeVectors<2>&);

@@ -78,4 +78,8 @@ class LoadedSurface {
   std::vector<Vector<Dim>> normal_;    ///< out of the soil, times the area of today
 };
 
+/// The direction of gravity, or against y without it.
+template <int Dim>
+Vector<Dim> downwards(const std::array<double, 3>& gravity);
+
 }  // namespace suffuse

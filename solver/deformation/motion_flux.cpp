@@ -72,9 +72,11 @@ std::vector<double> swept_volumes(const Grid<Dim>& grid, const PointsByElement& 
 }
 
 template <int Dim>
-FaceBubbles<Dim>::FaceBubbles(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step)
+FaceBubbles<Dim>::FaceBubbles(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step,
+                              const std::vector<double>& inertia)
     : grid_(grid), step_(step), softness_(grid.face_count(), 0.0) {
-  constexpr double mean_of_bubble = Dim == 2 ? 2.0 / 3.0 : 9.0 / 20.0;
+  constexpr double mean_of_bubble = Dim == 2 ? 2.0 / 3.0 : 9.0 / 20.0;     // over its face
+  constexpr double mean_of_square = Dim == 2 ? 8.0 / 45.0 : 27.0 / 280.0;  // over an element
   for (int f = 0; f < grid.face_count(); ++f) {
     if (grid.is_outer(f)) continue;
     const double area = grid.face_normal[f].norm();
@@ -90,6 +92,7 @@ FaceBubbles<Dim>::FaceBubbles(const Grid<Dim>& grid, const StepEquilibrium<Dim>&
       const auto gradients = bubble_gradients(grid, e, grid.side_of(e, f));
       const double along = n.dot(gradients * n);
       stiffness += moduli.shear * (gradients.trace() + along) + moduli.lame * along;
+      if (!inertia.empty()) stiffness += mean_of_square * inertia[e];
     }
     if (!soil_on_both) continue;
     const double moment = mean_of_bubble * area;

@@ -27,7 +27,10 @@ template <int Dim>
 class FaceBubbles {
  public:
   /// Keeps references.
-  FaceBubbles(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step);
+  /// \param inertia  mass per element over the square of the step's length, N/m: beside the
+  ///                 stiffness a, the bubble is slow. Empty: no inertia.
+  FaceBubbles(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step,
+              const std::vector<double>& inertia = {});
 
   /// Adds what the bubbles carry, m3, to the volumes through faces.
   /// \param pressure_change  of each element over the step, Pa

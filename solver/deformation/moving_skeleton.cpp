@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "deformation/element_gains.hpp"
+#include "deformation/free_water.hpp"
 #include "deformation/point_motion.hpp"
 #include "deformation/start_stress.hpp"
 #include "grid/parallel.hpp"
@@ -26,16 +27,6 @@ SolidPoints<Dim> points_of(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& poi
   return {mesh, places, points.volume};
 }
 
-/// Entries in another order: the one that was at order[k] comes to k.
-template <class Value>
-void reorder(const std::vector<int>& order, std::vector<Value>& values) {
-  if (values.empty()) return;
-  std::vector<Value> sorted;
-  sorted.reserve(values.size());
-  for (const int p : order) sorted.push_back(values[p]);
-  values = std::move(sorted);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -43,6 +34,7 @@ MovingSkeleton<Dim>::MovingSkeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils,
                                     const TimeSpan& span, int threads)
     : ErodingSkeleton<Dim>(grid, soils, span, threads),
       movable_soils_(soils),
+      has_free_water_(has_free_water(grid, soils)),
       points_(points_of(grid.mesh, soils.points())),
       start_(points_.position),
       id_(points_.size()),
@@ -158,20 +150,61 @@ Eigen::Matrix3d MovingSkeleton<Dim>::effective_stress(int point) const {
 }
 
 template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::compressibility() const {
+std::vector<double> MovingSkeleton<Dim>::drained_compressibility() const {
+  const Mesh<Dim>& mesh = this->grid_.mesh;
   std::vector<double> stiffness(solid_.size(), 0.0);
   std::vector<double> volume(solid_.size(), 0.0);
+  std::vector<char> at_soil(mesh.node_count(), 0);
+  double softest = std::numeric_limits<double>::infinity();
   for (int p = 0; p < points_.size(); ++p) {
     if (!this->soils().soil_of_point(p).skeleton.moves()) continue;
     const int e = points_.element[p];
-    stiffness[e] +=
-        points_.volume[p] * skeleton_of(p, fines_left(p)).parameters.oedometer_modulus();
+    const double modulus = skeleton_of(p, fines_left(p)).parameters.oedometer_modulus();
+    softest = std::min(softest, modulus);
+    stiffness[e] += points_.volume[p] * modulus;
     volume[e] += points_.volume[p];
+    for (const int i : mesh.elements[e]) at_soil[i] = 1;
   }
-  for (std::size_t e = 0; e < solid_.size(); ++e) {
-    if (volume[e] > 0.0) volume[e] = this->grid_.volume[e] * volume[e] / stiffness[e];
+  std::vector<double> result(solid_.size(), 0.0);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (volume[e] > 0.0) {
+      result[e] = this->grid_.volume[e] * volume[e] / stiffness[e];
+    } else if (has_free_water_ &&
+               std::ranges::any_of(mesh.elements[e], [&](int i) { return at_soil[i] != 0; })) {
+      result[e] = this->grid_.volume[e] / softest;
+    }
   }
-  return volume;
+  return result;
+}
+
+/// With inertia: nodes of mass M_i that nothing else holds give way to a pressure p by
+/// p V_e grad N_i dt^2/M_i.
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::compressibility(double duration) const {
+  std::vector<double> result = drained_compressibility();
+  if (!inertia_.acts()) return result;
+  const Mesh<Dim>& mesh = this->grid_.mesh;
+  std::vector<double> of_point = solid_volumes();
+  for (int p = 0; p < points_.size(); ++p) {
+    const double liquid = points_.volume[p] - of_point[p];
+    of_point[p] = of_point[p] * this->soils().soil_of_point(p).grain_density +
+                  liquid * this->soils().scene().liquid.density;
+  }
+  // A node at the surface may have next to no mass.
+  const std::vector<double> mass =
+      PointVelocities<Dim>(points_.size()).to_nodes(this->grid_, points_, of_point).mass;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (result[e] == 0.0) continue;
+    double free = 0.0;
+    for (int a = 0; a <= Dim; ++a) {
+      const double of_node = mass[mesh.elements[e][a]];
+      if (of_node == 0.0) continue;
+      free += (this->grid_.volume[e] * this->grid_.shape_gradient[e][a]).squaredNorm() / of_node;
+    }
+    free *= duration * duration;
+    result[e] *= free / (free + result[e]);
+  }
+  return result;
 }
 
 template <int Dim>
@@ -184,19 +217,38 @@ double MovingSkeleton<Dim>::stiffness() const {
   return largest;
 }
 
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::solid_masses() const {
+  std::vector<double> mass = solid_volumes();
+  for (int p = 0; p < points_.size(); ++p) {
+    mass[p] = (mass[p] - loss_of(p)) * this->soils().soil_of_point(p).grain_density;
+  }
+  return mass;
+}
+
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::moved_masses(const MotionForcing& forcing) const {
+  std::vector<double> mass = solid_masses();
+  for (int p = 0; p < points_.size(); ++p) {
+    mass[p] += forcing.liquid_mass[points_.element[p]] * points_.volume[p];
+  }
+  return mass;
+}
+
 /// Weight of the solid at its points; of the liquid, and what loads the boundaries.
 template <int Dim>
 NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
                                             const PointsByElement& sorted,
                                             const ElementClasses& classes) const {
   const SoilMap<Dim>& soils = this->soils();
-  SoilMass mass{.solid = solid_volumes(), .liquid = forcing.liquid_mass};
-  for (int p = 0; p < points_.size(); ++p) {
-    mass.solid[p] = (mass.solid[p] - loss_of(p)) * soils.soil_of_point(p).grain_density;
-  }
+  const SoilMass mass{.solid = solid_masses(), .liquid = forcing.liquid_mass};
   NodeVectors<Dim> result(this->grid_.mesh.node_count(), Vector<Dim>::Zero());
   add_weight(this->grid_, points_, sorted, classes, mass, soils.scene().gravity, result);
   boundary_loads_.add(sorted, forcing.end, result);
+  if (has_free_water_) {
+    add_free_water(this->grid_, sorted, soil_volumes(points_, sorted, classes), forcing.pressure,
+                   forcing.liquid_mass, soils.scene().gravity, result);
+  }
   return result;
 }
 
@@ -227,20 +279,50 @@ void MovingSkeleton<Dim>::expect_losses(const std::vector<double>& porosity) {
 }
 
 template <int Dim>
+void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
+  const bool with_inertia = inertia_.acts();
+  if (with_inertia && forcing.duration != tried_.duration) step_.reset();
+  if (step_) return;
+  // Pressures of water that hardly leaves magnify what is out of balance.
+  constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
+  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-6, .goal = 1e-10};
+  // Inertia holds a piece of soil that hangs by one node.
+  step_ = std::make_unique<StepEquilibrium<Dim>>(
+      this->grid_, points_, skeletons(), supports_, this->threads_,
+      with_inertia ? in_motion : in_equilibrium, with_inertia ? 0.0 : soft_share);
+  if (!with_inertia) {
+    bubbles_ = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step_);
+    return;
+  }
+  std::vector<double> mass = moved_masses(forcing);
+  std::vector<double> of_element(this->grid_.mesh.element_count(), 0.0);
+  for (int p = 0; p < points_.size(); ++p) {
+    of_element[points_.element[p]] += mass[p] / (forcing.duration * forcing.duration);
+  }
+  bubbles_ = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step_, of_element);
+  inertia_.start_step(this->grid_, points_, std::move(mass));
+  step_->set_inertia(inertia_.nodes(), forcing.duration);
+}
+
+template <int Dim>
+bool MovingSkeleton<Dim>::let_fail(double time) {
+  const bool stops = this->soils().scene().time.failure == AtFailure::stop;
+  if (stops || inertia_.acts()) return false;
+  inertia_.begin(points_.size());
+  failure_time_ = time;
+  step_.reset();
+  return true;
+}
+
+template <int Dim>
 const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing) {
   expect_losses(forcing.porosity);
-  if (!step_) {
-    // Pressures of water that hardly leaves magnify what is out of balance.
-    constexpr NewtonLimits limits{.goal = 1e-12};
-    step_ = std::make_unique<StepEquilibrium<Dim>>(this->grid_, points_, skeletons(), supports_,
-                                                   this->threads_, limits);
-    bubbles_ = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step_);
-  }
+  prepare_step(forcing);
   tried_ = forcing;
   motion_ = {};
-  NodeVectors<Dim> forces = loads(forcing, step_->sorted(), step_->classes());
-  crossing_forces_.add(forcing.duration, forces);
-  motion_.converged = step_->solve(forces, forcing.pressure, forcing.stiffness);
+  forces_ = loads(forcing, step_->sorted(), step_->classes());
+  if (!inertia_.acts()) crossing_forces_.add(forcing.duration, forces_);
+  motion_.converged = step_->solve(forces_, forcing.pressure, forcing.stiffness);
   motion_.iterations = step_->iterations();
   step_iterations_ += motion_.iterations;
   motion_.travel = largest_travel(this->grid_, step_->sorted(), step_->displacement());
@@ -260,8 +342,9 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   const std::vector<double> before = smooth_volumes(this->grid_, points_, solid_volumes());
   boundary_loads_.move(step_->sorted(), step_->displacement());
   const std::vector<int> element = points_.element;
+  if (inertia_.acts()) take_velocities();
   move_points(this->grid_, step_->skeleton(), step_->displacement(), points_, this->threads_);
-  find_crossing_forces();
+  if (!inertia_.acts()) find_crossing_forces();
   book_regions(element);
   carry_solid(before, motion_.travel);
   correction_ = motion_.solid_correction;
@@ -275,6 +358,30 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   for (double& v : face_rate_) v /= tried_.duration;
   sort_points();
   return motion_;
+}
+
+template <int Dim>
+void MovingSkeleton<Dim>::take_velocities() {
+  const Scene& scene = this->soils().scene();
+  const double g = Eigen::Map<const Eigen::Vector3d>(scene.gravity.data()).norm();
+  SoilExtent extent;
+  double weight = 0.0;  // of the nodes, squared
+  for (const double mass : inertia_.nodes().mass) {
+    extent.mass += mass;
+    weight += g * g * mass * mass;
+  }
+  extent.load = g * extent.mass;
+  double loads = std::sqrt(weight);
+  if (!has_gravity(scene.gravity)) {
+    for (const Vector<Dim>& force : forces_) extent.load += force.norm();
+    loads = norm<Dim>(forces_);
+  }
+  const Vector<Dim> down = downwards<Dim>(scene.gravity);
+  const auto [low, high] =
+      std::ranges::minmax(points_.position, {}, [&](const Vector<Dim>& x) { return x.dot(down); });
+  extent.height = (high - low).dot(down);
+  inertia_.finish_step(this->grid_, points_, step_->displacement(), tried_.duration, motion_.travel,
+                       step_->equilibrium().inertia_norm() / loads, extent);
 }
 
 template <int Dim>
@@ -294,7 +401,7 @@ void MovingSkeleton<Dim>::find_crossing_forces() {
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::diffusivity(const PointsByElement& sorted) const {
   const Scene& scene = this->soils().scene();
-  std::vector<double> result = compressibility();
+  std::vector<double> result = drained_compressibility();
   for (int e = 0; e < this->grid_.mesh.element_count(); ++e) {
     if (result[e] == 0.0) continue;
     const double modulus = this->grid_.volume[e] / result[e];
@@ -345,106 +452,11 @@ std::vector<double> MovingSkeleton<Dim>::region_gain() const {
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::sort_points() {
-  if (!std::ranges::is_sorted(points_.element)) {
-    const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
-    std::vector<int> order;
-    order.reserve(points_.size());
-    for (int e = 0; e < this->grid_.mesh.element_count(); ++e) {
-      order.insert(order.end(), sorted.of(e).begin(), sorted.of(e).end());
-    }
-    const auto all = [&](auto&... values) { (reorder(order, values), ...); };
-    all(start_, points_.position, points_.element, points_.reference_volume, points_.volume,
-        points_.elastic_b, points_.plastic_strain, this->state_.skeleton_volume,
-        this->state_.erodible_volume, this->state_.deposited_volume, this->initial_porosity_, id_,
-        region_, initial_erodible_);
-  }
-  show_points();
-  find_filling();
-}
-
-template <int Dim>
-void MovingSkeleton<Dim>::show_points() {
-  MaterialPoints<Dim> shown{points_.element, {}, points_.volume};
-  shown.barycentric.resize(points_.size());
-  for_each_index(points_.size(), this->threads_, [&](int p) {
-    shown.barycentric[p] = barycentric(this->grid_.mesh, points_.element[p], points_.position[p]);
-  });
-  movable_soils_.move_points(std::move(shown), region_);
-  this->porosity_max_.resize(points_.size());
-  for (int p = 0; p < points_.size(); ++p) {
-    this->porosity_max_[p] = 1.0 - this->state_.skeleton_volume[p] / points_.volume[p];
-  }
-  this->update_porosity();
-}
-
-template <int Dim>
-void MovingSkeleton<Dim>::find_filling() {
-  const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
-  const ElementClasses classes(this->grid_, points_, sorted);
-  // Carried to nodes and back: the points in an element would make the drag jump as they leave it.
-  const std::vector<double> volume = smooth_volumes(this->grid_, points_, points_.volume);
-  const std::vector<double> solid = smooth_volumes(this->grid_, points_, solid_volumes());
-  filling_.assign(solid_.size(), {});
-  for (std::size_t e = 0; e < solid_.size(); ++e) {
-    if (classes.full[e] == 1.0) continue;
-    const double share = std::min(1.0, volume[e] / this->grid_.volume[e]);
-    filling_[e] = {std::lerp(share, 1.0, classes.full[e]),
-                   volume[e] > 0.0 ? 1.0 - solid[e] / volume[e] : 1.0};
-  }
-}
-
-// ---------------------------------------------------------------------------------------- results
-
-template <int Dim>
-void MovingSkeleton<Dim>::describe(HistoryRow& row) const {
-  const Scene& scene = movable_soils_.scene();
-  Vector<Dim> down = -Vector<Dim>::UnitY();
-  if (has_gravity(scene.gravity)) {
-    down = Eigen::Map<const Vector<Dim>>(scene.gravity.data()).normalized();
-  }
-  for (int p = 0; p < points_.size(); ++p) {
-    const Vector<Dim> displacement = points_.position[p] - start_[p];
-    row.settlement_max = std::max(row.settlement_max, displacement.dot(down));
-    row.displacement_max = std::max(row.displacement_max, displacement.norm());
-  }
-  row.solid_correction = correction_;
-  row.newton_iterations = static_cast<double>(newton_iterations_);
-}
-
-template <int Dim>
-void MovingSkeleton<Dim>::describe(Snapshot& snapshot) const {
-  Field displacement{"displacement", "m", Dim, {}};
-  Field stress{"effective_stress", "Pa", Dim == 2 ? 4 : 6, {}};
-  Field plastic{"plastic_strain", "1", 1, points_.plastic_strain};
-  Field fines{"fines_left", "1", 1, {}};
-  Field volume{"volume", Dim == 2 ? "m3/m" : "m3", 1, points_.volume};
-  Field element{"element", "1", 1, {points_.element.begin(), points_.element.end()}, true};
-  Field id{"id", "1", 1, {id_.begin(), id_.end()}, true};
-  const auto add = [](std::vector<double>& values, const auto& more) {
-    values.insert(values.end(), more.begin(), more.end());
-  };
-  for (int p = 0; p < points_.size(); ++p) {
-    add(displacement.values, Vector<Dim>(points_.position[p] - start_[p]));
-    const Eigen::Matrix3d s = effective_stress(p);
-    add(stress.values, std::array{s(0, 0), s(1, 1), s(2, 2), s(0, 1)});
-    if (Dim == 3) add(stress.values, std::array{s(1, 2), s(0, 2)});
-    fines.values.push_back(fines_left(p));
-    for (int d = 0; d < 3; ++d) {
-      snapshot.solid_positions.push_back(d < Dim ? points_.position[p][d] : 0.0);
-    }
-  }
-  for (Field* field : {&displacement, &stress, &plastic, &fines, &volume, &element, &id}) {
-    snapshot.solid.push_back(std::move(*field));
-  }
-}
-
-template <int Dim>
 void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
-          boundary_loads_, crossing_forces_, solid_, region_gain_, pressure_, face_rate_, filling_,
-          correction_, newton_iterations_);
+          boundary_loads_, crossing_forces_, inertia_, failure_time_, solid_, region_gain_,
+          pressure_, face_rate_, filling_, correction_, newton_iterations_);
   if (!archive.restores()) return;
   step_.reset();
   show_points();

@@ -8,6 +8,7 @@
 #include "deformation/boundary_loads.hpp"
 #include "deformation/crossing_forces.hpp"
 #include "deformation/motion_flux.hpp"
+#include "deformation/soil_inertia.hpp"
 #include "deformation/solid_flux.hpp"
 #include "grid/compensated_sum.hpp"
 #include "solid/eroding_skeleton.hpp"
@@ -39,9 +40,12 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
 
   [[nodiscard]] bool moves() const override { return true; }
   void start_motion(const MotionForcing& forcing) override;
-  [[nodiscard]] std::vector<double> compressibility() const override;
+  [[nodiscard]] std::vector<double> compressibility(double duration) const override;
   const SolidMotion& try_motion(const MotionForcing& forcing) override;
   const SolidMotion& accept_motion() override;
+  bool let_fail(double time) override;
+  [[nodiscard]] bool has_inertia() const override { return inertia_.acts(); }
+  [[nodiscard]] double longest_step() const override { return inertia_.longest_step(); }
   [[nodiscard]] std::vector<double> load_breakpoints() const override {
     return boundary_loads_.breakpoints();
   }
@@ -82,6 +86,16 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] double loss_of(int point) const { return loss_.empty() ? 0.0 : loss_[point]; }
   [[nodiscard]] NodeVectors<Dim> loads(const MotionForcing& forcing, const PointsByElement& sorted,
                                        const ElementClasses& classes) const;
+  /// Solid of the points at the end of the step that is tried, kg.
+  [[nodiscard]] std::vector<double> solid_masses() const;
+  /// Makes the equilibrium of the step that is tried, if there is none yet.
+  void prepare_step(const MotionForcing& forcing);
+  /// What counts for inertia: solid, and the liquid in its pores, kg per point.
+  [[nodiscard]] std::vector<double> moved_masses(const MotionForcing& forcing) const;
+  void take_velocities();
+  /// V_e / E_oed, m3/Pa, in free water beside soil that of the softest soil; 0 elsewhere without
+  /// soil that moves.
+  [[nodiscard]] std::vector<double> drained_compressibility() const;
   /// Sorts what belongs to points by their elements and hands them on to the soils.
   void sort_points();
   void show_points();
@@ -96,6 +110,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void book_regions(const std::vector<int>& element);
 
   SoilMap<Dim>& movable_soils_;
+  bool has_free_water_;
   SolidPoints<Dim> points_;
   std::vector<Vector<Dim>> start_;  ///< per point: its place at the start, m
   std::vector<int> id_;
@@ -103,7 +118,9 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   std::vector<double> initial_erodible_;  ///< per point, m3
   Supports<Dim> supports_;
   BoundaryLoads<Dim> boundary_loads_;
-  CrossingForces<Dim> crossing_forces_;
+  CrossingForces<Dim> crossing_forces_;  ///< while inertia does not act
+  SoilInertia<Dim> inertia_;
+  double failure_time_ = 0.0;                ///< when equilibrium was lost last, s; 0: never
   std::vector<double> solid_;                ///< per element, m3
   std::vector<CompensatedSum> region_gain_;  ///< per region of the mesh, m3
   std::vector<double> loss_;          ///< per point, in the step that is tried, m3; empty: none
@@ -118,6 +135,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   std::unique_ptr<StepEquilibrium<Dim>> step_;  ///< of the step that is tried; null between steps
   std::unique_ptr<FaceBubbles<Dim>> bubbles_;
   MotionForcing tried_;
+  NodeVectors<Dim> forces_;  ///< loads of the step that is tried, N
   SolidMotion motion_;
 };
 

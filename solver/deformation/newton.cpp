@@ -19,13 +19,6 @@ double accuracy_at(double residual, double tolerance) {
   return std::clamp(std::max(0.1 * tolerance / residual, 0.01 * residual), best_accuracy, 1e-3);
 }
 
-template <int Dim>
-double norm(const NodeVectors<Dim>& vectors) {
-  double sum = 0.0;
-  for (const Vector<Dim>& v : vectors) sum += v.squaredNorm();
-  return std::sqrt(sum);
-}
-
 }  // namespace
 
 template <int Dim>

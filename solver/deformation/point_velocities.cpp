@@ -92,6 +92,12 @@ void PointVelocities<Dim>::take(const Grid<Dim>& grid, const SolidPoints<Dim>& p
 }
 
 template <int Dim>
+void PointVelocities<Dim>::reorder(const std::vector<int>& order) {
+  suffuse::reorder(order, velocity_);
+  suffuse::reorder(order, gradient_);
+}
+
+template <int Dim>
 double PointVelocities<Dim>::kinetic_energy(const std::vector<double>& mass) const {
   double sum = 0.0;
   for (std::size_t p = 0; p < mass.size(); ++p) sum += 0.5 * mass[p] * velocity_[p].squaredNorm();

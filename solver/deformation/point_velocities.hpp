@@ -37,6 +37,9 @@ class PointVelocities {
     gradient_[point] = gradient;
   }
   [[nodiscard]] const Vector<Dim>& velocity(int point) const { return velocity_[point]; }
+  [[nodiscard]] bool empty() const { return velocity_.empty(); }
+  /// The points have another order: the one that was at order[k] comes to k.
+  void reorder(const std::vector<int>& order);
 
   /// \param mass  per point, kg
   [[nodiscard]] NodalMotion<Dim> to_nodes(const Grid<Dim>& grid, const SolidPoints<Dim>& points,

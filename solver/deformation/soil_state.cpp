@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "deformation/boundary_loads.hpp"
+#include "deformation/free_water.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {
@@ -155,6 +156,10 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
   NodeVectors<Dim> loads(grid.mesh.node_count(), Vector<Dim>::Zero());
   add_weight(grid, state.points, sorted, classes, mass, soils.scene().gravity, loads);
   moved_loads(grid, soils, state).add(sorted, state.time, loads);
+  if (has_free_water(grid, soils)) {
+    add_free_water(grid, sorted, soil_volumes(state.points, sorted, classes), state.pressure,
+                   state.liquid_mass, soils.scene().gravity, loads);
+  }
   return find_safety_factor<Dim>({grid, state.points, sorted, skeleton, classes}, supports, loads,
                                  state.pressure, threads, limits);
 }

@@ -51,6 +51,16 @@ class PointsByElement {
   std::vector<int> point_;
 };
 
+/// Values of points in another order: the one that was at order[k] comes to k.
+template <class Value>
+void reorder(const std::vector<int>& order, std::vector<Value>& values) {
+  if (values.empty()) return;
+  std::vector<Value> sorted;
+  sorted.reserve(values.size());
+  for (const int p : order) sorted.push_back(values[p]);
+  values = std::move(sorted);
+}
+
 /// Per node, what the points have, m3 per point, over the volume of the mesh that belongs to the
 /// node: phi_i = sum_p N_i(x_p) V_p / V_i.
 template <int Dim>

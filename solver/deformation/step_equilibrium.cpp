@@ -6,15 +6,24 @@ template <int Dim>
 StepEquilibrium<Dim>::StepEquilibrium(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                       std::vector<PointSkeleton> skeleton,
                                       const Supports<Dim>& supports, int threads,
-                                      const NewtonLimits& limits)
+                                      const NewtonLimits& limits, double soft)
     : grid_(grid),
       sorted_(grid.mesh.element_count(), points.element),
       skeleton_(std::move(skeleton)),
       classes_(grid, points, sorted_),
-      equilibrium_({grid, points, sorted_, skeleton_, classes_}, supports, threads),
+      equilibrium_({grid, points, sorted_, skeleton_, classes_, soft}, supports, threads),
       solver_(equilibrium_),
       limits_(limits) {
   restart();
+}
+
+template <int Dim>
+void StepEquilibrium<Dim>::set_inertia(const NodalMotion<Dim>& nodes, double duration) {
+  equilibrium_.set_inertia(nodes.mass, nodes.velocity, duration);
+  const DisplacementUnknowns<Dim>& unknowns = equilibrium_.unknowns();
+  NodeVectors<Dim> coasting(nodes.velocity.size(), Vector<Dim>::Zero());
+  unknowns.add(unknowns.components(nodes.velocity), duration, coasting);
+  if (equilibrium_.is_possible(coasting)) displacement_ = std::move(coasting);
 }
 
 template <int Dim>

@@ -3,6 +3,7 @@
 /// The equilibrium of one step, to be asked again and again for other loads and pore pressures.
 
 #include "deformation/newton.hpp"
+#include "deformation/point_velocities.hpp"
 
 namespace suffuse {
 
@@ -11,10 +12,11 @@ class StepEquilibrium {
  public:
   /// Keeps references to grid, points and supports.
   /// \param skeleton  per point
+  /// \param soft      see SolidBody
   /// Throws NumericalError when nothing holds the soil.
   StepEquilibrium(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                   std::vector<PointSkeleton> skeleton, const Supports<Dim>& supports, int threads,
-                  const NewtonLimits& limits = {});
+                  const NewtonLimits& limits = {}, double soft = soft_share);
   StepEquilibrium(const StepEquilibrium&) = delete;
   StepEquilibrium& operator=(const StepEquilibrium&) = delete;
 
@@ -24,6 +26,8 @@ class StepEquilibrium {
   /// \param pressure  of the pores, per element, Pa; empty: none
   bool solve(const NodeVectors<Dim>& loads, std::vector<double> pressure,
              std::vector<double> stiffness = {});
+  /// Inertia over a step of `duration`, s; nodes go on as they go, to start from.
+  void set_inertia(const NodalMotion<Dim>& nodes, double duration);
   /// Goes back to the start of the step: the stress of the points has changed.
   void restart();
 

@@ -3,6 +3,7 @@
 /// Where the soil is held, and the unknowns that are left.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "grid/grid.hpp"
@@ -12,6 +13,14 @@ namespace suffuse {
 /// A vector per node of the mesh.
 template <int Dim>
 using NodeVectors = std::vector<Vector<Dim>>;
+
+/// Of all components.
+template <int Dim>
+double norm(const NodeVectors<Dim>& vectors) {
+  double sum = 0.0;
+  for (const Vector<Dim>& v : vectors) sum += v.squaredNorm();
+  return std::sqrt(sum);
+}
 
 /// What faces do to the nodes on them.
 enum class Support : char { none, normal, both };

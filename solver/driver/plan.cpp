@@ -312,9 +312,16 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
           " s, no grains in the liquid");
     }
   }
-  say(scene.moves() ? "run: motion of the solid, in equilibrium (quasi-static), with each step of "
-                      "the flow"
-                    : "skip: motion of the solid, the skeleton is rigid");
+  if (scene.moves()) {
+    const bool follow = scene.time.failure == AtFailure::follow;
+    say("run: motion of the solid, in equilibrium (quasi-static), with each step of the flow");
+    say(follow ? "skip: inertia of the solid, until it loses its equilibrium (time.failure = "
+                 "\"follow\")"
+               : "skip: inertia of the solid; the run stops where it loses its equilibrium "
+                 "(time.failure = \"stop\")");
+  } else {
+    say("skip: motion of the solid, the skeleton is rigid");
+  }
   say(has_gravity(scene.gravity) ? "run: gravity" : "skip: gravity, none is given");
   const auto outputs = [&](double every) {
     return short_text(std::ceil(scene.time.end / every * (1.0 - 1e-12)) + 1.0);

@@ -31,8 +31,10 @@ std::string rounded(double value) {
 std::vector<std::string> RowChecks::check(const HistoryRow& row) {
   check_finite(row);
   std::vector<std::string> warnings = {
-      check_compression(row),  check_mass_scaling(row.speed_max), check_momentum(row.speed_max),
-      check_fines_weight(row), check_volume_defect(row),          check_overshoot(row)};
+      check_compression(row),         check_mass_scaling(row.speed_max),
+      check_momentum(row.speed_max),  check_fines_weight(row),
+      check_volume_defect(row),       check_overshoot(row),
+      check_failure(row.failure_time)};
   std::erase(warnings, "");
   return warnings;
 }
@@ -145,6 +147,15 @@ std::string RowChecks::check_overshoot(const HistoryRow& row) {
     message << " Long steps of second order can do so: time.stepping = \"monotone\", or a shorter "
                "time.step.";
   }
+  return message.str();
+}
+
+std::string RowChecks::check_failure(double time) {
+  if (time == failure_warned_) return "";
+  failure_warned_ = time;
+  std::ostringstream message;
+  message << "the soil has lost its equilibrium at t = " << time
+          << " s; from there on it moves with its inertia, until it has come to rest";
   return message.str();
 }
 

@@ -23,13 +23,14 @@ class RowChecks {
         speed_that_drag_follows_(speed_that_drag_follows),
         obtuse_elements_(obtuse_elements) {}
 
-  /// New warnings; each is given once in a run. Throws NumericalError where an entry is not finite
-  /// or a pressure is above the bulk modulus of the liquid.
+  /// New warnings; each is given once in a run, that of a failure once per failure. Throws
+  /// NumericalError where an entry is not finite or a pressure is above the bulk modulus of the
+  /// liquid.
   std::vector<std::string> check(const HistoryRow& row);
 
   void archive(StateArchive& archive) {
     archive(scaling_warned_, momentum_warned_, compression_warned_, weight_warned_, defect_warned_,
-            overshoot_warned_);
+            overshoot_warned_, failure_warned_);
   }
 
  private:
@@ -39,6 +40,7 @@ class RowChecks {
   std::string check_fines_weight(const HistoryRow& row);
   std::string check_volume_defect(const HistoryRow& row);
   std::string check_overshoot(const HistoryRow& row);
+  std::string check_failure(double time);
 
   const Scene& scene_;
   double speed_that_drag_follows_;
@@ -49,6 +51,7 @@ class RowChecks {
   bool weight_warned_ = false;
   bool defect_warned_ = false;
   bool overshoot_warned_ = false;
+  double failure_warned_ = 0.0;  ///< the last one that has been told, s
 };
 
 }  // namespace suffuse

@@ -128,22 +128,34 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
     const ExchangeModel& model = soils_.exchange_of_element(e);
     result.mixture_density[e] = mixture_density(concentration, water_density, grain_density_);
     const SurfaceSoil soil = surface_soil(e, porosity);
-    result.drag[e] = darcy_drag(
-        porosity, water_density,
-        soil.easier * conductivity_at(model.conductivity, model.viscosity, initial_porosity_[e],
-                                      soil.porosity, concentration));
+    result.drag[e] =
+        darcy_drag(porosity, water_density,
+                   soil.easier * conductivity_at(model.conductivity, model.viscosity,
+                                                 start_porosity(e), soil.porosity, concentration));
     if (!grain_size_.empty()) {
       result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
     }
     if (soils_.soil_of_element(e).erosion.momentum_transfer) {
       const double flux = pores.flux.empty() ? unset : pores.flux[e];
       const Exchange rate = exchange_rate(
-          model, {initial_porosity_[e], porosity},
+          model, {start_porosity(e), porosity},
           {.flux_start = flux, .flux_end = flux, .concentration = concentration}, time);
       result.drag[e] += grain_density_ * rate.eroded / porosity;
     }
   });
   return result;
+}
+
+template <int Dim>
+double FlowSolver<Dim>::start_porosity(int element) const {
+  if (soils_.region_of_element(element) == grid_.mesh.element_region[element]) {
+    return initial_porosity_[element];
+  }
+  const int first = soils_.points_begin(element);
+  const int last = soils_.points_begin(element + 1);
+  double sum = 0.0;
+  for (int p = first; p < last; ++p) sum += skeleton_.initial_porosity()[p];
+  return sum / (last - first);
 }
 
 template <int Dim>
@@ -154,7 +166,9 @@ typename FlowSolver<Dim>::SurfaceSoil FlowSolver<Dim>::surface_soil(int element,
   const std::vector<SoilFilling>& filling = skeleton_.filling();
   if (filling.empty() || filling[element].share == 1.0) return {porosity, 1.0};
   const SoilFilling& part = filling[element];
-  if (part.share == 0.0) return {initial_porosity_[element], 1.0 / thinnest};
+  if (part.share == 0.0) {
+    return {initial_porosity_[element], soils_.is_soil(element) ? 1.0 / thinnest : 1.0};
+  }
   return {part.porosity, 1.0 / std::max(part.share, thinnest)};
 }
 

@@ -229,6 +229,8 @@ class FlowSolver {
     double porosity;
     double easier;
   };
+  /// n_0 of the soil that an element holds now.
+  [[nodiscard]] double start_porosity(int element) const;
   [[nodiscard]] SurfaceSoil surface_soil(int element, double porosity) const;
 
   std::vector<double> breakpoints_;

@@ -39,7 +39,8 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skele
 template <int Dim>
 FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
   const double until = this->next_breakpoint(interval.start, interval.latest);
-  double dt = control_.propose(interval.start, until, interval.longest);
+  const double longest = std::min(interval.longest, solid_.longest_step());
+  double dt = control_.propose(interval.start, until, longest);
   MixedStep<Dim> step = reuse_.active() ? steady_step(dt) : accepted_step(interval, dt);
   const double end = dt < until - interval.start ? interval.start + dt : until;
   FlowProgress progress{1, dt, end, {}, displaced_air(now_.state.air, step.end.air)};
@@ -80,9 +81,11 @@ MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interva
     std::optional<MixedStep<Dim>> tried = try_step(interval, dt, stages);
     if (!tried) continue;
     MixedStep<Dim>& step = *tried;
-    const double error = control_.has_given_step() ? 0.0 : error_of(step, interval.start, dt);
+    const bool given = control_.has_given_step() || solid_.has_inertia();
+    const double error = given ? 0.0 : error_of(step, interval.start, dt);
     if (!control_.accept(interval.start, error, previous_.has_value(), dt)) continue;
     if (scheme_.iterations() > limits.slow_iterations) control_.hold(dt);
+    if (solid_.has_inertia()) control_.hold(limits.inertial_growth * dt);
 
     let_out_expansion(dt, stages, step);
     if (!forcing_.back().source.empty()) relaxation_.set_source(forcing_.back().source);
@@ -155,9 +158,15 @@ std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::try_step(
     }
     return scheme_.step(now_.state, dt, stages);
   } catch (const NotConverged& error) {
-    const double whole = this->scene().time.end;
-    if (dt < limits.min_unsolved_step * whole) refuse_unsolved(start, error);
-    control_.reject(start, dt);
+    const double share =
+        solid_.has_inertia() ? limits.min_unsolved_inertial_step : limits.min_unsolved_step;
+    if (dt >= share * this->scene().time.end) {
+      control_.reject(start, dt);
+    } else if (solid_.let_fail(start)) {
+      dt = control_.last_step();
+    } else {
+      refuse_unsolved(start, error);
+    }
     return std::nullopt;
   }
 }
@@ -167,10 +176,11 @@ void ImplicitFlow<Dim>::refuse_unsolved(double time, const NotConverged& error) 
   if (!solid_.moves()) throw NumericalError(error.what());
   std::ostringstream message;
   message << "t = " << time << " s: ";
-  if (dynamic_cast<const NoEquilibrium*>(&error) != nullptr) {
+  if (solid_.has_inertia()) {
+    message << error.what() << ": the motion of the soil that fails has no solution";
+  } else if (dynamic_cast<const NoEquilibrium*>(&error) != nullptr) {
     message << "the soil has lost its equilibrium: it cannot carry its weight, its loads and the "
-               "pressure of the water any longer. It fails from here on, and a run in equilibrium "
-               "(quasi-static) cannot follow it";
+               "pressure of the water any longer (to follow it: time.failure = \"follow\")";
   } else {
     message << error.what()
             << ", however short the step is: soil that yields is about to lose its equilibrium";
@@ -326,7 +336,9 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
     // Resistances were right at the start of the step: their mean error is half that at its end.
-    control_.account_for(0.5 * blending_.learn(this->coefficients_, dt, weight, losses()));
+    const double error = blending_.learn(this->coefficients_, dt, weight, losses());
+    // Soil that fails changes them by its motion, of which nothing is expected.
+    if (!solid_.has_inertia()) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
 }

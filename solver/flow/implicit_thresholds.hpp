@@ -19,6 +19,10 @@ struct ImplicitThresholds {
   double unsolved_shrinkage = 0.25;
   /// A step below this share of the run whose iteration does not converge ends the run.
   double min_unsolved_step = 1e-9;
+  /// The same where the soil has inertia: with it a shorter step is easier.
+  double min_unsolved_inertial_step = 1e-12;
+  /// The longest step of soil with inertia that may follow one, in lengths of that one.
+  double inertial_growth = 1.5;
   /// No step grows after one whose iteration took more solutions than this.
   int slow_iterations = 25;
   /// The next step's length, in lengths of the step whose error is expected to equal the tolerance.

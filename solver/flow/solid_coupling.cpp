@@ -25,6 +25,8 @@ constexpr double accuracy = 1e-7;
 /// strain: to that the solid is in equilibrium (`NewtonLimits`, `Equilibrium::least_strain`).
 constexpr double round_off = 1e-7;
 constexpr double round_off_strain = 1e-12;
+/// Of soil that fails, relative to both: its pressures swing by more with each step.
+constexpr double accuracy_in_motion = 1e-4;
 
 double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;
@@ -40,7 +42,7 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
   const int elements = grid_.mesh.element_count();
   const Eigen::Map<const Eigen::VectorXd> before(pressure.data(), elements);
   const std::vector<double> own = forcing.source;
-  forcing.mean_storage = solid_.compressibility();
+  forcing.mean_storage = solid_.compressibility(dt);
   const double floor = round_off_strain * solid_.stiffness();
   for (double& storage : forcing.mean_storage) storage *= held_storage;
   MotionForcing motion_forcing{
@@ -77,7 +79,10 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
     for (int e = 0; e < elements; ++e) {
       if (forcing.mean_storage[e] == 0.0) new_rise[e] = 0.0;
     }
-    const double allowed = accuracy * largest(new_rise) + round_off * largest(before) + floor;
+    double allowed = accuracy * largest(new_rise) + round_off * largest(before) + floor;
+    if (solid_.has_inertia()) {
+      allowed = accuracy_in_motion * (largest(new_rise) + largest(before));
+    }
     if (largest(new_rise - rise) <= allowed) {
       rise_rate_.assign(new_rise.data(), new_rise.data() + elements);
       for (double& rate : rise_rate_) rate /= dt;
@@ -95,7 +100,7 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
 template <int Dim>
 Eigen::VectorXd SolidCoupling<Dim>::undrained_rise(MotionForcing forcing,
                                                    Eigen::VectorXd rise) const {
-  const std::vector<double> compressibility = solid_.compressibility();
+  const std::vector<double> compressibility = solid_.compressibility(forcing.duration);
   forcing.stiffness.resize(compressibility.size());
   for (std::size_t e = 0; e < compressibility.size(); ++e) {
     if (compressibility[e] == 0.0) continue;

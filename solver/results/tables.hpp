@@ -61,6 +61,8 @@ struct HistoryRow {
   /// What makes the solid's flux fit its volumes, over the flux of its motion, in the last step.
   double solid_correction = 0.0;
   double newton_iterations = 0.0;  ///< of the solid's equilibrium, since the start
+  double inertia = 0.0;  ///< forces of inertia over the loads, in the last step; 0 in equilibrium
+  double failure_time = 0.0;  ///< when the soil lost its equilibrium last, s; 0: never
 
   // No columns: what the checks of the run ask for besides.
   std::string volume_defect_at;  ///< the element of `volume_defect`; empty where there is none
@@ -68,7 +70,7 @@ struct HistoryRow {
   double fines_weight_share = 0.0;
 };
 
-inline constexpr std::array<Column<HistoryRow>, 30> history_columns{{
+inline constexpr std::array<Column<HistoryRow>, 32> history_columns{{
     {"t", &HistoryRow::t, "s"},
     {"dt", &HistoryRow::dt, "s"},
     {"porosity_mean", &HistoryRow::porosity_mean, "1"},
@@ -99,6 +101,8 @@ inline constexpr std::array<Column<HistoryRow>, 30> history_columns{{
     {"displacement_max", &HistoryRow::displacement_max, "m"},
     {"solid_correction", &HistoryRow::solid_correction, "1"},
     {"newton_iterations", &HistoryRow::newton_iterations, "1"},
+    {"inertia", &HistoryRow::inertia, "1"},
+    {"failure_time", &HistoryRow::failure_time, "s"},
 }};
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross

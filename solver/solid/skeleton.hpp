@@ -4,6 +4,7 @@
 /// part can erode into the liquid. The skeleton that stays in place is `RigidSkeleton`, the one
 /// that moves is `MovingSkeleton` (deformation/).
 
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -139,10 +140,12 @@ class Skeleton {
   /// Finds the stress at the start. `forcing`: without a duration. Throws NumericalError where
   /// there is no equilibrium.
   virtual void start_motion(const MotionForcing& /*forcing*/) {}
-  /// Volume by which each element's soil would shrink per Pa of pore pressure less if it could not
-  /// move sideways, V_e / E_oed, m3/Pa: about how strongly pressure and motion depend on each
-  /// other.
-  [[nodiscard]] virtual std::vector<double> compressibility() const { return {}; }
+  /// Volume by which each element's soil would shrink in a step of `duration`, s, per Pa of pore
+  /// pressure less, m3/Pa: about how strongly pressure and motion depend on each other. V_e / E_oed
+  /// as if it could not move sideways; inertia makes it less.
+  [[nodiscard]] virtual std::vector<double> compressibility(double /*duration*/) const {
+    return {};
+  }
   /// Largest modulus of soil that cannot move sideways, Pa.
   [[nodiscard]] virtual double stiffness() const { return 0.0; }
   /// By how much tractions change in the run, from that at the start, Pa.
@@ -155,6 +158,14 @@ class Skeleton {
   /// Takes the last motion that was tried: points move, and solid with them.
   virtual const SolidMotion& accept_motion() {
     throw std::logic_error("a rigid skeleton does not move");
+  }
+  /// Equilibrium is lost at this time, s: from now on the solid has inertia, until it is at rest
+  /// again. Returns false where that is no way out: it has inertia already, or the run is to stop.
+  virtual bool let_fail(double /*time*/) { return false; }
+  [[nodiscard]] virtual bool has_inertia() const { return false; }
+  /// Longest step from now on, s.
+  [[nodiscard]] virtual double longest_step() const {
+    return std::numeric_limits<double>::infinity();
   }
   /// Solid that points have carried into each region of the mesh since the start, minus what they
   /// have carried out of it, m3. Empty while the solid stays in place.

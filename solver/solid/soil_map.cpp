@@ -88,6 +88,19 @@ void SoilMap<Dim>::move_points(MaterialPoints<Dim> points, std::vector<int> regi
   moved_region_ = std::move(region);
   points_ = moved_.get();
   find_points_begin();
+  find_element_region();
+}
+
+template <int Dim>
+void SoilMap<Dim>::find_element_region() {
+  element_region_ = mesh_.element_region;
+  std::vector<int> points(mesh_.region_names.size());
+  for (int e = 0; e < mesh_.element_count(); ++e) {
+    if (points_begin(e) == points_begin(e + 1)) continue;
+    std::ranges::fill(points, 0);
+    for (int p = points_begin(e); p < points_begin(e + 1); ++p) ++points[moved_region_[p]];
+    element_region_[e] = static_cast<int>(std::ranges::max_element(points) - points.begin());
+  }
 }
 
 template <int Dim>

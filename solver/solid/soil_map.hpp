@@ -29,7 +29,8 @@ struct TimeSpan {
 template <int Dim>
 Vector<Dim> across_bedding(const Soil& soil);
 
-/// Free water (double-point) is there as a soil of porosity 1 without solid points.
+/// Free water is there as a soil of porosity 1 without solid points. An element that points have
+/// come into holds their soil.
 template <int Dim>
 class SoilMap {
  public:
@@ -47,17 +48,21 @@ class SoilMap {
   /// Points of element e: from points_begin(e) to points_begin(e + 1).
   [[nodiscard]] int points_begin(int element) const { return points_begin_[element]; }
 
+  /// The region from which most points of an element come; its own while it has none.
+  [[nodiscard]] int region_of_element(int element) const {
+    return element_region_.empty() ? mesh_.element_region[element] : element_region_[element];
+  }
   [[nodiscard]] bool is_soil(int element) const {
-    return soil_of_region_[mesh_.element_region[element]] != free_water_.get();
+    return soil_of_region_[region_of_element(element)] != free_water_.get();
   }
   [[nodiscard]] const Soil& soil_of_element(int element) const {
-    return *soil_of_region_[mesh_.element_region[element]];
+    return *soil_of_region_[region_of_element(element)];
   }
   [[nodiscard]] const ErosionModel& erosion_of_element(int element) const {
-    return exchange_of_region_[mesh_.element_region[element]].erosion;
+    return exchange_of_region_[region_of_element(element)].erosion;
   }
   [[nodiscard]] const ExchangeModel& exchange_of_element(int element) const {
-    return exchange_of_region_[mesh_.element_region[element]];
+    return exchange_of_region_[region_of_element(element)];
   }
   /// A point keeps the soil of the region that it comes from (index into the mesh's
   /// `region_names`).
@@ -78,7 +83,7 @@ class SoilMap {
 
   /// |q| up to which water counts as standing still, m/s: round-off.
   [[nodiscard]] double still_flux(int element) const {
-    return still_flux_[mesh_.element_region[element]];
+    return still_flux_[region_of_element(element)];
   }
   /// Gradient along a flux over |q|/k, k being that along bedding; 1 for no flux.
   [[nodiscard]] double resistance_along(int element, const Vector<Dim>& flux) const;
@@ -110,6 +115,7 @@ class SoilMap {
  private:
   void find_dependence();
   void find_points_begin();
+  void find_element_region();
 
   const Scene& scene_;
   const Mesh<Dim>& mesh_;
@@ -117,6 +123,7 @@ class SoilMap {
   std::unique_ptr<const MaterialPoints<Dim>> moved_;  ///< null while they stay in place
   std::vector<int> moved_region_;                     ///< per point; empty while they stay
   std::vector<int> points_begin_;
+  std::vector<int> element_region_;  ///< per element; empty while points stay
   std::shared_ptr<const Soil> free_water_;
   std::vector<const Soil*> soil_of_region_;
   std::vector<ExchangeModel> exchange_of_region_;

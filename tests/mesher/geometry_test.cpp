@@ -406,14 +406,15 @@ TEST_F(UserFile, MayHoldSoilWhereFreeWaterWouldBe) {
   EXPECT_NO_THROW(build_geometry(document));
 }
 
-TEST_F(UserFile, HoldsNoFreeWaterInSinglePointScenes) {
+TEST_F(UserFile, HoldsNoFreeWaterInSinglePointScenesOfRigidSoil) {
   const std::string message = refusal([&] { build_free_water({}); });
   for (const std::string key : {"soil.inflow: got nothing", "soil.outflow: got nothing"}) {
     EXPECT_NE(message.find(key), std::string::npos) << message;
   }
-  EXPECT_NE(message.find("region of that name, or formulation = \"double-point\", where it is free "
-                         "water without one; the soils are \"specimen\""),
-            std::string::npos)
+  EXPECT_NE(
+      message.find("region of that name, or formulation = \"double-point\" or a skeleton that "
+                   "moves, where it is free water without one; the soils are \"specimen\""),
+      std::string::npos)
       << message;
 }
 

@@ -27,7 +27,7 @@ boundary = [
   {on = "right", fix = "normal"},
 ]
 initial.flow = "steady"
-time = {scheme = "implicit", end = 200.0}
+time = {scheme = "implicit", end = 200.0, failure = "stop"}
 [soil.specimen]
 porosity = 0.3
 skeleton_fraction = 0.5

@@ -136,11 +136,9 @@ inline Case<2> make_case(Mesh<2> mesh, Scene scene) {
   c.document.path = "model.toml";
   c.document.scene = std::move(scene);
   const Scene& of = c.document.scene;
+  c.solid_points = seed_solid_points(c.mesh, of);
   if (of.formulation == Formulation::double_point) {
-    c.solid_points = seed_solid_points(c.mesh, of);
     c.liquid_points = seed_liquid_points(c.mesh, of);
-  } else {
-    c.solid_points = seed_solid_points(c.mesh, of.points);
   }
   return c;
 }

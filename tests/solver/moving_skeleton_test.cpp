@@ -495,7 +495,7 @@ TEST(MovingSkeleton, ShowsItsStateWhileAStepIsTried) {
   b.run(0.0, 1.0, 4);
   const double left = b.solid.fines_left(0);
   const double stiffness = b.solid.stiffness();
-  const std::vector<double> compressibility = b.solid.compressibility();
+  const std::vector<double> compressibility = b.solid.compressibility(1.0);
   const Eigen::Matrix3d stress = b.solid.effective_stress(0);
   const MotionForcing without = b.forcing(2.0, 1.0);
   ASSERT_TRUE(b.solid.try_motion(without).converged);
@@ -507,7 +507,7 @@ TEST(MovingSkeleton, ShowsItsStateWhileAStepIsTried) {
   EXPECT_GT(b.solid.try_motion(eroding).travel, travel + 1e-3);
   EXPECT_EQ(b.solid.fines_left(0), left);
   EXPECT_EQ(b.solid.stiffness(), stiffness);
-  EXPECT_EQ(b.solid.compressibility(), compressibility);
+  EXPECT_EQ(b.solid.compressibility(1.0), compressibility);
   EXPECT_EQ(b.solid.effective_stress(0), stress);
 }
 

@@ -119,6 +119,7 @@ double heave_time(double gradient, double rate, int rows) {
   soil.erosion.law = erosion_law("constant");
   soil.erosion.rate = rate;
   scene.time.end = 0.2 / rate;
+  scene.time.failure = AtFailure::stop;
   BoundaryCondition bottom = model::flux_on("bottom", gradient * conductivity);
   bottom.fix = Fixing::both;
   scene.boundaries = {fixed_on("left", Fixing::normal), fixed_on("right", Fixing::normal),
@@ -186,6 +187,7 @@ struct ErodingSlope {
     scene.gravity = {9.81 * std::sin(slope), -9.81 * std::cos(slope), 0.0};
     scene.time.scheme = FlowScheme::implicit_mixed;
     scene.time.end = duration;
+    scene.time.failure = AtFailure::stop;
     scene.initial_flow = InitialFlow::steady;
     BoundaryCondition top = clean_pressure_on("top", pressure(cover));
     top.traction = constant_traction(shear(cover), across(cover) - pressure(cover));

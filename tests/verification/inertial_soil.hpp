@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "deformation/inertial_motion.hpp"
+#include "deformation/soil_inertia.hpp"
+#include "dry_motion.hpp"
 #include "solver/solid_model.hpp"
 
 namespace suffuse::model {
@@ -41,6 +42,10 @@ struct InertialModel : PlaneModel {
     double sum = 0.0;
     for (const double m : mass) sum += m;
     return sum * gravity.norm();
+  }
+  /// \param height  of the soil, m
+  [[nodiscard]] SoilExtent extent(double height) const {
+    return {weight() / gravity.norm(), weight(), height};
   }
   [[nodiscard]] double energy() const { return motion->velocities().kinetic_energy(mass); }
 
@@ -103,7 +108,7 @@ inline CollapseResult collapse(const Collapse& c) {
     result.iterations += step.iterations;
     result.tries += step.tries;
     // At the very start nothing has moved yet.
-    result.rests = m.time > 0.5 && is_at_rest(step, m.energy(), m.weight(), c.aspect);
+    result.rests = m.time > 0.5 && is_at_rest(step.inertia_share, m.energy(), m.extent(c.aspect));
   }
   result.iterations /= result.steps;
   result.time = m.time;

@@ -1,25 +1,78 @@
-#include "deformation/inertial_motion.hpp"
+#pragma once
+
+/// Steps of dry soil with inertia, without flow, on the parts of the solver.
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "deformation/newton.hpp"
 #include "deformation/point_motion.hpp"
+#include "deformation/point_velocities.hpp"
 
-namespace suffuse {
-namespace {
+namespace suffuse::model {
+
+struct InertialLimits {
+  double max_travel = 0.25;  ///< of a point in a step, over the height of its element
+  double growth = 1.5;       ///< of a step over the one before
+  /// A step that takes more iterations of Newton's method makes the next one shorter; one that
+  /// takes at most half as many lets it grow.
+  int many_iterations = 8;
+  double shortest = 1e-7;  ///< s; no step is tried below this
+  NewtonLimits newton = {.max_iterations = 12, .tolerance = 1e-5};
+};
+
+/// What a step did.
+struct InertialStep {
+  double duration = 0.0;  ///< s
+  int iterations = 0;     ///< of Newton's method
+  int tries = 0;
+  /// Forces of inertia over the loads: near 0 the soil is in equilibrium.
+  double inertia_share = 0.0;
+};
+
+template <int Dim>
+class InertialMotion {
+ public:
+  /// Points at rest. Keeps references to grid and supports.
+  InertialMotion(const Grid<Dim>& grid, const Supports<Dim>& supports, int point_count, int threads,
+                 const InertialLimits& limits = {})
+      : grid_(grid),
+        supports_(supports),
+        threads_(threads),
+        limits_(limits),
+        velocities_(point_count) {}
+
+  [[nodiscard]] PointVelocities<Dim>& velocities() { return velocities_; }
+  [[nodiscard]] const PointVelocities<Dim>& velocities() const { return velocities_; }
+
+  /// Moves the points by one step of at most `longest` seconds. Throws NumericalError where no step
+  /// is short enough, or a point leaves the mesh.
+  /// \param skeleton  per point
+  /// \param mass      per point, kg
+  /// \param loads     per node, N: the weight of the points among them
+  InertialStep step(SolidPoints<Dim>& points, const std::vector<PointSkeleton>& skeleton,
+                    const std::vector<double>& mass, const NodeVectors<Dim>& loads, double longest);
+
+  void archive(auto& archive) { archive(velocities_, next_); }
+
+ private:
+  [[nodiscard]] double first_try(const PointsByElement& sorted, const NodalMotion<Dim>& nodes,
+                                 double longest) const;
+  void plan_next(const InertialStep& step);
+
+  const Grid<Dim>& grid_;
+  const Supports<Dim>& supports_;
+  int threads_;
+  InertialLimits limits_;
+  PointVelocities<Dim> velocities_;
+  double next_ = 0.0;  ///< length of the next step, s; 0: not known
+};
 
 template <int Dim>
 NodeVectors<Dim> times(double factor, NodeVectors<Dim> vectors) {
   for (Vector<Dim>& v : vectors) v *= factor;
   return vectors;
-}
-
-template <int Dim>
-double norm(const NodeVectors<Dim>& vectors) {
-  double sum = 0.0;
-  for (const Vector<Dim>& v : vectors) sum += v.squaredNorm();
-  return std::sqrt(sum);
 }
 
 /// The displacement of nodes that go on as they go, where nothing holds them.
@@ -31,14 +84,12 @@ NodeVectors<Dim> coasting(const DisplacementUnknowns<Dim>& unknowns, const Nodal
   return result;
 }
 
-[[noreturn]] void refuse(double shortest) {
+[[noreturn]] inline void refuse(double shortest) {
   std::ostringstream message;
   message << "the motion of the soil has no solution, not even in a step of " << shortest
           << " s; give the soil less stiffness, or the mesh larger elements";
   throw NumericalError(message.str());
 }
-
-}  // namespace
 
 template <int Dim>
 double InertialMotion<Dim>::first_try(const PointsByElement& sorted, const NodalMotion<Dim>& nodes,
@@ -88,13 +139,4 @@ InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
   }
 }
 
-bool is_at_rest(const InertialStep& step, double kinetic_energy, double weight, double height) {
-  constexpr double small_share = 1e-2;
-  constexpr double small_energy = 1e-6;
-  return step.inertia_share < small_share && kinetic_energy < small_energy * weight * height;
-}
-
-template class InertialMotion<2>;
-template class InertialMotion<3>;
-
-}  // namespace suffuse
+}  // namespace suffuse::model

@@ -1,0 +1,135 @@
+/// Soil under free water, and a bank of it that loses its fines, fails and runs out.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "moving_soil.hpp"
+
+namespace suffuse {
+namespace {
+
+using model::clean_pressure_on;
+using model::fixed_on;
+using model::missing_fines;
+
+/// Elements whose centroid `holds` are soil, the others free water.
+Mesh<2> under_water(Mesh<2> mesh, const std::function<bool(const Vector<2>&)>& holds) {
+  mesh.region_names = {"specimen", "free_above"};
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    mesh.element_region[e] = holds(element_centroid(mesh, e)) ? 0 : 1;
+  }
+  return mesh;
+}
+
+Scene basin(double water_level) {
+  Scene scene = model::paper_scene();
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.water_level = water_level;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.boundaries = {fixed_on("left", Fixing::normal), fixed_on("right", Fixing::normal),
+                      fixed_on("bottom", Fixing::both), clean_pressure_on("top", 0.0)};
+  return scene;
+}
+
+/// sigma'_v = -(1 - n)(rho_s - rho_w) g z, z below the surface of the soil. Off by so much of the
+/// largest.
+double submerged_stress_error(int rows) {
+  constexpr double surface = 0.5;
+  Scene scene = basin(1.0);
+  scene.time.end = 1.0;
+  scene.soils[0].skeleton = model::elastic_soil(1e8, 0.0);
+  model::ModelRun run(
+      model::make_case(under_water(model::crossed_mesh(2, rows, 2.0 / rows, 1.0),
+                                   [](const Vector<2>& x) { return x[1] < surface; }),
+                       scene));
+  const auto moments = run.run({1.0}, true);
+  const Snapshot& snapshot = moments.snapshots.back();
+  const auto stress = std::ranges::find(snapshot.solid, "effective_stress", &Field::name);
+  const double weight = (1.0 - 0.3) * (2700.0 - 1000.0) * 9.81;
+  double error = 0.0;
+  for (std::size_t p = 0; p < snapshot.solid_positions.size() / 3; ++p) {
+    const double exact = -weight * (surface - snapshot.solid_positions[3 * p + 1]);
+    error = std::max(error, std::abs(stress->values[4 * p + 1] - exact) / (weight * surface));
+  }
+  EXPECT_LT(run.worst_residual(), 1e-12);
+  return error;
+}
+
+/// Stress is constant in an element: its error falls with the size of elements.
+TEST(FreeWater, PressesOnTheSoilBelowIt) {
+  double last = 0.0;
+  for (const int rows : {8, 16, 32}) {
+    const double error = submerged_stress_error(rows);
+    std::cout << rows << " rows: stress off by " << error << "\n";
+    EXPECT_LT(error, 1.0 / rows);
+    if (last > 0.0) {
+      EXPECT_GT(std::log2(last / error), 0.9);
+    }
+    last = error;
+  }
+}
+
+/// A bank of 1 m with a slope of 45 degrees that loses strength with its fines.
+Scene bank() {
+  Scene scene = basin(1.25);
+  Soil& soil = scene.soils[0];
+  soil.conductivity = 1e-2;
+  soil.skeleton = model::elastic_soil(2e6, 0.3);
+  soil.skeleton.law = skeleton_law("mohr-coulomb");
+  soil.skeleton.friction = FinesFunction({{1.0, 33.0}, {0.0, 25.0}});
+  soil.skeleton.cohesion = FinesFunction({{1.0, 1.5e3}, {0.0, 0.0}});
+  soil.erosion.law = erosion_law("constant");
+  soil.erosion.rate = 0.01;
+  return scene;
+}
+
+model::ModelRun bank_run(const Scene& scene) {
+  return model::ModelRun(model::make_case(under_water(model::crossed_mesh(16, 5, 4.0, 1.25),
+                                                      [](const Vector<2>& x) {
+                                                        return x[1] < 0.25 ||
+                                                               (x[1] < 1.0 && x[0] + x[1] < 2.0);
+                                                      }),
+                                          scene));
+}
+
+TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
+  Scene scene = bank();
+  scene.time.end = 12.0;
+  scene.time.failure = AtFailure::follow;
+  model::ModelRun run = bank_run(scene);
+  const double erodible = run.model().ledger().erodible;
+  const double solid = run.model().ledger().solid;
+  const auto states = run.run({8.0, 11.0}).states;
+  EXPECT_EQ(states[0].history.failure_time, 0.0);
+  EXPECT_EQ(states[0].history.inertia, 0.0);
+  EXPECT_LT(states[0].history.displacement_max, 0.03);
+  const auto& now = states[1];
+  std::cout << "failed at " << now.history.failure_time << " s, moved by "
+            << now.history.displacement_max << " m at " << now.time << " s, inertia "
+            << now.history.inertia << ", " << run.steps() << " steps\n";
+  EXPECT_GT(now.history.failure_time, 8.0);
+  // All fines are gone after 10 s; sand of 25 degrees does not stand at 45.
+  EXPECT_LT(now.history.failure_time, 10.0);
+  EXPECT_GT(now.history.inertia, 1e-3);
+  EXPECT_GT(now.history.displacement_max, 0.4);
+  EXPECT_LT(run.worst_residual(), 1e-12);
+  EXPECT_NEAR(missing_fines(now.ledger, erodible), 0.0, 1e-12 * erodible);
+  EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, solid, 1e-12 * solid);
+}
+
+TEST(Bank, EndsInItsLastEquilibriumWhereTheSceneDoesNotSayMore) {
+  Scene scene = bank();
+  scene.time.end = 12.0;
+  model::ModelRun run = bank_run(scene);
+  EXPECT_THROW(run.run({12.0}), EquilibriumLost);
+  const HistoryRow row = run.state().history;
+  EXPECT_EQ(row.failure_time, 0.0);
+  EXPECT_EQ(row.inertia, 0.0);
+  EXPECT_GT(run.model().time(), 8.0);
+}
+
+}  // namespace
+}  // namespace suffuse
