@@ -59,7 +59,8 @@ const std::vector<SceneSection>& scene_sections() {
        "One table per region, NAME being the region's. In double-point scenes, and where a "
        "skeleton "
        "moves, the regions `inflow`, `outflow`, `free_above` and `free_below`, of a column or of "
-       "your own file, need none: without a soil they are free water, n_L = 1."},
+       "your own file, need none: without a soil they are free water, n_L = 1, or air where a soil "
+       "has a retention."},
       {"soil.*.erosion", "[soil.NAME.erosion]",
        "How fines of this soil turn into fluidised grains: phi_e = state . rate . <D - D_cr> . "
        "<1 - c/c_cr>, <x> = max(x, 0). The state comes from the law, D is the drive. n_e = "

@@ -19,6 +19,7 @@ class SkeletonChecks : private SceneCheckBase {
     check_start();
     if (!scene_.moves()) return;
     check_scheme();
+    check_inertia();
     check_others();
   }
 
@@ -101,6 +102,13 @@ class SkeletonChecks : private SceneCheckBase {
              shown_value(std::string(soil.skeleton.law->word)) + " with scheme = \"explicit\"",
              "\"rigid\", or scheme = \"implicit\"", {"time.scheme"});
     }
+  }
+
+  /// Flow is relative to the soil: where that starts or stops at once, so would the flow.
+  void check_inertia() const {
+    if (!scene_.time.inertia.value_or(false)) return;
+    report("time.inertia", "true beside a skeleton that moves",
+           "false, or no such key: soil that fails has inertia, and the liquid with it");
   }
 
   /// Refuses what cannot be computed with a moving skeleton: a mesh with slits.

@@ -315,6 +315,16 @@ bool MovingSkeleton<Dim>::let_fail(double time) {
 }
 
 template <int Dim>
+double MovingSkeleton<Dim>::time_of_fall() const {
+  const double g = Eigen::Map<const Eigen::Vector3d>(this->soils().scene().gravity.data()).norm();
+  if (g == 0.0) return 0.0;
+  const std::vector<double>& volume = this->grid_.volume;
+  const double mean =
+      std::accumulate(volume.begin(), volume.end(), 0.0) / this->grid_.mesh.element_count();
+  return std::sqrt(2.0 * std::pow(mean, 1.0 / Dim) / g);
+}
+
+template <int Dim>
 const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing) {
   expect_losses(forcing.porosity);
   prepare_step(forcing);

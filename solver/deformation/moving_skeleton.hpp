@@ -45,6 +45,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   const SolidMotion& accept_motion() override;
   bool let_fail(double time) override;
   [[nodiscard]] bool has_inertia() const override { return inertia_.acts(); }
+  [[nodiscard]] double time_of_fall() const override;
   [[nodiscard]] double longest_step() const override { return inertia_.longest_step(); }
   [[nodiscard]] std::vector<double> load_breakpoints() const override {
     return boundary_loads_.breakpoints();

@@ -131,8 +131,10 @@ SoilState<Dim> soil_state(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
   const std::vector<double> fines = values(snapshot.cell, "fines_fraction", elements);
   const std::vector<double> saturation = values(snapshot.cell, "saturation");
   for (std::size_t e = 0; e < elements; ++e) {
-    // Suction acts on the part of the pores that water fills.
-    if (state.pressure[e] < 0.0 && !saturation.empty()) state.pressure[e] *= saturation[e];
+    if (state.pressure[e] < 0.0 && !saturation.empty()) {
+      const RetentionModel& retention = soils.soil_of_element(static_cast<int>(e)).retention;
+      state.pressure[e] *= retention.effective(saturation[e]);
+    }
     state.liquid_mass.push_back(water[e] * scene.liquid.density +
                                 fines[e] * scene.soils.front().grain_density);
   }

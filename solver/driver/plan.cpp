@@ -238,6 +238,7 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
       (plan.flow.step_given ? "of " + short_text(plan.flow.step) + " s as given"
                             : "chosen for a local error of " + short_text(scene.time.tolerance)));
   const std::string why = scene.time.inertia   ? "as the scene says"
+                          : scene.moves()      ? "soil that fails has it with its own"
                           : retains_air(scene) ? "air gives way before it counts"
                           : plan.flow.inertia  ? "too long to leave out"
                                                : "too short to be noticed";
@@ -332,14 +333,14 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
 
 /// Inertia delays the flow by its relaxation time. It is left out where this time is short against
 /// the given step, or where the volume that it delays is within the tolerance of the volume that
-/// flows in the whole run.
+/// flows in the whole run; and where the soil moves, whose inertia has that of the liquid in it.
 void plan_implicit_step(const Scene& scene, Plan& plan) {
   constexpr double short_of_a_step = 0.01;
   plan.flow.step = scene.time.step.value_or(unset);
   const double unnoticed =
       scene.time.step ? short_of_a_step * *scene.time.step : scene.time.tolerance * scene.time.end;
-  plan.flow.inertia =
-      !retains_air(scene) && scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
+  plan.flow.inertia = !retains_air(scene) && !scene.moves() &&
+                      scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
   // Inertia is there for the start-up as a whole; the waves in it need not be followed.
   if (plan.flow.inertia && !scene.time.inertia) plan.flow.unnoticed = unnoticed;
 }

@@ -6,9 +6,15 @@
 #include "physics/drag.hpp"
 
 namespace suffuse {
+namespace {
+
+constexpr double drying_suction = 1000.0;  // m
+
+}  // namespace
 
 template <int Dim>
-FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils) {
+FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,
+                          const std::vector<SoilFilling>& filling) {
   FlowSoils<Dim> result;
   result.head_per_pressure = 1.0 / (scene.liquid.density * conductivity_gravity);
   const bool retains = std::ranges::any_of(scene.soils, &Soil::drains);
@@ -16,15 +22,28 @@ FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils) {
       std::ranges::any_of(scene.soils, [](const Soil& soil) { return soil.anisotropy() != 1.0; });
   for (int e = 0; e < soils.mesh().element_count(); ++e) {
     const Soil& soil = soils.soil_of_element(e);
-    if (retains) result.retention.push_back(soil.retention);
+    const bool left = soils.points_begin(e) == soils.points_begin(e + 1);
+    if (retains) {
+      result.retention.push_back((left ? soils.free_space() : soil).retention);
+      if (scene.moves()) result.retention.back().dries_at = drying_suction;
+    }
     if (layered) {
       result.bedding.push_back(across_bedding<Dim>(soil) * std::sqrt(1.0 - soil.anisotropy()));
     }
   }
+  if (!retains) return result;
+  result.free_space = soils.free_space().retention;
+  if (!scene.moves()) return result;
+  for (int e = 0; e < soils.mesh().element_count(); ++e) {
+    const SoilFilling f = filling.empty() ? SoilFilling{} : filling[e];
+    const double of_soil = f.share * f.porosity;
+    const double share = f.share == 1.0 ? 1.0 : of_soil / (of_soil + (1.0 - f.share));
+    result.soil_share.push_back(soils.is_soil(e) ? share : 0.0);
+  }
   return result;
 }
 
-template FlowSoils<2> flow_soils(const Scene&, const SoilMap<2>&);
-template FlowSoils<3> flow_soils(const Scene&, const SoilMap<3>&);
+template FlowSoils<2> flow_soils(const Scene&, const SoilMap<2>&, const std::vector<SoilFilling>&);
+template FlowSoils<3> flow_soils(const Scene&, const SoilMap<3>&, const std::vector<SoilFilling>&);
 
 }  // namespace suffuse

@@ -1,12 +1,14 @@
 #pragma once
 
-/// What the soils are to the flow and stays so through a run: retention and bedding, per element.
+/// What the soils are to the flow while they stay where they are: retention and bedding, per
+/// element.
 
 #include <algorithm>
 #include <vector>
 
 #include "flow/flow.hpp"
 #include "physics/retention/retention_law.hpp"
+#include "solid/skeleton.hpp"
 #include "solid/soil_map.hpp"
 
 namespace suffuse {
@@ -14,7 +16,10 @@ namespace suffuse {
 template <int Dim>
 struct FlowSoils {
   std::vector<RetentionModel> retention;  ///< per element; empty: saturated at any pressure
-  double head_per_pressure = 0.0;         ///< 1 / (rho_w 9.81 m/s2), m/Pa
+  /// Share of an element's pores that is soil's, per element; empty: all. The rest is free space.
+  std::vector<double> soil_share;
+  RetentionModel free_space;
+  double head_per_pressure = 0.0;  ///< 1 / (rho_w 9.81 m/s2), m/Pa
   /// Per element: across the bedding, of length sqrt(1 - k_across / k_along); empty where every
   /// soil conducts alike in all directions.
   VectorField<Dim> bedding;
@@ -22,10 +27,13 @@ struct FlowSoils {
   [[nodiscard]] bool saturated() const { return retention.empty(); }
   /// S and k_r of an element's soil at a pressure in Pa, and dS/dp, 1/Pa.
   [[nodiscard]] double saturation(int e, double pressure) const {
-    return retention[e].saturation(pressure * head_per_pressure);
+    const double psi = pressure * head_per_pressure;
+    return mixed(e, retention[e].saturation(psi), [&] { return free_space.saturation(psi); });
   }
   [[nodiscard]] double capacity(int e, double pressure) const {
-    return retention[e].capacity(pressure * head_per_pressure) * head_per_pressure;
+    const double psi = pressure * head_per_pressure;
+    return head_per_pressure *
+           mixed(e, retention[e].capacity(psi), [&] { return free_space.capacity(psi); });
   }
   /// Pressure at which dS/dp is largest, Pa; 0 in soil that stays saturated.
   [[nodiscard]] double steepest(int e) const {
@@ -35,11 +43,31 @@ struct FlowSoils {
   /// Not zero however dry the soil is: pressures are those of a linear system.
   [[nodiscard]] double relative_conductivity(int e, double pressure) const {
     constexpr double driest = 1e-20;
-    return std::max(retention[e].relative_conductivity(pressure * head_per_pressure), driest);
+    // Where air conducts less, pressures in it have no bound, and their iteration no end.
+    constexpr double film = 1e-6;
+    const double psi = pressure * head_per_pressure;
+    return std::max(driest, mixed(e, retention[e].relative_conductivity(psi), [&] {
+                      return std::max(film, free_space.relative_conductivity(psi));
+                    }));
+  }
+  /// S_e = (S - S_r) / (1 - S_r), no less than 0.
+  [[nodiscard]] double effective_saturation(int e, double saturation) const {
+    const double residual =
+        mixed(e, retention[e].residual_saturation, [&] { return free_space.residual_saturation; });
+    return std::max(0.0, (saturation - residual) / (1.0 - residual));
+  }
+
+ private:
+  [[nodiscard]] double mixed(int e, double of_soil, const auto& of_free_space) const {
+    if (soil_share.empty() || soil_share[e] == 1.0) return of_soil;
+    return soil_share[e] * of_soil + (1.0 - soil_share[e]) * of_free_space();
   }
 };
 
+/// Elements that soil has left have the retention of free space.
+/// \param filling  per element; empty: soil fills all elements that it is in
 template <int Dim>
-FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils);
+FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,
+                          const std::vector<SoilFilling>& filling);
 
 }  // namespace suffuse

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "case/errors.hpp"
 #include "flow/implicit_settings.hpp"
 #include "flow/implicit_thresholds.hpp"
+#include "flow/moved_air.hpp"
 #include "grid/face_flux.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"
@@ -25,7 +25,7 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skele
       options_(options),
       solid_(solid),
       scheme_(grid, scheme_settings(this->scene(), options), this->gravity(),
-              flow_soils(this->scene(), solid.soils()), leaky_faces(c, grid)),
+              flow_soils(this->scene(), solid.soils(), solid.filling()), leaky_faces(c, grid)),
       coupling_(grid, solid, options.threads),
       has_gravity_(this->gravity().norm() > 0.0),
       follows_pores_(depends_on_pores(this->scene(), this->conditions_, options) || has_gravity_),
@@ -40,14 +40,17 @@ template <int Dim>
 FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
   const double until = this->next_breakpoint(interval.start, interval.latest);
   const double longest = std::min(interval.longest, solid_.longest_step());
+  follow_soils();
   double dt = control_.propose(interval.start, until, longest);
   MixedStep<Dim> step = reuse_.active() ? steady_step(dt) : accepted_step(interval, dt);
   const double end = dt < until - interval.start ? interval.start + dt : until;
-  FlowProgress progress{1, dt, end, {}, displaced_air(now_.state.air, step.end.air)};
+  FlowProgress progress{1, dt, end, {}};
   if (solid_.moves()) move_solid(step, progress);
+  add_displaced_air(now_.state.air, step.end.air, progress.room_gained);
   progress.volumes = face_volumes(this->grid(), now_.state.face_pressure, pressure_, step,
                                   this->scene().liquid.bulk_modulus, this->threads());
   remember(std::move(step), dt);
+  if (solid_.moves()) coupling_.watch_steps(end, control_.next_step());
   this->update_boundary_values(interval.start, end);
   if (contains_time(this->breakpoints(), end)) {
     pass_breakpoint(end, dt);
@@ -61,9 +64,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::move_solid(MixedStep<Dim>& step, FlowProgress& progress) {
   const SolidMotion& motion = solid_.accept_motion();
   progress.relative = step.face_volume;
-  for (std::size_t f = 0; f < step.face_volume.size(); ++f) {
-    step.face_volume[f] += motion.face_volume[f] - motion.solid_face_volume[f];
-  }
+  move_liquid(this->grid(), motion, now_.state.air, forcing_.back().coefficients.porosity, step);
   progress.room_gained.resize(motion.solid_gain.size(), 0.0);
   for (std::size_t e = 0; e < motion.solid_gain.size(); ++e) {
     progress.room_gained[e] -= motion.solid_gain[e];
@@ -163,29 +164,12 @@ std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::try_step(
     if (dt >= share * this->scene().time.end) {
       control_.reject(start, dt);
     } else if (solid_.let_fail(start)) {
-      dt = control_.last_step();
+      dt = std::max(dt, control_.last_step());
     } else {
-      refuse_unsolved(start, error);
+      coupling_.refuse_unsolved(start, error);
     }
     return std::nullopt;
   }
-}
-
-template <int Dim>
-void ImplicitFlow<Dim>::refuse_unsolved(double time, const NotConverged& error) const {
-  if (!solid_.moves()) throw NumericalError(error.what());
-  std::ostringstream message;
-  message << "t = " << time << " s: ";
-  if (solid_.has_inertia()) {
-    message << error.what() << ": the motion of the soil that fails has no solution";
-  } else if (dynamic_cast<const NoEquilibrium*>(&error) != nullptr) {
-    message << "the soil has lost its equilibrium: it cannot carry its weight, its loads and the "
-               "pressure of the water any longer (to follow it: time.failure = \"follow\")";
-  } else {
-    message << error.what()
-            << ", however short the step is: soil that yields is about to lose its equilibrium";
-  }
-  throw EquilibriumLost(message.str());
 }
 
 template <int Dim>
@@ -199,6 +183,9 @@ void ImplicitFlow<Dim>::find_forcing(const FlowInterval<Dim>& interval, double d
     const double time = interval.start + shares[stage] * dt;
     forcing.coefficients = follows_pores_ ? coefficients_at(interval, time) : this->coefficients_;
     blending_.blend(time - interval.start, this->coefficients_, forcing.coefficients);
+    if (solid_.moves() && scheme_.has_retention()) {
+      keep_pores(this->coefficients_.porosity, forcing.coefficients);
+    }
     if (forcing.conditions.empty()) forcing.conditions = this->conditions_;
     this->boundary_values().update(time, forcing.conditions);
     forcing.source = source;
@@ -276,6 +263,7 @@ void ImplicitFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
 template <int Dim>
 void ImplicitFlow<Dim>::pass_breakpoint(double time, double dt) {
   if (!reuse_.active()) previous_.reset();
+  coupling_.expect_short_steps();
   if (follows_pores_) blending_.shorten(dt);
   const bool boundary_kink = contains_time(this->kinks(), time);
   // Where erosion starts, the steady flow still fits its coefficients, but not those to come.
@@ -338,7 +326,8 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     // Resistances were right at the start of the step: their mean error is half that at its end.
     const double error = blending_.learn(this->coefficients_, dt, weight, losses());
     // Soil that fails changes them by its motion, of which nothing is expected.
-    if (!solid_.has_inertia()) control_.account_for(0.5 * error);
+    const bool shown = solid_.has_inertia() || (solid_.moves() && scheme_.has_retention());
+    if (!shown) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
 }
@@ -411,9 +400,10 @@ void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>*
   raise_over_round_off(scales_, grid, this->coefficients_, scene.liquid, scene.time.end);
   if (solid_.moves()) {
     scales_.include_loads(solid_.largest_load_change(), solid_.stiffness());
-    solid_.start_motion({.pressure = pressure_on_solid(
-                             grid, pressure_, this->coefficients_.porosity, now_.state.air),
-                         .liquid_mass = liquid_mass(grid, this->coefficients_, now_.state.air)});
+    solid_.start_motion(
+        {.pressure = pressure_on_solid(grid, scheme_.soils(), pressure_,
+                                       this->coefficients_.porosity, now_.state.air),
+         .liquid_mass = liquid_mass(grid, this->coefficients_, now_.state.air)});
   }
   // Loads may come at once, and the pressures with them.
   control_.start(first_step(at_rest), !at_rest && !solid_.moves());
@@ -432,7 +422,15 @@ double ImplicitFlow<Dim>::first_step(bool at_rest) const {
 
 template <int Dim>
 double ImplicitFlow<Dim>::filling_time() const {
-  return std::ranges::min(this->coefficients_.water_volume) / largest_magnitude(now_.face_flux);
+  double smallest = std::ranges::min(this->coefficients_.water_volume);
+  if (solid_.moves() && scheme_.has_retention()) {
+    // Elements of air hold next to no water.
+    smallest = std::numeric_limits<double>::infinity();
+    for (int e = 0; e < this->grid().mesh.element_count(); ++e) {
+      smallest = std::min(smallest, this->coefficients_.porosity[e] * this->grid().volume[e]);
+    }
+  }
+  return smallest / largest_magnitude(now_.face_flux);
 }
 
 template <int Dim>
@@ -477,6 +475,7 @@ void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   scheme_.archive(archive, this->conditions_);
   archive(control_, blending_, relaxation_, reuse_, scales_, coupling_);
   archive(now_, previous_, pressure_, eos_error_, solving_, reusing_);
+  if (archive.restores()) follow_soils();
 }
 
 template <int Dim>

@@ -71,10 +71,13 @@ class ImplicitFlow final : public FlowSolver<Dim> {
                          MixedStep<Dim>& step);
   /// Volume by which an element's water grows beyond what its pores take at its pressure, m3.
   [[nodiscard]] std::vector<double> expansion_in(const MixedStep<Dim>& step) const;
+  void follow_soils() {
+    if (solid_.moves()) {
+      scheme_.follow(flow_soils(this->scene(), solid_.soils(), solid_.filling()));
+    }
+  }
   /// Coefficients, boundary values and sources at each stage of a step of `dt`.
   void find_forcing(const FlowInterval<Dim>& interval, double dt);
-  /// Steps have become too short for what `error` says.
-  [[noreturn]] void refuse_unsolved(double time, const NotConverged& error) const;
   /// Coefficients at a time within the interval, as erosion will have made them.
   [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
                                                       double time) const;

@@ -103,6 +103,9 @@ class ImplicitMixed {
   MixedStep<Dim> step(const MixedState<Dim>& start, double dt,
                       const std::vector<const FlowForcing<Dim>*>& forcing);
 
+  [[nodiscard]] const FlowSoils<Dim>& soils() const { return soils_; }
+  /// The soils have moved.
+  void follow(FlowSoils<Dim> soils) { soils_ = std::move(soils); }
   /// Steady state, without inertia and storage: face_flux as rates; face_volume stays empty.
   MixedStep<Dim> steady(const FlowForcing<Dim>& forcing);
   /// The same with every soil saturated at any pressure: a flow as large as it can be.

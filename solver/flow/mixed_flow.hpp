@@ -32,15 +32,16 @@ template <int Dim>
 MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
                             const std::vector<double>& pressure);
 
-/// Volume of air that has left each element between two states, m3; empty where there is none.
+/// Adds the volume of air that has left each element between two states, m3, to `room`, which may
+/// be empty, and stays so where there is no air.
 template <std::size_t Sides>
-std::vector<double> displaced_air(const std::vector<std::array<double, Sides>>& before,
-                                  const std::vector<std::array<double, Sides>>& after) {
-  std::vector<double> result(before.size(), 0.0);
+void add_displaced_air(const std::vector<std::array<double, Sides>>& before,
+                       const std::vector<std::array<double, Sides>>& after,
+                       std::vector<double>& room) {
+  if (room.empty()) room.resize(before.size(), 0.0);
   for (std::size_t e = 0; e < before.size(); ++e) {
-    for (std::size_t k = 0; k < Sides; ++k) result[e] += before[e][k] - after[e][k];
+    for (std::size_t k = 0; k < Sides; ++k) room[e] += before[e][k] - after[e][k];
   }
-  return result;
 }
 
 /// Mean pressure of each element, Pa, of the pressures at its faces.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "flow/mixed_flow.hpp"
+#include "flow/moved_air.hpp"
 #include "grid/parallel.hpp"
 #include "linear/anderson_mixing.hpp"
 
@@ -27,6 +29,8 @@ constexpr double round_off = 1e-7;
 constexpr double round_off_strain = 1e-12;
 /// Of soil that fails, relative to both: its pressures swing by more with each step.
 constexpr double accuracy_in_motion = 1e-4;
+/// Of the time in which soil falls through an element: in equilibrium a shorter step is too short.
+constexpr double short_step = 1e-2;
 
 double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;
@@ -42,9 +46,9 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
   const int elements = grid_.mesh.element_count();
   const Eigen::Map<const Eigen::VectorXd> before(pressure.data(), elements);
   const std::vector<double> own = forcing.source;
-  forcing.mean_storage = solid_.compressibility(dt);
+  const FlowCoefficients<Dim> at_start = forcing.coefficients;
   const double floor = round_off_strain * solid_.stiffness();
-  for (double& storage : forcing.mean_storage) storage *= held_storage;
+  forcing.mean_storage = held_by_soil(scheme.soils(), start.air, forcing, pressure, dt);
   MotionForcing motion_forcing{
       end, dt, {}, liquid_mass(grid_, forcing.coefficients, start.air), std::move(porosity)};
   AndersonMixing mixing(memory);
@@ -57,8 +61,8 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
     ++iterations_;
     std::vector<double> tried(elements);
     for (int e = 0; e < elements; ++e) tried[e] = pressure[e] + rise[e];
-    motion_forcing.pressure =
-        pressure_on_solid(grid_, std::move(tried), forcing.coefficients.porosity, start.air);
+    motion_forcing.pressure = pressure_on_solid(grid_, scheme.soils(), std::move(tried),
+                                                forcing.coefficients.porosity, start.air);
     const SolidMotion& motion = solid_.try_motion(motion_forcing);
     if (!motion.converged) {
       ++failed;
@@ -71,7 +75,9 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
       mixing = AndersonMixing(memory);
       continue;
     }
-    forcing.source = source_of(motion, own, forcing.mean_storage, rise, dt);
+    const std::vector<double> moved =
+        start.air.empty() ? motion.face_volume : without_air(motion, start.air, at_start, forcing);
+    forcing.source = source_of(moved, own, forcing.mean_storage, rise, dt);
     MixedStep<Dim> step = scheme.step(start, dt, {&forcing});
     const std::vector<double> found = element_pressure(grid_, step.end.face_pressure, threads_);
     Eigen::VectorXd new_rise = Eigen::Map<const Eigen::VectorXd>(found.data(), elements) - before;
@@ -79,15 +85,10 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
     for (int e = 0; e < elements; ++e) {
       if (forcing.mean_storage[e] == 0.0) new_rise[e] = 0.0;
     }
-    double allowed = accuracy * largest(new_rise) + round_off * largest(before) + floor;
-    if (solid_.has_inertia()) {
-      allowed = accuracy_in_motion * (largest(new_rise) + largest(before));
-    }
-    if (largest(new_rise - rise) <= allowed) {
+    if (largest(new_rise - rise) <= allowed(largest(new_rise), largest(before), floor)) {
       rise_rate_.assign(new_rise.data(), new_rise.data() + elements);
       for (double& rate : rise_rate_) rate /= dt;
       rise_time_ = dt;
-      most_ = std::max(most_, iteration);
       return step;
     }
     rise = mixing.next(rise, new_rise);
@@ -95,6 +96,56 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
   const std::string count = std::to_string(max_iterations) + " iterations";
   if (failed > 0) throw NoEquilibrium("the soil has found no equilibrium in " + count);
   throw NotConverged("flow and motion of the soil do not agree in " + count);
+}
+
+template <int Dim>
+std::vector<double> SolidCoupling<Dim>::held_by_soil(const FlowSoils<Dim>& soils,
+                                                     const ElementField<Dim>& air,
+                                                     const FlowForcing<Dim>& forcing,
+                                                     const std::vector<double>& pressure,
+                                                     double dt) const {
+  std::vector<double> result = solid_.compressibility(dt);
+  for (double& storage : result) storage *= held_storage;
+  const std::vector<double> saturation = saturation_of(grid_, air, forcing.coefficients.porosity);
+  for (std::size_t e = 0; e < saturation.size(); ++e) {
+    // Suction acts on the soil, and the soil on the water, as far as pores are filled.
+    if (pressure[e] >= 0.0) continue;
+    const double filled = soils.effective_saturation(static_cast<int>(e), saturation[e]);
+    result[e] *= filled * filled;
+  }
+  return result;
+}
+
+template <int Dim>
+double SolidCoupling<Dim>::allowed(double rise, double pressure, double floor) const {
+  if (solid_.has_inertia()) return accuracy_in_motion * (rise + pressure);
+  return accuracy * rise + round_off * pressure + floor;
+}
+
+template <int Dim>
+void SolidCoupling<Dim>::watch_steps(double time, double next_step) {
+  if (next_step >= short_step * solid_.time_of_fall()) {
+    long_steps_ = true;
+  } else if (long_steps_ && solid_.let_fail(time)) {
+    long_steps_ = false;
+  }
+}
+
+template <int Dim>
+void SolidCoupling<Dim>::refuse_unsolved(double time, const NotConverged& error) const {
+  if (!solid_.moves()) throw NumericalError(error.what());
+  std::ostringstream message;
+  message << "t = " << time << " s: ";
+  if (solid_.has_inertia()) {
+    message << error.what() << ": the motion of the soil that fails has no solution";
+  } else if (dynamic_cast<const NoEquilibrium*>(&error) != nullptr) {
+    message << "the soil has lost its equilibrium: it cannot carry its weight, its loads and the "
+               "pressure of the water any longer (to follow it: time.failure = \"follow\")";
+  } else {
+    message << error.what()
+            << ", however short the step is: soil that yields is about to lose its equilibrium";
+  }
+  throw EquilibriumLost(message.str());
 }
 
 template <int Dim>
@@ -119,7 +170,23 @@ Eigen::VectorXd SolidCoupling<Dim>::undrained_rise(MotionForcing forcing,
 }
 
 template <int Dim>
-std::vector<double> SolidCoupling<Dim>::source_of(const SolidMotion& motion,
+std::vector<double> SolidCoupling<Dim>::without_air(const SolidMotion& motion,
+                                                    const ElementField<Dim>& air,
+                                                    const FlowCoefficients<Dim>& start,
+                                                    FlowForcing<Dim>& forcing) const {
+  const MovedAir<Dim> moved(grid_, air, start.porosity, motion.face_volume);
+  std::vector<double> result(grid_.face_count());
+  for (int f = 0; f < grid_.face_count(); ++f) result[f] = moved.without_air(f);
+  FlowCoefficients<Dim>& c = forcing.coefficients;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    c.porosity[e] = start.porosity[e] + moved.pores_gained(e) / grid_.volume[e];
+    c.drag[e] = start.drag[e] * c.porosity[e] / start.porosity[e];  // the conductivity stays
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> SolidCoupling<Dim>::source_of(const std::vector<double>& moved,
                                                   const std::vector<double>& own,
                                                   const std::vector<double>& storage,
                                                   const Eigen::VectorXd& rise, double dt) const {
@@ -129,8 +196,7 @@ std::vector<double> SolidCoupling<Dim>::source_of(const SolidMotion& motion,
     source[e] = (own.empty() ? 0.0 : own[e]) + storage[e] * rise[e] / dt;
     // Pores that open with the soil take liquid in.
     for (int k = 0; k <= Dim; ++k) {
-      source[e] -=
-          grid_.element_face_sign[e][k] * motion.face_volume[grid_.element_face[e][k]] / dt;
+      source[e] -= grid_.element_face_sign[e][k] * moved[grid_.element_face[e][k]] / dt;
     }
   });
   return source;
@@ -148,12 +214,14 @@ std::vector<double> liquid_mass(const Grid<Dim>& grid, const FlowCoefficients<Di
 }
 
 template <int Dim>
-std::vector<double> pressure_on_solid(const Grid<Dim>& grid, std::vector<double> pressure,
+std::vector<double> pressure_on_solid(const Grid<Dim>& grid, const FlowSoils<Dim>& soils,
+                                      std::vector<double> pressure,
                                       const std::vector<double>& porosity,
                                       const ElementField<Dim>& air) {
+  const std::vector<double> saturation = saturation_of(grid, air, porosity);
   for (std::size_t e = 0; e < air.size(); ++e) {
-    const double pores = porosity[e] * grid.volume[e];
-    if (pressure[e] < 0.0) pressure[e] *= 1.0 - element_sum<Dim>(air[e]) / pores;
+    if (pressure[e] < 0.0)
+      pressure[e] *= soils.effective_saturation(static_cast<int>(e), saturation[e]);
   }
   return pressure;
 }
@@ -164,9 +232,11 @@ template std::vector<double> liquid_mass(const Grid<2>&, const FlowCoefficients<
                                          const ElementField<2>&);
 template std::vector<double> liquid_mass(const Grid<3>&, const FlowCoefficients<3>&,
                                          const ElementField<3>&);
-template std::vector<double> pressure_on_solid(const Grid<2>&, std::vector<double>,
-                                               const std::vector<double>&, const ElementField<2>&);
-template std::vector<double> pressure_on_solid(const Grid<3>&, std::vector<double>,
-                                               const std::vector<double>&, const ElementField<3>&);
+template std::vector<double> pressure_on_solid(const Grid<2>&, const FlowSoils<2>&,
+                                               std::vector<double>, const std::vector<double>&,
+                                               const ElementField<2>&);
+template std::vector<double> pressure_on_solid(const Grid<3>&, const FlowSoils<3>&,
+                                               std::vector<double>, const std::vector<double>&,
+                                               const ElementField<3>&);
 
 }  // namespace suffuse

@@ -33,17 +33,41 @@ class SolidCoupling {
                       const std::vector<double>& pressure, std::vector<double> porosity, double end,
                       double dt, FlowForcing<Dim> forcing);
 
-  /// Of all steps so far, and of the one that took most.
-  [[nodiscard]] long iterations() const { return iterations_; }
-  [[nodiscard]] int most_iterations() const { return most_; }
+  /// A step has ended at `time`, s, and the next will be of `next_step`, s. Where an equilibrium
+  /// takes steps in which soil hardly falls, it is about to be lost: lets the soil fail.
+  void watch_steps(double time, double next_step);
+  /// What drives flow or motion changes at once: short steps follow for that reason.
+  void expect_short_steps() { long_steps_ = false; }
+  /// Steps have become too short for what `error` says. Throws EquilibriumLost; NumericalError
+  /// where the soil does not move.
+  [[noreturn]] void refuse_unsolved(double time, const NotConverged& error) const;
 
-  void archive(auto& archive) { archive(rise_rate_, rise_time_, iterations_, most_); }
+  /// Of all steps so far.
+  [[nodiscard]] long iterations() const { return iterations_; }
+
+  void archive(auto& archive) { archive(rise_rate_, rise_time_, iterations_, long_steps_); }
 
  private:
+  /// What elements store in the iteration beside their own, of the soil's compressibility, m3/Pa.
+  [[nodiscard]] std::vector<double> held_by_soil(const FlowSoils<Dim>& soils,
+                                                 const ElementField<Dim>& air,
+                                                 const FlowForcing<Dim>& forcing,
+                                                 const std::vector<double>& pressure,
+                                                 double dt) const;
+  /// By so much pressures may differ that agree, Pa, where they rise by `rise` from `pressure`;
+  /// `floor`: by so much anyhow.
+  [[nodiscard]] double allowed(double rise, double pressure, double floor) const;
   /// Where drained soil could not bear a load: the pressures if next to no water left, as a start.
   /// Throws NotConverged.
   [[nodiscard]] Eigen::VectorXd undrained_rise(MotionForcing forcing, Eigen::VectorXd rise) const;
-  [[nodiscard]] std::vector<double> source_of(const SolidMotion& motion,
+  /// Volume that crosses faces with the motion, without its air. The pores of `forcing` become
+  /// those of `start`, grown as solid leaves.
+  [[nodiscard]] std::vector<double> without_air(const SolidMotion& motion,
+                                                const ElementField<Dim>& air,
+                                                const FlowCoefficients<Dim>& start,
+                                                FlowForcing<Dim>& forcing) const;
+  /// \param moved  volume that crosses faces with the motion, m3
+  [[nodiscard]] std::vector<double> source_of(const std::vector<double>& moved,
                                               const std::vector<double>& own,
                                               const std::vector<double>& storage,
                                               const Eigen::VectorXd& rise, double dt) const;
@@ -54,7 +78,7 @@ class SolidCoupling {
   std::vector<double> rise_rate_;  ///< of the pressure in the last step, per element, Pa/s
   double rise_time_ = 0.0;         ///< duration of that step, s
   long iterations_ = 0;
-  int most_ = 0;
+  bool long_steps_ = false;  ///< there have been some since something changed at once
 };
 
 /// Mass of liquid per volume of soil and element, kg/m3.
@@ -62,10 +86,11 @@ template <int Dim>
 std::vector<double> liquid_mass(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                                 const ElementField<Dim>& air);
 
-/// The pressure of the pores as the skeleton feels it (Bishop): suction as far as the pores are
-/// filled. Per element, Pa.
+/// The pressure of the pores as the skeleton feels it, per element, Pa: suction times the effective
+/// saturation (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515).
 template <int Dim>
-std::vector<double> pressure_on_solid(const Grid<Dim>& grid, std::vector<double> pressure,
+std::vector<double> pressure_on_solid(const Grid<Dim>& grid, const FlowSoils<Dim>& soils,
+                                      std::vector<double> pressure,
                                       const std::vector<double>& porosity,
                                       const ElementField<Dim>& air);
 

@@ -20,13 +20,30 @@ constexpr double free_water_ratio = 1e4;
 constexpr double still_gradient = 1e-12;
 constexpr double still_share = 1e-15;
 
-Soil free_water(const Scene& scene) {
+/// Beside soil that drains, air takes the place of water under suction: over a fringe of this share
+/// of an element. Water then runs through it as through gravel.
+constexpr double fringe = 0.25;
+constexpr double free_air_ratio = 100.0;
+
+template <int Dim>
+double mean_size(const Mesh<Dim>& mesh) {
+  double volume = 0.0;
+  for (int e = 0; e < mesh.element_count(); ++e) volume += element_volume(mesh, e);
+  return std::pow(volume / mesh.element_count(), 1.0 / Dim);
+}
+
+Soil free_water(const Scene& scene, double element_size) {
   Soil water;
   water.porosity = 1.0;
   water.skeleton_fraction = 0.0;
   water.conductivity = 0.0;
   for (const Soil& soil : scene.soils) {
     water.conductivity = std::max(water.conductivity, free_water_ratio * soil.conductivity);
+  }
+  if (std::ranges::any_of(scene.soils, &Soil::drains)) {
+    water.conductivity *= free_air_ratio / free_water_ratio;
+    water.retention = {.law = retention_law("van-genuchten"),
+                       .parameters = {.alpha = 1.0 / (fringe * element_size), .n = 3.0}};
   }
   return water;
 }
@@ -57,7 +74,7 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
     : scene_(c.document.scene),
       mesh_(c.mesh),
       points_(&c.solid_points),
-      free_water_(std::make_shared<const Soil>(free_water(c.document.scene))) {
+      free_water_(std::make_shared<const Soil>(free_water(c.document.scene, mean_size(c.mesh)))) {
   const double most_conductive = free_water_->conductivity / free_water_ratio;
   for (const std::string& region : mesh_.region_names) {
     const Soil* soil = c.document.scene.find_soil(region);

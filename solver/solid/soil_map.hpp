@@ -55,6 +55,8 @@ class SoilMap {
   [[nodiscard]] bool is_soil(int element) const {
     return soil_of_region_[region_of_element(element)] != free_water_.get();
   }
+  /// Where there is no soil: water, and air where some soil drains.
+  [[nodiscard]] const Soil& free_space() const { return *free_water_; }
   [[nodiscard]] const Soil& soil_of_element(int element) const {
     return *soil_of_region_[region_of_element(element)];
   }

@@ -8,6 +8,7 @@
 
 #include "case/errors.hpp"
 #include "solver/double_point_case.hpp"
+#include "solver/solid_model.hpp"
 
 namespace suffuse {
 namespace {
@@ -306,6 +307,10 @@ TEST(Plan, KeepsInertiaWhereItsTimeWouldBeNoticed) {
   EXPECT_FALSE(keeps());
   scene.time.end = 1.0;
   EXPECT_TRUE(keeps());
+  // Soil that moves has its own, and the liquid in its pores with it.
+  scene.soils[0].skeleton = model::elastic_soil(1e7, 0.3);
+  EXPECT_FALSE(keeps());
+  scene.soils[0].skeleton = {};
   scene.time.inertia = false;
   EXPECT_FALSE(keeps());
   scene.time.inertia.reset();

@@ -1,4 +1,4 @@
-/// Soil under free water, and a bank of it that loses its fines, fails and runs out.
+/// Soil under free water and under air, and a bank of it that loses its fines, fails and runs out.
 
 #include <gtest/gtest.h>
 
@@ -72,6 +72,57 @@ TEST(FreeWater, PressesOnTheSoilBelowIt) {
   }
 }
 
+/// Gardner's soil over a water table at its base, under air: its weight with the water that it
+/// holds, and suction times the effective saturation. sigma' is off by so much of the largest.
+double stress_error_under_air(int rows) {
+  constexpr double surface = 0.5;
+  constexpr double alpha = 3.0;
+  constexpr double residual = 0.1;
+  Scene scene = basin(0.0);
+  scene.boundaries.back() = fixed_on("top", Fixing::none);
+  scene.boundaries[2].head = TimeFunction(0.0);
+  scene.boundaries[2].concentration = TimeFunction(0.0);
+  scene.time.end = 1.0;
+  scene.soils[0].skeleton = model::elastic_soil(1e8, 0.0);
+  scene.soils[0].retention = model::gardner(alpha, residual);
+  model::ModelRun run(
+      model::make_case(under_water(model::crossed_mesh(2, rows, 2.0 / rows, 1.0),
+                                   [](const Vector<2>& x) { return x[1] < surface; }),
+                       scene));
+  const auto moments = run.run({1.0}, true);
+  const Snapshot& snapshot = moments.snapshots.back();
+  const auto stress = std::ranges::find(snapshot.solid, "effective_stress", &Field::name);
+  const auto exact_at = [&](double y) {
+    const double water =
+        residual * (surface - y) +
+        (1.0 - residual) / alpha * (std::exp(-alpha * y) - std::exp(-alpha * surface));
+    const double weight = 0.7 * 2700.0 * 9.81 * (surface - y) + 0.3 * 1000.0 * 9.81 * water;
+    return -weight - std::exp(-alpha * y) * 1000.0 * 9.81 * y;
+  };
+  double error = 0.0;
+  for (std::size_t p = 0; p < snapshot.solid_positions.size() / 3; ++p) {
+    const double y = snapshot.solid_positions[3 * p + 1];
+    if (y > 0.35) continue;  // elements at the surface hold water as soil and as free space do
+    const double exact = exact_at(y);
+    error = std::max(error, std::abs(stress->values[4 * p + 1] - exact) / -exact_at(0.0));
+  }
+  EXPECT_LT(run.worst_residual(), 1e-12);
+  return error;
+}
+
+TEST(Air, LeavesTheSoilBelowItItsWeightAndItsSuction) {
+  double last = 0.0;
+  for (const int rows : {8, 16, 32}) {
+    const double error = stress_error_under_air(rows);
+    std::cout << rows << " rows: stress off by " << error << "\n";
+    EXPECT_LT(error, 1.0 / rows);
+    if (last > 0.0) {
+      EXPECT_GT(std::log2(last / error), 0.8);
+    }
+    last = error;
+  }
+}
+
 /// A bank of 1 m with a slope of 45 degrees that loses strength with its fines.
 Scene bank() {
   Scene scene = basin(1.25);
@@ -118,6 +169,36 @@ TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
   EXPECT_LT(run.worst_residual(), 1e-12);
   EXPECT_NEAR(missing_fines(now.ledger, erodible), 0.0, 1e-12 * erodible);
   EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, solid, 1e-12 * solid);
+}
+
+/// Sand over a water table slides into air as it loses strength. Nothing is lost, and no element is
+/// sucked dry.
+TEST(Bank, SlidesIntoAir) {
+  Scene scene = bank();
+  scene.water_level = 0.1;
+  scene.boundaries.back() = fixed_on("top", Fixing::none);
+  Soil& soil = scene.soils[0];
+  soil.conductivity = 1e-3;
+  soil.retention = model::van_genuchten(3.0, 2.5);
+  soil.skeleton.friction = FinesFunction({{1.0, 35.0}, {0.97, 16.0}, {0.0, 16.0}});
+  soil.skeleton.cohesion = FinesFunction({{1.0, 3e3}, {0.97, 0.0}, {0.0, 0.0}});
+  soil.erosion.rate = 1e-3;
+  scene.time.end = 12.0;
+  scene.time.failure = AtFailure::follow;
+  model::ModelRun run = bank_run(scene);
+  const LedgerRow start = run.model().ledger();
+  const auto states = run.run({2.0, 12.0}).states;
+  EXPECT_LT(states[0].history.displacement_max, 1e-3);
+  const auto& now = states[1];
+  std::cout << "failed at " << now.history.failure_time << " s, moved by "
+            << now.history.displacement_max << " m at " << now.time << " s, " << run.steps()
+            << " steps, pressures from " << now.history.pressure_min << " Pa\n";
+  EXPECT_GT(now.history.displacement_max, 0.1);
+  EXPECT_GT(now.history.failure_time, 0.0);
+  EXPECT_GT(now.history.pressure_min, -1e5);
+  EXPECT_LT(run.worst_residual(), 1e-12);
+  EXPECT_NEAR(missing_fines(now.ledger, start.erodible), 0.0, 1e-12 * start.erodible);
+  EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, start.solid, 1e-12 * start.solid);
 }
 
 TEST(Bank, EndsInItsLastEquilibriumWhereTheSceneDoesNotSayMore) {

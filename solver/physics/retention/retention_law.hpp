@@ -3,6 +3,8 @@
 /// Retention laws: how much liquid the pores of a soil hold under suction, and how well the soil
 /// then conducts. Each law is one file of this folder; docs/contributing.md says how to add one.
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -22,6 +24,9 @@ struct RetentionModel {
   const RetentionLaw* law = nullptr;  ///< null: saturated at any pressure
   double residual_saturation = 0.0;   ///< S_r
   RetentionParameters parameters = {};
+  /// Suction head at which soil has lost half of what it retains, m: soil that moves can have less
+  /// than the residual saturation, as its pores open.
+  double dries_at = std::numeric_limits<double>::infinity();
 
   /// S; 1 where psi >= 0.
   [[nodiscard]] double saturation(double psi) const;
@@ -29,6 +34,10 @@ struct RetentionModel {
   [[nodiscard]] double capacity(double psi) const;
   /// k_r, conductivity over that of the saturated soil; 1 where psi >= 0.
   [[nodiscard]] double relative_conductivity(double psi) const;
+  /// S_e = (S - S_r) / (1 - S_r), no less than 0.
+  [[nodiscard]] double effective(double saturation) const {
+    return std::max(0.0, (saturation - residual_saturation) / (1.0 - residual_saturation));
+  }
 };
 
 /// A number that a law asks the scene for, under `[soil.NAME.retention]`. It has no default.
@@ -63,12 +72,15 @@ const RetentionLaw* retention_law(std::string_view word);
 
 inline double RetentionModel::saturation(double psi) const {
   if (law == nullptr || psi >= 0.0) return 1.0;
-  return residual_saturation + (1.0 - residual_saturation) * law->saturation(parameters, psi);
+  const double retained = residual_saturation / (1.0 + (psi / dries_at) * (psi / dries_at));
+  return retained + (1.0 - residual_saturation) * law->saturation(parameters, psi);
 }
 
 inline double RetentionModel::capacity(double psi) const {
   if (law == nullptr || psi >= 0.0) return 0.0;
-  return (1.0 - residual_saturation) * law->capacity(parameters, psi);
+  const double held = 1.0 + (psi / dries_at) * (psi / dries_at);
+  const double dried = -2.0 * residual_saturation * psi / (dries_at * dries_at * held * held);
+  return dried + (1.0 - residual_saturation) * law->capacity(parameters, psi);
 }
 
 inline double RetentionModel::relative_conductivity(double psi) const {

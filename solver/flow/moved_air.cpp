@@ -1,0 +1,112 @@
+#include "flow/moved_air.hpp"
+
+#include <algorithm>
+
+namespace suffuse {
+namespace {
+
+/// Air takes the place that water and solid leave, to the last digit. `before`: at the start of the
+/// step; `liquid` has crossed the faces, m3.
+template <int Dim>
+void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
+                const std::vector<double>& liquid, const std::vector<double>& solid_gain,
+                ElementField<Dim>& air) {
+  for (std::size_t e = 0; e < air.size(); ++e) {
+    double left = element_sum<Dim>(before[e]) - solid_gain[e];
+    for (int k = 0; k <= Dim; ++k) {
+      left += grid.element_face_sign[e][k] * liquid[grid.element_face[e][k]];
+    }
+    const double missing = left - element_sum<Dim>(air[e]);
+    for (double& side : air[e]) side += missing / (Dim + 1);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air,
+                        const std::vector<double>& porosity, const std::vector<double>& face_volume)
+    : grid_(grid), solid_(face_volume), water_(face_volume) {
+  const std::vector<double> saturation = saturation_of(grid, air, porosity);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    // From the element that takes in what goes against the soil.
+    const double pores = taken_in(f, -face_volume[f], porosity);
+    solid_[f] *= 1.0 - pores;
+    water_[f] *= pores * taken_in(f, -face_volume[f], saturation);
+  }
+}
+
+template <int Dim>
+double MovedAir<Dim>::taken_in(int face, double volume,
+                               const std::vector<double>& of_element) const {
+  const bool into_right = volume > 0.0 && !grid_.is_outer(face);
+  return of_element[into_right ? grid_.face_right[face] : grid_.face_left[face]];
+}
+
+template <int Dim>
+double MovedAir<Dim>::pores_gained(int e) const {
+  double sum = 0.0;
+  for (int k = 0; k <= Dim; ++k) {
+    sum += grid_.element_face_sign[e][k] * solid_[grid_.element_face[e][k]];
+  }
+  return sum;
+}
+
+template <int Dim>
+double MovedAir<Dim>::water(int face, double solid, const std::vector<double>& saturation) const {
+  const double beyond = solid - solid_[face];
+  return water_[face] - taken_in(face, beyond, saturation) * beyond;
+}
+
+template <int Dim>
+std::vector<double> saturation_of(const Grid<Dim>& grid, const ElementField<Dim>& air,
+                                  const std::vector<double>& porosity) {
+  std::vector<double> result(air.size());
+  for (std::size_t e = 0; e < air.size(); ++e) {
+    result[e] = 1.0 - element_sum<Dim>(air[e]) / (porosity[e] * grid.volume[e]);
+  }
+  return result;
+}
+
+template <int Dim>
+void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const ElementField<Dim>& air,
+                 std::vector<double> porosity, MixedStep<Dim>& step) {
+  if (air.empty()) {
+    for (int f = 0; f < grid.face_count(); ++f) {
+      step.face_volume[f] += motion.face_volume[f] - motion.solid_face_volume[f];
+    }
+    return;
+  }
+  const MovedAir<Dim> moved(grid, air, porosity, motion.face_volume);
+  for (std::size_t e = 0; e < air.size(); ++e) {
+    porosity[e] += moved.pores_gained(static_cast<int>(e)) / grid.volume[e];
+  }
+  const std::vector<double> saturation = saturation_of(grid, step.end.air, porosity);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    step.face_volume[f] += moved.water(f, motion.solid_face_volume[f], saturation);
+  }
+  take_place(grid, air, step.face_volume, motion.solid_gain, step.end.air);
+}
+
+template <int Dim>
+void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahead) {
+  for (std::size_t e = 0; e < porosity.size(); ++e) {
+    ahead.drag[e] *= porosity[e] / ahead.porosity[e];
+    ahead.porosity[e] = porosity[e];
+  }
+}
+
+template class MovedAir<2>;
+template class MovedAir<3>;
+template void move_liquid(const Grid<2>&, const SolidMotion&, const ElementField<2>&,
+                          std::vector<double>, MixedStep<2>&);
+template void move_liquid(const Grid<3>&, const SolidMotion&, const ElementField<3>&,
+                          std::vector<double>, MixedStep<3>&);
+template void keep_pores(const std::vector<double>&, FlowCoefficients<2>&);
+template void keep_pores(const std::vector<double>&, FlowCoefficients<3>&);
+template std::vector<double> saturation_of(const Grid<2>&, const ElementField<2>&,
+                                           const std::vector<double>&);
+template std::vector<double> saturation_of(const Grid<3>&, const ElementField<3>&,
+                                           const std::vector<double>&);
+
+}  // namespace suffuse

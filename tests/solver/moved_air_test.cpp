@@ -1,0 +1,139 @@
+/// Water and air that soil takes along as it moves.
+
+#include "flow/moved_air.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "flow/flow_soils.hpp"
+#include "model_case.hpp"
+
+namespace suffuse {
+namespace {
+
+class MovedAirTest : public testing::Test {
+ protected:
+  MovedAirTest() : grid_(mesh_), porosity_(grid_.mesh.element_count(), 0.4) {
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      // Half filled.
+      const double side = 0.5 * 0.4 * grid_.volume[e] / 3.0;
+      air_.push_back({side, side, side});
+    }
+    for (const Vector<2>& normal : grid_.face_normal) {
+      shift_.push_back(normal.dot(Vector<2>(0.01, -0.02)));
+    }
+  }
+
+  [[nodiscard]] double outflow(int e, const std::vector<double>& through) const {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      sum += grid_.element_face_sign[e][k] * through[grid_.element_face[e][k]];
+    }
+    return sum;
+  }
+
+  Mesh<2> mesh_ = model::column_mesh(2, 2);
+  Grid<2> grid_;
+  std::vector<double> porosity_;
+  ElementField<2> air_;
+  std::vector<double> shift_;  ///< of a body that moves as a whole, m3
+};
+
+TEST_F(MovedAirTest, ABodyThatMovesAsAWholeCarriesItsWater) {
+  const MovedAir<2> moved(grid_, air_, porosity_, shift_);
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    EXPECT_NEAR(moved.without_air(f), (1.0 - 0.5 * 0.4) * shift_[f], 1e-16);
+    const std::vector<double> saturation(porosity_.size(), 0.5);
+    EXPECT_NEAR(moved.water(f, 0.6 * shift_[f], saturation), 0.2 * shift_[f], 1e-16);
+  }
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    EXPECT_NEAR(moved.pores_gained(e), 0.0, 1e-16);
+  }
+}
+
+TEST_F(MovedAirTest, SoilComesFromTheElementBehindIt) {
+  int f = 0;
+  while (grid_.is_outer(f) || shift_[f] <= 0.0) ++f;
+  porosity_[grid_.face_right[f]] = 0.9;
+  const MovedAir<2> with(grid_, air_, porosity_, shift_);
+  EXPECT_NEAR(with.without_air(f), 0.8 * shift_[f], 1e-16);
+  std::vector<double> back = shift_;
+  for (double& v : back) v = -v;
+  const MovedAir<2> against(grid_, air_, porosity_, back);
+  const double air = 0.5 * 0.4;
+  EXPECT_NEAR(against.without_air(f), (1.0 - air) * back[f], 1e-16);
+}
+
+/// Solid that crosses beyond what the soil would carry takes the place of water where it goes.
+TEST_F(MovedAirTest, NoElementGivesWaterThatItDoesNotHave) {
+  int f = 0;
+  while (grid_.is_outer(f)) ++f;
+  const MovedAir<2> still(grid_, air_, porosity_, std::vector<double>(grid_.face_count(), 0.0));
+  std::vector<double> saturation(porosity_.size(), 1.0);
+  saturation[grid_.face_right[f]] = 0.0;
+  EXPECT_DOUBLE_EQ(still.water(f, 0.01, saturation), 0.0);
+  EXPECT_DOUBLE_EQ(still.water(f, -0.01, saturation), 0.01);
+}
+
+TEST_F(MovedAirTest, AirTakesThePlaceOfWhatLeaves) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> some(-1e-3, 1e-3);
+  SolidMotion motion;
+  motion.face_volume = shift_;
+  motion.solid_gain.assign(porosity_.size(), 0.0);
+  MixedStep<2> step;
+  step.end.air = air_;
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    motion.solid_face_volume.push_back(0.6 * shift_[f] + some(random));
+    step.face_volume.push_back(some(random));
+  }
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    motion.solid_gain[e] = -outflow(e, motion.solid_face_volume);
+  }
+  move_liquid(grid_, motion, air_, porosity_, step);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const double gained = element_sum<2>(step.end.air[e]) - element_sum<2>(air_[e]);
+    const double left = outflow(e, step.face_volume) + outflow(e, motion.solid_face_volume);
+    EXPECT_NEAR(gained, left, 1e-16);
+  }
+}
+
+/// Soil that moves has less than its residual saturation where it is dry enough, and its capacity
+/// is the slope of its saturation.
+TEST(DryingSoil, LosesWhatItRetains) {
+  RetentionModel soil = model::van_genuchten(3.0, 2.5, 0.1);
+  soil.dries_at = 1000.0;
+  EXPECT_NEAR(soil.saturation(-1000.0), 0.05, 1e-4);
+  EXPECT_NEAR(soil.saturation(-1.0), model::van_genuchten(3.0, 2.5, 0.1).saturation(-1.0), 1e-6);
+  for (const double psi : {-0.3, -3.0, -300.0, -3000.0}) {
+    const double near = 1e-5 * psi;
+    const double slope = (soil.saturation(psi + near) - soil.saturation(psi - near)) / (2.0 * near);
+    EXPECT_NEAR(soil.capacity(psi), slope, 1e-6 * slope);
+  }
+  EXPECT_EQ(soil.effective(0.05), 0.0);
+  EXPECT_NEAR(soil.effective(0.55), 0.5, 1e-15);
+}
+
+/// An element at the surface of the soil retains as its soil and as free space, by their shares.
+TEST(FlowSoils, MixWhereSoilFillsAPart) {
+  FlowSoils<2> soils;
+  soils.head_per_pressure = 1e-4;
+  soils.retention = {model::van_genuchten(3.0, 2.5, 0.1), model::van_genuchten(3.0, 2.5, 0.1)};
+  soils.free_space = model::van_genuchten(30.0, 3.0, 0.0);
+  soils.soil_share = {1.0, 0.25};
+  const double pressure = -4e3;
+  const double soil = soils.retention[0].saturation(-0.4);
+  EXPECT_DOUBLE_EQ(soils.saturation(0, pressure), soil);
+  EXPECT_NEAR(soils.saturation(1, pressure), 0.25 * soil + 0.75 * soils.free_space.saturation(-0.4),
+              1e-15);
+  const double near = 1.0;
+  const double slope =
+      (soils.saturation(1, pressure + near) - soils.saturation(1, pressure - near)) / (2.0 * near);
+  EXPECT_NEAR(soils.capacity(1, pressure), slope, 1e-6 * slope);
+  EXPECT_NEAR(soils.effective_saturation(1, 0.5125), 0.5, 1e-15);
+}
+
+}  // namespace
+}  // namespace suffuse
