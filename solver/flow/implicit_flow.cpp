@@ -64,7 +64,9 @@ template <int Dim>
 void ImplicitFlow<Dim>::move_solid(MixedStep<Dim>& step, FlowProgress& progress) {
   const SolidMotion& motion = solid_.accept_motion();
   progress.relative = step.face_volume;
-  move_liquid(this->grid(), motion, now_.state.air, forcing_.back().coefficients.porosity, step);
+  const ElementField<Dim> air =
+      scheme_.soils().soil_share.empty() ? ElementField<Dim>() : now_.state.air;
+  move_liquid(this->grid(), motion, air, forcing_.back().coefficients.porosity, step);
   progress.room_gained.resize(motion.solid_gain.size(), 0.0);
   for (std::size_t e = 0; e < motion.solid_gain.size(); ++e) {
     progress.room_gained[e] -= motion.solid_gain[e];
@@ -87,7 +89,6 @@ MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interva
     if (!control_.accept(interval.start, error, previous_.has_value(), dt)) continue;
     if (scheme_.iterations() > limits.slow_iterations) control_.hold(dt);
     if (solid_.has_inertia()) control_.hold(limits.inertial_growth * dt);
-
     let_out_expansion(dt, stages, step);
     if (!forcing_.back().source.empty()) relaxation_.set_source(forcing_.back().source);
     blending_.record(forcing_.back().coefficients);
@@ -183,7 +184,7 @@ void ImplicitFlow<Dim>::find_forcing(const FlowInterval<Dim>& interval, double d
     const double time = interval.start + shares[stage] * dt;
     forcing.coefficients = follows_pores_ ? coefficients_at(interval, time) : this->coefficients_;
     blending_.blend(time - interval.start, this->coefficients_, forcing.coefficients);
-    if (solid_.moves() && scheme_.has_retention()) {
+    if (!scheme_.soils().soil_share.empty()) {
       keep_pores(this->coefficients_.porosity, forcing.coefficients);
     }
     if (forcing.conditions.empty()) forcing.conditions = this->conditions_;
@@ -326,7 +327,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     // Resistances were right at the start of the step: their mean error is half that at its end.
     const double error = blending_.learn(this->coefficients_, dt, weight, losses());
     // Soil that fails changes them by its motion, of which nothing is expected.
-    const bool shown = solid_.has_inertia() || (solid_.moves() && scheme_.has_retention());
+    const bool shown = solid_.has_inertia() || (!scheme_.soils().soil_share.empty());
     if (!shown) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
@@ -423,7 +424,7 @@ double ImplicitFlow<Dim>::first_step(bool at_rest) const {
 template <int Dim>
 double ImplicitFlow<Dim>::filling_time() const {
   double smallest = std::ranges::min(this->coefficients_.water_volume);
-  if (solid_.moves() && scheme_.has_retention()) {
+  if (!scheme_.soils().soil_share.empty()) {
     // Elements of air hold next to no water.
     smallest = std::numeric_limits<double>::infinity();
     for (int e = 0; e < this->grid().mesh.element_count(); ++e) {

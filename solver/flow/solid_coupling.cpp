@@ -75,8 +75,9 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
       mixing = AndersonMixing(memory);
       continue;
     }
-    const std::vector<double> moved =
-        start.air.empty() ? motion.face_volume : without_air(motion, start.air, at_start, forcing);
+    const std::vector<double> moved = scheme.soils().soil_share.empty()
+                                          ? motion.face_volume
+                                          : without_air(motion, start.air, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, rise, dt);
     MixedStep<Dim> step = scheme.step(start, dt, {&forcing});
     const std::vector<double> found = element_pressure(grid_, step.end.face_pressure, threads_);
@@ -109,7 +110,7 @@ std::vector<double> SolidCoupling<Dim>::held_by_soil(const FlowSoils<Dim>& soils
   const std::vector<double> saturation = saturation_of(grid_, air, forcing.coefficients.porosity);
   for (std::size_t e = 0; e < saturation.size(); ++e) {
     // Suction acts on the soil, and the soil on the water, as far as pores are filled.
-    if (pressure[e] >= 0.0) continue;
+    if (pressure[e] >= 0.0 || soils.soil_share.empty()) continue;
     const double filled = soils.effective_saturation(static_cast<int>(e), saturation[e]);
     result[e] *= filled * filled;
   }
