@@ -220,6 +220,8 @@ enum class FieldPrecision { float64, float32 };
 struct OutputSettings {
   double every = unset;           ///< s between rows of the tables and, by default, snapshots
   double snapshot_every = unset;  ///< s between snapshots
+  /// s between both while soil fails; without it as ever.
+  std::optional<double> failure_every;
   int restarts = 2;               ///< newest snapshots that keep the state from which a run goes on
   FieldPrecision precision = FieldPrecision::float64;
   std::vector<OutputProbe> probes;

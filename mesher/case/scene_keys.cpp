@@ -637,6 +637,12 @@ std::vector<SceneKey> declare_keys() {
           .in("s")
           .above(0.0)
           .otherwise_as("`output.every`"),
+      key("output.failure_every", at(&Scene::output, &OutputSettings::failure_every),
+          "Time between rows and snapshots while soil that has lost its equilibrium moves, beside "
+          "those above: a slide takes seconds of a flood of days. With `time.failure = \"follow\"`.")
+          .in("s")
+          .above(0.0)
+          .otherwise_as("no others than those above"),
       key("output.restarts", at(&Scene::output, &OutputSettings::restarts),
           "Snapshots behind which the run can go on, the newest ones. Their states take more room "
           "than the fields; those of older snapshots are removed.")

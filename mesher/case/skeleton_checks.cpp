@@ -17,6 +17,7 @@ class SkeletonChecks : private SceneCheckBase {
     for (const Soil& soil : scene_.soils) check_soil(soil, table_of(soil) + ".skeleton");
     for (const BoundaryCondition& boundary : scene_.boundaries) check_boundary(boundary);
     check_start();
+    check_failure();
     if (!scene_.moves()) return;
     check_scheme();
     check_inertia();
@@ -91,6 +92,14 @@ class SkeletonChecks : private SceneCheckBase {
       report(key, "K_0 = " + shown_number(*scene_.earth_pressure) + " without gravity",
              "gravity, as in gravity = [0.0, -9.81], or no such key", {"gravity"});
     }
+  }
+
+  void check_failure() const {
+    const std::string key = "output.failure_every";
+    refuse_of_rigid({key});
+    if (!given(key) || !scene_.moves() || scene_.time.failure == AtFailure::follow) return;
+    report(key, "a key of failures that are followed, where the run stops at one",
+           "time.failure = \"follow\", or no such key", {"time.failure"});
   }
 
   /// Waves of 1500 m/s in the soil would make steps of the explicit scheme too short for any use.

@@ -17,6 +17,9 @@
 namespace suffuse {
 namespace {
 
+/// Of the compressibility of soil: where inertia leaves less, inertia decides on the motion.
+constexpr double share_of_inertia = 0.9;
+
 template <int Dim>
 SolidPoints<Dim> points_of(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points) {
   std::vector<PointPlace<Dim>> places;
@@ -177,6 +180,17 @@ std::vector<double> MovingSkeleton<Dim>::drained_compressibility() const {
   return result;
 }
 
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::node_masses() const {
+  std::vector<double> of_point = solid_volumes();
+  for (int p = 0; p < points_.size(); ++p) {
+    const double liquid = points_.volume[p] - of_point[p];
+    of_point[p] = of_point[p] * this->soils().soil_of_point(p).grain_density +
+                  liquid * this->soils().scene().liquid.density;
+  }
+  return PointVelocities<Dim>(points_.size()).to_nodes(this->grid_, points_, of_point).mass;
+}
+
 /// With inertia: nodes of mass M_i that nothing else holds give way to a pressure p by
 /// p V_e grad N_i dt^2/M_i.
 template <int Dim>
@@ -184,15 +198,8 @@ std::vector<double> MovingSkeleton<Dim>::compressibility(double duration) const 
   std::vector<double> result = drained_compressibility();
   if (!inertia_.acts()) return result;
   const Mesh<Dim>& mesh = this->grid_.mesh;
-  std::vector<double> of_point = solid_volumes();
-  for (int p = 0; p < points_.size(); ++p) {
-    const double liquid = points_.volume[p] - of_point[p];
-    of_point[p] = of_point[p] * this->soils().soil_of_point(p).grain_density +
-                  liquid * this->soils().scene().liquid.density;
-  }
   // A node at the surface may have next to no mass.
-  const std::vector<double> mass =
-      PointVelocities<Dim>(points_.size()).to_nodes(this->grid_, points_, of_point).mass;
+  const std::vector<double> mass = node_masses();
   for (int e = 0; e < mesh.element_count(); ++e) {
     if (result[e] == 0.0) continue;
     double free = 0.0;
@@ -203,6 +210,27 @@ std::vector<double> MovingSkeleton<Dim>::compressibility(double duration) const 
     }
     free *= duration * duration;
     result[e] *= free / (free + result[e]);
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::inertial_mobility(double duration) const {
+  if (!inertia_.acts()) return {};
+  const Mesh<Dim>& mesh = this->grid_.mesh;
+  const std::vector<double> drained = drained_compressibility();
+  const std::vector<double> with_inertia = compressibility(duration);
+  const std::vector<double> mass = node_masses();
+  std::vector<double> around(mass.size(), 0.0);  // volume of each node's share of the mesh, m3
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    for (const int i : mesh.elements[e]) around[i] += this->grid_.volume[e] / (Dim + 1);
+  }
+  std::vector<double> result(drained.size(), 0.0);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (!(with_inertia[e] < share_of_inertia * drained[e])) continue;
+    for (const int i : mesh.elements[e]) {
+      if (mass[i] > 0.0) result[e] += duration * around[i] / mass[i] / (Dim + 1);
+    }
   }
   return result;
 }
@@ -285,7 +313,7 @@ void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
   if (step_) return;
   // Pressures of water that hardly leaves magnify what is out of balance.
   constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
-  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-6, .goal = 1e-10};
+  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-6, .goal = 1e-7};
   // Inertia holds a piece of soil that hangs by one node.
   step_ = std::make_unique<StepEquilibrium<Dim>>(
       this->grid_, points_, skeletons(), supports_, this->threads_,

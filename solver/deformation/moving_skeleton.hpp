@@ -41,6 +41,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] bool moves() const override { return true; }
   void start_motion(const MotionForcing& forcing) override;
   [[nodiscard]] std::vector<double> compressibility(double duration) const override;
+  [[nodiscard]] std::vector<double> inertial_mobility(double duration) const override;
   const SolidMotion& try_motion(const MotionForcing& forcing) override;
   const SolidMotion& accept_motion() override;
   bool let_fail(double time) override;
@@ -97,6 +98,8 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// V_e / E_oed, m3/Pa, in free water beside soil that of the softest soil; 0 elsewhere without
   /// soil that moves.
   [[nodiscard]] std::vector<double> drained_compressibility() const;
+  /// Of soil and the liquid in its pores, kg.
+  [[nodiscard]] std::vector<double> node_masses() const;
   /// Sorts what belongs to points by their elements and hands them on to the soils.
   void sort_points();
   void show_points();

@@ -4,7 +4,9 @@
 /// step of the flow.
 
 #include <algorithm>
-#include <vector>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "case/scene.hpp"
 #include "flow/flow_values.hpp"
@@ -56,7 +58,7 @@ class OutputTimes {
   double last_ = -1.0;  ///< the time before, s; negative: none
 };
 
-/// Both kinds of output of a scene.
+/// Both kinds of output of a scene; both come more often while soil fails.
 class OutputSchedule {
  public:
   /// What is to be written at one time.
@@ -64,35 +66,71 @@ class OutputSchedule {
     bool row = false;
     bool snapshot = false;
   };
+  /// Outputs of one kind that are past.
+  struct Past {
+    long count = 0;
+    double last = -1.0;  ///< time, s; negative: none
+    void add(double time) {
+      ++count;
+      last = time;
+    }
+    void archive(auto& archive) { archive(count, last); }
+  };
 
   explicit OutputSchedule(const Scene& scene)
       : rows_(scene.output.every, scene.time.end),
-        snapshots_(scene.output.snapshot_every, scene.time.end) {}
+        snapshots_(scene.output.snapshot_every, scene.time.end),
+        failure_every_(scene.output.failure_every) {}
 
   [[nodiscard]] bool finished() const { return rows_.finished() && snapshots_.finished(); }
   [[nodiscard]] const OutputTimes& rows() const { return rows_; }
   [[nodiscard]] const OutputTimes& snapshots() const { return snapshots_; }
+  [[nodiscard]] const Past& past_rows() const { return past_rows_; }
+  [[nodiscard]] const Past& past_snapshots() const { return past_snapshots_; }
 
-  void archive(auto& archive) { archive(rows_, snapshots_); }
+  void archive(auto& archive) {
+    archive(rows_, snapshots_, past_rows_, past_snapshots_, in_failure_);
+  }
+
+  /// Soil fails, or does not, from `time` on, s.
+  void follow_failure(double time, bool fails) {
+    if (!failure_every_ || !fails) {
+      in_failure_ = none;
+    } else if (in_failure_ == none) {
+      in_failure_ = std::floor(time / *failure_every_ + 1.0 + 1e-9) * *failure_every_;
+    }
+  }
 
   /// The next output time, s. Only before it is finished.
   [[nodiscard]] double next() const {
-    return rows_.finished()        ? snapshots_.next()
-           : snapshots_.finished() ? rows_.next()
-                                   : std::min(rows_.next(), snapshots_.next());
+    const double regular = rows_.finished()        ? snapshots_.next()
+                           : snapshots_.finished() ? rows_.next()
+                                                   : std::min(rows_.next(), snapshots_.next());
+    return std::min(regular, in_failure_);
   }
 
   /// What is due at `time`; moves on to the output after it.
   Due take(double time) {
-    const Due due{rows_.is_due(time), snapshots_.is_due(time)};
-    if (due.row) rows_.advance();
-    if (due.snapshot) snapshots_.advance();
+    const bool in_failure =
+        in_failure_ <= time || (in_failure_ != none && is_same_time(in_failure_, time));
+    const Due due{rows_.is_due(time) || in_failure, snapshots_.is_due(time) || in_failure};
+    if (rows_.is_due(time)) rows_.advance();
+    if (snapshots_.is_due(time)) snapshots_.advance();
+    if (due.row) past_rows_.add(time);
+    if (due.snapshot) past_snapshots_.add(time);
+    if (in_failure) in_failure_ = none;
     return due;
   }
 
  private:
+  static constexpr double none = std::numeric_limits<double>::infinity();
+
   OutputTimes rows_;
   OutputTimes snapshots_;
+  std::optional<double> failure_every_;  ///< s
+  double in_failure_ = none;             ///< the next output while soil fails, s
+  Past past_rows_;
+  Past past_snapshots_;
 };
 
 }  // namespace suffuse

@@ -168,8 +168,8 @@ class Run final : public OutputSink<Dim> {
     const OutputSchedule& schedule = loop_.schedule();
     const FlowState<Dim> flow = loop_.model().flow_state();
     finish_writing();
-    if (schedule.rows().last() < now) write_row(flow);
-    if (schedule.snapshots().last() < now) {
+    if (schedule.past_rows().last < now) write_row(flow);
+    if (schedule.past_snapshots().last < now) {
       writer_.write_snapshot(loop_.model().snapshot(flow));
     }
     write_checkpoint();

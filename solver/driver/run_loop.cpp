@@ -11,6 +11,7 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
   if (at_the_start) output(sink);
   bool goes_on = true;
   while (goes_on && !schedule_.finished() && !interrupted()) {
+    schedule_.follow_failure(model_->time(), model_->solid().has_inertia());
     model_->advance(schedule_.next());
     for (const std::string& warning : model_->take_warnings()) sink.warn(warning);
     warn_of_points(sink);

@@ -69,8 +69,8 @@ class RunLoop {
   RestartPoint restart_point(More&... more) {
     RestartPoint point;
     point.time = model_->time();
-    point.rows = schedule_.rows().past();
-    point.snapshots = schedule_.snapshots().past();
+    point.rows = schedule_.past_rows().count;
+    point.snapshots = schedule_.past_snapshots().count;
     StateArchive state;
     state.reserve(state_size_ + state_size_ / 8);  // points may have become more
     state(*this, more...);

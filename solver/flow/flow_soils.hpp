@@ -50,11 +50,13 @@ struct FlowSoils {
                       return std::max(film, free_space.relative_conductivity(psi));
                     }));
   }
-  /// S_e = (S - S_r) / (1 - S_r), no less than 0.
-  [[nodiscard]] double effective_saturation(int e, double saturation) const {
+  /// Share of the suction of an element that acts on the soil: S_e = (S - S_r) / (1 - S_r), no less
+  /// than 0 (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515), where there is soil.
+  [[nodiscard]] double suction_share(int e, double saturation) const {
     const double residual =
         mixed(e, retention[e].residual_saturation, [&] { return free_space.residual_saturation; });
-    return std::max(0.0, (saturation - residual) / (1.0 - residual));
+    const double effective = std::max(0.0, (saturation - residual) / (1.0 - residual));
+    return soil_share.empty() ? effective : soil_share[e] * effective;
   }
 
  private:

@@ -219,6 +219,11 @@ void ImplicitMixed<Dim>::find_resistance(const MixedState<Dim>& base, double dur
   });
   w.mean_storage = forcing.mean_storage;
   for (double& storage : w.mean_storage) storage /= duration;
+  w.beside = forcing.mean_mobility;
+  w.expected_gradient.resize(w.beside.size());
+  for_each_index(static_cast<int>(w.beside.size()), settings_.threads, [&](int e) {
+    w.expected_gradient[e] = pressure_gradient(e, base.face_pressure, forcing.expected_rise);
+  });
   const auto wrong = std::find_if_not(w.resistance.begin(), w.resistance.end(),
                                       [](double r) { return r > 0.0 && std::isfinite(r); });
   if (wrong == w.resistance.end()) {
@@ -230,6 +235,16 @@ void ImplicitMixed<Dim>::find_resistance(const MixedState<Dim>& base, double dur
   text << "the liquid must meet resistance everywhere; " << element_text(grid_, e) << " has "
        << *wrong << " kg/(m3 s) per flux";
   throw NumericalError(text.str());
+}
+
+template <int Dim>
+void ImplicitMixed<Dim>::set_mobility(int e, double of_darcy) {
+  Work& w = work_;
+  w.law.mobility[e] = of_darcy;
+  if (w.beside.empty()) return;
+  w.law.mobility[e] += w.beside[e];
+  w.law.drive[e] =
+      (of_darcy * w.drive[e] + w.beside[e] * w.expected_gradient[e]) / w.law.mobility[e];
 }
 
 template <int Dim>
@@ -274,7 +289,7 @@ void ImplicitMixed<Dim>::solve_linear(const MixedState<Dim>& base,
   w.law.direction = soils_.bedding;
   w.law.drive = w.drive;
   for_each_index(elements, settings_.threads,
-                 [&](int e) { w.law.mobility[e] = 1.0 / w.resistance[e]; });
+                 [&](int e) { set_mobility(e, 1.0 / w.resistance[e]); });
   solve_pressure(forcing);
   find_flux(w.flux, w.push);
 

@@ -60,6 +60,11 @@ struct FlowForcing {
   /// Per element: liquid that it stores beside as its mean pressure rises, m3/Pa. Empty where there
   /// is none.
   std::vector<double> mean_storage = {};
+  /// Per element: how well it conducts liquid beside, m3 s/kg, as the gradient of its pressure
+  /// departs from that with `expected_rise`, per face, Pa, over the start of the step. Empty where
+  /// there is none; not with quadratic drag.
+  std::vector<double> mean_mobility = {};
+  std::vector<double> expected_rise = {};
 };
 
 /// The nonlinear iteration of a step did not converge: a shorter one may.
@@ -158,6 +163,8 @@ class ImplicitMixed {
     std::vector<FaceCondition> resolved;
     std::vector<double> storage;       ///< per face of the element, m3/(s Pa)
     std::vector<double> mean_storage;  ///< per element, m3/(s Pa); may be empty
+    std::vector<double> beside;        ///< mean_mobility of the forcing, per element; may be empty
+    Field expected_gradient;           ///< of the pressure, where there is one, Pa/m
     std::vector<double> net_source;    ///< outflow asked for, m3/s
     std::vector<double> surplus;       ///< of inflow and sources of each sealed piece, m3/s
     std::vector<LeakyFace> walls;      ///< conductance as the stage has it
@@ -196,6 +203,8 @@ class ImplicitMixed {
   /// Linear resistance, drive and storage of each element. Throws NumericalError.
   void find_resistance(const MixedState<Dim>& base, double duration,
                        const FlowForcing<Dim>& forcing);
+  /// Mobility of an element with this Darcy's, m3 s/kg, and the drive that belongs to it.
+  void set_mobility(int e, double of_darcy);
   /// What no pressure boundary can take up must cancel where no water is stored either.
   void balance_sealed_pieces(const FlowForcing<Dim>& forcing);
   void guess_pressure(const MixedState<Dim>& base, double duration);

@@ -129,7 +129,8 @@ void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double
       w.side_storage[e][k] =
           std::isfinite(duration) ? share * soils_.capacity(e, p) / duration : 0.0;
     }
-    w.law.mobility[e] = conducts / w.resistance[e];
+    const double of_darcy = conducts / w.resistance[e];
+    set_mobility(e, of_darcy);
     for (int k = 0; k <= Dim; ++k) {
       // By differences over a little of the suction: at saturation the slope may be infinite.
       const double p = pressure[grid_.element_face[e][k]];
@@ -137,6 +138,7 @@ void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double
       const double rise =
           soils_.relative_conductivity(e, p + near) - soils_.relative_conductivity(e, p - near);
       w.gain[e][k] = rise / (2.0 * near) / (Dim + 1) / conducts;
+      if (!w.beside.empty()) w.gain[e][k] *= of_darcy / w.law.mobility[e];
     }
   });
 }
@@ -290,7 +292,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   w.law.direction = soils_.bedding;
   w.law.drive = w.drive;
   w.law.mobility.resize(elements);
-  for (int e = 0; e < elements; ++e) w.law.mobility[e] = 1.0 / w.resistance[e];
+  for (int e = 0; e < elements; ++e) set_mobility(e, 1.0 / w.resistance[e]);
   const double round_off = balance_round_off(duration, forcing);
   double share = 1.0;
   double last_norm = std::numeric_limits<double>::infinity();

@@ -15,10 +15,15 @@ namespace {
 /// Of the compressibility of soil that cannot move sideways: with less, the iteration of undrained
 /// soil does not always end; with more it is slower (docs/theory.md, "Flow and motion").
 constexpr double held_storage = 1.5;
-constexpr int max_iterations = 25;
+/// Of that storage where the mobility of soil with inertia stands for it: holds the level of the
+/// pressure.
+constexpr double beside_mobility = 1e-3;
+/// Air whose suction acts on the soil by no more than this share does not take part.
+constexpr double least_suction_share = 1e-3;
+constexpr int max_iterations = 40;
 /// Of water that hardly leaves, over the stiffness of soil that cannot move sideways.
 constexpr double undrained_stiffness = 300.0;
-constexpr int memory = 8;
+constexpr int memory = 20;
 /// The last step says how pressures change in the next, but for one that is so much longer.
 constexpr double longest_growth = 10.0;
 /// Pressures agree when they differ by this share of the largest change in the step ...
@@ -36,6 +41,15 @@ double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;
 }
 
+/// Of the pressures of elements that act on the motion.
+double largest_of_soil(const std::vector<double>& pressure, const std::vector<double>& storage) {
+  double result = 0.0;
+  for (std::size_t e = 0; e < pressure.size(); ++e) {
+    if (storage[e] != 0.0) result = std::max(result, std::abs(pressure[e]));
+  }
+  return result;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -43,56 +57,53 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
                                         const std::vector<double>& pressure,
                                         std::vector<double> porosity, double end, double dt,
                                         FlowForcing<Dim> forcing) {
-  const int elements = grid_.mesh.element_count();
-  const Eigen::Map<const Eigen::VectorXd> before(pressure.data(), elements);
+  const FlowSoils<Dim>& soils = scheme.soils();
   const std::vector<double> own = forcing.source;
   const FlowCoefficients<Dim> at_start = forcing.coefficients;
   const double floor = round_off_strain * solid_.stiffness();
-  forcing.mean_storage = held_by_soil(scheme.soils(), start.air, forcing, pressure, dt);
+  if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
+  forcing.mean_storage = held_by_soil(soils, start.air, forcing, pressure, dt);
   MotionForcing motion_forcing{
-      end, dt, {}, liquid_mass(grid_, forcing.coefficients, start.air), std::move(porosity)};
+      end, dt, {}, liquid_mass(grid_, at_start, start.air), std::move(porosity)};
+  const auto on_solid = [&](const Eigen::VectorXd& rise) {
+    std::vector<double> result = pressure;
+    for (std::size_t e = 0; e < result.size(); ++e) result[e] += rise[e];
+    return pressure_on_solid(grid_, soils, std::move(result), at_start.porosity, start.air);
+  };
   AndersonMixing mixing(memory);
-  Eigen::VectorXd rise = Eigen::VectorXd::Zero(elements);
-  if (!rise_rate_.empty() && dt <= longest_growth * rise_time_) {
-    rise = dt * Eigen::Map<const Eigen::VectorXd>(rise_rate_.data(), elements);
-  }
+  Eigen::VectorXd rise = expected_rise(dt);
+  const double scale =
+      largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
   int failed = 0;
   for (int iteration = 1; iteration <= max_iterations; ++iteration) {
     ++iterations_;
-    std::vector<double> tried(elements);
-    for (int e = 0; e < elements; ++e) tried[e] = pressure[e] + rise[e];
-    motion_forcing.pressure = pressure_on_solid(grid_, scheme.soils(), std::move(tried),
-                                                forcing.coefficients.porosity, start.air);
+    const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
+    motion_forcing.pressure = on_solid(of_elements);
     const SolidMotion& motion = solid_.try_motion(motion_forcing);
     if (!motion.converged) {
       ++failed;
       const bool guessed = iteration == 1 && rise.squaredNorm() > 0.0;
-      if (guessed) {
-        rise.setZero();
-      } else {
-        rise = undrained_rise(motion_forcing, rise);
-      }
+      rise = guessed ? Eigen::VectorXd::Zero(rise.size())
+                     : at_faces(undrained_rise(motion_forcing, of_elements), forcing.mean_storage);
       mixing = AndersonMixing(memory);
       continue;
     }
-    const std::vector<double> moved = scheme.soils().soil_share.empty()
+    const std::vector<double> moved = soils.soil_share.empty()
                                           ? motion.face_volume
                                           : without_air(motion, start.air, at_start, forcing);
-    forcing.source = source_of(moved, own, forcing.mean_storage, rise, dt);
+    forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
+    forcing.expected_rise.assign(rise.data(), rise.data() + rise.size());
     MixedStep<Dim> step = scheme.step(start, dt, {&forcing});
-    const std::vector<double> found = element_pressure(grid_, step.end.face_pressure, threads_);
-    Eigen::VectorXd new_rise = Eigen::Map<const Eigen::VectorXd>(found.data(), elements) - before;
-    // The pressure of free water and of soil that cannot move does not act on the motion.
-    for (int e = 0; e < elements; ++e) {
-      if (forcing.mean_storage[e] == 0.0) new_rise[e] = 0.0;
-    }
-    if (largest(new_rise - rise) <= allowed(largest(new_rise), largest(before), floor)) {
-      rise_rate_.assign(new_rise.data(), new_rise.data() + elements);
+    const Eigen::VectorXd found =
+        rise_at_soil(start.face_pressure, step.end.face_pressure, forcing.mean_storage);
+    const Eigen::VectorXd new_of_elements = at_elements(found, forcing.mean_storage);
+    if (largest(new_of_elements - of_elements) <= allowed(largest(new_of_elements), scale, floor)) {
+      rise_rate_.assign(found.data(), found.data() + found.size());
       for (double& rate : rise_rate_) rate /= dt;
       rise_time_ = dt;
       return step;
     }
-    rise = mixing.next(rise, new_rise);
+    rise = mixing.next(rise, found);
   }
   const std::string count = std::to_string(max_iterations) + " iterations";
   if (failed > 0) throw NoEquilibrium("the soil has found no equilibrium in " + count);
@@ -107,13 +118,65 @@ std::vector<double> SolidCoupling<Dim>::held_by_soil(const FlowSoils<Dim>& soils
                                                      double dt) const {
   std::vector<double> result = solid_.compressibility(dt);
   for (double& storage : result) storage *= held_storage;
+  for (std::size_t e = 0; e < forcing.mean_mobility.size(); ++e) {
+    if (forcing.mean_mobility[e] > 0.0) result[e] *= beside_mobility;
+  }
   const std::vector<double> saturation = saturation_of(grid_, air, forcing.coefficients.porosity);
   for (std::size_t e = 0; e < saturation.size(); ++e) {
     // Suction acts on the soil, and the soil on the water, as far as pores are filled.
     if (pressure[e] >= 0.0 || soils.soil_share.empty()) continue;
-    const double filled = soils.effective_saturation(static_cast<int>(e), saturation[e]);
-    result[e] *= filled * filled;
+    const double filled = soils.suction_share(static_cast<int>(e), saturation[e]);
+    result[e] *= filled < least_suction_share ? 0.0 : filled * filled;
   }
+  return result;
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::expected_rise(double dt) const {
+  if (rise_rate_.empty() || dt > longest_growth * rise_time_) {
+    return Eigen::VectorXd::Zero(grid_.face_count());
+  }
+  return dt * Eigen::Map<const Eigen::VectorXd>(rise_rate_.data(), grid_.face_count());
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::at_elements(const Eigen::VectorXd& of_faces,
+                                                const std::vector<double>& storage) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.mesh.element_count());
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    if (storage[e] == 0.0) return;
+    for (const int f : grid_.element_face[e]) result[e] += of_faces[f] / (Dim + 1);
+  });
+  return result;
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::at_faces(const Eigen::VectorXd& of_elements,
+                                             const std::vector<double>& storage) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.face_count());
+  for_each_index(grid_.face_count(), threads_, [&](int f) {
+    int around = 0;
+    for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
+      if (e < 0 || storage[e] == 0.0) continue;
+      result[f] += of_elements[e];
+      ++around;
+    }
+    if (around > 0) result[f] /= around;
+  });
+  return result;
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::rise_at_soil(const std::vector<double>& before,
+                                                 const std::vector<double>& after,
+                                                 const std::vector<double>& storage) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.face_count());
+  for_each_index(grid_.face_count(), threads_, [&](int f) {
+    const int right = grid_.face_right[f];
+    const bool at_soil =
+        storage[grid_.face_left[f]] != 0.0 || (right >= 0 && storage[right] != 0.0);
+    if (at_soil) result[f] = after[f] - before[f];
+  });
   return result;
 }
 
@@ -221,8 +284,7 @@ std::vector<double> pressure_on_solid(const Grid<Dim>& grid, const FlowSoils<Dim
                                       const ElementField<Dim>& air) {
   const std::vector<double> saturation = saturation_of(grid, air, porosity);
   for (std::size_t e = 0; e < air.size(); ++e) {
-    if (pressure[e] < 0.0)
-      pressure[e] *= soils.effective_saturation(static_cast<int>(e), saturation[e]);
+    if (pressure[e] < 0.0) pressure[e] *= soils.suction_share(static_cast<int>(e), saturation[e]);
   }
   return pressure;
 }

@@ -54,6 +54,21 @@ class SolidCoupling {
                                                  const FlowForcing<Dim>& forcing,
                                                  const std::vector<double>& pressure,
                                                  double dt) const;
+  /// Of the pressure at faces in a step of `dt`, s, after those before it, Pa.
+  [[nodiscard]] Eigen::VectorXd expected_rise(double dt) const;
+
+  // What acts on the motion: not the pressure of free water, nor of soil that cannot move. There
+  // the held `storage` is 0.
+
+  /// Means of the elements, of values at faces.
+  [[nodiscard]] Eigen::VectorXd at_elements(const Eigen::VectorXd& of_faces,
+                                            const std::vector<double>& storage) const;
+  /// Means of the elements beside a face.
+  [[nodiscard]] Eigen::VectorXd at_faces(const Eigen::VectorXd& of_elements,
+                                         const std::vector<double>& storage) const;
+  [[nodiscard]] Eigen::VectorXd rise_at_soil(const std::vector<double>& before,
+                                             const std::vector<double>& after,
+                                             const std::vector<double>& storage) const;
   /// By so much pressures may differ that agree, Pa, where they rise by `rise` from `pressure`;
   /// `floor`: by so much anyhow.
   [[nodiscard]] double allowed(double rise, double pressure, double floor) const;
@@ -75,7 +90,7 @@ class SolidCoupling {
   const Grid<Dim>& grid_;
   Skeleton<Dim>& solid_;
   int threads_;
-  std::vector<double> rise_rate_;  ///< of the pressure in the last step, per element, Pa/s
+  std::vector<double> rise_rate_;  ///< of the pressure in the last step, per face, Pa/s
   double rise_time_ = 0.0;         ///< duration of that step, s
   long iterations_ = 0;
   bool long_steps_ = false;  ///< there have been some since something changed at once

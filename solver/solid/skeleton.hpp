@@ -146,6 +146,12 @@ class Skeleton {
   [[nodiscard]] virtual std::vector<double> compressibility(double /*duration*/) const {
     return {};
   }
+  /// How easily a gradient of the pore pressure moves soil that has inertia, dt/rho per element,
+  /// m3 s/kg; 0 where its stiffness, or no pressure, decides on its motion in a step of `duration`,
+  /// s. Empty without inertia.
+  [[nodiscard]] virtual std::vector<double> inertial_mobility(double /*duration*/) const {
+    return {};
+  }
   /// Largest modulus of soil that cannot move sideways, Pa.
   [[nodiscard]] virtual double stiffness() const { return 0.0; }
   /// By how much tractions change in the run, from that at the start, Pa.

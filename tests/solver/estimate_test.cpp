@@ -120,6 +120,30 @@ TEST(OutputSchedule, MergesRowsAndSnapshots) {
   EXPECT_EQ(outputs, "0 row snapshot, 0.25 row, 0.5 row snapshot, 0.75 row, 1 row snapshot, ");
 }
 
+TEST(OutputSchedule, ComesMoreOftenWhileSoilFails) {
+  Scene scene;
+  scene.time.end = 1.0;
+  scene.output.every = 0.25;
+  scene.output.snapshot_every = 0.5;
+  scene.output.failure_every = 0.1;
+  OutputSchedule schedule(scene);
+  std::string outputs;
+  double time = 0.0;
+  while (!schedule.finished()) {
+    schedule.follow_failure(time, time > 0.3 && time < 0.65);
+    time = std::min(schedule.next(), time + 0.07);
+    const OutputSchedule::Due due = schedule.take(time);
+    if (!due.row) continue;
+    outputs += short_text(time) + (due.snapshot ? " snapshot, " : ", ");
+  }
+  EXPECT_EQ(outputs,
+            "0 snapshot, 0.25, 0.4 snapshot, 0.5 snapshot, 0.6 snapshot, 0.7 snapshot, 0.75, "
+            "1 snapshot, ");
+  EXPECT_EQ(schedule.past_rows().count, 8);
+  EXPECT_EQ(schedule.past_snapshots().count, 6);
+  EXPECT_EQ(schedule.past_rows().last, 1.0);
+}
+
 TEST(OutputSchedule, TimesThatDifferByRoundOffAreOne) {
   Scene scene;
   scene.time.end = 3.0 * 0.1;  // more than 0.3

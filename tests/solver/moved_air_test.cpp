@@ -132,7 +132,9 @@ TEST(FlowSoils, MixWhereSoilFillsAPart) {
   const double slope =
       (soils.saturation(1, pressure + near) - soils.saturation(1, pressure - near)) / (2.0 * near);
   EXPECT_NEAR(soils.capacity(1, pressure), slope, 1e-6 * slope);
-  EXPECT_NEAR(soils.effective_saturation(1, 0.5125), 0.5, 1e-15);
+  // Suction acts on the soil alone, by its effective saturation.
+  EXPECT_NEAR(soils.suction_share(1, 0.5125), 0.25 * 0.5, 1e-15);
+  EXPECT_NEAR(soils.suction_share(0, 0.55), 0.5, 1e-15);
 }
 
 }  // namespace
