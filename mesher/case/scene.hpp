@@ -222,7 +222,7 @@ struct OutputSettings {
   double snapshot_every = unset;  ///< s between snapshots
   /// s between both while soil fails; without it as ever.
   std::optional<double> failure_every;
-  int restarts = 2;               ///< newest snapshots that keep the state from which a run goes on
+  int restarts = 2;  ///< newest snapshots that keep the state from which a run goes on
   FieldPrecision precision = FieldPrecision::float64;
   std::vector<OutputProbe> probes;
   std::vector<OutputSection> sections;

@@ -639,7 +639,8 @@ std::vector<SceneKey> declare_keys() {
           .otherwise_as("`output.every`"),
       key("output.failure_every", at(&Scene::output, &OutputSettings::failure_every),
           "Time between rows and snapshots while soil that has lost its equilibrium moves, beside "
-          "those above: a slide takes seconds of a flood of days. With `time.failure = \"follow\"`.")
+          "those above: a slide takes seconds of a flood of days. With `time.failure = "
+          "\"follow\"`.")
           .in("s")
           .above(0.0)
           .otherwise_as("no others than those above"),
