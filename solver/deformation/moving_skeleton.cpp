@@ -8,6 +8,7 @@
 
 #include "deformation/element_gains.hpp"
 #include "deformation/free_water.hpp"
+#include "deformation/held_by_inertia.hpp"
 #include "deformation/point_motion.hpp"
 #include "deformation/start_stress.hpp"
 #include "grid/parallel.hpp"
@@ -16,9 +17,6 @@
 
 namespace suffuse {
 namespace {
-
-/// Of the compressibility of soil: where inertia leaves less, inertia decides on the motion.
-constexpr double share_of_inertia = 0.9;
 
 template <int Dim>
 SolidPoints<Dim> points_of(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points) {
@@ -191,48 +189,17 @@ std::vector<double> MovingSkeleton<Dim>::node_masses() const {
   return PointVelocities<Dim>(points_.size()).to_nodes(this->grid_, points_, of_point).mass;
 }
 
-/// With inertia: nodes of mass M_i that nothing else holds give way to a pressure p by
-/// p V_e grad N_i dt^2/M_i.
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::compressibility(double duration) const {
   std::vector<double> result = drained_compressibility();
   if (!inertia_.acts()) return result;
-  const Mesh<Dim>& mesh = this->grid_.mesh;
-  // A node at the surface may have next to no mass.
-  const std::vector<double> mass = node_masses();
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    if (result[e] == 0.0) continue;
-    double free = 0.0;
-    for (int a = 0; a <= Dim; ++a) {
-      const double of_node = mass[mesh.elements[e][a]];
-      if (of_node == 0.0) continue;
-      free += (this->grid_.volume[e] * this->grid_.shape_gradient[e][a]).squaredNorm() / of_node;
-    }
-    free *= duration * duration;
-    result[e] *= free / (free + result[e]);
-  }
-  return result;
+  return held_compressibility(this->grid_, std::move(result), node_masses(), duration);
 }
 
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::inertial_mobility(double duration) const {
   if (!inertia_.acts()) return {};
-  const Mesh<Dim>& mesh = this->grid_.mesh;
-  const std::vector<double> drained = drained_compressibility();
-  const std::vector<double> with_inertia = compressibility(duration);
-  const std::vector<double> mass = node_masses();
-  std::vector<double> around(mass.size(), 0.0);  // volume of each node's share of the mesh, m3
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    for (const int i : mesh.elements[e]) around[i] += this->grid_.volume[e] / (Dim + 1);
-  }
-  std::vector<double> result(drained.size(), 0.0);
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    if (!(with_inertia[e] < share_of_inertia * drained[e])) continue;
-    for (const int i : mesh.elements[e]) {
-      if (mass[i] > 0.0) result[e] += duration * around[i] / mass[i] / (Dim + 1);
-    }
-  }
-  return result;
+  return held_mobility(this->grid_, drained_compressibility(), node_masses(), duration);
 }
 
 template <int Dim>

@@ -29,6 +29,7 @@ std::string clock_text(double seconds) {
 
 std::string outlook(const Standing& standing) {
   char text[80];
+  if (standing.soil_fails) return "soil fails";
   if (standing.time_left) return clock_text(*standing.time_left) + " left";
   if (!(standing.step > 2.0 * standing.first_step)) return "time left not known yet";
   std::snprintf(text, sizeof text, "%ssteps grow from %.1g s",
@@ -42,16 +43,21 @@ Progress::Progress(double start, double end, bool from_rest, bool quiet)
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
+      reported_(start_),
       last_(start_) {}
 
-void Progress::report(double time, double dt) {
+void Progress::report(double time, double dt, bool soil_fails) {
   if (quiet_) return;
   const Clock::time_point now = Clock::now();
   const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
   standing_.time = time;
   standing_.step = dt;
   if (standing_.first_step == 0.0) standing_.first_step = dt;
-  standing_.time_left = time_left_.at(seconds(now - start_), time);
+  standing_.soil_fails = soil_fails;
+  // What a failure takes says nothing of the time before and after it.
+  if (soil_fails) in_failure_ += now - reported_;
+  reported_ = now;
+  if (!soil_fails) standing_.time_left = time_left_.at(seconds(now - start_ - in_failure_), time);
   if (seconds(now - last_) < (terminal_ ? seconds_between_redraws : seconds_between_lines)) return;
   last_ = now;
   if (terminal_) {

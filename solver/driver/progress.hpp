@@ -19,6 +19,7 @@ struct Standing {
   double first_step = 0.0;          ///< of this process, s
   bool from_rest = false;           ///< the run started from rest in this process
   std::optional<double> time_left;  ///< wall time, s, where it is known
+  bool soil_fails = false;          ///< and takes short steps as long as it does
 };
 
 /// "3:20 left"; while that is unknown, why: "starting from rest: steps grow from 1e-10 s".
@@ -30,9 +31,9 @@ class Progress {
   /// is at rest at the start.
   Progress(double start, double end, bool from_rest, bool quiet);
 
-  /// Simulated time and length of the last step, s. To be called after every interval: most calls
-  /// print nothing.
-  void report(double time, double dt);
+  /// Simulated time and length of the last step, s; whether soil fails. To be called after every
+  /// interval: most calls print nothing.
+  void report(double time, double dt, bool soil_fails);
   /// Prints a line without breaking the bar, also when quiet.
   void say(const std::string& line);
   /// Removes the bar.
@@ -48,7 +49,9 @@ class Progress {
   bool terminal_;
   bool bar_shown_ = false;
   Clock::time_point start_;
-  Clock::time_point last_;
+  Clock::time_point reported_;       ///< the last time
+  Clock::time_point last_;           ///< that something was printed
+  Clock::duration in_failure_ = {};  ///< wall time while soil failed
 };
 
 }  // namespace suffuse

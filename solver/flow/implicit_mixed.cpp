@@ -226,10 +226,7 @@ void ImplicitMixed<Dim>::find_resistance(const MixedState<Dim>& base, double dur
   });
   const auto wrong = std::find_if_not(w.resistance.begin(), w.resistance.end(),
                                       [](double r) { return r > 0.0 && std::isfinite(r); });
-  if (wrong == w.resistance.end()) {
-    find_wall_conductance();
-    return;
-  }
+  if (wrong == w.resistance.end()) return find_wall_conductance();
   const auto e = static_cast<int>(wrong - w.resistance.begin());
   std::ostringstream text;
   text << "the liquid must meet resistance everywhere; " << element_text(grid_, e) << " has "

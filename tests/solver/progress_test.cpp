@@ -66,6 +66,8 @@ TEST(Progress, SaysTheTimeLeftOrWhyItIsUnknown) {
   EXPECT_EQ(outlook(standing), "1:15 left");
   standing.time_left = 4000.0;
   EXPECT_EQ(outlook(standing), "1:06:40 left");
+  standing.soil_fails = true;
+  EXPECT_EQ(outlook(standing), "soil fails");
 }
 
 }  // namespace
