@@ -36,6 +36,11 @@ std::vector<double> stored_grains(const Table& table) {
   return table.has("pending") ? sum(grains, table.column("pending")) : grains;
 }
 
+/// Grains that solid points have carried in, minus out. Ledgers of earlier versions have none.
+std::vector<double> carried_grains(const Table& table) {
+  return table.has("carried") ? table.column("carried") : std::vector<double>(table.rows());
+}
+
 Balance balance(const Table& table, const std::string& place, const std::string& constituent) {
   const bool is_water = constituent == "water";
   if (table.rows() == 0) throw FileError("the ledger of " + place + " has no rows yet");
@@ -44,6 +49,8 @@ Balance balance(const Table& table, const std::string& place, const std::string&
   const auto& out = table.column(is_water ? "water_out" : "fines_out");
   const auto& reported = table.column(is_water ? "residual_water" : "residual_grains");
 
+  const auto carried = is_water ? std::vector<double>(table.rows()) : carried_grains(table);
+
   Balance b;
   b.place = place;
   b.constituent = constituent;
@@ -51,11 +58,12 @@ Balance balance(const Table& table, const std::string& place, const std::string&
   b.in = in.back();
   b.out = out.back();
   b.stored = stored.back();
+  b.carried = carried.back();
   if (!is_water) b.eroded = table.column("eroded").back();
   if (!is_water && table.has("deposited")) b.deposited = table.column("deposited").back();
   b.worst_time = table.column("t").front();
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double formed = std::abs(stored[row] + (out[row] - in[row]) - b.initial);
+    const double formed = std::abs(stored[row] + (out[row] - in[row]) - carried[row] - b.initial);
     // After thousands of pore volumes the stored mass is below the rounding of `in` and `out`. Such
     // a difference says nothing; the solver forms its residual before that rounding.
     const double rounding =
@@ -140,6 +148,10 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
     }
     text += cell(short_number(b.worst_residual, "%.2e"), 15);
     text += cell(short_number(b.worst_time, "%.6g"), 15) + "\n";
+  }
+  for (const auto& b : balances) {
+    if (b.carried == 0.0) continue;
+    text += b.place + ": soil that moved carried " + short_number(b.carried, "%.8g") + " kg in\n";
   }
   if (results.scene().scene.formulation == Formulation::double_point) {
     text += liquid_point_text(ledger);

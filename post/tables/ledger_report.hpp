@@ -18,6 +18,7 @@ struct Balance {
   double stored = 0.0;
   double eroded = 0.0;          ///< grains only
   double deposited = 0.0;       ///< likewise
+  double carried = 0.0;         ///< likewise; came with soil that moved, minus what left with it
   double worst_residual = 0.0;  ///< largest |residual| of any row, relative to `initial`
   double worst_time = 0.0;      ///< time of that row, s
 };

@@ -32,6 +32,7 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.water_out = crossed.water_out;
   row.fines_out = crossed.fines_out;
   row.pending = stored.pending;
+  row.carried = stored.carried;
   row.points = stored.points;
   row.points_in = crossed.points_in;
   row.points_out = crossed.points_out;

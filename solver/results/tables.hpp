@@ -106,7 +106,7 @@ inline constexpr std::array<Column<HistoryRow>, 32> history_columns{{
 }};
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross
-/// a boundary. Residual = (stored + out - in - initial) / initial, per constituent.
+/// a boundary. Residual = (stored + out - in - carried - initial) / initial, per constituent.
 struct LedgerRow {
   double t = 0.0;
   double solid = 0.0;     ///< all solid in place: skeleton and erodible
@@ -127,9 +127,10 @@ struct LedgerRow {
   double points_in = 0.0;
   double points_out = 0.0;
   double deposited = 0.0;  ///< fines deposited since the start
+  double carried = 0.0;    ///< solid that points have carried in, minus out, since the start
 };
 
-inline constexpr std::array<Column<LedgerRow>, 17> ledger_columns{{
+inline constexpr std::array<Column<LedgerRow>, 18> ledger_columns{{
     {"t", &LedgerRow::t, "s"},
     {"solid", &LedgerRow::solid, "kg"},
     {"erodible", &LedgerRow::erodible, "kg"},
@@ -147,6 +148,7 @@ inline constexpr std::array<Column<LedgerRow>, 17> ledger_columns{{
     {"points_in", &LedgerRow::points_in, "1"},
     {"points_out", &LedgerRow::points_out, "1"},
     {"deposited", &LedgerRow::deposited, "kg"},
+    {"carried", &LedgerRow::carried, "kg"},
 }};
 
 /// regions.csv: the ledger of one region, its boundary with other regions included in `*_in` and

@@ -156,7 +156,7 @@ TEST(Results, HistoryBeginsWithTheDocumentedColumns) {
   EXPECT_TRUE(file_text(scratch / "run.results/ledger.csv")
                   .starts_with("t,solid,erodible,water,fines,eroded,water_in,fines_in,water_out,"
                                "fines_out,residual_water,residual_grains,pending,points,"
-                               "points_in,points_out,deposited\n"));
+                               "points_in,points_out,deposited,carried\n"));
 }
 
 TEST(Results, RunInfoHasItsKeys) {

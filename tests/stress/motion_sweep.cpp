@@ -110,7 +110,10 @@ Sweep motion_sweep() {
       scenario.end = Random(seed + 14000).decades(1e3, 1e7);
       scenario.mesh = [seed, levee] { return levee ? levee_mesh(seed) : two_soil_column(seed); };
       scenario.changes = [seed, levee](const Span& span) {
-        return levee ? moving_levee_changes(seed, span.end) : column_changes(seed, span.end);
+        Changes changes =
+            levee ? moving_levee_changes(seed, span.end) : column_changes(seed, span.end);
+        if (Random(seed + 15000).chance(0.5)) changes.emplace_back("time.failure=follow");
+        return changes;
       };
       // Weak soil has no equilibrium, and the run says so.
       scenario.expected = Expected::either;
