@@ -328,8 +328,8 @@ std::vector<SceneKey> declare_keys() {
           .mandatory(),
       conductivity().named("k").in("m/s").above(0.0).mandatory(),
       key("soil.*.bedding", in_soil(&Soil::bedding),
-          "Angle of the bedding from the x-axis, counter-clockwise. With a pair of conductivities "
-          "only.")
+          "Angle of the bedding from the x-axis, counter-clockwise; in three dimensions it dips "
+          "along x alone. With a pair of conductivities only.")
           .in("degrees")
           .at_least(-180.0)
           .at_most(180.0)

@@ -34,14 +34,14 @@ std::string column(double width, double height, double size, const std::string& 
 }
 
 Geometry<2> build(const std::string& geometry, const std::string& more = "",
-               const std::vector<std::string>& overrides = {}) {
+                  const std::vector<std::string>& overrides = {}) {
   return build_geometry_of<2>(parse_scene(scene_text(geometry, more), "test.toml", overrides));
 }
 
 const std::string buffer = "[soil.buffer]\nlike = \"specimen\"\n";
 
 Geometry<2> build_layers(const std::string& geometry, const std::string& layers,
-                      const std::string& more = "") {
+                         const std::string& more = "") {
   return build(geometry, more, {"formulation=double-point", "geometry.layers=" + layers});
 }
 
@@ -349,7 +349,7 @@ class UserFile : public testing::Test {
   }
 
   Geometry<2> build_file(const std::string& name, const std::string& size = "0.5",
-                      const std::string& more = "", const std::string& structure = "free") {
+                         const std::string& more = "", const std::string& structure = "free") {
     std::string geometry = "[geometry]\nfile = \"" + name + "\"\n";
     std::vector<std::string> overrides;
     if (!name.ends_with(".msh")) {
@@ -361,7 +361,7 @@ class UserFile : public testing::Test {
   }
 
   Geometry<2> build_free_water(const std::vector<std::string>& overrides,
-                            const std::string& more = "") {
+                               const std::string& more = "") {
     return build_geometry_of<2>(
         parse_scene(scene_text("[geometry]\nfile = \"free_water.geo\"\n[mesh]\nsize = 0.5\n", more),
                     folder_.file("scene.toml"), overrides));
@@ -433,8 +433,9 @@ std::string two_soils(const std::string& sand, const std::string& gravel) {
 
 TEST_F(UserFile, OneMisspeltNameIsOneProblem) {
   const auto message = [&](const std::string& sand, const std::string& gravel) {
-    return refusal(
-        [&] { build_geometry_of<2>(parse_scene(two_soils(sand, gravel), folder_.file("scene.toml"))); });
+    return refusal([&] {
+      build_geometry_of<2>(parse_scene(two_soils(sand, gravel), folder_.file("scene.toml")));
+    });
   };
   EXPECT_EQ(message("sand", "gravel"), "nothing refused");
   EXPECT_EQ(message("Sand", "gravel"),
@@ -573,11 +574,11 @@ INSTANTIATE_TEST_SUITE_P(
                 in_scene + "\"quadrilateral.msh\" with element 1 (Quadrilateral 4) at (0.5, 0.5); "
                            "expected triangles of three nodes (in Gmsh: Mesh.ElementOrder = 1, no "
                            "Recombine)"},
-        Refused{"tetrahedron.msh",
-                in_scene + "\"tetrahedron.msh\" with element 2 (Tetrahedron 4) at (0.5, 0.25); "
-                           "expected a plane model: only triangles are supported so far"},
-        Refused{"volume.geo", in_scene + "\"volume.geo\" with volume 1; expected a plane model: "
-                                         "only triangles are supported so far"},
+        Refused{"volume.geo", in_scene +
+                                  "\"volume.geo\" with no named physical volume; expected each "
+                                  "region as a physical volume, as in Physical "
+                                  "Volume(\"specimen\") = {1}; the model has\n    volume 1: "
+                                  "x 0 to 1, y 0 to 1, z 0 to 1\n    surface 1: x 0 to 1"},
         Refused{"flat.msh", in_scene + "\"flat.msh\" with element 3, flat, with its nodes at (0, "
                                        "0), (0.5, 0.5), (1, 1); expected triangles with an area"},
         Refused{"folded.msh",

@@ -115,7 +115,7 @@ Mesh<2> gmsh_column(double size, MeshStructure structure, double height = 1.0) {
   EXPECT_EQ(complaint, "");
   ExtractedMesh extracted =
       extract_mesh<2>(structure == MeshStructure::crossed ? Quadrangles::cut_along_diagonals
-                                                       : Quadrangles::refused);
+                                                          : Quadrangles::refused);
   EXPECT_TRUE(extracted.problems.empty());
   return std::move(extracted.mesh);
 }
