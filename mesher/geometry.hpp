@@ -1,9 +1,10 @@
 #pragma once
 
-/// The mesh that a scene asks for: the built-in column or the user's own file.
+/// The mesh that a scene asks for: the built-in column or box, or the user's own file.
 
 #include <limits>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "case/mesh.hpp"
@@ -11,13 +12,17 @@
 
 namespace suffuse {
 
+template <int Dim>
 struct Geometry {
-  Mesh<2> mesh;
+  Mesh<Dim> mesh;
   std::vector<std::string> notes;  ///< what the user should know, one sentence each
 };
 
+using AnyGeometry = std::variant<Geometry<2>, Geometry<3>>;
+
 /// Builds the mesh with Gmsh and holds the scene against it. Throws InputError with every problem
-/// found, FileError when the geometry file cannot be read. Problems name nodes and elements by
+/// found, FileError when the geometry file cannot be read. A file with volumes is of three
+/// dimensions. Problems name nodes and elements by
 /// Gmsh's numbers, those of the user's .msh, and places of a file by its own coordinates; the mesh
 /// is in the order of `hilbert_order.hpp`.
 ///
@@ -27,8 +32,14 @@ struct Geometry {
 /// in .geo and .msh files are in `geometry.scale` metres.
 /// \param max_seconds  of processor time that Gmsh may take over a file, which can hold an endless
 ///   loop: beyond, the program ends with a message and the exit code of wrong input
-Geometry build_geometry(const SceneDocument& document,
-                        double max_seconds = std::numeric_limits<double>::infinity());
+AnyGeometry build_geometry(const SceneDocument& document,
+                           double max_seconds = std::numeric_limits<double>::infinity());
+
+/// The same where the dimension is known.
+template <int Dim>
+Geometry<Dim> build_geometry_of(const SceneDocument& document) {
+  return std::get<Geometry<Dim>>(build_geometry(document));
+}
 
 /// The file that `geometry.file` names, relative to the scene's folder.
 std::string geometry_path(const SceneDocument& document);

@@ -30,17 +30,19 @@ void name_group(int dimension, int entity, const std::string& name) {
 }
 
 /// Gmsh counts from one. Nodes hang on an entity: the first region has them all.
-void add_nodes(const Mesh<2>& mesh) {
+template <int Dim>
+void add_nodes(const Mesh<Dim>& mesh) {
   std::vector<std::size_t> tags(mesh.nodes.size());
   std::iota(tags.begin(), tags.end(), 1U);
   std::vector<double> coordinates;
-  for (const Vector<2>& x : mesh.nodes) {
-    coordinates.insert(coordinates.end(), {x[0], x[1], 0.0});
+  for (const Vector<Dim>& x : mesh.nodes) {
+    coordinates.insert(coordinates.end(), {x[0], x[1], Dim == 2 ? 0.0 : x[Dim - 1]});
   }
-  gmsh::model::mesh::addNodes(2, 1, tags, coordinates);
+  gmsh::model::mesh::addNodes(Dim, 1, tags, coordinates);
 }
 
-void add_regions(const Mesh<2>& mesh) {
+template <int Dim>
+void add_regions(const Mesh<Dim>& mesh) {
   const int count = static_cast<int>(mesh.region_names.size());
   std::vector<std::vector<std::size_t>> tags(mesh.region_names.size());
   std::vector<std::vector<std::size_t>> nodes(mesh.region_names.size());
@@ -49,38 +51,43 @@ void add_regions(const Mesh<2>& mesh) {
     tags[region].push_back(static_cast<std::size_t>(e) + 1);
     for (int node : mesh.elements[e]) nodes[region].push_back(static_cast<std::size_t>(node) + 1);
   }
-  for (int r = 0; r < count; ++r) gmsh::model::addDiscreteEntity(2, r + 1);
+  for (int r = 0; r < count; ++r) gmsh::model::addDiscreteEntity(Dim, r + 1);
   add_nodes(mesh);
   for (int r = 0; r < count; ++r) {
-    gmsh::model::mesh::addElementsByType(r + 1, gmsh_type::triangle, tags[r], nodes[r]);
-    name_group(2, r + 1, mesh.region_names[r]);
+    gmsh::model::mesh::addElementsByType(
+        r + 1, Dim == 2 ? gmsh_type::triangle : gmsh_type::tetrahedron, tags[r], nodes[r]);
+    name_group(Dim, r + 1, mesh.region_names[r]);
   }
 }
 
-void add_boundaries(const Mesh<2>& mesh) {
+template <int Dim>
+void add_boundaries(const Mesh<Dim>& mesh) {
   auto next_tag = static_cast<std::size_t>(mesh.element_count()) + 1;
   int entity = 0;
-  for (const BoundarySet<2>& set : mesh.boundaries) {
-    gmsh::model::addDiscreteEntity(1, ++entity);
+  for (const BoundarySet<Dim>& set : mesh.boundaries) {
+    gmsh::model::addDiscreteEntity(Dim - 1, ++entity);
     std::vector<std::size_t> tags;
     std::vector<std::size_t> nodes;
     for (const auto& face : set.faces) {
       tags.push_back(next_tag++);
       for (int node : face) nodes.push_back(static_cast<std::size_t>(node) + 1);
     }
-    gmsh::model::mesh::addElementsByType(entity, gmsh_type::line, tags, nodes);
-    name_group(1, entity, set.name);
+    gmsh::model::mesh::addElementsByType(entity, Dim == 2 ? gmsh_type::line : gmsh_type::triangle,
+                                         tags, nodes);
+    name_group(Dim - 1, entity, set.name);
   }
 }
 
-void write_options(const std::string& path, const Mesh<2>& mesh) {
+template <int Dim>
+void write_options(const std::string& path, const Mesh<Dim>& mesh) {
   PendingFile pending(path);
   std::ofstream stream(pending.temporary_path());
-  stream << "Mesh.SurfaceFaces = 1;\nMesh.ColorCarousel = 2;\n";
+  stream << (Dim == 2 ? "Mesh.SurfaceFaces" : "Mesh.VolumeEdges")
+         << " = 1;\nMesh.ColorCarousel = 2;\n";
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
     const auto& colour = palette[r % palette.size()];
-    stream << "Color {" << colour[0] << ", " << colour[1] << ", " << colour[2] << "} { Surface {"
-           << r + 1 << "}; }\n";
+    stream << "Color {" << colour[0] << ", " << colour[1] << ", " << colour[2] << "} { "
+           << (Dim == 2 ? "Surface" : "Volume") << " {" << r + 1 << "}; }\n";
   }
   stream.close();
   if (!stream) throw FileError(path + ": could not be written; is the disk full?");
@@ -89,7 +96,8 @@ void write_options(const std::string& path, const Mesh<2>& mesh) {
 
 }  // namespace
 
-void write_gmsh(const std::string& path, const Mesh<2>& mesh) {
+template <int Dim>
+void write_gmsh(const std::string& path, const Mesh<Dim>& mesh) {
   PendingFile pending(path);
   {
     const GmshSession session;
@@ -105,5 +113,8 @@ void write_gmsh(const std::string& path, const Mesh<2>& mesh) {
   pending.commit();
   write_options(path + ".opt", mesh);
 }
+
+template void write_gmsh(const std::string&, const Mesh<2>&);
+template void write_gmsh(const std::string&, const Mesh<3>&);
 
 }  // namespace suffuse

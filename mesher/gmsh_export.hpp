@@ -11,6 +11,7 @@ namespace suffuse {
 /// Writes a Gmsh 4.1 file with the regions and boundaries as physical groups, and `path`.opt beside
 /// it, which Gmsh loads with it: a .msh carries no colours, so the colour of each region is there.
 /// Throws FileError.
-void write_gmsh(const std::string& path, const Mesh<2>& mesh);
+template <int Dim>
+void write_gmsh(const std::string& path, const Mesh<Dim>& mesh);
 
 }  // namespace suffuse

@@ -8,31 +8,29 @@
 #include <utility>
 
 #include "case/faces.hpp"
-#include "case/short_number.hpp"
 #include "case/slit.hpp"
+#include "mesh_problems.hpp"
 
 namespace suffuse {
 
 namespace {
 
-using Edge = std::array<int, 2>;
-
-std::string place(const Vector<2>& x) {
-  return "(" + short_number(x[0]) + ", " + short_number(x[1]) + ")";
-}
-
+template <int Dim>
 class InnerCuts {
  public:
-  InnerCuts(const SceneDocument& document, ExtractedMesh& extracted)
+  using Face = std::array<int, Dim>;
+
+  InnerCuts(const SceneDocument& document, ExtractedMesh<Dim>& extracted)
       : document_(document), extracted_(extracted) {}
 
   InnerNames run(std::vector<std::string>& notes) {
     const Scene& scene = document_.scene;
+    const std::string word = MeshWords<Dim>::boundary;
     for (std::size_t i = 0; i < scene.walls.size(); ++i) {
       const std::string key = "wall[" + std::to_string(i) + "].on";
       const std::string& name = scene.walls[i].on;
       if (cut_curve(key, name) || !find_point(name)) continue;
-      report(key, '"' + name + "\", a point", "a curve inside the mesh");
+      report(key, '"' + name + "\", a point", "a " + word + " inside the mesh");
     }
     std::vector<const BoundaryCondition*> at_points;
     for (const BoundaryCondition& boundary : scene.boundaries) {
@@ -45,7 +43,7 @@ class InnerCuts {
     for (const auto& curve : extracted_.inner_curves) {
       names.curves.push_back(curve.name);
       if (key_of_.contains(curve.name) || named_by_boundary(curve.name)) continue;
-      notes.push_back("the curve \"" + curve.name +
+      notes.push_back("the " + word + " \"" + curve.name +
                       "\" lies inside the mesh and no wall or well names it: it does nothing");
     }
     for (const NamedNode& point : extracted_.points) names.points.push_back(point.name);
@@ -65,7 +63,7 @@ class InnerCuts {
   /// Whether there is a curve of this name inside the mesh.
   bool cut_curve(const std::string& key, const std::string& name) {
     const auto& curves = extracted_.inner_curves;
-    const auto curve = std::ranges::find(curves, name, &BoundarySet<2>::name);
+    const auto curve = std::ranges::find(curves, name, &BoundarySet<Dim>::name);
     if (curve == curves.end()) return false;
     add(key, *curve);
     return true;
@@ -79,28 +77,33 @@ class InnerCuts {
   void cut_point(const std::string& key, const std::string& name) {
     const NamedNode* point = find_point(name);
     if (!point) return;
-    const std::optional<std::array<Edge, 2>> edges = edges_in_line(point->node);
-    if (edges) {
-      add(key, {name, {edges->begin(), edges->end()}});
-      return;
-    }
     key_of_[name] = key;
-    report(key,
-           '"' + name + "\", a point at " + place(extracted_.mesh.nodes[point->node]) +
-               " without two inner edges that no wall and no other well has",
-           "a point in the soil, two elements or more off walls, wells and boundaries");
+    if constexpr (Dim == 3) {
+      report(key, '"' + name + "\", a point", "a surface inside the mesh");
+    } else {
+      const std::optional<std::array<Face, 2>> edges = edges_in_line(point->node);
+      if (edges) {
+        add(key, {name, {edges->begin(), edges->end()}});
+        return;
+      }
+      report(key,
+             '"' + name + "\", a point at " + place<Dim>(extracted_.mesh.nodes[point->node]) +
+                 " without two inner edges that no wall and no other well has",
+             "a point in the soil, two elements or more off walls, wells and boundaries");
+    }
   }
 
-  /// Edges that belong to another cut already are a problem.
-  void add(const std::string& key, const BoundarySet<2>& set) {
+  /// Sides that belong to another cut already are a problem.
+  void add(const std::string& key, const BoundarySet<Dim>& set) {
+    const std::string side = MeshWords<Dim>::side;
     key_of_[set.name] = key;
-    for (const Edge& edge : set.faces) {
-      const auto [entry, is_new] = cut_.emplace(face_key<2>(edge), set.name);
+    for (const Face& face : set.faces) {
+      const auto [entry, is_new] = cut_.emplace(face_key<Dim>(face), set.name);
       if (is_new || entry->second == set.name) continue;
       report(key,
-             '"' + set.name + "\", which shares the edge at " + place(centre(edge)) + " with \"" +
-                 entry->second + '"',
-             "walls and wells that share no edge");
+             '"' + set.name + "\", which shares the " + side + " at " + place<Dim>(centre(face)) +
+                 " with \"" + entry->second + '"',
+             "walls and wells that share no " + side);
       return;
     }
     cuts_.push_back(set);
@@ -108,17 +111,21 @@ class InnerCuts {
 
   void open_all() {
     std::set<std::string> reported;
-    for (const JoinedFace<2>& face : slit(extracted_.mesh, cuts_)) {
+    for (const JoinedFace<Dim>& face : slit(extracted_.mesh, cuts_)) {
       if (!reported.insert(face.name).second) continue;
       report(key_of_.at(face.name),
-             '"' + face.name + "\" with a single edge, at " + place(centre(face.nodes)) +
-                 ", between two ends in the soil",
-             "a curve of at least two edges: a smaller mesh.size there");
+             '"' + face.name + "\" with a single " + MeshWords<Dim>::side + ", at " +
+                 place<Dim>(centre(face.nodes)) + ", between " +
+                 (Dim == 2 ? "two ends" : "borders") + " in the soil",
+             std::string("a ") + MeshWords<Dim>::boundary + " of at least two " +
+                 MeshWords<Dim>::sides + ": a smaller mesh.size there");
     }
   }
 
-  [[nodiscard]] Vector<2> centre(const Edge& edge) const {
-    return 0.5 * (extracted_.mesh.nodes[edge[0]] + extracted_.mesh.nodes[edge[1]]);
+  [[nodiscard]] Vector<Dim> centre(const Face& face) const {
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (const int node : face) sum += extracted_.mesh.nodes[node];
+    return sum / Dim;
   }
 
   /// Nodes at the other ends of the edges of an inner node that may be cut; empty for an outer
@@ -134,30 +141,30 @@ class InnerCuts {
     std::vector<int> result;
     for (const auto& [other, count] : elements) {
       if (count != 2) return {};
-      if (!cut_.contains(face_key<2>({node, other}))) result.push_back(other);
+      if (!cut_.contains(face_key<Dim>({node, other}))) result.push_back(other);
     }
     return result;
   }
 
   /// The two edges of a node that lie most nearly in line; of several such pairs, as a regular mesh
   /// has them, the one nearest to the x-axis, whatever the numbers of the nodes.
-  [[nodiscard]] std::optional<std::array<Edge, 2>> edges_in_line(int node) const {
+  [[nodiscard]] std::optional<std::array<Face, 2>> edges_in_line(int node) const {
     constexpr double round_off = 1e-9;
     const auto& x = extracted_.mesh.nodes;
     const std::vector<int> ends = neighbours(node);
-    std::optional<std::array<Edge, 2>> best;
+    std::optional<std::array<Face, 2>> best;
     double best_bend = 0.0;
     double best_slope = 0.0;
     for (std::size_t i = 0; i < ends.size(); ++i) {
       for (std::size_t j = i + 1; j < ends.size(); ++j) {
-        const Vector<2> a = (x[ends[i]] - x[node]).normalized();
-        const Vector<2> b = (x[ends[j]] - x[node]).normalized();
+        const Vector<Dim> a = (x[ends[i]] - x[node]).normalized();
+        const Vector<Dim> b = (x[ends[j]] - x[node]).normalized();
         const double bend = (a + b).norm();
         const double slope = std::abs((a - b)[1]);
         const bool straighter = bend < best_bend - round_off;
         const bool as_straight = std::abs(bend - best_bend) <= round_off;
         if (best && !straighter && !(as_straight && slope < best_slope - round_off)) continue;
-        best = {Edge{node, ends[i]}, Edge{node, ends[j]}};
+        best = {Face{node, ends[i]}, Face{node, ends[j]}};
         best_bend = bend;
         best_slope = slope;
       }
@@ -166,17 +173,23 @@ class InnerCuts {
   }
 
   const SceneDocument& document_;
-  ExtractedMesh& extracted_;
-  std::vector<BoundarySet<2>> cuts_;
-  std::map<Edge, std::string> cut_;            ///< by edge, the name of the cut
+  ExtractedMesh<Dim>& extracted_;
+  std::vector<BoundarySet<Dim>> cuts_;
+  std::map<Face, std::string> cut_;            ///< by edge, the name of the cut
   std::map<std::string, std::string> key_of_;  ///< by name, the scene's key that names the cut
 };
 
 }  // namespace
 
-InnerNames cut_walls_and_wells(const SceneDocument& document, ExtractedMesh& extracted,
+template <int Dim>
+InnerNames cut_walls_and_wells(const SceneDocument& document, ExtractedMesh<Dim>& extracted,
                                std::vector<std::string>& notes) {
-  return InnerCuts(document, extracted).run(notes);
+  return InnerCuts<Dim>(document, extracted).run(notes);
 }
+
+template InnerNames cut_walls_and_wells(const SceneDocument&, ExtractedMesh<2>&,
+                                        std::vector<std::string>&);
+template InnerNames cut_walls_and_wells(const SceneDocument&, ExtractedMesh<3>&,
+                                        std::vector<std::string>&);
 
 }  // namespace suffuse

@@ -14,7 +14,8 @@ namespace suffuse {
 /// Cuts the mesh along each inner curve that a wall or a well names, and at each point that a well
 /// names: along two edges there that lie most nearly in line. Adds problems, and a note for each
 /// inner curve that nothing names. Returns the names of all curves and points.
-InnerNames cut_walls_and_wells(const SceneDocument& document, ExtractedMesh& extracted,
+template <int Dim>
+InnerNames cut_walls_and_wells(const SceneDocument& document, ExtractedMesh<Dim>& extracted,
                                std::vector<std::string>& notes);
 
 }  // namespace suffuse

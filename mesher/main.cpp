@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "case/case_file.hpp"
@@ -94,7 +96,8 @@ void check_outputs(const Arguments& arguments, const SceneDocument& document) {
   }
 }
 
-void refuse_too_many_points(const SceneDocument& document, const Mesh<2>& mesh) {
+template <int Dim>
+void refuse_too_many_points(const SceneDocument& document, const Mesh<Dim>& mesh) {
   // Beyond this a misplaced decimal point is likelier than intent.
   constexpr double max_points = 1e8;
   double count = 0.0;
@@ -108,9 +111,11 @@ void refuse_too_many_points(const SceneDocument& document, const Mesh<2>& mesh) 
        "at most 100 million: fewer per element, or larger elements", ""}});
 }
 
-Case<2> seed(const SceneDocument& document, Mesh<2> mesh) {
-  const Scene& scene = document.scene;
-  Case<2> result{document, std::move(mesh), {}, {}};
+template <int Dim>
+Case<Dim> seed(const SceneDocument& document, Mesh<Dim> mesh) {
+  Case<Dim> result{document, std::move(mesh), {}, {}};
+  complete_for_mesh(result.document, Dim);
+  const Scene& scene = result.document.scene;
   result.solid_points = seed_solid_points(result.mesh, scene);
   if (scene.formulation == Formulation::double_point) {
     refuse_too_many_points(document, result.mesh);
@@ -144,11 +149,10 @@ void check_gradings(const Arguments& arguments) {
   warn(grading_warnings(document));
 }
 
-void make_case(const Arguments& arguments) {
-  const SceneDocument document = scene_of(arguments);
-  check_outputs(arguments, document);
-  Geometry geometry = build_geometry(document, arguments.geometry_timeout);
-  const Case<2> result = seed(document, std::move(geometry.mesh));
+template <int Dim>
+void make_case_of(const Arguments& arguments, const SceneDocument& document,
+                  Geometry<Dim> geometry) {
+  const Case<Dim> result = seed(document, std::move(geometry.mesh));
   if (!arguments.msh.empty()) write_gmsh(arguments.msh, result.mesh);
   write_case(output_path(arguments), result);
 
@@ -159,6 +163,13 @@ void make_case(const Arguments& arguments) {
   warn(plausibility_warnings(document, result.mesh));
   warn(suction_warnings(document, result.mesh));
   warn(grading_warnings(document));
+}
+
+void make_case(const Arguments& arguments) {
+  const SceneDocument document = scene_of(arguments);
+  check_outputs(arguments, document);
+  std::visit([&](auto geometry) { make_case_of(arguments, document, std::move(geometry)); },
+             build_geometry(document, arguments.geometry_timeout));
 }
 
 std::string refuse_empty(const std::string& name) {

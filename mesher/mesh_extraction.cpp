@@ -3,10 +3,11 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <cstdint>
+#include <iterator>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -14,6 +15,8 @@
 #include "case/faces.hpp"
 #include "case/short_number.hpp"
 #include "gmsh_types.hpp"
+#include "mesh_checks.hpp"
+#include "mesh_problems.hpp"
 
 namespace suffuse {
 
@@ -21,22 +24,12 @@ namespace {
 
 using Tag = std::size_t;
 
-/// Relative to the square of the longest edge; an angle of about 1e-10 degrees.
-constexpr double smallest_area = 1e-12;
 /// Relative to the diagonal of the mesh.
 constexpr double out_of_plane = 1e-9;
-constexpr double same_place = 1e-9;
 /// Of a coordinate, m: areas are products of two, and their squares are still numbers.
 constexpr double max_coordinate = 1e50;
 /// Characters.
 constexpr std::size_t longest_name = 127;
-/// Of one kind, before "and N more".
-constexpr std::size_t max_examples = 5;
-
-std::string place(const Vector<2>& x) {
-  return "(" + short_number(x[0]) + ", " + short_number(x[1]) + ")";
-}
-
 /// Names go into files, tables and messages: in UTF-8, and without what moves a terminal's cursor.
 bool is_plain_name(const std::string& name) {
   std::size_t expected = 0;  // bytes that continue a character
@@ -55,64 +48,38 @@ bool is_plain_name(const std::string& name) {
   return expected == 0 && name.size() <= longest_name;
 }
 
-/// Problems of one kind: the first few one by one, the rest counted.
-class Kind {
- public:
-  Kind(std::vector<InputProblem>& problems, std::string expected)
-      : problems_(problems), expected_(std::move(expected)) {}
-  Kind(const Kind&) = delete;
-  Kind& operator=(const Kind&) = delete;
-  ~Kind() {
-    if (count_ <= max_examples) return;
-    problems_[last_].found += ", and " + std::to_string(count_ - max_examples) + " more like it";
-  }
-  void add(const std::string& found) {
-    if (++count_ > max_examples) return;
-    last_ = problems_.size();
-    problems_.push_back({"", "", found, expected_, ""});
-  }
-
- private:
-  std::vector<InputProblem>& problems_;
-  std::string expected_;
-  std::size_t count_ = 0;
-  std::size_t last_ = 0;  // index of the last one listed
-};
-
 struct Elements {
   std::vector<Tag> tags;
   std::vector<std::vector<Tag>> nodes;
 };
 
+template <int Dim>
 class Extraction {
  public:
   explicit Extraction(Quadrangles quadrangles) : quadrangles_(quadrangles) {}
 
-  ExtractedMesh run() {
+  ExtractedMesh<Dim> run() {
     read_nodes();
-    refuse_volumes();
-    if (result_.problems.empty()) read_surfaces();
-    if (triangle_tags_.empty()) return std::move(result_);
+    read_regions();
+    if (tags_.elements.empty()) return std::move(result_);
     number_nodes();
     if (!has_coordinates()) return std::move(result_);
     result_.comparable = true;
-    check_plane();
-    check_duplicate_nodes();
-    orient_and_check_areas();
-    check_overlaps();
-    const OuterEdges outer = edges_of_one_triangle();
-    check_hanging_nodes(outer);
-    check_parts(outer);
+    if (Dim == 2) check_plane();
+    result_.turned = check_mesh(mesh(), tags_, result_.problems);
     read_boundaries();
     read_points();
     return std::move(result_);
   }
 
  private:
-  /// Edges that one triangle alone has, with it.
-  using OuterEdges = std::map<std::array<int, 2>, int>;
+  using Words = MeshWords<Dim>;
+  using Side = std::array<int, Dim>;
 
-  Mesh<2>& mesh() { return result_.mesh; }
+  static constexpr int simplex = Dim == 2 ? gmsh_type::triangle : gmsh_type::tetrahedron;
+  static constexpr int simplex_side = Dim == 2 ? gmsh_type::line : gmsh_type::triangle;
+
+  Mesh<Dim>& mesh() { return result_.mesh; }
 
   void report(const std::string& found, const std::string& expected) {
     result_.problems.push_back({"", "", found, expected, ""});
@@ -129,17 +96,19 @@ class Extraction {
     }
   }
 
+  [[nodiscard]] Vector<Dim> position(Tag node) const {
+    const std::array<double, 3>& x = coordinates_.at(node);
+    return Eigen::Map<const Vector<Dim>>(x.data());
+  }
+
   [[nodiscard]] std::string place_of(const std::vector<Tag>& nodes) const {
-    Vector<2> centre = Vector<2>::Zero();
-    for (Tag node : nodes) {
-      const auto& x = coordinates_.at(node);
-      centre += Vector<2>(x[0], x[1]) / static_cast<double>(nodes.size());
-    }
-    return place(centre);
+    Vector<Dim> centre = Vector<Dim>::Zero();
+    for (Tag node : nodes) centre += position(node) / static_cast<double>(nodes.size());
+    return place<Dim>(centre);
   }
 
   /// The elements of an entity that have the wanted type; the others are problems.
-  Elements read_entity(int dimension, int entity, int wanted, Kind& wrong_types) {
+  Elements read_entity(int dimension, int entity, int wanted, ProblemKind& wrong_types) {
     Elements result;
     std::vector<int> types;
     std::vector<std::vector<Tag>> tags;
@@ -151,10 +120,12 @@ class Extraction {
       for (std::size_t i = 0; i < tags[t].size(); ++i) {
         const auto first = nodes[t].begin() + static_cast<std::ptrdiff_t>(i * per_element);
         std::vector<Tag> corners(first, first + static_cast<std::ptrdiff_t>(per_element));
-        if (types[t] == gmsh_type::quadrangle && wanted == gmsh_type::triangle &&
-            quadrangles_ == Quadrangles::cut_along_diagonals) {
-          cut(tags[t][i], corners, result);
-          continue;
+        if constexpr (Dim == 2) {
+          if (types[t] == gmsh_type::quadrangle && wanted == gmsh_type::triangle &&
+              quadrangles_ == Quadrangles::cut_along_diagonals) {
+            cut(tags[t][i], corners, result);
+            continue;
+          }
         }
         if (types[t] != wanted) {
           wrong_types.add("element " + std::to_string(tags[t][i]) + " (" + type_name(types[t]) +
@@ -171,10 +142,7 @@ class Extraction {
   /// Adds the four triangles of a quadrangle, with a node where its diagonals cross.
   void cut(Tag tag, const std::vector<Tag>& corners, Elements& result) {
     std::array<Vector<2>, 4> x;
-    for (int a = 0; a < 4; ++a) {
-      const auto& position = coordinates_.at(corners[a]);
-      x[a] = {position[0], position[1]};
-    }
+    for (int a = 0; a < 4; ++a) x[a] = position(corners[a]);
     const Vector<2> first = x[2] - x[0];
     const Vector<2> second = x[3] - x[1];
     const Vector<2> between = x[1] - x[0];
@@ -225,6 +193,11 @@ class Extraction {
     std::vector<int> entities;
   };
 
+  /// As a .geo file has it.
+  static std::string script_word(int dimension) {
+    return dimension == 3 ? "Volume" : dimension == 2 ? "Surface" : "Curve";
+  }
+
   /// Named physical groups; those without a name, and names given twice, are problems.
   std::vector<Group> groups(int dimension, const std::string& what) {
     gmsh::vectorpair pairs;
@@ -237,8 +210,7 @@ class Extraction {
       gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, group.entities);
       if (group.name.empty()) {
         report("physical " + what + " " + std::to_string(tag) + " without a name",
-               "a name, as in Physical " + std::string(dimension == 2 ? "Surface" : "Curve") +
-                   "(\"name\") = {...};");
+               "a name, as in Physical " + script_word(dimension) + "(\"name\") = {...};");
       } else if (!is_plain_name(group.name)) {
         report(
             "physical " + what + " " + std::to_string(tag) + " with a name that is no plain text",
@@ -253,12 +225,13 @@ class Extraction {
     return groups;
   }
 
-  void read_surfaces() {
-    const std::vector<Group> regions = groups(2, "surface");
+  void read_regions() {
+    const std::string region = Words::region;
+    const std::vector<Group> regions = groups(Dim, region);
     if (regions.empty()) {
-      report("no named physical surface",
-             "each region as a physical surface, as in Physical Surface(\"specimen\") = {1};" +
-                 inventory({2, 1}));
+      report("no named physical " + region,
+             "each region as a physical " + region + ", as in Physical " + script_word(Dim) +
+                 "(\"specimen\") = {1};" + inventory({Dim, Dim - 1}));
       return;
     }
     std::map<int, std::vector<int>> regions_of;  // entity -> indices of regions
@@ -266,50 +239,39 @@ class Extraction {
       mesh().region_names.push_back(regions[r].name);
       for (int entity : regions[r].entities) regions_of[entity].push_back(static_cast<int>(r));
     }
-    Kind wrong_types(result_.problems,
-                     "triangles of three nodes (in Gmsh: Mesh.ElementOrder = 1, no Recombine)");
+    ProblemKind wrong_types(result_.problems,
+                            std::string(Words::elements) + " of " + (Dim == 2 ? "three" : "four") +
+                                " nodes (in Gmsh: Mesh.ElementOrder = 1, no Recombine)");
     region_has_elements_.assign(regions.size(), false);
-    for (int entity : entities(2)) add_surface(entity, regions_of[entity], wrong_types);
+    for (int entity : entities(Dim)) add_entity(entity, regions_of[entity], wrong_types);
     for (std::size_t r = 0; r < regions.size(); ++r) {
       if (region_has_elements_[r]) continue;
-      report("physical surface \"" + regions[r].name + "\" without triangles",
+      report("physical " + region + " \"" + regions[r].name + "\" without " + Words::elements,
              "a region that is not empty");
     }
   }
 
-  void refuse_volumes() {
-    const std::vector<int> volumes = entities(3);
-    if (volumes.empty()) return;
-    Kind kind(result_.problems, "a plane model: only triangles are supported so far");
-    for (int volume : volumes) {
-      read_entity(3, volume, gmsh_type::none, kind);
-      if (!has_elements(3, volume)) kind.add("volume " + std::to_string(volume));
-    }
-  }
-
-  void add_surface(int entity, const std::vector<int>& regions, Kind& wrong_types) {
-    Elements triangles = read_entity(2, entity, gmsh_type::triangle, wrong_types);
+  void add_entity(int entity, const std::vector<int>& regions, ProblemKind& wrong_types) {
+    const Elements found = read_entity(Dim, entity, simplex, wrong_types);
     for (int region : regions) {
-      region_has_elements_[region] = region_has_elements_[region] || has_elements(2, entity);
+      region_has_elements_[region] = region_has_elements_[region] || has_elements(Dim, entity);
     }
-    if (triangles.tags.empty()) return;
-    const std::string which = "surface " + std::to_string(entity) + " (" +
-                              std::to_string(triangles.tags.size()) + " triangles, one of them " +
-                              std::to_string(triangles.tags.front()) + " at " +
-                              place_of(triangles.nodes.front()) + ")";
-    if (regions.empty()) report(which + " in no physical surface", "every triangle in one region");
+    if (found.tags.empty()) return;
+    const std::string word = Words::region;
+    const std::string which = word + " " + std::to_string(entity) + " (" +
+                              std::to_string(found.tags.size()) + " " + Words::elements +
+                              ", one of them " + std::to_string(found.tags.front()) + " at " +
+                              place_of(found.nodes.front()) + ")";
+    const std::string expected = std::string("every ") + Words::element + " in one region";
+    if (regions.empty()) report(which + " in no physical " + word, expected);
     if (regions.size() > 1) {
-      report(which + " in the physical surfaces \"" + mesh().region_names[regions[0]] +
+      report(which + " in the physical " + word + "s \"" + mesh().region_names[regions[0]] +
                  "\" and \"" + mesh().region_names[regions[1]] + "\"",
-             "every triangle in one region");
+             expected);
     }
-    const int region = regions.empty() ? 0 : regions.front();
-    for (std::size_t i = 0; i < triangles.tags.size(); ++i) {
-      triangle_tags_.push_back(triangles.tags[i]);
-      triangle_nodes_.push_back(
-          {triangles.nodes[i][0], triangles.nodes[i][1], triangles.nodes[i][2]});
-      mesh().element_region.push_back(region);
-    }
+    tags_.elements.insert(tags_.elements.end(), found.tags.begin(), found.tags.end());
+    element_nodes_.insert(element_nodes_.end(), found.nodes.begin(), found.nodes.end());
+    mesh().element_region.resize(tags_.elements.size(), regions.empty() ? 0 : regions.front());
   }
 
   /// What a user can name, when nothing is named.
@@ -323,9 +285,11 @@ class Extraction {
         const auto rounded = [](double value) {
           return short_number(std::round(value * 1e6) / 1e6);
         };
-        text += "\n    " + std::string(dimension == 2 ? "surface " : "curve ") +
-                std::to_string(entity) + ": x " + rounded(box[0]) + " to " + rounded(box[3]) +
-                ", y " + rounded(box[1]) + " to " + rounded(box[4]);
+        std::string word = script_word(dimension);
+        word[0] = static_cast<char>(std::tolower(word[0]));
+        text += "\n    " + word + " " + std::to_string(entity) + ": x " + rounded(box[0]) + " to " +
+                rounded(box[3]) + ", y " + rounded(box[1]) + " to " + rounded(box[4]);
+        if (Dim == 3) text += ", z " + rounded(box[2]) + " to " + rounded(box[5]);
       }
     }
     return text.empty() ? "" : " the model has" + text;
@@ -334,30 +298,24 @@ class Extraction {
   /// Ascending tags become indices.
   void number_nodes() {
     std::set<Tag> used;
-    for (const auto& nodes : triangle_nodes_) used.insert(nodes.begin(), nodes.end());
+    for (const auto& nodes : element_nodes_) used.insert(nodes.begin(), nodes.end());
     for (Tag tag : used) {
       index_[tag] = mesh().node_count();
-      node_tags_.push_back(tag);
-      const auto& x = coordinates_.at(tag);
-      mesh().nodes.emplace_back(x[0], x[1]);
+      tags_.nodes.push_back(tag);
+      mesh().nodes.push_back(position(tag));
     }
-    for (const auto& nodes : triangle_nodes_) {
-      mesh().elements.push_back({index_.at(nodes[0]), index_.at(nodes[1]), index_.at(nodes[2])});
+    for (const auto& nodes : element_nodes_) {
+      auto& element = mesh().elements.emplace_back();
+      for (int a = 0; a <= Dim; ++a) element[a] = index_.at(nodes[a]);
     }
-    Vector<2> low = mesh().nodes.front();
-    Vector<2> high = low;
-    for (const Vector<2>& x : mesh().nodes) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-    diagonal_ = (high - low).norm();
   }
 
   /// Whether all nodes are somewhere; those that are not are problems.
   bool has_coordinates() {
-    Kind kind(result_.problems, "finite coordinates, in m, below " + short_number(max_coordinate));
+    ProblemKind kind(result_.problems,
+                     "finite coordinates, in m, below " + short_number(max_coordinate));
     bool all = true;
-    for (Tag tag : node_tags_) {
+    for (Tag tag : tags_.nodes) {
       const auto& x = coordinates_.at(tag);
       const auto is_near = [](double value) { return std::abs(value) <= max_coordinate; };
       if (std::ranges::all_of(x, is_near)) continue;
@@ -369,276 +327,74 @@ class Extraction {
   }
 
   void check_plane() {
-    Kind kind(result_.problems, "a mesh in the plane z = 0");
-    for (Tag tag : node_tags_) {
+    const double diagonal = extent(mesh()).norm();
+    ProblemKind kind(result_.problems, "a mesh in the plane z = 0");
+    for (Tag tag : tags_.nodes) {
       const auto& x = coordinates_.at(tag);
-      if (std::abs(x[2]) <= out_of_plane * diagonal_) continue;
+      if (std::abs(x[2]) <= out_of_plane * diagonal) continue;
       kind.add("node " + std::to_string(tag) + " at (" + short_number(x[0]) + ", " +
                short_number(x[1]) + ", " + short_number(x[2]) + ")");
     }
   }
 
-  void check_duplicate_nodes() {
-    Kind kind(result_.problems,
-              "one node per place, so that neighbours are connected (in Gmsh: Coherence; or "
-              "BooleanFragments, or Coherence Mesh)");
-    const double tolerance = same_place * diagonal_;
-    if (!(tolerance > 0.0)) return;
-    // Cells of the size of the tolerance: a node's duplicates are in its own or the next ones.
-    std::map<std::pair<std::int64_t, std::int64_t>, int> cells;
-    const Vector<2> origin = mesh().nodes.front();
-    for (int n = 0; n < mesh().node_count(); ++n) {
-      const Vector<2> offset = (mesh().nodes[n] - origin) / tolerance;
-      const std::int64_t i = std::llround(offset[0]);
-      const std::int64_t j = std::llround(offset[1]);
-      for (std::int64_t di = -1; di <= 1; ++di) {
-        for (std::int64_t dj = -1; dj <= 1; ++dj) {
-          const auto other = cells.find({i + di, j + dj});
-          if (other == cells.end()) continue;
-          if ((mesh().nodes[other->second] - mesh().nodes[n]).norm() > tolerance) continue;
-          kind.add("nodes " + std::to_string(node_tags_[other->second]) + " and " +
-                   std::to_string(node_tags_[n]) + ", both at " + place(mesh().nodes[n]));
-        }
-      }
-      cells.emplace(std::pair(i, j), n);
-    }
-  }
-
-  void orient_and_check_areas() {
-    Kind kind(result_.problems, "triangles with an area");
-    for (int e = 0; e < mesh().element_count(); ++e) {
-      auto& corners = mesh().elements[e];
-      double longest = 0.0;
-      for (int a = 0; a < 3; ++a) {
-        longest = std::max(
-            longest, (mesh().nodes[corners[(a + 1) % 3]] - mesh().nodes[corners[a]]).squaredNorm());
-      }
-      const double area = element_volume(mesh(), e);
-      if (!(std::abs(area) > smallest_area * longest)) {
-        kind.add("element " + std::to_string(triangle_tags_[e]) + ", flat, with its nodes at " +
-                 place(mesh().nodes[corners[0]]) + ", " + place(mesh().nodes[corners[1]]) + ", " +
-                 place(mesh().nodes[corners[2]]));
-        flat_.insert(e);
-      } else if (area < 0.0) {
-        std::swap(corners[1], corners[2]);
-        ++result_.turned;
-      }
-    }
-  }
-
-  /// All triangles being counter-clockwise, two neighbours run along their edge in opposite
-  /// directions. Those that run in the same one lie on the same side of it.
-  void check_overlaps() {
-    Kind kind(result_.problems,
-              "triangles that do not overlap: the mesh is folded or has one twice");
-    std::map<std::array<int, 2>, int> owner;  // by directed edge
-    for (int e = 0; e < mesh().element_count(); ++e) {
-      if (flat_.contains(e)) continue;
-      const auto& corners = mesh().elements[e];
-      for (int a = 0; a < 3; ++a) {
-        const std::array<int, 2> edge{corners[a], corners[(a + 1) % 3]};
-        const auto [entry, is_new] = owner.emplace(edge, e);
-        if (is_new) continue;
-        kind.add("elements " + std::to_string(triangle_tags_[entry->second]) + " and " +
-                 std::to_string(triangle_tags_[e]) + ", on the same side of the edge from " +
-                 place(mesh().nodes[edge[0]]) + " to " + place(mesh().nodes[edge[1]]));
-        break;
-      }
-    }
-  }
-
-  [[nodiscard]] OuterEdges edges_of_one_triangle() const {
-    OuterEdges outer;
-    for (int e = 0; e < result_.mesh.element_count(); ++e) {
-      for (int corner = 0; corner < 3; ++corner) {
-        const auto edge = face_key<2>(face_opposite<2>(result_.mesh.elements[e], corner));
-        const auto [entry, is_new] = outer.emplace(edge, e);
-        if (!is_new) outer.erase(entry);
-      }
-    }
-    return outer;
-  }
-
-  /// A node in the middle of a neighbour's edge connects nothing: what looks like one body would be
-  /// two, with an impervious joint.
-  void check_hanging_nodes(const OuterEdges& outer) {
-    Kind kind(result_.problems,
-              "neighbours that share whole edges (in Gmsh: Coherence, or BooleanFragments)");
-    std::set<int> nodes;
-    for (const auto& [edge, element] : outer) nodes.insert(edge.begin(), edge.end());
-    std::vector<int> by_x(nodes.begin(), nodes.end());
-    const auto& x = mesh().nodes;
-    std::ranges::sort(by_x, {}, [&](int n) { return x[n][0]; });
-    const double tolerance = same_place * diagonal_;
-    for (const auto& [edge, element] : outer) {
-      if (flat_.contains(element)) continue;
-      const Vector<2> start = x[edge[0]];
-      const Vector<2> along = (x[edge[1]] - start).normalized();
-      const double length = (x[edge[1]] - start).norm();
-      const auto [left, right] = std::minmax(start[0], x[edge[1]][0]);
-      for (auto n =
-               std::ranges::lower_bound(by_x, left - tolerance, {}, [&](int m) { return x[m][0]; });
-           n != by_x.end() && x[*n][0] <= right + tolerance; ++n) {
-        const Vector<2> offset = x[*n] - start;
-        const double from_start = offset.dot(along);
-        const double aside = std::abs(offset[0] * along[1] - offset[1] * along[0]);
-        const bool within = from_start > tolerance && from_start < length - tolerance;
-        if (!within || aside > tolerance) continue;
-        kind.add("node " + std::to_string(node_tags_[*n]) + " at " + place(x[*n]) +
-                 " on the edge of element " + std::to_string(triangle_tags_[element]) + " from " +
-                 place(start) + " to " + place(x[edge[1]]));
-      }
-    }
-  }
-
-  /// Parts that share no edge and yet lie on each other: their outer edges cross, or one lies
-  /// within an element of the other.
-  void check_parts(const OuterEdges& outer) {
-    Kind kind(result_.problems,
-              "parts that do not lie on each other (in Gmsh: Coherence, or BooleanFragments)");
-    check_crossings(outer, kind);
-    const std::vector<int> part = parts();
-    std::map<int, int> corner_of_part;
-    for (const auto& [edge, element] : outer) corner_of_part.emplace(part[element], edge[0]);
-    if (corner_of_part.size() < 2) return;
-    const auto& x = mesh().nodes;
-    std::vector<std::pair<int, int>> by_x(corner_of_part.begin(), corner_of_part.end());
-    const auto abscissa = [&](const std::pair<int, int>& corner) { return x[corner.second][0]; };
-    std::ranges::sort(by_x, {}, abscissa);
-    for (int e = 0; e < mesh().element_count(); ++e) {
-      if (flat_.contains(e)) continue;
-      const auto& [a, b, c] = mesh().elements[e];
-      const auto [left, right] = std::minmax({x[a][0], x[b][0], x[c][0]});
-      for (auto corner = std::ranges::lower_bound(by_x, left, {}, abscissa);
-           corner != by_x.end() && abscissa(*corner) <= right; ++corner) {
-        const auto [own, node] = *corner;
-        if (part[e] == own || !lies_within(x[node], e)) continue;
-        kind.add("node " + std::to_string(node_tags_[node]) + " at " + place(x[node]) +
-                 " within element " + std::to_string(triangle_tags_[e]) + " of another part");
-      }
-    }
-  }
-
-  void check_crossings(const OuterEdges& outer, Kind& kind) {
-    struct Edge {
-      Vector<2> from;
-      Vector<2> to;
-      int element;
-    };
-    const auto left = [](const Edge& edge) { return std::min(edge.from[0], edge.to[0]); };
-    const auto right = [](const Edge& edge) { return std::max(edge.from[0], edge.to[0]); };
-    std::vector<Edge> edges;
-    for (const auto& [nodes, element] : outer) {
-      if (!flat_.contains(element)) {
-        edges.push_back({mesh().nodes[nodes[0]], mesh().nodes[nodes[1]], element});
-      }
-    }
-    std::ranges::sort(edges, {}, left);
-    const double tolerance = same_place * diagonal_;
-    // Both ends of each on different sides of the other, by more than round-off.
-    const auto separates_ends_of = [&](const Edge& line, const Edge& other) {
-      const Vector<2> along = (line.to - line.from).normalized();
-      const auto aside = [&](const Vector<2>& x) {
-        const Vector<2> offset = x - line.from;
-        return along[0] * offset[1] - along[1] * offset[0];
-      };
-      const double a = aside(other.from);
-      const double b = aside(other.to);
-      return std::min(a, b) < -tolerance && std::max(a, b) > tolerance;
-    };
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      for (std::size_t j = i + 1; j < edges.size() && left(edges[j]) < right(edges[i]); ++j) {
-        if (!separates_ends_of(edges[i], edges[j]) || !separates_ends_of(edges[j], edges[i]))
-          continue;
-        kind.add("elements " + std::to_string(triangle_tags_[edges[i].element]) + " and " +
-                 std::to_string(triangle_tags_[edges[j].element]) + ", whose edges from " +
-                 place(edges[i].from) + " to " + place(edges[i].to) + " and from " +
-                 place(edges[j].from) + " to " + place(edges[j].to) + " cross");
-      }
-    }
-  }
-
-  /// Per element, the number of the part that it belongs to: those that share an edge are of one.
-  [[nodiscard]] std::vector<int> parts() const {
-    std::vector<int> part(result_.mesh.element_count());
-    std::iota(part.begin(), part.end(), 0);
-    const auto root = [&](int e) {
-      while (part[e] != e) e = part[e] = part[part[e]];
-      return e;
-    };
-    std::map<std::array<int, 2>, int> owner;
-    for (int e = 0; e < result_.mesh.element_count(); ++e) {
-      for (int corner = 0; corner < 3; ++corner) {
-        const auto edge = face_key<2>(face_opposite<2>(result_.mesh.elements[e], corner));
-        const auto [entry, is_new] = owner.emplace(edge, e);
-        if (!is_new) part[root(e)] = root(entry->second);
-      }
-    }
-    for (int e = 0; e < result_.mesh.element_count(); ++e) part[e] = root(e);
-    return part;
-  }
-
-  /// Farther from each of its edges than the tolerance.
-  [[nodiscard]] bool lies_within(const Vector<2>& x, int element) const {
-    const double tolerance = same_place * diagonal_;
-    const auto& corners = result_.mesh.elements[element];
-    for (int a = 0; a < 3; ++a) {
-      const Vector<2>& start = result_.mesh.nodes[corners[a]];
-      const Vector<2> along = (result_.mesh.nodes[corners[(a + 1) % 3]] - start).normalized();
-      const Vector<2> offset = x - start;
-      if (!(along[0] * offset[1] - along[1] * offset[0] > tolerance)) return false;
-    }
-    return true;
-  }
-
   void read_boundaries() {
+    const std::string word = Words::boundary;
     gmsh::vectorpair named;
-    gmsh::model::getPhysicalGroups(named, 1);
-    if (named.empty()) result_.curves_to_name = inventory({1});
-    const FaceTable<2> faces(mesh());
-    Kind wrong_types(result_.problems, "edges of two nodes (in Gmsh: Mesh.ElementOrder = 1)");
-    for (const Group& group : groups(1, "curve")) {
-      Elements edges;
+    gmsh::model::getPhysicalGroups(named, Dim - 1);
+    if (named.empty()) result_.curves_to_name = inventory({Dim - 1});
+    const FaceTable<Dim> faces(mesh());
+    ProblemKind wrong_types(result_.problems, std::string(Words::sides) + " of " +
+                                                  (Dim == 2 ? "two" : "three") +
+                                                  " nodes (in Gmsh: Mesh.ElementOrder = 1)");
+    for (const Group& group : groups(Dim - 1, word)) {
+      std::vector<std::vector<Tag>> sides;
       for (int entity : group.entities) {
-        Elements more = read_entity(1, entity, gmsh_type::line, wrong_types);
-        edges.tags.insert(edges.tags.end(), more.tags.begin(), more.tags.end());
-        edges.nodes.insert(edges.nodes.end(), more.nodes.begin(), more.nodes.end());
+        Elements more = read_entity(Dim - 1, entity, simplex_side, wrong_types);
+        std::ranges::move(more.nodes, std::back_inserter(sides));
       }
-      if (edges.tags.empty()) {
-        report("physical curve \"" + group.name + "\" without edges",
+      if (sides.empty()) {
+        report("physical " + word + " \"" + group.name + "\" without " + Words::sides,
                "a boundary that is not empty");
       }
-      add_curve(group.name, edges, faces);
+      add_boundary(group.name, sides, faces);
     }
   }
 
-  /// A curve is a boundary, or lies inside the mesh as a whole.
-  void add_curve(const std::string& name, const Elements& edges, const FaceTable<2>& faces) {
-    std::set<std::array<int, 2>> outer;
-    std::set<std::array<int, 2>> inner;
+  /// Its nodes by their indices, if an element has them all.
+  [[nodiscard]] std::optional<Side> side_of(const std::vector<Tag>& nodes) const {
+    Side side{};
+    for (int a = 0; a < Dim; ++a) {
+      const auto found = index_.find(nodes[a]);
+      if (found == index_.end()) return std::nullopt;
+      side[a] = found->second;
+    }
+    return face_key<Dim>(side);
+  }
+
+  /// A curve (surface) is a boundary, or lies inside the mesh as a whole.
+  void add_boundary(const std::string& name, const std::vector<std::vector<Tag>>& sides,
+                    const FaceTable<Dim>& faces) {
+    std::set<Side> outer;
+    std::set<Side> inner;
     std::vector<const std::vector<Tag>*> inner_tags;
-    Kind kind(result_.problems, "a boundary of outer edges only");
-    for (const auto& nodes : edges.nodes) {
-      const auto first = index_.find(nodes[0]);
-      const auto second = index_.find(nodes[1]);
-      const bool known = first != index_.end() && second != index_.end();
-      const std::array<int, 2> edge =
-          known ? face_key<2>({first->second, second->second}) : std::array<int, 2>{-1, -1};
-      const int owners = known ? faces.owners(edge) : 0;
-      if (owners == 0) {
-        kind.add("physical curve \"" + name + "\" with an edge at " + place_of(nodes) +
-                 " that no triangle has");
-      }
-      if (owners == 1) outer.insert(edge);
-      if (owners > 1 && inner.insert(edge).second) inner_tags.push_back(&nodes);
+    ProblemKind kind(result_.problems,
+                     std::string("a boundary of outer ") + Words::sides + " only");
+    const std::string with_side = std::string("physical ") + Words::boundary + " \"" + name +
+                                  "\" with " + (Dim == 2 ? "an " : "a ") + Words::side + " at ";
+    for (const auto& nodes : sides) {
+      const std::optional<Side> side = side_of(nodes);
+      const int owners = side ? faces.owners(*side) : 0;
+      if (owners == 0)
+        kind.add(with_side + place_of(nodes) + " that no " + Words::element + " has");
+      if (owners == 1) outer.insert(*side);
+      if (owners > 1 && inner.insert(*side).second) inner_tags.push_back(&nodes);
     }
     if (outer.empty() && !inner.empty()) {
       result_.inner_curves.push_back({name, {inner.begin(), inner.end()}});
       return;
     }
     for (const auto* nodes : inner_tags) {
-      kind.add("physical curve \"" + name + "\" with an edge at " + place_of(*nodes) +
-               " that lies inside the mesh");
+      kind.add(with_side + place_of(*nodes) + " that lies inside the mesh");
     }
     mesh().boundaries.push_back({name, {outer.begin(), outer.end()}});
   }
@@ -660,23 +416,30 @@ class Extraction {
     }
   }
 
-  ExtractedMesh result_;
+  ExtractedMesh<Dim> result_;
   Quadrangles quadrangles_;
   Tag last_tag_ = 0;  // of a node
   std::unordered_map<Tag, std::array<double, 3>> coordinates_;
   std::unordered_map<Tag, int> index_;
-  std::vector<Tag> node_tags_;  // by index
-  std::vector<Tag> triangle_tags_;
-  std::vector<std::array<Tag, 3>> triangle_nodes_;
+  MeshTags tags_;
+  std::vector<std::vector<Tag>> element_nodes_;
   std::vector<bool> region_has_elements_;
-  std::set<int> flat_;  // elements
-  double diagonal_ = 0.0;
 };
 
 }  // namespace
 
-ExtractedMesh extract_mesh(Quadrangles quadrangles) {
-  return Extraction(quadrangles).run();
+template <int Dim>
+ExtractedMesh<Dim> extract_mesh(Quadrangles quadrangles) {
+  return Extraction<Dim>(quadrangles).run();
+}
+
+template ExtractedMesh<2> extract_mesh(Quadrangles);
+template ExtractedMesh<3> extract_mesh(Quadrangles);
+
+int model_dimension() {
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  return volumes.empty() ? 2 : 3;
 }
 
 }  // namespace suffuse

@@ -17,19 +17,21 @@ struct NamedNode {
   int node = -1;
 };
 
+template <int Dim>
 struct ExtractedMesh {
-  /// Physical surfaces are its regions, physical curves its boundaries; nodes that no triangle uses
-  /// are left out. Complete only when there are no problems.
-  Mesh<2> mesh;
-  /// Physical curves that lie inside the mesh: what a wall or a well may name.
-  std::vector<BoundarySet<2>> inner_curves;
+  /// Physical surfaces are its regions, physical curves its boundaries, in three dimensions
+  /// physical volumes and surfaces; nodes that no element uses are left out. Complete only when
+  /// there are no problems.
+  Mesh<Dim> mesh;
+  /// Physical curves (surfaces) that lie inside the mesh: what a wall or a well may name.
+  std::vector<BoundarySet<Dim>> inner_curves;
   /// Physical points that are nodes of the mesh: what a well may name.
   std::vector<NamedNode> points;
   /// What is wrong with it: `found` and `expected` only, the caller knows where the mesh came from.
   std::vector<InputProblem> problems;
-  /// Where there is no physical curve: curves that could be one, as the end of a message.
+  /// Where there is no physical curve (surface): those that could be one, as the end of a message.
   std::optional<std::string> curves_to_name;
-  /// Clockwise triangles that were turned round.
+  /// Clockwise triangles, or tetrahedra inside out, that were turned round.
   int turned = 0;
   /// False when so much is missing that holding a scene against it would only add noise.
   bool comparable = false;
@@ -43,6 +45,11 @@ enum class Quadrangles {
   cut_along_diagonals,
 };
 
-ExtractedMesh extract_mesh(Quadrangles quadrangles = Quadrangles::refused);
+/// \param quadrangles  of a mesh in two dimensions
+template <int Dim>
+ExtractedMesh<Dim> extract_mesh(Quadrangles quadrangles = Quadrangles::refused);
+
+/// 3 where the current Gmsh model has volumes, else 2.
+int model_dimension();
 
 }  // namespace suffuse

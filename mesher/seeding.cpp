@@ -13,10 +13,11 @@ namespace suffuse {
 
 namespace {
 
-using Rule = std::vector<QuadraturePoint<2>>;
+template <int Dim>
+using Rule = std::vector<QuadraturePoint<Dim>>;
 
 /// The three points with two coordinates equal to `a`.
-void add_three(Rule& rule, double weight, double a) {
+void add_three(Rule<2>& rule, double weight, double a) {
   const double b = 1.0 - 2.0 * a;
   rule.push_back({{b, a, a}, weight});
   rule.push_back({{a, b, a}, weight});
@@ -24,7 +25,7 @@ void add_three(Rule& rule, double weight, double a) {
 }
 
 /// The six permutations of three different coordinates.
-void add_six(Rule& rule, double weight, double a, double b) {
+void add_six(Rule<2>& rule, double weight, double a, double b) {
   std::array<double, 3> coordinates{a, b, 1.0 - a - b};
   std::ranges::sort(coordinates);
   do {
@@ -32,11 +33,37 @@ void add_six(Rule& rule, double weight, double a, double b) {
   } while (std::ranges::next_permutation(coordinates).found);
 }
 
-Rule twelve_points() {
-  Rule rule;
+Rule<2> twelve_points() {
+  Rule<2> rule;
   add_three(rule, 0.11678627572637936603, 0.24928674517091042129);
   add_three(rule, 0.050844906370206816921, 0.06308901449150222834);
   add_six(rule, 0.082851075618373575194, 0.053145049844816947353, 0.31035245103378440542);
+  return rule;
+}
+
+/// The four points of a tetrahedron with three coordinates equal to `a`.
+void add_four(Rule<3>& rule, double weight, double a) {
+  for (int k = 0; k < 4; ++k) {
+    std::array<double, 4> at{a, a, a, a};
+    at[k] = 1.0 - 3.0 * a;
+    rule.push_back({at, weight});
+  }
+}
+
+/// The six points of a tetrahedron with two coordinates equal to `a` and two equal to 1/2 - a.
+void add_six(Rule<3>& rule, double weight, double a) {
+  std::array<double, 4> at{a, a, 0.5 - a, 0.5 - a};
+  std::ranges::sort(at);
+  do {
+    rule.push_back({at, weight});
+  } while (std::ranges::next_permutation(at).found);
+}
+
+Rule<3> fourteen_points() {
+  Rule<3> rule;
+  add_four(rule, 0.11268792571801585080, 0.31088591926330060980);
+  add_four(rule, 0.073493043116361949544, 0.092735250310891226402);
+  add_six(rule, 0.042546020777081466438, 0.045503704125649649492);
   return rule;
 }
 
@@ -49,11 +76,11 @@ class UniformNumbers {
   /// In [0, 1).
   double next() { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
   /// Uniform in angle; by rejection, because sine and cosine differ between libraries.
-  Vector<2> direction() {
+  template <int Dim>
+  Vector<Dim> direction() {
     for (;;) {
-      const double x = 2.0 * next() - 1.0;
-      const double y = 2.0 * next() - 1.0;
-      const Vector<2> v(x, y);
+      Vector<Dim> v;
+      for (int d = 0; d < Dim; ++d) v[d] = 2.0 * next() - 1.0;
       const double square = v.squaredNorm();
       if (square > 0.0 && square <= 1.0) return v / std::sqrt(square);
     }
@@ -63,59 +90,96 @@ class UniformNumbers {
   std::mt19937_64 engine_;
 };
 
+/// Of a positive number, by Newton's method: libraries differ in the last bit of std::cbrt.
+double cube_root(double x) {
+  double root = std::max(1.0, x);
+  for (;;) {
+    const double next = root - (root - x / (root * root)) / 3.0;
+    if (!(next < root)) return root;
+    root = next;
+  }
+}
+
+template <int Dim>
 class Jitter {
  public:
-  Jitter(const Mesh<2>& mesh, const PointSettings& settings)
+  using Barycentric = std::array<double, Dim + 1>;
+
+  Jitter(const Mesh<Dim>& mesh, const PointSettings& settings)
       : mesh_(mesh), fraction_(settings.jitter), random_(settings.seed) {}
 
-  void move(int element, std::array<double, 3>& barycentric) {
-    const std::array<double, 3> slope = slopes(element, random_.direction());
-    double distance = fraction_ * std::sqrt(2.0 * element_volume(mesh_, element));
-    for (int a = 0; a < 3; ++a) {
+  void move(int element, Barycentric& barycentric) {
+    const Barycentric slope = slopes(element, random_.template direction<Dim>());
+    double distance = fraction_ * element_size(element);
+    for (int a = 0; a <= Dim; ++a) {
       if (slope[a] < 0.0) distance = std::min(distance, barycentric[a] / -slope[a]);
     }
     distance *= random_.next();
-    for (int a = 0; a < 3; ++a) barycentric[a] += distance * slope[a];
+    for (int a = 0; a <= Dim; ++a) barycentric[a] += distance * slope[a];
   }
 
  private:
-  /// Change of the barycentric coordinates per length in `direction`.
-  [[nodiscard]] std::array<double, 3> slopes(int element, const Vector<2>& direction) const {
-    const auto& corners = mesh_.elements[element];
-    Eigen::Matrix2d edges;
-    edges.col(0) = mesh_.nodes[corners[1]] - mesh_.nodes[corners[0]];
-    edges.col(1) = mesh_.nodes[corners[2]] - mesh_.nodes[corners[0]];
-    const Vector<2> slope = edges.inverse() * direction;
-    return {-slope[0] - slope[1], slope[0], slope[1]};
+  /// Length of the equal legs of a right-angled element of this volume.
+  [[nodiscard]] double element_size(int element) const {
+    const double volume = element_volume(mesh_, element);
+    return Dim == 2 ? std::sqrt(2.0 * volume) : cube_root(6.0 * volume);
   }
 
-  const Mesh<2>& mesh_;
+  /// Change of the barycentric coordinates per length in `direction`.
+  [[nodiscard]] Barycentric slopes(int element, const Vector<Dim>& direction) const {
+    const auto& corners = mesh_.elements[element];
+    Eigen::Matrix<double, Dim, Dim> edges;
+    for (int d = 0; d < Dim; ++d) {
+      edges.col(d) = mesh_.nodes[corners[d + 1]] - mesh_.nodes[corners[0]];
+    }
+    const Vector<Dim> slope = edges.inverse() * direction;
+    Barycentric result{};
+    for (int d = 0; d < Dim; ++d) {
+      result[0] -= slope[d];
+      result[d + 1] = slope[d];
+    }
+    return result;
+  }
+
+  const Mesh<Dim>& mesh_;
   double fraction_;
   UniformNumbers random_;
 };
 
-/// Points anywhere in the triangle by chance.
+/// Points anywhere in an element by chance.
+template <int Dim>
 class RandomPoints {
  public:
   explicit RandomPoints(int seed) : random_(seed, 1) {}
-  std::array<double, 3> next() {
+  std::array<double, Dim + 1> next() {
     double x = random_.next();
     double y = random_.next();
-    if (x + y > 1.0) {  // the other half of the square, folded over
-      x = 1.0 - x;
-      y = 1.0 - y;
+    if constexpr (Dim == 2) {
+      if (x + y > 1.0) {  // the other half of the square, folded over
+        x = 1.0 - x;
+        y = 1.0 - y;
+      }
+      return {1.0 - x - y, x, y};
+    } else {
+      // Distances between three numbers in ascending order, 0 and 1.
+      std::array<double, 3> cuts{x, y, random_.next()};
+      std::ranges::sort(cuts);
+      return {cuts[0], cuts[1] - cuts[0], cuts[2] - cuts[1], 1.0 - cuts[2]};
     }
-    return {1.0 - x - y, x, y};
   }
 
  private:
   UniformNumbers random_;
 };
 
+template <int Dim>
+class EvenPoints;
+
 /// Basu and Owen's sequence: the digits of the index in base 4, the last one first, choose one of
 /// the four similar triangles again and again; the point is the centroid of the last. Any 4^m
 /// points from a multiple of 4^m on fall into different ones of the 4^m triangles.
-class EvenPoints {
+template <>
+class EvenPoints<2> {
  public:
   std::array<double, 3> next() {
     std::array<double, 3> point{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
@@ -136,13 +200,43 @@ class EvenPoints {
   std::uint64_t index_ = 0;
 };
 
-/// On an edge two elements would claim the point.
-bool is_inside(const std::array<double, 3>& barycentric) {
+/// Halton's sequence in the bases 2, 3 and 5, mapped from the cube to the tetrahedron one to one
+/// and without a change of density: the cube's planes become planes parallel to a side.
+template <>
+class EvenPoints<3> {
+ public:
+  std::array<double, 4> next() {
+    ++index_;
+    const double a = cube_root(radical_inverse(5));
+    const double b = std::sqrt(radical_inverse(3));
+    const double c = radical_inverse(2);
+    return {1.0 - a, a * (1.0 - b), a * b * (1.0 - c), a * b * c};
+  }
+
+ private:
+  /// The digits of the index behind the point, in reverse order.
+  [[nodiscard]] double radical_inverse(std::uint64_t base) const {
+    double result = 0.0;
+    double place = 1.0;
+    for (std::uint64_t rest = index_; rest > 0; rest /= base) {
+      place /= static_cast<double>(base);
+      result += place * static_cast<double>(rest % base);
+    }
+    return result;
+  }
+
+  std::uint64_t index_ = 0;
+};
+
+/// On a side two elements would claim the point.
+template <std::size_t N>
+bool is_inside(const std::array<double, N>& barycentric) {
   constexpr double margin = 1e-9;
   return std::ranges::all_of(barycentric, [](double share) { return share > margin; });
 }
 
-double liquid_volume(const Mesh<2>& mesh, const Scene& scene, int element) {
+template <int Dim>
+double liquid_volume(const Mesh<Dim>& mesh, const Scene& scene, int element) {
   const std::string& region = mesh.region_names[mesh.element_region[element]];
   const Soil* soil = scene.find_soil(region);
   // n_0 is linear: its mean is its value at the centroid.
@@ -151,8 +245,8 @@ double liquid_volume(const Mesh<2>& mesh, const Scene& scene, int element) {
 }
 
 /// Of an element in the regions whose soil `counts`; 0 when there is none.
-template <class Counts>
-double mean_liquid_volume(const Mesh<2>& mesh, const Scene& scene, Counts counts) {
+template <int Dim, class Counts>
+double mean_liquid_volume(const Mesh<Dim>& mesh, const Scene& scene, Counts counts) {
   double sum = 0.0;
   int elements = 0;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -173,11 +267,11 @@ std::int64_t whole_points(double share) {
                                 std::llround(std::ceil(std::min(share, most) - 0.5 - round_off)));
 }
 
-template <class NextPoint>
-void add_equal_points(MaterialPoints<2>& points, int element, std::int64_t count, double volume,
+template <int Dim, class NextPoint>
+void add_equal_points(MaterialPoints<Dim>& points, int element, std::int64_t count, double volume,
                       NextPoint next) {
   for (std::int64_t i = 0; i < count; ++i) {
-    std::array<double, 3> at = next();
+    std::array<double, Dim + 1> at = next();
     while (!is_inside(at)) at = next();
     points.element.push_back(element);
     points.barycentric.push_back(at);
@@ -185,20 +279,22 @@ void add_equal_points(MaterialPoints<2>& points, int element, std::int64_t count
   }
 }
 
-void add_gauss_points(MaterialPoints<2>& points, int element, const Rule& rule, double volume) {
-  for (const QuadraturePoint<2>& at : rule) {
+template <int Dim>
+void add_gauss_points(MaterialPoints<Dim>& points, int element, const Rule<Dim>& rule,
+                      double volume) {
+  for (const QuadraturePoint<Dim>& at : rule) {
     points.element.push_back(element);
     points.barycentric.push_back(at.barycentric);
     points.volume.push_back(at.weight * volume);
   }
 }
 
-template <class IsSoil>
-MaterialPoints<2> seed_solid_points_where(const Mesh<2>& mesh, const PointSettings& settings,
-                                          IsSoil is_soil) {
-  const Rule rule = triangle_rule(settings.solid_per_element);
-  Jitter jitter(mesh, settings);
-  MaterialPoints<2> points;
+template <int Dim, class IsSoil>
+MaterialPoints<Dim> seed_solid_points_where(const Mesh<Dim>& mesh, const PointSettings& settings,
+                                            IsSoil is_soil) {
+  const Rule<Dim> rule = gauss_rule<Dim>(settings.solid_per_element);
+  Jitter<Dim> jitter(mesh, settings);
+  MaterialPoints<Dim> points;
   for (int e = 0; e < mesh.element_count(); ++e) {
     if (!is_soil(e)) continue;
     const auto first = static_cast<std::size_t>(points.size());
@@ -213,8 +309,9 @@ MaterialPoints<2> seed_solid_points_where(const Mesh<2>& mesh, const PointSettin
 
 }  // namespace
 
-Rule triangle_rule(int count) {
-  Rule rule;
+template <>
+Rule<2> gauss_rule<2>(int count) {
+  Rule<2> rule;
   switch (count) {
     case 1:
       rule.push_back({{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 1.0});
@@ -229,22 +326,43 @@ Rule triangle_rule(int count) {
     case 12:
       return twelve_points();
     default:
-      throw InputError("Gauss points per element: got " + std::to_string(count) +
+      throw InputError("Gauss points per triangle: got " + std::to_string(count) +
                        "; expected 1, 3, 6 or 12");
   }
 }
 
-MaterialPoints<2> seed_solid_points(const Mesh<2>& mesh, const PointSettings& settings) {
+template <>
+Rule<3> gauss_rule<3>(int count) {
+  Rule<3> rule;
+  switch (count) {
+    case 1:
+      rule.push_back({{0.25, 0.25, 0.25, 0.25}, 1.0});
+      return rule;
+    case 4:
+      add_four(rule, 0.25, 0.13819660112501051518);
+      return rule;
+    case 14:
+      return fourteen_points();
+    default:
+      throw InputError("Gauss points per tetrahedron: got " + std::to_string(count) +
+                       "; expected 1, 4 or 14");
+  }
+}
+
+template <int Dim>
+MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const PointSettings& settings) {
   return seed_solid_points_where(mesh, settings, [](int) { return true; });
 }
 
-MaterialPoints<2> seed_solid_points(const Mesh<2>& mesh, const Scene& scene) {
+template <int Dim>
+MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const Scene& scene) {
   return seed_solid_points_where(mesh, scene.points, [&](int element) {
     return !scene.is_free_water(mesh.region_names[mesh.element_region[element]]);
   });
 }
 
-std::vector<std::int64_t> liquid_point_counts(const Mesh<2>& mesh, const Scene& scene) {
+template <int Dim>
+std::vector<std::int64_t> liquid_point_counts(const Mesh<Dim>& mesh, const Scene& scene) {
   const PointSettings& settings = scene.points;
   std::vector<std::int64_t> counts(mesh.elements.size(), settings.liquid_per_element);
   if (!settings.equal_volume || settings.seeding == Seeding::gauss) return counts;
@@ -259,13 +377,14 @@ std::vector<std::int64_t> liquid_point_counts(const Mesh<2>& mesh, const Scene& 
   return counts;
 }
 
-MaterialPoints<2> seed_liquid_points(const Mesh<2>& mesh, const Scene& scene) {
+template <int Dim>
+MaterialPoints<Dim> seed_liquid_points(const Mesh<Dim>& mesh, const Scene& scene) {
   const std::vector<std::int64_t> counts = liquid_point_counts(mesh, scene);
   const bool gauss = scene.points.seeding == Seeding::gauss;
-  const Rule rule = gauss ? triangle_rule(scene.points.liquid_per_element) : Rule{};
-  RandomPoints random(scene.points.seed);
-  EvenPoints even;
-  MaterialPoints<2> points;
+  const Rule<Dim> rule = gauss ? gauss_rule<Dim>(scene.points.liquid_per_element) : Rule<Dim>{};
+  RandomPoints<Dim> random(scene.points.seed);
+  EvenPoints<Dim> even;
+  MaterialPoints<Dim> points;
   for (int e = 0; e < mesh.element_count(); ++e) {
     const double volume = liquid_volume(mesh, scene, e);
     const std::int64_t count = counts[static_cast<std::size_t>(e)];
@@ -283,5 +402,14 @@ MaterialPoints<2> seed_liquid_points(const Mesh<2>& mesh, const Scene& scene) {
   }
   return points;
 }
+
+template MaterialPoints<2> seed_solid_points(const Mesh<2>&, const PointSettings&);
+template MaterialPoints<3> seed_solid_points(const Mesh<3>&, const PointSettings&);
+template MaterialPoints<2> seed_solid_points(const Mesh<2>&, const Scene&);
+template MaterialPoints<3> seed_solid_points(const Mesh<3>&, const Scene&);
+template std::vector<std::int64_t> liquid_point_counts(const Mesh<2>&, const Scene&);
+template std::vector<std::int64_t> liquid_point_counts(const Mesh<3>&, const Scene&);
+template MaterialPoints<2> seed_liquid_points(const Mesh<2>&, const Scene&);
+template MaterialPoints<3> seed_liquid_points(const Mesh<3>&, const Scene&);
 
 }  // namespace suffuse

@@ -18,35 +18,45 @@ struct QuadraturePoint {
   double weight;
 };
 
-/// The symmetric rule of positive weights and interior points that has `count` points on the
-/// triangle: 1 (exact to degree 1), 3 (2), 6 (4) or 12 (6).
-/// D. A. Dunavant, Int. J. Numer. Meth. Eng. 21 (1985) 1129-1148. Throws InputError for other
-/// counts.
-std::vector<QuadraturePoint<2>> triangle_rule(int count);
+/// The symmetric rule of positive weights and interior points that has `count` points: on the
+/// triangle 1 (exact to degree 1), 3 (2), 6 (4) or 12 (6), on the tetrahedron 1 (1), 4 (2) or 14
+/// (5). D. A. Dunavant, Int. J. Numer. Meth. Eng. 21 (1985) 1129-1148; N. J. Walkington, Quadrature
+/// on simplices of arbitrary dimension (2000). Throws InputError for other counts.
+template <int Dim>
+std::vector<QuadraturePoint<Dim>> gauss_rule(int count);
+template <>
+std::vector<QuadraturePoint<2>> gauss_rule<2>(int count);
+template <>
+std::vector<QuadraturePoint<3>> gauss_rule<3>(int count);
 
 /// Solid points: `points.solid_per_element` per element, each with its weight's share of the
 /// volume. With `points.jitter` each point moves in a random direction by a random distance of up
-/// to jitter times the element's size sqrt(2 area), but stays within its element; volumes do not
-/// change. The same seed gives the same points on every platform.
+/// to jitter times the element's size, sqrt(2 area) or cbrt(6 volume), but stays within its
+/// element; volumes do not change. The same seed gives the same points on every platform.
 /// This one fills every element: for meshes of soil alone.
-MaterialPoints<2> seed_solid_points(const Mesh<2>& mesh, const PointSettings& settings);
+template <int Dim>
+MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const PointSettings& settings);
 
 /// The same in the elements of soil; free water gets none.
-MaterialPoints<2> seed_solid_points(const Mesh<2>& mesh, const Scene& scene);
+template <int Dim>
+MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const Scene& scene);
 
 /// Liquid points that each element gets, at least one. Its liquid volume is n_0 V_e, V_e in free
 /// water. With `points.equal_volume` the number goes with it, such that a mean element of the soils
 /// that erode (of all soils where none does) has `points.liquid_per_element`; without it, and with
 /// Gauss points always, every element has as many. At most 1e9 in one element.
-std::vector<std::int64_t> liquid_point_counts(const Mesh<2>& mesh, const Scene& scene);
+template <int Dim>
+std::vector<std::int64_t> liquid_point_counts(const Mesh<Dim>& mesh, const Scene& scene);
 
 /// Liquid points of a double-point scene, as `liquid_point_counts` has them and placed as
 /// `points.seeding` says; `volume` is liquid volume and adds up to n_0 V_e in every element. Gauss
 /// points have their weights' shares of it, all others equal ones, and lie more than 1e-9 off every
-/// edge in barycentric coordinates. The same scene gives the same points on every platform.
+/// side in barycentric coordinates. The same scene gives the same points on every platform.
 ///
 /// The low-discrepancy points are the van der Corput sequence on the triangle, K. Basu and
-/// A. B. Owen, SIAM J. Numer. Anal. 53 (2015) 743-761; it goes on from element to element.
-MaterialPoints<2> seed_liquid_points(const Mesh<2>& mesh, const Scene& scene);
+/// A. B. Owen, SIAM J. Numer. Anal. 53 (2015) 743-761, and Halton's sequence on the tetrahedron,
+/// Numer. Math. 2 (1960) 84-90; they go on from element to element.
+template <int Dim>
+MaterialPoints<Dim> seed_liquid_points(const Mesh<Dim>& mesh, const Scene& scene);
 
 }  // namespace suffuse

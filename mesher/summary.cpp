@@ -1,5 +1,6 @@
 #include "summary.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
@@ -22,16 +23,18 @@ std::string number(double value, const std::string& unit) {
   return text.str();
 }
 
-double region_area(const Mesh<2>& mesh, std::size_t region) {
-  double area = 0.0;
+template <int Dim>
+double region_volume(const Mesh<Dim>& mesh, std::size_t region) {
+  double volume = 0.0;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    if (mesh.element_region[e] == static_cast<int>(region)) area += element_volume(mesh, e);
+    if (mesh.element_region[e] == static_cast<int>(region)) volume += element_volume(mesh, e);
   }
-  return area;
+  return volume;
 }
 
 /// All of them, and how many an element has: `400 (12 to 40 per element)`.
-std::string liquid_counts(const Mesh<2>& mesh, const MaterialPoints<2>& points) {
+template <int Dim>
+std::string liquid_counts(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points) {
   std::vector<int> counts(mesh.elements.size(), 0);
   for (const int element : points.element) ++counts[static_cast<std::size_t>(element)];
   const auto [least, most] = std::ranges::minmax(counts);
@@ -40,16 +43,25 @@ std::string liquid_counts(const Mesh<2>& mesh, const MaterialPoints<2>& points) 
   return std::to_string(points.size()) + " (" + range + ")";
 }
 
-double boundary_length(const Mesh<2>& mesh, const BoundarySet<2>& set) {
-  double length = 0.0;
-  for (const auto& face : set.faces) length += (mesh.nodes[face[1]] - mesh.nodes[face[0]]).norm();
-  return length;
+template <int Dim>
+double boundary_size(const Mesh<Dim>& mesh, const BoundarySet<Dim>& set) {
+  double size = 0.0;
+  for (const auto& face : set.faces) {
+    const Vector<Dim> along = mesh.nodes[face[1]] - mesh.nodes[face[0]];
+    if constexpr (Dim == 2) {
+      size += along.norm();
+    } else {
+      size += 0.5 * along.cross(mesh.nodes[face[2]] - mesh.nodes[face[0]]).norm();
+    }
+  }
+  return size;
 }
 
 }  // namespace
 
-std::string case_summary(const Case<2>& c, const std::vector<std::string>& notes) {
-  const Mesh<2>& mesh = c.mesh;
+template <int Dim>
+std::string case_summary(const Case<Dim>& c, const std::vector<std::string>& notes) {
+  const Mesh<Dim>& mesh = c.mesh;
   std::vector<Line> lines{{"elements", std::to_string(mesh.element_count())},
                           {"nodes", std::to_string(mesh.node_count())},
                           {"solid points", std::to_string(c.solid_points.size())}};
@@ -60,10 +72,12 @@ std::string case_summary(const Case<2>& c, const std::vector<std::string>& notes
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
     const std::string& region = mesh.region_names[r];
     const std::string water = c.document.scene.is_free_water(region) ? ", free water" : "";
-    lines.push_back({"region " + region, number(region_area(mesh, r), "m2") + water});
+    lines.push_back(
+        {"region " + region, number(region_volume(mesh, r), Dim == 2 ? "m2" : "m3") + water});
   }
-  for (const BoundarySet<2>& set : mesh.boundaries) {
-    lines.push_back({"boundary " + set.name, number(boundary_length(mesh, set), "m")});
+  for (const BoundarySet<Dim>& set : mesh.boundaries) {
+    lines.push_back(
+        {"boundary " + set.name, number(boundary_size(mesh, set), Dim == 2 ? "m" : "m2")});
   }
   std::size_t width = 0;
   for (const Line& line : lines) width = std::max(width, line.label.size());
@@ -76,11 +90,17 @@ std::string case_summary(const Case<2>& c, const std::vector<std::string>& notes
   return text.str();
 }
 
-std::string angle_warning(const Mesh<2>& mesh) {
+template <int Dim>
+std::string angle_warning(const Mesh<Dim>& mesh) {
   const double angle = smallest_angle(mesh);
   if (angle >= poor_angle) return "";
   return "the smallest angle is " + number(angle, "degrees") +
          "; below 5 degrees steps are short and results poor: change the geometry or mesh.size";
 }
+
+template std::string case_summary(const Case<2>&, const std::vector<std::string>&);
+template std::string case_summary(const Case<3>&, const std::vector<std::string>&);
+template std::string angle_warning(const Mesh<2>&);
+template std::string angle_warning(const Mesh<3>&);
 
 }  // namespace suffuse

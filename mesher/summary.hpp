@@ -10,10 +10,12 @@
 namespace suffuse {
 
 /// Counts, smallest angle, areas of the regions (and which of them are free water) and lengths of
-/// the boundaries, then the notes; one aligned line each.
-std::string case_summary(const Case<2>& c, const std::vector<std::string>& notes);
+/// the boundaries, in three dimensions volumes and areas, then the notes; one aligned line each.
+template <int Dim>
+std::string case_summary(const Case<Dim>& c, const std::vector<std::string>& notes);
 
 /// A sentence when the smallest angle is below 5 degrees, empty otherwise.
-std::string angle_warning(const Mesh<2>& mesh);
+template <int Dim>
+std::string angle_warning(const Mesh<Dim>& mesh);
 
 }  // namespace suffuse

@@ -36,9 +36,10 @@ std::string default_folder(const std::string& case_path) {
 }
 
 /// What would run, and what it would take. Leaves nothing behind.
-int explain(const suffuse::Case<2>& c, const suffuse::Plan& plan, int threads) {
+template <int Dim>
+int explain(const suffuse::Case<Dim>& c, const suffuse::Plan& plan, int threads) {
   using namespace suffuse;
-  const std::optional<SourceRun<2>> earlier = read_source_run(c, threads);
+  const std::optional<SourceRun<Dim>> earlier = read_source_run(c, threads);
   if (earlier) {
     for (const std::string& sentence : earlier->sentences) std::cout << sentence << '\n';
   }
@@ -56,16 +57,17 @@ int explain(const suffuse::Case<2>& c, const suffuse::Plan& plan, int threads) {
 suffuse::Case<2> read_plane_case(const std::string& path) {
   const int dimension = suffuse::read_case_dimension(path);
   if (dimension != 2) {
-    throw suffuse::InputError(path + ": got a case of dimension " + std::to_string(dimension) +
-                              "; expected 2");
+    throw suffuse::InputError(path +
+                              ": got a case of three dimensions; expected one of two: "
+                              "strength reduction is for plane models");
   }
   return suffuse::read_case<2>(path);
 }
 
+template <int Dim>
 int solve(const Arguments& arguments) {
   using namespace suffuse;
-  give_memory_back();
-  Case<2> c = read_plane_case(arguments.case_path);
+  Case<Dim> c = read_case<Dim>(arguments.case_path);
   const Plan plan = make_plan(c, arguments.solver);
   if (arguments.explain) return explain(c, plan, arguments.solver.threads);
   const std::string folder =
@@ -74,6 +76,12 @@ int solve(const Arguments& arguments) {
       run_case(std::move(c), plan, arguments.solver, folder, arguments.run, arguments.case_path);
   if (!arguments.run.quiet && code == 0) std::fprintf(stderr, "results in %s\n", folder.c_str());
   return code;
+}
+
+int solve_case(const Arguments& arguments) {
+  suffuse::give_memory_back();
+  return suffuse::read_case_dimension(arguments.case_path) == 2 ? solve<2>(arguments)
+                                                                : solve<3>(arguments);
 }
 
 std::string refuse_empty(const std::string& name) {
@@ -175,7 +183,7 @@ int run(int argc, char** argv) {
   add_strength_reduction(app, arguments);
   if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
   if (arguments.strength_reduction) return find_strength(arguments);
-  if (arguments.element.table.empty()) return solve(arguments);
+  if (arguments.element.table.empty()) return solve_case(arguments);
   arguments.element.scene = arguments.case_path;
   arguments.element.output = arguments.folder.empty() ? "-" : arguments.folder;
   suffuse::run_element_test(arguments.element);

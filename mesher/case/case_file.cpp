@@ -151,6 +151,7 @@ class CaseReader {
     try {
       SceneDocument document =
           parse_scene(text, path, file_.read_texts("/scene/overrides"), scene_files());
+      complete_for_mesh(document, Dim);
       std::vector<InputProblem> problems = scene_problems(document, mesh);
       if (!problems.empty()) throw InputError(std::move(problems));
       return document;

@@ -52,6 +52,8 @@ class SceneCheck {
 
   std::vector<InputProblem> run() {
     check_directions();
+    check_gauss_points();
+    if (Dim == 3) refuse_what_is_plane();
     check_soils();
     check_regions();
     check_boundaries();
@@ -85,6 +87,41 @@ class SceneCheck {
     for (const Soil& soil : document_.scene.soils) {
       check_two_dimensional("soil." + soil.region + ".porosity_gradient", soil.porosity_gradient);
       check_two_dimensional("soil." + soil.region + ".porosity_origin", soil.porosity_origin);
+    }
+  }
+
+  void check_gauss_points() {
+    const PointSettings& points = document_.scene.points;
+    check_rule("points.solid_per_element", points.solid_per_element);
+    if (points.seeding == Seeding::gauss) {
+      check_rule("points.liquid_per_element", points.liquid_per_element);
+    }
+  }
+
+  void check_rule(const std::string& key, int count) {
+    const std::set<int> known = Dim == 2 ? std::set{1, 3, 6, 12} : std::set{1, 4, 14};
+    if (known.contains(count)) return;
+    report(key,
+           std::to_string(count) + " Gauss points in a " + (Dim == 2 ? "triangle" : "tetrahedron"),
+           Dim == 2 ? "1, 3, 6 or 12" : "1, 4 or 14");
+  }
+
+  void refuse_what_is_plane() {
+    const Scene& scene = document_.scene;
+    const std::string only = " in two dimensions only";
+    for (const Soil& soil : scene.soils) {
+      if (!soil.skeleton.moves()) continue;
+      report("soil." + soil.region + ".skeleton", "a skeleton that moves, in three dimensions",
+             "no such table: soil moves" + only);
+    }
+    if (scene.time.scheme == FlowScheme::explicit_nodal) {
+      report("time.scheme", "\"explicit\" in three dimensions",
+             "\"implicit\": the explicit scheme is for meshes of triangles alone");
+    }
+    if (!scene.output.sections.empty()) {
+      report("output.section", "a section in three dimensions",
+             "no such entry: discharges across a line are recorded" + only +
+                 ", those across boundaries in any case");
     }
   }
 

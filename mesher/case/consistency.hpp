@@ -19,8 +19,9 @@ struct InnerNames {
 /// Every way in which the scene's names and values do not fit the mesh: soils without a region,
 /// regions without a soil that are not free water, boundaries, walls and wells that do not exist,
 /// two conditions on one face, heads that the explicit scheme cannot follow, probes and sections
-/// outside the mesh, and an initial porosity that leaves (0, 1 - n_C] somewhere in its region.
-/// Empty when all is well. `inner` is what is known beside the cuts of the mesh itself.
+/// outside the mesh, an initial porosity that leaves (0, 1 - n_C] somewhere in its region, numbers
+/// of Gauss points that its elements cannot have, and what there is in two dimensions only. Empty
+/// when all is well. `inner` is what is known beside the cuts of the mesh itself.
 template <int Dim>
 std::vector<InputProblem> scene_problems(const SceneDocument& document, const Mesh<Dim>& mesh,
                                          const InnerNames& inner = {});

@@ -16,7 +16,7 @@ class GeometryChecks : private SceneCheckBase {
 
   void run() const {
     check_geometry();
-    if (given("geometry.shape")) check_column();
+    if (given("geometry.shape") && !refused("geometry.shape")) check_shape();
   }
 
  private:
@@ -30,18 +30,17 @@ class GeometryChecks : private SceneCheckBase {
   }
 
   void check_file() const {
-    for (const std::string name : {"width", "height"}) {
+    for (const std::string name : {"width", "depth", "height"}) {
       const std::string key = joined("geometry", name);
       if (given(key)) {
-        report(key, "a " + name + " beside geometry.file", name + " with shape = \"column\" only",
+        report(key, "a " + name + " beside geometry.file", name + " with a built-in shape only",
                {"geometry.file"});
       }
     }
     for (const std::string& key : keys_of("geometry.layers")) {
       if (!given(key)) continue;
       report(key, "a layer beside geometry.file",
-             "layers with shape = \"column\" only: a file has regions of its own",
-             {"geometry.file"});
+             "layers with a built-in shape only: a file has regions of its own", {"geometry.file"});
     }
     check_scale();
     if (is_mesh_file(scene_.geometry.file)) {
@@ -68,21 +67,43 @@ class GeometryChecks : private SceneCheckBase {
     }
   }
 
-  void check_column() const {
+  void check_shape() const {
     if (given("geometry.scale")) {
-      report("geometry.scale", "a scale beside geometry.shape",
-             "no such key: width and height are in m", {"geometry.shape"});
+      report("geometry.scale", "a scale beside geometry.shape", "no such key: lengths are in m",
+             {"geometry.shape"});
     }
-    const std::string why = "for shape = \"column\"";
-    for (const std::string key : {"geometry.width", "geometry.height", "mesh.size"}) {
-      require(key, key, why, "geometry.shape");
+    const bool box = scene_.geometry.is_box();
+    std::vector<std::string> sides{"geometry.width", "geometry.height"};
+    double smallest = std::min(scene_.geometry.width, scene_.geometry.height);
+    if (box) {
+      sides.emplace_back("geometry.depth");
+      smallest = std::min(smallest, scene_.geometry.depth);
+    } else if (given("geometry.depth")) {
+      report("geometry.depth", "a depth with shape = \"column\"",
+             "no such key: a column is two-dimensional, a box has a depth", {"geometry.shape"});
     }
-    const double smallest = std::min(scene_.geometry.width, scene_.geometry.height);
+    for (const std::string& key : sides) require_for_shape(key);
+    require_for_shape("mesh.size");
     if (scene_.mesh.size > smallest) {
       report("mesh.size", shown_value(scene_.mesh.size),
-             "h <= " + shown_number(smallest) + " m, the smaller of width and height",
-             {"geometry.width", "geometry.height"});
+             "h <= " + shown_number(smallest) + " m, the smaller of width" +
+                 (box ? ", depth" : "") + " and height",
+             sides);
     }
+    box ? check_structure_of_box() : check_plane_vectors();
+  }
+
+  void require_for_shape(const std::string& key) const {
+    require(key, key, "for shape = \"" + scene_.geometry.shape + '"', "geometry.shape");
+  }
+
+  void check_structure_of_box() const {
+    if (scene_.mesh.structure != MeshStructure::crossed || refused("mesh.structure")) return;
+    report("mesh.structure", "\"crossed\" with shape = \"box\"",
+           "\"regular\" or \"free\": only triangles can be crossed", {"geometry.shape"});
+  }
+
+  void check_plane_vectors() const {
     check_two_dimensional("gravity", scene_.gravity);
     for (const Soil& soil : scene_.soils) {
       const std::string table = table_of(soil);

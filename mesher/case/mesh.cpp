@@ -60,6 +60,7 @@ Vector<Dim> extent(const Mesh<Dim>& mesh) {
   return high - low;
 }
 
+template <>
 double smallest_angle(const Mesh<2>& mesh) {
   double smallest = std::numbers::pi;
   for (const auto& corners : mesh.elements) {
@@ -68,6 +69,30 @@ double smallest_angle(const Mesh<2>& mesh) {
       const Vector<2> v = mesh.nodes[corners[(a + 2) % 3]] - mesh.nodes[corners[a]];
       const double cross = u.x() * v.y() - u.y() * v.x();
       smallest = std::min(smallest, std::atan2(std::abs(cross), u.dot(v)));
+    }
+  }
+  return smallest * 180.0 / std::numbers::pi;
+}
+
+template <>
+double smallest_angle(const Mesh<3>& mesh) {
+  double smallest = std::numbers::pi;
+  for (const auto& corners : mesh.elements) {
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < a; ++b) {
+        // Between the faces at the edge from a to b, seen along the edge.
+        const Vector<3>& start = mesh.nodes[corners[a]];
+        const Vector<3> along = (mesh.nodes[corners[b]] - start).normalized();
+        std::array<Vector<3>, 2> aside;
+        int count = 0;
+        for (int c = 0; c < 4; ++c) {
+          if (c == a || c == b) continue;
+          const Vector<3> offset = mesh.nodes[corners[c]] - start;
+          aside[count++] = offset - offset.dot(along) * along;
+        }
+        const double cross = aside[0].cross(aside[1]).norm();
+        smallest = std::min(smallest, std::atan2(cross, aside[0].dot(aside[1])));
+      }
     }
   }
   return smallest * 180.0 / std::numbers::pi;

@@ -48,7 +48,13 @@ std::array<double, Dim + 1> barycentric(const Mesh<Dim>& mesh, int element, cons
 template <int Dim>
 Vector<Dim> extent(const Mesh<Dim>& mesh);
 
-/// Smallest interior angle of all elements, degrees.
+/// Smallest interior angle of all elements, between edges of a triangle or faces of a tetrahedron,
+/// degrees.
+template <int Dim>
+double smallest_angle(const Mesh<Dim>& mesh);
+template <>
 double smallest_angle(const Mesh<2>& mesh);
+template <>
+double smallest_angle(const Mesh<3>& mesh);
 
 }  // namespace suffuse

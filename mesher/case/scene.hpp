@@ -53,11 +53,14 @@ struct LayerSettings {
 
 struct GeometrySettings {
   std::string file;       ///< .geo, .msh or .step, relative to the scene; empty with `shape`
-  std::string shape;      ///< "column"; empty with `file`
+  std::string shape;      ///< "column" or "box"; empty with `file`
   double width = unset;   ///< m
+  double depth = unset;   ///< m, of a box
   double height = unset;  ///< m
   LayerSettings layers;
   double scale = 1.0;  ///< metres per unit of length of `file`
+
+  [[nodiscard]] bool is_box() const { return shape == "box"; }
 };
 
 struct MeshSettings {
@@ -66,7 +69,7 @@ struct MeshSettings {
 };
 
 struct PointSettings {
-  int solid_per_element = 3;  ///< 1, 3, 6 or 12
+  int solid_per_element = 3;  ///< 1, 3, 6 or 12; of tetrahedra 1, 4 or 14
   double jitter = 0.0;  ///< points moved off the Gauss positions, as a fraction of the element size
   int seed = 1;         ///< of the jitter and of random seeding
   int liquid_per_element = 12;  ///< double-point: in an element of the specimen at the start
@@ -167,7 +170,8 @@ struct BoundaryCondition {
   bool seepage_face = false;  ///< air outside: lets water out at p = 0, none in
   /// Volume flux that enters as far as the soil takes it in at p = 0, m/s.
   std::optional<TimeFunction> rain;
-  /// Of a well: volume of liquid per second that enters through all its faces, m3/s per m.
+  /// Of a well: volume of liquid per second that enters through all its faces, m3/s per m, in
+  /// three dimensions m3/s.
   std::optional<TimeFunction> rate;
   std::optional<TimeFunction> concentration;  ///< c of the liquid that enters
   Fixing fix = Fixing::none;
@@ -288,6 +292,10 @@ SceneDocument read_scene(const std::string& path, const std::vector<std::string>
 SceneDocument parse_scene(const std::string& text, const std::string& path,
                           const std::vector<std::string>& overrides = {},
                           const std::map<std::string, std::string>& files = {});
+
+/// Sets what is not given and depends on the dimension of the mesh, which a scene with a file of
+/// its own does not tell.
+void complete_for_mesh(SceneDocument& document, int dimension);
 
 /// Path of a file that a scene names relative to its own folder.
 std::string file_beside_scene(const std::string& scene, const std::string& name);

@@ -39,4 +39,9 @@ void complete_scene(Scene& scene, const std::string& path,
   derive_skeletons(scene, given);
 }
 
+void complete_for_mesh(SceneDocument& document, int dimension) {
+  if (dimension == 2 || document.where.contains("points.solid_per_element")) return;
+  document.scene.points.solid_per_element = 4;
+}
+
 }  // namespace suffuse

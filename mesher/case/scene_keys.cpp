@@ -170,14 +170,21 @@ std::vector<SceneKey> declare_keys() {
           .at_least(1e-9)
           .at_most(1e6)
           .otherwise(1.0),
-      choice("geometry.shape", at(&Scene::geometry, &Geometry::shape), {{"column", "column"}},
-             "A built-in geometry. A column has the region `specimen`, whose lower left corner is "
-             "the origin, and the boundaries `top`, `bottom`, `left` and `right`.")
+      choice("geometry.shape", at(&Scene::geometry, &Geometry::shape),
+             {{"column", "column"}, {"box", "box"}},
+             "A built-in geometry. A column, in two dimensions, has the region `specimen`, whose "
+             "lower left corner is the origin, and the boundaries `top`, `bottom`, `left` and "
+             "`right`. A box is the same of tetrahedra: x goes from left to right, y from front to "
+             "back, z upwards, with the boundaries `front` and `back` besides.")
           .otherwise_as("required without `file`"),
-      key("geometry.width", at(&Scene::geometry, &Geometry::width), "Width of the column.")
+      key("geometry.width", at(&Scene::geometry, &Geometry::width), "Width along x.")
           .in("m")
           .above(0.0)
           .otherwise_as("required with `shape`"),
+      key("geometry.depth", at(&Scene::geometry, &Geometry::depth), "Depth of a box, along y.")
+          .in("m")
+          .above(0.0)
+          .otherwise_as("required with `shape = \"box\"`"),
       key("geometry.height", at(&Scene::geometry, &Geometry::height), "Height of the specimen.")
           .in("m")
           .above(0.0)
@@ -209,15 +216,17 @@ std::vector<SceneKey> declare_keys() {
              {{"regular", MeshStructure::regular},
               {"crossed", MeshStructure::crossed},
               {"free", MeshStructure::free}},
-             "Two right triangles per square; four triangles per quadrangle, cut along its "
-             "diagonals; or Gmsh's unstructured triangles. The explicit scheme follows flows that "
-             "turn on crossed meshes only. Not with a .msh file.")
-          .otherwise_as("`\"regular\"`; with `file`, `\"crossed\"`"),
+             "Two right triangles per square, six tetrahedra per cuboid; four triangles per "
+             "quadrangle, cut along its diagonals, in two dimensions only; or Gmsh's unstructured "
+             "elements. The explicit scheme follows flows that turn on crossed meshes only. Not "
+             "with a .msh file.")
+          .otherwise_as("`\"regular\"`; with `file`, `\"crossed\"` or, of volumes, `\"free\"`"),
 
       key("points.solid_per_element", at(&Scene::points, &Points::solid_per_element),
-          "Solid material points in each triangle, at its Gauss points.")
-          .one_of({1, 3, 6, 12})
-          .otherwise(3),
+          "Solid material points in each element, at its Gauss points: 1, 3, 6 or 12 in a "
+          "triangle, 1, 4 or 14 in a tetrahedron.")
+          .one_of({1, 3, 4, 6, 12, 14})
+          .otherwise_as("3 in a triangle, 4 in a tetrahedron"),
       key("points.jitter", at(&Scene::points, &Points::jitter),
           "How far solid points are moved off the Gauss positions, as a fraction of the element "
           "size.")
@@ -229,9 +238,9 @@ std::vector<SceneKey> declare_keys() {
           .at_least(0)
           .otherwise(1),
       key("points.liquid_per_element", at(&Scene::points, &Points::liquid_per_element),
-          "Liquid material points in each triangle; with `equal_volume` in a mean triangle of the "
-          "soil that erodes, at the start. With `seeding = \"gauss\"` 1, 3, 6 or 12. Double-point "
-          "only.")
+          "Liquid material points in each element; with `equal_volume` in a mean element of the "
+          "soil that erodes, at the start. With `seeding = \"gauss\"` as many as "
+          "`solid_per_element` can be. Double-point only.")
           .at_least(1)
           .at_most(1000)
           .otherwise(12),
@@ -319,8 +328,8 @@ std::vector<SceneKey> declare_keys() {
           .mandatory(),
       conductivity().named("k").in("m/s").above(0.0).mandatory(),
       key("soil.*.bedding", in_soil(&Soil::bedding),
-          "Angle of the bedding from the x-axis, counter-clockwise. With a pair of conductivities "
-          "only.")
+          "Angle of the bedding from the x-axis, counter-clockwise; in three dimensions it dips "
+          "along x alone. With a pair of conductivities only.")
           .in("degrees")
           .at_least(-180.0)
           .at_most(180.0)

@@ -301,5 +301,7 @@ std::vector<std::string> sentences(const Estimate& e, int threads) {
 
 template Estimate estimate_run(const Case<2>&, const Plan&, const TrialBudget&,
                                const EarlierState<2>*);
+template Estimate estimate_run(const Case<3>&, const Plan&, const TrialBudget&,
+                               const EarlierState<3>*);
 
 }  // namespace suffuse

@@ -299,5 +299,7 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
 
 template int run_case(Case<2>, const Plan&, const SolverOptions&, const std::string&,
                       const RunOptions&, const std::string&);
+template int run_case(Case<3>, const Plan&, const SolverOptions&, const std::string&,
+                      const RunOptions&, const std::string&);
 
 }  // namespace suffuse

@@ -42,5 +42,6 @@ void RunLoop<Dim>::output(OutputSink<Dim>& sink) {
 }
 
 template class RunLoop<2>;
+template class RunLoop<3>;
 
 }  // namespace suffuse

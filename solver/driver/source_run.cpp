@@ -167,6 +167,8 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads) {
 }
 
 template bool have_same_points(const Case<2>&, const Case<2>&);
+template bool have_same_points(const Case<3>&, const Case<3>&);
 template std::optional<SourceRun<2>> read_source_run(const Case<2>&, int);
+template std::optional<SourceRun<3>> read_source_run(const Case<3>&, int);
 
 }  // namespace suffuse

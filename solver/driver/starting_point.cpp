@@ -90,5 +90,7 @@ std::optional<StartingPoint> find_starting_point(const Case<Dim>& c, const std::
 
 template std::optional<StartingPoint> find_starting_point(const Case<2>&, const std::string&,
                                                           const SolverOptions&);
+template std::optional<StartingPoint> find_starting_point(const Case<3>&, const std::string&,
+                                                          const SolverOptions&);
 
 }  // namespace suffuse

@@ -50,15 +50,18 @@ void DoublePoint<Dim>::start_liquid() {
     this->flow_->start();
     this->start_flux_history();
   };
-  if (this->scene().flow.integration == PressureIntegration::material_point) {
-    auto flow = std::make_unique<ExplicitFlow<Dim>>(c, this->grid_, *this->solid_, options);
-    ExplicitFlow<Dim>& carried = *flow;
-    this->flow_ = std::move(flow);
-    start_flow();
-    liquid_ = std::make_unique<PointsCarryingFlow<Dim>>(
-        this->grid_, *this->solid_, carried, injection_settings(c, this->grid_), densities_,
-        modulus, this->threads(), c.liquid_points);
-    return;
+  // Of the explicit scheme, which is for triangles alone.
+  if constexpr (Dim == 2) {
+    if (this->scene().flow.integration == PressureIntegration::material_point) {
+      auto flow = std::make_unique<ExplicitFlow<Dim>>(c, this->grid_, *this->solid_, options);
+      ExplicitFlow<Dim>& carried = *flow;
+      this->flow_ = std::move(flow);
+      start_flow();
+      liquid_ = std::make_unique<PointsCarryingFlow<Dim>>(
+          this->grid_, *this->solid_, carried, injection_settings(c, this->grid_), densities_,
+          modulus, this->threads(), c.liquid_points);
+      return;
+    }
   }
   this->flow_ = make_flow(c, this->grid_, *this->solid_, options);
   start_flow();
@@ -176,5 +179,6 @@ std::vector<PassTiming> DoublePoint<Dim>::passes() const {
 }
 
 template class DoublePoint<2>;
+template class DoublePoint<3>;
 
 }  // namespace suffuse

@@ -174,5 +174,9 @@ template HistoryRow DoublePoint<2>::history_row(const FlowState<2>&) const;
 template std::vector<Stored> DoublePoint<2>::stored() const;
 template FinesState<2> DoublePoint<2>::fines_state(const FlowState<2>&) const;
 template Snapshot DoublePoint<2>::snapshot(const FlowState<2>&) const;
+template HistoryRow DoublePoint<3>::history_row(const FlowState<3>&) const;
+template std::vector<Stored> DoublePoint<3>::stored() const;
+template FinesState<3> DoublePoint<3>::fines_state(const FlowState<3>&) const;
+template Snapshot DoublePoint<3>::snapshot(const FlowState<3>&) const;
 
 }  // namespace suffuse

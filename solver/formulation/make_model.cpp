@@ -12,5 +12,6 @@ std::unique_ptr<TwoPhaseModel<Dim>> make_model(const Case<Dim>& c, const ModelOp
 }
 
 template std::unique_ptr<TwoPhaseModel<2>> make_model(const Case<2>&, const ModelOptions&);
+template std::unique_ptr<TwoPhaseModel<3>> make_model(const Case<3>&, const ModelOptions&);
 
 }  // namespace suffuse

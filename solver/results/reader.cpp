@@ -295,6 +295,7 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
     scene_ = parse_scene(scene.at("text").get<std::string>(), scene.at("path").get<std::string>(),
                          scene.at("overrides").get<std::vector<std::string>>(),
                          scene.value("files", std::map<std::string, std::string>{}));
+    complete_for_mesh(scene_, dimension_);
   } catch (const Json::exception& error) {
     throw FileError(path + ": is incomplete: " + error.what());
   } catch (const InputError& error) {
@@ -348,12 +349,22 @@ std::string ResultsReader::snapshot_path(const std::string& kind, std::size_t in
   return mesh_files_.at(index);
 }
 
+void ResultsReader::require_plane() const {
+  if (dimension_ == 2) return;
+  throw InputError(folder_ +
+                   ": got results of three dimensions; expected a plane model: tables are written "
+                   "of both, figures and samples of plane ones. ParaView opens " +
+                   layout::in_folder(folder_, layout::series("mesh")));
+}
+
 Mesh<2> ResultsReader::mesh() const {
+  require_plane();
   return read_case<2>(layout::in_folder(folder_, layout::case_copy)).mesh;
 }
 
 std::vector<Vector<2>> ResultsReader::point_positions(std::size_t index,
                                                       const std::string& kind) const {
+  require_plane();
   const Hdf5File file = file_of(index, kind, points_dataset);
   const std::vector<double> coordinates = file.read_doubles(points_dataset);
   std::vector<Vector<2>> positions;
@@ -376,7 +387,9 @@ std::size_t ResultsReader::entity_count(std::size_t index, const std::string& wh
     return row_count(file_of(index, where, points_dataset), points_dataset, 3);
   }
   const Hdf5File file(layout::in_folder(folder_, layout::case_copy), Hdf5File::Mode::read);
-  return where == "node" ? row_count(file, "/mesh/nodes", 2) : row_count(file, "/mesh/elements", 3);
+  const auto dimension = static_cast<std::size_t>(dimension_);
+  return where == "node" ? row_count(file, "/mesh/nodes", dimension)
+                         : row_count(file, "/mesh/elements", dimension + 1);
 }
 
 Field ResultsReader::field(std::size_t index, const std::string& where,

@@ -73,7 +73,7 @@ class ResultsReader {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   /// Path of snapshot `index` of "mesh", "solid" or "liquid".
   [[nodiscard]] std::string snapshot_path(const std::string& kind, std::size_t index) const;
-  /// The mesh with its regions and boundaries.
+  /// The mesh with its regions and boundaries. Of plane models, like the next.
   [[nodiscard]] Mesh<2> mesh() const;
   /// Positions of the "solid" or "liquid" points of a snapshot.
   [[nodiscard]] std::vector<Vector<2>> point_positions(std::size_t index,
@@ -86,6 +86,8 @@ class ResultsReader {
                                                      const std::string& where) const;
 
  private:
+  /// Throws InputError for results of three dimensions.
+  void require_plane() const;
   /// Files of one kind; snapshots that it does not have yet are dropped.
   void take_series(const std::string& kind, std::vector<std::string>& files);
   /// The file that holds an object of a snapshot: that of the snapshot, or of the grid that it

@@ -90,4 +90,8 @@ template ElementField<2> concentration_fit(const Grid<2>&, const LiquidPoints<2>
                                            const std::vector<int>&, const std::vector<double>&,
                                            const std::vector<double>&);
 
+template ElementField<3> concentration_fit(const Grid<3>&, const LiquidPoints<3>&,
+                                           const std::vector<int>&, const std::vector<double>&,
+                                           const std::vector<double>&);
+
 }  // namespace suffuse

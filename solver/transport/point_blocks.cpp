@@ -71,5 +71,6 @@ void PointBlocks<Dim>::add(int element, const CarriedPoint<Dim>& point) {
 }
 
 template class PointBlocks<2>;
+template class PointBlocks<3>;
 
 }  // namespace suffuse

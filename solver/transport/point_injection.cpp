@@ -169,6 +169,7 @@ auto PointInjection<Dim>::content(const InjectedPoint<Dim>& point, double elemen
 }
 
 template InjectionSettings injection_settings(const Case<2>&, const Grid<2>&);
+template InjectionSettings injection_settings(const Case<3>&, const Grid<3>&);
 template class PointInjection<2>;
 template class PointInjection<3>;
 

@@ -33,15 +33,15 @@ std::string column(double width, double height, double size, const std::string& 
          "\nstructure = \"" + structure + "\"\n";
 }
 
-Geometry build(const std::string& geometry, const std::string& more = "",
-               const std::vector<std::string>& overrides = {}) {
-  return build_geometry(parse_scene(scene_text(geometry, more), "test.toml", overrides));
+Geometry<2> build(const std::string& geometry, const std::string& more = "",
+                  const std::vector<std::string>& overrides = {}) {
+  return build_geometry_of<2>(parse_scene(scene_text(geometry, more), "test.toml", overrides));
 }
 
 const std::string buffer = "[soil.buffer]\nlike = \"specimen\"\n";
 
-Geometry build_layers(const std::string& geometry, const std::string& layers,
-                      const std::string& more = "") {
+Geometry<2> build_layers(const std::string& geometry, const std::string& layers,
+                         const std::string& more = "") {
   return build(geometry, more, {"formulation=double-point", "geometry.layers=" + layers});
 }
 
@@ -69,7 +69,7 @@ double longest_edge(const Mesh<2>& mesh, int e) {
 }
 
 TEST(Column, RegularHasTwoRightTrianglesPerSquare) {
-  const Geometry geometry = build(column(1.0, 0.5, 0.25, "regular"));
+  const Geometry<2> geometry = build(column(1.0, 0.5, 0.25, "regular"));
   const Mesh<2>& mesh = geometry.mesh;
   EXPECT_EQ(mesh.element_count(), 2 * 4 * 2);
   EXPECT_EQ(mesh.node_count(), 5 * 3);
@@ -165,7 +165,7 @@ TEST(Column, IsTheSameEveryTime) {
 }
 
 TEST(Column, SaysWhenTheSizeDoesNotDivideASide) {
-  const Geometry geometry = build(column(1.0, 1.0, 0.3, "regular"));
+  const Geometry<2> geometry = build(column(1.0, 1.0, 0.3, "regular"));
   EXPECT_EQ(geometry.mesh.element_count(), 2 * 3 * 3);
   ASSERT_EQ(geometry.notes.size(), 2U);
   EXPECT_EQ(geometry.notes[1],
@@ -348,21 +348,21 @@ class UserFile : public testing::Test {
     files_ = folder_.count();
   }
 
-  Geometry build_file(const std::string& name, const std::string& size = "0.5",
-                      const std::string& more = "", const std::string& structure = "free") {
+  Geometry<2> build_file(const std::string& name, const std::string& size = "0.5",
+                         const std::string& more = "", const std::string& structure = "free") {
     std::string geometry = "[geometry]\nfile = \"" + name + "\"\n";
     std::vector<std::string> overrides;
     if (!name.ends_with(".msh")) {
       geometry += "[mesh]\nsize = " + size + "\n";
       overrides.push_back("mesh.structure=" + structure);
     }
-    return build_geometry(
+    return build_geometry_of<2>(
         parse_scene(scene_text(geometry, more), folder_.file("scene.toml"), overrides));
   }
 
-  Geometry build_free_water(const std::vector<std::string>& overrides,
-                            const std::string& more = "") {
-    return build_geometry(
+  Geometry<2> build_free_water(const std::vector<std::string>& overrides,
+                               const std::string& more = "") {
+    return build_geometry_of<2>(
         parse_scene(scene_text("[geometry]\nfile = \"free_water.geo\"\n[mesh]\nsize = 0.5\n", more),
                     folder_.file("scene.toml"), overrides));
   }
@@ -403,7 +403,7 @@ TEST_F(UserFile, MayHoldSoilWhereFreeWaterWouldBe) {
       folder_.file("scene.toml"), {"formulation=double-point"});
   EXPECT_FALSE(document.scene.is_free_water("inflow"));
   EXPECT_TRUE(document.scene.is_free_water("outflow"));
-  EXPECT_NO_THROW(build_geometry(document));
+  EXPECT_NO_THROW(build_geometry_of<2>(document));
 }
 
 TEST_F(UserFile, HoldsNoFreeWaterInSinglePointScenesOfRigidSoil) {
@@ -433,8 +433,9 @@ std::string two_soils(const std::string& sand, const std::string& gravel) {
 
 TEST_F(UserFile, OneMisspeltNameIsOneProblem) {
   const auto message = [&](const std::string& sand, const std::string& gravel) {
-    return refusal(
-        [&] { build_geometry(parse_scene(two_soils(sand, gravel), folder_.file("scene.toml"))); });
+    return refusal([&] {
+      build_geometry_of<2>(parse_scene(two_soils(sand, gravel), folder_.file("scene.toml")));
+    });
   };
   EXPECT_EQ(message("sand", "gravel"), "nothing refused");
   EXPECT_EQ(message("Sand", "gravel"),
@@ -444,7 +445,7 @@ TEST_F(UserFile, OneMisspeltNameIsOneProblem) {
   // What has a soil already is not meant.
   const std::string third = "[soil.sands]\nlike = \"sand\"\n";
   EXPECT_EQ(refusal([&] {
-              build_geometry(
+              build_geometry_of<2>(
                   parse_scene(two_soils("sand", "gravel") + third, folder_.file("scene.toml")));
             }),
             folder_.file("scene.toml") +
@@ -486,7 +487,7 @@ TEST_F(UserFile, InAnotherUnitGivesTheMeshInMetres) {
           scene_text("[geometry]\nfile = \"units.geo\"\nscale = " + scale +
                          "\n[mesh]\nsize = 0.5\nstructure = \"" + structure + "\"\n",
                      probe);
-      const Mesh<2> mesh = build_geometry(parse_scene(text, folder_.file("scene.toml"))).mesh;
+      const Mesh<2> mesh = build_geometry_of<2>(parse_scene(text, folder_.file("scene.toml"))).mesh;
       ASSERT_EQ(mesh.elements, metres.elements) << scale << structure;
       double worst = 0.0;
       for (int n = 0; n < mesh.node_count(); ++n) {
@@ -503,7 +504,7 @@ TEST_F(UserFile, InAnotherUnitGivesTheMeshInMetres) {
 
 TEST_F(UserFile, AMeshInMillimetresIsReadInMetres) {
   const std::string text = scene_text("[geometry]\nfile = \"square.msh\"\nscale = 0.001\n");
-  const Mesh<2> mesh = build_geometry(parse_scene(text, folder_.file("scene.toml"))).mesh;
+  const Mesh<2> mesh = build_geometry_of<2>(parse_scene(text, folder_.file("scene.toml"))).mesh;
   EXPECT_EQ(mesh.nodes, (std::vector<Vector<2>>{{0, 0}, {1e-3, 1e-3}, {0, 1e-3}, {1e-3, 0}}));
 }
 
@@ -573,11 +574,11 @@ INSTANTIATE_TEST_SUITE_P(
                 in_scene + "\"quadrilateral.msh\" with element 1 (Quadrilateral 4) at (0.5, 0.5); "
                            "expected triangles of three nodes (in Gmsh: Mesh.ElementOrder = 1, no "
                            "Recombine)"},
-        Refused{"tetrahedron.msh",
-                in_scene + "\"tetrahedron.msh\" with element 2 (Tetrahedron 4) at (0.5, 0.25); "
-                           "expected a plane model: only triangles are supported so far"},
-        Refused{"volume.geo", in_scene + "\"volume.geo\" with volume 1; expected a plane model: "
-                                         "only triangles are supported so far"},
+        Refused{"volume.geo", in_scene +
+                                  "\"volume.geo\" with no named physical volume; expected each "
+                                  "region as a physical volume, as in Physical "
+                                  "Volume(\"specimen\") = {1}; the model has\n    volume 1: "
+                                  "x 0 to 1, y 0 to 1, z 0 to 1\n    surface 1: x 0 to 1"},
         Refused{"flat.msh", in_scene + "\"flat.msh\" with element 3, flat, with its nodes at (0, "
                                        "0), (0.5, 0.5), (1, 1); expected triangles with an area"},
         Refused{"folded.msh",
@@ -848,7 +849,7 @@ TEST_F(UserFile, SizeFieldsOfTheFileHold) {
       scene_text("[geometry]\nfile = \"two_regions.geo\"\n[mesh]\nsize = 0.5\n", soils);
   text.replace(text.find("[soil.specimen]"),
                text.find("[soil.sand]") - text.find("[soil.specimen]"), "");
-  const Mesh<2> mesh = build_geometry(parse_scene(text, folder_.file("scene.toml"))).mesh;
+  const Mesh<2> mesh = build_geometry_of<2>(parse_scene(text, folder_.file("scene.toml"))).mesh;
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"sand", "gravel"}));
   const std::vector<double> areas = areas_by_region(mesh);
   EXPECT_NEAR(areas[0], 1.0, 1e-12);
@@ -873,7 +874,7 @@ double length_of(const Mesh<2>& mesh, const BoundarySet<2>& set) {
 
 TEST_F(UserFile, IsCutAlongWallsAndWells) {
   for (const std::string structure : {"free", "crossed"}) {
-    const Geometry geometry = build_file("sheet_pile.geo", "0.25", pile_and_wells, structure);
+    const Geometry<2> geometry = build_file("sheet_pile.geo", "0.25", pile_and_wells, structure);
     const Mesh<2>& mesh = geometry.mesh;
     for (const std::string name : {"pile", "drain", "pump"}) {
       EXPECT_TRUE(is_slit(mesh, boundary(mesh, name))) << name << ", " << structure;
@@ -901,7 +902,7 @@ TEST_F(UserFile, IsCutAlongWallsAndWells) {
 }
 
 TEST_F(UserFile, WithCurvesInsideIsWhatItIsWithoutWhereNothingNamesThem) {
-  const Geometry geometry = build_file("sheet_pile.geo", "0.25");
+  const Geometry<2> geometry = build_file("sheet_pile.geo", "0.25");
   EXPECT_EQ(geometry.mesh.boundaries.size(), 2U);
   EXPECT_EQ(geometry.notes.size(), 3U);
 }
@@ -969,7 +970,7 @@ TEST_F(UserFile, HeadsOfTheExplicitSchemeStayAboveTheirBoundary) {
     return "[[boundary]]\non = \"left\"\nhead = " + head + "\n" + more;
   };
   const auto build_with = [&](const std::string& more, const std::string& scheme) {
-    return build_geometry(
+    return build_geometry_of<2>(
         parse_scene(scene_text("[geometry]\nfile = \"sheet_pile.geo\"\n[mesh]\nsize = 0.5\n", more),
                     folder_.file("scene.toml"),
                     {"gravity=[0,-10]", "initial.flow=steady", "time.scheme=" + scheme}));
@@ -995,7 +996,7 @@ TEST_F(UserFile, AThirdDirectionIsRefusedInThePlane) {
                  "porosity_gradient = [0.0, 0.0, 0.1]\nporosity_origin = [0.0, 0.0, 1.0]\n");
   const SceneDocument scene =
       parse_scene(text, folder_.file("scene.toml"), {"initial.water_level=1"});
-  std::string message = refusal([&] { build_geometry(scene); });
+  std::string message = refusal([&] { build_geometry_of<2>(scene); });
   for (const auto& [key, value] : {std::pair{"gravity", "-9.81"},
                                    {"soil.specimen.porosity_gradient", "0.1"},
                                    {"soil.specimen.porosity_origin", "1"}}) {
@@ -1021,7 +1022,7 @@ TEST_F(UserFile, OneEdgeTakesOneCondition) {
 }
 
 TEST_F(UserFile, AMeshIsUsedAsItIs) {
-  const Geometry geometry = build_file("square.msh");
+  const Geometry<2> geometry = build_file("square.msh");
   // In the order of `in_hilbert_order`: the upper one of its two triangles comes first.
   EXPECT_EQ(geometry.mesh.nodes, (std::vector<Vector<2>>{{0, 0}, {1, 1}, {0, 1}, {1, 0}}));
   EXPECT_EQ(geometry.mesh.elements, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 3, 1}}));
@@ -1034,13 +1035,13 @@ TEST_F(UserFile, IsInTheOrderOfHilbertsCurve) {
 }
 
 TEST_F(UserFile, ClockwiseTrianglesAreTurnedRound) {
-  const Geometry geometry = build_file("clockwise.msh");
+  const Geometry<2> geometry = build_file("clockwise.msh");
   EXPECT_NEAR(areas_by_region(geometry.mesh)[0], 1.0, 1e-15);
   EXPECT_EQ(geometry.notes, std::vector<std::string>{"1 clockwise triangles were turned round"});
 }
 
 TEST_F(UserFile, AFileThatMeshesItselfIsLeftAlone) {
-  const Geometry geometry = build_file("meshes_itself.geo", "0.05");
+  const Geometry<2> geometry = build_file("meshes_itself.geo", "0.05");
   EXPECT_GT(longest_edge(geometry.mesh, 0), 0.08);
   EXPECT_EQ(geometry.notes,
             std::vector<std::string>{"the .geo file meshes itself, mesh.size does not apply"});
@@ -1072,7 +1073,7 @@ void write_step(const std::string& path, const std::vector<std::string>& names) 
 
 TEST_F(UserFile, StepShapesAreRegionsByTheirNamesInMetresAndConnected) {
   write_step(folder_.file("two.step"), {"specimen", "gravel"});
-  const Geometry geometry =
+  const Geometry<2> geometry =
       build_file("two.step", "0.25",
                  "[soil.gravel]\nporosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700.0\n"
                  "conductivity = 2.0e-2\n");

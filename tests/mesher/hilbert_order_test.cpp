@@ -114,8 +114,8 @@ Mesh<2> gmsh_column(double size, MeshStructure structure, double height = 1.0) {
   const std::string complaint = gmsh_complaint([&] { mesh_column(column_of(scene), scene.mesh); });
   EXPECT_EQ(complaint, "");
   ExtractedMesh extracted =
-      extract_mesh(structure == MeshStructure::crossed ? Quadrangles::cut_along_diagonals
-                                                       : Quadrangles::refused);
+      extract_mesh<2>(structure == MeshStructure::crossed ? Quadrangles::cut_along_diagonals
+                                                          : Quadrangles::refused);
   EXPECT_TRUE(extracted.problems.empty());
   return std::move(extracted.mesh);
 }

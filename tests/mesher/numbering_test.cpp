@@ -63,7 +63,7 @@ TEST_P(Numbering, ChangesResultsByRoundOffAlone) {
   const TemporaryFolder folder;
   const SceneDocument document =
       parse_scene(scene_of_soil, "scene.toml", {"time=" + GetParam(), "output.every=0.5"});
-  const Mesh<2> mesh = build_geometry(document).mesh;
+  const Mesh<2> mesh = build_geometry_of<2>(document).mesh;
   const std::string along_curve = solve(folder, "along_curve", mesh, document);
   const std::string at_random = solve(folder, "at_random", test::shuffled(mesh), document);
   for (const std::string table : {"/history.csv", "/ledger.csv"}) {

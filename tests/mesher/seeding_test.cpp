@@ -59,7 +59,7 @@ struct RuleCase {
 class TriangleRule : public testing::TestWithParam<RuleCase> {};
 
 TEST_P(TriangleRule, IntegratesToItsDegreeAndNotBeyond) {
-  const auto rule = triangle_rule(GetParam().count);
+  const auto rule = gauss_rule<2>(GetParam().count);
   ASSERT_EQ(rule.size(), static_cast<std::size_t>(GetParam().count));
   for (int degree = 0; degree <= GetParam().degree; ++degree) {
     EXPECT_LT(worst_error(rule, degree), 4e-16) << "degree " << degree;
@@ -68,7 +68,7 @@ TEST_P(TriangleRule, IntegratesToItsDegreeAndNotBeyond) {
 }
 
 TEST_P(TriangleRule, HasPositiveWeightsAndInteriorPoints) {
-  for (const auto& point : triangle_rule(GetParam().count)) {
+  for (const auto& point : gauss_rule<2>(GetParam().count)) {
     EXPECT_GT(point.weight, 0.0);
     double sum = 0.0;
     for (double share : point.barycentric) {
@@ -97,14 +97,14 @@ INSTANTIATE_TEST_SUITE_P(All, TriangleRule,
                          [](const auto& tested) { return std::to_string(tested.param.count); });
 
 TEST(Seeding, TheThreePointsAreTheInteriorOnes) {
-  for (const auto& point : triangle_rule(3)) {
+  for (const auto& point : gauss_rule<2>(3)) {
     const double largest = *std::ranges::max_element(point.barycentric);
     EXPECT_DOUBLE_EQ(largest, 2.0 / 3.0);
   }
 }
 
 TEST(Seeding, RefusesOtherCounts) {
-  EXPECT_THROW(triangle_rule(4), InputError);
+  EXPECT_THROW(gauss_rule<2>(4), InputError);
 }
 
 PointSettings jittered(double jitter, int seed) {
@@ -204,7 +204,7 @@ Scene fan_scene(Seeding seeding) {
 double liquid_in(const Mesh<2>& mesh, const Scene& scene, int e) {
   const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
   double mean = soil ? 0.0 : 1.0;
-  for (const auto& point : triangle_rule(12)) {
+  for (const auto& point : gauss_rule<2>(12)) {
     Vector<2> x = Vector<2>::Zero();
     for (int a = 0; a < 3; ++a) x += point.barycentric[a] * mesh.nodes[mesh.elements[e][a]];
     if (soil) mean += point.weight * soil->initial_porosity(x);
@@ -295,7 +295,7 @@ TEST(Seeding, LeavesSolidPointsOutOfFreeWater) {
 /// free water.
 TEST(Seeding, OfThePapersColumnHasEqualVolumes) {
   const SceneDocument document = read_scene(SUFFUSE_TEST_DATA "/scenes/double-point.toml");
-  const Mesh<2> mesh = build_geometry(document).mesh;
+  const Mesh<2> mesh = build_geometry_of<2>(document).mesh;
   const MaterialPoints<2> points = seed_liquid_points(mesh, document.scene);
   for (int e = 0; e < mesh.element_count(); ++e) {
     const bool water = document.scene.is_free_water(mesh.region_names[mesh.element_region[e]]);

@@ -38,7 +38,7 @@ inline Mesh<2> crossed_mesh(int nx, int ny, double width, double height) {
 /// Places that share a triangle's volume: a quadrature rule, or with 4 the centroids of the four
 /// triangles that the midpoints of the sides make.
 inline std::vector<QuadraturePoint<2>> places_in_triangle(int count) {
-  if (count != 4) return triangle_rule(count);
+  if (count != 4) return gauss_rule<2>(count);
   std::vector<QuadraturePoint<2>> places{{{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 0.25}};
   for (int k = 0; k < 3; ++k) {
     places.push_back({{1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0}, 0.25});

@@ -271,7 +271,7 @@ Century century(double tolerance) {
   Case<2> c;
   c.document = parse_scene(text.str(), path);
   c.document.scene.time.tolerance = tolerance;
-  c.mesh = build_geometry(c.document).mesh;
+  c.mesh = build_geometry_of<2>(c.document).mesh;
   c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
   model::ModelRun run(std::move(c));
   Century result;

@@ -12,7 +12,7 @@ inline Mesh<2> free_mesh(double size) {
   document.scene = paper_scene();
   document.scene.geometry = {"", "column", 1.0, 1.0, {}};
   document.scene.mesh = {size, MeshStructure::free};
-  return build_geometry(document).mesh;
+  return build_geometry_of<2>(document).mesh;
 }
 
 }  // namespace suffuse::model

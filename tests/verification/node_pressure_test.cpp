@@ -70,7 +70,7 @@ Case<2> weir() {
     scene += "[[output.probe]]\nat = [" + std::to_string(0.01 * i) + ", 0.97]\n";
   }
   c.document = parse_scene(scene, (folder / "weir.toml").string());
-  c.mesh = build_geometry(c.document).mesh;
+  c.mesh = build_geometry_of<2>(c.document).mesh;
   c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
   return c;
 }

@@ -27,7 +27,7 @@ class PaperRun {
     Case<2> c;
     c.document = read_scene(std::string(SUFFUSE_SOURCE_DIR) + "/workflows/paper/" + scene + ".toml",
                             overrides);
-    c.mesh = build_geometry(c.document).mesh;
+    c.mesh = build_geometry_of<2>(c.document).mesh;
     c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
     const SolverOptions options;
     const Plan plan = make_plan(c, options);

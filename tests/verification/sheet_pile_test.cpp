@@ -55,7 +55,7 @@ double discharge(double size) {
   )";
   Case<2> c;
   c.document = parse_scene(scene, (folder / "pile.toml").string());
-  c.mesh = build_geometry(c.document).mesh;
+  c.mesh = build_geometry_of<2>(c.document).mesh;
   c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
   model::ModelRun run(std::move(c));
   std::cout << run.input().mesh.element_count() << " elements: ";

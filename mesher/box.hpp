@@ -1,0 +1,21 @@
+#pragma once
+
+/// The built-in geometry of three dimensions: a column with a depth, of tetrahedra.
+
+#include "case/mesh.hpp"
+#include "case/scene.hpp"
+#include "column.hpp"
+
+namespace suffuse {
+
+/// [0, width] x [0, depth] over the column's levels in cuboids of six tetrahedra each, one for each
+/// order of the axes in which a path along edges leads from a cuboid's first corner to its last
+/// (H. W. Kuhn, IBM J. Res. Dev. 4 (1960) 518-524): neighbours share their faces. Boundaries: both
+/// ends along z, "left" and "right" along x, "front" and "back" along y.
+Mesh<3> regular_box(const ColumnShape& column, double depth, double size);
+
+/// The same geometry in unstructured tetrahedra, in the current Gmsh model. Gmsh's own errors come
+/// as its exceptions.
+void mesh_free_box(const ColumnShape& column, double depth, double size);
+
+}  // namespace suffuse

@@ -1,0 +1,25 @@
+#pragma once
+
+/// Whether elements make a mesh: with volumes, side on side, without gaps that nobody sees.
+
+#include <cstddef>
+#include <vector>
+
+#include "case/errors.hpp"
+#include "case/mesh.hpp"
+
+namespace suffuse {
+
+/// Numbers by which messages name nodes and elements.
+struct MeshTags {
+  std::vector<std::size_t> nodes;
+  std::vector<std::size_t> elements;
+};
+
+/// Turns elements round that are not positively oriented, and returns how many. Adds to `problems`,
+/// `found` and `expected` only: nodes at one place, elements without a volume, elements that
+/// overlap, nodes on sides of other elements, and parts that lie on each other.
+template <int Dim>
+int check_mesh(Mesh<Dim>& mesh, const MeshTags& tags, std::vector<InputProblem>& problems);
+
+}  // namespace suffuse
