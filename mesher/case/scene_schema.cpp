@@ -49,7 +49,8 @@ const std::vector<SceneSection>& scene_sections() {
       {"", "Top level", "Keys before the first table."},
       {"geometry", "[geometry]", "Either a built-in `shape` or your own `file`."},
       {"geometry.layers", "[geometry.layers]",
-       "Rows of elements that a column or a box has beside its specimen, each as high as a row of the "
+       "Rows of elements that a column or a box has beside its specimen, each as high as a row of "
+       "the "
        "specimen. In this order from top to bottom, the specimen between `above` and `below`. "
        "Double-point only."},
       {"mesh", "[mesh]", "Linear triangles or tetrahedra."},

@@ -20,15 +20,13 @@ FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,
   const bool retains = std::ranges::any_of(scene.soils, &Soil::drains);
   const bool layered =
       std::ranges::any_of(scene.soils, [](const Soil& soil) { return soil.anisotropy() != 1.0; });
-  const bool has_free_space =
-      std::ranges::any_of(soils.mesh().region_names,
-                          [&](const std::string& region) { return scene.is_free_water(region); });
+  const bool moves = scene.moves();
   for (int e = 0; e < soils.mesh().element_count(); ++e) {
     const Soil& soil = soils.soil_of_element(e);
-    const bool left = has_free_space && soils.points_begin(e) == soils.points_begin(e + 1);
+    const bool left = moves && soils.points_begin(e) == soils.points_begin(e + 1);
     if (retains) {
       result.retention.push_back((left ? soils.free_space() : soil).retention);
-      if (has_free_space) result.retention.back().dries_at = drying_suction;
+      if (moves) result.retention.back().dries_at = drying_suction;
     }
     if (layered) {
       result.bedding.push_back(across_bedding<Dim>(soil) * std::sqrt(1.0 - soil.anisotropy()));
@@ -36,7 +34,7 @@ FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,
   }
   if (!retains) return result;
   result.free_space = soils.free_space().retention;
-  if (!has_free_space) return result;
+  if (!moves) return result;
   for (int e = 0; e < soils.mesh().element_count(); ++e) {
     const SoilFilling f = filling.empty() ? SoilFilling{} : filling[e];
     const double of_soil = f.share * f.porosity;

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# The moment at which the levee loses its equilibrium, by mesh and tolerance, as CSV: study.sh PROGRAMS FOLDER.
+set -eu -o pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+echo "size,tolerance,elements,steps,wall_seconds,failure_time"
+for run in 0.7,1e-3 0.5,1e-3 0.35,1e-3 0.25,1e-3 0.5,1e-2 0.5,3e-4; do
+  size=${run%,*} tolerance=${run#*,}
+  stem=$2/size-$size-tolerance-$tolerance
+  "$1/suffuse-mesher" slide.toml -o "$stem.case.h5" --set name=slide --set mesh.size="$size" \
+    --set time.tolerance="$tolerance" --set time.failure=stop --set 'output={every=500.0}' > /dev/null
+  code=0
+  "$1/suffuse-solver" "$stem.case.h5" -o "$stem.results" --force --quiet > "$stem.log" 2>&1 || code=$?
+  # It ends where the soil has lost its equilibrium.
+  [ "$code" = 3 ] || { cat "$stem.log" >&2; echo "$stem: exit code $code; expected 3" >&2; exit 3; }
+  number() { sed -n "s/^ *\"$1\": \([0-9.e+-]*\),*$/\1/p" "$stem.results/run.json" | head -1; }
+  echo "$run,$(number elements),$(number steps),$(number wall_seconds),$(tail -1 "$stem.results/history.csv" | cut -d, -f1)"
+done
