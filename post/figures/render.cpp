@@ -257,7 +257,10 @@ std::array<double, 2> parse_range(const std::string& text) {
 
 ViewBox parse_view(const std::string& text) {
   const SampleLine corners = parse_line(text, command, "--view");
-  if ((corners.from.array() < corners.to.array()).all()) return {corners.from, corners.to};
+  const bool plane = corners.from.size() == 2;
+  if (plane && (corners.from.array() < corners.to.array()).all()) {
+    return {Vector<2>(corners.from), Vector<2>(corners.to)};
+  }
   refuse("--view", '"' + text + '"', "x0,y0:x1,y1 with x0 below x1 and y0 below y1");
 }
 
