@@ -1,5 +1,6 @@
 #include "tables/safety_check.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
 #include <map>
