@@ -25,9 +25,9 @@ namespace {
 
 /// From the model to the viewer: to the right, to the front, upwards.
 const Vector<3> viewer(0.45, 0.75, 0.48);
-/// By which lines lie in front of the triangles at their place, pixels per pixel of their width:
+/// By which lines lie in front of the triangles at their place, pixels, and more for each pixel of their width:
 /// wide ones lie over narrow ones.
-constexpr double line_lift = 1.5;
+constexpr double line_lift = 2.0;
 constexpr double tick_length = 9.0;
 constexpr double label_distance = 24.0;
 constexpr double name_distance = 74.0;
@@ -166,7 +166,7 @@ void SpaceDrawing::add_to(vtkRenderer& renderer, int width, int height) const {
     Cells& cells = lines[line_width];
     cells.cells->InsertNextCell(2);
     for (const Vector<3>& x : ends) {
-      cells.add(x + Vector<3>(0.0, 0.0, line_lift * line_width), color);
+      cells.add(x + Vector<3>(0.0, 0.0, line_lift * (1.0 + line_width)), color);
       reach(x);
     }
   }

@@ -34,6 +34,12 @@ struct SpaceBox {
 /// Paints ticks and labels in metres at three edges of the box; `paper` maps projected metres.
 void paint_space_axes(vtkContext2D& painter, const ModelView& paper, const SpaceBox& box);
 
+/// Pixels of a projected place, the third towards the viewer.
+inline Vector<3> space_pixel(const ModelView& paper, const Vector<3>& projected) {
+  const Vector<2> at = paper.pixel(projected.head<2>());
+  return {at[0], at[1], paper.scale() * projected[2]};
+}
+
 /// Triangles and lines of one picture, in pixels; the third coordinate counts towards the viewer.
 class SpaceDrawing {
  public:

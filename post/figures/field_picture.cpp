@@ -225,14 +225,8 @@ void paint_map(vtkContext2D& painter, const Paper& sheet, const Arrows& arrows) 
 SpaceDrawing space_drawing(const Paper& sheet) {
   const auto& [model, picture, view, width, height, flat] = sheet;
   SpaceDrawing drawing;
-  const auto pixel = [&](const Vector<3>& x) {
-    const Vector<2> at = view.pixel(x.head<2>());
-    return Vector<3>(at[0], at[1], view.scale() * x[2]);
-  };
-  const auto at_node = [&](int node) {
-    const Vector<2>& x = model.mesh.nodes[node];
-    return pixel({x[0], x[1], model.depth[node]});
-  };
+  const auto pixel = [&](const Vector<3>& x) { return space_pixel(view, x); };
+  const auto at_node = [&](int node) { return pixel(model.projected(node)); };
   const auto add_edges = [&](const Edges& edges, const Color& color, float line_width) {
     for (const auto& [i, j] : edges) drawing.add_line({at_node(i), at_node(j)}, color, line_width);
   };

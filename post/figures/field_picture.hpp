@@ -30,6 +30,11 @@ struct PictureModel {
   std::array<std::string, 2> axes{"x (m)", "y (m)"};
   std::optional<SpaceBox> space{};  ///< unset: a plane model
   std::vector<double> depth{};      ///< of the nodes of one in space, towards the viewer, m
+
+  /// A node of one in space.
+  [[nodiscard]] Vector<3> projected(int node) const {
+    return {mesh.nodes[node][0], mesh.nodes[node][1], depth[node]};
+  }
 };
 PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box);
 /// Its outer edges are those at which the surface bends.
