@@ -13,6 +13,7 @@
 #include "flow/nodal_operator.hpp"
 #include "formulation/point_checks.hpp"
 #include "formulation/single_point.hpp"
+#include "linear/lagged_preconditioner.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
 #include "physics/liquid.hpp"
@@ -462,6 +463,12 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   warn_of_pressures_on_slopes(c, grid, conditions, plan);
   find_speed_that_drag_follows(c, plan);
   describe(scene, options, plan);
+  if constexpr (Dim == 3) {
+    plan.sentences.push_back(
+        std::string("run: linear systems of the flow, ") +
+        (prefers_multigrid(Dim, grid.face_count()) ? "multigrid, " : "a direct factor, ") +
+        std::to_string(grid.face_count()) + " faces");
+  }
   return plan;
 }
 

@@ -25,8 +25,8 @@ bool are_values_of(const std::vector<double>& values, const Eigen::SparseMatrix<
 
 }  // namespace
 
-std::unique_ptr<Factor> flow_factor(int dimension, Eigen::Index unknowns) {
-  if (dimension == 3 && unknowns >= multigrid_unknowns) return std::make_unique<Multigrid>();
+std::unique_ptr<Factor> flow_factor(int dimension, int faces) {
+  if (prefers_multigrid(dimension, faces)) return std::make_unique<Multigrid>();
   return std::make_unique<CholeskyFactor>();
 }
 

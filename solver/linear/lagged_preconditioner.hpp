@@ -28,11 +28,13 @@ struct SolveCounts {
   }
 };
 
-/// What is best for the flow: a direct factor in two dimensions and in small models of three, else
-/// multigrid (docs/architecture.md has the numbers).
-std::unique_ptr<Factor> flow_factor(int dimension, Eigen::Index unknowns);
-/// From so many unknowns on multigrid is used in three dimensions.
-inline constexpr Eigen::Index multigrid_unknowns = 10'000;
+/// Whether multigrid is better for the flow on a mesh than a direct factor: in three dimensions
+/// from 30 000 faces on (docs/architecture.md has the numbers).
+constexpr bool prefers_multigrid(int dimension, int faces) {
+  return dimension == 3 && faces >= 30'000;
+}
+/// The factor for the flow on such a mesh.
+std::unique_ptr<Factor> flow_factor(int dimension, int faces);
 
 /// When a matrix that has changed is factored anew. A factorisation costs about ten iterations.
 struct LagLimits {
