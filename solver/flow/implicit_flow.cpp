@@ -359,7 +359,8 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
     eos_error_ = std::max(eos_error_, std::abs(mismatch[e]) / volume[e]);
   }
   // Water without compressibility fits by construction; its round-off has nowhere to go.
-  if (std::isinf(liquid.bulk_modulus)) return;
+  // Air that moves with the soil takes the place of what does not fit.
+  if (std::isinf(liquid.bulk_modulus) || !scheme_.soils().soil_share.empty()) return;
   relaxation_.observe(std::move(mismatch), volume);
   if (reuse_.active()) update_steady_flow();
 }
