@@ -319,8 +319,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
                                const std::vector<double>& face_concentration) {
   FlowSolver<Dim>::update(time, pores, face_concentration);
   if (blending_.expects()) {
-    // Points that cross from element to element make densities and pores scatter: a drift is what
-    // lasts.
+    // Points that change elements make densities and pores scatter: a drift is what lasts.
     const bool scattered = this->scene().formulation == Formulation::double_point || solid_.moves();
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
