@@ -24,12 +24,16 @@ struct FieldOptions {
   RenderRequest request;
   std::string range;
   std::string view;
+  std::string cut;
+  std::string levels;
 
   /// The request, with what is given as text.
   [[nodiscard]] RenderRequest read() const {
     RenderRequest result = request;
     if (!range.empty()) result.range = parse_range(range);
     if (!view.empty()) result.view = parse_view(view);
+    if (!cut.empty()) result.cut = parse_cut(cut, "suffuse-post render");
+    if (!levels.empty()) result.levels = parse_levels(levels);
     return result;
   }
 };
@@ -52,6 +56,12 @@ void declare_field(CLI::App& command, FieldOptions& o) {
                    "streamlines, with a tenth of the discharge between two");
   command.add_option("--view", o.view, "two corners of the part to show, m")
       ->type_name("X0,Y0:X1,Y1");
+  command
+      .add_option("--cut", o.cut,
+                  "of a model in space, the plane to show, m; without it the surface is shown")
+      ->type_name("x=X|y=Y|z=Z");
+  command.add_option("--iso", o.levels, "of a model in space: surfaces of equal values")
+      ->type_name("VALUE,...");
 }
 
 void declare_render(CLI::App& command, FieldOptions& o) {
@@ -138,7 +148,7 @@ void declare_figure(CLI::App& command, FigureCommandOptions& o) {
                   "of \"flownet\": tubes of equal discharge; without it as many as make squares")
       ->type_name("N");
   command.add_option("--line", o.figure.line, "of \"profile\": two ends, m")
-      ->type_name("X0,Y0:X1,Y1");
+      ->type_name("X0,Y0[,Z0]:X1,Y1[,Z1]");
   command.add_option("--fields", o.figure.fields, "of \"profile\"")->type_name("NAME,...");
   command
       .add_option("--times", o.figure.times,

@@ -30,8 +30,8 @@ void declare_sample(CLI::App& command, SampleOptions& o) {
       ->type_name("T,...|all");
   auto* places = command.add_option_group("place")->require_option(1);
   places->add_option("--line", o.line, "along a line, by its two ends, m")
-      ->type_name("X0,Y0:X1,Y1");
-  places->add_option("--at", o.place, "at a point, m")->type_name("X,Y");
+      ->type_name("X0,Y0[,Z0]:X1,Y1[,Z1]");
+  places->add_option("--at", o.place, "at a point, m")->type_name("X,Y[,Z]");
   command.add_option("--count", o.count, "points on the line, ends included")
       ->capture_default_str();
   command.add_option("--fields", o.fields, "fields, with commas between")
@@ -65,7 +65,7 @@ void declare_error(CLI::App& command, ErrorOptions& o) {
   add_results(command, o.results);
   command
       .add_option("--reference", o.reference,
-                  "known values: columns t, x and y or neither, and a column per quantity")
+                  "known values: columns t, x and y (and z) or neither, and a column per quantity")
       ->required()
       ->type_name("FILE.csv");
   command.add_option("--csv", o.csv, "write the errors here")->type_name("FILE");

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "case/faces.hpp"
 #include "drawing/picture.hpp"
@@ -20,7 +19,21 @@ constexpr float tick_length = 8.0F;
 /// More discs than this are drawn in one call of VTK, which is faster; they are less round.
 constexpr std::size_t max_round_discs = 20'000;
 
-/// Round numbers within [low, high] that are at least `min_distance` pixels apart.
+unsigned char byte_of(double value) {
+  return static_cast<unsigned char>(std::lround(255.0 * value));
+}
+
+template <class Wanted>
+Edges edges_where(const Mesh<2>& mesh, const Wanted& wanted) {
+  Edges edges;
+  for (const auto& [edge, elements] : elements_of_edges(mesh)) {
+    if (wanted(elements)) edges.push_back(edge);
+  }
+  return edges;
+}
+
+}  // namespace
+
 std::vector<double> ticks_within(double low, double high, double scale, double min_distance) {
   const double slack = 1e-9 * (high - low);
   std::vector<double> inside;
@@ -40,11 +53,6 @@ std::vector<double> ticks_within(double low, double high, double scale, double m
   return inside;
 }
 
-unsigned char byte_of(double value) {
-  return static_cast<unsigned char>(std::lround(255.0 * value));
-}
-
-/// The one or two elements of each edge.
 std::map<std::array<int, 2>, std::vector<int>> elements_of_edges(const Mesh<2>& mesh) {
   std::map<std::array<int, 2>, std::vector<int>> elements;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -54,17 +62,6 @@ std::map<std::array<int, 2>, std::vector<int>> elements_of_edges(const Mesh<2>& 
   }
   return elements;
 }
-
-template <class Wanted>
-Edges edges_where(const Mesh<2>& mesh, const Wanted& wanted) {
-  Edges edges;
-  for (const auto& [edge, elements] : elements_of_edges(mesh)) {
-    if (wanted(elements)) edges.push_back(edge);
-  }
-  return edges;
-}
-
-}  // namespace
 
 ModelView::ModelView(const Mesh<2>& mesh, float left, float bottom, float max_width,
                      float max_height)
@@ -93,7 +90,7 @@ bool ModelView::shows(const Vector<2>& middle, const Vector<2>& half) const {
   return std::min(first.minCoeff(), last.minCoeff()) >= 0.0;
 }
 
-void ModelView::paint_axes(vtkContext2D& painter) const {
+void ModelView::paint_axes(vtkContext2D& painter, const std::array<std::string, 2>& names) const {
   painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
   painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
   painter.GetPen()->SetWidth(1.5F);
@@ -107,8 +104,8 @@ void ModelView::paint_axes(vtkContext2D& painter) const {
     painter.DrawLine(left() - 4.0F, y, left() - 4.0F - tick_length, y);
     paint_text(painter, tick_text(tick), font_size, left() - 18.0F, y, Anchor::right);
   }
-  paint_text(painter, "x (m)", 20, left() + width() / 2.0F, bottom() - 62.0F);
-  paint_text(painter, "y (m)", 20, left() - 84.0F, bottom() + height() / 2.0F, Anchor::center,
+  paint_text(painter, names[0], 20, left() + width() / 2.0F, bottom() - 62.0F);
+  paint_text(painter, names[1], 20, left() - 84.0F, bottom() + height() / 2.0F, Anchor::center,
              90.0);
 }
 

@@ -5,6 +5,8 @@
 
 #include <vtkContext2D.h>
 
+#include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -57,7 +59,8 @@ class ModelView {
   [[nodiscard]] double scale() const { return scale_; }
 
   /// Paints ticks and labels in metres to the left of the mesh and below.
-  void paint_axes(vtkContext2D& painter) const;
+  void paint_axes(vtkContext2D& painter,
+                  const std::array<std::string, 2>& names = {"x (m)", "y (m)"}) const;
 
  private:
   void fit(float max_width, float max_height);
@@ -68,6 +71,10 @@ class ModelView {
   double scale_ = 1.0;
 };
 
+/// Round numbers within [low, high] that are at least `min_distance` pixels apart; `scale`: pixels
+/// per unit.
+std::vector<double> ticks_within(double low, double high, double scale, double min_distance);
+
 /// Room for the axes to the left of the mesh and below, pixels.
 inline constexpr float axes_left = 110.0F;
 inline constexpr float axes_bottom = 90.0F;
@@ -77,6 +84,9 @@ using Edges = std::vector<std::array<int, 2>>;
 /// Paints lines of `width` pixels.
 void paint_edges(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
                  const Edges& edges, const Color& color, float width);
+
+/// The one or two elements of each edge.
+std::map<std::array<int, 2>, std::vector<int>> elements_of_edges(const Mesh<2>& mesh);
 
 /// Every edge of the mesh, sorted.
 Edges all_edges(const Mesh<2>& mesh);

@@ -19,6 +19,7 @@
 #include "case/errors.hpp"
 #include "case/pending_file.hpp"
 #include "drawing/offscreen_window.hpp"
+#include "drawing/space.hpp"
 #include "drawing/vtk_messages.hpp"
 
 namespace suffuse {
@@ -121,7 +122,7 @@ void paint_text(vtkContext2D& painter, const std::string& text, int size, float 
 }
 
 void draw_picture(int width, int height, const std::string& title, const std::string& path,
-                  const std::function<void(vtkContextScene&)>& fill) {
+                  const std::function<void(vtkContextScene&)>& fill, const SpaceDrawing* space) {
   const std::string format = picture_format(path);
   PendingFile file(path);
   const OffscreenContext context;
@@ -132,8 +133,12 @@ void draw_picture(int width, int height, const std::string& title, const std::st
   renderer->SetBackground(1.0, 1.0, 1.0);
   window->AddRenderer(renderer);
   vtkNew<vtkContextActor> actor;
-  add_painted(*actor->GetScene(),
-              [&](vtkContext2D& painter) { paint_paper(painter, width, height); });
+  if (space != nullptr) {
+    space->add_to(*renderer, width, height);
+  } else {
+    add_painted(*actor->GetScene(),
+                [&](vtkContext2D& painter) { paint_paper(painter, width, height); });
+  }
   fill(*actor->GetScene());
   actor->GetScene()->SetRenderer(renderer);
   renderer->AddActor(actor);

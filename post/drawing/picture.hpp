@@ -34,10 +34,13 @@ enum class Anchor { left, center, right };
 void paint_text(vtkContext2D& painter, const std::string& text, int size, float x, float y,
                 Anchor anchor = Anchor::center, double angle = 0.0);
 
+class SpaceDrawing;
+
 /// Writes a white picture of `width` by `height` pixels with the items that `fill` adds. Pixels
-/// count from the bottom left; `title` goes into the metadata. Throws InputError for an unknown
-/// suffix, FileError.
+/// count from the bottom left; `title` goes into the metadata. What is in space, PNG alone, lies
+/// beneath. Throws InputError for an unknown suffix, FileError.
 void draw_picture(int width, int height, const std::string& title, const std::string& path,
-                  const std::function<void(vtkContextScene&)>& fill);
+                  const std::function<void(vtkContextScene&)>& fill,
+                  const SpaceDrawing* space = nullptr);
 
 }  // namespace suffuse

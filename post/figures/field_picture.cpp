@@ -3,6 +3,7 @@
 #include <vtkBrush.h>
 #include <vtkPen.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -37,10 +38,11 @@ constexpr int max_division = 16;
 
 /// Adds an element as n^2 triangles. VTK interpolates colours, not values, between the corners of a
 /// triangle; only in small triangles is the difference too small to see. `flat`: one colour each.
-void add_divided(ColoredTriangles& triangles, const std::array<Vector<2>, 3>& corners,
+template <int Dim, class Add>
+void add_divided(const Add& add_triangle, const std::array<Vector<Dim>, 3>& corners,
                  const std::array<double, 3>& values, const FieldScale& scale, int n, bool flat) {
   struct Corner {
-    Vector<2> at;
+    Vector<Dim> at;
     double value;
   };
   const auto at = [&](int i, int j) {
@@ -57,7 +59,8 @@ void add_divided(ColoredTriangles& triangles, const std::array<Vector<2>, 3>& co
     const auto color = [&](const Corner& corner) {
       return scale.color(flat ? mean : corner.value);
     };
-    triangles.add({p.at, q.at, r.at}, {color(p), color(q), color(r)});
+    add_triangle(std::array<Vector<Dim>, 3>{p.at, q.at, r.at},
+                 std::array<Color, 3>{color(p), color(q), color(r)});
   };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; i + j < n; ++j) {
@@ -67,9 +70,8 @@ void add_divided(ColoredTriangles& triangles, const std::array<Vector<2>, 3>& co
   }
 }
 
-void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
-                    const FieldPicture& picture, bool flat) {
-  const Mesh<2>& mesh = model.mesh;
+/// Into how many parts the sides of an element are divided.
+int division_of(const PictureModel& model, const FieldPicture& picture, bool flat) {
   const bool smooth = picture.where != "cell";
   const std::ptrdiff_t most = flat ? max_drawn_triangles : max_triangles;
   int division = 1;
@@ -77,26 +79,32 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureM
          4L * division * division * model.visible_count <= most) {
     division *= 2;
   }
+  return division;
+}
+
+void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
+                    const FieldPicture& picture, bool flat) {
+  const Mesh<2>& mesh = model.mesh;
+  const int division = division_of(model, picture, flat);
   ColoredTriangles triangles;
+  const auto add = [&](const auto& corners, const auto& colors) { triangles.add(corners, colors); };
   for (int e = 0; e < mesh.element_count(); ++e) {
     if (model.visible[e] == 0) continue;
     std::array<Vector<2>, 3> corners;
     for (int a = 0; a < 3; ++a) corners.at(a) = view.pixel(mesh.nodes[mesh.elements[e][a]]);
-    add_divided(triangles, corners, corner_values(picture, mesh, e), picture.scale, division, flat);
+    add_divided(add, corners, corner_values(picture, mesh, e), picture.scale, division, flat);
   }
   triangles.paint(painter);
 }
 
-/// Paints the edges of elements where these are large enough not to hide the colours, and where no
+/// Edges of elements are drawn where these are large enough not to hide the colours, and where no
 /// lines of the field are.
-void paint_element_edges(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
+bool shows_element_edges(const ModelView& view, const PictureModel& model,
                          const FieldPicture& picture) {
   const double pixels = double{view.width()} * view.height() /
                         static_cast<double>(std::max<std::ptrdiff_t>(1, model.visible_count));
   const bool lines = picture.contours || !picture.arrows.empty() || !picture.streamfunction.empty();
-  if (picture.mesh_edges && pixels > 100.0 && !lines) {
-    paint_edges(painter, view, model.mesh, model.all_edges, mesh_color, 0.7F);
-  }
+  return picture.mesh_edges && pixels > 100.0 && !lines;
 }
 
 /// Pixels; less than would touch in the smaller elements in view, so that the mesh and the
@@ -181,7 +189,7 @@ std::vector<Curve> legend_rows(const FieldPicture& picture, bool has_water) {
 }
 
 /// One picture: where its parts are.
-struct Sheet {
+struct Paper {
   const PictureModel& model;
   const FieldPicture& picture;
   ModelView view;
@@ -190,11 +198,13 @@ struct Sheet {
   bool flat = false;
 };
 
-void paint_map(vtkContext2D& painter, const Sheet& sheet, const Arrows& arrows) {
+void paint_map(vtkContext2D& painter, const Paper& sheet, const Arrows& arrows) {
   const auto& [model, picture, view, width, height, flat] = sheet;
   if (!model.box) paint_outside_water(painter, view, picture.water);
   if (!picture.of_points()) paint_elements(painter, view, model, picture, flat);
-  paint_element_edges(painter, view, model, picture);
+  if (shows_element_edges(view, model, picture)) {
+    paint_edges(painter, view, model.mesh, model.all_edges, mesh_color, 0.7F);
+  }
   if (picture.of_points()) paint_points(painter, view, model, picture);
   paint_edges(painter, view, model.mesh, model.region_edges, region_color, 1.5F);
   LineLabels labels(view);
@@ -208,7 +218,58 @@ void paint_map(vtkContext2D& painter, const Sheet& sheet, const Arrows& arrows) 
   arrows.paint(painter);
   paint_edges(painter, view, model.mesh, model.outer_edges, black, 1.5F);
   if (model.box) paint_margins(painter, view, width, height);
-  view.paint_axes(painter);
+  view.paint_axes(painter, model.axes);
+}
+
+/// What a picture of a model in space shows.
+SpaceDrawing space_drawing(const Paper& sheet) {
+  const auto& [model, picture, view, width, height, flat] = sheet;
+  SpaceDrawing drawing;
+  const auto pixel = [&](const Vector<3>& x) { return space_pixel(view, x); };
+  const auto at_node = [&](int node) { return pixel(model.projected(node)); };
+  const auto add_edges = [&](const Edges& edges, const Color& color, float line_width) {
+    for (const auto& [i, j] : edges) drawing.add_line({at_node(i), at_node(j)}, color, line_width);
+  };
+  const auto add = [&](const auto& corners, const auto& colors) {
+    drawing.add_triangle(corners, colors);
+  };
+  const int division = division_of(model, picture, flat);
+  for (int e = 0; e < model.mesh.element_count() && !picture.hollow; ++e) {
+    if (model.visible[e] == 0) continue;
+    const auto& [a, b, c] = model.mesh.elements[e];
+    add_divided(add, std::array<Vector<3>, 3>{at_node(a), at_node(b), at_node(c)},
+                corner_values(picture, model.mesh, e), picture.scale, division, flat);
+  }
+  for (const auto& [corners, color] : picture.inside) {
+    drawing.add_triangle({pixel(corners[0]), pixel(corners[1]), pixel(corners[2])},
+                         {color, color, color});
+  }
+  if (!picture.hollow && shows_element_edges(view, model, picture)) {
+    add_edges(model.all_edges, mesh_color, 0.7F);
+  }
+  if (!picture.hollow) add_edges(model.region_edges, region_color, 1.5F);
+  add_edges(model.outer_edges, picture.hollow ? mesh_color : black, 1.5F);
+  return drawing;
+}
+
+/// Edges where two triangles of a projected surface meet at an angle, or that have one alone.
+Edges bent_edges(const Mesh<2>& mesh, const std::vector<double>& depth) {
+  constexpr double cosine = 0.94;  // of 20 degrees
+  const auto normal = [&](int triangle) {
+    std::array<Vector<3>, 3> x;
+    for (int a = 0; a < 3; ++a) {
+      const int node = mesh.elements[triangle][a];
+      x.at(a) << mesh.nodes[node], depth[node];
+    }
+    return (x[1] - x[0]).cross(x[2] - x[0]).normalized().eval();
+  };
+  Edges edges;
+  for (const auto& [edge, triangles] : elements_of_edges(mesh)) {
+    const bool bends =
+        triangles.size() != 2 || normal(triangles[0]).dot(normal(triangles[1])) < cosine;
+    if (bends) edges.push_back(edge);
+  }
+  return edges;
 }
 
 ModelView view_of(const PictureModel& model, const FieldPicture& picture, float bottom) {
@@ -220,7 +281,12 @@ ModelView view_of(const PictureModel& model, const FieldPicture& picture, float 
 }  // namespace
 
 PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box) {
-  PictureModel model{mesh, all_edges(mesh), region_edges(mesh), outer_edges(mesh), box, {}, 0};
+  PictureModel model;
+  model.mesh = mesh;
+  model.all_edges = all_edges(mesh);
+  model.region_edges = region_edges(mesh);
+  model.outer_edges = outer_edges(mesh);
+  model.box = box;
   for (const auto& nodes : mesh.elements) {
     bool is_visible = true;
     if (box) {
@@ -233,6 +299,34 @@ PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& bo
     model.visible.push_back(is_visible ? 1 : 0);
     model.visible_count += is_visible ? 1 : 0;
   }
+  return model;
+}
+
+PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector<3>& upward) {
+  PictureModel model;
+  SpaceBox box{space_view(upward), mesh.nodes.front(), mesh.nodes.front()};
+  for (const Vector<3>& x : mesh.nodes) {
+    box.low = box.low.cwiseMin(x);
+    box.high = box.high.cwiseMax(x);
+  }
+  for (const EdgePlace& place : surface.nodes) {
+    const Vector<3> x = box.view.project(position(mesh, place));
+    model.mesh.nodes.emplace_back(x[0], x[1]);
+    model.depth.push_back(x[2]);
+  }
+  model.mesh.elements = surface.triangles;
+  model.mesh.region_names = mesh.region_names;
+  for (const int e : surface.element) {
+    model.mesh.element_region.push_back(mesh.element_region[e]);
+  }
+  model.all_edges = all_edges(model.mesh);
+  model.region_edges = region_edges(model.mesh);
+  model.outer_edges = bent_edges(model.mesh, model.depth);
+  for (int t = 0; t < model.mesh.element_count(); ++t) {
+    model.visible.push_back(element_volume(model.mesh, t) > 0.0 ? 1 : 0);
+    model.visible_count += model.visible.back();
+  }
+  model.space = box;
   return model;
 }
 
@@ -270,12 +364,12 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const bool has_arrows = !picture.arrows.empty();
   const float bottom = axes_bottom + legend_height + (has_arrows ? legend_row : 0.0F);
-  Sheet sheet{model, picture, view_of(model, picture, bottom)};
+  Paper sheet{model, picture, view_of(model, picture, bottom)};
   sheet.flat = std::filesystem::path(path).extension() != ".png";
   const Arrows arrows(model.mesh, picture.arrows, sheet.view);
   const ModelView& view = sheet.view;
   const FieldScale& scale = picture.scale;
-  const float right = view.left() + view.width() + Layout::gap;
+  const float right = view.left() + view.width() + (model.space ? 2.0F : 1.0F) * float{Layout::gap};
   const bool by_kind = !scale.kinds.empty();
   const float side = by_kind ? kinds_width(scale, picture.label) : bar_room;
   const float bar_height = std::max(view.height(), Layout::min_bar_height);
@@ -285,9 +379,15 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
       std::max({right + side, Layout::title_width(picture.title), rows.empty() ? 0.0F : legend}));
   sheet.height =
       static_cast<int>(view.bottom() + bar_height + top_room + (has_water ? level_room : 0.0F));
-  draw_picture(sheet.width, sheet.height, picture.title, path, [&](vtkContextScene& scene) {
+  SpaceDrawing space;
+  if (model.space) space = space_drawing(sheet);
+  const auto fill = [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
-      paint_map(painter, sheet, arrows);
+      if (model.space) {
+        paint_space_axes(painter, view, *model.space);
+      } else {
+        paint_map(painter, sheet, arrows);
+      }
       paint_title(painter, picture.title, sheet.width, sheet.height);
       if (has_arrows) {
         const float y = legend_height + 0.5F * legend_row + 6.0F;
@@ -304,7 +404,9 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
     vtkNew<ChartLegend> lines;
     lines->place(view.left(), legend_height + 6.0F, legend_height, rows);
     if (!rows.empty()) scene.AddItem(lines);
-  });
+  };
+  draw_picture(sheet.width, sheet.height, picture.title, path, fill,
+               model.space ? &space : nullptr);
 }
 
 }  // namespace suffuse

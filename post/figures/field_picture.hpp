@@ -8,15 +8,17 @@
 #include <vector>
 
 #include "drawing/model_view.hpp"
+#include "drawing/space.hpp"
 #include "figures/field_scale.hpp"
 #include "values/outside_water.hpp"
+#include "values/sheet.hpp"
 
 namespace suffuse {
 
 /// Two corners of a part of the model, m.
 using ViewBox = std::array<Vector<2>, 2>;
 
-/// What all pictures of a run share.
+/// What all pictures of a run share: a plane model, or the surface of one in space, projected.
 struct PictureModel {
   Mesh<2> mesh;
   Edges all_edges;
@@ -25,8 +27,24 @@ struct PictureModel {
   std::optional<ViewBox> box;        ///< unset: all of the model is shown
   std::vector<char> visible;         ///< per element: whether it reaches into the box
   std::ptrdiff_t visible_count = 0;  ///< of elements
+  std::array<std::string, 2> axes{"x (m)", "y (m)"};
+  std::optional<SpaceBox> space{};  ///< unset: a plane model
+  std::vector<double> depth{};      ///< of the nodes of one in space, towards the viewer, m
+
+  /// A node of one in space.
+  [[nodiscard]] Vector<3> projected(int node) const {
+    return {mesh.nodes[node][0], mesh.nodes[node][1], depth[node]};
+  }
 };
 PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box);
+/// Its outer edges are those at which the surface bends.
+PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector<3>& upward);
+
+/// A triangle within a model in space, projected, m, and its colour.
+struct SpaceTriangle {
+  std::array<Vector<3>, 3> corners;
+  Color color;
+};
 
 /// The content of one picture.
 struct FieldPicture {
@@ -44,6 +62,8 @@ struct FieldPicture {
   std::vector<double> streamfunction;  ///< at nodes, m2/s; empty: no streamlines
   double tube = 0.0;                   ///< discharge between two streamlines, m2/s
   double misfit = 0.0;                 ///< of the stream function
+  bool hollow = false;                 ///< of a model in space the edges alone, not the surface
+  std::vector<SpaceTriangle> inside;   ///< what is seen then
 
   [[nodiscard]] bool of_points() const { return where == "solid" || where == "liquid"; }
 };

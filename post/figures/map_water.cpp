@@ -23,9 +23,12 @@ constexpr double water_breadth = 0.08;
 }  // namespace
 
 std::vector<OutsideWater> water_outside(const ResultsReader& results, std::size_t index,
-                                        const Mesh<2>& mesh) {
+                                        const Mesh<2>& mesh, const std::array<int, 2>& axes) {
   const double breadth = water_breadth * extent(mesh).maxCoeff();
-  return outside_water(mesh, results.scene().scene, results.times()[index], breadth);
+  Scene scene = results.scene().scene;
+  const auto gravity = scene.gravity;
+  scene.gravity = {gravity.at(axes[0]), gravity.at(axes[1]), 0.0};
+  return outside_water(mesh, scene, results.times()[index], breadth);
 }
 
 ModelView view_with_water(const Mesh<2>& mesh, const std::vector<OutsideWater>& waters,

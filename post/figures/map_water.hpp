@@ -16,9 +16,11 @@ namespace suffuse {
 inline constexpr Color black{0.0, 0.0, 0.0};
 inline constexpr Color white{1.0, 1.0, 1.0};
 
-/// At the time of the snapshot `index`, as broad as it is drawn.
+/// At the time of the snapshot `index`, as broad as it is drawn. `axes`: of the model, along the
+/// coordinates of the mesh.
 std::vector<OutsideWater> water_outside(const ResultsReader& results, std::size_t index,
-                                        const Mesh<2>& mesh);
+                                        const Mesh<2>& mesh,
+                                        const std::array<int, 2>& axes = {0, 1});
 
 /// A view of the model and the water outside. `bottom`: room beneath, pixels.
 ModelView view_with_water(const Mesh<2>& mesh, const std::vector<OutsideWater>& waters,

@@ -5,19 +5,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "case/errors.hpp"
 #include "case/faces.hpp"
 #include "drawing/chart_legend.hpp"
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
+#include "figures/field_picture.hpp"
 #include "results/number_text.hpp"
+#include "values/derived_fields.hpp"
+#include "values/run_names.hpp"
 #include "values/scene_words.hpp"
+#include "values/sheet.hpp"
 
 namespace suffuse {
 namespace {
 
 constexpr Color black{0.0, 0.0, 0.0};
+constexpr Color white{1.0, 1.0, 1.0};
 constexpr Color red{0.84, 0.0, 0.0};
 constexpr Color blue{0.1, 0.35, 0.9};
 /// Green and purple as in the paper, then others; impervious boundaries are orange.
@@ -66,16 +72,23 @@ std::string text_of(const Scene& scene, const std::string& name) {
   return "wall, conductance " + number_text(wall->conductance) + " 1/s";
 }
 
-/// Outer edges that belong to no named boundary.
-std::vector<std::array<int, 2>> unnamed_edges(const Mesh<2>& mesh) {
-  std::vector<std::array<int, 2>> named;
+/// Outer faces that belong to no named boundary.
+template <int Dim>
+std::vector<std::array<int, Dim>> unnamed_faces(const Mesh<Dim>& mesh) {
+  std::vector<std::array<int, Dim>> named;
   for (const auto& boundary : mesh.boundaries) {
-    for (const auto& face : boundary.faces) named.push_back(face_key<2>(face));
+    for (const auto& face : boundary.faces) named.push_back(face_key<Dim>(face));
   }
   std::ranges::sort(named);
-  std::vector<std::array<int, 2>> rest;
-  for (const auto& edge : outer_edges(mesh)) {
-    if (!std::ranges::binary_search(named, edge)) rest.push_back(edge);
+  const FaceTable<Dim> owners(mesh);
+  std::vector<std::array<int, Dim>> rest;
+  for (const auto& element : mesh.elements) {
+    for (int corner = 0; corner <= Dim; ++corner) {
+      const auto face = face_key<Dim>(face_opposite<Dim>(element, corner));
+      if (owners.owners(face) == 1 && !std::ranges::binary_search(named, face)) {
+        rest.push_back(face);
+      }
+    }
   }
   return rest;
 }
@@ -85,11 +98,12 @@ struct RegionTint {
   Color color{};
 };
 
-std::vector<RegionTint> region_tints(const ResultsReader& run, const Mesh<2>& mesh) {
+std::vector<RegionTint> region_tints(const ResultsReader& run,
+                                     const std::vector<std::string>& regions) {
   const Scene& scene = run.scene().scene;
   std::vector<RegionTint> tints;
   std::size_t soils = 0;
-  for (const auto& region : mesh.region_names) {
+  for (const auto& region : regions) {
     const bool water = scene.is_free_water(region);
     tints.push_back({region_label(scene, region),
                      water ? water_tint : soil_tints.at(soils++ % soil_tints.size())});
@@ -131,7 +145,8 @@ Curve marker_row(const std::string& label, const Color& color, Marker marker) {
 }
 
 /// The colour of a boundary by its number.
-Color boundary_color(const std::vector<SketchedBoundary>& boundaries, std::size_t number) {
+template <int Dim>
+Color boundary_color(const std::vector<SketchedBoundary<Dim>>& boundaries, std::size_t number) {
   if (boundaries[number].label.ends_with("impervious")) return impervious_color;
   return boundary_colors.at(number % boundary_colors.size());
 }
@@ -139,6 +154,13 @@ Color boundary_color(const std::vector<SketchedBoundary>& boundaries, std::size_
 std::string count_text(std::size_t count, const std::string& kind) {
   return std::to_string(count) + " " + kind + (count == 1 ? "" : "s");
 }
+
+std::string title_of(const ResultsReader& run) {
+  return run.scene().scene.name +
+         (is_double_point(run) ? ", double-point model" : ", single-point model");
+}
+
+void draw_space_sketch(const ResultsReader& run, const std::string& path);
 
 }  // namespace
 
@@ -151,17 +173,18 @@ std::string region_label(const Scene& scene, const std::string& region) {
   return region + ": soil, erodes (" + std::string(soil->erosion.law->word) + " law)";
 }
 
-std::vector<SketchedBoundary> sketched_boundaries(const ResultsReader& run) {
+std::vector<SketchedBoundary<2>> sketched_boundaries(const ResultsReader& run) {
   return sketched_boundaries(run.mesh(), run.scene().scene);
 }
 
-std::vector<SketchedBoundary> sketched_boundaries(const Mesh<2>& mesh, const Scene& scene) {
-  std::vector<SketchedBoundary> found;
-  SketchedBoundary impervious;
+template <int Dim>
+std::vector<SketchedBoundary<Dim>> sketched_boundaries(const Mesh<Dim>& mesh, const Scene& scene) {
+  std::vector<SketchedBoundary<Dim>> found;
+  SketchedBoundary<Dim> impervious;
   const auto add_impervious = [&](const std::string& name,
-                                  const std::vector<std::array<int, 2>>& edges) {
+                                  const std::vector<std::array<int, Dim>>& faces) {
     impervious.label += (impervious.label.empty() ? "" : ", ") + name;
-    impervious.edges.insert(impervious.edges.end(), edges.begin(), edges.end());
+    impervious.faces.insert(impervious.faces.end(), faces.begin(), faces.end());
   };
   for (const auto& boundary : mesh.boundaries) {
     const std::string text = text_of(scene, boundary.name);
@@ -171,22 +194,28 @@ std::vector<SketchedBoundary> sketched_boundaries(const Mesh<2>& mesh, const Sce
       found.push_back({boundary.name + ": " + text, boundary.faces});
     }
   }
-  if (const auto rest = unnamed_edges(mesh); !rest.empty()) add_impervious("unnamed", rest);
-  if (!impervious.edges.empty()) {
+  if (const auto rest = unnamed_faces(mesh); !rest.empty()) add_impervious("unnamed", rest);
+  if (!impervious.faces.empty()) {
     impervious.label += ": impervious";
     found.push_back(impervious);
   }
   return found;
 }
+template std::vector<SketchedBoundary<2>> sketched_boundaries(const Mesh<2>&, const Scene&);
+template std::vector<SketchedBoundary<3>> sketched_boundaries(const Mesh<3>&, const Scene&);
 
 void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   if (run.times().empty()) throw FileError(run.folder() + ": has no snapshot yet");
-  const bool double_point = run.scene().scene.formulation == Formulation::double_point;
+  if (run.dimension() == 3) {
+    draw_space_sketch(run, path);
+    return;
+  }
+  const bool double_point = is_double_point(run);
   const Mesh<2> mesh = run.mesh();
   const auto solid = run.point_positions(0, "solid");
   const auto liquid = double_point ? run.point_positions(0, "liquid") : std::vector<Vector<2>>{};
   const auto boundaries = sketched_boundaries(run);
-  const auto tints = region_tints(run, mesh);
+  const auto tints = region_tints(run, mesh.region_names);
 
   std::vector<Curve> rows;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
@@ -210,15 +239,14 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   const float shown_height = std::max(view.height(), legend_height);
   const auto width = static_cast<int>(legend_left + ChartLegend::width(rows) + legend_gap);
   const auto height = static_cast<int>(view.bottom() + shown_height + title_room);
-  const std::string title =
-      run.scene().scene.name + (double_point ? ", double-point model" : ", single-point model");
+  const std::string title = title_of(run);
   draw_picture(width, height, title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
       paint_tints(painter, view, mesh, tints);
       paint_edges(painter, view, mesh, all_edges(mesh), black, small < 5.0F ? 0.5F : 1.0F);
       paint_edges(painter, view, mesh, region_edges(mesh), black, 2.5F);
       for (std::size_t b = 0; b < boundaries.size(); ++b) {
-        paint_edges(painter, view, mesh, boundaries[b].edges, boundary_color(boundaries, b),
+        paint_edges(painter, view, mesh, boundaries[b].faces, boundary_color(boundaries, b),
                     boundary_width);
       }
       if (shows_points) {
@@ -235,4 +263,90 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   });
 }
 
+namespace {
+
+/// The surface of a model: triangles in the colours of boundaries and regions.
+SpaceDrawing sketched_surface(const PictureModel& model, const ModelView& view,
+                              const std::vector<Color>& colors) {
+  SpaceDrawing drawing;
+  const auto at_node = [&](int node) { return space_pixel(view, model.projected(node)); };
+  for (int t = 0; t < model.mesh.element_count(); ++t) {
+    if (model.visible[t] == 0) continue;
+    const auto& [a, b, c] = model.mesh.elements[t];
+    drawing.add_triangle({at_node(a), at_node(b), at_node(c)}, {colors[t], colors[t], colors[t]});
+  }
+  const auto add_edges = [&](const Edges& edges, float width) {
+    for (const auto& [i, j] : edges) drawing.add_line({at_node(i), at_node(j)}, black, width);
+  };
+  add_edges(model.all_edges, 0.5F);
+  add_edges(model.region_edges, 2.0F);
+  add_edges(model.outer_edges, 2.0F);
+  return drawing;
+}
+
+/// The colour of each triangle of the surface, and the legend's rows of boundaries.
+std::vector<Color> surface_colors(const Mesh<3>& mesh, const Sheet& surface, const Scene& scene,
+                                  const std::vector<RegionTint>& tints, std::vector<Curve>& rows) {
+  std::map<std::array<int, 3>, Color> of_faces;
+  const auto boundaries = sketched_boundaries(mesh, scene);
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    if (boundaries[b].label.ends_with("impervious")) {
+      rows.push_back(line_row(boundaries[b].label + ", as the region", white, 0.0F));
+      continue;
+    }
+    const Color color = boundary_color(boundaries, b);
+    for (const auto& face : boundaries[b].faces) of_faces[face_key<3>(face)] = color;
+    rows.push_back(marker_row(boundaries[b].label, color, Marker::square));
+  }
+  std::vector<Color> colors;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    std::array<int, 3> face{};
+    for (int a = 0; a < 3; ++a) face.at(a) = surface.nodes[surface.triangles[t].at(a)].nodes[0];
+    const auto found = of_faces.find(face_key<3>(face));
+    const int region = mesh.element_region[surface.element[t]];
+    colors.push_back(found == of_faces.end() ? tints[region].color : found->second);
+  }
+  return colors;
+}
+
+void draw_space_sketch(const ResultsReader& run, const std::string& path) {
+  if (picture_format(path) != ".png") {
+    throw InputError(std::vector{InputProblem{"suffuse-post figure model", "-o", '"' + path + '"',
+                                              "a .png for a model in space", ""}});
+  }
+  const Mesh<3> mesh = run.mesh<3>();
+  const Scene& scene = run.scene().scene;
+  const Sheet surface = outer_sheet(mesh);
+  const PictureModel model = space_model(mesh, surface, upward<3>(scene));
+  const auto tints = region_tints(run, mesh.region_names);
+  std::vector<Curve> rows;
+  const auto colors = surface_colors(mesh, surface, scene, tints, rows);
+  for (const auto& tint : tints) rows.push_back(marker_row(tint.label, tint.color, Marker::square));
+  const bool double_point = is_double_point(run);
+  const std::string points = double_point ? "solid point" : "material point";
+  rows.push_back(line_row(count_text(run.point_positions<3>(0, "solid").size(), points), white, 0));
+  if (double_point) {
+    const auto liquid = run.point_positions<3>(0, "liquid").size();
+    rows.push_back(line_row(count_text(liquid, "liquid point"), white, 0.0F));
+  }
+  rows.push_back(line_row(count_text(mesh.elements.size(), "element"), black, 1.0F));
+  const ModelView view(model.mesh, axes_left, axes_bottom, max_width, max_width);
+  const float legend_left = view.left() + view.width() + 2.0F * legend_gap;
+  const float shown = std::max(view.height(), legend_row * static_cast<float>(rows.size()));
+  const auto width = static_cast<int>(legend_left + ChartLegend::width(rows) + legend_gap);
+  const auto height = static_cast<int>(view.bottom() + shown + title_room);
+  const SpaceDrawing drawing = sketched_surface(model, view, colors);
+  const auto fill = [&](vtkContextScene& scene_of_picture) {
+    add_painted(scene_of_picture, [&](vtkContext2D& painter) {
+      paint_space_axes(painter, view, *model.space);
+      paint_title(painter, title_of(run), width, height);
+    });
+    vtkNew<ChartLegend> legend;
+    legend->place(legend_left, view.bottom() + shown, shown, rows);
+    scene_of_picture.AddItem(legend);
+  };
+  draw_picture(width, height, title_of(run), path, fill, &drawing);
+}
+
+}  // namespace
 }  // namespace suffuse

@@ -10,22 +10,25 @@
 
 namespace suffuse {
 
-/// Edges in one colour: a boundary, or all impervious ones together.
+/// Outer faces in one colour: a boundary, or all impervious ones together.
+template <int Dim>
 struct SketchedBoundary {
   std::string label;  ///< "inflow: velocity 0.12 m/s, c = 0" or "left, right: impervious"
-  std::vector<std::array<int, 2>> edges;
+  std::vector<std::array<int, Dim>> faces;
 };
 
 /// The named boundaries in the order of the mesh. All impervious ones are joined into one, which
-/// comes last; outer edges without a name belong to it as "unnamed".
-std::vector<SketchedBoundary> sketched_boundaries(const ResultsReader& run);
-std::vector<SketchedBoundary> sketched_boundaries(const Mesh<2>& mesh, const Scene& scene);
+/// comes last; outer faces without a name belong to it as "unnamed".
+std::vector<SketchedBoundary<2>> sketched_boundaries(const ResultsReader& run);
+template <int Dim>
+std::vector<SketchedBoundary<Dim>> sketched_boundaries(const Mesh<Dim>& mesh, const Scene& scene);
 
 /// The legend's text for a region: "specimen: soil, erodes (constant law)", "inflow: free water".
 std::string region_label(const Scene& scene, const std::string& region);
 
 /// Draws the mesh in black, the points of the first snapshot (solid red, liquid blue), regions
-/// tinted, boundaries as thick lines. Throws FileError.
+/// tinted, boundaries as thick lines; of a model in space the surface, boundaries with a condition
+/// in their colours and the others in those of the regions. Throws FileError.
 void draw_model_sketch(const ResultsReader& run, const std::string& path);
 
 }  // namespace suffuse

@@ -47,6 +47,11 @@ std::string time_text(double time, const TimeUnit& unit) {
   return "t = " + tick_text(time / unit.seconds) + " " + unit.name;
 }
 
+/// The column of the first field, behind time and place.
+std::size_t first_field(const Table& table) {
+  return table.has("z") ? 4 : 3;
+}
+
 void add_curves(const Table& table, const SampleRequest& request, const std::string& label,
                 const TimeUnit& unit, std::size_t before, std::size_t count,
                 std::vector<Chart>& charts) {
@@ -57,7 +62,7 @@ void add_curves(const Table& table, const SampleRequest& request, const std::str
       curve.label = label + time_text(request.times[i], unit);
       for (std::size_t p = 0; p < places; ++p) {
         curve.x.push_back((request.positions[p] - request.positions[0]).norm());
-        curve.y.push_back(table.columns[k + 3][i * places + p]);
+        curve.y.push_back(table.columns[first_field(table) + k][i * places + p]);
       }
       charts[k].curves.push_back(std::move(curve));
     }
@@ -68,7 +73,8 @@ void add_curves(const Table& table, const SampleRequest& request, const std::str
 
 std::vector<Chart> profile_charts(const std::vector<ResultsReader>& runs,
                                   const FigureOptions& options) {
-  if (options.line.empty()) refuse("--line", "nothing", "x0,y0:x1,y1 in metres");
+  if (options.line.empty())
+    refuse("--line", "nothing", "x0,y0:x1,y1 or x0,y0,z0:x1,y1,z1 in metres");
   if (options.fields.empty()) refuse("--fields", "nothing", "names of fields");
   const SampleNames names{command, "--times", "--line", "--fields"};
   const TimeUnit unit =
@@ -88,7 +94,7 @@ std::vector<Chart> profile_charts(const std::vector<ResultsReader>& runs,
   std::size_t before = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Table table = sample(runs[r], requests[r], names);
-    for (std::size_t k = charts.size() + 3; k < table.names.size(); ++k) {
+    for (std::size_t k = charts.size() + first_field(table); k < table.names.size(); ++k) {
       const std::string what = options.change ? "change of " : "";
       columns.push_back(table.names[k]);
       charts.push_back({what + table.names[k] + " along " + options.line + " m",

@@ -1,5 +1,6 @@
 #include "figures/render.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include "figures/categories.hpp"
 #include "figures/map_water.hpp"
 #include "results/number_text.hpp"
+#include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 #include "values/sample.hpp"
 #include "values/snapshot_choice.hpp"
@@ -75,6 +77,68 @@ bool is_inside(const Vector<2>& x, const std::optional<ViewBox>& box) {
   return !box || ((x.array() >= (*box)[0].array()).all() && (x.array() <= (*box)[1].array()).all());
 }
 
+/// Where a field is drawn: on a plane model, or on triangles in a model in space.
+struct Canvas {
+  PictureModel model;
+  std::optional<Mesh<3>> mesh{};
+  Sheet sheet{};                  ///< of that mesh
+  std::array<int, 2> axes{0, 1};  ///< of the model, along the coordinates of the picture
+};
+
+/// Throws InputError for what only some dimensions have.
+void check_dimension(const ResultsReader& results, const RenderRequest& request) {
+  const bool in_space = results.dimension() == 3;
+  if (!in_space && request.cut) refuse("--cut", "a plane model", "it with one in space");
+  if (!in_space && !request.levels.empty()) {
+    refuse("--iso", "a plane model", "--contours, or a model in space");
+  }
+  if (!in_space) return;
+  if (request.streamlines) {
+    refuse("--streamlines", "a model in space", "a plane model: --vectors shows flow in a cut");
+  }
+  if (request.on == "solid" || request.on == "liquid") {
+    refuse("--on", '"' + request.on + "\" of a model in space",
+           "\"cell\" or \"node\"; ParaView shows the points");
+  }
+  if (request.cut && !request.levels.empty()) refuse("--iso", "it with --cut", "one of them");
+  if (request.cut) return;
+  const std::string option = request.contours  ? "--contours"
+                             : request.vectors ? "--vectors"
+                             : request.view    ? "--view"
+                                               : "";
+  if (!option.empty()) refuse(option, "it without --cut", "--cut, the plane that shows it");
+  if (picture_format(request.output, command) != ".png") {
+    refuse("-o", '"' + request.output + "\" for a model seen from outside", "a .png, or --cut");
+  }
+}
+
+Canvas make_canvas(const ResultsReader& results, const RenderRequest& request) {
+  check_dimension(results, request);
+  if (results.dimension() == 2) return {picture_model(results.mesh(), request.view)};
+  Canvas canvas;
+  canvas.mesh = results.mesh<3>();
+  if (!request.cut) {
+    canvas.sheet = outer_sheet(*canvas.mesh);
+    canvas.model = space_model(*canvas.mesh, canvas.sheet, upward<3>(results.scene().scene));
+    return canvas;
+  }
+  PlaneCut cut = plane_cut(*canvas.mesh, *request.cut, command);
+  constexpr std::array<const char*, 3> names{"x (m)", "y (m)", "z (m)"};
+  canvas.model = picture_model(cut.mesh, request.view);
+  canvas.model.axes = {names.at(cut.axes[0]), names.at(cut.axes[1])};
+  canvas.axes = cut.axes;
+  canvas.sheet = std::move(cut.sheet);
+  return canvas;
+}
+
+/// The colour of a surface that faces the viewer or turns away.
+Color shaded(const Color& color, const std::array<Vector<3>, 3>& corners) {
+  const Vector<3> normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  const Vector<3> light(-0.35, 0.55, 0.76);  // right, up, towards the viewer
+  const double share = 0.55 + 0.45 * std::abs(normal.dot(light));
+  return {share * color[0], share * color[1], share * color[2]};
+}
+
 /// The values that are in view, with the area that has each.
 void add_values(const PictureModel& model, const FieldPicture& picture,
                 std::vector<WeightedValue>& values) {
@@ -117,7 +181,8 @@ class Frames {
   Frames(const ResultsReader& results, const RenderRequest& request)
       : results_(results),
         request_(request),
-        model_(picture_model(results.mesh(), request.view)),
+        canvas_(make_canvas(results, request)),
+        model_(canvas_.model),
         snapshots_(wanted_snapshots(results, request)),
         place_(wanted_place(results, snapshots_.front(), request)),
         series_(results, place_) {}
@@ -131,10 +196,13 @@ class Frames {
   /// The picture of a snapshot without lines and arrows.
   [[nodiscard]] FieldPicture picture(std::size_t index);
   void add_flow(FieldPicture& picture, std::size_t index) const;
+  /// Surfaces of equal values.
+  void add_levels(FieldPicture& picture, std::size_t index);
 
   const ResultsReader& results_;
   const RenderRequest& request_;
-  PictureModel model_;
+  Canvas canvas_;
+  const PictureModel& model_;
   std::vector<std::size_t> snapshots_;
   FieldPlace place_;
   FieldSeries series_;
@@ -173,7 +241,13 @@ FieldScale Frames::scale() {
   kinds.kinds = categories(results_, place_);
   if (!kinds.kinds.empty()) return kinds;
   std::vector<WeightedValue> values;
-  for (const std::size_t index : snapshots_) add_values(model_, picture(index), values);
+  for (const std::size_t index : snapshots_) {
+    if (request_.levels.empty()) {
+      add_values(model_, picture(index), values);
+    } else {
+      for (const double value : series_.at(index).values) values.push_back({value, 1.0});
+    }
+  }
   const double zero = round_off_of(results_, series_.at(snapshots_.front()).unit);
   const auto is_positive = [&](const WeightedValue& v) { return v.value > zero; };
   if (request_.logarithmic && std::ranges::none_of(values, is_positive)) {
@@ -190,7 +264,10 @@ FieldPicture Frames::picture(std::size_t index) {
   picture.title = snapshot_title(results_, index, request_.time);
   picture.label = field_label(place_, field);
   picture.where = place_.where;
-  picture.values = field.values;
+  picture.values = canvas_.mesh
+                       ? sheet_values(*canvas_.mesh, canvas_.sheet, place_.where, field.values)
+                       : field.values;
+  if (request_.cut) picture.title += ", " + cut_text(*request_.cut);
   if (picture.of_points()) picture.positions = results_.point_positions(index, place_.where);
   return picture;
 }
@@ -198,12 +275,39 @@ FieldPicture Frames::picture(std::size_t index) {
 void Frames::add_flow(FieldPicture& picture, std::size_t index) const {
   if (!request_.vectors && !request_.streamlines) return;
   if (!flows(results_, index)) return;
-  if (request_.vectors) picture.arrows = results_.field(index, "cell", "darcy_flux").values;
+  if (request_.vectors) {
+    const Field flux = results_.field(index, "cell", "darcy_flux");
+    for (int e = 0; e < model_.mesh.element_count(); ++e) {
+      const int element = canvas_.mesh ? canvas_.sheet.element[e] : e;
+      for (const int axis : canvas_.axes) {
+        picture.arrows.push_back(flux.values[flux.components * element + axis]);
+      }
+    }
+  }
   if (!request_.streamlines) return;
   StreamFunction stream = stream_function(results_, index, model_.mesh, command);
   picture.streamfunction = std::move(stream.at_nodes);
   picture.tube = stream.discharge / tubes;
   picture.misfit = stream.misfit;
+}
+
+void Frames::add_levels(FieldPicture& picture, std::size_t index) {
+  picture.hollow = !request_.levels.empty();
+  if (!picture.hollow) return;
+  const Mesh<3>& mesh = *canvas_.mesh;
+  const std::vector<double> at_nodes = node_means(mesh, place_.where, series_.at(index).values);
+  for (const double level : request_.levels) {
+    const Sheet sheet = level_sheet(mesh, at_nodes, level);
+    for (const auto& triangle : sheet.triangles) {
+      SpaceTriangle drawn;
+      for (int a = 0; a < 3; ++a) {
+        const Vector<3> x = position(mesh, sheet.nodes[triangle.at(a)]);
+        drawn.corners.at(a) = model_.space->view.project(x);
+      }
+      drawn.color = shaded(picture.scale.color(level), drawn.corners);
+      picture.inside.push_back(drawn);
+    }
+  }
 }
 
 /// `FILE_0007.png` for `FILE.png` and 7.
@@ -221,7 +325,8 @@ std::vector<std::string> Frames::draw() {
   std::vector<std::vector<OutsideWater>> waters;
   std::vector<OutsideWater> room;
   for (const std::size_t index : snapshots_) {
-    waters.push_back(water_outside(results_, index, model_.mesh));
+    waters.push_back(model_.space ? std::vector<OutsideWater>{}
+                                  : water_outside(results_, index, model_.mesh, canvas_.axes));
     room.insert(room.end(), waters.back().begin(), waters.back().end());
   }
   const bool several = request_.all || !request_.snapshots.empty();
@@ -235,6 +340,7 @@ std::vector<std::string> Frames::draw() {
     frame.water = waters[k];
     frame.room = room;
     add_flow(frame, index);
+    add_levels(frame, index);
     written.push_back(several ? numbered(request_.output, index) : request_.output);
     draw_field_picture(model_, frame, written.back());
   }
@@ -257,8 +363,23 @@ std::array<double, 2> parse_range(const std::string& text) {
 
 ViewBox parse_view(const std::string& text) {
   const SampleLine corners = parse_line(text, command, "--view");
-  if ((corners.from.array() < corners.to.array()).all()) return {corners.from, corners.to};
+  const bool plane = corners.from.size() == 2;
+  if (plane && (corners.from.array() < corners.to.array()).all()) {
+    return {Vector<2>(corners.from), Vector<2>(corners.to)};
+  }
   refuse("--view", '"' + text + '"', "x0,y0:x1,y1 with x0 below x1 and y0 below y1");
+}
+
+std::vector<double> parse_levels(const std::string& text) {
+  std::vector<double> levels;
+  for (const std::string& part : parse_field_names(text)) {
+    const auto level = parse_number(part);
+    if (!level || !std::isfinite(*level)) {
+      refuse("--iso", '"' + text + '"', "numbers with commas between");
+    }
+    levels.push_back(*level);
+  }
+  return levels;
 }
 
 std::vector<std::string> render(const ResultsReader& results, const RenderRequest& request) {

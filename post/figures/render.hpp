@@ -28,13 +28,19 @@ struct RenderRequest {
   bool vectors = false;                        ///< arrows of the flux
   bool streamlines = false;     ///< with equal discharge between them, ten for the whole
   std::optional<ViewBox> view;  ///< unset: all of the model
-  std::string output;           ///< NAME.png, .svg or .pdf; of several NAME_0000.png and so on
+  /// Of a model in space: the plane to show, or surfaces of equal values; without either its
+  /// surface from outside.
+  std::optional<CutPlane> cut{};
+  std::vector<double> levels{};
+  std::string output;  ///< NAME.png, .svg or .pdf; of several NAME_0000.png and so on
 };
 
 /// Reads `LO:HI`, or `LO,HI`, with LO < HI. Throws InputError.
 std::array<double, 2> parse_range(const std::string& text);
 /// Reads `X0,Y0:X1,Y1` with X0 < X1 and Y0 < Y1. Throws InputError.
 ViewBox parse_view(const std::string& text);
+/// Reads `V,V,...`. Throws InputError.
+std::vector<double> parse_levels(const std::string& text);
 
 /// Draws one colour per element, nodal and element-vertex fields in smooth colours, points as discs
 /// over the mesh. Of vectors the magnitude is drawn. Fields whose values stand for kinds

@@ -127,9 +127,45 @@ std::string film_html(const ResultsReader& run, const std::vector<std::size_t>& 
          (pictures.size() > 1 ? slider : "") + "</figure>\n";
 }
 
+/// The plane in the middle of a model in space, across the shorter of its horizontal sides.
+CutPlane middle_plane(const Mesh<3>& mesh, const Vector<3>& upward) {
+  Vector<3> low = mesh.nodes.front();
+  Vector<3> high = low;
+  for (const Vector<3>& x : mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  Vector<3> size = high - low;
+  size += upward.cwiseAbs() * 2.0 * size.maxCoeff();  // the vertical is no choice
+  CutPlane plane;
+  size.minCoeff(&plane.axis);
+  plane.at = 0.5 * (low + high)[plane.axis];
+  return plane;
+}
+
+/// A film of a field; of a model in space one of its surface and one of a plane in its middle.
+std::string render_html(const ResultsReader& run, RenderRequest request, const std::string& title,
+                        const ScratchFolder& folder) {
+  request.output = (folder.path() / (request.field + ".png")).string();
+  std::string films = film_html(run, request.snapshots, render(run, request), title);
+  if (run.dimension() == 2) return films;
+  request.cut = middle_plane(run.mesh<3>(), upward<3>(run.scene().scene));
+  request.output = (folder.path() / (request.field + "_cut.png")).string();
+  return films + film_html(run, request.snapshots, render(run, request),
+                           title + ", " + cut_text(*request.cut));
+}
+
 std::string head_html(const ResultsReader& run, const std::vector<std::size_t>& snapshots,
                       const ScratchFolder& folder) {
   if (!has_field(run, snapshots, "node", "head")) return missing("Head");
+  if (run.dimension() == 3) {
+    RenderRequest request;
+    request.field = "head";
+    request.on = "node";
+    request.snapshots = snapshots;
+    request.mesh = false;
+    return render_html(run, request, "Head", folder);
+  }
   std::vector<SeepageMap> maps;
   maps.reserve(snapshots.size());
   for (const std::size_t index : snapshots) maps.push_back(head_map(run, run.times()[index]));
@@ -158,8 +194,7 @@ std::string field_html(const ResultsReader& run, const ShownField& field,
   request.snapshots = snapshots;
   request.mesh = false;  // thin lines make files large, and the sketch of the model has them
   if (field.name == "safety") request.range = {0.0, largest_safety};
-  request.output = (folder.path() / (field.name + ".png")).string();
-  return film_html(run, snapshots, render(run, request), field.title);
+  return render_html(run, request, field.title, folder);
 }
 
 }  // namespace

@@ -86,8 +86,10 @@ std::string summary_text(const ResultsReader& run, const RunNumbers& numbers) {
                                  : "The solver gave " + std::to_string(warnings) + " warnings.");
 }
 
-std::string place_text(const Vector<2>& place) {
-  return "(" + short_text(place[0]) + ", " + short_text(place[1]) + ")";
+std::string place_text(const std::vector<double>& place) {
+  std::string text;
+  for (const double x : place) text += (text.empty() ? "(" : ", ") + short_text(x);
+  return text + ")";
 }
 
 }  // namespace suffuse

@@ -32,6 +32,6 @@ RunNumbers run_numbers(const ResultsReader& run);
 std::string summary_text(const ResultsReader& run, const RunNumbers& numbers);
 
 /// "(2.05, 0.967)"
-std::string place_text(const Vector<2>& place);
+std::string place_text(const std::vector<double>& place);
 
 }  // namespace suffuse

@@ -25,7 +25,7 @@ InputError wrong(const std::string& key, const std::string& found, const std::st
 }
 
 bool is_place(const std::string& column) {
-  return column == "x" || column == "y";
+  return column == "x" || column == "y" || column == "z";
 }
 
 std::vector<std::string> quantity_names(const Table& table) {
@@ -66,9 +66,10 @@ class ErrorSum {
   double largest_size_ = 0.0;
 };
 
-/// The field that a column names: NAME for NAME, NAME_x and NAME_y.
+/// The field that a column names: NAME for NAME, NAME_x, NAME_y and NAME_z.
 std::string field_of(const std::string& quantity) {
-  const bool component = quantity.ends_with("_x") || quantity.ends_with("_y");
+  const bool component =
+      quantity.ends_with("_x") || quantity.ends_with("_y") || quantity.ends_with("_z");
   return component ? quantity.substr(0, quantity.size() - 2) : quantity;
 }
 
@@ -107,13 +108,18 @@ std::vector<ErrorSum> field_errors(const ResultsReader& run, const ReferenceTabl
     const std::string field = field_of(name);
     if (std::ranges::find(fields, field) == fields.end()) fields.push_back(field);
   }
+  const std::vector<std::string> axes =
+      table.has("z") ? std::vector<std::string>{"x", "y", "z"} : std::vector<std::string>{"x", "y"};
   const SampleNames input_names{command, reference.path + ": t", reference.path + ": x, y",
                                 reference.path};
   std::vector<ErrorSum> sums(names.size());
   for (const auto& [t, rows] : rows_by_time(table)) {
-    std::vector<Vector<2>> places;
+    std::vector<Position> places;
     for (const auto row : rows) {
-      places.emplace_back(table.column("x")[row], table.column("y")[row]);
+      Position& place = places.emplace_back(static_cast<Eigen::Index>(axes.size()));
+      for (std::size_t d = 0; d < axes.size(); ++d) {
+        place[static_cast<Eigen::Index>(d)] = table.column(axes[d])[row];
+      }
     }
     const Table sampled = sample(run, {{t}, places, fields}, input_names);
     const auto columns = sampled_columns(sampled, names, reference.path);
@@ -148,11 +154,20 @@ double interpolate(const TimeSeries& curve, double t, const std::string& path) {
   return curve.values[i - 1] + weight * (curve.values[i] - curve.values[i - 1]);
 }
 
-/// Volume mean over the model of an element field, or of a component NAME_x or NAME_y, for every
-/// snapshot. Nothing when there is no such field.
+/// Volumes of the elements, m3 (m2 in a plane model).
+std::vector<double> volumes_of(const ResultsReader& run) {
+  return with_mesh(run, [](const auto& mesh) {
+    std::vector<double> volumes;
+    for (int e = 0; e < mesh.element_count(); ++e) volumes.push_back(element_volume(mesh, e));
+    return volumes;
+  });
+}
+
+/// Volume mean over the model of an element field, or of a component NAME_x, NAME_y or NAME_z, for
+/// every snapshot. Nothing when there is no such field.
 std::optional<TimeSeries> mean_series(const ResultsReader& run, const std::string& quantity) {
   const std::string field = field_of(quantity);
-  const Mesh<2> mesh = run.mesh();
+  const std::vector<double> volumes = volumes_of(run);
   TimeSeries curve;
   for (std::size_t index = 0; index < run.times().size(); ++index) {
     const auto names = run.field_names(index, "cell");
@@ -160,13 +175,13 @@ std::optional<TimeSeries> mean_series(const ResultsReader& run, const std::strin
     const Field values = run.field(index, "cell", field);
     const bool component = field != quantity;
     if (component != (values.components > 1)) return std::nullopt;
-    const int k = quantity.ends_with("_y") ? 1 : 0;
+    const int k = quantity.ends_with("_z") ? 2 : quantity.ends_with("_y") ? 1 : 0;
+    if (k >= values.components) return std::nullopt;
     double sum = 0.0;
     double volume = 0.0;
-    for (int e = 0; e < mesh.element_count(); ++e) {
-      const double v = element_volume(mesh, e);
-      sum += v * values.values[static_cast<std::size_t>(e) * values.components + k];
-      volume += v;
+    for (std::size_t e = 0; e < volumes.size(); ++e) {
+      sum += volumes[e] * values.values[e * static_cast<std::size_t>(values.components) + k];
+      volume += volumes[e];
     }
     curve.t.push_back(run.times()[index]);
     curve.values.push_back(sum / volume);
@@ -193,7 +208,7 @@ TimeSeries curve_of(const ResultsReader& run, const std::string& quantity,
   known.insert(known.end(), more.begin(), more.end());
   throw wrong(path, '"' + quantity + '"',
               "a column of history.csv or ledger.csv, \"mean_\" and a field of the elements (a "
-              "vector with _x or _y), or columns x and y with places",
+              "vector with _x, _y or _z), or columns x and y with places",
               closest_name(quantity, known));
 }
 
@@ -219,6 +234,9 @@ void check(const ReferenceTable& reference) {
   if (!table.has("t")) throw wrong(reference.path, "no column \"t\"", "times in s");
   if (table.has("x") != table.has("y")) {
     throw wrong(reference.path, "one column of places", "both \"x\" and \"y\", or neither");
+  }
+  if (table.has("z") && !table.has("x")) {
+    throw wrong(reference.path, "\"z\" alone", "\"x\" and \"y\" beside it");
   }
   if (names.empty()) throw wrong(reference.path, "no column of values", "at least one");
   if (table.rows() == 0) throw wrong(reference.path, "no row", "at least one");

@@ -1,5 +1,6 @@
 #include "tables/safety_check.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -16,8 +17,8 @@ namespace {
 /// A face of a boundary and the element that has it.
 struct OuterFace {
   int element;
-  Vector<2> centre;
-  Vector<2> outward;  ///< normal times length, m
+  std::vector<double> centre;
+  std::vector<double> outward;  ///< normal, of any length
 };
 
 struct Boundary {
@@ -26,29 +27,51 @@ struct Boundary {
 };
 
 /// Elements by their outer faces. Both sides of a wall have nodes of their own.
-std::map<std::array<int, 2>, int> element_of_face(const Mesh<2>& mesh) {
-  std::map<std::array<int, 2>, int> elements;
+template <int Dim>
+std::map<std::array<int, Dim>, int> element_of_face(const Mesh<Dim>& mesh) {
+  std::map<std::array<int, Dim>, int> elements;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    for (int a = 0; a < 3; ++a) elements[face_key<2>(face_opposite<2>(mesh.elements[e], a))] = e;
+    for (int a = 0; a <= Dim; ++a) {
+      elements[face_key<Dim>(face_opposite<Dim>(mesh.elements[e], a))] = e;
+    }
   }
   return elements;
 }
 
-std::vector<Boundary> boundaries_of(const ResultsReader& results, const Mesh<2>& mesh) {
+template <class Position>
+std::vector<double> coordinates(const Position& x) {
+  return {x.data(), x.data() + x.size()};
+}
+
+template <int Dim>
+Vector<Dim> normal_of(const Mesh<Dim>& mesh, const std::array<int, Dim>& face) {
+  const Vector<Dim> side = mesh.nodes[face[1]] - mesh.nodes[face[0]];
+  if constexpr (Dim == 2) {
+    return {side[1], -side[0]};
+  } else {
+    return side.cross(mesh.nodes[face[2]] - mesh.nodes[face[0]]);
+  }
+}
+
+template <int Dim>
+OuterFace outer_face(const Mesh<Dim>& mesh, const std::array<int, Dim>& nodes, int element) {
+  Vector<Dim> centre = Vector<Dim>::Zero();
+  for (const int node : nodes) centre += mesh.nodes[node] / Dim;
+  Vector<Dim> normal = normal_of<Dim>(mesh, nodes);
+  if (normal.dot(element_centroid(mesh, element) - centre) > 0.0) normal = -normal;
+  return {element, coordinates(centre), coordinates(normal)};
+}
+
+template <int Dim>
+std::vector<Boundary> boundaries_of(const ResultsReader& results, const Mesh<Dim>& mesh) {
   const auto elements = element_of_face(mesh);
   std::vector<Boundary> boundaries;
   for (const std::string& name : booked_boundaries(results.scene().scene)) {
-    const auto found = std::ranges::find(mesh.boundaries, name, &BoundarySet<2>::name);
+    const auto found = std::ranges::find(mesh.boundaries, name, &BoundarySet<Dim>::name);
     if (found == mesh.boundaries.end()) continue;
     Boundary boundary{name, {}};
     for (const auto& nodes : found->faces) {
-      const Vector<2>& a = mesh.nodes[nodes[0]];
-      const Vector<2>& b = mesh.nodes[nodes[1]];
-      const int e = elements.at(face_key<2>(nodes));
-      const Vector<2> centre = 0.5 * (a + b);
-      Vector<2> normal(b[1] - a[1], a[0] - b[0]);
-      if (normal.dot(element_centroid(mesh, e) - centre) > 0.0) normal = -normal;
-      boundary.faces.push_back({e, centre, normal});
+      boundary.faces.push_back(outer_face<Dim>(mesh, nodes, elements.at(face_key<Dim>(nodes))));
     }
     boundaries.push_back(std::move(boundary));
   }
@@ -63,12 +86,17 @@ struct SafetyState {
   std::vector<double> flux;
 
   [[nodiscard]] double flux_through(const OuterFace& face) const {
-    const auto at = 2 * static_cast<std::size_t>(face.element);
-    return flux[at] * face.outward[0] + flux[at + 1] * face.outward[1];
+    const std::size_t width = face.outward.size();
+    double sum = 0.0;
+    for (std::size_t d = 0; d < width; ++d) {
+      sum += flux[width * static_cast<std::size_t>(face.element) + d] * face.outward[d];
+    }
+    return sum;
   }
 };
 
-void include(const SafetyState& state, int element, const Vector<2>& place, PartSafety& part) {
+void include(const SafetyState& state, int element, const std::vector<double>& place,
+             PartSafety& part) {
   const double gradient = state.gradient[element];
   const double critical = state.critical[element];
   // Free water has no critical gradient: it is not a number there.
@@ -76,12 +104,6 @@ void include(const SafetyState& state, int element, const Vector<2>& place, Part
   const double safety = critical / gradient;
   if (part.least && part.least->safety <= safety) return;
   part.least = LeastSafety{safety, gradient, critical, state.time, place};
-}
-
-std::string place_text(const Vector<2>& x) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.4g, %.4g)", x[0], x[1]);
-  return text;
 }
 
 std::string cell(const std::string& text, int width) {
@@ -95,6 +117,12 @@ std::string cell(const char* format, double value, int width) {
   return cell(std::string(text), width);
 }
 
+std::string place_text(const std::vector<double>& x) {
+  std::string text;
+  for (const double value : x) text += (text.empty() ? "(" : ", ") + cell("%.4g", value, 0);
+  return text + ")";
+}
+
 std::string motion_text(const Table& history) {
   const auto now = [&](const char* name) { return cell("%.4g", history.column(name).back(), 0); };
   return "at t = " + cell("%.6g", history.column("t").back(), 0) +
@@ -102,20 +130,18 @@ std::string motion_text(const Table& history) {
          " m, its largest displacement " + now("displacement_max") + " m\n";
 }
 
-}  // namespace
-
-std::vector<PartSafety> safety_of(const ResultsReader& results) {
-  const Mesh<2> mesh = results.mesh();
+template <int Dim>
+std::vector<PartSafety> safety_in(const ResultsReader& results, const Mesh<Dim>& mesh) {
   const std::vector<Boundary> boundaries = boundaries_of(results, mesh);
   std::vector<PartSafety> parts{{"all soil", {}, {}}};
   for (const Boundary& boundary : boundaries) parts.push_back({boundary.name, {}, {}});
   if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
   for (std::size_t index = 0; index < results.times().size(); ++index) {
     const SafetyState state{results.times()[index], upward_gradient(results, index),
-                            critical_gradient(results, mesh, index),
+                            critical_gradient(results, index),
                             results.field(index, "cell", "darcy_flux").values};
     for (int e = 0; e < mesh.element_count(); ++e) {
-      include(state, e, element_centroid(mesh, e), parts[0]);
+      include(state, e, coordinates(element_centroid(mesh, e)), parts[0]);
     }
     for (std::size_t b = 0; b < boundaries.size(); ++b) {
       for (const OuterFace& face : boundaries[b].faces) {
@@ -132,27 +158,36 @@ std::vector<PartSafety> safety_of(const ResultsReader& results) {
   return parts;
 }
 
+}  // namespace
+
+std::vector<PartSafety> safety_of(const ResultsReader& results) {
+  return with_mesh(results, [&](const auto& mesh) { return safety_in(results, mesh); });
+}
+
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts) {
   std::size_t width = 0;
   for (const PartSafety& part : parts) width = std::max(width, part.name.size());
   const auto& times = results.times();
+  const bool is_plane = results.dimension() == 2;
+  const int place_width = is_plane ? 20 : 30;
   std::string text =
       results.folder() + ": " + results.status() + ", " + std::to_string(times.size()) +
       " snapshots until t = " + number_text(times.back()) +
       " s\nleast safety i_cr / i against heave, i: hydraulic gradient upwards, i_cr = (1 - n) "
       "(rho_s / rho_w - 1)\n" +
       std::string(width, ' ') + cell("safety", 10) + cell("i", 10) + cell("i_cr", 10) +
-      cell("t (s)", 12) + cell("at (m)", 20) + cell("discharge now (m2/s)", 23) + "\n";
+      cell("t (s)", 12) + cell("at (m)", place_width) +
+      cell("discharge now (" + std::string(is_plane ? "m2/s" : "m3/s") + ")", 23) + "\n";
   for (const PartSafety& part : parts) {
     text += part.name + std::string(width - part.name.size(), ' ');
     if (part.least) {
       const LeastSafety& least = *part.least;
       text += cell("%.4g", least.safety, 10) + cell("%.4g", least.gradient, 10) +
               cell("%.4g", least.critical_gradient, 10) + cell("%.6g", least.time, 12) +
-              cell(place_text(least.place), 20);
+              cell(place_text(least.place), place_width);
     } else {
       text += cell("-", 10) + cell("-", 10) + cell("-", 10) + cell("-", 12) +
-              cell("water rises nowhere", 20);
+              cell("water rises nowhere", place_width);
     }
     if (part.discharge) text += cell("%.10g", *part.discharge, 23);
     text += "\n";

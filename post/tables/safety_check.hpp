@@ -18,7 +18,7 @@ struct LeastSafety {
   double gradient = 0.0;           ///< i
   double critical_gradient = 0.0;  ///< i_cr = (1 - n) (rho_s / rho_w - 1)
   double time = 0.0;               ///< s, of the snapshot
-  Vector<2> place{0.0, 0.0};       ///< m
+  std::vector<double> place{};     ///< coordinates, m
 };
 
 /// A boundary of the scene, or all soil.

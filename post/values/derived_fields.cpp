@@ -20,25 +20,28 @@ bool is_stored(const ResultsReader& results, std::size_t index, const std::strin
   return std::ranges::find(names, name) != names.end();
 }
 
-double head_of(const Scene& scene, double pressure, const Vector<2>& x) {
+template <int Dim>
+double head_of(const Scene& scene, double pressure, const Vector<Dim>& x) {
   return pressure / unit_weight(scene.liquid.density, scene.gravity) + height(x, scene.gravity);
 }
 
 std::vector<double> cell_head(const ResultsReader& results, std::size_t index) {
-  const Mesh<2> mesh = results.mesh();
   std::vector<double> values = results.field(index, "cell", "pressure").values;
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    values[e] = head_of(results.scene().scene, values[e], element_centroid(mesh, e));
-  }
+  with_mesh(results, [&](const auto& mesh) {
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      values[e] = head_of(results.scene().scene, values[e], element_centroid(mesh, e));
+    }
+  });
   return values;
 }
 
 std::vector<double> node_head(const ResultsReader& results, std::size_t index) {
-  const Mesh<2> mesh = results.mesh();
   std::vector<double> values = results.field(index, "node", "pressure").values;
-  for (int i = 0; i < mesh.node_count(); ++i) {
-    values[i] = head_of(results.scene().scene, values[i], mesh.nodes[i]);
-  }
+  with_mesh(results, [&](const auto& mesh) {
+    for (int i = 0; i < mesh.node_count(); ++i) {
+      values[i] = head_of(results.scene().scene, values[i], mesh.nodes[i]);
+    }
+  });
   return values;
 }
 
@@ -64,14 +67,15 @@ std::vector<double> water_at_vertices(const ResultsReader& results, std::size_t 
   std::vector<double> values = results.field(index, "element_vertex", "porosity").values;
   const std::vector<double> fines = results.field(index, "element_vertex", "fines_fraction").values;
   const std::vector<double> saturation = any_field(results, index, "cell", "saturation").values;
+  const auto corners = static_cast<std::size_t>(results.dimension()) + 1;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = values[i] * saturation[i / 3] - fines[i];
+    values[i] = values[i] * saturation[i / corners] - fines[i];
   }
   return values;
 }
 
 std::vector<double> safety(const ResultsReader& results, std::size_t index) {
-  std::vector<double> values = critical_gradient(results, results.mesh(), index);
+  std::vector<double> values = critical_gradient(results, index);
   const std::vector<double> gradient = upward_gradient(results, index);
   for (std::size_t e = 0; e < values.size(); ++e) {
     values[e] =
@@ -123,7 +127,7 @@ Field any_field(const ResultsReader& results, std::size_t index, const std::stri
   if (!is_stored(results, index, where, name)) {
     for (const DerivedField& field : derived_fields()) {
       if (field.where == where && field.name == name) {
-        const int components = where == "element_vertex" ? 3 : 1;
+        const int components = where == "element_vertex" ? results.dimension() + 1 : 1;
         return {name, field.unit, components, field.values(results, index)};
       }
     }
@@ -131,34 +135,48 @@ Field any_field(const ResultsReader& results, std::size_t index, const std::stri
   return results.field(index, where, name);
 }
 
-std::vector<double> critical_gradient(const ResultsReader& results, const Mesh<2>& mesh,
-                                      std::size_t index) {
+std::vector<double> critical_gradient(const ResultsReader& results, std::size_t index) {
   const Scene& scene = results.scene().scene;
   std::vector<double> values = results.field(index, "cell", "porosity").values;
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
-    values[e] = soil == nullptr
-                    ? std::numeric_limits<double>::quiet_NaN()
-                    : (1.0 - values[e]) * (soil->grain_density / scene.liquid.density - 1.0);
-  }
+  with_mesh(results, [&](const auto& mesh) {
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
+      values[e] = soil == nullptr
+                      ? std::numeric_limits<double>::quiet_NaN()
+                      : (1.0 - values[e]) * (soil->grain_density / scene.liquid.density - 1.0);
+    }
+  });
   return values;
 }
 
 std::vector<double> upward_gradient(const ResultsReader& results, std::size_t index) {
-  const Vector<2> up = upward(results.scene().scene);
+  const auto width = static_cast<std::size_t>(results.dimension());
+  const Scene& scene = results.scene().scene;
+  std::vector<double> up(width);
+  if (width == 3) {
+    Vector<3>::Map(up.data()) = upward<3>(scene);
+  } else {
+    Vector<2>::Map(up.data()) = upward<2>(scene);
+  }
   const std::vector<double> gradient = results.field(index, "cell", "hydraulic_gradient").values;
   const std::vector<double> saturation = any_field(results, index, "cell", "saturation").values;
   std::vector<double> values;
   for (std::size_t e = 0; e < saturation.size(); ++e) {
-    const double component = gradient[2 * e] * up[0] + gradient[2 * e + 1] * up[1];
+    double component = 0.0;
+    for (std::size_t d = 0; d < width; ++d) component += gradient[width * e + d] * up[d];
     values.push_back(saturation[e] < saturated ? 0.0 : component);
   }
   return values;
 }
 
-Vector<2> upward(const Scene& scene) {
-  if (!has_gravity(scene.gravity)) return {0.0, 1.0};
-  return {height(Vector<2>(1.0, 0.0), scene.gravity), height(Vector<2>(0.0, 1.0), scene.gravity)};
+template <int Dim>
+Vector<Dim> upward(const Scene& scene) {
+  if (!has_gravity(scene.gravity)) return Vector<Dim>::Unit(Dim - 1);
+  Vector<Dim> up;
+  for (int d = 0; d < Dim; ++d) up[d] = height(Vector<Dim>::Unit(d).eval(), scene.gravity);
+  return up;
 }
+template Vector<2> upward(const Scene& scene);
+template Vector<3> upward(const Scene& scene);
 
 }  // namespace suffuse

@@ -26,15 +26,15 @@ Field any_field(const ResultsReader& results, std::size_t index, const std::stri
 
 /// The hydraulic gradient at which water that rises lifts the soil (Terzaghi), per cell:
 /// i_cr = (1 - n) (rho_s / rho_w - 1). Not a number in free water.
-std::vector<double> critical_gradient(const ResultsReader& results, const Mesh<2>& mesh,
-                                      std::size_t index);
+std::vector<double> critical_gradient(const ResultsReader& results, std::size_t index);
 
-/// The component of the hydraulic gradient against gravity, without gravity along y, per cell; 0
+/// The component of the hydraulic gradient against gravity, without it along `upward`, per cell; 0
 /// where the soil is not saturated. The safety is the critical gradient over it, infinite where it
 /// is not positive.
 std::vector<double> upward_gradient(const ResultsReader& results, std::size_t index);
 
-/// Against gravity; along y without it.
-Vector<2> upward(const Scene& scene);
+/// Against gravity; without it along y, in three dimensions along z.
+template <int Dim>
+Vector<Dim> upward(const Scene& scene);
 
 }  // namespace suffuse

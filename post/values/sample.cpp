@@ -41,33 +41,45 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Of "x,y".
-std::optional<Vector<2>> place_of(const std::string& text) {
+/// Of "x,y" or "x,y,z".
+std::optional<Position> place_of(const std::string& text) {
   const auto coordinates = split(text, ',');
-  if (coordinates.size() != 2) return std::nullopt;
-  const auto x = parse_number(coordinates[0]);
-  const auto y = parse_number(coordinates[1]);
-  if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return std::nullopt;
-  return Vector<2>(*x, *y);
+  if (coordinates.size() < 2 || coordinates.size() > 3) return std::nullopt;
+  Position place(static_cast<Eigen::Index>(coordinates.size()));
+  for (std::size_t d = 0; d < coordinates.size(); ++d) {
+    const auto x = parse_number(coordinates[d]);
+    if (!x || !std::isfinite(*x)) return std::nullopt;
+    place[static_cast<Eigen::Index>(d)] = *x;
+  }
+  return place;
 }
 
-std::string position_text(const Vector<2>& x) {
-  return "(" + number_text(x[0]) + ", " + number_text(x[1]) + ")";
+std::string position_text(const Position& x) {
+  std::string text = "(" + number_text(x[0]);
+  for (Eigen::Index d = 1; d < x.size(); ++d) text += ", " + number_text(x[d]);
+  return text + ")";
 }
 
 /// An element that contains the point, and the position of the point in it.
+template <int Dim>
 struct Place {
   int element;
-  std::array<double, 3> barycentric;
+  std::array<double, Dim + 1> barycentric;
 };
 
 /// All elements that contain x, on their edges included; only those of soil where there are any.
-std::vector<Place> locate(const ResultsReader& results, const Mesh<2>& mesh, const Vector<2>& x,
-                          const SampleNames& input_names) {
-  std::vector<Place> everywhere;
-  std::vector<Place> in_soil;
+template <int Dim>
+std::vector<Place<Dim>> locate(const ResultsReader& results, const Mesh<Dim>& mesh,
+                               const Position& x, const SampleNames& input_names) {
+  if (x.size() != Dim) {
+    throw wrong(input_names.places, "the point " + position_text(x),
+                Dim == 3 ? "x,y,z: the model has three dimensions" : "x,y: the model is plane", "",
+                input_names.command);
+  }
+  std::vector<Place<Dim>> everywhere;
+  std::vector<Place<Dim>> in_soil;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    const auto b = barycentric(mesh, e, x);
+    const auto b = barycentric<Dim>(mesh, e, x);
     if (*std::min_element(b.begin(), b.end()) < -edge_tolerance) continue;
     everywhere.push_back({e, b});
     const auto& region = mesh.region_names[mesh.element_region[e]];
@@ -164,22 +176,25 @@ SampledField read_sampled(const ResultsReader& results, const SnapshotPair& pair
   return {field, place.where};
 }
 
-double value_in(const Mesh<2>& mesh, const SampledField& field, const Place& place, int component) {
+template <int Dim>
+double value_in(const Mesh<Dim>& mesh, const SampledField& field, const Place<Dim>& place,
+                int component) {
   const auto at = [&](std::size_t entity) {
     return field.values.values[entity * field.width() + component];
   };
   if (field.where == "cell") return at(place.element);
   double value = 0.0;
-  for (int a = 0; a < 3; ++a) {
+  for (int a = 0; a <= Dim; ++a) {
     const int vertex =
-        field.where == "node" ? mesh.elements[place.element][a] : 3 * place.element + a;
+        field.where == "node" ? mesh.elements[place.element][a] : (Dim + 1) * place.element + a;
     value += place.barycentric[a] * at(vertex);
   }
   return value;
 }
 
-double mean_value(const Mesh<2>& mesh, const SampledField& field, const std::vector<Place>& around,
-                  int component) {
+template <int Dim>
+double mean_value(const Mesh<Dim>& mesh, const SampledField& field,
+                  const std::vector<Place<Dim>>& around, int component) {
   double total = 0.0;
   for (const auto& place : around) total += value_in(mesh, field, place, component);
   return total / static_cast<double>(around.size());
@@ -190,11 +205,50 @@ std::string column_name(const SampledField& field, int component) {
   return field.width() == 1 ? field.values.name : field.values.name + axes.at(component);
 }
 
+template <int Dim>
+Table sample_in(const ResultsReader& results, const Mesh<Dim>& mesh, const SampleRequest& request,
+                const SampleNames& input_names) {
+  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  Table table{{"t"}, std::vector<std::vector<double>>(Dim + 1), {"s"}};
+  for (int d = 0; d < Dim; ++d) {
+    table.names.emplace_back(axes.at(d));
+    table.units.emplace_back("m");
+  }
+  std::vector<std::vector<Place<Dim>>> around;
+  for (const auto& x : request.positions) {
+    around.push_back(locate(results, mesh, x, input_names));
+  }
+  for (const double time : request.times) {
+    const SnapshotPair pair = find_snapshots(results, time, input_names);
+    std::size_t column = Dim + 1;
+    for (const auto& name : request.fields) {
+      FieldPlace place = find_place_of(results, pair.before, name, input_names);
+      place.change = request.change;
+      const SampledField field = read_sampled(results, pair, place);
+      for (int k = 0; k < field.width(); ++k, ++column) {
+        if (column == table.names.size()) {
+          table.names.push_back(column_name(field, k));
+          table.units.push_back(field.values.unit == "1" ? "-" : field.values.unit);
+          table.columns.emplace_back();
+        }
+        for (const auto& places : around) {
+          table.columns[column].push_back(mean_value(mesh, field, places, k));
+        }
+      }
+    }
+    for (const auto& x : request.positions) {
+      table.columns[0].push_back(time);
+      for (int d = 0; d < Dim; ++d) table.columns[d + 1].push_back(x[d]);
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
-Vector<2> parse_place(const std::string& text) {
+Position parse_place(const std::string& text) {
   const auto place = place_of(text);
-  if (!place) throw wrong("--at", "\"" + text + "\"", "x,y in metres");
+  if (!place) throw wrong("--at", "\"" + text + "\"", "x,y or x,y,z in metres");
   return *place;
 }
 
@@ -203,8 +257,9 @@ SampleLine parse_line(const std::string& text, const std::string& command,
   const auto ends = split(text, ':');
   const auto from = place_of(ends.front());
   const auto to = place_of(ends.back());
-  if (ends.size() != 2 || !from || !to) {
-    throw wrong(option, "\"" + text + "\"", "x0,y0:x1,y1 in metres", "", command);
+  if (ends.size() != 2 || !from || !to || from->size() != to->size()) {
+    throw wrong(option, "\"" + text + "\"", "x0,y0:x1,y1 or x0,y0,z0:x1,y1,z1 in metres", "",
+                command);
   }
   return {*from, *to};
 }
@@ -228,12 +283,12 @@ std::vector<double> parse_times(const ResultsReader& results, const std::string&
   return times;
 }
 
-std::vector<Vector<2>> places_on(const SampleLine& line, int count) {
+std::vector<Position> places_on(const SampleLine& line, int count) {
   if (count < 2) throw wrong("--count", std::to_string(count), "at least 2, the ends of the line");
   if (count > max_points) {
     throw wrong("--count", std::to_string(count), "at most " + std::to_string(max_points));
   }
-  std::vector<Vector<2>> positions;
+  std::vector<Position> positions;
   for (int i = 0; i < count; ++i) {
     const double along = static_cast<double>(i) / (count - 1);
     positions.emplace_back((1.0 - along) * line.from + along * line.to);
@@ -243,37 +298,8 @@ std::vector<Vector<2>> places_on(const SampleLine& line, int count) {
 
 Table sample(const ResultsReader& results, const SampleRequest& request,
              const SampleNames& input_names) {
-  Table table{{"t", "x", "y"}, std::vector<std::vector<double>>(3), {"s", "m", "m"}};
-  const Mesh<2> mesh = results.mesh();
-  std::vector<std::vector<Place>> around;
-  for (const auto& x : request.positions) {
-    around.push_back(locate(results, mesh, x, input_names));
-  }
-  for (const double time : request.times) {
-    const SnapshotPair pair = find_snapshots(results, time, input_names);
-    std::size_t column = 3;
-    for (const auto& name : request.fields) {
-      FieldPlace place = find_place_of(results, pair.before, name, input_names);
-      place.change = request.change;
-      const SampledField field = read_sampled(results, pair, place);
-      for (int k = 0; k < field.width(); ++k, ++column) {
-        if (column == table.names.size()) {
-          table.names.push_back(column_name(field, k));
-          table.units.push_back(field.values.unit == "1" ? "-" : field.values.unit);
-          table.columns.emplace_back();
-        }
-        for (const auto& places : around) {
-          table.columns[column].push_back(mean_value(mesh, field, places, k));
-        }
-      }
-    }
-    for (const auto& x : request.positions) {
-      table.columns[0].push_back(time);
-      table.columns[1].push_back(x[0]);
-      table.columns[2].push_back(x[1]);
-    }
-  }
-  return table;
+  return with_mesh(
+      results, [&](const auto& mesh) { return sample_in(results, mesh, request, input_names); });
 }
 
 }  // namespace suffuse

@@ -9,18 +9,22 @@
 
 namespace suffuse {
 
-/// A straight line between two points, m.
+/// Two coordinates in a plane model, three in others, m.
+using Position = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+
+/// A straight line between two points.
 struct SampleLine {
-  Vector<2> from;
-  Vector<2> to;
+  Position from;
+  Position to;
 };
 
-/// Reads `x0,y0:x1,y1` (m). Throws InputError, naming `command` and `option`.
+/// Reads `x0,y0:x1,y1` or `x0,y0,z0:x1,y1,z1` (m). Throws InputError, naming `command` and
+/// `option`.
 SampleLine parse_line(const std::string& text, const std::string& command = "suffuse-post sample",
                       const std::string& option = "--line");
 
-/// Reads `x,y` (m). Throws InputError.
-Vector<2> parse_place(const std::string& text);
+/// Reads `x,y` or `x,y,z` (m). Throws InputError.
+Position parse_place(const std::string& text);
 
 /// Reads `a,b,c`. Throws InputError on an empty name.
 std::vector<std::string> parse_field_names(const std::string& text);
@@ -29,11 +33,11 @@ std::vector<std::string> parse_field_names(const std::string& text);
 std::vector<double> parse_times(const ResultsReader& results, const std::string& text);
 
 /// `count` >= 2 places, evenly spaced from end to end of the line. Throws InputError.
-std::vector<Vector<2>> places_on(const SampleLine& line, int count);
+std::vector<Position> places_on(const SampleLine& line, int count);
 
 struct SampleRequest {
-  std::vector<double> times;         ///< s
-  std::vector<Vector<2>> positions;  ///< m
+  std::vector<double> times;        ///< s
+  std::vector<Position> positions;  ///< of the model's dimension
   std::vector<std::string> fields;
   bool change = false;  ///< since the start, instead of the fields themselves
 };
@@ -46,8 +50,8 @@ struct SampleNames {
   std::string fields = "--fields";
 };
 
-/// Samples fields at places and times. The table has a row per time and place, and columns t, x, y
-/// and the fields, vectors as NAME_x and NAME_y.
+/// Samples fields at places and times. The table has a row per time and place, and columns t, x, y,
+/// in three dimensions z, and the fields, vectors as NAME_x, NAME_y and NAME_z.
 ///
 /// The value in an element is, in this order of preference, that of the element's own linear field,
 /// of interpolated nodal values, or the element's mean. On an edge or node it is the mean over the
@@ -55,7 +59,7 @@ struct SampleNames {
 /// values are linear in time.
 ///
 /// Throws InputError for an unknown field, a field that lives on points only, a time outside the
-/// snapshots or a point outside the model.
+/// snapshots, a point outside the model or of another dimension.
 Table sample(const ResultsReader& results, const SampleRequest& request,
              const SampleNames& input_names = {});
 

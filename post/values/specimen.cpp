@@ -13,28 +13,38 @@ bool has_law(const Soil& soil) {
   return soil.erosion.law->erodes();
 }
 
-/// Adds an element to the portions, as three parts with the porosity at its edge midpoints, which
-/// integrates quadratics exactly. A region of uniform soil becomes one portion.
-void add_element(std::map<std::pair<std::string, double>, Portion>& portions, const Mesh<2>& mesh,
+/// Places in an element that stand for equal parts of its volume and integrate quadratics exactly:
+/// the midpoints of the edges of a triangle; in a tetrahedron four points between centroid and
+/// corners.
+template <int Dim>
+std::array<Vector<Dim>, Dim + 1> equal_parts(const Mesh<Dim>& mesh, int element) {
+  constexpr double inward[2] = {-0.5, 0.44721359549995794};  // from the centroid to a corner
+  const Vector<Dim> centroid = element_centroid(mesh, element);
+  std::array<Vector<Dim>, Dim + 1> places;
+  for (int a = 0; a <= Dim; ++a) {
+    const Vector<Dim>& corner = mesh.nodes[mesh.elements[element][a]];
+    places.at(a) = centroid + inward[Dim - 2] * (corner - centroid);
+  }
+  return places;
+}
+
+/// A region of uniform soil becomes one portion.
+template <int Dim>
+void add_element(std::map<std::pair<std::string, double>, Portion>& portions, const Mesh<Dim>& mesh,
                  int element, const Soil& soil) {
   const double volume = element_volume(mesh, element);
-  for (int a = 0; a < 3; ++a) {
-    const auto& corners = mesh.elements[element];
-    const Vector<2> middle = 0.5 * (mesh.nodes[corners[a]] + mesh.nodes[corners[(a + 1) % 3]]);
-    const double porosity = soil.initial_porosity(middle);
+  for (const Vector<Dim>& place : equal_parts(mesh, element)) {
+    const double porosity = soil.initial_porosity(place);
     auto& portion = portions[{soil.region, porosity}];
     portion.soil = soil;
     portion.initial_porosity = porosity;
-    portion.volume += volume / 3.0;
+    portion.volume += volume / (Dim + 1);
   }
 }
 
-}  // namespace
-
-Specimen specimen(const ResultsReader& run) {
-  const Scene& scene = run.scene().scene;
+template <int Dim>
+Specimen specimen_of(const Scene& scene, const Mesh<Dim>& mesh) {
   const bool any = std::any_of(scene.soils.begin(), scene.soils.end(), has_law);
-  const Mesh<2> mesh = run.mesh();
   Specimen found;
   std::vector<const Soil*> soils;
   for (int r = 0; r < static_cast<int>(mesh.region_names.size()); ++r) {
@@ -54,6 +64,12 @@ Specimen specimen(const ResultsReader& run) {
     found.volume += portion.volume;
   }
   return found;
+}
+
+}  // namespace
+
+Specimen specimen(const ResultsReader& run) {
+  return with_mesh(run, [&](const auto& mesh) { return specimen_of(run.scene().scene, mesh); });
 }
 
 std::string specimen_name(bool has_all_soil) {

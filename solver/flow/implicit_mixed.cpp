@@ -76,7 +76,7 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
   }
   matrix_.lay_out(kinds_);
   earlier_counts_ = counts();
-  solver_.emplace(settings_.threads);
+  solver_.emplace(settings_.threads, LagLimits{}, flow_factor(Dim, matrix_.unknowns()));
   newton_.emplace();
   open_.assign(faces, 0);
   held_.assign(faces, 0);

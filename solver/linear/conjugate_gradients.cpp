@@ -43,6 +43,7 @@ bool ConjugateGradients::solve(const SymmetricSystem& system, Factor& preconditi
 bool ConjugateGradients::iterate(const SymmetricSystem& system, Factor& preconditioner,
                                  Eigen::VectorXd& x) {
   const auto rows = static_cast<int>(x.size());
+  const bool flexible = !preconditioner.is_exact();
   double last_product = 0.0;
   for (; iterations_ < limits_.max_iterations; ++iterations_) {
     const double excess = 2.0 * residual_.excess();
@@ -57,7 +58,9 @@ bool ConjugateGradients::iterate(const SymmetricSystem& system, Factor& precondi
     if (last_product == 0.0) {
       direction_ = preconditioned_;
     } else {
-      const double share = product / last_product;
+      // What the factor makes of the earlier residual is orthogonal only where it is linear.
+      const double fresh = product - (flexible ? dot(earlier_, preconditioned_, threads_) : 0.0);
+      const double share = fresh / last_product;
       for_each_index(rows, threads_,
                      [&](int i) { direction_[i] = preconditioned_[i] + share * direction_[i]; });
     }
@@ -66,6 +69,7 @@ bool ConjugateGradients::iterate(const SymmetricSystem& system, Factor& precondi
     const double curvature = dot(direction_, image_, threads_);
     if (!(product > 0.0 && curvature > 0.0)) return false;
     const double length = product / curvature;
+    if (flexible) earlier_ = residual_.values;
     for_each_index(rows, threads_, [&](int i) {
       x[i] += length * direction_[i];
       residual_.values[i] -= length * image_[i];

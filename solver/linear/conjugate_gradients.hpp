@@ -1,7 +1,8 @@
 #pragma once
 
 /// Conjugate gradients (Hestenes and Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409),
-/// preconditioned with the factor of a similar matrix.
+/// preconditioned with the factor of a similar matrix. With one that is not exact they are flexible
+/// (Notay, SIAM J. Sci. Comput. 22 (2000) 1444).
 
 #include "linear/factor.hpp"
 #include "linear/symmetric_system.hpp"
@@ -39,7 +40,7 @@ class ConjugateGradients {
   double first_excess_ = 0.0;
   // Kept from call to call, so that iterations allocate nothing.
   Residual residual_;
-  Eigen::VectorXd preconditioned_, direction_, image_;
+  Eigen::VectorXd preconditioned_, direction_, image_, earlier_;
 };
 
 }  // namespace suffuse

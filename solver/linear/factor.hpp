@@ -1,7 +1,7 @@
 #pragma once
 
 /// Something that a matrix is given to once and that then solves with it, again and again: the seam
-/// behind which a direct factor stands today, and later multigrid or a distributed library can.
+/// behind which a direct factor stands or multigrid, and later a distributed library can.
 
 #include <Eigen/SparseCore>
 
@@ -22,9 +22,13 @@ class Factor {
   /// call succeeds there is nothing to solve with.
   virtual void factorise(const Eigen::SparseMatrix<double>& matrix) = 0;
 
-  /// Sets x to matrix^-1 rhs, with the matrix that was factored last. The operator that takes rhs
-  /// to x is symmetric positive definite, as preconditioned conjugate gradients need it.
+  /// Sets x to matrix^-1 rhs, with the matrix that was factored last, or near it. The operator that
+  /// takes rhs to x is symmetric positive definite, as preconditioned conjugate gradients need it;
+  /// where it is not exact, nearly so.
   virtual void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) = 0;
+
+  /// Whether `solve` gives the solution up to round-off.
+  [[nodiscard]] virtual bool is_exact() const { return true; }
 };
 
 }  // namespace suffuse

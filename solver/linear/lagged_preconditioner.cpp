@@ -1,12 +1,17 @@
 #include "linear/lagged_preconditioner.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "case/errors.hpp"
+#include "linear/multigrid.hpp"
 
 namespace suffuse {
 namespace {
+
+/// Multigrid takes 15 to 60.
+constexpr int max_patient_iterations = 1000;
 
 /// Copies into memory that is there already.
 void copy_values(const Eigen::SparseMatrix<double>& matrix, std::vector<double>& values) {
@@ -20,11 +25,17 @@ bool are_values_of(const std::vector<double>& values, const Eigen::SparseMatrix<
 
 }  // namespace
 
+std::unique_ptr<Factor> flow_factor(int dimension, Eigen::Index unknowns) {
+  if (dimension == 3 && unknowns >= multigrid_unknowns) return std::make_unique<Multigrid>();
+  return std::make_unique<CholeskyFactor>();
+}
+
 LaggedPreconditioner::LaggedPreconditioner(int threads, LagLimits limits,
                                            std::unique_ptr<Factor> factor)
     : limits_(limits),
       factor_(std::move(factor)),
       conjugate_gradients_(threads, limits.solution),
+      patient_gradients_(threads, {max_patient_iterations, max_patient_iterations, 0.0}),
       residual_(threads) {}
 
 void LaggedPreconditioner::factorise(const Matrix& matrix) {
@@ -36,6 +47,20 @@ void LaggedPreconditioner::factorise(const Matrix& matrix) {
 }
 
 Eigen::VectorXd LaggedPreconditioner::solve_directly(const SymmetricSystem& system) {
+  if (!factor_->is_exact()) {
+    // What residuals are allowed follows from the size of the solution: a first one is needed.
+    Eigen::VectorXd solution = system.guess;
+    residual_.compute(system, solution);
+    if (residual_.is_allowed()) return solution;
+    factor_->solve(residual_.values, correction_);
+    solution += correction_;
+    const bool solved = patient_gradients_.solve(system, *factor_, solution);
+    counts_.iterations += patient_gradients_.iterations();
+    if (solved) return solution;
+    throw NumericalError("the pressures could not be solved for: " +
+                         std::to_string(patient_gradients_.iterations()) +
+                         " iterations with multigrid are not enough");
+  }
   Eigen::VectorXd x;
   factor_->solve(system.rhs, x);
   residual_.compute(system, x);
@@ -61,7 +86,9 @@ Eigen::VectorXd LaggedPreconditioner::solve(const SymmetricSystem& system) {
   const bool repeated = are_values_of(iterated_values_, matrix);
   if (!repeated) repeated_iterations_ = 0;
   const bool factored = are_values_of(factored_values_, matrix);
-  if (!factored && !factored_values_.empty() && last_iterations_ <= limits_.tiring_iterations &&
+  // What is not exact is made anew for the price of a few iterations.
+  if (factor_->is_exact() && !factored && !factored_values_.empty() &&
+      last_iterations_ <= limits_.tiring_iterations &&
       repeated_iterations_ < limits_.repeated_iterations) {
     Eigen::VectorXd x = system.guess;
     const bool solved = solve_by_iterations(system, x);

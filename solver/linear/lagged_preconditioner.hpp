@@ -28,6 +28,12 @@ struct SolveCounts {
   }
 };
 
+/// What is best for the flow: a direct factor in two dimensions and in small models of three, else
+/// multigrid (docs/architecture.md has the numbers).
+std::unique_ptr<Factor> flow_factor(int dimension, Eigen::Index unknowns);
+/// From so many unknowns on multigrid is used in three dimensions.
+inline constexpr Eigen::Index multigrid_unknowns = 10'000;
+
 /// When a matrix that has changed is factored anew. A factorisation costs about ten iterations.
 struct LagLimits {
   /// Of one solution: where it would take more, or goes too slowly, the matrix is factored.
@@ -50,8 +56,9 @@ class LaggedPreconditioner {
       std::unique_ptr<Factor> factor = std::make_unique<CholeskyFactor>());
 
   /// Solution of a system, within its tolerance or the round-off of computing a residual. A direct
-  /// solution that misses this is refined once. The pattern of the matrix is the same in every
-  /// call. Throws NumericalError when the matrix is not positive definite or not finite.
+  /// solution that misses this is refined once; a factor that is not exact is iterated with. The
+  /// pattern of the matrix is the same in every call. Throws NumericalError when the matrix is not
+  /// positive definite or not finite.
   Eigen::VectorXd solve(const SymmetricSystem& system);
 
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
@@ -84,6 +91,7 @@ class LaggedPreconditioner {
   LagLimits limits_;
   std::unique_ptr<Factor> factor_;
   ConjugateGradients conjugate_gradients_;
+  ConjugateGradients patient_gradients_;  ///< with a factor of the matrix itself, not exact
   Residual residual_;
   Eigen::VectorXd correction_;
   std::vector<double> factored_values_;  ///< empty where there is no factor

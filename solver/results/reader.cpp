@@ -349,27 +349,29 @@ std::string ResultsReader::snapshot_path(const std::string& kind, std::size_t in
   return mesh_files_.at(index);
 }
 
-void ResultsReader::require_plane() const {
-  if (dimension_ == 2) return;
+void ResultsReader::require_dimension(int dimension) const {
+  if (dimension_ == dimension) return;
+  if (dimension == 3) throw InputError(folder_ + ": got a plane model; expected one of tetrahedra");
   throw InputError(folder_ +
-                   ": got results of three dimensions; expected a plane model: tables are written "
-                   "of both, figures and samples of plane ones. ParaView opens " +
-                   layout::in_folder(folder_, layout::series("mesh")));
+                   ": got results of three dimensions; expected a plane model. Of these, render "
+                   "draws surfaces and cuts, sample and the figure profile follow lines");
 }
 
-Mesh<2> ResultsReader::mesh() const {
-  require_plane();
-  return read_case<2>(layout::in_folder(folder_, layout::case_copy)).mesh;
+template <int Dim>
+Mesh<Dim> ResultsReader::mesh() const {
+  require_dimension(Dim);
+  return read_case<Dim>(layout::in_folder(folder_, layout::case_copy)).mesh;
 }
 
-std::vector<Vector<2>> ResultsReader::point_positions(std::size_t index,
-                                                      const std::string& kind) const {
-  require_plane();
+template <int Dim>
+std::vector<Vector<Dim>> ResultsReader::point_positions(std::size_t index,
+                                                        const std::string& kind) const {
+  require_dimension(Dim);
   const Hdf5File file = file_of(index, kind, points_dataset);
   const std::vector<double> coordinates = file.read_doubles(points_dataset);
-  std::vector<Vector<2>> positions;
+  std::vector<Vector<Dim>> positions;
   for (std::size_t i = 0; i < 3 * row_count(file, points_dataset, 3); i += 3) {
-    positions.emplace_back(coordinates[i], coordinates[i + 1]);
+    positions.emplace_back(Vector<Dim>(coordinates.data() + i));
   }
   return positions;
 }
@@ -417,5 +419,12 @@ std::vector<std::string> ResultsReader::field_names(std::size_t index,
   }
   return file.children(field_group(where));
 }
+
+template Mesh<2> ResultsReader::mesh() const;
+template Mesh<3> ResultsReader::mesh() const;
+template std::vector<Vector<2>> ResultsReader::point_positions(std::size_t,
+                                                               const std::string&) const;
+template std::vector<Vector<3>> ResultsReader::point_positions(std::size_t,
+                                                               const std::string&) const;
 
 }  // namespace suffuse

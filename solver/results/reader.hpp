@@ -1,6 +1,6 @@
 #pragma once
 
-/// Reads a results folder. Two-dimensional for now: the dimension is asked of run.json.
+/// Reads a results folder.
 
 #include <map>
 #include <string>
@@ -73,11 +73,14 @@ class ResultsReader {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   /// Path of snapshot `index` of "mesh", "solid" or "liquid".
   [[nodiscard]] std::string snapshot_path(const std::string& kind, std::size_t index) const;
-  /// The mesh with its regions and boundaries. Of plane models, like the next.
-  [[nodiscard]] Mesh<2> mesh() const;
+  /// The mesh with its regions and boundaries. Throws InputError for results of another dimension,
+  /// likewise the next; `with_mesh` serves both.
+  template <int Dim = 2>
+  [[nodiscard]] Mesh<Dim> mesh() const;
   /// Positions of the "solid" or "liquid" points of a snapshot.
-  [[nodiscard]] std::vector<Vector<2>> point_positions(std::size_t index,
-                                                       const std::string& kind) const;
+  template <int Dim = 2>
+  [[nodiscard]] std::vector<Vector<Dim>> point_positions(std::size_t index,
+                                                         const std::string& kind) const;
   /// One field of a snapshot, with values for every element, node or point; `where` is "cell",
   /// "node", "solid", "liquid" or "element_vertex".
   [[nodiscard]] Field field(std::size_t index, const std::string& where,
@@ -86,8 +89,8 @@ class ResultsReader {
                                                      const std::string& where) const;
 
  private:
-  /// Throws InputError for results of three dimensions.
-  void require_plane() const;
+  /// Throws InputError for results of another dimension.
+  void require_dimension(int dimension) const;
   /// Files of one kind; snapshots that it does not have yet are dropped.
   void take_series(const std::string& kind, std::vector<std::string>& files);
   /// The file that holds an object of a snapshot: that of the snapshot, or of the grid that it
@@ -107,5 +110,11 @@ class ResultsReader {
   std::vector<std::string> solid_files_;
   std::vector<std::string> liquid_files_;  ///< none in single-point runs
 };
+
+/// What `use` makes of the mesh, a Mesh<2> or a Mesh<3>.
+template <class Use>
+auto with_mesh(const ResultsReader& results, const Use& use) {
+  return results.dimension() == 3 ? use(results.mesh<3>()) : use(results.mesh<2>());
+}
 
 }  // namespace suffuse

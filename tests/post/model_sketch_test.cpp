@@ -109,7 +109,7 @@ TEST(ModelSketch, EveryOuterEdgeBelongsToOneBoundary) {
   const auto boundaries = sketched_boundaries(ResultsReader(scratch / "run.results"));
   ASSERT_EQ(boundaries.size(), 3U);
   std::size_t edges = 0;
-  for (const auto& boundary : boundaries) edges += boundary.edges.size();
+  for (const auto& boundary : boundaries) edges += boundary.faces.size();
   EXPECT_EQ(edges, 8U);
   EXPECT_EQ(boundaries.back().label, "unnamed: impervious");
 }
