@@ -122,6 +122,7 @@ int add_floor(const ColumnShape& column, double depth, double size) {
                                   geo::addPoint(w, depth, z, size),
                                   geo::addPoint(0.0, depth, z, size)};
   std::vector<int> lines;
+  lines.reserve(points.size());
   for (int i = 0; i < 4; ++i) lines.push_back(geo::addLine(points[i], points[(i + 1) % 4]));
   return geo::addPlaneSurface({geo::addCurveLoop(lines)});
 }

@@ -48,6 +48,13 @@ bool Scene::moves() const {
   return std::ranges::any_of(soils, [](const Soil& soil) { return soil.skeleton.moves(); });
 }
 
+bool Scene::follows_failure(const std::vector<std::string>& regions) const {
+  if (time.failure != AtFailure::by_room) return time.failure == AtFailure::follow;
+  return formulation == Formulation::single_point &&
+         std::ranges::any_of(regions,
+                             [&](const std::string& region) { return is_free_water(region); });
+}
+
 const Soil* Scene::find_soil(const std::string& region) const {
   const auto found = std::ranges::find(soils, region, &Soil::region);
   return found == soils.end() ? nullptr : &*found;

@@ -23,8 +23,9 @@ namespace suffuse {
 enum class Formulation { single_point, double_point };
 enum class MeshStructure { regular, crossed, free };
 enum class FlowScheme { explicit_nodal, implicit_mixed };
-/// When the soil loses its equilibrium, the run ends, or follows it with the soil's inertia.
-enum class AtFailure { stop, follow };
+/// When the soil loses its equilibrium, the run ends, or follows it with the soil's inertia;
+/// `by_room`: where the mesh has room for that.
+enum class AtFailure { by_room, stop, follow };
 enum class TimeStepping { second_order, monotone };
 /// How fluidised fines are carried on the mesh; `by_count`: by the number of explicit steps.
 enum class TransportScheme { by_count, implicit_sweeps, explicit_steps };
@@ -206,7 +207,7 @@ struct TimeSettings {
   TransportScheme transport = TransportScheme::by_count;  ///< single-point only
   std::optional<bool> inertia;  ///< implicit only; without it decided from the scene
   double tolerance = 1e-3;      ///< implicit only: bound of the relative local error of a step
-  AtFailure failure = AtFailure::stop;  ///< of a skeleton that moves
+  AtFailure failure = AtFailure::by_room;  ///< of a skeleton that moves
 };
 
 struct FlowSettings {
@@ -259,6 +260,8 @@ struct Scene {
   /// Free water (n_L = 1, no solid): a region without a soil that is called inflow, outflow,
   /// free_above or free_below, in a double-point scene or one whose soil moves.
   [[nodiscard]] bool is_free_water(const std::string& region) const;
+  /// Whether soil that loses its equilibrium moves on, in a mesh of these regions.
+  [[nodiscard]] bool follows_failure(const std::vector<std::string>& regions) const;
 };
 
 /// Whether a region of this name holds free water where it has no soil: inflow, outflow, free_above

@@ -622,7 +622,8 @@ std::vector<SceneKey> declare_keys() {
              "When soil whose skeleton moves loses its equilibrium: stop, with exit code 3 and the "
              "last equilibrium as the last snapshot; or follow it with its inertia, until it has "
              "come to rest.")
-          .otherwise("stop"),
+          .otherwise_as("follow where a single-point scene has regions of free water; stop where "
+                        "there is no room for the soil"),
       key("time.mass_scaling", at(&Scene::time, &TimeSettings::mass_scaling),
           "Factor on the liquid's inertia that allows larger steps and slows the flow's start-up. "
           "Explicit only.")

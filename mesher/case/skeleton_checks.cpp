@@ -97,7 +97,7 @@ class SkeletonChecks : private SceneCheckBase {
   void check_failure() const {
     const std::string key = "output.failure_every";
     refuse_of_rigid({key});
-    if (!given(key) || !scene_.moves() || scene_.time.failure == AtFailure::follow) return;
+    if (!given(key) || !scene_.moves() || scene_.time.failure != AtFailure::stop) return;
     report(key, "a key of failures that are followed, where the run stops at one",
            "time.failure = \"follow\", or no such key", {"time.failure"});
   }

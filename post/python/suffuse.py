@@ -41,7 +41,7 @@ UNITS = {
     "s": "t dt failure_time", "m": "x y head settlement_max displacement_max", "Pa": "pressure pressure_min pressure_max pressure_scatter",
     "m/s": "speed_max flux_x flux_y", "m3/s": "flux_in flux_out discharge", "m3": "liquid_in liquid_out volume",
     "g/l": "turbidity_out", "W": "power", "J": "energy", "%": "fines_left_percent solid_left_percent",
-    "kg": "solid erodible water fines pending eroded deposited fines_left water_in water_out fines_in fines_out",
+    "kg": "solid erodible water fines pending eroded deposited carried fines_left water_in water_out fines_in fines_out",
     "-": "porosity porosity_mean concentration concentration_out concentration_min concentration_max saturation "
          "volume_defect eos_error pressure_overshoot residual_water residual_grains conductivity_ratio "
          "liquid_points empty_elements empty_elements_total points points_in points_out "

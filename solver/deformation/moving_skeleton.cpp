@@ -301,8 +301,8 @@ void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
 
 template <int Dim>
 bool MovingSkeleton<Dim>::let_fail(double time) {
-  const bool stops = this->soils().scene().time.failure == AtFailure::stop;
-  if (stops || inertia_.acts()) return false;
+  const bool follows = this->soils().scene().follows_failure(this->grid_.mesh.region_names);
+  if (!follows || inertia_.acts()) return false;
   inertia_.begin(points_.size());
   failure_time_ = time;
   step_.reset();

@@ -288,7 +288,8 @@ std::string how_fines_are_carried(const Scene& scene) {
          short_text(explicit_steps_of_a_run) + " explicit steps";
 }
 
-void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
+void describe(const Scene& scene, const std::vector<std::string>& regions,
+              const SolverOptions& options, Plan& plan) {
   const auto say = [&](const std::string& sentence) { plan.sentences.push_back(sentence); };
   if (scene.time.scheme == FlowScheme::explicit_nodal) {
     describe_explicit_flow(scene, plan);
@@ -315,12 +316,12 @@ void describe(const Scene& scene, const SolverOptions& options, Plan& plan) {
     }
   }
   if (scene.moves()) {
-    const bool follow = scene.time.failure == AtFailure::follow;
+    const bool follow = scene.follows_failure(regions);
     say("run: motion of the solid, in equilibrium (quasi-static), with each step of the flow");
-    say(follow ? "skip: inertia of the solid, until it loses its equilibrium (time.failure = "
-                 "\"follow\")"
+    say(follow ? "skip: inertia of the solid, until it loses its equilibrium and is followed "
+                 "(time.failure)"
                : "skip: inertia of the solid; the run stops where it loses its equilibrium "
-                 "(time.failure = \"stop\")");
+                 "(time.failure)");
   } else {
     say("skip: motion of the solid, the skeleton is rigid");
   }
@@ -462,7 +463,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   warn_of_mass_scaling(scene, plan);
   warn_of_pressures_on_slopes(c, grid, conditions, plan);
   find_speed_that_drag_follows(c, plan);
-  describe(scene, options, plan);
+  describe(scene, c.mesh.region_names, options, plan);
   if constexpr (Dim == 3) {
     plan.sentences.push_back(
         std::string("run: linear systems of the flow, ") +

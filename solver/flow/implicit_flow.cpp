@@ -319,8 +319,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
                                const std::vector<double>& face_concentration) {
   FlowSolver<Dim>::update(time, pores, face_concentration);
   if (blending_.expects()) {
-    // Points that cross from element to element make densities and pores scatter: a drift is what
-    // lasts.
+    // Points that change elements make densities and pores scatter: a drift is what lasts.
     const bool scattered = this->scene().formulation == Formulation::double_point || solid_.moves();
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
@@ -359,7 +358,8 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
     eos_error_ = std::max(eos_error_, std::abs(mismatch[e]) / volume[e]);
   }
   // Water without compressibility fits by construction; its round-off has nowhere to go.
-  if (std::isinf(liquid.bulk_modulus)) return;
+  // Air that moves with the soil takes the place of what does not fit.
+  if (std::isinf(liquid.bulk_modulus) || !scheme_.soils().soil_share.empty()) return;
   relaxation_.observe(std::move(mismatch), volume);
   if (reuse_.active()) update_steady_flow();
 }

@@ -26,21 +26,22 @@ void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
 template <int Dim>
 MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air,
                         const std::vector<double>& porosity, const std::vector<double>& face_volume)
-    : grid_(grid), solid_(face_volume), water_(face_volume) {
+    : grid_(grid), solid_(face_volume.size(), 0.0), water_(solid_) {
   const std::vector<double> saturation = saturation_of(grid, air, porosity);
   for (int f = 0; f < grid.face_count(); ++f) {
+    // Where soil leaves the outer boundary of the mesh, air takes its place.
+    if (grid.is_outer(f)) continue;
     // From the element that takes in what goes against the soil.
     const double pores = taken_in(f, -face_volume[f], porosity);
-    solid_[f] *= 1.0 - pores;
-    water_[f] *= pores * taken_in(f, -face_volume[f], saturation);
+    solid_[f] = (1.0 - pores) * face_volume[f];
+    water_[f] = pores * taken_in(f, -face_volume[f], saturation) * face_volume[f];
   }
 }
 
 template <int Dim>
 double MovedAir<Dim>::taken_in(int face, double volume,
                                const std::vector<double>& of_element) const {
-  const bool into_right = volume > 0.0 && !grid_.is_outer(face);
-  return of_element[into_right ? grid_.face_right[face] : grid_.face_left[face]];
+  return of_element[volume > 0.0 ? grid_.face_right[face] : grid_.face_left[face]];
 }
 
 template <int Dim>
@@ -54,6 +55,7 @@ double MovedAir<Dim>::pores_gained(int e) const {
 
 template <int Dim>
 double MovedAir<Dim>::water(int face, double solid, const std::vector<double>& saturation) const {
+  if (grid_.is_outer(face)) return 0.0;
   const double beyond = solid - solid_[face];
   return water_[face] - taken_in(face, beyond, saturation) * beyond;
 }

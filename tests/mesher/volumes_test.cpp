@@ -145,7 +145,7 @@ TEST(Box, RefusesWhatOnlyTwoDimensionsHave) {
   EXPECT_NE(refused({}, "[[output.section]]\nfrom = [0, 0, 0]\nto = [0, 0, 1]\n")
                 .find("output.section: got a section in three dimensions; expected no such entry"),
             std::string::npos);
-  EXPECT_NE(refused({"gravity=[0.0, 0.0, -9.81]"},
+  EXPECT_NE(refused({"gravity=[0.0, 0.0, -9.81]", "initial.water_level=1.0"},
                     "[soil.specimen.skeleton]\nlaw = \"elastic\"\nyoung = 1e7\npoisson = 0.3\n")
                 .find("a skeleton that moves, in three dimensions; expected no such table"),
             std::string::npos);

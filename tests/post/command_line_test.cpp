@@ -321,10 +321,10 @@ TEST_F(PostCommand, PointOutside) {
 
 TEST_F(PostCommand, BadLine) {
   for (const std::string line : {"0.5,0", "0.5,0:1", "0.5,0:1,x", "0,0:1,1:2,2", "1,2,3:4", ":"}) {
-    expect_refusal(
-        sample_start + "--time 1 --line " + line + " --count 3 --fields porosity", 2,
-        "suffuse-post sample: --line: got \"" + line + "\"; expected x0,y0:x1,y1 or "
-            "x0,y0,z0:x1,y1,z1 in metres");
+    expect_refusal(sample_start + "--time 1 --line " + line + " --count 3 --fields porosity", 2,
+                   "suffuse-post sample: --line: got \"" + line +
+                       "\"; expected x0,y0:x1,y1 or "
+                       "x0,y0,z0:x1,y1,z1 in metres");
   }
 }
 

@@ -251,7 +251,8 @@ class Space : public ::testing::Test {
            "viscosity = 1.0e-3\n[soil.specimen]\n" +
            soil + "[soil.sand]\n" + soil +
            "[[boundary]]\non = \"bottom\"\npressure = 2.0e4\n[[boundary]]\non = \"top\"\n"
-           "pressure = 0.0\n[initial]\nflow = \"steady\"\n[time]\nend = 10.0\n[output]\nevery = 10.0\n";
+           "pressure = 0.0\n[initial]\nflow = \"steady\"\n[time]\nend = 10.0\n[output]\nevery = "
+           "10.0\n";
   }
   static Snapshot snapshot(const Mesh<3>& mesh, double t) {
     Snapshot s;

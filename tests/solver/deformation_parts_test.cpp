@@ -8,6 +8,7 @@
 
 #include "box_mesh.hpp"
 #include "deformation/crossing_forces.hpp"
+#include "deformation/held_by_inertia.hpp"
 #include "deformation/point_motion.hpp"
 #include "deformation/soil_inertia.hpp"
 #include "results/state_archive.hpp"
@@ -614,6 +615,33 @@ TEST(SolidStep, GoesOnFromItsArchiveToTheLastBit) {
   rest.archive(bytes);
   rest.go(3, 6);
   EXPECT_EQ(rest.state(), all.state());
+}
+
+/// Soil of one density that nothing but inertia holds gives way as a fluid does: by dt/rho to the
+/// gradient of pressures.
+TEST(HeldByInertia, IsTheMobilityOfAFluidInShortSteps) {
+  constexpr double density = 2000.0;
+  constexpr double compressibility = 1e-6;  // 1/Pa
+  constexpr double duration = 1e-3;
+  const Mesh<2> mesh = model::crossed_mesh(8, 8, 1.0, 1.0);
+  const Grid<2> grid(mesh);
+  std::vector<double> mass(mesh.node_count(), 0.0);
+  std::vector<double> drained;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    for (const int i : mesh.elements[e]) mass[i] += density * grid.volume[e] / 3.0;
+    drained.push_back(compressibility * grid.volume[e]);
+  }
+  const std::vector<double> held = held_mobility(grid, drained, mass, duration);
+  for (const double mobility : held) EXPECT_NEAR(mobility, duration / density, 1e-20);
+  // In a long step stiffness holds it, with the compressibility that it has at rest.
+  for (const double mobility : held_mobility(grid, drained, mass, 10.0)) EXPECT_EQ(mobility, 0.0);
+  const std::vector<double> in_long_step = held_compressibility(grid, drained, mass, 10.0);
+  const std::vector<double> in_short_step = held_compressibility(grid, drained, mass, 1e-5);
+  const std::vector<double> in_half_step = held_compressibility(grid, drained, mass, 5e-6);
+  for (std::size_t e = 0; e < drained.size(); ++e) {
+    EXPECT_NEAR(in_long_step[e], drained[e], 1e-3 * drained[e]);
+    EXPECT_NEAR(in_short_step[e] / in_half_step[e], 4.0, 1e-3);
+  }
 }
 
 }  // namespace

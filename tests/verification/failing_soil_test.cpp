@@ -137,19 +137,20 @@ Scene bank() {
   return scene;
 }
 
-model::ModelRun bank_run(const Scene& scene) {
-  return model::ModelRun(model::make_case(under_water(model::crossed_mesh(16, 5, 4.0, 1.25),
-                                                      [](const Vector<2>& x) {
-                                                        return x[1] < 0.25 ||
-                                                               (x[1] < 1.0 && x[0] + x[1] < 2.0);
-                                                      }),
-                                          scene));
+model::ModelRun bank_run(const Scene& scene, int threads = 1) {
+  const auto is_soil = [](const Vector<2>& x) {
+    return x[1] < 0.25 || (x[1] < 1.0 && x[0] + x[1] < 2.0);
+  };
+  SolverOptions options;
+  options.threads = threads;
+  return model::ModelRun(
+      model::make_case(under_water(model::crossed_mesh(16, 5, 4.0, 1.25), is_soil), scene),
+      options);
 }
 
 TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
   Scene scene = bank();
   scene.time.end = 12.0;
-  scene.time.failure = AtFailure::follow;
   model::ModelRun run = bank_run(scene);
   const double erodible = run.model().ledger().erodible;
   const double solid = run.model().ledger().solid;
@@ -171,9 +172,8 @@ TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
   EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, solid, 1e-12 * solid);
 }
 
-/// Sand over a water table slides into air as it loses strength. Nothing is lost, and no element is
-/// sucked dry.
-TEST(Bank, SlidesIntoAir) {
+/// Sand over a water table that loses strength, and slides into air.
+Scene bank_in_air() {
   Scene scene = bank();
   scene.water_level = 0.1;
   scene.boundaries.back() = fixed_on("top", Fixing::none);
@@ -184,7 +184,12 @@ TEST(Bank, SlidesIntoAir) {
   soil.skeleton.cohesion = FinesFunction({{1.0, 3e3}, {0.97, 0.0}, {0.0, 0.0}});
   soil.erosion.rate = 1e-3;
   scene.time.end = 12.0;
-  scene.time.failure = AtFailure::follow;
+  return scene;
+}
+
+/// Nothing is lost, and no element is sucked dry.
+TEST(Bank, SlidesIntoAir) {
+  const Scene scene = bank_in_air();
   model::ModelRun run = bank_run(scene);
   const LedgerRow start = run.model().ledger();
   const auto states = run.run({2.0, 12.0}).states;
@@ -201,15 +206,42 @@ TEST(Bank, SlidesIntoAir) {
   EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, start.solid, 1e-12 * start.solid);
 }
 
-TEST(Bank, EndsInItsLastEquilibriumWhereTheSceneDoesNotSayMore) {
+TEST(Bank, EndsInItsLastEquilibriumWhereTheSceneSaysSo) {
   Scene scene = bank();
   scene.time.end = 12.0;
+  scene.time.failure = AtFailure::stop;
   model::ModelRun run = bank_run(scene);
   EXPECT_THROW(run.run({12.0}), EquilibriumLost);
   const HistoryRow row = run.state().history;
   EXPECT_EQ(row.failure_time, 0.0);
   EXPECT_EQ(row.inertia, 0.0);
   EXPECT_GT(run.model().time(), 8.0);
+}
+
+/// A run that is kept while soil slides goes on with the same bits, on another number of threads.
+TEST(Bank, GoesOnFromWithinItsSlide) {
+  Scene scene = bank();
+  scene.time.end = 12.0;
+  constexpr double within = 9.4;
+  constexpr double later = 9.6;
+  model::ModelRun one = bank_run(scene);
+  one.run({within, later});
+  model::ModelRun two = bank_run(scene, 2);
+  two.run({within});
+  ASSERT_TRUE(two.model().solid().has_inertia());
+  StateArchive kept;
+  two.model().archive(kept);
+  model::ModelRun resumed = bank_run(scene, 2);
+  StateArchive given(kept.finish());
+  resumed.model().archive(given);
+  EXPECT_TRUE(resumed.model().solid().has_inertia());
+  resumed.run({later});
+  const Snapshot a = one.model().snapshot(one.model().flow_state());
+  const Snapshot b = resumed.model().snapshot(resumed.model().flow_state());
+  EXPECT_EQ(a.solid_positions, b.solid_positions);
+  for (const auto& [x, y] : {std::pair{&a.cell, &b.cell}, std::pair{&a.solid, &b.solid}}) {
+    for (std::size_t k = 0; k < x->size(); ++k) EXPECT_EQ((*x)[k].values, (*y)[k].values);
+  }
 }
 
 }  // namespace

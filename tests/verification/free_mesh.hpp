@@ -10,7 +10,9 @@ inline Mesh<2> free_mesh(double size) {
   SceneDocument document;
   document.path = "model.toml";
   document.scene = paper_scene();
-  document.scene.geometry = {"", "column", 1.0, 1.0, {}};
+  document.scene.geometry.shape = "column";
+  document.scene.geometry.width = 1.0;
+  document.scene.geometry.height = 1.0;
   document.scene.mesh = {size, MeshStructure::free};
   return build_geometry_of<2>(document).mesh;
 }

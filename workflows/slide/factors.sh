@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The factor of safety through the flood and after the slide, as CSV: factors.sh SOLVER STEM.
+# The factor of safety through the flood, as CSV: factors.sh SOLVER STEM.
 set -eu -o pipefail
 header=
-for time in {0..20000..2500} 22000; do
+for time in {0..20000..2500}; do
   table=$("$1" "$2.case.h5" --strength-reduction --state "$2.results" --time "$time" 2>/dev/null)
   [ -n "$header" ] || { header=done; head -1 <<< "$table"; }
   tail -1 <<< "$table"
