@@ -155,8 +155,10 @@ TEST(FlowNet, HasEqualDischargeBetweenItsStreamlines) {
   constexpr int pieces = 4000;
   for (int k = 0; k < net.tubes; ++k) {
     const double piece = (crossings[k + 1] - crossings[k]) / pieces;
-    std::vector<Vector<2>> places;
-    for (int i = 0; i < pieces; ++i) places.emplace_back(x, crossings[k] + (i + 0.5) * piece);
+    std::vector<Position> places;
+    for (int i = 0; i < pieces; ++i) {
+      places.push_back(Vector<2>(x, crossings[k] + (i + 0.5) * piece));
+    }
     const Table flux = sample(run, {{0.0}, places, {"darcy_flux"}});
     double sum = 0.0;
     for (const double q : flux.column("darcy_flux_x")) sum += q * piece;
