@@ -49,8 +49,7 @@ class Bins {
       result.insert(result.end(), found->second.begin(), found->second.end());
     });
     std::ranges::sort(result);
-    const auto rest = std::ranges::unique(result);
-    result.erase(rest.begin(), rest.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
   }
 
