@@ -223,7 +223,9 @@ void paint_map(vtkContext2D& painter, const Paper& sheet, const Arrows& arrows) 
 
 /// What a picture of a model in space shows.
 SpaceDrawing space_drawing(const Paper& sheet) {
-  const auto& [model, picture, view, width, height, flat] = sheet;
+  const PictureModel& model = sheet.model;
+  const FieldPicture& picture = sheet.picture;
+  const ModelView& view = sheet.view;
   SpaceDrawing drawing;
   const auto pixel = [&](const Vector<3>& x) { return space_pixel(view, x); };
   const auto at_node = [&](int node) { return pixel(model.projected(node)); };
@@ -233,12 +235,12 @@ SpaceDrawing space_drawing(const Paper& sheet) {
   const auto add = [&](const auto& corners, const auto& colors) {
     drawing.add_triangle(corners, colors);
   };
-  const int division = division_of(model, picture, flat);
+  const int division = division_of(model, picture, sheet.flat);
   for (int e = 0; e < model.mesh.element_count() && !picture.hollow; ++e) {
     if (model.visible[e] == 0) continue;
     const auto& [a, b, c] = model.mesh.elements[e];
     add_divided(add, std::array<Vector<3>, 3>{at_node(a), at_node(b), at_node(c)},
-                corner_values(picture, model.mesh, e), picture.scale, division, flat);
+                corner_values(picture, model.mesh, e), picture.scale, division, sheet.flat);
   }
   for (const auto& [corners, color] : picture.inside) {
     drawing.add_triangle({pixel(corners[0]), pixel(corners[1]), pixel(corners[2])},

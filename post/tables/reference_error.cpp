@@ -158,6 +158,7 @@ double interpolate(const TimeSeries& curve, double t, const std::string& path) {
 std::vector<double> volumes_of(const ResultsReader& run) {
   return with_mesh(run, [](const auto& mesh) {
     std::vector<double> volumes;
+    volumes.reserve(mesh.elements.size());
     for (int e = 0; e < mesh.element_count(); ++e) volumes.push_back(element_volume(mesh, e));
     return volumes;
   });
