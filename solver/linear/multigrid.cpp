@@ -112,7 +112,7 @@ void Multigrid::factorise(const Matrix& matrix) {
     Level& fine = levels_.back();
     Matrix coarse = coarsened(fine.matrix, fine.aggregate);
     if (5 * coarse.rows() > 4 * fine.matrix.rows()) break;
-    levels_.emplace_back().matrix = std::move(coarse);
+    levels_.emplace_back().matrix.swap(coarse);
   }
   for (Level& level : levels_) {
     level.diagonal = level.matrix.diagonal();
