@@ -87,7 +87,7 @@ class InnerCuts {
         return;
       }
       report(key,
-             '"' + name + "\", a point at " + place<Dim>(extracted_.mesh.nodes[point->node]) +
+             '"' + name + "\", a point at " + place_text<Dim>(extracted_.mesh.nodes[point->node]) +
                  " without two inner edges that no wall and no other well has",
              "a point in the soil, two elements or more off walls, wells and boundaries");
     }
@@ -101,8 +101,8 @@ class InnerCuts {
       const auto [entry, is_new] = cut_.emplace(face_key<Dim>(face), set.name);
       if (is_new || entry->second == set.name) continue;
       report(key,
-             '"' + set.name + "\", which shares the " + side + " at " + place<Dim>(centre(face)) +
-                 " with \"" + entry->second + '"',
+             '"' + set.name + "\", which shares the " + side + " at " +
+                 place_text<Dim>(centre(face)) + " with \"" + entry->second + '"',
              "walls and wells that share no " + side);
       return;
     }
@@ -115,7 +115,7 @@ class InnerCuts {
       if (!reported.insert(face.name).second) continue;
       report(key_of_.at(face.name),
              '"' + face.name + "\" with a single " + MeshWords<Dim>::side + ", at " +
-                 place<Dim>(centre(face.nodes)) + ", between " +
+                 place_text<Dim>(centre(face.nodes)) + ", between " +
                  (Dim == 2 ? "two ends" : "borders") + " in the soil",
              std::string("a ") + MeshWords<Dim>::boundary + " of at least two " +
                  MeshWords<Dim>::sides + ": a smaller mesh.size there");

@@ -128,7 +128,7 @@ class MeshChecks {
     return box;
   }
   [[nodiscard]] std::string node_at(int node) const {
-    return "node " + std::to_string(tags_.nodes[node]) + " at " + place<Dim>(x_[node]);
+    return "node " + std::to_string(tags_.nodes[node]) + " at " + place_text<Dim>(x_[node]);
   }
   [[nodiscard]] std::string element(int e) const { return std::to_string(tags_.elements[e]); }
   [[nodiscard]] std::string elements(int e, int other) const {
@@ -137,10 +137,10 @@ class MeshChecks {
   /// `from A to B` of an edge, `at A, B and C` of a face.
   [[nodiscard]] std::string places(const Face& face) const {
     if constexpr (Dim == 2) {
-      return "from " + place<Dim>(x_[face[0]]) + " to " + place<Dim>(x_[face[1]]);
+      return "from " + place_text<Dim>(x_[face[0]]) + " to " + place_text<Dim>(x_[face[1]]);
     } else {
-      return "at " + place<Dim>(x_[face[0]]) + ", " + place<Dim>(x_[face[1]]) + " and " +
-             place<Dim>(x_[face[2]]);
+      return "at " + place_text<Dim>(x_[face[0]]) + ", " + place_text<Dim>(x_[face[1]]) + " and " +
+             place_text<Dim>(x_[face[2]]);
     }
   }
   [[nodiscard]] Face nodes_of(const Side& side) const {
@@ -158,7 +158,7 @@ class MeshChecks {
       for (const int other : bins.near({x_[n] - margin, x_[n] + margin})) {
         if ((x_[other] - x_[n]).norm() > tolerance_) continue;
         kind.add("nodes " + std::to_string(tags_.nodes[other]) + " and " +
-                 std::to_string(tags_.nodes[n]) + ", both at " + place<Dim>(x_[n]));
+                 std::to_string(tags_.nodes[n]) + ", both at " + place_text<Dim>(x_[n]));
       }
       bins.add({x_[n], x_[n]}, n);
     }
@@ -192,7 +192,7 @@ class MeshChecks {
   [[nodiscard]] std::string corners_of(int e) const {
     std::string text;
     for (const int node : mesh_.elements[e]) {
-      text += (text.empty() ? "" : ", ") + place<Dim>(x_[node]);
+      text += (text.empty() ? "" : ", ") + place_text<Dim>(x_[node]);
     }
     return text;
   }
@@ -212,8 +212,9 @@ class MeshChecks {
     std::ranges::stable_sort(sides_, {}, &Side::key);
   }
 
-  /// All elements being positively oriented, two neighbours lead around their side in opposite
-  /// directions. Those that lead around it in the same one lie on the same side of it.
+  /// Two neighbours turn around their common side in opposite directions, as all elements are
+  /// positively oriented. Two that turn in the same direction lie on the same side of it: they
+  /// overlap.
   void check_overlaps() {
     ProblemKind kind(problems_, std::string(Words::elements) +
                                     " that do not overlap: the mesh is folded or has one twice");
@@ -371,7 +372,7 @@ class MeshChecks {
     return false;
   }
 
-  /// Per element, the number of the part that it belongs to: those that share a side are of one.
+  /// Per element, the number of its part of the mesh. Elements with a common side are in one part.
   [[nodiscard]] std::vector<int> parts() const {
     std::vector<int> part(mesh_.elements.size());
     std::iota(part.begin(), part.end(), 0);

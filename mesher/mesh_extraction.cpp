@@ -104,7 +104,7 @@ class Extraction {
   [[nodiscard]] std::string place_of(const std::vector<Tag>& nodes) const {
     Vector<Dim> centre = Vector<Dim>::Zero();
     for (Tag node : nodes) centre += position(node) / static_cast<double>(nodes.size());
-    return place<Dim>(centre);
+    return place_text<Dim>(centre);
   }
 
   /// The elements of an entity that have the wanted type; the others are problems.

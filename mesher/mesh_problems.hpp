@@ -9,17 +9,9 @@
 
 #include "case/errors.hpp"
 #include "case/mesh.hpp"
-#include "case/short_number.hpp"
+#include "case/place_text.hpp"
 
 namespace suffuse {
-
-/// `(1, 2)`
-template <int Dim>
-std::string place(const Vector<Dim>& x) {
-  std::string text = "(" + short_number(x[0]);
-  for (int d = 1; d < Dim; ++d) text += ", " + short_number(x[d]);
-  return text + ")";
-}
 
 /// What elements and their sides are called, and the physical groups that hold them.
 template <int Dim>

@@ -7,6 +7,7 @@
 
 #include "case/closest_name.hpp"
 #include "case/faces.hpp"
+#include "case/place_text.hpp"
 #include "case/short_number.hpp"
 #include "case/slit.hpp"
 #include "physics/head.hpp"
@@ -23,13 +24,6 @@ constexpr double on_the_edge = 1e-9;
 
 std::string in_quotes(const std::string& name) {
   return '"' + name + '"';
-}
-
-template <int Dim>
-std::string place(const Vector<Dim>& x) {
-  std::string text = "(" + short_number(x[0]);
-  for (int d = 1; d < Dim; ++d) text += ", " + short_number(x[d]);
-  return text + ")";
 }
 
 template <int Dim>
@@ -186,7 +180,7 @@ class SceneCheck {
     if (!soil.deposition.has_room_limit() || porosity(lowest) > least) return;
     report("soil." + soil.region + ".deposition.porosity_min",
            "n_min = " + short_number(least) + " with n_0 = " + short_number(porosity(lowest)) +
-               " at " + place<Dim>(mesh_.nodes[lowest]),
+               " at " + place_text<Dim>(mesh_.nodes[lowest]),
            "n_min < n_0 everywhere in the region");
   }
 
@@ -194,7 +188,7 @@ class SceneCheck {
     const Vector<Dim>& x = mesh_.nodes[node];
     report(
         "soil." + soil.region + ".porosity_gradient",
-        "n_0 = " + short_number(soil.initial_porosity(x)) + " at " + place<Dim>(x),
+        "n_0 = " + short_number(soil.initial_porosity(x)) + " at " + place_text<Dim>(x),
         "0 < n_0 <= 1 - n_C = " + short_number(soil.porosity_max()) + " everywhere in the region");
   }
 
@@ -266,7 +260,7 @@ class SceneCheck {
       const std::string key = "output.probe[" + std::to_string(i) + "].at";
       check_two_dimensional(key, output.probes[i].at);
       const Vector<Dim> x = position(output.probes[i].at);
-      if (!lies_in_mesh(x)) report(key, place<Dim>(x), "a point of the mesh" + box());
+      if (!lies_in_mesh(x)) report(key, place_text<Dim>(x), "a point of the mesh" + box());
     }
     for (std::size_t i = 0; i < output.sections.size(); ++i) {
       const std::string entry = "output.section[" + std::to_string(i) + "]";
@@ -276,8 +270,8 @@ class SceneCheck {
       if constexpr (Dim == 2) {
         if (section.from == section.to || crosses_mesh(section)) continue;
         report(entry,
-               "a line from " + place<Dim>(position(section.from)) + " to " +
-                   place<Dim>(position(section.to)),
+               "a line from " + place_text<Dim>(position(section.from)) + " to " +
+                   place_text<Dim>(position(section.to)),
                "a line that meets the mesh" + box());
       }
     }
@@ -296,7 +290,7 @@ class SceneCheck {
       low = low.cwiseMin(x);
       high = high.cwiseMax(x);
     }
-    return ", which lies between " + place<Dim>(low) + " and " + place<Dim>(high);
+    return ", which lies between " + place_text<Dim>(low) + " and " + place_text<Dim>(high);
   }
 
   [[nodiscard]] bool lies_in_mesh(const Vector<Dim>& x) const {
@@ -331,7 +325,7 @@ class SceneCheck {
       if (is_new) continue;
       report(key, in_quotes(set.name),
              "a boundary that shares no face with " + in_quotes(entry->second) +
-                 "; both have the one at " + place<Dim>(centre(face)));
+                 "; both have the one at " + place_text<Dim>(centre(face)));
       return;
     }
   }

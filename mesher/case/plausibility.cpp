@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "case/geometry_checks.hpp"
+#include "case/place_text.hpp"
 #include "case/scene_schema.hpp"
 #include "case/short_number.hpp"
 #include "physics/head.hpp"
@@ -27,13 +28,6 @@ constexpr double fastest_soil = 1.0;           // m/s
 constexpr double unnoticed_suction = 0.5;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-template <int Dim>
-std::string place(const Vector<Dim>& x) {
-  std::string text = "(" + short_number(x[0]);
-  for (int d = 1; d < Dim; ++d) text += ", " + short_number(x[d]);
-  return text + ")";
-}
 
 std::string table_of(const Soil& soil) {
   return joined("soil", shown_name(soil.region));
@@ -295,7 +289,7 @@ class Plausibility {
   void warn_of_suction(const Soil& soil, const Suction& worst) {
     warn(joined(table_of(soil), "retention"),
          "none, and a suction of " + short_number(worst.height) + " m of water at " +
-             place<Dim>(worst.at) + ": " + worst.cause +
+             place_text<Dim>(worst.at) + ": " + worst.cause +
              ". Without a retention law the soil stays full of water there; real soil drains, and "
              "conducts less. Up to " +
              short_number(unnoticed_suction) + " m are usual");
