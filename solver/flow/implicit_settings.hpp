@@ -29,4 +29,7 @@ StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool 
 BlendingSettings blending_settings(const Scene& scene, const FlowOptions& options,
                                    bool follows_pores);
 
+/// Whether linear systems of the flow are solved by multigrid, on a mesh of so many faces.
+bool uses_multigrid(int dimension, int faces);
+
 }  // namespace suffuse

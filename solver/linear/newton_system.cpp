@@ -2,6 +2,7 @@
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseLU>
+#include <string>
 
 #include "case/errors.hpp"
 
@@ -41,7 +42,7 @@ void NewtonSystem::factorise(const Eigen::SparseMatrix<double>& nearly) {
   const Eigen::Map<const Eigen::VectorXd> values(nearly.valuePtr(), nearly.nonZeros());
   if (values.size() == factored_.size() && values == factored_) return;
   factored_.resize(0);
-  factor_.factorise(nearly);
+  factor_->factorise(nearly);
   factored_ = values;
   ++counts_.factorisations;
 }
@@ -50,13 +51,17 @@ void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const Eigen:
                          Eigen::VectorXd& x, double accuracy) {
   ++counts_.solves;
   Eigen::BiCGSTAB<Eigen::SparseMatrix<double>, FactorPreconditioner> iterations;
-  iterations.preconditioner().factor = &factor_;
+  iterations.preconditioner().factor = factor_.get();
   iterations.setTolerance(accuracy);
   iterations.setMaxIterations(max_iterations);
   iterations.compute(matrix);
   x = iterations.solve(rhs);
   counts_.iterations += iterations.iterations();
   if (iterations.info() == Eigen::Success && x.allFinite()) return;
+  if (!factor_->is_exact()) {
+    throw NumericalError("the pressures were not found in " + std::to_string(max_iterations) +
+                         " iterations");
+  }
   Eigen::SparseLU<Eigen::SparseMatrix<double>> direct(matrix);
   if (direct.info() == Eigen::Success) x = direct.solve(rhs);
   if (direct.info() != Eigen::Success || !x.allFinite()) {

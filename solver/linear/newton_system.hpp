@@ -5,6 +5,8 @@
 /// factor of the symmetric one, or directly where that takes long.
 
 #include <Eigen/SparseCore>
+#include <memory>
+#include <utility>
 
 #include "linear/cholesky_factor.hpp"
 #include "linear/lagged_preconditioner.hpp"
@@ -13,11 +15,16 @@ namespace suffuse {
 
 class NewtonSystem {
  public:
+  explicit NewtonSystem(std::unique_ptr<Factor> factor = std::make_unique<CholeskyFactor>())
+      : factor_(std::move(factor)) {}
+
   /// The symmetric matrix, nearly the one to be solved; with the values of the last call nothing is
   /// done. Throws NumericalError when it is not positive definite.
   void factorise(const Eigen::SparseMatrix<double>& nearly);
 
-  /// Sets x to the solution of matrix x = rhs. Throws NumericalError where there is none.
+  /// Sets x to the solution of matrix x = rhs. Throws NumericalError where there is none, and where
+  /// iterations with a factor that is not exact do not find it: such matrices are too large to be
+  /// solved directly.
   /// \param accuracy  of the residual, relative to the right-hand side
   void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
              Eigen::VectorXd& x, double accuracy = 1e-9);
@@ -32,11 +39,11 @@ class NewtonSystem {
     if (factored_.size() != pattern.nonZeros()) archive.misfit();
     Eigen::SparseMatrix<double> matrix = pattern;
     Eigen::Map<Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()) = factored_;
-    factor_.factorise(matrix);
+    factor_->factorise(matrix);
   }
 
  private:
-  CholeskyFactor factor_;
+  std::unique_ptr<Factor> factor_;
   Eigen::VectorXd factored_;  ///< values of the matrix that is factored
   SolveCounts counts_;
 };
