@@ -26,12 +26,16 @@ class OutputTimes {
     return !finished() && (next() <= time || is_same_time(next(), time));
   }
   [[nodiscard]] bool finished() const { return last_ >= end_; }
-  /// The time before `next`, s; negative: none.
-  [[nodiscard]] double last() const { return last_; }
   /// Number of times that are past.
   [[nodiscard]] long past() const { return past_; }
   /// The end is that of the scene: a run that has reached it may be restored with a later one.
   void archive(auto& archive) { archive(index_, past_, last_); }
+  /// Whether the next time has come, but for round-off; then moves on to the one after it.
+  bool take(double time) {
+    const bool due = is_due(time);
+    if (due) advance();
+    return due;
+  }
   void advance() {
     last_ = next();
     ++past_;
@@ -97,7 +101,9 @@ class OutputSchedule {
     if (!failure_every_ || !fails) {
       in_failure_ = none;
     } else if (in_failure_ == none) {
-      in_failure_ = std::floor(time / *failure_every_ + 1.0 + 1e-9) * *failure_every_;
+      const double multiple = std::floor(time / *failure_every_) + 1.0;
+      in_failure_ = multiple * *failure_every_;
+      if (is_same_time(in_failure_, time)) in_failure_ = (multiple + 1.0) * *failure_every_;
     }
   }
 
@@ -113,9 +119,7 @@ class OutputSchedule {
   Due take(double time) {
     const bool in_failure =
         in_failure_ <= time || (in_failure_ != none && is_same_time(in_failure_, time));
-    const Due due{rows_.is_due(time) || in_failure, snapshots_.is_due(time) || in_failure};
-    if (rows_.is_due(time)) rows_.advance();
-    if (snapshots_.is_due(time)) snapshots_.advance();
+    const Due due{rows_.take(time) || in_failure, snapshots_.take(time) || in_failure};
     if (due.row) past_rows_.add(time);
     if (due.snapshot) past_snapshots_.add(time);
     if (in_failure) in_failure_ = none;

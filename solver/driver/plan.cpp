@@ -10,7 +10,7 @@
 #include "case/scene_schema.hpp"
 #include "driver/exchange_sentences.hpp"
 #include "flow/flow_scales.hpp"
-#include "flow/implicit_mixed.hpp"
+#include "flow/implicit_settings.hpp"
 #include "flow/nodal_operator.hpp"
 #include "formulation/point_checks.hpp"
 #include "formulation/single_point.hpp"
@@ -467,7 +467,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   if constexpr (Dim == 3) {
     plan.sentences.push_back(
         std::string("run: linear systems of the flow, ") +
-        (prefers_multigrid(Dim, grid.face_count()) ? "multigrid, " : "a direct factor, ") +
+        (uses_multigrid(Dim, grid.face_count()) ? "multigrid, " : "a direct factor, ") +
         std::to_string(grid.face_count()) + " faces");
   }
   return plan;

@@ -120,7 +120,7 @@ class Run final : public OutputSink<Dim> {
                             writer_.write_snapshot(std::move(snapshot));
                           });
     // Rows without any snapshot would be results from which no run can go on.
-    if (loop_.schedule().snapshots().past() == 1) finish_writing();
+    if (loop_.schedule().past_snapshots().count == 1) finish_writing();
     since_saved_ = Stopwatch();
   }
 

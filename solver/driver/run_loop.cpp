@@ -7,7 +7,7 @@ namespace suffuse {
 
 template <int Dim>
 void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
-  const bool at_the_start = schedule_.rows().past() == 0;
+  const bool at_the_start = schedule_.past_rows().count == 0;
   if (at_the_start) output(sink);
   bool goes_on = true;
   while (goes_on && !schedule_.finished() && !interrupted()) {

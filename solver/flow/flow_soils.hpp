@@ -4,6 +4,7 @@
 /// element.
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "flow/flow.hpp"
@@ -16,7 +17,8 @@ namespace suffuse {
 template <int Dim>
 struct FlowSoils {
   std::vector<RetentionModel> retention;  ///< per element; empty: saturated at any pressure
-  /// Share of an element's pores that is soil's, per element; empty: all. The rest is free space.
+  /// Share of an element's pores that is soil's, per element; the rest is free space. Empty: all is
+  /// soil's, and air stays where it is.
   std::vector<double> soil_share;
   RetentionModel free_space;
   double head_per_pressure = 0.0;  ///< 1 / (rho_w 9.81 m/s2), m/Pa
@@ -25,6 +27,8 @@ struct FlowSoils {
   VectorField<Dim> bedding;
 
   [[nodiscard]] bool saturated() const { return retention.empty(); }
+  /// Whether the air in pores moves with soil that moves.
+  [[nodiscard]] bool air_moves() const { return !soil_share.empty(); }
   /// S and k_r of an element's soil at a pressure in Pa, and dS/dp, 1/Pa.
   [[nodiscard]] double saturation(int e, double pressure) const {
     const double psi = pressure * head_per_pressure;
@@ -35,10 +39,14 @@ struct FlowSoils {
     return head_per_pressure *
            mixed(e, retention[e].capacity(psi), [&] { return free_space.capacity(psi); });
   }
-  /// Pressure at which dS/dp is largest, Pa; 0 in soil that stays saturated.
-  [[nodiscard]] double steepest(int e) const {
-    const RetentionModel& model = retention[e];
-    return model.law ? model.law->steepest(model.parameters) / head_per_pressure : 0.0;
+  /// Pressures at which dS/dp of the soil and of free space in the element is largest, Pa; 0 where
+  /// there is no such soil, or it stays saturated.
+  [[nodiscard]] std::array<double, 2> steepest(int e) const {
+    const auto of = [this](const RetentionModel& model) {
+      return model.law ? model.law->steepest(model.parameters) / head_per_pressure : 0.0;
+    };
+    const bool is_mixed = air_moves() && soil_share[e] < 1.0;
+    return {of(retention[e]), is_mixed ? of(free_space) : 0.0};
   }
   /// Not zero however dry the soil is: pressures are those of a linear system.
   [[nodiscard]] double relative_conductivity(int e, double pressure) const {
@@ -56,12 +64,12 @@ struct FlowSoils {
     const double residual =
         mixed(e, retention[e].residual_saturation, [&] { return free_space.residual_saturation; });
     const double effective = std::max(0.0, (saturation - residual) / (1.0 - residual));
-    return soil_share.empty() ? effective : soil_share[e] * effective;
+    return air_moves() ? soil_share[e] * effective : effective;
   }
 
  private:
   [[nodiscard]] double mixed(int e, double of_soil, const auto& of_free_space) const {
-    if (soil_share.empty() || soil_share[e] == 1.0) return of_soil;
+    if (!air_moves() || soil_share[e] == 1.0) return of_soil;
     return soil_share[e] * of_soil + (1.0 - soil_share[e]) * of_free_space();
   }
 };

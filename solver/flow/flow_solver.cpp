@@ -283,7 +283,7 @@ void FlowSolver<Dim>::warn_of_suction(double time) {
   const std::vector<double>& p = pressure();
   int lowest = -1;
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    if (p[e] >= noticed || soils_.soil_of_element(e).drains()) continue;
+    if (p[e] >= noticed || !soils_.is_soil(e) || soils_.soil_of_element(e).drains()) continue;
     if (lowest < 0 || p[e] < p[lowest]) lowest = e;
   }
   if (lowest < 0) return;

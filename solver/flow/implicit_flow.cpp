@@ -64,8 +64,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::move_solid(MixedStep<Dim>& step, FlowProgress& progress) {
   const SolidMotion& motion = solid_.accept_motion();
   progress.relative = step.face_volume;
-  const ElementField<Dim> air =
-      scheme_.soils().soil_share.empty() ? ElementField<Dim>() : now_.state.air;
+  const ElementField<Dim> air = scheme_.soils().air_moves() ? now_.state.air : ElementField<Dim>();
   move_liquid(this->grid(), motion, air, forcing_.back().coefficients.porosity, step);
   progress.room_gained.resize(motion.solid_gain.size(), 0.0);
   for (std::size_t e = 0; e < motion.solid_gain.size(); ++e) {
@@ -184,7 +183,7 @@ void ImplicitFlow<Dim>::find_forcing(const FlowInterval<Dim>& interval, double d
     const double time = interval.start + shares[stage] * dt;
     forcing.coefficients = follows_pores_ ? coefficients_at(interval, time) : this->coefficients_;
     blending_.blend(time - interval.start, this->coefficients_, forcing.coefficients);
-    if (!scheme_.soils().soil_share.empty()) {
+    if (scheme_.soils().air_moves()) {
       keep_pores(this->coefficients_.porosity, forcing.coefficients);
     }
     if (forcing.conditions.empty()) forcing.conditions = this->conditions_;
@@ -326,7 +325,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     // Resistances were right at the start of the step: their mean error is half that at its end.
     const double error = blending_.learn(this->coefficients_, dt, weight, losses());
     // Soil that fails changes them by its motion, of which nothing is expected.
-    const bool shown = solid_.has_inertia() || (!scheme_.soils().soil_share.empty());
+    const bool shown = solid_.has_inertia() || scheme_.soils().air_moves();
     if (!shown) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
@@ -359,7 +358,7 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
   }
   // Water without compressibility fits by construction; its round-off has nowhere to go.
   // Air that moves with the soil takes the place of what does not fit.
-  if (std::isinf(liquid.bulk_modulus) || !scheme_.soils().soil_share.empty()) return;
+  if (std::isinf(liquid.bulk_modulus) || scheme_.soils().air_moves()) return;
   relaxation_.observe(std::move(mismatch), volume);
   if (reuse_.active()) update_steady_flow();
 }
@@ -424,7 +423,7 @@ double ImplicitFlow<Dim>::first_step(bool at_rest) const {
 template <int Dim>
 double ImplicitFlow<Dim>::filling_time() const {
   double smallest = std::ranges::min(this->coefficients_.water_volume);
-  if (!scheme_.soils().soil_share.empty()) {
+  if (scheme_.soils().air_moves()) {
     // Elements of air hold next to no water.
     smallest = std::numeric_limits<double>::infinity();
     for (int e = 0; e < this->grid().mesh.element_count(); ++e) {

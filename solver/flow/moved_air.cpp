@@ -1,23 +1,34 @@
 #include "flow/moved_air.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace suffuse {
 namespace {
 
-/// Air takes the place that water and solid leave, to the last digit. `before`: at the start of the
-/// step; `liquid` has crossed the faces, m3.
+/// Air takes the place that water and solid leave, to the last digit: where there is water. Where
+/// they need place, air that is there leaves it. `before`: at the start of the step; `liquid` has
+/// crossed the faces, m3.
 template <int Dim>
 void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
-                const std::vector<double>& liquid, const std::vector<double>& solid_gain,
-                ElementField<Dim>& air) {
+                const std::vector<double>& porosity, const std::vector<double>& liquid,
+                const std::vector<double>& solid_gain, ElementField<Dim>& air) {
   for (std::size_t e = 0; e < air.size(); ++e) {
     double left = element_sum<Dim>(before[e]) - solid_gain[e];
     for (int k = 0; k <= Dim; ++k) {
       left += grid.element_face_sign[e][k] * liquid[grid.element_face[e][k]];
     }
     const double missing = left - element_sum<Dim>(air[e]);
-    for (double& side : air[e]) side += missing / (Dim + 1);
+    const double room = porosity[e] * grid.volume[e] / (Dim + 1);
+    std::array<double, Dim + 1> share;
+    double sum = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      share[k] = std::max(0.0, missing < 0.0 ? air[e][k] : room - air[e][k]);
+      sum += share[k];
+    }
+    for (int k = 0; k <= Dim; ++k) {
+      air[e][k] += missing * (sum > 0.0 ? share[k] / sum : 1.0 / (Dim + 1));
+    }
   }
 }
 
@@ -87,7 +98,7 @@ void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const Element
   for (int f = 0; f < grid.face_count(); ++f) {
     step.face_volume[f] += moved.water(f, motion.solid_face_volume[f], saturation);
   }
-  take_place(grid, air, step.face_volume, motion.solid_gain, step.end.air);
+  take_place(grid, air, porosity, step.face_volume, motion.solid_gain, step.end.air);
 }
 
 template <int Dim>

@@ -355,11 +355,13 @@ void ImplicitMixed<Dim>::limit_change() {
     if (is_held(f)) return;
     for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
       if (e < 0) continue;
-      const double steepest = soils_.steepest(e);
-      const double way = steepest - pressure.reference[f];
-      const bool passes = steepest < 0.0 && way != 0.0 && (way > 0.0) == (pressure.rise[f] > 0.0) &&
-                          std::abs(pressure.rise[f]) > std::abs(way);
-      if (passes) pressure.rise[f] = way;
+      for (const double steepest : soils_.steepest(e)) {
+        const double way = steepest - pressure.reference[f];
+        const bool passes = steepest < 0.0 && way != 0.0 &&
+                            (way > 0.0) == (pressure.rise[f] > 0.0) &&
+                            std::abs(pressure.rise[f]) > std::abs(way);
+        if (passes) pressure.rise[f] = way;
+      }
     }
     const double suction = std::abs(pressure.reference[f]) + 1.0 / soils_.head_per_pressure;
     pressure.rise[f] = std::max(pressure.rise[f], -max_suction_growth * suction);

@@ -88,9 +88,8 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
       mixing = AndersonMixing(memory);
       continue;
     }
-    const std::vector<double> moved = soils.soil_share.empty()
-                                          ? motion.face_volume
-                                          : without_air(motion, start.air, at_start, forcing);
+    const std::vector<double> moved =
+        !soils.air_moves() ? motion.face_volume : without_air(motion, start.air, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
     forcing.expected_rise.assign(rise.data(), rise.data() + rise.size());
     MixedStep<Dim> step = scheme.step(start, dt, {&forcing});
@@ -124,7 +123,7 @@ std::vector<double> SolidCoupling<Dim>::held_by_soil(const FlowSoils<Dim>& soils
   const std::vector<double> saturation = saturation_of(grid_, air, forcing.coefficients.porosity);
   for (std::size_t e = 0; e < saturation.size(); ++e) {
     // Suction acts on the soil, and the soil on the water, as far as pores are filled.
-    if (pressure[e] >= 0.0 || soils.soil_share.empty()) continue;
+    if (pressure[e] >= 0.0 || !soils.air_moves()) continue;
     const double filled = soils.suction_share(static_cast<int>(e), saturation[e]);
     result[e] *= filled < least_suction_share ? 0.0 : filled * filled;
   }

@@ -116,6 +116,34 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfWhatLeaves) {
   }
 }
 
+/// A side that holds no air gives none, and one that holds no water takes none.
+TEST_F(MovedAirTest, AirOfASideStaysWithinItsRoom) {
+  std::vector<double> volume(grid_.face_count(), 0.0);
+  SolidMotion still;
+  still.face_volume = still.solid_face_volume = volume;
+  still.solid_gain.assign(porosity_.size(), 0.0);
+  for (const double moved : {-0.3, 0.3}) {
+    MixedStep<2> step;
+    step.face_volume = volume;
+    step.end.air = air_;
+    ElementField<2> before = air_;
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      const double room = porosity_[e] * grid_.volume[e] / 3.0;
+      step.end.air[e] = {0.0, 0.5 * room, room};
+      before[e] = {0.0, 0.5 * room, (1.0 + moved) * room};
+    }
+    move_liquid(grid_, still, before, porosity_, step);
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      const double room = porosity_[e] * grid_.volume[e] / 3.0;
+      for (const double air : step.end.air[e]) {
+        EXPECT_GE(air, 0.0);
+        EXPECT_LE(air, room * (1.0 + 1e-12));
+      }
+      EXPECT_NEAR(element_sum<2>(step.end.air[e]), (1.5 + moved) * room, 1e-15);
+    }
+  }
+}
+
 /// Soil that moves has less than its residual saturation where it is dry enough, and its capacity
 /// is the slope of its saturation.
 TEST(DryingSoil, LosesWhatItRetains) {

@@ -154,7 +154,7 @@ TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
   model::ModelRun run = bank_run(scene);
   const double erodible = run.model().ledger().erodible;
   const double solid = run.model().ledger().solid;
-  const auto states = run.run({8.0, 11.0}).states;
+  const auto states = run.run({7.0, 11.0}).states;
   EXPECT_EQ(states[0].history.failure_time, 0.0);
   EXPECT_EQ(states[0].history.inertia, 0.0);
   EXPECT_LT(states[0].history.displacement_max, 0.03);
