@@ -97,7 +97,8 @@ void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Scene& sc
 
 template <int Dim>
 void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
-                      const FinesState<Dim>& liquid, const FlowState<Dim>& flow, Snapshot& result) {
+                      const FinesState<Dim>& liquid, const FlowState<Dim>& flow,
+                      const std::vector<double>& acting_concentration, Snapshot& result) {
   using Nodes = FieldNodes<Dim>;
   Field solid_fraction = scalar("solid_fraction", "1");
   Field erodible = scalar("erodible_fraction", "1");
@@ -123,7 +124,8 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
     const double c = Nodes::value(c_node, points.barycentric[p]);
     concentration.values.push_back(c);
     fines.values.push_back(Nodes::value(f_node, points.barycentric[p]));
-    rate.values.push_back(solid.exchange_rate_at(p, n, c, flow.time, flows).eroded);
+    const double acting = acting_concentration.empty() ? c : acting_concentration[e];
+    rate.values.push_back(solid.exchange_rate_at(p, n, acting, flow.time, flows).eroded);
     pressure.values.push_back(flow.pressure[e]);
   }
   result.solid = {{"porosity", "1", 1, solid.porosity()},
@@ -140,20 +142,23 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
 template <int Dim>
 Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                           const FinesState<Dim>& liquid, const FlowState<Dim>& flow,
-                          const Scene& scene, long step) {
+                          const Scene& scene, long step,
+                          const std::vector<double>& acting_concentration) {
   Snapshot result;
   result.time = flow.time;
   result.step = step;
   add_pores(grid, solid, liquid, flow.saturation, result);
   add_flow(grid, flow, scene, result);
-  add_solid_points(grid, solid, liquid, flow, result);
+  add_solid_points(grid, solid, liquid, flow, acting_concentration, result);
   solid.describe(result);
   return result;
 }
 
 template Snapshot element_snapshot(const Grid<2>&, const Skeleton<2>&, const FinesState<2>&,
-                                   const FlowState<2>&, const Scene&, long);
+                                   const FlowState<2>&, const Scene&, long,
+                                   const std::vector<double>&);
 template Snapshot element_snapshot(const Grid<3>&, const Skeleton<3>&, const FinesState<3>&,
-                                   const FlowState<3>&, const Scene&, long);
+                                   const FlowState<3>&, const Scene&, long,
+                                   const std::vector<double>&);
 
 }  // namespace suffuse

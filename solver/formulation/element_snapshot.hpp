@@ -11,10 +11,12 @@
 namespace suffuse {
 
 /// `liquid`: pores and fines in them, per element and field node; `step`: number of flow steps so
-/// far. Heads at nodes come with gravity, saturations of elements where the flow has them.
+/// far; `acting_concentration`: per element, what laws of erosion act on where it is not the field
+/// of `liquid`. Heads at nodes come with gravity, saturations of elements where the flow has them.
 template <int Dim>
 Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                           const FinesState<Dim>& liquid, const FlowState<Dim>& flow,
-                          const Scene& scene, long step);
+                          const Scene& scene, long step,
+                          const std::vector<double>& acting_concentration = {});
 
 }  // namespace suffuse

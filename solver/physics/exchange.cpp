@@ -182,10 +182,14 @@ Exchange SoilVolume::integrated() const {
     }
     erodes = erodes || bare;
     h = std::min(h, 1.0 - done);
-    const Step next = step(x, h, erodes);
+    Step next = step(x, h, erodes);
+    // Where nothing is caught nothing comes back, which the error of a step could be.
+    if (caught_ == 0.0) next.x = std::max(next.x, x);
     const double shortest = count < many_steps ? 1e-15 : 1e-4;
     const double factor = 0.9 * std::pow(tolerance / std::max(next.error, 1e-300), 0.2);
-    if (next.error > tolerance && h > shortest) {
+    // Beyond its bounds a law may have no value.
+    const bool fails = !(next.error <= tolerance);
+    if (fails && h > shortest) {
       h = std::max(shortest, h * std::max(0.2, factor));
       continue;
     }
@@ -196,7 +200,7 @@ Exchange SoilVolume::integrated() const {
     const double missing = crosses ? 0.0 : std::max(0.0, -available() - next.x);
     x = crosses ? erodible_ : next.x + missing;
     deposited += share * next.deposited - missing;
-    done += next.error > tolerance ? h : share * h;
+    done += fails ? h : share * h;
     h = std::max(shortest, h * std::min(5.0, factor));
   }
   return {x + deposited, deposited};
@@ -230,6 +234,8 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
     }
     const double caught = catch_rate(model.deposition, flow, flow.flux()) * (to - from);
     if (scaled == 0.0 && (caught == 0.0 || flow.concentration <= 0.0)) return {};
+    // Where the grains lock there is no drive.
+    if (!std::isfinite(scaled)) return {scaled, unset};
     return SoilVolume(model, place, flow, scaled, caught).integrated();
   };
   if (!erodes(model.erosion) || to <= model.erosion.start) return with_drives(0.0, 0.0);

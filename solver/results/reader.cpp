@@ -301,6 +301,9 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
   } catch (const InputError& error) {
     throw FileError(path + ": the scene within is not valid:\n" + error.what());
   }
+  if (dimension_ != 2 && dimension_ != 3) {
+    throw FileError(path + ": dimension: got " + std::to_string(dimension_) + "; expected 2 or 3");
+  }
   const Series mesh = read_series(folder, "mesh");
   times_ = mesh.times;
   mesh_files_ = mesh.files;

@@ -173,6 +173,52 @@ TEST(Autocatalysis, GrowsAsItsIntegralSays) {
   EXPECT_EQ(exchange_over(m, {n_0, n_0}, flow_of(1e-3, 0.0), 0.0, 1e3).eroded, 0.0);
 }
 
+/// Of the last fines, fewer than the steps of an integral tell apart: n_e = n_e0 exp(-S c).
+TEST(Autocatalysis, GivesNothingBack) {
+  const double c = 0.05;
+  const ExchangeModel m = that_erodes("autocatalytic", "time", 1.0);
+  for (double left = 1e-14; left < 1e-8; left *= 3.0) {
+    for (double s = 1.0; s < 100.0; s *= 1.3) {
+      PlaceFlow flow = flow_of(0.0, c);
+      flow.motion = LiquidMotion::flows_on;
+      const Exchange x = exchange_over(m, {n_0, n_max - left}, flow, 0.0, s / c);
+      EXPECT_GE(x.eroded, 0.0) << left << ' ' << s;
+      EXPECT_EQ(x.deposited, 0.0) << left << ' ' << s;
+      EXPECT_NEAR(x.eroded, left * (1.0 - std::exp(-s)), 1e-11) << left << ' ' << s;
+    }
+  }
+}
+
+/// Clean liquid leaves no deposits: soil that catches fines erodes as soil that does not, whose
+/// erosion is exact. A step of the integral may come to places where the law has no value.
+TEST(Exchange, OfCleanLiquidIsErosionAlone) {
+  for (const char* law : {"constant", "logarithmic", "first-order"}) {
+    for (double rate = 1e-4; rate < 1e4; rate *= 1.7) {
+      ExchangeModel m = that_erodes(law, "time", rate);
+      m.erosion.residual = {{{0.0, 0.05}}};
+      const double alone = exchange_over(m, {n_0, n_0}, flow_of(1e-5, 0.0), 0.0, 1.0).eroded;
+      m.deposition.coefficient = 2.0;
+      PlaceFlow flow = flow_of(1e-5, 0.0);
+      flow.motion = LiquidMotion::flows_on;
+      const Exchange both = exchange_over(m, {n_0, n_0}, flow, 0.0, 1.0);
+      EXPECT_NEAR(both.eroded, alone, 1e-9) << law << ' ' << rate;
+      EXPECT_EQ(both.deposited, 0.0) << law << ' ' << rate;
+    }
+  }
+}
+
+/// Whoever looks for the concentration that balances an element asks beyond where grains lock too.
+TEST(Exchange, InLockedLiquidHasNoValue) {
+  ExchangeModel m = that_erodes("logarithmic", "power", 1.0);
+  m.deposition.coefficient = 2.0;
+  m.viscosity = {viscosity_laws()[1], 0.62};
+  PlaceFlow flow = flow_of(1e-5, 1.0);
+  flow.motion = LiquidMotion::flows_on;
+  EXPECT_FALSE(std::isfinite(exchange_over(m, {n_0, n_0}, flow, 0.0, 1.0).into_liquid()));
+  flow.concentration = 0.61;
+  EXPECT_TRUE(std::isfinite(exchange_over(m, {n_0, n_0}, flow, 0.0, 1.0).into_liquid()));
+}
+
 TEST(CriticalConcentration, StopsErosion) {
   ExchangeModel m = that_erodes("constant", "time", 1e-3);
   m.erosion.critical_concentration = 0.1;

@@ -461,5 +461,50 @@ TEST(Snapshots, HaveHeadsUnderGravityAndSaturationsWhereTheFlowHasThem) {
   EXPECT_EQ(find(snapshot.cell, "saturation")->values, flow.saturation);
 }
 
+/// The highest place is free water, which has no soil that could drain.
+TEST(Suction, IsSaidOfSoilAlone) {
+  LayerSettings layers;
+  layers.inflow = layers.above = layers.below = layers.outflow = 1;
+  Scene scene = model::double_point_scene(1e-4, 0.0);
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.water_level = -1.0;
+  scene.initial_flow = InitialFlow::rest;
+  model::DoublePointRun run(
+      model::make_double_point_case(model::layered_mesh(4, layers), std::move(scene)));
+  int found = 0;
+  for (const std::string& warning : run.model().take_warnings()) {
+    if (warning.find("under suction") == std::string::npos) continue;
+    EXPECT_NE(warning.find("soil \"buffer\""), std::string::npos) << warning;
+    ++found;
+  }
+  EXPECT_EQ(found, 1);
+}
+
+/// A linear fit of the concentrations of points goes beyond them, even to where grains lock; soil
+/// erodes as the mean of its element lets it.
+TEST(DoublePointSnapshot, ErodesAsTheStepDoes) {
+  Scene scene = model::double_point_scene(0.012, 1e-3);
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.soils[0].erosion.critical_concentration = 0.4;
+  scene.boundaries = {model::flux_on("top", 0.012), model::pressure_on("bottom", 0.0)};
+  model::DoublePointRun run(model::make_double_point_case(column_mesh(2, 4), scene));
+  const Snapshot snapshot = run.run({10.0}, true).snapshots.back();
+  const auto field = [&](const char* name) {
+    return std::ranges::find(snapshot.solid, name, &Field::name)->values;
+  };
+  const std::vector<double> rate = field("erosion_rate");
+  const std::vector<double> fitted = field("concentration");
+  const std::vector<int>& element = run.input().solid_points.element;
+  double spread = 0.0;
+  for (std::size_t p = 1; p < rate.size(); ++p) {
+    if (element[p] != element[p - 1]) continue;
+    EXPECT_EQ(rate[p], rate[p - 1]) << p;
+    spread = std::max(spread, std::abs(fitted[p] - fitted[p - 1]));
+  }
+  EXPECT_GT(spread, 1e-3);
+  EXPECT_GT(rate.front(), 0.0);
+}
+
 }  // namespace
 }  // namespace suffuse

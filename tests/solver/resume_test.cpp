@@ -99,6 +99,21 @@ std::string name_of(const testing::TestParamInfo<test::Mode>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Modes, Resumed, testing::ValuesIn(test::five_modes()), name_of);
 
+/// Boxes of tetrahedra, where the flow is implicit in both formulations.
+std::vector<test::Mode> modes_in_space() {
+  const std::vector<test::Mode> modes = test::five_modes();
+  const std::string box = R"(geometry={shape = "box", width = 0.5, depth = 0.25, height = 0.5)";
+  return {test::with(
+              modes[1], "single_point_in_space",
+              {box + "}", "mesh.size=0.125", "gravity=[0.0, 0.0, -9.81]", "initial.water_level=1.0",
+               "time.transport=implicit", "soil.specimen.porosity_gradient=[0.02, 0.05, 0.1]",
+               "output.probe=[{at = [0.2, 0.1, 0.3]}]"}),
+          test::with(modes[3], "double_point_in_space",
+                     {box + ", layers = {inflow = 1, above = 1, below = 1, outflow = 1}}",
+                      R"(mesh={size = 0.15, structure = "free"})", "time.end=3.0",
+                      "soil.specimen.deposition={coefficient = 2.0, porosity_min = 0.2}"})};
+}
+
 std::vector<test::Mode> variants() {
   const std::vector<test::Mode> modes = test::five_modes();
   const test::Mode& single = modes[1];
@@ -168,6 +183,7 @@ TEST_P(ResumedVariant, FromAMiddleSnapshotAndAfterAnInterrupt) {
   expect_same_when_resumed(folder);
 }
 INSTANTIATE_TEST_SUITE_P(Modes, ResumedVariant, testing::ValuesIn(variants()), name_of);
+INSTANTIATE_TEST_SUITE_P(InSpace, ResumedVariant, testing::ValuesIn(modes_in_space()), name_of);
 
 /// With one mode; the others go the same way through the same code.
 class ResumedRun : public Resumed {

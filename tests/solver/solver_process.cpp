@@ -80,6 +80,14 @@ nlohmann::json comparable(const std::string& text) {
   return info;
 }
 
+void read_places(const ResultsReader& results, std::size_t index, const std::string& kind) {
+  if (results.dimension() == 3) {
+    static_cast<void>(results.point_positions<3>(index, kind));
+  } else {
+    static_cast<void>(results.point_positions(index, kind));
+  }
+}
+
 void read_snapshots(const ResultsReader& results) {
   std::vector<std::string> places{"cell", "node", "element_vertex", "solid"};
   const bool has_liquid = results.scene().scene.formulation == Formulation::double_point;
@@ -90,8 +98,8 @@ void read_snapshots(const ResultsReader& results) {
         static_cast<void>(results.field(i, place, name));
       }
     }
-    static_cast<void>(results.point_positions(i, "solid"));
-    if (has_liquid) static_cast<void>(results.point_positions(i, "liquid"));
+    read_places(results, i, "solid");
+    if (has_liquid) read_places(results, i, "liquid");
   }
 }
 
