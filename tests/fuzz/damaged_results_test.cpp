@@ -101,6 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"Absurd", mesh_1 + "claim /VTKHDF/CellData/porosity chunked 1000000000000",
                "snapshots/mesh_000001.hdf: /VTKHDF/CellData/porosity: its shape [1000000000000] is "
                "larger than what the file holds"},
+        Damage{"NoDimension", "json /dimension 4", "run.json: dimension: got 4; expected 2 or 3"},
         Damage{"NoSnapshot", mesh_1 + "delete", "snapshots/mesh_000001.hdf: there is no such file"},
         Damage{"FolderForSnapshot", mesh_1 + "folder", "snapshots/mesh_000001.hdf: is not a file"}),
     [](const auto& tested) { return tested.param.name; });

@@ -10,6 +10,11 @@
 #include <vector>
 
 #include "bytes.hpp"
+#include "case/case_file.hpp"
+#include "driver/plan.hpp"
+#include "edited_files.hpp"
+#include "formulation/two_phase_model.hpp"
+#include "results/reader.hpp"
 #include "targets.hpp"
 
 namespace suffuse::fuzz {
@@ -37,6 +42,37 @@ TEST_P(Replay, EveryInputIsTakenOrRefused) {
   EXPECT_GE(inputs.size(), 3U);
   for (const fs::path& input : inputs) {
     EXPECT_NO_THROW(targets.at(GetParam())(file_bytes(input.string()))) << input;
+  }
+}
+
+template <int Dim>
+void expect_to_run(const std::string& path) {
+  const Case<Dim> c = read_case<Dim>(path);
+  const auto model = make_model(c, make_plan(c, {}));
+  model->advance(0.1 * c.document.scene.time.end);
+  EXPECT_GT(model->time(), 0.0);
+}
+
+/// Edits that start from files which are refused anyway would reach nothing.
+TEST(Seeds, AreValid) {
+  int in_space = 0;
+  for (const std::string& name : names(case_seeds())) {
+    SCOPED_TRACE(name);
+    const std::string path = lay_out_case("seed " + name);
+    const bool box = read_case_dimension(path) == 3;
+    EXPECT_NO_THROW(box ? expect_to_run<3>(path) : expect_to_run<2>(path));
+    if (box) ++in_space;
+  }
+  EXPECT_EQ(in_space, 2);
+  for (const std::string& name : names(results_seeds())) {
+    SCOPED_TRACE(name);
+    const ResultsReader results(lay_out_results("seed " + name));
+    EXPECT_GE(results.times().size(), 2U);
+    for (const std::string kind : {"cell", "node", "element_vertex", "solid"}) {
+      for (const std::string& field : results.field_names(0, kind)) {
+        EXPECT_FALSE(results.field(0, kind, field).values.empty()) << field;
+      }
+    }
   }
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "case/mesh.hpp"
+
 namespace suffuse::fuzz {
 
 /// Contents by name within a folder.
@@ -13,10 +15,14 @@ using Files = std::map<std::string, std::string>;
 
 inline constexpr const char* case_file = "a.case.h5";
 
-/// Small cases, each of one file `case_file`: both formulations, both schemes.
+/// Small cases, each of one file `case_file`: both formulations, both schemes, triangles and
+/// tetrahedra.
 const std::map<std::string, Files>& case_seeds();
 
-/// Results folders with three snapshots.
+/// A column of tetrahedra between free water: boundaries and regions as `geometry.layers` has them.
+Mesh<3> layered_box();
+
+/// Results folders with two or three snapshots.
 const std::map<std::string, Files>& results_seeds();
 
 std::vector<std::string> names(const std::map<std::string, Files>& seeds);

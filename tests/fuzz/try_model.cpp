@@ -23,12 +23,13 @@ bool is_long(const Scene& scene, const Plan& plan) {
 }
 
 /// The first intervals, with their outputs.
-void run(const Case<2>& c, const Plan& plan) {
+template <int Dim>
+void run(const Case<Dim>& c, const Plan& plan) {
   const auto model = make_model(c, plan);
   OutputSchedule schedule(c.document.scene);
   const auto output = [&] {
     const OutputSchedule::Due due = schedule.take(model->time());
-    const FlowState<2> flow = model->flow_state();
+    const FlowState<Dim> flow = model->flow_state();
     if (due.row) {
       static_cast<void>(model->history_row(flow));
       static_cast<void>(model->ledger());
@@ -44,12 +45,10 @@ void run(const Case<2>& c, const Plan& plan) {
   }
 }
 
-}  // namespace
-
-void try_model(const std::string& input) {
-  const std::string path = lay_out_case(input);
-  Case<2> c;
-  const bool is_case = is_taken(path, [&] { c = read_case<2>(path); });
+template <int Dim>
+void try_in(const std::string& path) {
+  Case<Dim> c;
+  const bool is_case = is_taken(path, [&] { c = read_case<Dim>(path); });
   forget_files();
   if (!is_case) return;
   static_cast<void>(is_taken([&] {
@@ -57,6 +56,15 @@ void try_model(const std::string& input) {
     if (is_long(c.document.scene, plan)) return;
     run(c, plan);
   }));
+}
+
+}  // namespace
+
+void try_model(const std::string& input) {
+  const std::string path = lay_out_case(input);
+  int dimension = 2;
+  static_cast<void>(is_taken(path, [&] { dimension = read_case_dimension(path); }));
+  dimension == 3 ? try_in<3>(path) : try_in<2>(path);
 }
 
 }  // namespace suffuse::fuzz

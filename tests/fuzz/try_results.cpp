@@ -15,14 +15,16 @@ namespace {
 constexpr std::size_t max_snapshots = 3;
 
 /// How many cells, nodes or points there are to have values.
-std::size_t entities(const ResultsReader& results, const Mesh<2>& mesh, const std::string& where,
+template <int Dim>
+std::size_t entities(const ResultsReader& results, const Mesh<Dim>& mesh, const std::string& where,
                      std::size_t index) {
   if (where == "cell" || where == "element_vertex") return mesh.elements.size();
   if (where == "node") return mesh.nodes.size();
-  return results.point_positions(index, where).size();
+  return results.point_positions<Dim>(index, where).size();
 }
 
-void look_at_fields(const ResultsReader& results, const Mesh<2>& mesh, std::size_t index,
+template <int Dim>
+void look_at_fields(const ResultsReader& results, const Mesh<Dim>& mesh, std::size_t index,
                     const std::string& where) {
   for (const std::string& name : results.field_names(index, where)) {
     static_cast<void>(is_taken(results.folder(), [&] {
@@ -47,20 +49,22 @@ void look_at(const ResultsReader& results) {
     }));
   }
   require(std::ranges::is_sorted(results.times()), "times that do not ascend");
-  const Mesh<2> mesh = results.mesh();
   const bool both = results.scene().scene.formulation == Formulation::double_point;
-  for (std::size_t i = 0; i < std::min(max_snapshots, results.times().size()); ++i) {
-    for (const std::string where : {"cell", "node", "element_vertex", "solid", "liquid"}) {
-      if (where == "liquid" && !both) continue;
-      static_cast<void>(is_taken(folder, [&] { look_at_fields(results, mesh, i, where); }));
+  with_mesh(results, [&](const auto& mesh) {
+    for (std::size_t i = 0; i < std::min(max_snapshots, results.times().size()); ++i) {
+      for (const std::string where : {"cell", "node", "element_vertex", "solid", "liquid"}) {
+        if (where == "liquid" && !both) continue;
+        static_cast<void>(is_taken(folder, [&] { look_at_fields(results, mesh, i, where); }));
+      }
     }
-  }
+  });
 }
 
 /// What the solver does with a folder whose run it is to go on with, but for the state itself,
 /// which is nobody's who did not write its digest.
-void go_on(const std::string& folder) {
-  const Case<2> c = read_case<2>(layout::in_folder(folder, layout::case_copy));
+template <int Dim>
+void go_on_in(const std::string& folder) {
+  const Case<Dim> c = read_case<Dim>(layout::in_folder(folder, layout::case_copy));
   const Scene& scene = c.document.scene;
   check_results_folder(folder, scene.name);
   static_cast<void>(is_finished(folder));
@@ -70,10 +74,15 @@ void go_on(const std::string& folder) {
       newest_restart_point(folder, scene.formulation == Formulation::double_point,
                            table_files(scene, c.mesh.region_names.size()));
   if (!found.point) return;
-  ResultsWriter<2> writer(folder, c, std::move(lock), *found.point);
+  ResultsWriter<Dim> writer(folder, c, std::move(lock), *found.point);
   writer.append_history({});
   writer.append_ledger({});
   writer.write_run_info({});
+}
+
+void go_on(const std::string& folder) {
+  const int dimension = read_case_dimension(layout::in_folder(folder, layout::case_copy));
+  dimension == 3 ? go_on_in<3>(folder) : go_on_in<2>(folder);
 }
 
 }  // namespace

@@ -128,8 +128,8 @@ inline Snapshot linear_snapshot(const Case<2>& c, double t, long step) {
 }
 
 /// Rows of a run that keeps to `porosity_at`, losing its fines at once through the outlet.
-template <class PorosityAt>
-void write_rows(ResultsWriter<2>& writer, double end, const PorosityAt& porosity_at) {
+template <int Dim, class PorosityAt>
+void write_rows(ResultsWriter<Dim>& writer, double end, const PorosityAt& porosity_at) {
   for (double t = 0.0; t <= end; t += 1.0) {
     const double porosity = porosity_at(t);
     HistoryRow history;

@@ -1,6 +1,5 @@
 #include "stress/judge.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +10,7 @@
 
 #include "case/errors.hpp"
 #include "results/reader.hpp"
+#include "stress/known_porosity.hpp"
 #include "stress/stress_mesh.hpp"
 
 namespace suffuse::stress {
@@ -38,75 +38,11 @@ std::string shown(double value) {
   return text.str();
 }
 
-/// Mean porosity of the one soil that erodes, where its law does not depend on the flow.
-class KnownPorosity {
- public:
-  explicit KnownPorosity(const Scene& scene) {
-    for (const Soil& soil : scene.soils) {
-      if (!soil.exchanges()) continue;
-      const ErosionModel model = soil.erosion_model();
-      if (soil_ != nullptr || soil.porosity_gradient != std::array<double, 3>{} ||
-          soil.deposition.deposits() || depends_on_flux(model) || depends_on_concentration(model) ||
-          !model.residual.pairs.empty() || soil.erosion.empty_elements == EmptyElements::dry) {
-        soil_ = nullptr;
-        return;
-      }
-      soil_ = &soil;
-    }
-  }
-  [[nodiscard]] bool known() const { return soil_ != nullptr; }
-
-  [[nodiscard]] double at(double t) const {
-    const double duration = std::max(0.0, t - soil_->erosion.start);
-    const double first = soil_->porosity;
-    const double most = soil_->porosity_max();
-    const double rate = soil_->erosion.rate;
-    if (soil_->erosion.law == erosion_law("constant"))
-      return std::min(most, first + rate * duration);
-    if (soil_->erosion.law == erosion_law("first-order")) {
-      return most - (most - first) * std::exp(-rate * duration);
-    }
-    return logarithmic(first, most, rate * duration / most);
-  }
-
- private:
-  /// By bisection of the time that porosity takes, int dn / -ln(n), n over its largest. With
-  /// n = exp(-exp(w)) that is the integral of exp(-exp(w)) dw: smooth, so Simpson's rule does.
-  static double logarithmic(double first, double most, double scaled_time) {
-    const double begin = std::log(-std::log(first / most));
-    const auto time_to = [&](double end) {
-      // Below, the integrand is 1 to the last digit.
-      constexpr double flat = -40.0;
-      constexpr int parts = 4000;
-      if (end < flat && begin > flat) return (flat - end) + between(flat, begin, parts);
-      return between(end, begin, parts);
-    };
-    double low = begin - scaled_time * most / first - 1.0;
-    double high = begin;
-    for (int i = 0; i < 80; ++i) {
-      const double middle = 0.5 * (low + high);
-      (time_to(middle) > scaled_time ? low : high) = middle;
-    }
-    return most * std::exp(-std::exp(high));
-  }
-
-  /// Simpson's rule for the integral of exp(-exp(w)).
-  static double between(double low, double high, int parts) {
-    const double h = (high - low) / parts;
-    double sum = 0.0;
-    for (int i = 0; i <= parts; ++i) {
-      const double weight = i == 0 || i == parts ? 1.0 : (i % 2 == 0 ? 2.0 : 4.0);
-      sum += weight * std::exp(-std::exp(low + h * i));
-    }
-    return sum * h / 3.0;
-  }
-
-  const Soil* soil_ = nullptr;
-};
-
+template <int Dim>
 class Judge {
  public:
-  Judge(const Scenario& scenario, const Case<2>& c, const std::string& folder, Judgement& judgement)
+  Judge(const Scenario& scenario, const Case<Dim>& c, const std::string& folder,
+        Judgement& judgement)
       : scenario_(scenario), case_(c), scene_(c.document.scene), results_(folder), j_(judgement) {}
 
   /// What does not hold, one after the other; empty where all does.
@@ -378,16 +314,11 @@ class Judge {
 
   /// Liquid points lie in the elements that they say.
   void check_places(std::size_t index, const std::string& where) {
-    const std::vector<Vector<2>> places = results_.point_positions(index, "liquid");
+    const std::vector<Vector<Dim>> places = results_.point_positions<Dim>(index, "liquid");
     const std::vector<double> element = results_.field(index, "liquid", "element").values;
     for (std::size_t p = 0; p < places.size(); ++p) {
-      const auto e = static_cast<int>(element[p]);
-      const auto& nodes = case_.mesh.elements[e];
-      const Vector<2>& origin = case_.mesh.nodes[nodes[0]];
-      Eigen::Matrix2d edges;
-      edges << case_.mesh.nodes[nodes[1]] - origin, case_.mesh.nodes[nodes[2]] - origin;
-      const Vector<2> local = edges.inverse() * (places[p] - origin);
-      const double least = std::min({local[0], local[1], 1.0 - local[0] - local[1]});
+      const auto local = barycentric(case_.mesh, static_cast<int>(element[p]), places[p]);
+      const double least = *std::ranges::min_element(local);
       if (least >= -1e-9) continue;
       complain("a liquid point lies outside its element in " + where);
       return;
@@ -395,7 +326,7 @@ class Judge {
   }
 
   const Scenario& scenario_;
-  const Case<2>& case_;
+  const Case<Dim>& case_;
   const Scene& scene_;
   ResultsReader results_;
   Judgement& j_;
@@ -453,7 +384,8 @@ Judgement judge_refusal(const Scenario& scenario, const std::string& message) {
   return refusal(scenario, static_cast<int>(ExitCode::wrong_input), message);
 }
 
-Judgement judge_run(const Scenario& scenario, const Case<2>& c, const ChildEnd& end,
+template <int Dim>
+Judgement judge_run(const Scenario& scenario, const Case<Dim>& c, const ChildEnd& end,
                     const std::string& folder) {
   Judgement result;
   const bool wrong_input = end.exit_code == static_cast<int>(ExitCode::wrong_input);
@@ -488,6 +420,9 @@ Judgement judge_run(const Scenario& scenario, const Case<2>& c, const ChildEnd& 
   }
   return with_end(std::move(result), end);
 }
+
+template Judgement judge_run(const Scenario&, const Case<2>&, const ChildEnd&, const std::string&);
+template Judgement judge_run(const Scenario&, const Case<3>&, const ChildEnd&, const std::string&);
 
 std::string table_head() {
   return "sweep,scheme,parameters,seed,verdict,exit_code,seconds,steps,warnings,residual,bounded,"

@@ -32,7 +32,8 @@ struct Judgement {
 /// The mesher's part refused the scenario.
 Judgement judge_refusal(const Scenario& scenario, const std::string& message);
 /// The solver ran the case `c` into `folder` and ended as `end` says.
-Judgement judge_run(const Scenario& scenario, const Case<2>& c, const ChildEnd& end,
+template <int Dim>
+Judgement judge_run(const Scenario& scenario, const Case<Dim>& c, const ChildEnd& end,
                     const std::string& folder);
 
 /// One line of the table, and its first line.

@@ -29,9 +29,10 @@ struct Arguments {
   bool keep = false;
 };
 
+template <int Dim>
 Judgement judged(const Scenario& scenario, const Arguments& arguments, const std::string& stem) {
   try {
-    const Case<2> c = make_case(scenario);
+    const Case<Dim> c = make_case<Dim>(scenario);
     const std::string path = stem + ".case.h5";
     const std::string results = stem + ".results";
     write_case(path, c);
@@ -61,7 +62,9 @@ int run_sweep(const Sweep& sweep, const Arguments& arguments, std::ostream& tabl
     const Scenario& scenario = sweep.scenarios[i];
     const std::string stem =
         (fs::path(arguments.folder) / (sweep.name + "-" + std::to_string(i))).string();
-    const Judgement judgement = judged(scenario, arguments, stem);
+    const bool in_space = std::holds_alternative<std::function<Mesh<3>()>>(scenario.mesh);
+    const Judgement judgement =
+        in_space ? judged<3>(scenario, arguments, stem) : judged<2>(scenario, arguments, stem);
     table << table_line(sweep.name, scenario, judgement) << std::endl;
     if (judgement.verdict == "failed") {
       ++failed;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "case/case_file.hpp"
@@ -47,15 +48,15 @@ struct Scenario {
   Scheme scheme = Scheme::sp_implicit;
   std::string parameters;  ///< in words, for the table
   unsigned seed = 0;       ///< 0: nothing is random
-  std::function<Mesh<2>()> mesh;
+  std::variant<std::function<Mesh<2>()>, std::function<Mesh<3>()>> mesh;
   /// Of the base scene (`scene_text`).
   std::function<Changes(const Span&)> changes = [](const Span&) { return Changes{}; };
-  /// Of mesh and points, after seeding.
+  /// Of mesh and points, after seeding; in two dimensions.
   std::function<void(Case<2>&)> disturb;
   double end = 100.0;  ///< s; explicit runs end after `explicit_steps` steps if that is sooner
   double explicit_steps = 10000.0;
   Expected expected = Expected::done;
-  /// Volume per time that the implicit schemes must end with, m3/s per metre; known exactly.
+  /// Volume per time that the implicit schemes must end with, m3/s (per metre); known exactly.
   std::optional<double> discharge;
 };
 
@@ -80,5 +81,8 @@ Sweep motion_sweep();
 
 /// Every way in which soils give fines away and catch them.
 Sweep soils_sweep();
+
+/// Boxes and dams of tetrahedra.
+Sweep space_sweep();
 
 }  // namespace suffuse::stress

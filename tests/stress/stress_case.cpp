@@ -11,11 +11,13 @@
 namespace suffuse::stress {
 namespace {
 
-Case<2> build(const Scenario& scenario, const Span& span) {
-  Case<2> c;
+template <int Dim>
+Case<Dim> build(const Scenario& scenario, const Span& span) {
+  Case<Dim> c;
   c.document =
       parse_scene(scene_text(scenario.scheme, span.end), "stress.toml", scenario.changes(span));
-  c.mesh = scenario.mesh();
+  c.mesh = std::get<std::function<Mesh<Dim>()>>(scenario.mesh)();
+  complete_for_mesh(c.document, Dim);
   std::vector<InputProblem> problems = scene_problems(c.document, c.mesh);
   if (!problems.empty()) throw InputError(std::move(problems));
   c.solid_points = seed_solid_points(c.mesh, c.document.scene);
@@ -26,7 +28,8 @@ Case<2> build(const Scenario& scenario, const Span& span) {
 }
 
 /// Largest step that the solver takes when the scene gives it, from its own message.
-double limit_of_given_step(Case<2> c) {
+template <int Dim>
+double limit_of_given_step(Case<Dim> c) {
   const std::string before = "expected at most ";
   c.document.scene.time.step = c.document.scene.time.end;
   try {
@@ -40,7 +43,8 @@ double limit_of_given_step(Case<2> c) {
 }
 
 /// Step that the solver takes when the scene gives none; 0 where it refuses the scene.
-double chosen_step(Case<2> c) {
+template <int Dim>
+double chosen_step(Case<Dim> c) {
   c.document.scene.time.step.reset();
   try {
     return make_plan(c, {}).flow.step;
@@ -104,17 +108,23 @@ std::string scene_text(Scheme scheme, double end) {
   return text.str();
 }
 
-Case<2> make_case(const Scenario& scenario) {
+template <int Dim>
+Case<Dim> make_case(const Scenario& scenario) {
   Span span{scenario.end, 0.0};
-  Case<2> c = build(scenario, span);
+  Case<Dim> c = build<Dim>(scenario, span);
   if (is_explicit(scenario.scheme)) {
     const double step = chosen_step(c);
     if (step > 0.0) span.end = std::min(span.end, scenario.explicit_steps * step);
     span.limit = limit_of_given_step(c);
-    c = build(scenario, span);
+    c = build<Dim>(scenario, span);
   }
-  if (scenario.disturb) scenario.disturb(c);
+  if constexpr (Dim == 2) {
+    if (scenario.disturb) scenario.disturb(c);
+  }
   return c;
 }
+
+template Case<2> make_case(const Scenario&);
+template Case<3> make_case(const Scenario&);
 
 }  // namespace suffuse::stress

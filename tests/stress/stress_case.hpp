@@ -12,6 +12,7 @@ std::string scene_text(Scheme scheme, double end);
 
 /// The scene with its changes, meshed, checked against the mesh, seeded and disturbed. Explicit
 /// runs get the end that their steps take them to. Throws InputError as the mesher would.
-Case<2> make_case(const Scenario& scenario);
+template <int Dim>
+Case<Dim> make_case(const Scenario& scenario);
 
 }  // namespace suffuse::stress

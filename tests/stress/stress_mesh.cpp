@@ -1,5 +1,6 @@
 #include "stress/stress_mesh.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -38,18 +39,6 @@ Mesh<2> column_with_levels(const std::function<double(double)>& level) {
                             [&](const Vector<2>& x) { return Vector<2>(x[0], level(x[1])); });
 }
 
-void name_regions(Mesh<2>& mesh, const std::function<std::string(const Vector<2>&)>& region) {
-  mesh.region_names.clear();
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    const std::string name = region(element_centroid(mesh, e));
-    auto known = std::ranges::find(mesh.region_names, name);
-    if (known == mesh.region_names.end()) {
-      known = mesh.region_names.insert(known, name);
-    }
-    mesh.element_region[e] = static_cast<int>(known - mesh.region_names.begin());
-  }
-}
-
 void jitter_nodes(Mesh<2>& mesh, double amount, unsigned seed) {
   constexpr double min_left = 0.1;
   Random random(seed);
@@ -73,20 +62,26 @@ void jitter_nodes(Mesh<2>& mesh, double amount, unsigned seed) {
   }
 }
 
-int obtuse_elements(const Mesh<2>& mesh) {
+template <int Dim>
+int obtuse_elements(const Mesh<Dim>& mesh) {
   int count = 0;
   for (const auto& nodes : mesh.elements) {
-    for (int a = 0; a < 3; ++a) {
-      const Vector<2> one = mesh.nodes[nodes[(a + 1) % 3]] - mesh.nodes[nodes[a]];
-      const Vector<2> other = mesh.nodes[nodes[(a + 2) % 3]] - mesh.nodes[nodes[a]];
-      if (one.dot(other) < -1e-9 * one.norm() * other.norm()) {
-        ++count;
-        break;
-      }
-    }
+    Eigen::Matrix<double, Dim, Dim> edges;
+    for (int k = 0; k < Dim; ++k) edges.col(k) = mesh.nodes[nodes[k + 1]] - mesh.nodes[nodes[0]];
+    // Columns: gradients of the barycentric coordinates, normal to the sides.
+    Eigen::Matrix<double, Dim, Dim + 1> gradients;
+    gradients.template rightCols<Dim>() = edges.inverse().transpose();
+    gradients.col(0) = -gradients.template rightCols<Dim>().rowwise().sum();
+    gradients.colwise().normalize();
+    Eigen::Matrix<double, Dim + 1, Dim + 1> cosines = gradients.transpose() * gradients;
+    cosines.diagonal().setZero();
+    if (cosines.maxCoeff() > 1e-9) ++count;
   }
   return count;
 }
+
+template int obtuse_elements(const Mesh<2>& mesh);
+template int obtuse_elements(const Mesh<3>& mesh);
 
 Mesh<2> flat_column(double aspect) {
   const double height = width / columns / aspect * rows;

@@ -2,6 +2,7 @@
 
 /// Meshes for the stress study, and what can be done to them and to points.
 
+#include <algorithm>
 #include <functional>
 #include <random>
 #include <string>
@@ -30,13 +31,25 @@ class Random {
 Mesh<2> plain_column();
 /// The same with the heights of its rows changed: `level(share of the height)` in m.
 Mesh<2> column_with_levels(const std::function<double(double)>& level);
-/// Regions by the place of an element's centroid.
-void name_regions(Mesh<2>& mesh, const std::function<std::string(const Vector<2>&)>& region);
+/// Regions by the place of an element's centroid: `region(centroid)` names them.
+template <int Dim, class Region>
+void name_regions(Mesh<Dim>& mesh, const Region& region) {
+  mesh.region_names.clear();
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const std::string name = region(element_centroid(mesh, e));
+    auto known = std::ranges::find(mesh.region_names, name);
+    if (known == mesh.region_names.end()) {
+      known = mesh.region_names.insert(known, name);
+    }
+    mesh.element_region[e] = static_cast<int>(known - mesh.region_names.begin());
+  }
+}
 /// Moves inner nodes at random by up to `amount` in each direction, or by half as much, a quarter
 /// and so on where an element would lose more than nine tenths of its area.
 void jitter_nodes(Mesh<2>& mesh, double amount, unsigned seed);
-/// Elements with an angle of 90 degrees or more.
-int obtuse_elements(const Mesh<2>& mesh);
+/// Elements with an angle of more than 90 degrees, in three dimensions between their sides.
+template <int Dim>
+int obtuse_elements(const Mesh<Dim>& mesh);
 /// Cells 1 : `aspect`, of right triangles.
 Mesh<2> flat_column(double aspect);
 /// Rows shifted against each other, so flat that the smallest angle is about `degrees`, the largest

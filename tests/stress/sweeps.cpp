@@ -918,10 +918,10 @@ Sweep anything() {
 }  // namespace
 
 std::vector<Sweep> all_sweeps() {
-  return {conductivity(),  contrast(),      modulus(),     scaling(),     given_step(), porosity(),
-          porosity_jump(), thin_layer(),    slivers(),     jitter(),      points(),     density(),
-          reversal(),      stagnation(),    drying(),      throughput(),  inflow(),     laws(),
-          anything(),      seepage_sweep(), soils_sweep(), motion_sweep()};
+  return {conductivity(),  contrast(),      modulus(),     scaling(),      given_step(), porosity(),
+          porosity_jump(), thin_layer(),    slivers(),     jitter(),       points(),     density(),
+          reversal(),      stagnation(),    drying(),      throughput(),   inflow(),     laws(),
+          anything(),      seepage_sweep(), soils_sweep(), motion_sweep(), space_sweep()};
 }
 
 }  // namespace suffuse::stress
