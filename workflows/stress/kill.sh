@@ -9,8 +9,8 @@
 # where it ends otherwise; what is left of that stays in FOLDER. SEED=N: other moments.
 set -u -o pipefail
 programs=$(cd "$1" && pwd) folder=$2 kills=$3
-scene=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/kill.toml
-modes=(sp-explicit sp-implicit sp-moving dp-explicit dp-implicit dp-points dp-moving)
+scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+modes=(sp-explicit sp-implicit sp-moving sp-failing dp-explicit dp-implicit dp-points dp-moving)
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 RANDOM=${SEED:-1}
@@ -31,6 +31,7 @@ set_options() { # MODE
     dp-explicit) echo --set 'time={end=4.0,scheme="explicit",mass_scaling=100.0}' ;;
     dp-implicit) echo --set 'time={end=4.0,step=0.02}' ;;
     *-moving) moving ;;
+    sp-failing) ;;
     dp-points) echo --set 'time={end=4.0,scheme="explicit",mass_scaling=100.0}' --set flow.integration=material-point ;;
   esac
   case $1 in dp-*) echo --set formulation=double-point --set points.liquid_per_element=3 ;; esac
@@ -66,7 +67,8 @@ disturb() { # MODE WANTED
   rm -rf "${folder:?}/$1"
   mkdir -p "$folder/$1"
   cd "$folder/$1" || exit 1
-  local options
+  local options scene=$scenes/kill.toml
+  [ "$1" != sp-failing ] || scene=$scenes/kill-bank.toml
   read -r -a options <<< "$(set_options "$1" | tr '\n' ' ')"
   "$programs/suffuse-mesher" "$scene" "${options[@]}" -o kill.case.h5 > mesher.txt || exit 1
   begin=$(milliseconds)
@@ -122,6 +124,7 @@ for index in "${!modes[@]}"; do
   case $mode in dp-*) formulation=double-point ;; esac
   scheme=${mode#*-}
   [ "$scheme" != points ] || scheme='explicit at material points'
+  [ "$scheme" != failing ] || scheme='implicit with soil that fails'
   [ "$scheme" != moving ] || scheme='implicit with soil that moves'
   echo "$formulation,$scheme,$seconds,$done_kills,$unreadable,$runs,$resumes,$ends" >> "$table"
   [ "$unreadable" -eq 0 ] && [ "$resumes" -eq "$runs" ] && [ "$ends" -eq "$runs" ] || wrong=$((wrong + 1))

@@ -1,0 +1,27 @@
+// A bank of 45 degrees under water. Metres.
+Point(1) = {0, 0, 0};
+Point(2) = {4, 0, 0};
+Point(3) = {4, 0.25, 0};
+Point(4) = {1.75, 0.25, 0};
+Point(5) = {1, 1, 0};
+Point(6) = {0, 1, 0};
+Point(7) = {4, 1.25, 0};
+Point(8) = {0, 1.25, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Line(7) = {3, 7};
+Line(8) = {7, 8};
+Line(9) = {8, 6};
+Curve Loop(1) = {1:6};
+Plane Surface(1) = {1};
+Curve Loop(2) = {7, 8, 9, -5, -4, -3};
+Plane Surface(2) = {2};
+Physical Surface("bank") = {1};
+Physical Surface("free_above") = {2};
+Physical Curve("base") = {1};
+Physical Curve("sides") = {2, 6, 7, 9};
+Physical Curve("surface") = {8};
