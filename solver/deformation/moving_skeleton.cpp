@@ -300,9 +300,14 @@ void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
 }
 
 template <int Dim>
+bool MovingSkeleton<Dim>::watches_failure() const {
+  return !inertia_.acts() &&
+         this->soils().scene().follows_failure(this->grid_.mesh.region_names);
+}
+
+template <int Dim>
 bool MovingSkeleton<Dim>::let_fail(double time) {
-  const bool follows = this->soils().scene().follows_failure(this->grid_.mesh.region_names);
-  if (!follows || inertia_.acts()) return false;
+  if (!watches_failure()) return false;
   inertia_.begin(points_.size());
   failure_time_ = time;
   step_.reset();
@@ -311,7 +316,7 @@ bool MovingSkeleton<Dim>::let_fail(double time) {
 
 template <int Dim>
 double MovingSkeleton<Dim>::time_of_fall() const {
-  const double g = Eigen::Map<const Eigen::Vector3d>(this->soils().scene().gravity.data()).norm();
+  const double g = acceleration(this->soils().scene().gravity);
   if (g == 0.0) return 0.0;
   const std::vector<double>& volume = this->grid_.volume;
   const double mean =
@@ -331,7 +336,8 @@ const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing)
   motion_.iterations = step_->iterations();
   step_iterations_ += motion_.iterations;
   motion_.travel = largest_travel(this->grid_, step_->sorted(), step_->displacement());
-  motion_.converged = motion_.converged && motion_.travel <= max_travel;
+  const double allowed = watches_failure() ? watched_travel : max_travel;
+  motion_.converged = motion_.converged && motion_.travel <= allowed;
   motion_.face_volume = swept_volumes(this->grid_, step_->sorted(), step_->displacement());
   std::vector<double> change = forcing.pressure;
   for (std::size_t e = 0; e < change.size(); ++e) change[e] -= pressure_[e];
@@ -348,7 +354,9 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   boundary_loads_.move(step_->sorted(), step_->displacement());
   const std::vector<int> element = points_.element;
   if (inertia_.acts()) take_velocities();
+  const std::vector<Vector<Dim>> place = points_.position;
   move_points(this->grid_, step_->skeleton(), step_->displacement(), points_, this->threads_);
+  slides_ = watches_failure() && is_sliding(kinetic_energy(place), extent());
   if (!inertia_.acts()) find_crossing_forces();
   book_regions(element);
   carry_solid(before, motion_.travel);
@@ -366,27 +374,42 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::take_velocities() {
+SoilExtent MovingSkeleton<Dim>::extent() const {
   const Scene& scene = this->soils().scene();
-  const double g = Eigen::Map<const Eigen::Vector3d>(scene.gravity.data()).norm();
   SoilExtent extent;
-  double weight = 0.0;  // of the nodes, squared
-  for (const double mass : inertia_.nodes().mass) {
-    extent.mass += mass;
-    weight += g * g * mass * mass;
-  }
-  extent.load = g * extent.mass;
-  double loads = std::sqrt(weight);
+  for (const double mass : moved_masses(tried_)) extent.mass += mass;
+  extent.load = acceleration(scene.gravity) * extent.mass;
   if (!has_gravity(scene.gravity)) {
     for (const Vector<Dim>& force : forces_) extent.load += force.norm();
-    loads = norm<Dim>(forces_);
   }
   const Vector<Dim> down = downwards<Dim>(scene.gravity);
   const auto [low, high] =
       std::ranges::minmax(points_.position, {}, [&](const Vector<Dim>& x) { return x.dot(down); });
   extent.height = (high - low).dot(down);
+  return extent;
+}
+
+template <int Dim>
+double MovingSkeleton<Dim>::kinetic_energy(const std::vector<Vector<Dim>>& before) const {
+  const std::vector<double> mass = moved_masses(tried_);
+  double sum = 0.0;
+  for (int p = 0; p < points_.size(); ++p) {
+    sum += mass[p] * (points_.position[p] - before[p]).squaredNorm();
+  }
+  return 0.5 * sum / (tried_.duration * tried_.duration);
+}
+
+template <int Dim>
+void MovingSkeleton<Dim>::take_velocities() {
+  const Scene& scene = this->soils().scene();
+  double loads = norm<Dim>(forces_);
+  if (has_gravity(scene.gravity)) {
+    double squared = 0.0;
+    for (const double mass : inertia_.nodes().mass) squared += mass * mass;
+    loads = acceleration(scene.gravity) * std::sqrt(squared);
+  }
   inertia_.finish_step(this->grid_, points_, step_->displacement(), tried_.duration, motion_.travel,
-                       step_->equilibrium().inertia_norm() / loads, extent);
+                       step_->equilibrium().inertia_norm() / loads, extent());
 }
 
 template <int Dim>

@@ -46,6 +46,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   const SolidMotion& accept_motion() override;
   bool let_fail(double time) override;
   [[nodiscard]] bool has_inertia() const override { return inertia_.acts(); }
+  [[nodiscard]] bool slides() const override { return slides_; }
   [[nodiscard]] double time_of_fall() const override;
   [[nodiscard]] double longest_step() const override { return inertia_.longest_step(); }
   [[nodiscard]] std::vector<double> load_breakpoints() const override {
@@ -74,6 +75,8 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// A motion by more than this share of an element's height is refused: points would pass
   /// elements unseen.
   static constexpr double max_travel = 0.5;
+  /// The same in equilibrium that inertia is to follow: a slide must not pass within a long step.
+  static constexpr double watched_travel = 0.05;
 
  private:
   /// Laws and numbers of the points with the fines that they will have at the end of the step.
@@ -94,6 +97,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void prepare_step(const MotionForcing& forcing);
   /// What counts for inertia: solid, and the liquid in its pores, kg per point.
   [[nodiscard]] std::vector<double> moved_masses(const MotionForcing& forcing) const;
+  /// Whether the soil is in equilibrium, and inertia is to follow when it is lost.
+  [[nodiscard]] bool watches_failure() const;
+  [[nodiscard]] SoilExtent extent() const;
+  /// Of the step that is accepted, J; `before`: places of the points at its start.
+  [[nodiscard]] double kinetic_energy(const std::vector<Vector<Dim>>& before) const;
   void take_velocities();
   /// V_e / E_oed, m3/Pa, in free water beside soil that of the softest soil; 0 elsewhere without
   /// soil that moves.
@@ -124,6 +132,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   BoundaryLoads<Dim> boundary_loads_;
   CrossingForces<Dim> crossing_forces_;  ///< while inertia does not act
   SoilInertia<Dim> inertia_;
+  bool slides_ = false;  ///< see `slides`; of the last step
   double failure_time_ = 0.0;                ///< when equilibrium was lost last, s; 0: never
   std::vector<double> solid_;                ///< per element, m3
   std::vector<CompensatedSum> region_gain_;  ///< per region of the mesh, m3

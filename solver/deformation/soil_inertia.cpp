@@ -51,6 +51,11 @@ bool is_at_rest(double inertia_share, double kinetic_energy, const SoilExtent& e
   return inertia_share < small_share && kinetic_energy < small_energy * extent.load * extent.height;
 }
 
+bool is_sliding(double kinetic_energy, const SoilExtent& extent) {
+  constexpr double large_energy = 1e-4;
+  return kinetic_energy > large_energy * extent.load * extent.height;
+}
+
 template class SoilInertia<2>;
 template class SoilInertia<3>;
 

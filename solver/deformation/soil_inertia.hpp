@@ -67,4 +67,8 @@ class SoilInertia {
 [[nodiscard]] bool is_at_rest(double inertia_share, double kinetic_energy,
                               const SoilExtent& extent);
 
+/// Whether soil in equilibrium moves so fast that inertia decides how far it goes: the kinetic
+/// energy, J, is more than 1e-4 of the loads times the height.
+[[nodiscard]] bool is_sliding(double kinetic_energy, const SoilExtent& extent);
+
 }  // namespace suffuse

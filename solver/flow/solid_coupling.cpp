@@ -187,7 +187,8 @@ double SolidCoupling<Dim>::allowed(double rise, double pressure, double floor) c
 
 template <int Dim>
 void SolidCoupling<Dim>::watch_steps(double time, double next_step) {
-  if (next_step >= short_step * solid_.time_of_fall()) {
+  const bool is_long = next_step >= short_step * solid_.time_of_fall();
+  if (is_long && !(long_steps_ && solid_.slides())) {
     long_steps_ = true;
   } else if (long_steps_ && solid_.let_fail(time)) {
     long_steps_ = false;

@@ -34,7 +34,7 @@ class SolidCoupling {
                       double dt, FlowForcing<Dim> forcing);
 
   /// A step has ended at `time`, s, and the next will be of `next_step`, s. Where an equilibrium
-  /// takes steps in which soil hardly falls, it is about to be lost: lets the soil fail.
+  /// takes steps in which soil hardly falls, or passes as fast as soil falls, lets the soil fail.
   void watch_steps(double time, double next_step);
   /// What drives flow or motion changes at once: short steps follow for that reason.
   void expect_short_steps() { long_steps_ = false; }

