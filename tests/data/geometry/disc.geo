@@ -1,0 +1,23 @@
+// A quarter of the ground below a flooded disc of radius 0.5 m in a ground that is sealed around it.
+Point(1) = {0, 0, 0};
+Point(2) = {0.5, 0, 0};
+Point(3) = {0, 0.5, 0};
+Point(4) = {1, 0, 0};
+Point(5) = {1, 1, 0};
+Point(6) = {0, 1, 0};
+Circle(1) = {2, 1, 3};
+Line(2) = {1, 2};
+Line(3) = {3, 1};
+Line(4) = {2, 4};
+Line(5) = {4, 5};
+Line(6) = {5, 6};
+Line(7) = {6, 3};
+Curve Loop(1) = {1, 3, 2};
+Curve Loop(2) = {4, 5, 6, 7, -1};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+inner[] = Extrude {0, 0, -1} { Surface{1}; };
+outer[] = Extrude {0, 0, -1} { Surface{2}; };
+Physical Volume("specimen") = {inner[1], outer[1]};
+Physical Surface("disc") = {1};
+Physical Surface("far") = {inner[0], outer[0], outer[3], outer[4]};
