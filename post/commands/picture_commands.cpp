@@ -52,8 +52,10 @@ void declare_field(CLI::App& command, FieldOptions& o) {
   command.add_flag("--log", o.request.logarithmic, "colours by the logarithm");
   command.add_flag("--contours", o.request.contours, "lines of equal values");
   command.add_flag("--vectors", o.request.vectors, "arrows of the flux");
-  command.add_flag("--streamlines", o.request.streamlines,
-                   "streamlines, with a tenth of the discharge between two");
+  command.add_flag(
+      "--streamlines", o.request.streamlines,
+      "streamlines, with a tenth of the discharge between two; of a model in space sixty, "
+      "with the same discharge each, in the colours of the field");
   command.add_option("--view", o.view, "two corners of the part to show, m")
       ->type_name("X0,Y0:X1,Y1");
   command

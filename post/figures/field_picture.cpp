@@ -30,6 +30,7 @@ constexpr float bar_room = 215.0F;
 constexpr float legend_row = 30.0F;
 constexpr float contour_width = 1.2F;
 constexpr float stream_width = 1.8F;
+constexpr float path_width = 2.5F;
 constexpr double noticed_misfit = 0.01;
 /// Small triangles of one picture; fewer in a picture of lines and areas, whose file has each.
 constexpr int max_triangles = 400'000;
@@ -184,6 +185,10 @@ std::vector<Curve> legend_rows(const FieldPicture& picture, bool has_water) {
     }
     rows.push_back(legend_line(text, stream_color, stream_width));
   }
+  if (!picture.paths.empty()) {
+    rows.push_back(legend_line("streamlines, " + digits_text(picture.tube, 4) + " m3/s each", black,
+                               path_width));
+  }
   add_water_legend(rows, false, has_water);
   return rows;
 }
@@ -245,6 +250,9 @@ SpaceDrawing space_drawing(const Paper& sheet) {
   for (const auto& [corners, color] : picture.inside) {
     drawing.add_triangle({pixel(corners[0]), pixel(corners[1]), pixel(corners[2])},
                          {color, color, color});
+  }
+  for (const auto& [ends, color] : picture.paths) {
+    drawing.add_line({pixel(ends[0]), pixel(ends[1])}, color, path_width);
   }
   if (!picture.hollow && shows_element_edges(view, model, picture)) {
     add_edges(model.all_edges, mesh_color, 0.7F);

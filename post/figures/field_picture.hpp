@@ -46,6 +46,12 @@ struct SpaceTriangle {
   Color color;
 };
 
+/// A line within a model in space, projected, m, and its colour.
+struct SpaceLine {
+  std::array<Vector<3>, 2> ends;
+  Color color;
+};
+
 /// The content of one picture.
 struct FieldPicture {
   std::string title;
@@ -60,10 +66,11 @@ struct FieldPicture {
   bool contours = false;               ///< of the field, at the round values of the bar
   std::vector<double> arrows;          ///< two components per element, m/s; empty: none
   std::vector<double> streamfunction;  ///< at nodes, m2/s; empty: no streamlines
-  double tube = 0.0;                   ///< discharge between two streamlines, m2/s
-  double misfit = 0.0;                 ///< of the stream function
-  bool hollow = false;                 ///< of a model in space the edges alone, not the surface
-  std::vector<SpaceTriangle> inside;   ///< what is seen then
+  double tube = 0.0;    ///< discharge between two streamlines, m2/s; in space of each one, m3/s
+  double misfit = 0.0;  ///< of the stream function
+  bool hollow = false;  ///< of a model in space the edges alone, not the surface
+  std::vector<SpaceTriangle> inside;  ///< what is seen then ...
+  std::vector<SpaceLine> paths;       ///< ... and streamlines
 
   [[nodiscard]] bool of_points() const { return where == "solid" || where == "liquid"; }
 };

@@ -14,6 +14,7 @@
 #include "results/number_text.hpp"
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
+#include "values/flow_paths.hpp"
 #include "values/sample.hpp"
 #include "values/snapshot_choice.hpp"
 #include "values/stream_function.hpp"
@@ -24,6 +25,7 @@ namespace {
 const std::string command = "suffuse-post render";
 /// Streamlines of one picture.
 constexpr double tubes = 10.0;
+constexpr int paths_in_space = 60;
 /// In a picture of lines and areas each element makes 100 to 200 bytes.
 constexpr std::ptrdiff_t max_drawn_elements = 20'000;
 /// Values that stay in memory when all snapshots are drawn; more are read a second time.
@@ -93,8 +95,8 @@ void check_dimension(const ResultsReader& results, const RenderRequest& request)
     refuse("--iso", "a plane model", "--contours, or a model in space");
   }
   if (!in_space) return;
-  if (request.streamlines) {
-    refuse("--streamlines", "a model in space", "a plane model: --vectors shows flow in a cut");
+  if (request.streamlines && request.cut) {
+    refuse("--streamlines", "it with --cut", "--vectors: a cut has no streamlines of its own");
   }
   if (request.on == "solid" || request.on == "liquid") {
     refuse("--on", '"' + request.on + "\" of a model in space",
@@ -196,8 +198,13 @@ class Frames {
   /// The picture of a snapshot without lines and arrows.
   [[nodiscard]] FieldPicture picture(std::size_t index);
   void add_flow(FieldPicture& picture, std::size_t index) const;
+  /// What is seen within the edges of a model in space.
+  void add_inside(FieldPicture& picture, std::size_t index);
   /// Surfaces of equal values.
-  void add_levels(FieldPicture& picture, std::size_t index);
+  void add_levels(FieldPicture& picture, const std::vector<double>& at_nodes) const;
+  /// Streamlines in the colours of the field.
+  void add_paths(FieldPicture& picture, const std::vector<double>& at_nodes,
+                 std::size_t index) const;
 
   const ResultsReader& results_;
   const RenderRequest& request_;
@@ -242,7 +249,7 @@ FieldScale Frames::scale() {
   if (!kinds.kinds.empty()) return kinds;
   std::vector<WeightedValue> values;
   for (const std::size_t index : snapshots_) {
-    if (request_.levels.empty()) {
+    if (request_.levels.empty() && !(canvas_.mesh && request_.streamlines)) {
       add_values(model_, picture(index), values);
     } else {
       for (const double value : series_.at(index).values) values.push_back({value, 1.0});
@@ -284,18 +291,24 @@ void Frames::add_flow(FieldPicture& picture, std::size_t index) const {
       }
     }
   }
-  if (!request_.streamlines) return;
+  if (!request_.streamlines || canvas_.mesh) return;
   StreamFunction stream = stream_function(results_, index, model_.mesh, command);
   picture.streamfunction = std::move(stream.at_nodes);
   picture.tube = stream.discharge / tubes;
   picture.misfit = stream.misfit;
 }
 
-void Frames::add_levels(FieldPicture& picture, std::size_t index) {
-  picture.hollow = !request_.levels.empty();
+void Frames::add_inside(FieldPicture& picture, std::size_t index) {
+  picture.hollow = canvas_.mesh && (!request_.levels.empty() || request_.streamlines);
   if (!picture.hollow) return;
+  const std::vector<double> at_nodes =
+      node_means(*canvas_.mesh, place_.where, series_.at(index).values);
+  add_levels(picture, at_nodes);
+  if (request_.streamlines && flows(results_, index)) add_paths(picture, at_nodes, index);
+}
+
+void Frames::add_levels(FieldPicture& picture, const std::vector<double>& at_nodes) const {
   const Mesh<3>& mesh = *canvas_.mesh;
-  const std::vector<double> at_nodes = node_means(mesh, place_.where, series_.at(index).values);
   for (const double level : request_.levels) {
     const Sheet sheet = level_sheet(mesh, at_nodes, level);
     for (const auto& triangle : sheet.triangles) {
@@ -306,6 +319,23 @@ void Frames::add_levels(FieldPicture& picture, std::size_t index) {
       }
       drawn.color = shaded(picture.scale.color(level), drawn.corners);
       picture.inside.push_back(drawn);
+    }
+  }
+}
+
+void Frames::add_paths(FieldPicture& picture, const std::vector<double>& at_nodes,
+                       std::size_t index) const {
+  const Mesh<3>& mesh = *canvas_.mesh;
+  const Field flux = results_.field(index, "cell", "darcy_flux");
+  const FlowPaths flow = flow_paths(mesh, flux.values, paths_in_space);
+  picture.tube = flow.discharge / paths_in_space;
+  const SpaceView& view = model_.space->view;
+  for (const FlowPath& path : flow.paths) {
+    for (std::size_t k = 0; k < path.elements.size(); ++k) {
+      double mean = 0.0;
+      for (const int node : mesh.elements[path.elements[k]]) mean += at_nodes[node] / 4.0;
+      picture.paths.push_back({{view.project(path.places[k]), view.project(path.places[k + 1])},
+                               picture.scale.color(mean)});
     }
   }
 }
@@ -340,7 +370,7 @@ std::vector<std::string> Frames::draw() {
     frame.water = waters[k];
     frame.room = room;
     add_flow(frame, index);
-    add_levels(frame, index);
+    add_inside(frame, index);
     written.push_back(several ? numbered(request_.output, index) : request_.output);
     draw_field_picture(model_, frame, written.back());
   }

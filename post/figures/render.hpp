@@ -26,7 +26,9 @@ struct RenderRequest {
   bool logarithmic = false;                    ///< of the colours
   bool contours = false;                       ///< lines of equal values
   bool vectors = false;                        ///< arrows of the flux
-  bool streamlines = false;     ///< with equal discharge between them, ten for the whole
+  /// With equal discharge between them, ten for the whole; of a model in space sixty, in the
+  /// colours of the field.
+  bool streamlines = false;
   std::optional<ViewBox> view;  ///< unset: all of the model
   /// Of a model in space: the plane to show, or surfaces of equal values; without either its
   /// surface from outside.

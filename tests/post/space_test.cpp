@@ -19,6 +19,7 @@
 #include "tables/reference_error.hpp"
 #include "tables/safety_check.hpp"
 #include "values/derived_fields.hpp"
+#include "values/flow_paths.hpp"
 #include "values/sample.hpp"
 #include "values/sheet.hpp"
 #include "values/specimen.hpp"
@@ -184,6 +185,46 @@ TEST(Sheet, NodeMeansKeepALinearFieldInsideAndConstantsEverywhere) {
   for (int i = 0; i < mesh.node_count(); ++i) EXPECT_NEAR(means[i], linear(mesh.nodes[i]), 1e-15);
   for (const double mean : node_means(mesh, "cell", std::vector(mesh.elements.size(), 0.7))) {
     EXPECT_NEAR(mean, 0.7, 1e-15);
+  }
+}
+
+TEST(FlowPaths, OfAUniformFluxAreStraightAndShareTheDischarge) {
+  const Mesh<3> mesh = box();
+  const Vector<3> flux(3e-4, 1e-4, -2e-4);
+  std::vector<double> values;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    for (int i = 0; i < 3; ++i) values.push_back(flux[i]);
+  }
+  const FlowPaths flow = flow_paths(mesh, values, 40);
+  // Through the left side, the front and the top.
+  const Vector<3> areas(size[1] * size[2], size[0] * size[2], size[0] * size[1]);
+  EXPECT_NEAR(flow.discharge, flux.cwiseAbs().dot(areas), 1e-15);
+  ASSERT_EQ(flow.paths.size(), 40U);
+  int from_the_left = 0;
+  for (const FlowPath& path : flow.paths) {
+    ASSERT_EQ(path.places.size(), path.elements.size() + 1);
+    const Vector<3>& start = path.places.front();
+    for (const Vector<3>& x : path.places) {
+      EXPECT_NEAR((x - start).cross(flux).norm(), 0.0, 1e-15);
+    }
+    // From the surface to the surface.
+    const Vector<3>& end = path.places.back();
+    EXPECT_NEAR(std::min({start[0], start[1], size[2] - start[2]}), 0.0, 1e-12);
+    EXPECT_NEAR(std::min({size[0] - end[0], size[1] - end[1], end[2]}), 0.0, 1e-12);
+    from_the_left += start[0] < 1e-12 ? 1 : 0;
+  }
+  EXPECT_NEAR(from_the_left, 40 * flux[0] * areas[0] / flow.discharge, 2.0);
+}
+
+TEST(FlowPaths, EndWhereLiquidRests) {
+  const Mesh<3> mesh = box();
+  std::vector<double> values(3UL * mesh.element_count(), 0.0);
+  EXPECT_TRUE(flow_paths(mesh, values, 40).paths.empty());
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (element_centroid(mesh, e)[0] < 0.5) values[3UL * e] = 1e-4;
+  }
+  for (const FlowPath& path : flow_paths(mesh, values, 40).paths) {
+    EXPECT_NEAR(path.places.back()[0], 0.5, 1e-12);
   }
 }
 
@@ -383,6 +424,17 @@ TEST_F(Space, PicturesOfSurfaceCutAndLevels) {
   EXPECT_GT(testing::Pixels(r.output).inked(), 10'000);
 }
 
+TEST_F(Space, StreamlinesAreDrawn) {
+  RenderRequest r = request("porosity");
+  r.streamlines = true;
+  render(run(), r);
+  const std::size_t edges_and_lines = testing::Pixels(r.output).inked();
+  r.streamlines = false;
+  r.levels = {100.0};  // no surface: the edges alone
+  render(run(), r);
+  EXPECT_GT(edges_and_lines, testing::Pixels(r.output).inked() + 5'000);
+}
+
 TEST_F(Space, SketchAndProfileAreDrawn) {
   draw_figure("model", {run()}, scratch / "model.png");
   EXPECT_GT(testing::Pixels(scratch / "model.png").inked(), 10'000);
@@ -403,9 +455,10 @@ TEST_F(Space, WhatHasNoSenseIsRefused) {
                             "shows it");
   r = request("porosity");
   r.streamlines = true;
+  r.cut = CutPlane{0, 0.3};
   EXPECT_EQ(refusal(r), start +
-                            "--streamlines: got a model in space; expected a plane model: "
-                            "--vectors shows flow in a cut");
+                            "--streamlines: got it with --cut; expected --vectors: a cut has no "
+                            "streamlines of its own");
   r = request("porosity");
   r.on = "solid";
   EXPECT_EQ(refusal(r), start +
