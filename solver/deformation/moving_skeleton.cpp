@@ -301,8 +301,7 @@ void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
 
 template <int Dim>
 bool MovingSkeleton<Dim>::watches_failure() const {
-  return !inertia_.acts() &&
-         this->soils().scene().follows_failure(this->grid_.mesh.region_names);
+  return !inertia_.acts() && this->soils().scene().follows_failure(this->grid_.mesh.region_names);
 }
 
 template <int Dim>

@@ -137,21 +137,24 @@ Scene bank() {
   return scene;
 }
 
-model::ModelRun bank_run(const Scene& scene, int threads = 1) {
+template <class Run = model::ModelRun>
+Run bank_run(Scene scene, int threads = 1) {
   const auto is_soil = [](const Vector<2>& x) {
     return x[1] < 0.25 || (x[1] < 1.0 && x[0] + x[1] < 2.0);
   };
   SolverOptions options;
   options.threads = threads;
-  return model::ModelRun(
-      model::make_case(under_water(model::crossed_mesh(16, 5, 4.0, 1.25), is_soil), scene),
-      options);
+  scene.formulation = Run::formulation;
+  return Run(model::make_case(under_water(model::crossed_mesh(16, 5, 4.0, 1.25), is_soil), scene),
+             options);
 }
 
-TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
+template <class Run>
+HistoryRow fails_and_runs_out_under_water() {
   Scene scene = bank();
   scene.time.end = 12.0;
-  model::ModelRun run = bank_run(scene);
+  scene.time.failure = AtFailure::follow;
+  Run run = bank_run<Run>(scene);
   const double erodible = run.model().ledger().erodible;
   const double solid = run.model().ledger().solid;
   const auto states = run.run({7.0, 11.0}).states;
@@ -171,6 +174,14 @@ TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
   EXPECT_LT(run.worst_residual(), 1e-12);
   EXPECT_NEAR(missing_fines(now.ledger, erodible), 0.0, 1e-12 * erodible);
   EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, solid, 1e-12 * solid);
+  return now.history;
+}
+
+TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
+  const HistoryRow one = fails_and_runs_out_under_water<model::ModelRun>();
+  const HistoryRow both = fails_and_runs_out_under_water<model::DoublePointRun>();
+  EXPECT_NEAR(both.failure_time, one.failure_time, 0.1);
+  EXPECT_NEAR(both.displacement_max, one.displacement_max, 0.2 * one.displacement_max);
 }
 
 /// Sand over a water table that loses strength, and slides into air.
