@@ -352,7 +352,9 @@ void ImplicitMixed<Dim>::limit_change() {
   if (!has_retention()) return;
   FacePressure& pressure = work_.pressure;
   for_each_index(grid_.face_count(), settings_.threads, [&](int f) {
-    if (is_held(f)) return;
+    const bool stays_wet =
+        pressure.reference[f] >= 0.0 && pressure.reference[f] + pressure.rise[f] >= 0.0;
+    if (is_held(f) || stays_wet) return;
     for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
       if (e < 0) continue;
       for (const double steepest : soils_.steepest(e)) {

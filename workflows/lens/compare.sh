@@ -3,7 +3,7 @@
 # the model 6 m.
 set -eu -o pipefail
 awk -F, '
-  FNR == 1 { for (i = 1; i <= NF; ++i) column[i] = $i; ++file; next }
+  FNR == 1 { for (i = 1; i <= NF; ++i) { sub(/ .*/, "", $i); column[i] = $i }; ++file; next }  # without units
   { for (i = 1; i <= NF; ++i) row[column[i]] = $i }
   file == 1 { eroded[row["t"]] = row["eroded"]; flux[row["t"]] = row["flux_in"]; next }
   !said++ { print "t,eroded_section,eroded_lens,discharge_section,discharge_lens" }
