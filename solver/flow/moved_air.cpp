@@ -1,10 +1,32 @@
 #include "flow/moved_air.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace suffuse {
 namespace {
+
+/// Adds `missing`, m3, to the air at the sides of an element, in equal parts but for what a side
+/// has no room for, or no air to give: that goes to the others.
+template <int Dim>
+void share_out(double missing, double room, ElementValues<Dim>& air) {
+  ElementValues<Dim> space;  // of each side
+  for (int k = 0; k <= Dim; ++k) space[k] = std::max(0.0, missing > 0.0 ? room - air[k] : air[k]);
+  const double sign = missing > 0.0 ? 1.0 : -1.0;
+  double left = std::abs(missing);
+  for (int round = 0; round <= Dim; ++round) {
+    const auto open = std::ranges::count_if(space, [](double s) { return s > 0.0; });
+    if (open == 0) break;
+    const double part = left / static_cast<double>(open);
+    for (int k = 0; k <= Dim; ++k) {
+      const double taken = std::min(part, space[k]);
+      air[k] += sign * taken;
+      space[k] -= taken;
+      left -= taken;
+    }
+  }
+  for (double& side : air) side += sign * left / (Dim + 1);
+}
 
 /// Air takes the place that water and solid leave, to the last digit: where there is water. Where
 /// they need place, air that is there leaves it. `before`: at the start of the step; `liquid` has
@@ -18,17 +40,8 @@ void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
     for (int k = 0; k <= Dim; ++k) {
       left += grid.element_face_sign[e][k] * liquid[grid.element_face[e][k]];
     }
-    const double missing = left - element_sum<Dim>(air[e]);
     const double room = porosity[e] * grid.volume[e] / (Dim + 1);
-    std::array<double, Dim + 1> share;
-    double sum = 0.0;
-    for (int k = 0; k <= Dim; ++k) {
-      share[k] = std::max(0.0, missing < 0.0 ? air[e][k] : room - air[e][k]);
-      sum += share[k];
-    }
-    for (int k = 0; k <= Dim; ++k) {
-      air[e][k] += missing * (sum > 0.0 ? share[k] / sum : 1.0 / (Dim + 1));
-    }
+    share_out<Dim>(left - element_sum<Dim>(air[e]), room, air[e]);
   }
 }
 
