@@ -132,7 +132,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   BoundaryLoads<Dim> boundary_loads_;
   CrossingForces<Dim> crossing_forces_;  ///< while inertia does not act
   SoilInertia<Dim> inertia_;
-  bool slides_ = false;  ///< see `slides`; of the last step
+  bool slides_ = false;                      ///< see `slides`; of the last step
   double failure_time_ = 0.0;                ///< when equilibrium was lost last, s; 0: never
   std::vector<double> solid_;                ///< per element, m3
   std::vector<CompensatedSum> region_gain_;  ///< per region of the mesh, m3
