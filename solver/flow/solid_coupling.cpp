@@ -187,11 +187,11 @@ double SolidCoupling<Dim>::allowed(double rise, double pressure, double floor) c
 
 template <int Dim>
 void SolidCoupling<Dim>::watch_steps(double time, double next_step) {
-  const bool is_long = next_step >= short_step * solid_.time_of_fall();
-  if (is_long && !(long_steps_ && solid_.slides())) {
-    long_steps_ = true;
-  } else if (long_steps_ && solid_.let_fail(time)) {
+  const bool is_short = next_step < short_step * solid_.time_of_fall();
+  if (long_steps_ && (is_short || solid_.slides()) && solid_.let_fail(time)) {
     long_steps_ = false;
+  } else if (!is_short) {
+    long_steps_ = true;
   }
 }
 
