@@ -26,8 +26,8 @@ struct RenderRequest {
   bool logarithmic = false;                    ///< of the colours
   bool contours = false;                       ///< lines of equal values
   bool vectors = false;                        ///< arrows of the flux
-  /// With equal discharge between them, ten for the whole; of a model in space sixty, in the
-  /// colours of the field.
+  /// A plane model has ten, with the same discharge between two. A model in space has sixty, with
+  /// the same discharge each, in the colours of the field.
   bool streamlines = false;
   std::optional<ViewBox> view;  ///< unset: all of the model
   /// Of a model in space: the plane to show, or surfaces of equal values; without either its

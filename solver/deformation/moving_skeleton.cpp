@@ -353,9 +353,10 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   boundary_loads_.move(step_->sorted(), step_->displacement());
   const std::vector<int> element = points_.element;
   if (inertia_.acts()) take_velocities();
-  const std::vector<Vector<Dim>> place = points_.position;
+  const bool watched = watches_failure();
+  const std::vector<Vector<Dim>> place = watched ? points_.position : std::vector<Vector<Dim>>();
   move_points(this->grid_, step_->skeleton(), step_->displacement(), points_, this->threads_);
-  slides_ = watches_failure() && is_sliding(kinetic_energy(place), extent());
+  slides_ = watched && has_slid(place);
   if (!inertia_.acts()) find_crossing_forces();
   book_regions(element);
   carry_solid(before, motion_.travel);
@@ -373,10 +374,10 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
 }
 
 template <int Dim>
-SoilExtent MovingSkeleton<Dim>::extent() const {
+SoilExtent MovingSkeleton<Dim>::extent(const std::vector<double>& mass) const {
   const Scene& scene = this->soils().scene();
   SoilExtent extent;
-  for (const double mass : moved_masses(tried_)) extent.mass += mass;
+  for (const double m : mass) extent.mass += m;
   extent.load = acceleration(scene.gravity) * extent.mass;
   if (!has_gravity(scene.gravity)) {
     for (const Vector<Dim>& force : forces_) extent.load += force.norm();
@@ -389,13 +390,13 @@ SoilExtent MovingSkeleton<Dim>::extent() const {
 }
 
 template <int Dim>
-double MovingSkeleton<Dim>::kinetic_energy(const std::vector<Vector<Dim>>& before) const {
+bool MovingSkeleton<Dim>::has_slid(const std::vector<Vector<Dim>>& before) const {
   const std::vector<double> mass = moved_masses(tried_);
   double sum = 0.0;
   for (int p = 0; p < points_.size(); ++p) {
     sum += mass[p] * (points_.position[p] - before[p]).squaredNorm();
   }
-  return 0.5 * sum / (tried_.duration * tried_.duration);
+  return is_sliding(0.5 * sum / (tried_.duration * tried_.duration), extent(mass));
 }
 
 template <int Dim>
@@ -408,7 +409,7 @@ void MovingSkeleton<Dim>::take_velocities() {
     loads = acceleration(scene.gravity) * std::sqrt(squared);
   }
   inertia_.finish_step(this->grid_, points_, step_->displacement(), tried_.duration, motion_.travel,
-                       step_->equilibrium().inertia_norm() / loads, extent());
+                       step_->equilibrium().inertia_norm() / loads, extent(moved_masses(tried_)));
 }
 
 template <int Dim>

@@ -99,9 +99,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> moved_masses(const MotionForcing& forcing) const;
   /// Whether the soil is in equilibrium, and inertia is to follow when it is lost.
   [[nodiscard]] bool watches_failure() const;
-  [[nodiscard]] SoilExtent extent() const;
-  /// Of the step that is accepted, J; `before`: places of the points at its start.
-  [[nodiscard]] double kinetic_energy(const std::vector<Vector<Dim>>& before) const;
+  /// \param mass  what counts for inertia, kg per point
+  [[nodiscard]] SoilExtent extent(const std::vector<double>& mass) const;
+  /// Whether the step that is accepted moved the soil as fast as it falls. `before`: places of the
+  /// points at its start.
+  [[nodiscard]] bool has_slid(const std::vector<Vector<Dim>>& before) const;
   void take_velocities();
   /// V_e / E_oed, m3/Pa, in free water beside soil that of the softest soil; 0 elsewhere without
   /// soil that moves.
