@@ -648,9 +648,9 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .otherwise_as("`output.every`"),
       key("output.failure_every", at(&Scene::output, &OutputSettings::failure_every),
-          "Time between rows and snapshots while soil that has lost its equilibrium moves, beside "
-          "those above: a slide takes seconds of a flood of days. With `time.failure = "
-          "\"follow\"`.")
+          "Time between rows and snapshots while soil that has lost its equilibrium moves, in "
+          "addition to those above: a slide takes seconds of a flood of days. Where steps are "
+          "longer, each step is written. With `time.failure = \"follow\"`.")
           .in("s")
           .above(0.0)
           .otherwise_as("no others than those above"),

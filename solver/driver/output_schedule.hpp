@@ -96,9 +96,12 @@ class OutputSchedule {
     archive(rows_, snapshots_, past_rows_, past_snapshots_, in_failure_);
   }
 
-  /// Soil fails, or does not, from `time` on, s.
-  void follow_failure(double time, bool fails) {
-    if (!failure_every_ || !fails) {
+  /// Soil fails, or does not, from `time` on, s; `last_step` is the length of the last step, s.
+  /// Outputs that would come more often than steps come with each step and shorten none: steps of
+  /// their length might not even change the time.
+  void follow_failure(double time, bool fails, double last_step) {
+    each_step_ = fails && failure_every_ && *failure_every_ < last_step;
+    if (!failure_every_ || !fails || each_step_) {
       in_failure_ = none;
     } else if (in_failure_ == none) {
       const double multiple = std::floor(time / *failure_every_) + 1.0;
@@ -106,6 +109,10 @@ class OutputSchedule {
       if (is_same_time(in_failure_, time)) in_failure_ = (multiple + 1.0) * *failure_every_;
     }
   }
+
+  /// Whether the next step is written because soil fails and `failure_every` is shorter than a
+  /// step.
+  [[nodiscard]] bool writes_each_step() const { return each_step_; }
 
   /// The next output time, s. Only before it is finished.
   [[nodiscard]] double next() const {
@@ -117,12 +124,13 @@ class OutputSchedule {
 
   /// What is due at `time`; moves on to the output after it.
   Due take(double time) {
-    const bool in_failure =
-        in_failure_ <= time || (in_failure_ != none && is_same_time(in_failure_, time));
+    const bool in_failure = each_step_ || in_failure_ <= time ||
+                            (in_failure_ != none && is_same_time(in_failure_, time));
     const Due due{rows_.take(time) || in_failure, snapshots_.take(time) || in_failure};
     if (due.row) past_rows_.add(time);
     if (due.snapshot) past_snapshots_.add(time);
     if (in_failure) in_failure_ = none;
+    each_step_ = false;
     return due;
   }
 
@@ -133,6 +141,7 @@ class OutputSchedule {
   OutputTimes snapshots_;
   std::optional<double> failure_every_;  ///< s
   double in_failure_ = none;             ///< the next output while soil fails, s
+  bool each_step_ = false;               ///< set before each step
   Past past_rows_;
   Past past_snapshots_;
 };

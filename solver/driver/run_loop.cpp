@@ -1,5 +1,7 @@
 #include "driver/run_loop.hpp"
 
+#include <sstream>
+
 #include "driver/interrupt.hpp"
 #include "driver/transport_cost.hpp"
 
@@ -11,7 +13,8 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
   if (at_the_start) output(sink);
   bool goes_on = true;
   while (goes_on && !schedule_.finished() && !interrupted()) {
-    schedule_.follow_failure(model_->time(), model_->solid().has_inertia());
+    schedule_.follow_failure(model_->time(), model_->solid().has_inertia(), model_->last_step());
+    warn_of_outputs(sink);
     model_->advance(schedule_.next());
     for (const std::string& warning : model_->take_warnings()) sink.warn(warning);
     warn_of_points(sink);
@@ -29,6 +32,17 @@ void RunLoop<Dim>::warn_of_points(OutputSink<Dim>& sink) {
     warned_of_points_ = true;
     sink.warn(*warning);
   }
+}
+
+template <int Dim>
+void RunLoop<Dim>::warn_of_outputs(OutputSink<Dim>& sink) {
+  if (warned_of_outputs_ || !schedule_.writes_each_step()) return;
+  warned_of_outputs_ = true;
+  std::ostringstream text;
+  text << "output.failure_every is shorter than the steps of the soil that fails, "
+       << model_->last_step() << " s at t = " << model_->time()
+       << " s: each step is written, with a snapshot";
+  sink.warn(text.str());
 }
 
 template <int Dim>

@@ -62,7 +62,9 @@ class RunLoop {
   [[nodiscard]] const TwoPhaseModel<Dim>& model() const { return *model_; }
   [[nodiscard]] const OutputSchedule& schedule() const { return schedule_; }
 
-  void archive(StateArchive& archive) { archive(*model_, schedule_, warned_of_points_); }
+  void archive(StateArchive& archive) {
+    archive(*model_, schedule_, warned_of_points_, warned_of_outputs_);
+  }
   /// From where a run can continue: the state of the loop and of `more`, for an archive that is
   /// given the same.
   template <class... More>
@@ -82,12 +84,14 @@ class RunLoop {
  private:
   void output(OutputSink<Dim>& sink);
   void warn_of_points(OutputSink<Dim>& sink);
+  void warn_of_outputs(OutputSink<Dim>& sink);
 
   std::unique_ptr<TwoPhaseModel<Dim>> model_;
   OutputSchedule schedule_;
-  double end_;                     ///< of the run, s
-  bool warned_of_points_ = false;  ///< that they have far to go
-  std::size_t state_size_ = 0;     ///< of the last restart point, bytes
+  double end_;                      ///< of the run, s
+  bool warned_of_points_ = false;   ///< that they have far to go
+  bool warned_of_outputs_ = false;  ///< that each step is written
+  std::size_t state_size_ = 0;      ///< of the last restart point, bytes
 };
 
 }  // namespace suffuse

@@ -130,7 +130,7 @@ TEST(OutputSchedule, ComesMoreOftenWhileSoilFails) {
   std::string outputs;
   double time = 0.0;
   while (!schedule.finished()) {
-    schedule.follow_failure(time, time > 0.3 && time < 0.65);
+    schedule.follow_failure(time, time > 0.3 && time < 0.65, 0.07);
     time = std::min(schedule.next(), time + 0.07);
     const OutputSchedule::Due due = schedule.take(time);
     if (!due.row) continue;
@@ -141,6 +141,26 @@ TEST(OutputSchedule, ComesMoreOftenWhileSoilFails) {
   EXPECT_EQ(schedule.past_rows().count, 7);
   EXPECT_EQ(schedule.past_snapshots().count, 5);
   EXPECT_EQ(schedule.past_rows().last, 1.0);
+}
+
+/// Outputs every 1e-12 s would hold a run in its failure: 1e-12 s later is the same time to the
+/// last digits of a double.
+TEST(OutputSchedule, ShortensNoStepToLessThanItsOwnLength) {
+  Scene scene;
+  scene.time.end = 1.0;
+  scene.output.every = scene.output.snapshot_every = 0.5;
+  scene.output.failure_every = 1e-12;
+  OutputSchedule schedule(scene);
+  std::string outputs;
+  double time = 0.0;
+  while (!schedule.finished()) {
+    schedule.follow_failure(time, time > 0.3 && time < 0.65, 0.1);
+    time = std::min(schedule.next(), time + 0.1);
+    const OutputSchedule::Due due = schedule.take(time);
+    if (due.row) outputs += short_text(time) + (due.snapshot ? " snapshot, " : ", ");
+  }
+  EXPECT_EQ(outputs,
+            "0 snapshot, 0.4 snapshot, 0.5 snapshot, 0.6 snapshot, 0.7 snapshot, 1 snapshot, ");
 }
 
 TEST(OutputSchedule, TimesThatDifferByRoundOffAreOne) {
