@@ -10,6 +10,13 @@ namespace {
 
 constexpr double drying_suction = 1000.0;  // m
 
+/// K / k_along = I + (k_across / k_along - 1) n n^T with the unit vector n across the bedding.
+template <int Dim>
+DirectionalFactor<Dim> bedding_factor(const Soil& soil) {
+  const double excess = soil.anisotropy() - 1.0;
+  return {across_bedding<Dim>(soil) * std::sqrt(std::abs(excess)), excess < 0.0 ? -1.0 : 1.0};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -28,9 +35,7 @@ FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,
       result.retention.push_back((left ? soils.free_space() : soil).retention);
       if (moves) result.retention.back().dries_at = drying_suction;
     }
-    if (layered) {
-      result.bedding.push_back(across_bedding<Dim>(soil) * std::sqrt(1.0 - soil.anisotropy()));
-    }
+    if (layered) result.bedding.push_back(bedding_factor<Dim>(soil));
   }
   if (!retains) return result;
   result.free_space = soils.free_space().retention;

@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "flow/directional_factor.hpp"
 #include "flow/flow.hpp"
 #include "physics/retention/retention_law.hpp"
 #include "solid/skeleton.hpp"
@@ -22,11 +23,15 @@ struct FlowSoils {
   std::vector<double> soil_share;
   RetentionModel free_space;
   double head_per_pressure = 0.0;  ///< 1 / (rho_w 9.81 m/s2), m/Pa
-  /// Per element: across the bedding, of length sqrt(1 - k_across / k_along); empty where every
-  /// soil conducts alike in all directions.
-  VectorField<Dim> bedding;
+  /// Per element: conductivity over that along the bedding. Empty where every soil conducts alike
+  /// in all directions.
+  std::vector<DirectionalFactor<Dim>> bedding;
 
   [[nodiscard]] bool saturated() const { return retention.empty(); }
+  /// Conductivity of an element's soil in its best direction over that along the bedding.
+  [[nodiscard]] double best_over_along(int e) const {
+    return bedding.empty() ? 1.0 : std::max(1.0, bedding[e].along_direction());
+  }
   /// Whether the air in pores moves with soil that moves.
   [[nodiscard]] bool air_moves() const { return !soil_share.empty(); }
   /// S and k_r of an element's soil at a pressure in Pa, and dS/dp, 1/Pa.

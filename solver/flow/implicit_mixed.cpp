@@ -138,7 +138,7 @@ void ImplicitMixed<Dim>::FacePressure::move_reference(const std::vector<double>&
 
 template <int Dim>
 double ImplicitMixed<Dim>::conductance_of(int e) const {
-  return work_.law.mobility[e] * matrix_.largest_product(e);
+  return work_.law.mobility[e] * soils_.best_over_along(e) * matrix_.largest_product(e);
 }
 
 template <int Dim>
@@ -155,12 +155,9 @@ void ImplicitMixed<Dim>::find_load(const FlowForcing<Dim>& forcing) {
                  [&](int f) { w.known_rise[f] = is_held(f) ? w.pressure.rise[f] : 0.0; });
   for_each_index(elements, settings_.threads, [&](int e) {
     const Vector<Dim> gradient = pressure_gradient(e, w.pressure.reference, w.known_rise);
-    Vector<Dim> push = w.law.drive[e] - gradient;
-    if (!w.law.direction.empty()) {
-      push -= w.law.direction[e] * w.law.direction[e].dot(push);
-    }
-    w.face_push[e] = w.law.mobility[e] * push;
-    w.round_off[e] = 2.0 * epsilon * w.law.mobility[e] * (w.law.drive[e].norm() + gradient.norm());
+    w.face_push[e] = w.law.mobility[e] * w.law.directed(e, w.law.drive[e] - gradient);
+    w.round_off[e] = 2.0 * epsilon * w.law.mobility[e] * soils_.best_over_along(e) *
+                     (w.law.drive[e].norm() + gradient.norm());
   });
   const auto known_in_mean = [&](int e) {
     return stored_in_mean(e, [&](int f) { return w.pressure.offset[f] + w.known_rise[f]; });
@@ -271,9 +268,7 @@ void ImplicitMixed<Dim>::find_flux(Field& flux, Field& push) const {
     const Vector<Dim> gradient =
         pressure_gradient(e, work_.pressure.reference, work_.pressure.rise);
     push[e] = work_.drive[e] - gradient;
-    Vector<Dim> linear = law.drive[e] - gradient;
-    if (!law.direction.empty()) linear -= law.direction[e] * law.direction[e].dot(linear);
-    flux[e] = law.mobility[e] * linear;
+    flux[e] = law.mobility[e] * law.directed(e, law.drive[e] - gradient);
   });
 }
 
@@ -283,7 +278,7 @@ void ImplicitMixed<Dim>::solve_linear(const MixedState<Dim>& base,
   Work& w = work_;
   const int elements = grid_.mesh.element_count();
   w.law.mobility.resize(elements);
-  w.law.direction = soils_.bedding;
+  w.law.factor = soils_.bedding;
   w.law.drive = w.drive;
   for_each_index(elements, settings_.threads,
                  [&](int e) { set_mobility(e, 1.0 / w.resistance[e]); });
@@ -329,8 +324,7 @@ void ImplicitMixed<Dim>::find_face_flux(const MixedState<Dim>& base, double dura
   w.conductance.resize(elements);
   w.net_outflow.resize(elements);
   for_each_index(elements, settings_.threads, [&](int e) {
-    double trace = Dim;
-    if (!w.law.direction.empty()) trace -= w.law.direction[e].squaredNorm();
+    const double trace = w.law.factor.empty() ? Dim : w.law.factor[e].trace();
     w.conductance[e] = w.law.mobility[e] * trace / grid_.volume[e];
     w.net_outflow[e] = w.net_source[e] - stored_in_mean(e, [&](int f) { return stage.rise[f]; });
     for (int k = 0; k <= Dim; ++k) {

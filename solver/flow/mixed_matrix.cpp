@@ -78,10 +78,9 @@ int MixedMatrix<Dim>::position(int row, int column) const {
 template <int Dim>
 double MixedMatrix<Dim>::entry(const MomentumLaw<Dim>& law, int e, int a, int b) const {
   double product = products_[e][a][b];
-  if (!law.direction.empty()) {
-    const Vector<Dim>& direction = law.direction[e];
-    product -= direction.dot(grid_.outward_normal(e, a)) *
-               direction.dot(grid_.outward_normal(e, b)) / grid_.volume[e];
+  if (!law.factor.empty()) {
+    product += law.factor[e].excess(grid_.outward_normal(e, a), grid_.outward_normal(e, b)) /
+               grid_.volume[e];
   }
   return product * law.mobility[e];
 }

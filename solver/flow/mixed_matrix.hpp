@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "flow/directional_factor.hpp"
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "flow/leaky_walls.hpp"
@@ -16,12 +17,17 @@
 
 namespace suffuse {
 
-/// The linear law q = mobility (I - direction direction^T) (drive - grad p) of each element.
+/// The linear law q = mobility factor (drive - grad p) of each element.
 template <int Dim>
 struct MomentumLaw {
-  std::vector<double> mobility;  ///< T, m3 s/kg
-  VectorField<Dim> direction;    ///< of fast flow; empty where no soil has quadratic drag
-  VectorField<Dim> drive;        ///< Pa/m
+  std::vector<double> mobility;                ///< T, m3 s/kg
+  std::vector<DirectionalFactor<Dim>> factor;  ///< of bedding and fast flow; empty: I everywhere
+  VectorField<Dim> drive;                      ///< Pa/m
+
+  /// The flux that a push in Pa/m makes, over the mobility.
+  [[nodiscard]] Vector<Dim> directed(int e, const Vector<Dim>& push) const {
+    return factor.empty() ? push : factor[e].times(push);
+  }
 };
 
 template <int Dim>

@@ -279,7 +279,8 @@ double ImplicitMixed<Dim>::drive_round_off(const std::vector<double>& face_press
            for (const Vector<Dim>& g : grid_.shape_gradient[e]) {
              steepest = std::max(steepest, g.squaredNorm());
            }
-           const double drives = c.porosity[e] / c.drag[e] * grid_.volume[e] * steepest * pressure;
+           const double drives = c.porosity[e] / c.drag[e] * soils_.best_over_along(e) *
+                                 grid_.volume[e] * steepest * pressure;
            return std::max(gravity_flux(e, c), drives);
          });
 }
@@ -289,7 +290,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
                                          const FlowForcing<Dim>& forcing) {
   Work& w = work_;
   const int elements = grid_.mesh.element_count();
-  w.law.direction = soils_.bedding;
+  w.law.factor = soils_.bedding;
   w.law.drive = w.drive;
   w.law.mobility.resize(elements);
   for (int e = 0; e < elements; ++e) set_mobility(e, 1.0 / w.resistance[e]);
@@ -300,7 +301,8 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   for (iterations_ = 0;; ++iterations_) {
     evaluate(base, duration, forcing);
     double norm = w.load.norm();
-    while (!(norm < last_norm) && share > min_share) {
+    // The first pressures have none to go back to.
+    while (iterations_ > 0 && !(norm < last_norm) && share > min_share) {
       // Back, and a shorter step.
       share *= 0.5;
       w.pressure.reference = from;
@@ -403,7 +405,7 @@ void ImplicitMixed<Dim>::settle_air(const MixedState<Dim>& base, double duration
 template <int Dim>
 double ImplicitMixed<Dim>::gravity_flux(int e, const FlowCoefficients<Dim>& c) const {
   return c.mixture_density[e] * gravity_.norm() * c.porosity[e] / c.drag[e] *
-         largest_at_faces(e, face_area_);
+         soils_.best_over_along(e) * largest_at_faces(e, face_area_);
 }
 
 template <int Dim>

@@ -41,9 +41,10 @@ void ImplicitMixed<Dim>::linearise_about(const Field& flux,
     const double secant = quadratic_drag[e] * speed;
     w.law.mobility[e] = 1.0 / (w.resistance[e] + secant);
     w.law.drive[e] = w.drive[e] + secant * flux[e];
-    w.law.direction[e] = Vector<Dim>::Zero();
+    w.law.factor[e] = soils_.bedding.empty() ? DirectionalFactor<Dim>{} : soils_.bedding[e];
     if (secant > 0.0) {
-      w.law.direction[e] = std::sqrt(secant / (w.resistance[e] + 2.0 * secant)) / speed * flux[e];
+      w.law.factor[e] = {std::sqrt(secant / (w.resistance[e] + 2.0 * secant)) / speed * flux[e],
+                         -1.0};
     }
   });
 }
@@ -55,7 +56,10 @@ double ImplicitMixed<Dim>::momentum_error(const Field& flux, const Field& push,
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const double resistance = work_.resistance[e] + quadratic_drag[e] * flux[e].norm();
     const double weight = grid_.volume[e] * work_.law.mobility[e];
-    sum += weight * (resistance * flux[e] - push[e]).squaredNorm();
+    // Soil with bedding has no quadratic drag.
+    const Vector<Dim> held =
+        soils_.bedding.empty() ? flux[e] : soils_.bedding[e].inverse_times(flux[e]);
+    sum += weight * (resistance * held - push[e]).squaredNorm();
   }
   return std::sqrt(sum);
 }
@@ -106,7 +110,7 @@ void ImplicitMixed<Dim>::solve_quadratic(const MixedState<Dim>& base,
   const int elements = grid_.mesh.element_count();
   const std::vector<double>& quadratic_drag = forcing.coefficients.quadratic_drag;
   w.law.mobility.resize(elements);
-  w.law.direction.resize(elements);
+  w.law.factor.resize(elements);
   w.law.drive.resize(elements);
   w.flux = flux_guess;
   w.push = w.drive;

@@ -38,7 +38,8 @@ Soil free_water(const Scene& scene, double element_size) {
   water.skeleton_fraction = 0.0;
   water.conductivity = 0.0;
   for (const Soil& soil : scene.soils) {
-    water.conductivity = std::max(water.conductivity, free_water_ratio * soil.conductivity);
+    water.conductivity = std::max(water.conductivity, free_water_ratio * soil.conductivity *
+                                                          std::max(1.0, soil.anisotropy()));
   }
   if (std::ranges::any_of(scene.soils, &Soil::drains)) {
     water.conductivity *= free_air_ratio / free_water_ratio;

@@ -8,14 +8,16 @@
 #include <iostream>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "model_run.hpp"
+#include "physics/drag.hpp"
 
 namespace suffuse {
 namespace {
 
-constexpr double along = 1e-3;   // m/s
-constexpr double across = 1e-4;  // m/s
+constexpr double better = 1e-3;  // m/s
+constexpr double worse = 1e-4;   // m/s
 
 /// Discharge of a square under a head on half its top, let out by a quarter of its side; `move`
 /// puts the square somewhere.
@@ -49,7 +51,8 @@ Vector<2> turned(const Vector<2>& x, double angle) {
   return {std::cos(a) * x[0] - std::sin(a) * x[1], std::sin(a) * x[0] + std::cos(a) * x[1]};
 }
 
-TEST(Bedding, IsAStretchedIsotropicSection) {
+/// Of soil that conducts `along` and `across` its bedding.
+void expect_stretched_section(double along, double across) {
   const double squeeze = std::sqrt(across / along);
   for (const double angle : {0.0, 30.0, 90.0, -45.0}) {
     // The square itself stays; its bedding rises by the angle.
@@ -68,6 +71,68 @@ TEST(Bedding, IsAStretchedIsotropicSection) {
               << '\n';
     EXPECT_NEAR(found / isotropic, 1.0, 1e-3);
     EXPECT_NEAR(found / rotated, 1.0, 1e-10);
+  }
+}
+
+TEST(Bedding, IsAStretchedIsotropicSection) {
+  expect_stretched_section(better, worse);
+}
+
+TEST(Bedding, IsAStretchedIsotropicSectionWhereItConductsBetterAcross) {
+  expect_stretched_section(worse, better);
+}
+
+TEST(Bedding, HasNoPreferredName) {
+  const auto stay = [](const Vector<2>& x) { return x; };
+  for (const double angle : {0.0, 25.0, -70.0}) {
+    const double across = discharge(stay, worse, better, angle);
+    const double along = discharge(stay, better, worse, angle + 90.0);
+    EXPECT_NEAR(across / along, 1.0, 1e-10) << angle;
+  }
+}
+
+/// Flow down a column of height 1 m and width 0.5 m under a head of 1 m.
+double column_discharge(double k_along, double k_across, double bedding, bool ergun_above) {
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.initial_flow = InitialFlow::steady;
+  scene.soils[0].conductivity = k_along;
+  scene.soils[0].conductivity_across = k_across;
+  scene.soils[0].bedding = bedding;
+  scene.boundaries = {model::pressure_on("top", 9810.0), model::pressure_on("bottom", 0.0)};
+  Mesh<2> mesh = model::column_mesh(3, 8, 0.5);
+  if (ergun_above) {
+    Soil gravel = scene.soils[0];
+    gravel.region = "gravel";
+    gravel.conductivity = 1e-2;
+    gravel.conductivity_across = unset;
+    gravel.drag = SoilDrag::ergun;
+    scene.soils.push_back(gravel);
+    mesh.region_names.emplace_back("gravel");
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      if (element_centroid(mesh, e)[1] > 0.5) mesh.element_region[e] = 1;
+    }
+  }
+  model::ModelRun run(model::make_case(std::move(mesh), scene));
+  return run.state().history.flux_out;
+}
+
+TEST(Bedding, DecidesWhatRunsThroughAColumn) {
+  EXPECT_NEAR(column_discharge(worse, better, 0.0, false), 0.5 * better, 1e-12 * better);
+  EXPECT_NEAR(column_discharge(worse, better, 90.0, false), 0.5 * worse, 1e-12 * better);
+  EXPECT_NEAR(column_discharge(better, worse, 0.0, false), 0.5 * worse, 1e-12 * better);
+}
+
+/// Newton's method of quadratic drag keeps the bedding of the soil below the gravel.
+TEST(Bedding, StaysBesideSoilWithErgunsDrag) {
+  for (const auto& [along, across] : {std::pair{better, worse}, std::pair{worse, better}}) {
+    const double flux = column_discharge(along, across, 0.0, true) / 0.5;
+    // The head is lost in half a metre of each soil.
+    const double size = ergun_grain_size(1e-2, 0.3, 1000.0, 1e-3);
+    const double quadratic = ergun_quadratic_drag(0.3, 1000.0, size) / (1000.0 * 9.81);
+    const double lost = 0.5 * (flux / across + flux / 1e-2 + quadratic * flux * flux);
+    EXPECT_NEAR(lost, 1.0, 1e-9) << across;
   }
 }
 

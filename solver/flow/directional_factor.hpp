@@ -1,0 +1,32 @@
+#pragma once
+
+/// The tensor I + s d d^T, which is I but for one direction: soil with bedding conducts more or
+/// less across it, and fast flow is harder to change along itself.
+
+#include "grid/element_field.hpp"
+
+namespace suffuse {
+
+/// Positive definite where s |d|^2 > -1.
+template <int Dim>
+struct DirectionalFactor {
+  Vector<Dim> direction = Vector<Dim>::Zero();  ///< d; zero: the tensor is I
+  double sign = -1.0;                           ///< s: 1 or -1
+
+  [[nodiscard]] Vector<Dim> times(const Vector<Dim>& v) const {
+    return v + sign * direction * direction.dot(v);
+  }
+  /// The inverse of the tensor times v.
+  [[nodiscard]] Vector<Dim> inverse_times(const Vector<Dim>& v) const {
+    return v - sign * direction * (direction.dot(v) / along_direction());
+  }
+  /// a . (s d d^T) . b
+  [[nodiscard]] double excess(const Vector<Dim>& a, const Vector<Dim>& b) const {
+    return sign * (direction.dot(a) * direction.dot(b));
+  }
+  /// The eigenvalue of d; all others are 1.
+  [[nodiscard]] double along_direction() const { return 1.0 + sign * direction.squaredNorm(); }
+  [[nodiscard]] double trace() const { return Dim + sign * direction.squaredNorm(); }
+};
+
+}  // namespace suffuse
