@@ -142,21 +142,28 @@ void EulerianTransport<Dim>::start(const FinesState<Dim>& state,
 }
 
 template <int Dim>
-void EulerianTransport<Dim>::face_concentration(const FinesState<Dim>& state,
-                                                const std::vector<double>& face_volume,
-                                                TransportScratch<Dim>& scratch,
-                                                std::vector<double>& result) const {
-  start(state, face_volume, scratch);
-  result.resize(grid_.face_count());
-  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+std::vector<double> EulerianTransport<Dim>::face_concentration(
+    const FinesState<Dim>& state, const std::vector<double>& face_volume) const {
+  constexpr int vertices = Dim + 1;
+  const int elements = grid_.mesh.element_count();
+  std::vector<double> at_vertices(sides_.value_count());
+  sides_.set_entering(conditions_, at_vertices);
+  for_each_index(elements, threads_, [&](int e) {
+    find_concentration<Dim>(state.fines_volume[e], state.liquid_volume[e],
+                            &at_vertices[vertices * static_cast<std::size_t>(e)]);
+  });
+  std::vector<double> result(grid_.face_count());
+  for_each_index(elements, threads_, [&](int e) {
+    const UpwindPlaces<Dim> upwind = sides_.upwind_places(e, sides_.outflow(e, face_volume));
     for (int k = 0; k <= Dim; ++k) {
       if (grid_.element_face_sign[e][k] < 0.0) continue;
       double sum = 0.0;
-      for (const int place : scratch.upwind[e][k]) sum += scratch.at_vertices[place];
+      for (const int place : upwind[k]) sum += at_vertices[place];
       result[grid_.element_face[e][k]] = sum / Dim;
     }
   });
   agree_at_walls(result);
+  return result;
 }
 
 template <int Dim>

@@ -84,8 +84,8 @@ class EulerianTransport {
 
   /// Mean concentration, weighted with the volume of liquid, of the liquid that crosses each face
   /// when it runs along `face_volume`.
-  void face_concentration(const FinesState<Dim>& state, const std::vector<double>& face_volume,
-                          TransportScratch<Dim>& scratch, std::vector<double>& result) const;
+  [[nodiscard]] std::vector<double> face_concentration(
+      const FinesState<Dim>& state, const std::vector<double>& face_volume) const;
 
  private:
   /// A mesh node on the outer boundary or on a wall that lets liquid through.

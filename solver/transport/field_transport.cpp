@@ -177,9 +177,8 @@ std::vector<double> FieldTransport<Dim>::crossed() const {
 template <int Dim>
 std::vector<double> FieldTransport<Dim>::face_concentration(
     double time, const std::vector<double>& face_rate) const {
-  std::vector<double> result(grid_.face_count(), 0.0);
-  if (time > settings_.fines_from) scheme_.face_concentration(state_, face_rate, scratch_, result);
-  return result;
+  if (time > settings_.fines_from) return scheme_.face_concentration(state_, face_rate);
+  return std::vector<double>(grid_.face_count(), 0.0);
 }
 
 template class FieldTransport<2>;

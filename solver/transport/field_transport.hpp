@@ -70,7 +70,8 @@ class FieldTransport final : public Transport<Dim> {
   /// The same as another run left it.
   void start_from(const FinesState<Dim>& earlier) { state_ = earlier; }
   [[nodiscard]] const FinesState<Dim>& state() const { return state_; }
-  /// Volume of fines that crossed each face in this interval, m3.
+  /// Volume of fines that crossed each face in the interval so far, m3. Questions about the state
+  /// do not change it.
   [[nodiscard]] std::vector<double> crossed() const;
   /// Mean concentration of the liquid that would cross each face at these volumes.
   [[nodiscard]] std::vector<double> face_concentration(double time,
@@ -101,7 +102,7 @@ class FieldTransport final : public Transport<Dim> {
   PassTiming timing_{"transport", 0, 0.0};
 
   // Kept, so that steps allocate nothing.
-  mutable TransportScratch<Dim> scratch_;
+  TransportScratch<Dim> scratch_;
   ElementField<Dim> eroded_;
 };
 

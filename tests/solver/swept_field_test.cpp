@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "flow/flow_values.hpp"
 #include "solid/pores.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
@@ -172,6 +173,52 @@ TEST(ImplicitTransport, ReceivesWherePointsHaveMovedTo) {
     for (int j = 0; j < 3; ++j) {
       EXPECT_NEAR(transport.state().liquid_volume[e][j], expected[e][j], 1e-15);
     }
+  }
+}
+
+/// What has crossed faces is booked after the steps of an interval, and the concentration at faces
+/// is asked for at any time: neither depends on how often or when the other is asked.
+TEST(FieldTransport, QuestionsChangeNothing) {
+  for (const TransportScheme scheme :
+       {TransportScheme::explicit_steps, TransportScheme::implicit_sweeps}) {
+    Box box([](const Vector<2>& x) { return 1e-3 * x[0]; });
+    box.fill([](const Vector<2>& x) { return 0.1 + 0.1 * x[1]; });
+    const std::vector<FaceCondition> conditions = box.values.at(0.0);
+    const auto crossed_and_left = [&](bool asks) {
+      FieldTransport<2> transport(
+          box.grid, box.soils, conditions, box.values,
+          {.scheme = scheme, .implicit = {.end = 1.0, .step_is_given = true}}, 1);
+      transport.start_from(box.state);
+      const auto ask = [&] {
+        if (!asks) return;
+        const auto first = transport.face_concentration(0.5, box.volumes);
+        EXPECT_EQ(transport.face_concentration(0.5, box.volumes), first);
+      };
+      FlowProgress flow;
+      flow.end = 1.0;
+      flow.volumes.liquid = box.volumes;
+      for (double& volume : flow.volumes.liquid) volume *= 20.0;
+      if (scheme == TransportScheme::explicit_steps) {
+        const std::vector<TransportStep> steps = transport.start_interval(0.0, flow);
+        EXPECT_GT(steps.size(), 1U);
+        for (const TransportStep& step : steps) {
+          ask();
+          transport.advance(step, flow.volumes, {}, {});
+        }
+      } else {
+        transport.start_implicit(0.0, flow);
+        while (transport.goes_on()) {
+          transport.solve(box.skeleton, {});
+          ask();
+          transport.finish({});
+        }
+      }
+      ask();
+      std::vector<double> crossed = transport.crossed();
+      EXPECT_GT(largest_magnitude(crossed), 1e-6);
+      return std::pair(std::move(crossed), transport.state().fines_volume);
+    };
+    EXPECT_EQ(crossed_and_left(true), crossed_and_left(false));
   }
 }
 

@@ -144,14 +144,12 @@ TEST(LeakyWall, HasOneConcentrationWhateverFlows) {
     state.liquid_volume.push_back({1e-3, 1e-3, 1e-3});
     state.fines_volume.push_back({1e-6 * e, 2e-6 * e, 4e-6 * e});
   }
-  TransportScratch<2> scratch;
   for (const double volume : {-1e-6, 0.0, 1e-6}) {
     std::vector<double> volumes(grid.face_count(), 0.0);
     for (int f = 0; f < grid.face_count(); ++f) {
       if (grid.face_partner[f] > f) volumes[f] = -(volumes[grid.face_partner[f]] = volume);
     }
-    std::vector<double> concentration;
-    transport.face_concentration(state, volumes, scratch, concentration);
+    const std::vector<double> concentration = transport.face_concentration(state, volumes);
     for (int f = 0; f < grid.face_count(); ++f) {
       const int partner = grid.face_partner[f];
       if (partner < 0) continue;
