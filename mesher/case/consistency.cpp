@@ -10,6 +10,7 @@
 #include "case/place_text.hpp"
 #include "case/short_number.hpp"
 #include "case/slit.hpp"
+#include "case/water_line.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {
@@ -242,7 +243,8 @@ class SceneCheck {
       const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);
       if (set == mesh_.boundaries.end()) continue;
       double top = -std::numeric_limits<double>::infinity();
-      for (const auto& face : set->faces) top = std::max(top, height(centre(face), scene.gravity));
+      const WaterLine<Dim> water_line(mesh_, scene.gravity);
+      for (const auto& face : set->faces) top = std::max(top, water_line.wet_above(face));
       const double lowest = condition.head->range(0.0, scene.time.end).first;
       if (lowest > top) continue;
       const bool from_file = !document_.where.contains(condition.key + ".head");

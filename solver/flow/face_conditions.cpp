@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "case/errors.hpp"
+#include "case/water_line.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {
@@ -11,7 +12,7 @@ namespace {
 /// A head of the water outside: its pressure below the water level, what the scene says above it.
 void prescribe_head(double head, DryPart dry, const FaceSurroundings& around,
                     FaceCondition& result) {
-  const bool wet = !around.gravity || head > around.height || dry == DryPart::suction;
+  const bool wet = !around.gravity || head > around.wet_above || dry == DryPart::suction;
   if (wet) {
     result.kind = FaceKind::pressure;
     result.value = around.unit_weight * (around.gravity ? head - around.height : head);
@@ -65,7 +66,8 @@ bool may_switch(const BoundaryCondition& boundary, const FaceSurroundings& aroun
   if (!boundary.head || !around.gravity || boundary.dry == DryPart::suction) return false;
   const auto [lowest, highest] = boundary.head->range(0.0, end);
   // An impervious part stays impervious where the water never comes.
-  return lowest <= around.height && (boundary.dry == DryPart::seepage || highest > around.height);
+  return lowest <= around.wet_above &&
+         (boundary.dry == DryPart::seepage || highest > around.wet_above);
 }
 
 /// The values of a boundary that change in time.
@@ -85,11 +87,13 @@ class Outside {
   Outside(const Scene& scene, const Grid<Dim>& grid)
       : grid_(grid),
         gravity_(scene.gravity),
+        water_line_(grid.mesh, scene.gravity),
         unit_weight_(unit_weight(scene.liquid.density, scene.gravity)) {}
   [[nodiscard]] FaceSurroundings of(int face, double boundary_area) const {
     return {.unit_weight = unit_weight_,
             .gravity = has_gravity(gravity_),
             .height = height(grid_.face_centre(face), gravity_),
+            .wet_above = water_line_.wet_above(grid_.face_nodes[face]),
             .area = boundary_area};
   }
   [[nodiscard]] double area_of(const std::vector<int>& faces) const {
@@ -101,6 +105,7 @@ class Outside {
  private:
   const Grid<Dim>& grid_;
   std::array<double, 3> gravity_;
+  WaterLine<Dim> water_line_;
   double unit_weight_;
 };
 

@@ -43,8 +43,9 @@ struct FaceCondition {
 struct FaceSurroundings {
   double unit_weight = 0.0;  ///< pressure per head: rho_w |g|, with 9.81 m/s2 without gravity, N/m3
   bool gravity = false;
-  double height = 0.0;  ///< z of the face's centre against gravity, m
-  double area = 0.0;    ///< of all faces of its boundary, m2
+  double height = 0.0;     ///< z of the face's centre against gravity, m
+  double wet_above = 0.0;  ///< the face is under water where a head exceeds this (`WaterLine`), m
+  double area = 0.0;       ///< of all faces of its boundary, m2
 };
 
 /// The condition of each face of the grid, with its values at t = 0. Throws InputError when a

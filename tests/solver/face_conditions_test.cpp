@@ -230,12 +230,33 @@ TEST(HeadBoundary, switches_the_faces_that_its_level_passes) {
   }
 }
 
-/// Level with the centre of a face: no pressure there either way, so it is dry.
-TEST(HeadBoundary, leaves_a_face_at_its_level_dry) {
+/// A face that the level crosses is dry when the level is at its centre; level ground is under
+/// water when the level is at its height.
+TEST(HeadBoundary, takes_level_ground_at_its_level_for_wet) {
   const Column column({head_on("left", 0.75)}, downwards);
   EXPECT_EQ(column.all_on("left", column.values.at(0.0))[1].kind, FaceKind::seepage);
-  const Column top({head_on("top", 1.0)}, downwards);
-  EXPECT_EQ(top.on("top", top.values.at(0.0)).kind, FaceKind::seepage);
+  for (const DryPart dry : {DryPart::seepage, DryPart::impervious}) {
+    for (const double head : {1.0, std::nextafter(1.0, 0.0)}) {
+      const Column top({head_on("top", head, dry)}, downwards);
+      const FaceCondition face = top.on("top", top.values.at(0.0));
+      EXPECT_EQ(face.kind, FaceKind::pressure);
+      EXPECT_NEAR(face.value, 0.0, 1e-11);
+      EXPECT_FALSE(face.switches);
+    }
+  }
+  const Column below({head_on("top", 0.9999)}, downwards);
+  EXPECT_EQ(below.on("top", below.values.at(0.0)).kind, FaceKind::seepage);
+}
+
+/// The level rises to the ground and falls again.
+TEST(HeadBoundary, opens_level_ground_while_its_level_is_there) {
+  const TimeFunction flood(Knots{{0.0, 0.0}, {10.0, 1.0}, {15.0, 1.0}, {20.0, 0.0}});
+  const Column column({head_on("top", flood, DryPart::impervious)}, downwards);
+  const auto kind_at = [&](double time) { return column.on("top", column.values.at(time)).kind; };
+  EXPECT_EQ(kind_at(5.0), FaceKind::wall);
+  EXPECT_TRUE(column.on("top", column.values.at(5.0)).switches);
+  EXPECT_EQ(kind_at(12.0), FaceKind::pressure);
+  EXPECT_EQ(kind_at(18.0), FaceKind::wall);
 }
 
 /// z is the height against gravity, wherever that points: here x, and the left side is level.
