@@ -35,6 +35,9 @@ void check(const Table& table, const std::string& path) {
         refuse(path + ": " + table.names[k], number_text(value), "a number");
       }
     }
+    if (const std::string now = renamed_column(table.names[k]); !now.empty()) {
+      refuse(path, "a column " + table.names[k], now + ", the name of today");
+    }
   }
 }
 

@@ -11,6 +11,7 @@
 #include "figures/sweep_axes.hpp"
 #include "results/number_text.hpp"
 #include "results/reader.hpp"
+#include "tables/table_output.hpp"
 
 namespace suffuse {
 namespace {
@@ -147,7 +148,7 @@ Curve in_time(const ResultsReader& run, const std::string& column) {
   std::vector<std::string> known = history.names;
   known.insert(known.end(), ledger.names.begin(), ledger.names.end());
   throw InputError(std::vector{InputProblem{"suffuse-post sweep", "--over-time", '"' + column + '"',
-                                            quoted_list(known), closest_name(column, known)}});
+                                            quoted_list(known), closest_column(column, known)}});
 }
 
 /// Linear between the points of a curve, whose x ascend and enclose `x`.

@@ -97,7 +97,7 @@ std::vector<NamedTable> find_parts(const ResultsReader& run, const ColumnName& n
   }
   refuse("COLUMN", '"' + name.text + '"',
          known.empty() ? "a table that " + run.folder() + " has" : quoted_list(known),
-         closest_name(name.column, known));
+         closest_column(name.column, known));
 }
 
 std::vector<NamedTable> wanted(std::vector<NamedTable> parts, const ColumnName& name) {
@@ -156,7 +156,10 @@ Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::st
               {}};
   for (std::size_t r = 0; r < runs.size(); ++r) {
     for (const NamedTable& part : wanted(find_parts(runs[r], name), name)) {
-      if (!part.table.has(x)) refuse("--x", '"' + x + '"', quoted_list(part.table.names));
+      if (!part.table.has(x)) {
+        refuse("--x", '"' + x + '"', quoted_list(part.table.names),
+               closest_column(x, part.table.names));
+      }
       require_curve(runs[r], part.table, name.text);
       Curve curve = curve_of(part.table, x, name.column, chart.curves.size());
       remove_missing(curve, name.column);

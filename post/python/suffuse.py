@@ -38,16 +38,18 @@ PLACES = {
 }
 # Units of the columns of the tables; "-" where there is none. A column that is not listed has the unit "".
 UNITS = {
-    "s": "t dt failure_time", "m": "x y head settlement_max displacement_max", "Pa": "pressure pressure_min pressure_max pressure_scatter",
-    "m/s": "speed_max flux_x flux_y", "m3/s": "flux_in flux_out discharge", "m3": "liquid_in liquid_out volume",
-    "g/l": "turbidity_out", "W": "power", "J": "energy", "%": "fines_left_percent solid_left_percent",
-    "kg": "solid erodible water fines pending eroded deposited carried fines_left water_in water_out fines_in fines_out",
+    "s": "t dt failure_time", "m": "x y z head settlement_max displacement_max", "Pa": "pressure pressure_min pressure_max pressure_scatter",
+    "m/s": "speed_max flux_x flux_y flux_z", "m3/s": "flux_in flux_out discharge", "m3": "liquid_in liquid_out volume",
+    "g/l": "turbidity_out", "W": "power", "J": "energy", "%": "fines_out_percent solid_out_percent",
+    "kg": "solid erodible water fines pending eroded deposited carried water_in water_out fines_in fines_out",
     "-": "porosity porosity_mean concentration concentration_out concentration_min concentration_max saturation "
          "volume_defect eos_error pressure_overshoot residual_water residual_grains conductivity_ratio "
          "liquid_points empty_elements empty_elements_total points points_in points_out "
          "solid_correction newton_iterations inertia",
 }
 UNIT_OF_COLUMN = {column: unit for unit, columns in UNITS.items() for column in columns.split()}
+# Columns of history.csv of earlier versions, by their names of today.
+RENAMED = {"fines_left": "fines_out", "fines_left_percent": "fines_out_percent", "solid_left_percent": "solid_out_percent"}
 PER_THICKNESS = ("kg", "m3", "m3/s", "W", "J")  # units that are per metre of thickness in two dimensions
 
 
@@ -65,6 +67,8 @@ def _unknown(what, got, known):
     known = list(known)
     names = ", ".join(str(name) for name in known) or "none"
     closest = difflib.get_close_matches(str(got), [str(name) for name in known], n=1)
+    if RENAMED.get(got) in known:
+        closest = [RENAMED[got]]
     hint = f"; did you mean {closest[0]}?" if closest else ""
     return UnknownName(f"{what}: got {got!r}; expected one of: {names}{hint}")
 
@@ -182,6 +186,8 @@ class Run:
 
     def _table(self, name):
         path, names, rows = self._rows(name)
+        if name == "history":
+            names = [RENAMED.get(column, column) for column in names]
         return self._columns(path, names, rows)
 
     def _tables(self, name, by, key):

@@ -38,7 +38,7 @@ std::string runs_table(const std::vector<std::string>& labels,
     if (!n.safety.empty()) least = n.safety.front().least;
     table.rows.push_back(
         {html::cell(labels[r]), html::cell(runs[r].status()), html::cell(n.end),
-         number(n.fines_left), number(n.fines_percent),
+         number(n.fines_out), number(n.fines_percent),
          least ? html::cell(least->safety) : html::cell("-"),
          html::cell(least ? place_text(least->place) : "-"),
          least ? html::cell(least->time) : html::cell("-"),

@@ -42,7 +42,7 @@ struct CurveColumn {
 const std::vector<CurveColumn>& curve_columns() {
   static const std::vector<CurveColumn> columns{
       {"history", "porosity_mean", "Mean porosity of the soil that erodes, or of all soil"},
-      {"history", "fines_left_percent", "Fines that left the model, in % of those at the start"},
+      {"history", "fines_out_percent", "Fines that left the model, in % of those at the start"},
       {"boundaries", "discharge", "Discharge through the boundaries, out minus in"},
       {"history", "turbidity_out", "Turbidity of the liquid that leaves"},
       {"history", "conductivity_ratio", "Conductivity of the soil over that at the start"}};

@@ -22,8 +22,8 @@ bool has_gradients(const ResultsReader& run) {
 }
 
 std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
-  if (!numbers.fines_left) return "";
-  std::string text = short_text(*numbers.fines_left) + " kg of fines";
+  if (!numbers.fines_out) return "";
+  std::string text = short_text(*numbers.fines_out) + " kg of fines";
   if (run.dimension() == 2) text += " per metre of thickness";
   text += " left the model";
   if (numbers.fines_percent) {
@@ -54,8 +54,8 @@ RunNumbers run_numbers(const ResultsReader& run) {
   const Table history = run.history();
   numbers.rows = history.rows();
   numbers.end = last_of(history, "t").value_or(0.0);
-  numbers.fines_left = last_of(history, "fines_left");
-  numbers.fines_percent = last_of(history, "fines_left_percent");
+  numbers.fines_out = last_of(history, "fines_out");
+  numbers.fines_percent = last_of(history, "fines_out_percent");
   if (run.ledger().rows() > 0) numbers.balances = balances(run);
   for (const Balance& balance : numbers.balances) {
     const bool is_worse =

@@ -18,7 +18,7 @@ struct RunNumbers {
   RunRecord record;
   double end = 0.0;                     ///< of the tables, s
   std::size_t rows = 0;                 ///< of the tables
-  std::optional<double> fines_left;     ///< kg (per metre of thickness in 2D)
+  std::optional<double> fines_out;      ///< kg (per metre of thickness in 2D)
   std::optional<double> fines_percent;  ///< of the fines at the start
   std::vector<Balance> balances;
   std::optional<Balance> worst;    ///< that with the largest residual

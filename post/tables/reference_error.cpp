@@ -210,7 +210,7 @@ TimeSeries curve_of(const ResultsReader& run, const std::string& quantity,
   throw wrong(path, '"' + quantity + '"',
               "a column of history.csv or ledger.csv, \"mean_\" and a field of the elements (a "
               "vector with _x, _y or _z), or columns x and y with places",
-              closest_name(quantity, known));
+              closest_column(quantity, known));
 }
 
 std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTable& reference,

@@ -9,6 +9,7 @@
 #include "case/regular_file.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
+#include "tables/table_output.hpp"
 
 namespace suffuse {
 namespace {
@@ -30,7 +31,7 @@ std::vector<double> SweepTable::numbers(const std::string& column,
   const std::size_t k = position(names, column);
   if (k == names.size()) {
     throw wrong(option, '"' + column + '"', "a column of " + path + ": " + quoted_list(names),
-                closest_name(column, names));
+                closest_column(column, names));
   }
   std::vector<double> values;
   for (const auto& row : rows) {

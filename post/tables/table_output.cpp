@@ -70,6 +70,11 @@ std::string column_unit(const std::string& name, int dimension) {
   return found == column_units().end() ? "" : shown_unit(found->second, dimension);
 }
 
+std::string closest_column(const std::string& name, const std::vector<std::string>& known) {
+  const std::string now = renamed_column(name);
+  return std::ranges::find(known, now) != known.end() ? now : closest_name(name, known);
+}
+
 std::string shown_unit(const std::string& unit, int dimension) {
   if (unit == "1" || unit.empty()) return "-";
   return dimension == 2 && is_extensive(unit) ? unit + "/m" : unit;

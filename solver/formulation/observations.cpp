@@ -122,6 +122,10 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
     row.concentration = FieldNodes<Dim>::value(concentration, place.barycentric);
     row.flux_x = flux[0];
     row.flux_y = flux[1];
+    if constexpr (Dim == 3) {
+      row.z = x[2];
+      row.flux_z = flux[2];
+    }
     rows.push_back(row);
   }
   return rows;

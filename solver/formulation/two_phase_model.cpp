@@ -192,10 +192,10 @@ void TwoPhaseModel<Dim>::describe_losses(HistoryRow& row) const {
   const LedgerRow masses = ledger();
   const Stored& initial = masses_.initial();
   row.eroded = masses.eroded;
-  row.fines_left = masses.fines_out;
+  row.fines_out = masses.fines_out;
   const double fines = initial.erodible + initial.fines;
-  if (fines > 0.0) row.fines_left_percent = 100.0 * masses.fines_out / fines;
-  row.solid_left_percent = 100.0 * masses.fines_out / initial.solid;
+  if (fines > 0.0) row.fines_out_percent = 100.0 * masses.fines_out / fines;
+  row.solid_out_percent = 100.0 * masses.fines_out / initial.solid;
 }
 
 template <int Dim>

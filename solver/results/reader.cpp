@@ -327,7 +327,11 @@ void ResultsReader::take_series(const std::string& kind, std::vector<std::string
 }
 
 Table ResultsReader::history() const {
-  return read_table(layout::in_folder(folder_, layout::history));
+  Table table = read_table(layout::in_folder(folder_, layout::history));
+  for (std::string& name : table.names) {
+    if (const std::string now = renamed_column(name); !now.empty()) name = now;
+  }
+  return table;
 }
 Table ResultsReader::ledger() const {
   return read_table(layout::in_folder(folder_, layout::ledger));

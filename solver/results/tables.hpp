@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace suffuse {
 
@@ -46,11 +47,11 @@ struct HistoryRow {
   /// Implicit: how far pressures lie outside the range of their boundary and initial values, over
   /// that range; 0 where gravity or a prescribed flux leaves them without such bounds.
   double pressure_overshoot = 0.0;
-  double turbidity_out = 0.0;       ///< mass of fines per volume of the leaving liquid, g/l
-  double eroded = 0.0;              ///< grains eroded since the start, kg
-  double fines_left = 0.0;          ///< grains that left through the boundaries since the start, kg
-  double fines_left_percent = 0.0;  ///< the same in % of the fines at the start
-  double solid_left_percent = 0.0;  ///< the same in % of the solid at the start, the dry mass
+  double turbidity_out = 0.0;      ///< mass of fines per volume of the leaving liquid, g/l
+  double eroded = 0.0;             ///< grains eroded since the start, kg
+  double fines_out = 0.0;          ///< grains that left through the boundaries since the start, kg
+  double fines_out_percent = 0.0;  ///< the same in % of the fines at the start
+  double solid_out_percent = 0.0;  ///< the same in % of the solid at the start, the dry mass
   /// Conductivity of all soil over that at the start (SeepagePower); 0 where nothing flows.
   double conductivity_ratio = 0.0;
   double power = 0.0;   ///< that water spends on the soil, W
@@ -91,9 +92,9 @@ inline constexpr std::array<Column<HistoryRow>, 32> history_columns{{
     {"pressure_overshoot", &HistoryRow::pressure_overshoot, "1"},
     {"turbidity_out", &HistoryRow::turbidity_out, "g/l"},
     {"eroded", &HistoryRow::eroded, "kg"},
-    {"fines_left", &HistoryRow::fines_left, "kg"},
-    {"fines_left_percent", &HistoryRow::fines_left_percent, "%"},
-    {"solid_left_percent", &HistoryRow::solid_left_percent, "%"},
+    {"fines_out", &HistoryRow::fines_out, "kg"},
+    {"fines_out_percent", &HistoryRow::fines_out_percent, "%"},
+    {"solid_out_percent", &HistoryRow::solid_out_percent, "%"},
     {"conductivity_ratio", &HistoryRow::conductivity_ratio, "1"},
     {"power", &HistoryRow::power, "W"},
     {"energy", &HistoryRow::energy, "J"},
@@ -104,6 +105,22 @@ inline constexpr std::array<Column<HistoryRow>, 32> history_columns{{
     {"inertia", &HistoryRow::inertia, "1"},
     {"failure_time", &HistoryRow::failure_time, "s"},
 }};
+
+/// Names that columns of history.csv had in earlier versions, and their names of today: `left`
+/// stands for what remains (`fines_left` of solid points), and these columns count what went out.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> renamed_columns{{
+    {"fines_left", "fines_out"},
+    {"fines_left_percent", "fines_out_percent"},
+    {"solid_left_percent", "solid_out_percent"},
+}};
+
+/// The name of today of a column of an earlier version; empty for any other name.
+inline std::string renamed_column(std::string_view name) {
+  for (const auto& [before, now] : renamed_columns) {
+    if (name == before) return std::string(now);
+  }
+  return "";
+}
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross
 /// a boundary. Residual = (stored + out - in - carried - initial) / initial, per constituent.
@@ -198,9 +215,11 @@ struct ProbeRow {
   double concentration = 0.0;
   double flux_x = 0.0;  ///< Darcy flux, m/s
   double flux_y = 0.0;
+  double z = 0.0;       ///< m; 0 in two dimensions, as the next
+  double flux_z = 0.0;  ///< m/s
 };
 
-inline constexpr std::array<Column<ProbeRow>, 11> probe_columns{{
+inline constexpr std::array<Column<ProbeRow>, 13> probe_columns{{
     {"t", &ProbeRow::t, "s"},
     {"probe", &ProbeRow::probe, "1"},
     {"x", &ProbeRow::x, "m"},
@@ -212,6 +231,8 @@ inline constexpr std::array<Column<ProbeRow>, 11> probe_columns{{
     {"concentration", &ProbeRow::concentration, "1"},
     {"flux_x", &ProbeRow::flux_x, "m/s"},
     {"flux_y", &ProbeRow::flux_y, "m/s"},
+    {"z", &ProbeRow::z, "m"},
+    {"flux_z", &ProbeRow::flux_z, "m/s"},
 }};
 
 /// sections.csv: the liquid that crosses a line that the scene names, positive from its left side

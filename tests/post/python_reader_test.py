@@ -193,6 +193,7 @@ class Reader(unittest.TestCase):
     def test_errors_say_what_there_is(self):
         run = self.run_
         self.expect_error(lambda: run.history["flux_ot"], "got 'flux_ot'", "t, dt,", "did you mean flux_out?")
+        self.expect_error(lambda: run.history["fines_left"], "got 'fines_left'", "did you mean fines_out?")
         self.expect_error(lambda: run.boundaries["tpo"], "expected one of: top, bottom; did you mean top?")
         self.expect_error(lambda: run.field("porsity"), "did you mean porosity?")
         self.expect_error(lambda: run.field("porosity"), "expected on= one of: cell, element_vertex, solid")

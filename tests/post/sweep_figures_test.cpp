@@ -196,6 +196,10 @@ TEST(SweepFigures, WrongColumnsAreNamed) {
               over_time_charts(sweep, {"porosity_means"});
             }).find("did you mean porosity_mean?"),
             std::string::npos);
+  EXPECT_NE(message_of([&] {
+              over_time_charts(sweep, {"fines_left_percent"});
+            }).find("did you mean fines_out_percent?"),
+            std::string::npos);
 }
 
 TEST(SweepTable, WrongTablesAreRefused) {

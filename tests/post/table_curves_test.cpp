@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "case/errors.hpp"
 #include "figures/figures.hpp"
@@ -13,6 +14,7 @@
 namespace suffuse {
 namespace {
 
+using testing::file_text;
 using testing::linear_porosity;
 using testing::ScratchFolder;
 using testing::write_synthetic_results;
@@ -108,6 +110,38 @@ TEST_F(TableCurves, MeasuredPointsLieBesideThem) {
   EXPECT_TRUE(chart.curves.back().markers);
   options.columns = {"flux_out"};
   EXPECT_NE(message(run(), options).find("--measured: got"), std::string::npos);
+}
+
+/// Results of earlier versions are read by the names of today, which messages give.
+TEST_F(TableCurves, FinesThatLeftHaveANameOfTheirOwn) {
+  const std::string path = scratch_ / "a.results/history.csv";
+  std::string table = file_text(path);
+  const std::vector<double> percent = run()[0].history().column("fines_out_percent");
+  for (const auto& [before, now] : renamed_columns) {
+    const std::string column = "," + std::string(now) + ",";
+    const auto at = table.find(column);
+    ASSERT_LT(at, table.find('\n'));
+    table.replace(at + 1, now.size(), before);
+  }
+  std::ofstream(path) << table;
+  EXPECT_EQ(run()[0].history().column("fines_out_percent"), percent);
+  FigureOptions options;
+  options.columns = {"fines_out_percent"};
+  EXPECT_EQ(make_figure("curves", run(), options)[0].y_label, "fines_out_percent (%)");
+  for (const auto& [before, now] : renamed_columns) {
+    options.columns = {"history." + std::string(before)};
+    EXPECT_NE(message(run(), options).find("did you mean " + std::string(now) + "?"),
+              std::string::npos);
+  }
+  options.columns = {"flux_out"};
+  options.x = "fines_left";
+  EXPECT_NE(message(run(), options).find("did you mean fines_out?"), std::string::npos);
+  options = {};
+  options.columns = {"fines_out"};
+  options.measured = scratch_ / "measured.csv";
+  std::ofstream(options.measured) << "t,fines_left\n0,0\n";
+  EXPECT_NE(message(run(), options).find("a column fines_left; expected fines_out, the name of"),
+            std::string::npos);
 }
 
 TEST_F(TableCurves, WhatIsNotThereIsRefused) {

@@ -62,6 +62,22 @@ struct ColumnCase {
 
 class ColumnOfTetrahedra : public ::testing::TestWithParam<ColumnCase> {};
 
+/// Clean water comes from above at 0.012 m/s throughout.
+TEST(ProbesInSpace, HaveTheirHeightAndTheFluxUpwards) {
+  SceneRun<3> run(column, {"liquid.bulk_modulus=inf",
+                           "output.probe=[{at=[0.05, 0.1, 0.9]}, {at=[0.1, 0.02, 0.35]}]"});
+  run.run_to(1.0);
+  const std::vector<ProbeRow> probes = run.probes();
+  ASSERT_EQ(probes.size(), 2U);
+  EXPECT_EQ(probes[0].z, 0.9);
+  EXPECT_EQ(probes[1].z, 0.35);
+  for (const ProbeRow& probe : probes) {
+    EXPECT_NEAR(probe.flux_z, -0.012, 1e-12);
+    EXPECT_NEAR(probe.flux_x, 0.0, 1e-12);
+    EXPECT_NEAR(probe.flux_y, 0.0, 1e-12);
+  }
+}
+
 TEST_P(ColumnOfTetrahedra, HasThePorosityAndTheMassesOfTheTables) {
   SceneRun<3> run(column, GetParam().overrides);
   const double initial = run.ledger().points;

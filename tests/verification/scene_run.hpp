@@ -48,9 +48,12 @@ class SceneRun {
   [[nodiscard]] const Case<Dim>& input() const { return case_; }
   [[nodiscard]] LedgerRow ledger() const { return model_->ledger(); }
   [[nodiscard]] HistoryRow history() const { return model_->history_row(model_->flow_state()); }
+  [[nodiscard]] std::vector<ProbeRow> probes() const {
+    return model_->probe_rows(model_->flow_state());
+  }
   [[nodiscard]] std::vector<double> probed() const {
     std::vector<double> pressures;
-    for (const ProbeRow& row : model_->probe_rows(model_->flow_state())) {
+    for (const ProbeRow& row : probes()) {
       pressures.push_back(row.pressure);
     }
     return pressures;

@@ -96,11 +96,11 @@ TEST(SeepageMeasures, LossesAreThoseOfTheLedger) {
   const HistoryRow row = run.state().history;
   const LedgerRow ledger = run.state().ledger;
   EXPECT_EQ(row.eroded, ledger.eroded);
-  EXPECT_EQ(row.fines_left, ledger.fines_out);
-  EXPECT_GT(row.fines_left, 0.0);
+  EXPECT_EQ(row.fines_out, ledger.fines_out);
+  EXPECT_GT(row.fines_out, 0.0);
   const double fines = ledger.erodible + ledger.eroded;
-  EXPECT_NEAR(row.fines_left_percent, 100.0 * ledger.fines_out / fines, 1e-9);
-  EXPECT_NEAR(row.solid_left_percent, 100.0 * ledger.fines_out / (ledger.solid + ledger.eroded),
+  EXPECT_NEAR(row.fines_out_percent, 100.0 * ledger.fines_out / fines, 1e-9);
+  EXPECT_NEAR(row.solid_out_percent, 100.0 * ledger.fines_out / (ledger.solid + ledger.eroded),
               1e-9);
 }
 
