@@ -77,7 +77,7 @@ void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
   matrix_.lay_out(kinds_);
   earlier_counts_ = counts();
   solver_.emplace(settings_.threads, LagLimits{}, flow_factor(Dim, faces));
-  newton_.emplace(flow_factor(Dim, faces));
+  newton_.emplace(newton_factor(Dim, faces));
   open_.assign(faces, 0);
   held_.assign(faces, 0);
   for (int f = 0; f < faces; ++f) {

@@ -233,7 +233,7 @@ void ImplicitMixed<Dim>::solve_newton() try {
   if (flux.empty()) {
     newton_->solve(matrix_.values(), w.load, w.step);
   } else {
-    newton_->solve(matrix_.with_gain(flux, w.gain, held_), w.load, w.step);
+    newton_->solve_tangent(matrix_.with_gain(flux, w.gain, held_), w.load, w.step);
   }
 } catch (const NumericalError& error) {
   throw NotConverged(error.what());

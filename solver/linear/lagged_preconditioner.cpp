@@ -30,6 +30,11 @@ std::unique_ptr<Factor> flow_factor(int dimension, int faces) {
   return std::make_unique<CholeskyFactor>();
 }
 
+std::unique_ptr<Factor> newton_factor(int dimension, int faces) {
+  if (dimension == 3 && faces >= 10'000) return std::make_unique<Multigrid>();
+  return std::make_unique<CholeskyFactor>();
+}
+
 LaggedPreconditioner::LaggedPreconditioner(int threads, LagLimits limits,
                                            std::unique_ptr<Factor> factor)
     : limits_(limits),

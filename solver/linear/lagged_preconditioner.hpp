@@ -35,6 +35,8 @@ constexpr bool prefers_multigrid(int dimension, int faces) {
 }
 /// The factor for the flow on such a mesh.
 std::unique_ptr<Factor> flow_factor(int dimension, int faces);
+/// The same for systems of Newton's method, whose matrix is another one each time.
+std::unique_ptr<Factor> newton_factor(int dimension, int faces);
 
 /// When a matrix that has changed is factored anew. A factorisation costs about ten iterations.
 struct LagLimits {

@@ -29,6 +29,12 @@ class NewtonSystem {
   void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
              Eigen::VectorXd& x, double accuracy = 1e-9);
 
+  /// The same for a tangent that is far from the symmetric matrix, of a problem whose next
+  /// iteration corrects what this one leaves: with a factor that is not exact, the residual may be
+  /// 1e-4 of the right-hand side.
+  void solve_tangent(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+                     Eigen::VectorXd& x);
+
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
 
   /// The factor is made again, of the same values and thus with the same bits; `pattern` is that of
@@ -43,6 +49,12 @@ class NewtonSystem {
   }
 
  private:
+  /// Iterates with this preconditioner. Returns whether that gave the solution.
+  template <class Matrix, class Preconditioner>
+  bool iterate(const Matrix& matrix, const Preconditioner& preconditioner,
+               const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy);
+  [[noreturn]] static void refuse_unsolved();
+
   std::unique_ptr<Factor> factor_;
   Eigen::VectorXd factored_;  ///< values of the matrix that is factored
   SolveCounts counts_;

@@ -9,6 +9,7 @@
 
 #include "case/errors.hpp"
 #include "linear/lagged_preconditioner.hpp"
+#include "linear/newton_system.hpp"
 
 namespace suffuse {
 namespace {
@@ -114,6 +115,39 @@ TEST(Multigrid, IsTakenForLargeModelsOfThreeDimensions) {
   EXPECT_FALSE(flow_factor(3, 30'000)->is_exact());
   EXPECT_TRUE(flow_factor(3, 29'999)->is_exact());
   EXPECT_TRUE(flow_factor(2, 10'000'000)->is_exact());
+  EXPECT_FALSE(newton_factor(3, 10'000)->is_exact());
+  EXPECT_TRUE(newton_factor(3, 9'999)->is_exact());
+  EXPECT_TRUE(newton_factor(2, 10'000'000)->is_exact());
+}
+
+/// Like the tangent at a front of water in dry soil: what an unknown of a wet layer does to the one
+/// below goes one way, and is 300 times what the symmetric part couples.
+TEST(NewtonSystem, SolvesTangentsThatAreFarFromTheSymmetricMatrix) {
+  constexpr int n = 24;
+  Eigen::SparseMatrix<double> nearly = flow_matrix(n, 1.0);
+  Eigen::SparseMatrix<double> tangent = nearly;
+  for (int a = 0; a + n * n < n * n * n; ++a) {
+    if ((a / (n * n)) % 6 > 2) continue;
+    nearly.coeffRef(a, a) += 300.0;
+    tangent.coeffRef(a, a) += 300.0;
+    tangent.coeffRef(a + n * n, a) -= 300.0;
+  }
+  const Eigen::VectorXd rhs = waves(nearly.rows());
+  NewtonSystem system(newton_factor(3, n * n * n));
+  system.factorise(nearly);
+  Eigen::VectorXd x;
+  system.solve_tangent(tangent, rhs, x);
+  EXPECT_LE((rhs - tangent * x).norm(), 1.001e-4 * rhs.norm());
+  EXPECT_LE(system.counts().iterations, 16);
+  const long before = system.counts().iterations;
+  try {
+    system.solve(tangent, rhs, x, 1e-4);
+  } catch (const NumericalError&) {
+    std::cout << "not solved with the symmetric matrix alone\n";
+  }
+  std::cout << before << " iterations with both stages, " << system.counts().iterations - before
+            << " with one\n";
+  EXPECT_GT(2 * (system.counts().iterations - before), 3 * before);
 }
 
 }  // namespace
