@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "deformation/compressed_soil.hpp"
 #include "deformation/loads.hpp"
 #include "deformation/moving_skeleton.hpp"
 #include "grid/parallel.hpp"
@@ -11,7 +12,15 @@
 namespace suffuse {
 
 template <int Dim>
+void MovingSkeleton<Dim>::check_pores() const {
+  refuse_compressed<Dim>(
+      this->grid_, this->soils(),
+      {points_, solid_volumes(), this->initial_porosity_, step_->displacement(), tried_.end});
+}
+
+template <int Dim>
 void MovingSkeleton<Dim>::sort_points() {
+  refuse_filled(this->grid_, solid_, tried_.end);
   if (!std::ranges::is_sorted(points_.element)) {
     const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
     std::vector<int> order;

@@ -349,6 +349,7 @@ const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing)
 template <int Dim>
 const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   if (!step_ || !motion_.converged) throw std::logic_error("there is no motion to accept");
+  check_pores();
   const std::vector<double> before = smooth_volumes(this->grid_, points_, solid_volumes());
   boundary_loads_.move(step_->sorted(), step_->displacement());
   const std::vector<int> element = points_.element;

@@ -110,6 +110,8 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> drained_compressibility() const;
   /// Of soil and the liquid in its pores, kg.
   [[nodiscard]] std::vector<double> node_masses() const;
+  /// Throws EquilibriumLost where the step that is accepted leaves soil no pores.
+  void check_pores() const;
   /// Sorts what belongs to points by their elements and hands them on to the soils.
   void sort_points();
   void show_points();

@@ -30,11 +30,14 @@ std::string rounded(double value) {
 
 std::vector<std::string> RowChecks::check(const HistoryRow& row) {
   check_finite(row);
-  std::vector<std::string> warnings = {
-      check_compression(row),         check_mass_scaling(row.speed_max),
-      check_momentum(row.speed_max),  check_fines_weight(row),
-      check_volume_defect(row),       check_overshoot(row),
-      check_failure(row.failure_time)};
+  std::vector<std::string> warnings = {check_compression(row),
+                                       check_mass_scaling(row.speed_max),
+                                       check_momentum(row.speed_max),
+                                       check_fines_weight(row),
+                                       check_packing(row),
+                                       check_volume_defect(row),
+                                       check_overshoot(row),
+                                       check_failure(row.failure_time)};
   std::erase(warnings, "");
   return warnings;
 }
@@ -103,6 +106,21 @@ std::string RowChecks::check_fines_weight(const HistoryRow& row) {
          "in place, more is lost here than in the soil. Look at soil.NAME.erosion "
          "(critical_concentration, threshold, residual) and soil.NAME.deposition, or compute "
          "without gravity, with heads as pressures";
+  return message.str();
+}
+
+/// Grains that lie as densely as in a packing lock, and the liquid flows no more.
+std::string RowChecks::check_packing(const HistoryRow& row) {
+  constexpr double packing = 0.62;  // the usual c_m of Krieger and Dougherty
+  if (packing_warned_ || !(row.concentration_max > packing)) return "";
+  packing_warned_ = true;
+  std::ostringstream message;
+  message << "the liquid holds " << rounded(row.concentration_max) << " of its volume in fines in "
+          << row.concentration_max_at << " at t = " << row.t << " s: above about " << packing
+          << " grains lock and such a liquid does not flow, so that what is computed there is not "
+             "to be trusted. Look at soil.NAME.erosion (critical_concentration ends erosion "
+             "before; drive \"time\" erodes where no water flows), at soil with little water, and "
+             "at the concentrations that boundaries prescribe";
   return message.str();
 }
 

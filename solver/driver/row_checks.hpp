@@ -30,7 +30,7 @@ class RowChecks {
 
   void archive(StateArchive& archive) {
     archive(scaling_warned_, momentum_warned_, compression_warned_, weight_warned_, defect_warned_,
-            overshoot_warned_, failure_warned_);
+            overshoot_warned_, packing_warned_, failure_warned_);
   }
 
  private:
@@ -38,6 +38,7 @@ class RowChecks {
   std::string check_mass_scaling(double speed);
   std::string check_momentum(double speed);
   std::string check_fines_weight(const HistoryRow& row);
+  std::string check_packing(const HistoryRow& row);
   std::string check_volume_defect(const HistoryRow& row);
   std::string check_overshoot(const HistoryRow& row);
   std::string check_failure(double time);
@@ -51,6 +52,7 @@ class RowChecks {
   bool weight_warned_ = false;
   bool defect_warned_ = false;
   bool overshoot_warned_ = false;
+  bool packing_warned_ = false;
   double failure_warned_ = 0.0;  ///< the last one that has been told, s
 };
 

@@ -34,11 +34,12 @@ struct FlowState {
   /// where the flow has none; then node pressures count.
   std::vector<double> face_pressure;
   std::vector<double> saturation;  ///< S per element; empty where every soil is saturated
-  RelativeConductivity relative_conductivity;  ///< per element; empty likewise
-  VectorField<Dim> velocity;                   ///< per node, intrinsic, m/s
-  std::vector<double> face_flux;               ///< along each face's normal, m3/s
-  double eos_error = 0.0;                      ///< see HistoryRow
-  double pressure_overshoot = 0.0;             ///< see HistoryRow
+  /// k_r per element: conductivity over that of the saturated soil; empty likewise.
+  std::vector<double> relative_conductivity;
+  VectorField<Dim> velocity;        ///< per node, intrinsic, m/s
+  std::vector<double> face_flux;    ///< along each face's normal, m3/s
+  double eos_error = 0.0;           ///< see HistoryRow
+  double pressure_overshoot = 0.0;  ///< see HistoryRow
 };
 
 /// The last flow of an earlier run.
@@ -142,8 +143,6 @@ class FlowSolver {
   [[nodiscard]] virtual std::vector<double> air() const { return {}; }
   /// The same in the share of each side of an element.
   [[nodiscard]] virtual ElementField<Dim> air_at_sides() const { return {}; }
-  /// k_r of each element; empty where all soil is saturated.
-  [[nodiscard]] virtual RelativeConductivity relative_conductivity() const { return {}; }
   /// Makes pressures follow the masses of water, which are what is conserved (single-point): at
   /// once, or over the next steps. `water_mass` per element, kg; `time` in s.
   virtual void match_masses(double time, const std::vector<double>& water_mass) = 0;

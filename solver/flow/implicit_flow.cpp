@@ -434,11 +434,6 @@ double ImplicitFlow<Dim>::filling_time() const {
 }
 
 template <int Dim>
-RelativeConductivity ImplicitFlow<Dim>::relative_conductivity() const {
-  return scheme_.relative_conductivity(now_.state.face_pressure);
-}
-
-template <int Dim>
 std::vector<double> ImplicitFlow<Dim>::air() const {
   std::vector<double> result;
   for (const ElementValues<Dim>& sides : now_.state.air) result.push_back(element_sum<Dim>(sides));
@@ -457,7 +452,7 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
     const double pores = this->coefficients_.porosity[e] * this->grid().volume[e];
     result.saturation.push_back(1.0 - element_sum<Dim>(now_.state.air[e]) / pores);
   }
-  result.relative_conductivity = relative_conductivity();
+  result.relative_conductivity = scheme_.relative_conductivity(now_.state.face_pressure);
   result.eos_error = eos_error_;
   result.pressure_overshoot = scales_.overshoot(now_.state.face_pressure);
   NodalFields<Dim> nodes =

@@ -39,7 +39,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] const std::vector<double>& pressure() const override { return pressure_; }
   [[nodiscard]] std::vector<double> air() const override;
   [[nodiscard]] ElementField<Dim> air_at_sides() const override { return now_.state.air; }
-  [[nodiscard]] RelativeConductivity relative_conductivity() const override;
   /// Where an element's water does not fit its pores at its pressure, the next steps let it out.
   void match_masses(double time, const std::vector<double>& water_mass) override;
 

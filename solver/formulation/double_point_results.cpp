@@ -66,6 +66,8 @@ HistoryRow DoublePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
     const auto [low, high] = std::ranges::minmax_element(concentration);
     row.concentration_min = *low;
     row.concentration_max = *high;
+    const auto at = static_cast<std::size_t>(high - concentration.begin());
+    row.concentration_max_at = element_text(this->grid_, points.element[at]);
   }
   const std::vector<int> begins = element_begins(points, this->grid_.mesh.element_count());
   const ElementField<Dim> fit =

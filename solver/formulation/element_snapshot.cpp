@@ -108,8 +108,7 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   Field pressure = scalar("pressure", "Pa");
   const MaterialPoints<Dim>& points = solid.soils().points();
   const PointFlows flows =
-      point_flows(grid, solid.soils(), flow.face_flux, std::numeric_limits<double>::infinity(),
-                  flow.relative_conductivity, 1);
+      point_flows(grid, solid.soils(), flow.face_flux, std::numeric_limits<double>::infinity(), 1);
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
     const double n = solid.porosity()[p];

@@ -230,14 +230,18 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
 
   row.concentration_min = std::numeric_limits<double>::infinity();
   row.concentration_max = -row.concentration_min;
+  int at = 0;
   const FinesState<Dim>& state = fines_->state();
   for (std::size_t e = 0; e < state.fines_volume.size(); ++e) {
     for (int j = 0; j <= Dim; ++j) {
       const double c = state.fines_volume[e][j] / state.liquid_volume[e][j];
       row.concentration_min = std::min(row.concentration_min, c);
-      row.concentration_max = std::max(row.concentration_max, c);
+      if (!(c > row.concentration_max)) continue;
+      row.concentration_max = c;
+      at = static_cast<int>(e);
     }
   }
+  row.concentration_max_at = element_text(this->grid_, at);
   return row;
 }
 

@@ -26,8 +26,8 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
 
 template <int Dim>
 void TwoPhaseModel<Dim>::archive(StateArchive& archive) {
-  archive(*solid_, *flow_, masses_, observations_, time_, flux_history_, relative_conductivity_,
-          last_dt_, steps_, erosion_timing_);
+  archive(*solid_, *flow_, masses_, observations_, time_, flux_history_, last_dt_, steps_,
+          erosion_timing_);
 }
 
 template <int Dim>
@@ -81,7 +81,7 @@ void TwoPhaseModel<Dim>::update_liquid() {
 template <int Dim>
 PoreForecast<Dim> TwoPhaseModel<Dim>::pore_forecast() {
   update_liquid();
-  return {grid_, *solid_, time_, pores(), flows_, flux_history_, relative_conductivity_, threads()};
+  return {grid_, *solid_, time_, pores(), flows_, flux_history_, threads()};
 }
 
 template <int Dim>
@@ -96,9 +96,7 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   flux_history_.duration = flow.end - start;
   flux_history_.mean = per_time(flow.relative_volumes(), flux_history_.duration);
   flux_history_.end = needed.flux ? flow_->face_flux(flow.end) : flux_history_.mean;
-  if (needed.resistance) relative_conductivity_ = flow_->relative_conductivity();
-  flows_ = point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration,
-                       relative_conductivity_, threads());
+  flows_ = point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
   flows_.start = start;
   flows_.end = flow.end;
   find_flux_change(grid_, soils_, flux_history_, flows_, threads());

@@ -154,7 +154,6 @@ class TwoPhaseModel {
   void update_liquid();
 
   FluxHistory flux_history_;
-  RelativeConductivity relative_conductivity_;  ///< at the end of the last interval
   std::vector<double> exchange_;
   double last_dt_ = 0.0;
   long steps_ = 0;

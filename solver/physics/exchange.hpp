@@ -22,6 +22,10 @@ struct DepositionModel {
 
   [[nodiscard]] bool deposits() const { return coefficient > 0.0; }
   [[nodiscard]] bool has_room_limit() const { return !std::isnan(porosity_min); }
+  /// Whether more fits in at this porosity.
+  [[nodiscard]] bool has_room_at(double porosity) const {
+    return !has_room_limit() || porosity > porosity_min;
+  }
   /// Share of `coefficient` that is left: (n - n_min) / (n_0 - n_min), or 1 without a limit.
   [[nodiscard]] double room(double initial_porosity, double porosity) const {
     return has_room_limit() ? (porosity - porosity_min) / (initial_porosity - porosity_min) : 1.0;
@@ -69,9 +73,9 @@ enum class LiquidMotion : std::uint8_t {
 
 /// The liquid at a place over a step. What no law asks for may stay unset.
 struct PlaceFlow {
-  double flux_start = unset;     ///< |q| at the start, m/s; it goes linearly to that at the end
-  double flux_end = unset;       ///< m/s
-  double resistance = 1.0;       ///< gradient along the flow over |q|/k: of bedding and suction
+  double flux_start = unset;  ///< |q| at the start, m/s; it goes linearly to that at the end
+  double flux_end = unset;    ///< m/s
+  double resistance = 1.0;    ///< gradient along the flow over |q|/k in saturated soil: of bedding
   double concentration = unset;  ///< c at the start
   double saturation = 1.0;       ///< liquid per pore volume
   LiquidMotion motion = LiquidMotion::stays;

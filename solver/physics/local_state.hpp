@@ -16,9 +16,10 @@ struct LocalState {
   double erodible_fraction = unset;  ///< n_e, without the residual that stays
   double concentration = unset;      ///< c
   double flux = unset;               ///< |q|, m/s
-  double drag_gradient = unset;      ///< i, hydraulic gradient that drag takes up
-  double permeability = unset;       ///< kappa, m2
-  double unit_weight = unset;        ///< rho_w g of the water, N/m3
+  /// i, hydraulic gradient that drag takes up; in unsaturated soil k_r i.
+  double drag_gradient = unset;
+  double permeability = unset;  ///< kappa, m2
+  double unit_weight = unset;   ///< rho_w g of the water, N/m3
 };
 
 }  // namespace suffuse

@@ -66,7 +66,8 @@ struct HistoryRow {
   double failure_time = 0.0;  ///< when the soil lost its equilibrium last, s; 0: never
 
   // No columns: what the checks of the run ask for besides.
-  std::string volume_defect_at;  ///< the element of `volume_defect`; empty where there is none
+  std::string concentration_max_at;  ///< the element of `concentration_max`
+  std::string volume_defect_at;      ///< the element of `volume_defect`; empty where there is none
   /// Of the power that drives the flow, what the weight of the fines in the liquid gives.
   double fines_weight_share = 0.0;
 };

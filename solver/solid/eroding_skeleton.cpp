@@ -37,6 +37,8 @@ const ExchangeModel& ErodingSkeleton<Dim>::model_of(int point, ExchangeModel& ch
   if (porosity_max_.empty() || !model.exchanges()) return model;
   changed = model;
   changed.erosion.porosity_max = porosity_max_[point];
+  // Soil compressed below porosity_min has no room for more; what it has caught stays.
+  if (!model.deposition.has_room_at(porosity_[point])) changed.deposition.coefficient = 0.0;
   return changed;
 }
 

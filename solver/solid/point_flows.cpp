@@ -31,8 +31,7 @@ double acting_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element
 
 template <int Dim>
 PointFlows point_flows(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                       const std::vector<double>& face_rate, double duration,
-                       const RelativeConductivity& relative_conductivity, int threads) {
+                       const std::vector<double>& face_rate, double duration, int threads) {
   PointFlows result;
   const auto& needed = soils.exchange_depends_on();
   if (!needed.flux) return result;
@@ -45,8 +44,7 @@ PointFlows point_flows(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
     const double size = flux.norm();
     result.flux[p] = acting_flux(grid, soils, e, size, duration);
     if (!needed.resistance) return;
-    const double relative = relative_conductivity.empty() ? 1.0 : relative_conductivity[e];
-    result.resistance[p] = soils.resistance_along(e, flux) / relative;
+    result.resistance[p] = soils.resistance_along(e, flux);
   });
   return result;
 }
@@ -69,12 +67,12 @@ void find_flux_change(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const Fl
 
 template double acting_flux(const Grid<2>&, const SoilMap<2>&, int, double, double);
 template PointFlows point_flows(const Grid<2>&, const SoilMap<2>&, const std::vector<double>&,
-                                double, const RelativeConductivity&, int);
+                                double, int);
 template void find_flux_change(const Grid<2>&, const SoilMap<2>&, const FluxHistory&, PointFlows&,
                                int);
 template double acting_flux(const Grid<3>&, const SoilMap<3>&, int, double, double);
 template PointFlows point_flows(const Grid<3>&, const SoilMap<3>&, const std::vector<double>&,
-                                double, const RelativeConductivity&, int);
+                                double, int);
 template void find_flux_change(const Grid<3>&, const SoilMap<3>&, const FluxHistory&, PointFlows&,
                                int);
 

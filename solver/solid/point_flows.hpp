@@ -38,15 +38,11 @@ struct PointFlows {
   [[nodiscard]] PlaceFlow at(int point, int element, double from, double to) const;
 };
 
-/// Conductivity of each element over that of the saturated soil; empty where all soil is saturated.
-using RelativeConductivity = std::vector<double>;
-
 /// The flows that belong to a flux: volumes through faces per second, the mean over `duration`, s.
 /// `flux_change` and `concentration` stay empty.
 template <int Dim>
 PointFlows point_flows(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                       const std::vector<double>& face_rate, double duration,
-                       const RelativeConductivity& relative_conductivity, int threads);
+                       const std::vector<double>& face_rate, double duration, int threads);
 
 /// Sets `flux_change` where some soil asks for it.
 template <int Dim>

@@ -43,8 +43,8 @@ template <int Dim>
 std::vector<double> PoreForecast<Dim>::of_points_at(double time) const {
   if (!solid_.exchanges_within(time_, time)) return {};
   const SoilMap<Dim>& soils = solid_.soils();
-  PointFlows ahead = point_flows(grid_, soils, flux_.extrapolated(time - time_), flux_.duration,
-                                 relative_conductivity_, threads_);
+  PointFlows ahead =
+      point_flows(grid_, soils, flux_.extrapolated(time - time_), flux_.duration, threads_);
   ahead.concentration = liquid_.concentration;
   ahead.saturation = liquid_.saturation;
   ahead.motion = liquid_.motion;

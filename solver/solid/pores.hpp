@@ -36,15 +36,13 @@ class PoreForecast {
   /// `now`: the pores at `time`, s; `liquid`: at the solid points in the last interval; `flux`: of
   /// that interval.
   PoreForecast(const Grid<Dim>& grid, const Skeleton<Dim>& solid, double time, PoreState now,
-               const PointFlows& liquid, const FluxHistory& flux,
-               const RelativeConductivity& relative_conductivity, int threads)
+               const PointFlows& liquid, const FluxHistory& flux, int threads)
       : grid_(grid),
         solid_(solid),
         time_(time),
         now_(std::move(now)),
         liquid_(liquid),
         flux_(flux),
-        relative_conductivity_(relative_conductivity),
         threads_(threads) {}
 
   [[nodiscard]] PoreState at(double time) const;
@@ -58,7 +56,6 @@ class PoreForecast {
   PoreState now_;
   const PointFlows& liquid_;
   const FluxHistory& flux_;
-  const RelativeConductivity& relative_conductivity_;
   int threads_;
 };
 

@@ -32,6 +32,7 @@ void FinesDeposition<Dim>::start(double duration) {
       const double own = soils.points().volume[p];
       const double porosity = solid_.porosity()[p];
       volume += own;
+      if (!deposition.has_room_at(porosity)) continue;  // compressed below it
       room += own * deposition.room(solid_.initial_porosity()[p], porosity);
       capacity_[e] += own * (porosity - deposition.porosity_min);
     }
@@ -132,6 +133,7 @@ void FinesDeposition<Dim>::hand_out(const std::vector<double>& caught) {
     by_region_[grid_.mesh.element_region[e]] += grain_density_ * caught[e];
     const DepositionModel& deposition = soils.exchange_of_element(e).deposition;
     const auto weight = [&](int p) {
+      if (!deposition.has_room_at(solid_.porosity()[p])) return 0.0;
       const double room =
           deposition.has_room_limit() ? solid_.porosity()[p] - deposition.porosity_min : 1.0;
       return soils.points().volume[p] * room;

@@ -119,8 +119,7 @@ TEST(PoreForecast, IsWhatErosionThenDoes) {
   now.concentration.assign(now.porosity.size(), 0.05);
   const FluxHistory flux;
   const PointFlows liquid;
-  const RelativeConductivity relative;
-  const PoreForecast<2> forecast(c.grid, c.solid, 0.0, now, liquid, flux, relative, 1);
+  const PoreForecast<2> forecast(c.grid, c.solid, 0.0, now, liquid, flux, 1);
   const PoreState ahead = forecast.at(30.0);
   std::vector<double> exchange;
   c.solid.exchange(0.0, 30.0, {}, {}, exchange);

@@ -38,6 +38,21 @@ class Rows : public testing::Test {
   RowChecks checks_{scene_, infinite};
 };
 
+/// With where and when, once; a liquid that still flows is none of it.
+TEST_F(Rows, FinesThatLockAreToldOfOnce) {
+  HistoryRow row = with_fines(0.0, 0.6);
+  row.concentration_max_at = "element 7 at (0.5 0.25)";
+  EXPECT_EQ(warning(row), "");
+  row.concentration_max = 0.64;
+  const std::string text = warning(row);
+  EXPECT_TRUE(
+      text.starts_with("the liquid holds 0.64 of its volume in fines in element 7 at "
+                       "(0.5 0.25) at t = 12 s: "))
+      << text;
+  EXPECT_NE(text.find("critical_concentration"), std::string::npos);
+  EXPECT_EQ(warning(row), "");
+}
+
 TEST_F(Rows, AVolumeDefectBeyondChanceIsToldOfOnce) {
   scene_.points.liquid_per_element = 12;
   EXPECT_EQ(warning(with_defect(1.4)), "");

@@ -257,6 +257,9 @@ class Judge {
       // Points change their volumes, their elements and their order.
       expect(std::ranges::all_of(porosity, [](double n) { return n > 0.0 && n < 1.0; }),
              "porosity of a solid point outside 0 to 1 in " + where);
+      const std::vector<double> cells = results_.field(index, "cell", "porosity").values;
+      expect(std::ranges::all_of(cells, [](double n) { return n > 0.0 && n <= 1.0 + round_off; }),
+             "porosity of an element outside 0 to 1 in " + where);
       return;
     }
     const int count = std::min(static_cast<int>(porosity.size()), case_.solid_points.size());

@@ -1,7 +1,9 @@
 #pragma once
 
 /// What drives erosion: fines leave the faster, the further the drive is above its threshold. Each
-/// drive is one file of this folder; docs/contributing.md says how to add one.
+/// drive is one file of this folder; docs/contributing.md says how to add one. In unsaturated soil
+/// only pores that carry flow erode: drives see k_r i, the gradient that would drive the same flux
+/// through the saturated soil (docs/theory.md, "Erosion").
 
 #include <span>
 #include <string_view>

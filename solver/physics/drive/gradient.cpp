@@ -1,4 +1,4 @@
-/// Erosion goes with the hydraulic gradient along the flow: D = i, |q|/k where drag is Darcy's.
+/// Erosion goes with the hydraulic gradient along the flow: D = k_r i, |q|/k where drag is Darcy's.
 
 #include "physics/drive/drive_law.hpp"
 
@@ -12,8 +12,8 @@ double value(const LocalState& state) {
 }  // namespace
 
 extern const DriveLaw gradient{.word = "gradient",
-                               .equation = "i, the hydraulic gradient along the flow",
-                               .symbol = "i",
+                               .equation = "k_r i, i the hydraulic gradient along the flow",
+                               .symbol = "k_r i",
                                .unit = "1",
                                .rate_unit = "1/s",
                                .depends_on_conductivity = true,

@@ -1,4 +1,4 @@
-/// Erosion goes with the power that the flow spends in a volume of soil: P = rho_w g i |q|
+/// Erosion goes with the power that the flow spends in a volume of soil: P = rho_w g k_r i |q|
 /// (Sibille, Marot and Sail, Acta Geotech. 10 (2015) 489).
 
 #include "physics/drive/drive_law.hpp"
@@ -13,7 +13,7 @@ double value(const LocalState& state) {
 }  // namespace
 
 extern const DriveLaw power{.word = "power",
-                            .equation = "P = rho_w g i |q|",
+                            .equation = "P = rho_w g k_r i |q|",
                             .symbol = "P",
                             .unit = "W/m3",
                             .rate_unit = "m3/J",

@@ -1,6 +1,6 @@
 /// Erosion goes with the shear stress on the walls of pores that are tubes of one radius:
-/// tau = rho_w g i sqrt(2 kappa / n_L) (Khilar, Fogler and Gray, J. Geotech. Eng. 111 (1985) 833;
-/// Reddi, Lee and Bonala, Geotech. Test. J. 23 (2000) 62).
+/// tau = rho_w g k_r i sqrt(2 kappa / n_L) (Khilar, Fogler and Gray, J. Geotech. Eng. 111 (1985)
+/// 833; Reddi, Lee and Bonala, Geotech. Test. J. 23 (2000) 62).
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ double value(const LocalState& state) {
 }  // namespace
 
 extern const DriveLaw shear_stress{.word = "shear-stress",
-                                   .equation = "tau = rho_w g i sqrt(2 kappa / n_L)",
+                                   .equation = "tau = rho_w g k_r i sqrt(2 kappa / n_L)",
                                    .symbol = "tau",
                                    .unit = "Pa",
                                    .rate_unit = "1/(Pa s)",

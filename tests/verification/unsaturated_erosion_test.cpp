@@ -1,0 +1,73 @@
+/// Erosion in unsaturated soil, through which water seeps under its weight alone: the gradient is 1
+/// everywhere and k_r = |q|/k, whatever the retention law.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "model_run.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double conductivity = 1e-4;
+constexpr double porosity = 0.4;
+
+/// Porosity gained over a second at |q| = share k, over the rate: D.
+double drive_in_seepage(const DriveLaw& drive, double share) {
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.gravity = {0.0, -9.81, 0.0};
+  Soil& soil = scene.soils[0];
+  soil.porosity = porosity;
+  soil.skeleton_fraction = 0.5;
+  soil.conductivity = conductivity;
+  soil.retention = model::gardner(2.0, 0.05);
+  soil.erosion.law = erosion_law("constant");
+  soil.erosion.drive = &drive;
+  constexpr double little = 1e-7;  // eroded in all, so that nothing changes
+  const double size = std::map<std::string_view, double>{
+      {"time", 1.0},
+      {"flux", share * conductivity},
+      {"gradient", share},
+      {"shear-stress", share},
+      {"power",
+       share * share}}.at(drive.word);
+  soil.erosion.rate = little / size;
+  scene.initial_flow = InitialFlow::steady;
+  scene.time.end = 1.0;
+  const double suction = std::log(share) / 2.0 * 9810.0;
+  scene.boundaries = {model::flux_on("top", share * conductivity),
+                      model::pressure_on("bottom", suction)};
+  model::ModelRun run(model::make_case(model::column_mesh(1, 8, 0.125, 1.0), scene));
+  const auto moments = run.run({1.0});
+  double sum = 0.0;
+  for (const double n : moments.states.back().porosity) sum += n - porosity;
+  return sum / static_cast<double>(moments.states.back().porosity.size()) / soil.erosion.rate;
+}
+
+/// What each drive is where the flux |q| = k_r k has the gradient 1, which only k_r of the pores
+/// feel: that of the same flux in saturated soil, and the less the drier the soil is.
+TEST(UnsaturatedErosion, GoesWithTheWaterThatFlows) {
+  const double kappa = conductivity * 1e-3 / 9810.0;
+  for (const double share : {0.5, 0.1, 1e-3, 1e-6}) {
+    const double flux = share * conductivity;
+    const std::map<std::string_view, double> expected{
+        {"time", 1.0},
+        {"flux", flux},
+        {"gradient", share},
+        {"shear-stress", 9810.0 * share * std::sqrt(2.0 * kappa / porosity)},
+        {"power", 9810.0 * share * flux}};
+    for (const DriveLaw* drive : drive_laws()) {
+      ASSERT_TRUE(expected.contains(drive->word)) << drive->word;
+      EXPECT_NEAR(drive_in_seepage(*drive, share) / expected.at(drive->word), 1.0, 1e-5)
+          << drive->word << " at k_r = " << share;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace suffuse
