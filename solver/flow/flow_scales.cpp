@@ -131,14 +131,19 @@ void raise_over_round_off(FlowScales& scales, const Grid<Dim>& grid,
 
 template <int Dim>
 double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
-                    double bulk_modulus, bool inertia) {
+                    double bulk_modulus, bool inertia, const std::vector<double>& soil_storage) {
   double fastest = 0.0;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (!soil_storage.empty() && soil_storage[e] == 0.0) continue;
     const double resistance = coefficients.drag[e] / coefficients.porosity[e];
     const double size = steepest_shape(grid, e);
     const double relaxation = coefficients.mixture_density[e] / coefficients.drag[e];
-    const double diffusivity =
+    double diffusivity =
         bulk_modulus * grid.volume[e] / (resistance * coefficients.water_volume[e]);
+    if (!soil_storage.empty()) {
+      const double storage = coefficients.water_volume[e] / bulk_modulus + soil_storage[e];
+      diffusivity = grid.volume[e] / (resistance * storage);
+    }
     if (inertia) {
       fastest = std::max(fastest, 1.0 / relaxation);
       if (std::isfinite(diffusivity)) {
@@ -164,13 +169,15 @@ template FlowScales find_scales(ImplicitMixed<2>&, const FlowForcing<2>&, const 
                                 double, bool);
 template void raise_over_round_off(FlowScales&, const Grid<2>&, const FlowCoefficients<2>&,
                                    const LiquidProperties&, double);
-template double fastest_rate(const Grid<2>&, const FlowCoefficients<2>&, double, bool);
+template double fastest_rate(const Grid<2>&, const FlowCoefficients<2>&, double, bool,
+                             const std::vector<double>&);
 template int obtuse_elements(const Grid<2>&);
 template FlowScales find_scales(ImplicitMixed<3>&, const FlowForcing<3>&, const BoundaryValues<3>&,
                                 double, bool);
 template void raise_over_round_off(FlowScales&, const Grid<3>&, const FlowCoefficients<3>&,
                                    const LiquidProperties&, double);
-template double fastest_rate(const Grid<3>&, const FlowCoefficients<3>&, double, bool);
+template double fastest_rate(const Grid<3>&, const FlowCoefficients<3>&, double, bool,
+                             const std::vector<double>&);
 template int obtuse_elements(const Grid<3>&);
 
 }  // namespace suffuse

@@ -58,10 +58,13 @@ void raise_over_round_off(FlowScales& scales, const Grid<Dim>& grid,
                           double end);
 
 /// How fast anything in the flow can change: relaxation of the velocity, waves and diffusion of the
-/// pressure through the smallest element, 1/s. Zero where nothing limits it.
+/// pressure through the smallest element, 1/s. Zero where nothing limits it. `soil_storage`: volume
+/// per pressure that soil which moves makes room for, per element, m3/Pa; then those elements alone
+/// count in which there is some.
 template <int Dim>
 double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
-                    double bulk_modulus, bool inertia);
+                    double bulk_modulus, bool inertia,
+                    const std::vector<double>& soil_storage = {});
 
 /// Elements with an angle of more than 90 degrees (in three dimensions, between two sides).
 template <int Dim>

@@ -39,12 +39,13 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skele
 template <int Dim>
 FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
   const double until = this->next_breakpoint(interval.start, interval.latest);
-  const double longest = std::min(interval.longest, solid_.longest_step());
+  const FlowInterval<Dim> ahead{interval.start, until,
+                                std::min(interval.longest, solid_.longest_step()), interval.pores};
   follow_soils();
-  double dt = control_.propose(interval.start, until, longest);
+  double dt = control_.propose(interval.start, until, ahead.longest);
   std::optional<MixedStep<Dim>> kept;
   if (reuse_.active()) kept = steady_step(dt);
-  MixedStep<Dim> step = kept ? *std::move(kept) : accepted_step(interval, dt);
+  MixedStep<Dim> step = kept ? *std::move(kept) : accepted_step(ahead, dt);
   const double end = dt < until - interval.start ? interval.start + dt : until;
   FlowProgress progress{1, dt, end, {}};
   if (solid_.moves()) move_solid(step, progress);
@@ -115,7 +116,8 @@ std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::try_step(
     if (dt >= share * this->scene().time.end) {
       control_.reject(start, dt);
     } else if (solid_.let_fail(start)) {
-      dt = std::max(dt, control_.last_step());
+      const double planned = std::min(std::max(dt, control_.last_step()), interval.longest);
+      dt = StepControl::up_to(planned, interval.latest - start);
     } else {
       coupling_.refuse_unsolved(start, error);
     }
@@ -205,6 +207,7 @@ void ImplicitFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
 template <int Dim>
 void ImplicitFlow<Dim>::pass_breakpoint(double time, double dt) {
   if (!reuse_.active()) previous_.reset();
+  control_.pass_kink();
   coupling_.expect_short_steps();
   if (follows_pores_) blending_.shorten(dt);
   const bool boundary_kink = contains_time(this->kinks(), time);
@@ -268,63 +271,6 @@ std::vector<double> ImplicitFlow<Dim>::losses() const {
     result.push_back(drag * flux.squaredNorm() * this->grid().volume[e]);
   }
   return result;
-}
-
-template <int Dim>
-void ImplicitFlow<Dim>::start() {
-  start_with(flow_at_rest(this->grid(), this->conditions_, this->pressure_at_rest()), nullptr);
-}
-
-template <int Dim>
-void ImplicitFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
-  const Grid<Dim>& grid = this->grid();
-  MixedFlow<Dim> flow = flow_at_rest(grid, this->conditions_, earlier.face_pressure(grid));
-  flow.face_flux = flow.flux_through = earlier.state.face_flux;
-  flow.state.velocity = element_flux(grid, flow.face_flux);
-  for (std::size_t e = 0; e < flow.state.velocity.size(); ++e) {
-    flow.state.velocity[e] /= this->coefficients_.porosity[e];
-  }
-  start_with(std::move(flow), &earlier.air);
-}
-
-template <int Dim>
-void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air) {
-  const Grid<Dim>& grid = this->grid();
-  const Scene& scene = this->scene();
-  now_ = std::move(flow);
-  const FlowForcing<Dim> forcing{this->coefficients_, this->conditions_, {}};
-  scales_ = find_scales(scheme_, forcing, this->boundary_values(), scene.time.end, has_gravity_);
-  // Water without compressibility and inertia has no start-up: it flows at once.
-  const bool at_once =
-      std::isinf(scene.liquid.bulk_modulus) && !options_.inertia && !scheme_.has_retention();
-  const bool at_rest = scene.initial_flow != InitialFlow::steady && !at_once;
-  if (!at_rest) now_ = end_of(scheme_.steady(forcing));
-  now_.state.air =
-      air ? *air : scheme_.air_at(now_.state.face_pressure, this->coefficients_.porosity);
-  pressure_ = element_pressure_now();
-  if (!at_once) scales_.include_in_bounds(now_.state.face_pressure);
-  scales_.include(now_.state.face_pressure, now_.face_flux);
-  raise_over_round_off(scales_, grid, this->coefficients_, scene.liquid, scene.time.end);
-  if (solid_.moves()) {
-    scales_.include_loads(solid_.largest_load_change(), solid_.stiffness());
-    solid_.start_motion(
-        {.pressure = pressure_on_solid(grid, scheme_.soils(), pressure_,
-                                       this->coefficients_.porosity, now_.state.air),
-         .liquid_mass = liquid_mass(grid, this->coefficients_, now_.state.air)});
-  }
-  // Loads may come at once, and the pressures with them.
-  control_.start(first_step(at_rest), !at_rest && !solid_.moves());
-}
-
-template <int Dim>
-double ImplicitFlow<Dim>::first_step(bool at_rest) const {
-  const double of_run = limits.first_step * this->scene().time.end;
-  if (!at_rest) return of_run;
-  // Short against everything that can happen at first, so that the flow at its end is the one right
-  // after the start.
-  const double fastest = fastest_rate(this->grid(), this->coefficients_,
-                                      this->scene().liquid.bulk_modulus, options_.inertia);
-  return fastest > 0.0 ? std::min(limits.first_step / fastest, of_run) : of_run;
 }
 
 template <int Dim>

@@ -112,7 +112,10 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   }
   /// Time in which the largest flux fills the pores of the smallest element, s; infinite at rest.
   [[nodiscard]] double filling_time() const;
-  [[nodiscard]] double first_step(bool at_rest) const;
+  /// A time that is short against everything that the flow does by itself, s: at the end of a step
+  /// of this length the flow is the one right after the start. Infinite where nothing delays it.
+  /// `soil_storage`: see `fastest_rate`.
+  [[nodiscard]] double shortest_change(const std::vector<double>& soil_storage) const;
   /// Power that drag takes in each element, W, where the liquid's viscosity follows a front of
   /// fines: the resistance of an element that the front crosses counts by as much. Else empty.
   [[nodiscard]] std::vector<double> losses() const;

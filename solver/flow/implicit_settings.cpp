@@ -40,9 +40,10 @@ StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool 
   settings.kinks = kinks;
   // Where soil leaves an element or enters one, forces on its nodes jump.
   settings.starts_anew_after_jumps = scene.moves();
-  settings.crosses_jumps = scene.moves() ||
-                           std::ranges::any_of(conditions, &FaceCondition::switches) ||
-                           std::ranges::any_of(scene.soils, &Soil::drains);
+  const bool drains = std::ranges::any_of(conditions, &FaceCondition::switches) ||
+                      std::ranges::any_of(scene.soils, &Soil::drains);
+  settings.crosses_jumps = scene.moves() || drains;
+  settings.pressure_spreads = scene.moves() && !drains;
   settings.threads = options.threads;
   return settings;
 }

@@ -35,13 +35,22 @@ struct ImplicitThresholds {
   /// The first step, as a share of the shortest time in which the flow changes (from rest) or of
   /// the run (from a steady flow).
   double first_step = 1e-2;
-  /// Boundary values that change within this share of the run, divided by the tolerance, jump: they
-  /// are crossed in one step, as time has no digits for shorter ones.
+  /// Boundary values jump that change within this share of the run, divided by the tolerance, and
+  /// within the shortest time in which the flow changes: one step crosses them.
   double jump = 1e-12;
   /// A step below this share of the time reached is too short: adding it leaves few digits.
   double min_step_of_time = 1e-14;
-  /// A step below this share of the run is too short.
+  /// Boundary values that change within so many of these shortest steps jump as well.
+  double unresolved_steps = 8.0;
+  /// After a kink at most so many shortest steps in succession are accepted whatever their error:
+  /// what happens meanwhile is faster than time has digits.
+  int max_unresolved = 10;
+  /// Steps below this share of the time reached are rounded to what can be added to that time.
+  double rounded_step = 1e-10;
+  /// At the start a step below this share of the run is too short ...
   double min_step_of_run = 1e-20;
+  /// ... if it is below this share of the shortest time in which the flow changes, too.
+  double min_step_of_change = 1e-10;
 
   /// Errors of fluxes in unsaturated soil that last for less than this share of the run count by
   /// the volume that they misplace: on a coarse mesh a front moves by fits and starts.

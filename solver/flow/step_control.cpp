@@ -14,15 +14,26 @@ namespace {
 
 constexpr const ImplicitThresholds& limits = implicit_thresholds;
 
+/// The length of a step that is short against the time from which it starts becomes the difference
+/// of the two times, as transport and the solid see it.
+double rounded(double start, double dt) {
+  return dt < limits.rounded_step * start ? (start + dt) - start : dt;
+}
+
 }  // namespace
 
-void StepControl::start(double first_step, bool smooth) {
+void StepControl::start(double first_step, bool smooth, double shortest_change) {
   next_ = settings_.given_step.value_or(first_step);
   smooth_ = smooth;
+  shortest_change_ = shortest_change;
+  pass_kink();
 }
 
 bool StepControl::is_jump(double start, double dt) const {
-  if (!(dt <= limits.jump * settings_.end / settings_.tolerance)) return false;
+  const double unnoticed =
+      std::min(limits.jump * settings_.end / settings_.tolerance, shortest_change_);
+  const double unresolved = limits.unresolved_steps * limits.min_step_of_time * start;
+  if (!(dt <= std::max(unnoticed, unresolved))) return false;
   const bool starts_at_kink = start == 0.0 || contains_time(settings_.kinks, start);
   return starts_at_kink && contains_time(settings_.kinks, start + dt);
 }
@@ -42,6 +53,10 @@ double StepControl::propose(double start, double until, double longest) {
   if (dt < left) refuse_too_short(start, dt);
   // No short step before the end: two halves are better than nine tenths and one.
   if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
+  return up_to(rounded(start, dt), left);
+}
+
+double StepControl::up_to(double dt, double left) {
   return dt * (1.0 + limits.end_margin) >= left ? left : dt;
 }
 
@@ -85,10 +100,12 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
     }
     // A step that the interval cut short says nothing against the longer one that was planned.
     next_ = !shortened_ && wanted >= 1.0 ? std::max(next, next_) : next;
+    if (smooth_) settles_ = false;
     return true;
   }
+  const bool spreads = settings_.pressure_spreads && settles_ && dt > shortest_change_;
   // Half of the fall that a smooth field would show is too little.
-  const bool jumps = settings_.crosses_jumps && rejected_dt_ > 0.0 &&
+  const bool jumps = settings_.crosses_jumps && !spreads && rejected_dt_ > 0.0 &&
                      error > 0.5 * rejected_error_ * (1.0 + dt / rejected_dt_);
   if (jumps) {
     jumped_ = settings_.starts_anew_after_jumps;
@@ -99,8 +116,24 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
   shortened_ = true;
   rejected_dt_ = dt;
   rejected_error_ = error;
-  dt *= std::clamp(wanted, limits.min_shrinkage, limits.max_retry);
-  refuse_too_short(start, dt);
+  return !shorten(start, std::clamp(wanted, limits.min_shrinkage, limits.max_retry), dt);
+}
+
+bool StepControl::shorten(double start, double factor, double& dt) {
+  const double shortest = rounded(start, 2.0 * limits.min_step_of_time * start);
+  const double shorter = rounded(start, factor * dt);
+  if (!settles_ || unresolved_ == limits.max_unresolved || shorter > shortest) {
+    dt = shorter;
+    refuse_too_short(start, dt);
+    return true;
+  }
+  if (dt > shortest) {
+    dt = shortest;
+    return true;
+  }
+  --rejected_;
+  ++unresolved_;
+  next_ = dt;
   return false;
 }
 
@@ -113,8 +146,14 @@ void StepControl::reject(double start, double& dt) {
   refuse_too_short(start, dt);
 }
 
+bool StepControl::is_too_short(double start, double dt) const {
+  const double at_start = std::min(limits.min_step_of_run * settings_.end,
+                                   limits.min_step_of_change * shortest_change_);
+  return dt <= limits.min_step_of_time * start || dt < at_start;
+}
+
 void StepControl::refuse_too_short(double start, double dt) const {
-  if (dt > limits.min_step_of_time * start && dt >= limits.min_step_of_run * settings_.end) return;
+  if (!is_too_short(start, dt)) return;
   std::ostringstream message;
   message << "no step is short enough for time.tolerance = " << settings_.tolerance
           << " at t = " << start
@@ -127,6 +166,11 @@ void StepControl::finish(double dt) {
   last_ = dt;
   smooth_ = !jumped_;
   jumped_ = false;
+}
+
+void StepControl::pass_kink() {
+  settles_ = true;
+  unresolved_ = 0;
 }
 
 void StepControl::grow(double dt) {

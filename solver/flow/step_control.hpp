@@ -7,6 +7,7 @@
 /// the ends of steps, and nothing of the equations behind them.
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -26,6 +27,9 @@ struct StepSettings {
   /// Times at which boundary values may have a kink, ascending, s. Two of them close together are a
   /// jump, which one step crosses.
   std::vector<double> kinks;
+  /// After a kink, pressure spreads from element to element: while a step is longer than that
+  /// takes, its error does not fall with its length, and this is no jump.
+  bool pressure_spreads = false;
   /// Fields may jump: a step whose error does not fall with its length is accepted. Seepage faces
   /// open and close at once, and no step is short enough for that.
   bool crosses_jumps = false;
@@ -49,8 +53,11 @@ class StepControl {
   explicit StepControl(StepSettings settings) : settings_(std::move(settings)) {}
 
   /// The first step takes `first_step` seconds, or the given one. `smooth`: the state at the start
-  /// belongs to the curve that follows; else the first step has no error that could be estimated.
-  void start(double first_step, bool smooth);
+  /// belongs to the curve that follows; otherwise the first step has no error that could be
+  /// estimated. `shortest_change`: steps of this length follow all that the flow does by itself, s;
+  /// infinite where nothing delays it.
+  void start(double first_step, bool smooth,
+             double shortest_change = std::numeric_limits<double>::infinity());
 
   /// Length of the step to try from `start`, s: ends at `until` at the latest, and takes no longer
   /// than `longest`. Throws as `accept` does.
@@ -61,7 +68,8 @@ class StepControl {
                              const std::vector<ControlledField>& fields) const;
   /// Whether a step of this error is good enough. If so, finds the length of the next one; if not,
   /// shortens `dt`. `predicted`: a state before the start was part of the estimate. Throws
-  /// NumericalError when the step would become too short to change the time.
+  /// NumericalError when the step would become too short to change the time, but for steps after a
+  /// kink: of these some are accepted as they are.
   [[nodiscard]] bool accept(double start, double error, bool predicted, double& dt);
   /// The step of `dt` from `start` has no result: shortens it. Throws as `accept` does.
   void reject(double start, double& dt);
@@ -69,6 +77,10 @@ class StepControl {
   void hold(double dt) { next_ = std::min(next_, dt); }
   /// A step of `dt` seconds is over.
   void finish(double dt);
+  /// It ended on a kink: what drives the flow may change at once from here on.
+  void pass_kink();
+  /// `dt`, or `left` where both are the same up to a small share.
+  [[nodiscard]] static double up_to(double dt, double left);
 
   /// The next step may be as long as this one allows, whatever was planned: nothing changes.
   void grow(double dt);
@@ -83,12 +95,19 @@ class StepControl {
   [[nodiscard]] double next_step() const { return next_; }  ///< as it will be tried, s
   [[nodiscard]] long rejected() const { return rejected_; }
 
-  void archive(auto& archive) { archive(last_, next_, smooth_, rejected_); }
+  void archive(auto& archive) {
+    archive(last_, next_, smooth_, rejected_, shortest_change_, settles_, unresolved_);
+  }
 
  private:
   [[nodiscard]] bool is_jump(double start, double dt) const;
-  /// Throws NumericalError where a step has become too short to change the time.
+  /// Whether a step of `dt` is too short to change the time.
+  [[nodiscard]] bool is_too_short(double start, double dt) const;
+  /// Throws NumericalError where it is.
   void refuse_too_short(double start, double dt) const;
+  /// Shortens `dt` after its step was rejected for its error. False where the step is the shortest
+  /// that changes the time, follows a kink, and counts as accepted for that reason.
+  bool shorten(double start, double factor, double& dt);
 
   StepSettings settings_;
   double last_ = 0.0;
@@ -96,6 +115,9 @@ class StepControl {
   bool smooth_ = true;
   bool jumped_ = false;  ///< the step that was accepted last has crossed a jump
   long rejected_ = 0;
+  double shortest_change_ = std::numeric_limits<double>::infinity();
+  bool settles_ = true;     ///< no step since the start or the last kink was judged by its error
+  int unresolved_ = 0;      ///< steps since then that were accepted for being the shortest
   double planned_ = 0.0;    ///< length of the step at hand, before it was rejected, s
   bool shortened_ = false;  ///< the step at hand has been rejected before
   // Of its last rejected attempt.

@@ -130,15 +130,76 @@ TEST(StepControl, FindsTheLengthWhoseErrorIsTheTolerance) {
 }
 
 TEST(StepControl, ErrorsThatDoNotFallWithTheStepEndTheRun) {
-  StepControl control(settings(1e-3, 100.0));
-  control.start(1.0, true);
-  double dt = control.propose(50.0, 100.0, 100.0);
+  StepControl control = after_step(settings(1e-3, 100.0), 1.0);
+  double dt = control.propose(49.0, 100.0, 100.0);
+  EXPECT_TRUE(control.accept(49.0, 0.5, true, dt));
+  dt = control.propose(50.0, 100.0, 100.0);
   const auto try_on = [&] {
     while (!control.accept(50.0, 2.0, true, dt)) continue;
   };
   EXPECT_THROW(try_on(), NumericalError);
   EXPECT_LE(dt, 1e-14 * 50.0);
   EXPECT_GE(control.rejected(), 20);
+}
+
+/// Errors of steps right after a kink that fall only with steps shorter than the digits of time.
+TEST(StepControl, AfterAKinkStepsAreAsShortAsTimeHasDigits) {
+  constexpr double kink = 1e9;
+  StepControl control = after_step(settings(1e-3, 3e9), 1e7);
+  control.pass_kink();
+  double time = kink;
+  const auto step = [&](double error) {
+    double dt = control.propose(time, 2e9, 1e9);
+    while (!control.accept(time, error, true, dt)) continue;
+    control.finish(dt);
+    EXPECT_EQ((time + dt) - time, dt);
+    EXPECT_GT(dt, limits.min_step_of_time * time);
+    EXPECT_LT(dt, 3.0 * limits.min_step_of_time * time);
+    time += dt;
+  };
+  for (int i = 0; i < limits.max_unresolved; ++i) step(2.0);
+  // What goes on for longer is no answer to the kink.
+  EXPECT_THROW(step(2.0), NumericalError);
+  control.pass_kink();
+  step(2.0);
+  step(0.5);
+  EXPECT_THROW(step(2.0), NumericalError);
+}
+
+TEST(StepControl, StartsHoweverFarTheEndWhereTheFlowChangesFast) {
+  for (const double shortest : {1e-8, std::numeric_limits<double>::infinity()}) {
+    StepControl control(settings(1e-3, 1e15));
+    const double first = std::min(shortest, 1e-6);
+    control.start(first, false, shortest);
+    if (std::isfinite(shortest)) {
+      EXPECT_EQ(control.propose(0.0, 1e15, 1e15), first);
+    } else {
+      EXPECT_THROW((void)control.propose(0.0, 1e15, 1e15), NumericalError);
+    }
+  }
+}
+
+/// A load that comes at once, at a face that drains: the error stays until a step is shorter than
+/// pressure takes through an element.
+TEST(StepControl, PressureThatSpreadsAfterAKinkIsNoJump) {
+  StepSettings s = settings(1e-3, 1e5);
+  s.crosses_jumps = s.starts_anew_after_jumps = true;
+  constexpr double spreads_within = 10.0;
+  const auto first_step = [&](bool spreads, bool after_kink) {
+    s.pressure_spreads = spreads;
+    StepControl control(s);
+    control.start(1e3, true, 0.01 * spreads_within);
+    double dt = control.propose(0.0, 1e5, 1e5);
+    if (!after_kink) {
+      EXPECT_TRUE(control.accept(0.0, 0.5, true, dt));
+    }
+    dt = control.propose(1e3, 1e5, 1e5);
+    while (!control.accept(1e3, 500.0 * std::min(1.0, dt / spreads_within), false, dt)) continue;
+    return dt;
+  };
+  EXPECT_GT(first_step(false, true), spreads_within);
+  EXPECT_GT(first_step(true, false), spreads_within);
+  EXPECT_LE(first_step(true, true), spreads_within / 500.0);
 }
 
 TEST(StepControl, StepsEndOnTheEndOfTheIntervalWithoutShortOnes) {
@@ -178,7 +239,8 @@ TEST(StepControl, GivenStepsDivideTheIntervalEvenly) {
 TEST(StepControl, ProposesNoStepThatIsTooShortToChangeTheTime) {
   const StepSettings s = settings(1e-3, 100.0);
   StepControl control = after_step(s, 1e-12);
-  EXPECT_EQ(control.propose(0.8, 10.0, 1e9), 1e-12);
+  // Rounded to what can be added to the time.
+  EXPECT_EQ(control.propose(0.8, 10.0, 1e9), (0.8 + 1e-12) - 0.8);
   for (int k = 0; k < 3; ++k) {
     control.account_for(1e9);
     control.finish(control.next_step());
@@ -197,6 +259,9 @@ TEST(StepControl, CrossesJumpsInOneStepWithoutAnError) {
   EXPECT_EQ(control.propose(20.0, 20.0 + jump, 1e9), (20.0 + jump) - 20.0);
   EXPECT_EQ(control.error(20.0, jump, fields), 0.0);
   EXPECT_GT(control.error(20.0, 0.5 * jump, fields), 1e6);
+  // Where the flow itself changes within that time, it is followed.
+  control.start(1.0, true, 0.5 * jump);
+  EXPECT_GT(control.error(20.0, jump, fields), 1e6);
   EXPECT_GT(control.error(40.0, 2.0 * jump, fields), 1e6);
 }
 
