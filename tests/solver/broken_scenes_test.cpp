@@ -1,5 +1,5 @@
-/// Scenes of tests/cases whose soil eroded nearly dry or was compressed beyond its pores: the values
-/// that they must end with. How the programs end is said in tests/cases/cases.csv.
+/// Scenes of tests/cases whose soil eroded nearly dry or was compressed beyond its pores: the
+/// values that they must end with. How the programs end is said in tests/cases/cases.csv.
 
 #include <gtest/gtest.h>
 
