@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 
 #include "results/reader.hpp"
@@ -29,8 +30,9 @@ test::Mode scene_of(const std::string& name) {
 }
 
 struct Run {
-  explicit Run(const std::string& name)
-      : outcome(place.solve(place.make_case(scene_of(name)), place.path("results"))),
+  explicit Run(const std::string& name, const std::vector<std::string>& sets = {})
+      : outcome(
+            place.solve(place.make_case(with(scene_of(name), name, sets)), place.path("results"))),
         results(place.path("results")) {}
 
   test::Workplace place;
@@ -88,25 +90,36 @@ TEST(BrokenScenes, SoilThatIsCompressedToItsGrainsIsRefused) {
   }
 }
 
-/// PLACEHOLDER
-/// 100 Pa/s reaches at 71.3 s over J, as it acts on the area of the start: at 1e4 ln(1/0.7) 2.
+/// Hencky's law without lateral strain (Poisson's ratio 0): a load p on the top holds E ln(1/J)/J,
+/// and drained soil has J = 0.83 and 15 % of pores at 4.5 kPa (45 s). Its pores are gone, J = 0.7,
+/// at 10.2 kPa, just above the whole load of 10 kPa.
 TEST(BrokenScenes, CompressedSoilIsRefusedWhenItsPoresAreGone) {
   const Run run("negative-porosity-done");
   const double last = run.results.history().column("t").back();
   std::cout << "last equilibrium at " << last << " s\n";
-  EXPECT_GT(last, 50.0);
-  EXPECT_LT(last, 110.0);
+  EXPECT_GT(last, 45.0);
+  EXPECT_LT(last, 200.0);
 }
 
-/// What has been caught stays, and no more is caught without room.
+/// What has been caught stays, and no more is caught without room. In the scene the room is gone
+/// within a second. With a load that grows over 1000 s soil catches fines until its porosity of
+/// 0.27, at J = 0.7/0.73 = 0.959 under 1.35e5 ln(1/J)/J = 5.9 kPa, 590 s.
 TEST(BrokenScenes, DepositsStayInSoilThatIsCompressed) {
-  const Run run("negative-deposits");
-  ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
-  const std::vector<double> deposited = run.results.ledger().column("deposited");
-  EXPECT_TRUE(std::ranges::is_sorted(deposited));
-  EXPECT_EQ(deposited.front(), 0.0);
-  EXPECT_GT(deposited.back(), 0.0);
-  expect_pores(run);
+  const std::vector<std::string> slowly{
+      "boundary[0].traction=[[0.0, 0.0, 0.0], [1000.0, 0.0, -1e4]]",
+      "soil.specimen.deposition.porosity_min=0.27"};
+  for (const std::vector<std::string>& sets : {std::vector<std::string>(), slowly}) {
+    const Run run("negative-deposits", sets);
+    ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+    const std::vector<double> deposited = run.results.ledger().column("deposited");
+    EXPECT_EQ(deposited.front(), 0.0);
+    EXPECT_TRUE(std::ranges::is_sorted(deposited));
+    expect_pores(run);
+    if (sets.empty()) continue;
+    EXPECT_GT(deposited[3], 0.0);
+    EXPECT_GT(deposited[5], deposited[3]);
+    EXPECT_EQ(deposited.back(), deposited[7]);
+  }
 }
 
 }  // namespace

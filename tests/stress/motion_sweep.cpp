@@ -1,4 +1,5 @@
-/// Soils that move: levees of random strength under floods, and columns under loads.
+/// Soils that move: levees of random strength under floods, columns under loads, and soft ones
+/// that are compressed to their grains.
 
 #include <algorithm>
 
@@ -11,6 +12,7 @@ namespace suffuse::stress {
 namespace {
 
 constexpr unsigned seeds = 100;
+constexpr unsigned soft_seeds = 60;
 
 /// A number, or one that falls with the fines.
 std::string falling(Random& random, double value, double share) {
@@ -87,6 +89,40 @@ Changes column_changes(unsigned seed, double end) {
   return changes;
 }
 
+/// A column of one soft soil that catches fines until hardly less than its porosity, under a load
+/// up to its modulus: pores that are nearly gone.
+Changes soft_changes(unsigned seed, double end) {
+  Random random(seed + 16000);
+  const double stiffness = random.decades(1e4, 1e6);
+  const double poisson = random.chance(0.5) ? 0.0 : random.between(0.0, 0.4);
+  const double load = random.decades(1e-2, 1.0) * stiffness;
+  const double porosity = random.between(0.25, 0.45);
+  Changes changes;
+  for (const char* name : {"specimen", "other"}) {
+    const std::string soil = "soil." + std::string(name);
+    if (std::string(name) == "other") changes.push_back(soil + ".like=specimen");
+  }
+  changes.push_back("soil.specimen.porosity=" + number_text(porosity));
+  changes.emplace_back("soil.specimen.skeleton_fraction=0.5");
+  changes.push_back("soil.specimen.conductivity=" + number_text(random.decades(1e-5, 1e-2)));
+  changes.push_back("soil.specimen.skeleton={law = \"elastic\", young = " + number_text(stiffness) +
+                    ", poisson = " + number_text(poisson) + "}");
+  if (random.chance(0.7)) {
+    changes.push_back(
+        "soil.specimen.deposition={coefficient = " + number_text(random.decades(0.1, 20.0)) +
+        ", porosity_min = " + number_text(porosity - random.decades(1e-3, 0.1)) + "}");
+  }
+  changes.push_back(
+      "boundary[0]={on = \"top\", pressure = " + number_text(random.share() * 0.2 * load) +
+      ", concentration = " + number_text(random.between(0.0, 0.3)) +
+      ", traction = [[0.0, 0.0, 0.0], [" + number_text(random.decades(1e-3, 0.9) * end) +
+      ", 0.0, " + number_text(-load) + "]]}");
+  changes.emplace_back("boundary[1]={on = \"bottom\", pressure = 0, fix = \"both\"}");
+  changes.emplace_back("boundary[2]={on = \"left\", fix = \"normal\"}");
+  changes.emplace_back("boundary[3]={on = \"right\", fix = \"normal\"}");
+  return changes;
+}
+
 Mesh<2> two_soil_column(unsigned seed) {
   Random random(seed + 13000);
   Mesh<2> mesh =
@@ -119,6 +155,18 @@ Sweep motion_sweep() {
       scenario.expected = Expected::either;
       sweep.scenarios.push_back(std::move(scenario));
     }
+  }
+  for (unsigned seed = 1; seed <= soft_seeds; ++seed) {
+    Scenario scenario;
+    scenario.scheme = seed % 3 == 0 ? Scheme::dp_implicit : Scheme::sp_implicit;
+    scenario.parameters = "soft column";
+    scenario.seed = seed;
+    scenario.end = Random(seed + 17000).decades(1e2, 1e4);
+    scenario.mesh = [seed] { return two_soil_column(seed); };
+    scenario.changes = [seed](const Span& span) { return soft_changes(seed, span.end); };
+    // Soil that is compressed to its grains is refused.
+    scenario.expected = Expected::either;
+    sweep.scenarios.push_back(std::move(scenario));
   }
   return sweep;
 }
