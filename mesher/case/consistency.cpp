@@ -243,10 +243,14 @@ class SceneCheck {
       const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);
       if (set == mesh_.boundaries.end()) continue;
       double top = -std::numeric_limits<double>::infinity();
-      const WaterLine<Dim> water_line(mesh_, scene.gravity);
-      for (const auto& face : set->faces) top = std::max(top, water_line.wet_above(face));
       const double lowest = condition.head->range(0.0, scene.time.end).first;
-      if (lowest > top) continue;
+      const WaterLine<Dim> water_line(mesh_, scene.gravity);
+      bool is_covered = true;
+      for (const auto& face : set->faces) {
+        top = std::max(top, water_line.centre_height(face));
+        is_covered = is_covered && lowest > water_line.wet_above(face);
+      }
+      if (is_covered) continue;
       const bool from_file = !document_.where.contains(condition.key + ".head");
       report(condition.key + (from_file ? ".file" : ".head"),
              "a head of " + short_number(lowest) + " m with scheme = \"explicit\"",

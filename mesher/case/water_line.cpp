@@ -23,10 +23,15 @@ WaterLine<Dim>::WaterLine(const Mesh<Dim>& mesh, const std::array<double, 3>& gr
 }
 
 template <int Dim>
-double WaterLine<Dim>::wet_above(const std::array<int, Dim>& face) const {
+double WaterLine<Dim>::centre_height(const std::array<int, Dim>& face) const {
   Vector<Dim> centre = Vector<Dim>::Zero();
   for (const int node : face) centre += mesh_.nodes[node];
-  const double middle = height(Vector<Dim>(centre / Dim), gravity_);
+  return height(Vector<Dim>(centre / Dim), gravity_);
+}
+
+template <int Dim>
+double WaterLine<Dim>::wet_above(const std::array<int, Dim>& face) const {
+  const double middle = centre_height(face);
   const bool is_level = std::ranges::all_of(face, [&](int node) {
     return std::abs(height(mesh_.nodes[node], gravity_) - middle) <= round_off_;
   });

@@ -15,6 +15,8 @@ class WaterLine {
  public:
   /// `gravity` in m/s2, not zero.
   WaterLine(const Mesh<Dim>& mesh, const std::array<double, 3>& gravity);
+  /// Height of the centre of a face, m.
+  [[nodiscard]] double centre_height(const std::array<int, Dim>& face) const;
   /// A face is under water where the head exceeds this value, m: the height of its centre; for a
   /// level face, a little less, so that a head equal to its height counts as water although the
   /// coordinates are rounded.
