@@ -29,8 +29,8 @@ test::Mode scene_of(const std::string& name) {
   return {name, scene, {}};
 }
 
-struct Run {
-  explicit Run(const std::string& name, const std::vector<std::string>& sets = {})
+struct SceneRun {
+  explicit SceneRun(const std::string& name, const std::vector<std::string>& sets = {})
       : outcome(
             place.solve(place.make_case(with(scene_of(name), name, sets)), place.path("results"))),
         results(place.path("results")) {}
@@ -41,7 +41,7 @@ struct Run {
 };
 
 /// Every porosity that was written is one.
-void expect_pores(const Run& run) {
+void expect_pores(const SceneRun& run) {
   for (std::size_t i = 0; i < run.results.times().size(); ++i) {
     for (const char* kind : {"solid", "cell"}) {
       for (const double n : run.results.field(i, kind, "porosity").values) {
@@ -55,7 +55,7 @@ void expect_pores(const Run& run) {
 /// A flood rises past soil that is nearly dry. What stays dry keeps its fines: none leaves where
 /// k_r i stays far below the threshold of 0.1.
 TEST(BrokenScenes, ADryCrestKeepsItsFinesUnderAFlood) {
-  const Run run("gradient-drive");
+  const SceneRun run("gradient-drive");
   ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
   EXPECT_EQ(run.outcome.error.find("grains lock"), std::string::npos) << run.outcome.error;
   const std::vector<double> c = run.results.history().column("concentration_max");
@@ -80,7 +80,7 @@ TEST(BrokenScenes, ADryCrestKeepsItsFinesUnderAFlood) {
 
 TEST(BrokenScenes, SoilThatIsCompressedToItsGrainsIsRefused) {
   for (const char* name : {"negative-porosity-done", "negative-porosity-nan"}) {
-    const Run run(name);
+    const SceneRun run(name);
     EXPECT_EQ(run.outcome.code, 3) << name << ": " << run.outcome.error;
     EXPECT_NE(run.outcome.error.find("to its grains"), std::string::npos) << run.outcome.error;
     EXPECT_NE(run.outcome.error.find("What is written is complete"), std::string::npos)
@@ -94,7 +94,7 @@ TEST(BrokenScenes, SoilThatIsCompressedToItsGrainsIsRefused) {
 /// and drained soil has J = 0.83 and 15 % of pores at 4.5 kPa (45 s). Its pores are gone, J = 0.7,
 /// at 10.2 kPa, just above the whole load of 10 kPa.
 TEST(BrokenScenes, CompressedSoilIsRefusedWhenItsPoresAreGone) {
-  const Run run("negative-porosity-done");
+  const SceneRun run("negative-porosity-done");
   const double last = run.results.history().column("t").back();
   std::cout << "last equilibrium at " << last << " s\n";
   EXPECT_GT(last, 45.0);
@@ -109,7 +109,7 @@ TEST(BrokenScenes, DepositsStayInSoilThatIsCompressed) {
       "boundary[0].traction=[[0.0, 0.0, 0.0], [1000.0, 0.0, -1e4]]",
       "soil.specimen.deposition.porosity_min=0.27"};
   for (const std::vector<std::string>& sets : {std::vector<std::string>(), slowly}) {
-    const Run run("negative-deposits", sets);
+    const SceneRun run("negative-deposits", sets);
     ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
     const std::vector<double> deposited = run.results.ledger().column("deposited");
     EXPECT_EQ(deposited.front(), 0.0);

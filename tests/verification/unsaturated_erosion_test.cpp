@@ -28,7 +28,8 @@ double drive_in_seepage(const DriveLaw& drive, double share) {
   soil.retention = model::gardner(2.0, 0.05);
   soil.erosion.law = erosion_law("constant");
   soil.erosion.drive = &drive;
-  constexpr double little = 1e-10;  // eroded in all: pores that open draw water, far less than flows
+  // Eroded in all: pores that open draw in water, far less than what flows.
+  constexpr double little = 1e-10;
   const double size = std::map<std::string_view, double>{
       {"time", 1.0},
       {"flux", share * conductivity},
