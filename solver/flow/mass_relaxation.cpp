@@ -45,8 +45,7 @@ std::vector<double> MassRelaxation::released(double dt, double filling_time) con
 }
 
 std::vector<double> MassRelaxation::next_source(double dt, double filling_time) const {
-  const double change_time = std::min(change_time_, limits.expansion_time * filling_time);
-  return between(source_, wanted_source(dt, filling_time), std::min(1.0, dt / change_time));
+  return between(source_, wanted_source(dt, filling_time), std::min(1.0, dt / change_time_));
 }
 
 void MassRelaxation::finish(double dt) {

@@ -31,8 +31,7 @@ class MassRelaxation {
   [[nodiscard]] std::vector<double> released(double dt, double filling_time) const;
   /// The source of the next step: the wanted one, or a part of the change towards it where the step
   /// is shorter than recent ones. A change that did not shrink with the step would be a jump that
-  /// no step is short enough for. Recent steps count up to the length from which sources are found
-  /// for each step anew.
+  /// no step is short enough for.
   [[nodiscard]] std::vector<double> next_source(double dt, double filling_time) const;
 
   /// The source of the last step, m3/s per element; empty until a mismatch has been observed.
