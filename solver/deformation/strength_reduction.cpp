@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+
+#include "deformation/pseudo_time.hpp"
 
 namespace suffuse {
 namespace {
@@ -55,65 +56,69 @@ class StrengthReduction {
   }
 
   SafetyFactor find() {
+    result_.fails = std::numeric_limits<double>::infinity();
     double factor = 1.0;
-    bool from_rest = true;
     while (factor >= limits_.least && factor <= limits_.largest) {
-      attempt(factor, from_rest);
-      from_rest = false;
-      const double fails = next_failure();
-      if (std::isinf(fails)) {
+      attempt(factor);
+      if (result_.trials.back().end == TrialEnd::undecided) return result_;
+      if (std::isinf(result_.fails)) {
         factor = 2.0 * result_.holds;
       } else if (result_.holds == 0.0) {
-        factor = 0.5 * fails;
-      } else if (fails > (1.0 + limits_.tolerance) * result_.holds) {
-        factor = std::sqrt(result_.holds * fails);
-      } else if (const Failure& failure = failed_.at(fails);
-                 failure.start < result_.holds || !failure.from_rest) {
-        // Once more: Newton's method may have given up too early.
-        factor = fails;
-        from_rest = failure.start == result_.holds;
+        factor = 0.5 * result_.fails;
+      } else if (result_.fails > (1.0 + limits_.tolerance) * result_.holds) {
+        factor = std::sqrt(result_.holds * result_.fails);
       } else {
         break;
       }
-    }
-    result_.fails = next_failure();
-    if (!std::isinf(result_.fails)) {
-      result_.mechanism = components(failed_.at(result_.fails).displacement);
     }
     result_.factor = result_.holds == 0.0 ? 0.0 : std::sqrt(result_.holds * result_.fails);
     return result_;
   }
 
  private:
-  /// Trials of a factor that failed.
-  struct Failure {
-    double start = 0.0;  ///< the largest factor from whose equilibrium one started; 0: none
-    bool from_rest = false;
-    NodeVectors<Dim> displacement;  ///< when the last was given up, beyond that of elastic soil, m
-  };
-
-  /// One trial, from the equilibrium of the largest factor that holds, or from no displacement.
-  void attempt(double factor, bool from_rest) {
-    const NodeVectors<Dim> rest(loads_.size(), Vector<Dim>::Zero());
-    NewtonSolution<Dim> solution = solve(factor, from_rest ? rest : held_);
-    result_.trials.push_back(judged(factor, solution));
-    if (result_.trials.back().holds) {
-      result_.holds = factor;
-      held_ = std::move(solution.displacement);
-      return;
+  /// One trial, from the equilibrium of the largest factor that holds.
+  void attempt(double factor) {
+    set_strength(factor);
+    Equilibrium<Dim> equilibrium(body(), supports_, threads_);
+    equilibrium.set_pressure(pressure_);
+    NewtonSolution<Dim> solution =
+        EquilibriumSolver<Dim>(equilibrium).solve(loads_, held_, limits_.newton);
+    SettledSoil<Dim> soil;
+    soil.residual = solution.residuals.back();
+    soil.iterations = solution.iterations();
+    const double far = limits_.runaway * elastic_max_;
+    if (!solution.converged) {
+      soil = PseudoTime<Dim>(equilibrium, loads_)
+                 .settle(held_, {.tolerance = limits_.newton.tolerance,
+                                 .far = far,
+                                 .max_iterations = limits_.settling_iterations});
+      soil.iterations += solution.iterations();
+    } else {
+      soil.end = largest<Dim>(solution.displacement) > far ? Settling::runs_away : Settling::rests;
+      soil.motion = solution.displacement;
+      for (std::size_t i = 0; i < elastic_.size(); ++i) soil.motion[i] -= elastic_[i];
+      soil.displacement = std::move(solution.displacement);
     }
-    Failure& failure = failed_[factor];
-    failure.from_rest = failure.from_rest || from_rest;
-    if (!from_rest) failure.start = result_.holds;
-    failure.displacement = std::move(solution.displacement);
-    for (std::size_t i = 0; i < elastic_.size(); ++i) failure.displacement[i] -= elastic_[i];
+    note(factor, std::move(soil));
   }
 
-  /// Of the factors above the largest that holds, the smallest whose trial failed. Infinite: no
-  /// trial failed.
-  [[nodiscard]] double next_failure() const {
-    const auto next = failed_.upper_bound(result_.holds);
-    return next == failed_.end() ? std::numeric_limits<double>::infinity() : next->first;
+  void note(double factor, SettledSoil<Dim> soil) {
+    StrengthTrial trial{.factor = factor,
+                        .displacement_max = largest<Dim>(soil.displacement) * stiffness_,
+                        .residual = soil.residual,
+                        .iterations = soil.iterations};
+    if (soil.end == Settling::rests) {
+      trial.end = TrialEnd::holds;
+      result_.holds = factor;
+      held_ = std::move(soil.displacement);
+    } else if (soil.end == Settling::runs_away) {
+      trial.end = TrialEnd::fails;
+      result_.fails = factor;
+      result_.mechanism = components(soil.motion);
+    } else {
+      result_.undecided_node = soil.worst_node;
+    }
+    result_.trials.push_back(trial);
   }
 
   /// Makes the soil so stiff that the elastic body keeps its shape.
@@ -130,7 +135,11 @@ class StrengthReduction {
     const double size = element_size(body_.grid);
     stiffness_ = 1e6 * std::max(force / std::pow(size, Dim - 1), 1.0) / young;
     elastic_max_ = elastic_displacement * size;
-    elastic_ = solve(1.0, held_).displacement;
+    set_strength(1.0);
+    Equilibrium<Dim> equilibrium(body(), supports_, threads_);
+    equilibrium.set_pressure(pressure_);
+    elastic_ =
+        EquilibriumSolver<Dim>(equilibrium).solve(loads_, held_, limits_.newton).displacement;
     const double first = largest<Dim>(elastic_);
     if (first > 0.0) {
       stiffness_ *= first / elastic_max_;
@@ -146,22 +155,8 @@ class StrengthReduction {
     }
   }
 
-  NewtonSolution<Dim> solve(double factor, const NodeVectors<Dim>& start) {
-    set_strength(factor);
-    const SolidBody<Dim> body{body_.grid, points_,       body_.sorted,
-                              skeleton_,  body_.classes, soft_in_trials};
-    Equilibrium<Dim> equilibrium(body, supports_, threads_);
-    equilibrium.set_pressure(pressure_);
-    return EquilibriumSolver<Dim>(equilibrium).solve(loads_, start, limits_.newton);
-  }
-
-  [[nodiscard]] StrengthTrial judged(double factor, const NewtonSolution<Dim>& solution) const {
-    StrengthTrial trial{
-        .factor = factor, .converged = solution.converged, .iterations = solution.iterations()};
-    const double displacement = largest<Dim>(solution.displacement);
-    trial.displacement_max = displacement * stiffness_;
-    trial.holds = solution.converged && displacement <= limits_.runaway * elastic_max_;
-    return trial;
+  [[nodiscard]] SolidBody<Dim> body() const {
+    return {body_.grid, points_, body_.sorted, skeleton_, body_.classes, soft_in_trials};
   }
 
   const SolidBody<Dim>& body_;
@@ -172,10 +167,9 @@ class StrengthReduction {
   const StrengthReductionLimits& limits_;
   SolidPoints<Dim> points_;  ///< without stress
   std::vector<PointSkeleton> skeleton_;
-  NodeVectors<Dim> held_;  ///< displacement in the trial of the largest factor that holds
-  std::map<double, Failure> failed_;  ///< by their factors
-  double stiffness_ = 1.0;            ///< of trials over that of the soil
-  NodeVectors<Dim> elastic_;          ///< displacement of the elastic body in trials, m
+  NodeVectors<Dim> held_;     ///< displacement in the trial of the largest factor that holds
+  double stiffness_ = 1.0;    ///< of trials over that of the soil
+  NodeVectors<Dim> elastic_;  ///< displacement of the elastic body in trials, m
   SafetyFactor result_;
   double elastic_max_ = 0.0;  ///< largest displacement of the elastic body in trials, m
 };

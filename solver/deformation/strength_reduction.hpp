@@ -21,15 +21,25 @@ struct StrengthReductionLimits {
   /// Residuals are relative to forces at a strain of `Equilibrium::least_strain` at least, which
   /// are up to a thousand times those of the stiff soil of the trials: thus the tolerance.
   NewtonLimits newton{.max_iterations = 60, .tolerance = 1e-9};
+  /// Iterations of a trial in pseudo-time, after those of Newton's method.
+  int settling_iterations = 400;
+};
+
+/// How a trial ended. Iterations that ran out decide nothing: soil that Newton's method finds no
+/// equilibrium of is not for that reason soil that fails.
+enum class TrialEnd {
+  holds,     ///< forces balance
+  fails,     ///< displacements ran away
+  undecided  ///< neither
 };
 
 struct StrengthTrial {
   double factor = 0.0;
-  bool converged = false;  ///< equilibrium was found
-  bool holds = false;      ///< and displacements did not run away
-  /// Under the loads from no stress, m; without equilibrium that of the last iteration.
+  TrialEnd end = TrialEnd::undecided;
+  /// Under the loads from no stress, m; without equilibrium that at the end of the trial.
   double displacement_max = 0.0;
-  int iterations = 0;
+  double residual = 0.0;  ///< forces out of balance at the end, over all forces
+  int iterations = 0;     ///< of Newton's method
 };
 
 struct SafetyFactor {
@@ -38,10 +48,13 @@ struct SafetyFactor {
   double holds = 0.0;                 ///< largest that was tried and holds; 0: none does
   double fails = 0.0;                 ///< smallest that fails; infinite: none does
   std::vector<StrengthTrial> trials;  ///< in the order in which they were made
-  /// Displacement of the nodes in the trial of the smallest factor that fails, when it was given
-  /// up, beyond that of the elastic body, m: its directions and shares show how the soil fails, its
-  /// size means nothing. Dim values per node; empty where no trial failed.
+  /// Displacement of the nodes at last, in the trial of the smallest factor that fails, m: its
+  /// directions and shares show how the soil fails, its size means nothing. Dim values per node;
+  /// empty where no trial failed.
   std::vector<double> mechanism;
+  /// Where forces are out of balance most in the last trial, which is undecided: there is no factor
+  /// then. -1: all are decided.
+  int undecided_node = -1;
 };
 
 /// tan phi and c over the factor; the angle of dilation at most that of friction.
@@ -50,8 +63,9 @@ struct SafetyFactor {
 
 /// Looks for the factor by bisection, in the logarithm. Each trial loads the body from no stress in
 /// one increment: what a perfectly plastic body can carry does not depend on the stress before.
-/// Newton's method starts at the displacement of the largest factor that holds; that a factor fails
-/// is believed when it has failed from the one below it and from no displacement too.
+/// Newton's method starts at the displacement of the largest factor that holds. Where it finds no
+/// equilibrium, `PseudoTime` goes on from there until the soil rests or runs away. A trial in which
+/// it does neither ends the search.
 ///
 /// The factor does not depend on Young's modulus either. The trials multiply it by one number in
 /// all of the soil, so that its shape stays. Displacements are those of the soil as it is, to first

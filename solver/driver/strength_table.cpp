@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
 
 #include "case/errors.hpp"
 #include "case/law_texts.hpp"
@@ -41,14 +42,24 @@ void refuse_without_strength(const SceneDocument& document) {
                    listed(laws) + " under [soil.NAME.skeleton]");
 }
 
-/// Water and solid at t = 0, before anything moves. The soil has no stress yet: it need not be able
-/// to carry its loads.
+/// Water and solid at t = 0, before anything moves. The soil need not be able to carry its loads:
+/// it is rigid, or, where some regions are free water because soil moves, elastic.
 template <int Dim>
 Snapshot start_snapshot(const Case<Dim>& c, int threads) {
-  Case<Dim> rigid = c;
-  for (Soil& soil : rigid.document.scene.soils) soil.skeleton = {};
-  const std::optional<SourceRun<Dim>> earlier = read_source_run(rigid, threads);
-  const RunLoop<Dim> loop(rigid, make_plan(rigid, {.threads = threads}),
+  Case<Dim> strong = c;
+  Scene& scene = strong.document.scene;
+  for (Soil& soil : scene.soils) soil.skeleton = {};
+  const auto has_no_soil = [&](const std::string& region) {
+    return c.document.scene.is_free_water(region) && !scene.is_free_water(region);
+  };
+  if (std::ranges::any_of(c.mesh.region_names, has_no_soil)) {
+    scene.soils = c.document.scene.soils;
+    for (Soil& soil : scene.soils) {
+      if (soil.skeleton.moves()) soil.skeleton.law = skeleton_law("elastic");
+    }
+  }
+  const std::optional<SourceRun<Dim>> earlier = read_source_run(strong, threads);
+  const RunLoop<Dim> loop(strong, make_plan(strong, {.threads = threads}),
                           earlier ? &earlier->state : nullptr);
   return loop.model().snapshot(loop.model().flow_state());
 }
@@ -143,28 +154,24 @@ class StrengthTable {
   StrengthTable(const Case<Dim>& c, const StrengthReductionOptions& options)
       : options_(options), grid_(c.mesh), soils_(c) {}
 
-  /// Adds a row. `where`: for the sentence.
-  void add(const Snapshot& snapshot, const std::string& where) {
+  /// Adds a row, if there is a factor. Returns why there is none, or nothing.
+  /// \param where  for the sentences
+  std::string add(const Snapshot& snapshot, const std::string& where) {
     const SoilState<Dim> state = soil_state(grid_, soils_, snapshot);
     warn_of_suction(state, where);
     SafetyFactor found = find_safety_factor(grid_, soils_, state, options_.threads);
-    long iterations = 0;
-    double displacement = 0.0;
-    for (const StrengthTrial& trial : found.trials) {
-      iterations += trial.iterations;
-      if (trial.factor == found.holds) displacement = trial.displacement_max;
-    }
-    text_ += number_text(state.time);
-    for (const double value :
-         {found.factor, found.holds, found.fails, static_cast<double>(found.trials.size()),
-          static_cast<double>(iterations), mean_fines_left(state), displacement}) {
-      text_ += ',' + number_text(value);
-    }
-    text_ += '\n';
-    if (!options_.quiet) std::fprintf(stderr, "%s\n", sentence(found, where).c_str());
     mechanism_ = std::move(found.mechanism);
+    if (found.undecided_node >= 0) return where + ": " + undecided(found, state);
+    if (found.holds == 0.0) {
+      return where + ": there is no factor of safety: the soil fails, even with " +
+             shown_number(1.0 / found.fails) + " times its strength; " + moving_body(state) +
+             "; expected is soil that bears its loads with some strength: cohesion where water "
+             "pulls at soil or flows out of it, supports where it hangs";
+    }
+    add_row(found, state);
+    if (!options_.quiet) std::fprintf(stderr, "%s\n", sentence(found, state, where).c_str());
+    return {};
   }
-
   /// That of the last row.
   void write_mechanism(const std::string& path) const {
     double largest = 0.0;
@@ -191,8 +198,25 @@ class StrengthTable {
   }
 
   [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] bool has_rows() const { return std::ranges::count(text_, '\n') > 1; }
 
  private:
+  void add_row(const SafetyFactor& found, const SoilState<Dim>& state) {
+    long iterations = 0;
+    double displacement = 0.0;
+    for (const StrengthTrial& trial : found.trials) {
+      iterations += trial.iterations;
+      if (trial.factor == found.holds) displacement = trial.displacement_max;
+    }
+    text_ += number_text(state.time);
+    for (const double value :
+         {found.factor, found.holds, found.fails, static_cast<double>(found.trials.size()),
+          static_cast<double>(iterations), mean_fines_left(state), displacement}) {
+      text_ += ',' + number_text(value);
+    }
+    text_ += '\n';
+  }
+
   [[nodiscard]] Vector<Dim> displacement(int node) const {
     return Eigen::Map<const Vector<Dim>>(&mechanism_[static_cast<std::size_t>(Dim) * node]);
   }
@@ -209,16 +233,67 @@ class StrengthTable {
     return std::sqrt(2.0) * (strain - strain.trace() / 3.0 * Matrix::Identity()).norm();
   }
 
-  [[nodiscard]] static std::string sentence(const SafetyFactor& found, const std::string& where) {
-    if (found.holds == 0.0) {
-      return where + ": the soil fails, even with " + shown_number(1.0 / found.fails) +
-             " times its strength";
-    }
+  [[nodiscard]] std::string sentence(const SafetyFactor& found, const SoilState<Dim>& state,
+                                     const std::string& where) const {
     if (std::isinf(found.fails)) {
       return where + ": the soil holds, even with its strength over " + shown_number(found.holds);
     }
     return where + ": factor of safety " + short_text(found.factor) + " (holds at " +
-           short_text(found.holds) + ", fails at " + short_text(found.fails) + ')';
+           short_text(found.holds) + ", fails at " + short_text(found.fails) + "); " +
+           moving_body(state);
+  }
+
+  /// Why the last trial decides nothing.
+  [[nodiscard]] std::string undecided(const SafetyFactor& found,
+                                      const SoilState<Dim>& state) const {
+    const StrengthTrial& trial = found.trials.back();
+    const Vector<Dim>& node = grid_.mesh.nodes[found.undecided_node];
+    int nearest = 0;
+    const std::vector<Vector<Dim>>& places = state.points.position;
+    for (int p = 1; p < state.points.size(); ++p) {
+      if ((places[p] - node).squaredNorm() < (places[nearest] - node).squaredNorm()) nearest = p;
+    }
+    std::string text = "there is no factor of safety: with its strength over " +
+                       short_text(trial.factor) + " the soil neither came to rest nor failed in " +
+                       std::to_string(trial.iterations) + " iterations; " +
+                       short_text(trial.residual) + " of all forces are out of balance, most in " +
+                       soil_at(state, nearest);
+    if (found.holds > 0.0) text += "; it holds with its strength over " + short_text(found.holds);
+    if (std::isfinite(found.fails)) text += "; it fails with it over " + short_text(found.fails);
+    return text +
+           "; expected are displacements that stay or grow without bound: another mesh.size "
+           "or a dilation nearer to the friction may give them";
+  }
+
+  /// soil "fill" at (1.5, 2)
+  [[nodiscard]] std::string soil_at(const SoilState<Dim>& state, int point) const {
+    std::string text =
+        "soil " + shown_value(soils_.soil_of_point(state.id[point]).region) + " at (";
+    for (int k = 0; k < Dim; ++k) {
+      text += (k > 0 ? ", " : "") + short_text(state.points.position[point][k]);
+    }
+    return text + ')';
+  }
+
+  /// What moves as the soil fails: where most, and how much soil at half of that or more.
+  [[nodiscard]] std::string moving_body(const SoilState<Dim>& state) const {
+    std::vector<double> moved;
+    for (const int e : state.points.element) {
+      Vector<Dim> sum = Vector<Dim>::Zero();
+      for (const int i : grid_.mesh.elements[e]) sum += displacement(i);
+      moved.push_back(sum.norm());
+    }
+    const auto most = std::ranges::max_element(moved);
+    double volume = 0.0;
+    std::set<int> elements;
+    for (std::size_t p = 0; p < moved.size(); ++p) {
+      if (moved[p] < 0.5 * *most) continue;
+      volume += state.points.volume[p];
+      elements.insert(state.points.element[p]);
+    }
+    return "what fails moves most in " + soil_at(state, static_cast<int>(most - moved.begin())) +
+           ", and half as far or farther in " + short_text(volume) + " m3 (" +
+           std::to_string(elements.size()) + (elements.size() == 1 ? " element)" : " elements)");
   }
 
   /// Share of the erodible fines that is left in soils with a strength; 1 where there were none.
@@ -271,18 +346,28 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
   }
   TextOutput output(options.output);
   StrengthTable<Dim> table(c, options);
+  std::vector<std::string> without;
+  const auto add = [&](const Snapshot& snapshot, const std::string& where) {
+    std::string why = table.add(snapshot, where);
+    if (!why.empty()) without.push_back(std::move(why));
+  };
   if (options.state.empty()) {
-    table.add(start_snapshot(c, options.threads), "at the start");
+    add(start_snapshot(c, options.threads), "at the start");
   } else {
     const ResultsReader results(options.state);
     refuse_other_soil(c, results);
     for (const std::size_t index : chosen_snapshots(results, options.time)) {
-      table.add(read_snapshot(results, index),
-                options.state + " at t = " + shown_number(results.times()[index]) + " s");
+      add(read_snapshot(results, index),
+          options.state + " at t = " + shown_number(results.times()[index]) + " s");
     }
   }
   if (!options.mechanism.empty()) table.write_mechanism(options.mechanism);
-  output.write(table.text());
+  if (without.empty() || table.has_rows()) output.write(table.text());
+  if (without.empty()) return;
+  std::string message = without.front();
+  for (std::size_t k = 1; k < without.size(); ++k) message += '\n' + without[k];
+  if (table.has_rows()) message += "\nThe table has the other states";
+  throw NumericalError(message);
 }
 
 template void run_strength_reduction(const Case<2>&, const StrengthReductionOptions&);

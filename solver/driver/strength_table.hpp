@@ -19,12 +19,14 @@ struct StrengthReductionOptions {
   bool quiet = false;  ///< no sentences on standard error, but warnings
 };
 
-/// Writes a table with a row per state, whole or not at all: `t`, `factor`, `holds`, `fails`,
-/// `trials`, `iterations`, `fines_left`, `displacement_max`. Says each factor in a sentence on
-/// standard error. The file of the mechanism has the displacement of the trial that fails at the
-/// smallest factor, and its shear strain per element, both over the largest displacement. Throws
-/// InputError where no soil has a strength, or where the state is of other points or of no such
-/// time; NumericalError when nothing holds the soil; FileError.
+/// Writes a table with a row per state that has a factor, whole or not at all: `t`, `factor`,
+/// `holds`, `fails`, `trials`, `iterations`, `fines_left`, `displacement_max`. Says each factor in
+/// a sentence on standard error, with the body that fails. The file of the mechanism has the
+/// displacement of the trial that fails at the smallest factor, and its shear strain per element,
+/// both over the largest displacement. Throws InputError where no soil has a strength, or where the
+/// state is of other points or of no such time; NumericalError when nothing holds the soil, and,
+/// after the table has been written, for states without a factor: soil that fails with any
+/// strength, or of which a trial decides nothing; FileError.
 template <int Dim>
 void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& options);
 

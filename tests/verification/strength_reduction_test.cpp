@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "deformation/pseudo_time.hpp"
 #include "solver/solid_model.hpp"
 
 namespace suffuse {
@@ -39,9 +40,12 @@ SafetyFactor safety_factor(const PlaneModel& m, const NodeVectors<2>& loads, dou
   const SafetyFactor result =
       find_safety_factor<2>(m.body(), supports, loads, pressure, m.threads, limits);
   for (const StrengthTrial& trial : result.trials) {
-    std::cout << "  " << trial.factor << (trial.holds ? " holds" : " fails")
-              << (trial.converged ? "" : ", no equilibrium") << ", displacement "
-              << trial.displacement_max << " m, iterations " << trial.iterations << "\n";
+    std::cout << "  " << trial.factor
+              << (trial.end == TrialEnd::holds   ? " holds"
+                  : trial.end == TrialEnd::fails ? " fails"
+                                                 : " decides nothing")
+              << ", residual " << trial.residual << ", displacement " << trial.displacement_max
+              << " m, iterations " << trial.iterations << "\n";
   }
   std::cout << m.mesh.element_count() << " elements: factor " << result.factor << std::endl;
   return result;
@@ -212,6 +216,57 @@ TEST(Slope, OfElasticSoilNeverFailsAndOfSoilWithoutStrengthAlways) {
   EXPECT_EQ(none.holds, 64.0);
   const SlopeTwoToOne mud(4, mohr_coulomb_soil(0.0, 1.0, 0.0));
   EXPECT_EQ(safety_factor(mud, mud.weight(unit_weight), 0.01).factor, 0.0);
+}
+
+// ---------------------------------------------------------------------- what decides a trial
+
+/// Without dilation: Newton's method finds no equilibrium in most trials near the limit.
+SafetyFactor slope_factor_with(const StrengthReductionLimits& limits) {
+  const SlopeTwoToOne m(8, mohr_coulomb_soil(20.0, 0.05 * unit_weight, 0.0));
+  const Supports<2> supports(m.grid, m.face_support);
+  return find_safety_factor<2>(m.body(), supports, m.weight(unit_weight), {}, 1, limits);
+}
+
+TEST(Trial, ThatRunsOutOfIterationsIsNoFailure) {
+  StrengthReductionLimits limits;
+  limits.newton.max_iterations = 1;
+  limits.settling_iterations = 3;
+  const SafetyFactor none = slope_factor_with(limits);
+  EXPECT_EQ(none.trials.back().end, TrialEnd::undecided);
+  EXPECT_GT(none.trials.back().residual, limits.newton.tolerance);
+  EXPECT_GE(none.undecided_node, 0);
+  EXPECT_EQ(none.factor, 0.0);
+  EXPECT_TRUE(none.mechanism.empty());
+}
+
+TEST(Trial, IsDecidedInPseudoTimeAsByNewtonsMethod) {
+  StrengthReductionLimits limits;
+  const SafetyFactor both = slope_factor_with(limits);
+  limits.newton.max_iterations = 0;
+  const SafetyFactor alone = slope_factor_with(limits);
+  EXPECT_EQ(both.holds, alone.holds);
+  EXPECT_EQ(both.fails, alone.fails);
+  EXPECT_EQ(both.undecided_node, -1);
+}
+
+TEST(PseudoTime, MovesSoilThatFailsAtAConstantSpeed) {
+  SlopeTwoToOne m(8, mohr_coulomb_soil(20.0, 0.05 * unit_weight, 0.0));
+  for (PointSkeleton& point : m.skeleton) {
+    point.parameters = reduced_strength(point.parameters, 1.7);
+    point.parameters.young *= 1e6;
+  }
+  const Supports<2> supports(m.grid, m.face_support);
+  Equilibrium<2> equilibrium(m.body(), supports, 1);
+  const NodeVectors<2> loads = m.weight(unit_weight);
+  PseudoTime<2> time(equilibrium, loads);
+  const SettledSoil<2> near = time.settle(m.no_loads(), {.far = 1e-6});
+  const SettledSoil<2> far = time.settle(m.no_loads(), {.far = 1e-4});
+  ASSERT_EQ(near.end, Settling::runs_away);
+  ASSERT_EQ(far.end, Settling::runs_away);
+  // No stress balances this share of the forces, however far the soil goes.
+  std::cout << "out of balance " << near.residual << ", " << far.residual << std::endl;
+  EXPECT_NEAR(far.residual, near.residual, 0.05 * near.residual);
+  EXPECT_GT(far.residual, 1e-6);
 }
 
 /// A vertical cut of height 1 m, the soil as wide behind it and below it.
