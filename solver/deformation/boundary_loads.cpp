@@ -39,7 +39,7 @@ Supports<Dim> scene_supports(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
   Supports<Dim> supports(grid, on_face);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     if (!soils.is_soil(e) || soils.soil_of_element(e).skeleton.moves()) continue;
-    for (const int i : grid.mesh.elements[e]) supports.hold(i);
+    supports.hold_element(grid.mesh, e);
   }
   return supports;
 }

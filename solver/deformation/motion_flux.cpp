@@ -77,8 +77,10 @@ FaceBubbles<Dim>::FaceBubbles(const Grid<Dim>& grid, const StepEquilibrium<Dim>&
     : grid_(grid), step_(step), softness_(grid.face_count(), 0.0) {
   constexpr double mean_of_bubble = Dim == 2 ? 2.0 / 3.0 : 9.0 / 20.0;     // over its face
   constexpr double mean_of_square = Dim == 2 ? 8.0 / 45.0 : 27.0 / 280.0;  // over an element
+  const Supports<Dim>& supports = step.equilibrium().unknowns().supports();
   for (int f = 0; f < grid.face_count(); ++f) {
     if (grid.is_outer(f)) continue;
+    if (supports.is_rigid(grid.face_left[f]) || supports.is_rigid(grid.face_right[f])) continue;
     const double area = grid.face_normal[f].norm();
     const Vector<Dim> n = grid.face_normal[f] / area;
     double stiffness = 0.0;

@@ -59,8 +59,8 @@ void MovingSkeleton<Dim>::find_filling() {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
   // Carried to nodes and back: the points in an element would make the drag jump as they leave it.
-  const std::vector<double> volume = smooth_volumes(this->grid_, points_, points_.volume);
-  const std::vector<double> solid = smooth_volumes(this->grid_, points_, solid_volumes());
+  const std::vector<double> volume = smooth(points_.volume);
+  const std::vector<double> solid = smooth(solid_volumes());
   filling_.assign(solid_.size(), {});
   for (std::size_t e = 0; e < solid_.size(); ++e) {
     if (classes.full[e] == 1.0) continue;

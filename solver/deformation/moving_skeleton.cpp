@@ -1,14 +1,11 @@
 #include "deformation/moving_skeleton.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "deformation/element_gains.hpp"
 #include "deformation/free_water.hpp"
-#include "deformation/held_by_inertia.hpp"
 #include "deformation/point_motion.hpp"
 #include "deformation/start_stress.hpp"
 #include "grid/parallel.hpp"
@@ -179,30 +176,6 @@ std::vector<double> MovingSkeleton<Dim>::drained_compressibility() const {
 }
 
 template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::node_masses() const {
-  std::vector<double> of_point = solid_volumes();
-  for (int p = 0; p < points_.size(); ++p) {
-    const double liquid = points_.volume[p] - of_point[p];
-    of_point[p] = of_point[p] * this->soils().soil_of_point(p).grain_density +
-                  liquid * this->soils().scene().liquid.density;
-  }
-  return PointVelocities<Dim>(points_.size()).to_nodes(this->grid_, points_, of_point).mass;
-}
-
-template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::compressibility(double duration) const {
-  std::vector<double> result = drained_compressibility();
-  if (!inertia_.acts()) return result;
-  return held_compressibility(this->grid_, std::move(result), node_masses(), duration);
-}
-
-template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::inertial_mobility(double duration) const {
-  if (!inertia_.acts()) return {};
-  return held_mobility(this->grid_, drained_compressibility(), node_masses(), duration);
-}
-
-template <int Dim>
 double MovingSkeleton<Dim>::stiffness() const {
   double largest = 0.0;
   for (int p = 0; p < points_.size(); ++p) {
@@ -217,15 +190,6 @@ std::vector<double> MovingSkeleton<Dim>::solid_masses() const {
   std::vector<double> mass = solid_volumes();
   for (int p = 0; p < points_.size(); ++p) {
     mass[p] = (mass[p] - loss_of(p)) * this->soils().soil_of_point(p).grain_density;
-  }
-  return mass;
-}
-
-template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::moved_masses(const MotionForcing& forcing) const {
-  std::vector<double> mass = solid_masses();
-  for (int p = 0; p < points_.size(); ++p) {
-    mass[p] += forcing.liquid_mass[points_.element[p]] * points_.volume[p];
   }
   return mass;
 }
@@ -300,30 +264,6 @@ void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
 }
 
 template <int Dim>
-bool MovingSkeleton<Dim>::watches_failure() const {
-  return !inertia_.acts() && this->soils().scene().follows_failure(this->grid_.mesh.region_names);
-}
-
-template <int Dim>
-bool MovingSkeleton<Dim>::let_fail(double time) {
-  if (!watches_failure()) return false;
-  inertia_.begin(points_.size());
-  failure_time_ = time;
-  step_.reset();
-  return true;
-}
-
-template <int Dim>
-double MovingSkeleton<Dim>::time_of_fall() const {
-  const double g = acceleration(this->soils().scene().gravity);
-  if (g == 0.0) return 0.0;
-  const std::vector<double>& volume = this->grid_.volume;
-  const double mean =
-      std::accumulate(volume.begin(), volume.end(), 0.0) / this->grid_.mesh.element_count();
-  return std::sqrt(2.0 * std::pow(mean, 1.0 / Dim) / g);
-}
-
-template <int Dim>
 const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing) {
   expect_losses(forcing.porosity);
   prepare_step(forcing);
@@ -350,7 +290,7 @@ template <int Dim>
 const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   if (!step_ || !motion_.converged) throw std::logic_error("there is no motion to accept");
   check_pores();
-  const std::vector<double> before = smooth_volumes(this->grid_, points_, solid_volumes());
+  const std::vector<double> before = smooth(solid_volumes());
   boundary_loads_.move(step_->sorted(), step_->displacement());
   const std::vector<int> element = points_.element;
   if (inertia_.acts()) take_velocities();
@@ -372,45 +312,6 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   for (double& v : face_rate_) v /= tried_.duration;
   sort_points();
   return motion_;
-}
-
-template <int Dim>
-SoilExtent MovingSkeleton<Dim>::extent(const std::vector<double>& mass) const {
-  const Scene& scene = this->soils().scene();
-  SoilExtent extent;
-  for (const double m : mass) extent.mass += m;
-  extent.load = acceleration(scene.gravity) * extent.mass;
-  if (!has_gravity(scene.gravity)) {
-    for (const Vector<Dim>& force : forces_) extent.load += force.norm();
-  }
-  const Vector<Dim> down = downwards<Dim>(scene.gravity);
-  const auto [low, high] =
-      std::ranges::minmax(points_.position, {}, [&](const Vector<Dim>& x) { return x.dot(down); });
-  extent.height = (high - low).dot(down);
-  return extent;
-}
-
-template <int Dim>
-bool MovingSkeleton<Dim>::has_slid(const std::vector<Vector<Dim>>& before) const {
-  const std::vector<double> mass = moved_masses(tried_);
-  double sum = 0.0;
-  for (int p = 0; p < points_.size(); ++p) {
-    sum += mass[p] * (points_.position[p] - before[p]).squaredNorm();
-  }
-  return is_sliding(0.5 * sum / (tried_.duration * tried_.duration), extent(mass));
-}
-
-template <int Dim>
-void MovingSkeleton<Dim>::take_velocities() {
-  const Scene& scene = this->soils().scene();
-  double loads = norm<Dim>(forces_);
-  if (has_gravity(scene.gravity)) {
-    double squared = 0.0;
-    for (const double mass : inertia_.nodes().mass) squared += mass * mass;
-    loads = acceleration(scene.gravity) * std::sqrt(squared);
-  }
-  inertia_.finish_step(this->grid_, points_, step_->displacement(), tried_.duration, motion_.travel,
-                       step_->equilibrium().inertia_norm() / loads, extent(moved_masses(tried_)));
 }
 
 template <int Dim>
@@ -448,9 +349,10 @@ std::vector<double> MovingSkeleton<Dim>::diffusivity(const PointsByElement& sort
 
 template <int Dim>
 void MovingSkeleton<Dim>::carry_solid(const std::vector<double>& smooth_before, double travel) {
-  const std::vector<double> smooth_after = smooth_volumes(this->grid_, points_, solid_volumes());
+  const std::vector<double> smooth_after = smooth(solid_volumes());
   std::vector<char> has_solid(solid_.size());
   for (std::size_t e = 0; e < solid_.size(); ++e) {
+    if (supports_.is_rigid(static_cast<int>(e))) continue;  // its solid stays
     has_solid[e] = smooth_before[e] > 0.0 || smooth_after[e] > 0.0 || solid_[e] != 0.0 ? 1 : 0;
   }
   solid_flux_.follow(has_solid);

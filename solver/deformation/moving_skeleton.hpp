@@ -85,6 +85,10 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// That an erodible volume, m3, is of the one at the start.
   [[nodiscard]] double share_left(int point, double erodible_volume) const;
   [[nodiscard]] std::vector<double> solid_volumes() const;
+  /// `smooth_volumes` of what the points have, m3.
+  [[nodiscard]] std::vector<double> smooth(const std::vector<double>& of_points) const {
+    return smooth_volumes(this->grid_, points_, of_points, supports_.rigid_elements());
+  }
   /// Keeps what points will have lost by the end of the step.
   void expect_losses(const std::vector<double>& porosity);
   /// Volume that a point will have lost by the end of the step, m3.

@@ -6,10 +6,17 @@ namespace suffuse {
 
 template <int Dim>
 std::vector<double> smooth_volumes(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                                   const std::vector<double>& solid_volume) {
-  const std::vector<double> share = node_shares(grid, points, solid_volume);
+                                   const std::vector<double>& solid_volume,
+                                   const std::vector<char>& rigid) {
+  const std::vector<double> share = node_shares(grid, points, solid_volume, rigid);
   std::vector<double> result(grid.mesh.element_count(), 0.0);
+  if (!rigid.empty()) {
+    for (int p = 0; p < points.size(); ++p) {
+      if (rigid[points.element[p]] != 0) result[points.element[p]] += solid_volume[p];
+    }
+  }
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (!rigid.empty() && rigid[e] != 0) continue;
     for (const int i : grid.mesh.elements[e]) result[e] += grid.volume[e] / (Dim + 1) * share[i];
   }
   return result;
@@ -139,9 +146,9 @@ double SolidFlux<Dim>::balance(const std::vector<double>& gain, std::vector<doub
 }
 
 template std::vector<double> smooth_volumes(const Grid<2>&, const SolidPoints<2>&,
-                                            const std::vector<double>&);
+                                            const std::vector<double>&, const std::vector<char>&);
 template std::vector<double> smooth_volumes(const Grid<3>&, const SolidPoints<3>&,
-                                            const std::vector<double>&);
+                                            const std::vector<double>&, const std::vector<char>&);
 template class SolidFlux<2>;
 template class SolidFlux<3>;
 

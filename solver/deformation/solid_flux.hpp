@@ -12,10 +12,13 @@ namespace suffuse {
 
 /// Solid volume per element, m3, as the points' volumes have it that are carried to the nodes and
 /// back: V_e times the mean of the nodes' shares. Its total is theirs. (To count the points in an
-/// element errs by a whole point.) It spreads over the elements next to those with points.
+/// element errs by a whole point.) It spreads over the elements next to those with points, but not
+/// between rigid soil and soil that moves: rigid elements have what their own points have.
+/// \param rigid  per element; empty: none is
 template <int Dim>
 std::vector<double> smooth_volumes(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                                   const std::vector<double>& solid_volume);
+                                   const std::vector<double>& solid_volume,
+                                   const std::vector<char>& rigid = {});
 
 /// Makes the flux of solid balance. Solid is in connected pieces of the mesh, and leaves none. Has
 /// no history: the factor follows from the elements of the pieces.

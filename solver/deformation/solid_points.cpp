@@ -1,5 +1,6 @@
 #include "deformation/solid_points.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace suffuse {
@@ -29,22 +30,34 @@ PointsByElement::PointsByElement(int element_count, const std::vector<int>& elem
 
 template <int Dim>
 std::vector<double> node_shares(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                                const std::vector<double>& volume) {
+                                const std::vector<double>& volume, const std::vector<char>& rigid) {
+  const auto counts = [&](int e) { return rigid.empty() || rigid[e] == 0; };
   std::vector<double> share(grid.mesh.node_count(), 0.0);
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
+    if (!counts(e)) continue;
     const auto shape = barycentric(grid.mesh, e, points.position[p]);
     for (int a = 0; a <= Dim; ++a) share[grid.mesh.elements[e][a]] += shape[a] * volume[p];
   }
-  for (int i = 0; i < grid.mesh.node_count(); ++i) share[i] /= grid.node_volume[i];
+  std::vector<double> around = grid.node_volume;
+  if (!rigid.empty()) {
+    std::ranges::fill(around, 0.0);
+    for (int e = 0; e < grid.mesh.element_count(); ++e) {
+      if (!counts(e)) continue;
+      for (const int i : grid.mesh.elements[e]) around[i] += grid.volume[e] / (Dim + 1);
+    }
+  }
+  for (int i = 0; i < grid.mesh.node_count(); ++i) {
+    if (around[i] > 0.0) share[i] /= around[i];
+  }
   return share;
 }
 
 template struct SolidPoints<2>;
 template struct SolidPoints<3>;
 template std::vector<double> node_shares(const Grid<2>&, const SolidPoints<2>&,
-                                         const std::vector<double>&);
+                                         const std::vector<double>&, const std::vector<char>&);
 template std::vector<double> node_shares(const Grid<3>&, const SolidPoints<3>&,
-                                         const std::vector<double>&);
+                                         const std::vector<double>&, const std::vector<char>&);
 
 }  // namespace suffuse

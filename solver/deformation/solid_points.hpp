@@ -62,9 +62,11 @@ void reorder(const std::vector<int>& order, std::vector<Value>& values) {
 }
 
 /// Per node, what the points have, m3 per point, over the volume of the mesh that belongs to the
-/// node: phi_i = sum_p N_i(x_p) V_p / V_i.
+/// node: phi_i = sum_p N_i(x_p) V_p / V_i. Points and volumes of `rigid` elements do not count.
+/// \param rigid  per element; empty: none is
 template <int Dim>
 std::vector<double> node_shares(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                                const std::vector<double>& volume);
+                                const std::vector<double>& volume,
+                                const std::vector<char>& rigid = {});
 
 }  // namespace suffuse

@@ -68,6 +68,13 @@ Supports<Dim>::Supports(const Grid<Dim>& grid, const std::vector<Support>& face_
 }
 
 template <int Dim>
+void Supports<Dim>::hold_element(const Mesh<Dim>& mesh, int element) {
+  rigid_.resize(mesh.element_count(), 0);
+  rigid_[element] = 1;
+  for (const int i : mesh.elements[element]) hold(i);
+}
+
+template <int Dim>
 DisplacementUnknowns<Dim>::DisplacementUnknowns(const Supports<Dim>& supports,
                                                 const std::vector<char>& used)
     : supports_(supports), first_(used.size(), -1), count_of_(used.size(), 0) {

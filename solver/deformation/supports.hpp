@@ -34,6 +34,11 @@ class Supports {
 
   /// Holds a node in all directions; its displacement may be prescribed.
   void hold(int node) { free_count_[node] = 0; }
+  /// Holds the nodes of an element whose skeleton is rigid: its faces stay in place too.
+  void hold_element(const Mesh<Dim>& mesh, int element);
+  /// Per element: whether its skeleton is rigid. Empty: none is.
+  [[nodiscard]] const std::vector<char>& rigid_elements() const { return rigid_; }
+  [[nodiscard]] bool is_rigid(int element) const { return !rigid_.empty() && rigid_[element] != 0; }
 
   /// Number of directions in which a node is free.
   [[nodiscard]] int free_count(int node) const { return free_count_[node]; }
@@ -45,6 +50,7 @@ class Supports {
  private:
   std::vector<int> free_count_;
   std::vector<Eigen::Matrix<double, Dim, Dim>> directions_;
+  std::vector<char> rigid_;
 };
 
 /// Numbers the displacements that are not known: those of free directions of nodes in use.

@@ -21,14 +21,15 @@ using model::Deviation;
 using model::fixed_on;
 using model::pressure_at;
 
-/// A column that drains at its top, where a load comes at once.
+/// A column that drains at its top, where a load comes at once; below it may lie rigid soil.
 template <class Run = model::ModelRun>
 class Column {
  public:
-  Column(int rows, double poisson, double load, double bulk_modulus, double tolerance = 1e-3)
+  Column(int rows, double poisson, double load, double bulk_modulus, double tolerance = 1e-3,
+         int rigid_rows = 0)
       : oedometer_(SkeletonParameters{young, poisson}.oedometer_modulus()),
         load_(load),
-        run_(make(rows, poisson, bulk_modulus, tolerance)) {}
+        run_(make(rows, poisson, bulk_modulus, tolerance, rigid_rows)) {}
 
   /// c_v t / H2 of a time, and the time of it, s.
   [[nodiscard]] double time_of(double T) const { return T * weight / (conductivity * oedometer_); }
@@ -36,7 +37,8 @@ class Column {
   [[nodiscard]] double oedometer() const { return oedometer_; }
 
  private:
-  Case<2> make(int rows, double poisson, double bulk_modulus, double tolerance) const {
+  Case<2> make(int rows, double poisson, double bulk_modulus, double tolerance,
+               int rigid_rows) const {
     Scene scene = model::paper_scene();
     scene.formulation = Run::formulation;
     scene.time.scheme = FlowScheme::implicit_mixed;
@@ -54,7 +56,21 @@ class Column {
     scene.boundaries = {top, fixed_on("bottom", Fixing::both), fixed_on("left", Fixing::normal),
                         fixed_on("right", Fixing::normal)};
     const double width = 2.0 / rows;
-    return model::make_case(model::crossed_mesh(2, rows, width, 1.0), scene);
+    const double below = static_cast<double>(rigid_rows) / rows;
+    Mesh<2> mesh = model::crossed_mesh(2, rows + rigid_rows, width, 1.0 + below);
+    for (Vector<2>& x : mesh.nodes) x[1] -= below;
+    if (rigid_rows > 0) {
+      Soil rigid = soil;
+      rigid.region = "rock";
+      rigid.skeleton = {};
+      scene.soils.push_back(rigid);
+      mesh.region_names.emplace_back("rock");
+      for (int e = 0; e < mesh.element_count(); ++e) {
+        if (element_centroid(mesh, e)[1] < 0.0) mesh.element_region[e] = 1;
+      }
+      scene.boundaries.erase(scene.boundaries.begin() + 1);  // the rock holds the soil
+    }
+    return model::make_case(std::move(mesh), scene);
   }
 
   double oedometer_;
@@ -65,9 +81,9 @@ class Column {
 /// Largest distances from Terzaghi's solution from T = 0.1 on, over the final settlement and the
 /// first pressure.
 template <class Run>
-Deviation deviation_from_terzaghi(int rows, double poisson, double tolerance) {
+Deviation deviation_from_terzaghi(int rows, double poisson, double tolerance, int rigid_rows = 0) {
   constexpr double load = 1e3;
-  Column<Run> column(rows, poisson, load, 2e9, tolerance);
+  Column<Run> column(rows, poisson, load, 2e9, tolerance, rigid_rows);
   const double first = load / (1.0 + 0.3 * column.oedometer() / 2e9);
   const double last = load / column.oedometer();
   double below = 1.0;
@@ -93,6 +109,10 @@ Deviation deviation_from_terzaghi(int rows, double poisson, double tolerance) {
     }
   }
   EXPECT_LT(column.run().worst_residual(), 1e-12);
+  for (int e = 0; e < column.run().input().mesh.element_count(); ++e) {
+    if (column.run().input().mesh.element_region[e] == 0) continue;
+    EXPECT_NEAR(column.run().model().solid().element_porosity()[e], 0.3, 1e-15);
+  }
   std::cout << rows << " rows, nu " << poisson << ", tolerance " << tolerance << ": "
             << column.run().steps() << " steps, "
             << column.run().model().flow().coupling_iterations() << " iterations, settlement "
@@ -113,6 +133,12 @@ TEST(Consolidation, TerzaghiColumn) {
     EXPECT_LT(off.settlement, 5e-3);
     EXPECT_LT(off.pressure, 5e-3);
   }
+}
+
+TEST(Consolidation, TerzaghiColumnOnRigidSoil) {
+  const Deviation off = deviation_from_terzaghi<model::ModelRun>(32, 0.3, 2e-4, 8);
+  EXPECT_LT(off.settlement, 5e-3);
+  EXPECT_LT(off.pressure, 5e-3);
 }
 
 TEST(Consolidation, StepsAreOfFirstOrder) {
