@@ -280,9 +280,9 @@ class ImplicitMixed {
   void evaluate(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing);
   /// Round-off of what gravity drives and of the contents of the elements, m3/s.
   [[nodiscard]] double balance_round_off(double duration, const FlowForcing<Dim>& forcing) const;
-  /// Round-off of what pressures of this size drive, m3/s.
-  [[nodiscard]] double drive_round_off(const std::vector<double>& face_pressure,
-                                       const FlowCoefficients<Dim>& c) const;
+  /// Whether what is missing at each face is round-off of the terms that it is a sum of:
+  /// conductances of the elements beside it times their pressures.
+  [[nodiscard]] bool is_round_off_left(const FlowCoefficients<Dim>& c) const;
   /// Finds the step of Newton's method. Throws NotConverged.
   void solve_newton();
   /// Takes this share of it.

@@ -21,7 +21,7 @@ constexpr int max_iterations = 60;
 /// of what gravity drives and of the contents of the elements.
 constexpr double flux_accuracy = 1e-8;
 constexpr double round_off_units = 64.0;
-/// Where the iteration does not come nearer: of what the pressures themselves drive.
+/// Where the iteration does not come nearer: round-off of what the pressures of an element drive.
 constexpr double many_round_off_units = 512.0;
 /// From here on seepage faces open and close.
 constexpr double near_solution = 0.1;
@@ -269,20 +269,18 @@ double ImplicitMixed<Dim>::balance_round_off(double duration,
 }
 
 template <int Dim>
-double ImplicitMixed<Dim>::drive_round_off(const std::vector<double>& face_pressure,
-                                           const FlowCoefficients<Dim>& c) const {
-  double pressure = 0.0;
-  for (const double p : face_pressure) pressure = std::max(pressure, std::abs(p));
-  return many_round_off_units * epsilon *
-         largest_of(grid_.mesh.element_count(), settings_.threads, 0.0, [&](int e) {
-           double steepest = 0.0;  // squared, 1/m2
-           for (const Vector<Dim>& g : grid_.shape_gradient[e]) {
-             steepest = std::max(steepest, g.squaredNorm());
-           }
-           const double drives = c.porosity[e] / c.drag[e] * soils_.best_over_along(e) *
-                                 grid_.volume[e] * steepest * pressure;
-           return std::max(gravity_flux(e, c), drives);
-         });
+bool ImplicitMixed<Dim>::is_round_off_left(const FlowCoefficients<Dim>& c) const {
+  const double units = largest_of(grid_.face_count(), settings_.threads, 0.0, [&](int f) {
+    const double missing = is_held(f) ? 0.0 : std::abs(work_.load[matrix_.unknown(f)]);
+    double terms = 0.0;
+    for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
+      if (e < 0) continue;
+      const double pressure = largest_at_faces(e, work_.pressure.reference);
+      terms += gravity_flux(e, c) + conductance_of(e) * pressure;
+    }
+    return missing > 0.0 ? missing / (epsilon * terms) : 0.0;
+  });
+  return units <= many_round_off_units;
 }
 
 template <int Dim>
@@ -313,12 +311,14 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
     const double scale = largest_flux();
     const double left = w.load.size() > 0 ? w.load.template lpNorm<Eigen::Infinity>() : 0.0;
     const double allowed = flux_accuracy * scale + round_off + round_off_units * wall_round_off();
-    const bool switched = left <= near_solution * scale + allowed &&
-                          switch_faces(forcing, allowed, pressure_accuracy());
-    if (!switched && left <= allowed) return;
+    // Where water stands still, or an element is next to flat: pressures have no more digits.
+    const bool stays = norm > 0.5 * last_norm && is_round_off_left(forcing.coefficients);
+    const bool solved = left <= allowed || stays;
+    const bool switched =
+        (solved || left <= near_solution * scale + allowed) &&
+        switch_faces(forcing, stays ? std::max(left, allowed) : allowed, pressure_accuracy());
+    if (!switched && solved) return;
     if (!std::isfinite(left) || iterations_ == max_iterations) {
-      // Water that stands still next to everywhere: what is left is round-off of its pressures.
-      if (!switched && left <= drive_round_off(base.face_pressure, forcing.coefficients)) return;
       refuse_unsettled(iterations_, left, scale, switched);
     }
     share = 1.0;
