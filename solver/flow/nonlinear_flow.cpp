@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <utility>
 
 #include "case/errors.hpp"
 #include "flow/implicit_mixed.hpp"
@@ -17,6 +16,8 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int max_iterations = 60;
+/// From here on the iteration of a step has to be nearer to the balance than at its start.
+constexpr int patient_iterations = 20;
 /// What is missing of the balance at a face may be this share of the largest flux, beside round-off
 /// of what gravity drives and of the contents of the elements.
 constexpr double flux_accuracy = 1e-8;
@@ -37,20 +38,6 @@ constexpr double max_suction_growth = 10.0;
        << (switched ? "; seepage faces keep opening and closing" : "");
   throw NotConverged(text.str());
 }
-
-/// Puts back what a variable held, at the end of its scope.
-template <class Value>
-class Restored {
- public:
-  explicit Restored(Value& variable) : variable_(variable), before_(variable) {}
-  ~Restored() { variable_ = std::move(before_); }
-  Restored(const Restored&) = delete;
-  Restored& operator=(const Restored&) = delete;
-
- private:
-  Value& variable_;
-  Value before_;
-};
 
 }  // namespace
 
@@ -294,6 +281,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
   for (int e = 0; e < elements; ++e) set_mobility(e, 1.0 / w.resistance[e]);
   const double round_off = balance_round_off(duration, forcing);
   double share = 1.0;
+  double first_norm = 0.0;
   double last_norm = std::numeric_limits<double>::infinity();
   std::vector<double> from;
   for (iterations_ = 0;; ++iterations_) {
@@ -308,6 +296,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
       evaluate(base, duration, forcing);
       norm = w.load.norm();
     }
+    if (iterations_ == 0) first_norm = norm;
     const double scale = largest_flux();
     const double left = w.load.size() > 0 ? w.load.template lpNorm<Eigen::Infinity>() : 0.0;
     const double allowed = flux_accuracy * scale + round_off + round_off_units * wall_round_off();
@@ -318,7 +307,10 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
         (solved || left <= near_solution * scale + allowed) &&
         switch_faces(forcing, stays ? std::max(left, allowed) : allowed, pressure_accuracy());
     if (!switched && solved) return;
-    if (!std::isfinite(left) || iterations_ == max_iterations) {
+    // A shorter step starts nearer to its end.
+    const bool wanders =
+        std::isfinite(duration) && iterations_ >= patient_iterations && norm > first_norm;
+    if (!std::isfinite(left) || wanders || iterations_ == max_iterations) {
       refuse_unsettled(iterations_, left, scale, switched);
     }
     share = 1.0;
@@ -408,65 +400,6 @@ double ImplicitMixed<Dim>::gravity_flux(int e, const FlowCoefficients<Dim>& c) c
          soils_.best_over_along(e) * largest_at_faces(e, face_area_);
 }
 
-template <int Dim>
-typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::nonlinear_steady(
-    const FlowForcing<Dim>& forcing) {
-  constexpr double forever = std::numeric_limits<double>::infinity();
-  constexpr double growth = 4.0;
-  constexpr int max_steps = 200;
-  if (!has_retention()) return solve_stage(last_steady_, forever, forcing, last_steady_flux_);
-
-  MixedState<Dim> state = last_steady_;
-  if (state.air.empty()) {
-    state = saturated_stage(forcing).state;
-    state.air = air_at(state.face_pressure, forcing.coefficients.porosity);
-  }
-  // Steps of growing length, as from a saturated model that drains.
-  double pores = 0.0;
-  double fastest = flux_scale_;
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    pores += grid_.volume[e] * forcing.coefficients.porosity[e];
-    fastest = std::max(fastest, gravity_flux(e, forcing.coefficients));
-  }
-  if (fastest == 0.0) return solve_stage(state, forever, forcing, last_steady_flux_);
-  const double filling = pores / fastest;
-  double duration = filling;
-  for (int step = 0; step < max_steps; ++step) {
-    try {
-      if (duration > 1e4 * filling) {
-        return solve_stage(state, forever, forcing, last_steady_flux_);
-      }
-    } catch (const NotConverged&) {
-      // A longer step brings the state nearer.
-    }
-    try {
-      state = solve_stage(state, duration, forcing, last_steady_flux_).state;
-      duration *= growth;
-    } catch (const NotConverged&) {
-      duration /= growth * growth;
-    }
-  }
-  throw NotConverged("no steady flow was found under these boundary conditions");
-}
-
-template <int Dim>
-typename ImplicitMixed<Dim>::Stage ImplicitMixed<Dim>::saturated_stage(
-    const FlowForcing<Dim>& forcing) {
-  const Restored retention(ignore_retention_);
-  ignore_retention_ = true;
-  return solve_stage(last_steady_, std::numeric_limits<double>::infinity(), forcing,
-                     last_steady_flux_);
-}
-
-template <int Dim>
-MixedStep<Dim> ImplicitMixed<Dim>::saturated_steady(const FlowForcing<Dim>& forcing) {
-  if (soils_.saturated()) return steady(forcing);
-  set_up(forcing.conditions);
-  const Restored faces(open_);
-  Stage stage = saturated_stage(forcing);
-  return {std::move(stage.state), {}, std::move(stage.face_flux), std::move(stage.flux_through)};
-}
-
 template ElementField<2> ImplicitMixed<2>::air_at(const std::vector<double>&,
                                                   const std::vector<double>&) const;
 template void ImplicitMixed<2>::resolve_conditions(const FlowForcing<2>&);
@@ -476,10 +409,9 @@ template void ImplicitMixed<2>::solve_nonlinear(const MixedState<2>&, double,
                                                 const FlowForcing<2>&);
 template void ImplicitMixed<2>::settle_air(const MixedState<2>&, double, const FlowForcing<2>&,
                                            Stage&) const;
-template ImplicitMixed<2>::Stage ImplicitMixed<2>::nonlinear_steady(const FlowForcing<2>&);
 template std::vector<double> ImplicitMixed<2>::relative_conductivity(
     const std::vector<double>&) const;
-template MixedStep<2> ImplicitMixed<2>::saturated_steady(const FlowForcing<2>&);
+template double ImplicitMixed<2>::gravity_flux(int, const FlowCoefficients<2>&) const;
 template ElementField<3> ImplicitMixed<3>::air_at(const std::vector<double>&,
                                                   const std::vector<double>&) const;
 template void ImplicitMixed<3>::resolve_conditions(const FlowForcing<3>&);
@@ -489,9 +421,8 @@ template void ImplicitMixed<3>::solve_nonlinear(const MixedState<3>&, double,
                                                 const FlowForcing<3>&);
 template void ImplicitMixed<3>::settle_air(const MixedState<3>&, double, const FlowForcing<3>&,
                                            Stage&) const;
-template ImplicitMixed<3>::Stage ImplicitMixed<3>::nonlinear_steady(const FlowForcing<3>&);
 template std::vector<double> ImplicitMixed<3>::relative_conductivity(
     const std::vector<double>&) const;
-template MixedStep<3> ImplicitMixed<3>::saturated_steady(const FlowForcing<3>&);
+template double ImplicitMixed<3>::gravity_flux(int, const FlowCoefficients<3>&) const;
 
 }  // namespace suffuse

@@ -117,7 +117,7 @@ void NewtonSystem::solve_tangent(const Eigen::SparseMatrix<double>& matrix,
   TwoStagePreconditioner preconditioner;
   preconditioner.factor = factor_.get();
   preconditioner.rows = &rows;
-  if (!iterate(rows, preconditioner, rhs, x, tangent_accuracy)) refuse_unsolved();
+  if (!iterate(matrix, preconditioner, rhs, x, tangent_accuracy)) refuse_unsolved();
 }
 
 }  // namespace suffuse
