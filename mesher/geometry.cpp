@@ -1,13 +1,8 @@
 #include "geometry.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <string_view>
 
 #include "box.hpp"
 #include "case/consistency.hpp"
@@ -16,59 +11,19 @@
 #include "case/scene_schema.hpp"
 #include "case/short_number.hpp"
 #include "column.hpp"
-#include "curve_crossings.hpp"
-#include "geometry_scan.hpp"
+#include "geometry_file.hpp"
 #include "gmsh_session.hpp"
 #include "hilbert_order.hpp"
 #include "inner_cuts.hpp"
 #include "mesh_extraction.hpp"
+#include "mesh_limits.hpp"
 #include "mesh_problems.hpp"
-#include "point_sizes.hpp"
-#include "time_limit.hpp"
 
 namespace suffuse {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Beyond this a misplaced decimal point is likelier than intent.
-constexpr double max_elements = 5e6;
-
-[[noreturn]] void refuse(const SceneDocument& document, const std::string& key,
-                         const std::string& found, const std::string& expected) {
-  throw InputError(
-      std::vector<InputProblem>{{document.locate(key), key, found, expected, std::string()}});
-}
-
-[[noreturn]] void refuse_size(const SceneDocument& document, double smallest,
-                              const std::string& elements) {
-  refuse(document, "mesh.size", short_number(document.scene.mesh.size),
-         "at least " + short_number(smallest) + ", which makes 5 million " + elements + " here");
-}
-
-/// \param area  m2
-/// \param strip  width of what is meshed besides, in rows of elements, all rows together, m
-void refuse_too_many_triangles(const SceneDocument& document, double area, double strip = 0.0) {
-  // Triangles fill half a square each: max_elements = 2 (area + strip size) / size^2.
-  const double smallest =
-      (strip + std::sqrt(strip * strip + 2.0 * area * max_elements)) / max_elements;
-  if (document.scene.mesh.size < smallest) refuse_size(document, smallest, "triangles");
-}
-
-/// \param volume  m3
-/// \param layer  area of what is meshed besides, in rows of elements, all rows together, m2
-void refuse_too_many_tetrahedra(const SceneDocument& document, double volume, double layer = 0.0) {
-  // Tetrahedra fill a sixth of a cube each: max_elements = 6 (volume + layer size) / size^3.
-  const auto count = [&](double size) {
-    return 6.0 * (volume + layer * size) / (size * size * size);
-  };
-  double smallest = std::cbrt(6.0 * volume / max_elements);
-  while (count(smallest) > max_elements * (1.0 + 1e-9)) {
-    smallest = std::cbrt(6.0 * (volume + layer * smallest) / max_elements);
-  }
-  if (document.scene.mesh.size < smallest) refuse_size(document, smallest, "tetrahedra");
-}
 
 bool divides(double size, double length) {
   const double rows = length / size;
@@ -122,173 +77,7 @@ ExtractedMesh<3> build_box(const SceneDocument& document, std::vector<std::strin
   const std::string complaint =
       gmsh_complaint([&] { mesh_free_box(column, geometry.depth, scene.mesh.size); });
   if (!complaint.empty()) throw FileError("Gmsh could not mesh the box: " + complaint);
-  return extract_mesh<3>();
-}
-
-constexpr const char* advice_on_mesh =
-    "a mesh that Gmsh can read: open it in Gmsh, look at it and save it anew";
-
-/// Gmsh names an edge of its own that it cannot recover; the user knows the curves.
-std::string crossings_behind(const std::string& complaint) {
-  const std::vector<std::string> crossings =
-      complaint.starts_with("Unable to recover") ? curve_crossings() : std::vector<std::string>{};
-  return listed(crossings, "and");
-}
-
-/// `'FILE', line N: MESSAGE` is how Gmsh places an error in a script.
-InputProblem gmsh_problem(const SceneDocument& document, const std::string& path,
-                          const std::string& complaint) {
-  constexpr std::string_view before_line = "', line ";
-  const std::size_t name_end = complaint.find(before_line);
-  const std::size_t message = complaint.find(": ", std::min(name_end, complaint.size()));
-  if (complaint.starts_with('\'') && message != std::string::npos) {
-    const std::size_t line = name_end + before_line.size();
-    return {complaint.substr(1, name_end - 1) + ":" + complaint.substr(line, message - line), "",
-            complaint.substr(message + 2), "valid Gmsh text", ""};
-  }
-  const std::string where = document.locate("geometry.file");
-  if (const std::string crossings = crossings_behind(complaint); !crossings.empty()) {
-    return {where, "geometry.file", '"' + path + "\" with " + crossings,
-            "curves that meet at points of both alone: split them there, or use BooleanFragments",
-            ""};
-  }
-  return {where, "geometry.file", '"' + path + "\", of which Gmsh says: " + complaint,
-          is_mesh_file(path) ? advice_on_mesh : "a geometry that Gmsh can mesh", ""};
-}
-
-void run_gmsh(const SceneDocument& document, const std::string& path,
-              const std::function<void()>& body) {
-  const std::string complaint = gmsh_complaint(body);
-  if (!complaint.empty()) {
-    throw InputError(std::vector<InputProblem>{gmsh_problem(document, path, complaint)});
-  }
-}
-
-/// The labels of a STEP file's shapes become physical groups. Gmsh gives them as paths of an
-/// assembly; the last part is the shape's own name.
-void name_groups_by_label(int dimension) {
-  gmsh::vectorpair entities;
-  gmsh::model::getEntities(entities, dimension);
-  std::map<std::string, std::vector<int>> groups;
-  for (const auto& [ignored, tag] : entities) {
-    std::string label;
-    gmsh::model::getEntityName(dimension, tag, label);
-    label = label.substr(label.rfind('/') + 1);
-    const bool automatic = label.starts_with("Open CASCADE STEP translator");
-    if (!label.empty() && !automatic) groups[label].push_back(tag);
-  }
-  for (const auto& [name, tags] : groups) {
-    const int group = gmsh::model::addPhysicalGroup(dimension, tags);
-    gmsh::model::setPhysicalName(dimension, group, name);
-  }
-}
-
-void open_step(const std::string& path) {
-  gmsh::option::setString("Geometry.OCCTargetUnit", "M");
-  gmsh::open(path);
-  const int dimension = model_dimension();
-  gmsh::vectorpair regions;
-  gmsh::model::getEntities(regions, dimension);
-  if (regions.size() > 1) {
-    gmsh::model::occ::removeAllDuplicates();  // neighbours come with a border each
-    gmsh::model::occ::synchronize();
-  }
-  name_groups_by_label(dimension);
-  name_groups_by_label(dimension - 1);
-}
-
-bool has_mesh(int dimension) {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> tags;
-  std::vector<std::vector<std::size_t>> nodes;
-  gmsh::model::mesh::getElements(types, tags, nodes, dimension);
-  return !types.empty();
-}
-
-void generate_mesh(const SceneDocument& document, const std::string& path, int dimension) {
-  std::array<double, 6> box{};
-  gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
-  const double scale = document.scene.geometry.scale;
-  const double area = (box[3] - box[0]) * scale * (box[4] - box[1]) * scale;
-  if (dimension == 2) {
-    refuse_too_many_triangles(document, area);
-  } else {
-    refuse_too_many_tetrahedra(document, area * (box[5] - box[2]) * scale);
-  }
-  const double size = document.scene.mesh.size / scale;  // in the file's unit
-  double largest = 0.0;
-  gmsh::option::getNumber("Mesh.MeshSizeMax", largest);
-  if (size < largest) gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-  if (dimension == 2 && document.scene.mesh.structure == MeshStructure::crossed) {
-    // Triangles twice as large, each then split into three quadrangles by Gmsh: its recombination
-    // of triangles into quadrangles crashes on small models (4.8).
-    gmsh::option::setNumber("Mesh.MeshSizeFactor", 2.0);
-    gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
-  }
-  run_gmsh(document, path, [&] {
-    if (std::isfinite(size)) set_default_point_size(size);
-    gmsh::model::mesh::generate(dimension);
-  });
-}
-
-/// Meshes alone: Gmsh reads them in next to no time.
-void refuse_what_ends_gmsh(const SceneDocument& document, const std::string& path) {
-  constexpr double seconds = 10.0;
-  constexpr double seconds_per_byte = 2e-6;  // a hundred times what it takes
-  constexpr double memory = 1e9;
-  constexpr double memory_per_byte = 100.0;
-  std::error_code ignored;
-  const auto bytes = static_cast<double>(fs::file_size(path, ignored));
-  const std::string crash =
-      gmsh_crash([&] { gmsh::open(path); }, seconds + seconds_per_byte * bytes,
-                 memory + memory_per_byte * bytes);
-  if (!crash.empty()) {
-    refuse(document, "geometry.file",
-           '"' + document.scene.geometry.file + "\", over which Gmsh " + crash, advice_on_mesh);
-  }
-}
-
-InputProblem too_long(const SceneDocument& document, double max_seconds) {
-  return {document.locate("geometry.file"), "geometry.file",
-          '"' + document.scene.geometry.file + "\", over which Gmsh has spent " +
-              short_number(max_seconds) + " s of processor time without an end",
-          "a file without endless loops and with sizes that suit the model; for a large one a "
-          "longer --geometry-timeout",
-          ""};
-}
-
-/// Whether the mesh is the user's own, to be taken as it is.
-bool build_from_file(const SceneDocument& document, double max_seconds,
-                     std::vector<std::string>& notes) {
-  const std::string path = geometry_path(document);
-  const bool is_step = is_step_file(path);
-  if (!is_step && !is_mesh_file(path) && !is_geo_file(path)) {
-    refuse(document, "geometry.file", '"' + document.scene.geometry.file + '"',
-           "a file ending in .geo, .msh, .step or .stp");
-  }
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) {
-    throw FileError(document.locate("geometry.file") + ": geometry.file: there is no file " + path);
-  }
-  std::vector<InputProblem> dangers = scan_geometry_file(path);
-  if (!dangers.empty()) throw InputError(std::move(dangers));
-
-  if (is_mesh_file(path)) refuse_what_ends_gmsh(document, path);
-  const TimeLimit limit(max_seconds, too_long(document, max_seconds).message());
-  run_gmsh(document, path, [&] { is_step ? open_step(path) : gmsh::open(path); });
-  if (is_mesh_file(path)) return true;
-  const int dimension = model_dimension();
-  if (dimension == 3 && document.where.contains("mesh.structure") &&
-      document.scene.mesh.structure == MeshStructure::crossed) {
-    refuse(document, "mesh.structure", "\"crossed\" for a file with volumes",
-           "\"free\", or no such key: only triangles can be crossed");
-  }
-  if (has_mesh(dimension)) {
-    notes.emplace_back("the .geo file meshes itself, mesh.size does not apply");
-    return true;
-  }
-  generate_mesh(document, path, dimension);
-  return false;
+  return extract_mesh<3>(read_gmsh_model());
 }
 
 /// Where a problem of the mesh comes from.
@@ -369,26 +158,27 @@ Geometry<Dim> finished(const SceneDocument& document, ExtractedMesh<Dim> extract
   return {in_hilbert_order(extracted.mesh), std::move(notes)};
 }
 
+std::vector<std::string> notes_on(const GmshReply& reply) {
+  std::vector<std::string> notes;
+  if (reply.meshes_itself) {
+    notes.emplace_back("the .geo file meshes itself, mesh.size does not apply");
+  }
+  if (reply.wants_threads) {
+    notes.emplace_back("Gmsh ran on one thread, whatever the file asks for");
+  }
+  return notes;
+}
+
 /// The mesh of the user's file, in the dimension that it has.
 AnyGeometry geometry_from_file(const SceneDocument& document, double max_seconds) {
-  std::vector<std::string> notes;
-  std::variant<ExtractedMesh<2>, ExtractedMesh<3>> extracted;
-  {
-    const GmshSession session;
-    const bool users_own = build_from_file(document, max_seconds, notes);
-    if (model_dimension() == 3) {
-      extracted = extract_mesh<3>();
-    } else {
-      const bool crossed = document.scene.mesh.structure == MeshStructure::crossed && !users_own;
-      extracted =
-          extract_mesh<2>(crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused);
-    }
+  const GmshReply reply = read_geometry_file(document, max_seconds);
+  if (reply.model.dimension == 3) {
+    return finished(document, extract_mesh<3>(reply.model), notes_on(reply));
   }
-  return std::visit(
-      [&](auto& mesh) -> AnyGeometry {
-        return finished(document, std::move(mesh), std::move(notes));
-      },
-      extracted);
+  const bool users_own = reply.meshes_itself || is_mesh_file(document.scene.geometry.file);
+  const bool crossed = document.scene.mesh.structure == MeshStructure::crossed && !users_own;
+  const Quadrangles quadrangles = crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused;
+  return finished(document, extract_mesh<2>(reply.model, quadrangles), notes_on(reply));
 }
 
 Geometry<2> column_geometry(const SceneDocument& document) {
@@ -398,7 +188,8 @@ Geometry<2> column_geometry(const SceneDocument& document) {
     const GmshSession session;
     build_column(document, notes);
     const bool crossed = document.scene.mesh.structure == MeshStructure::crossed;
-    extracted = extract_mesh<2>(crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused);
+    extracted = extract_mesh<2>(read_gmsh_model(),
+                                crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused);
   }
   return finished(document, std::move(extracted), std::move(notes));
 }

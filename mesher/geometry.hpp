@@ -2,7 +2,6 @@
 
 /// The mesh that a scene asks for: the built-in column or box, or the user's own file.
 
-#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,6 +17,9 @@ struct Geometry {
   std::vector<std::string> notes;  ///< what the user should know, one sentence each
 };
 
+/// Processor time of Gmsh over a file, s.
+inline constexpr double default_geometry_seconds = 600.0;
+
 using AnyGeometry = std::variant<Geometry<2>, Geometry<3>>;
 
 /// Builds the mesh with Gmsh and holds the scene against it. Throws InputError with every problem
@@ -31,9 +33,9 @@ using AnyGeometry = std::variant<Geometry<2>, Geometry<3>>;
 /// are used as they are. Lengths in a .step file are converted from its own unit to metres; those
 /// in .geo and .msh files are in `geometry.scale` metres.
 /// \param max_seconds  of processor time that Gmsh may take over a file, which can hold an endless
-///   loop: beyond, the program ends with a message and the exit code of wrong input
+///   loop
 AnyGeometry build_geometry(const SceneDocument& document,
-                           double max_seconds = std::numeric_limits<double>::infinity());
+                           double max_seconds = default_geometry_seconds);
 
 /// The same where the dimension is known.
 template <int Dim>

@@ -1,15 +1,7 @@
 #include "gmsh_session.hpp"
 
-#include <fcntl.h>
 #include <gmsh.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cmath>
-#include <csignal>
-#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -20,8 +12,6 @@
 namespace suffuse {
 
 namespace {
-
-constexpr const char* no_memory = "not enough memory";
 
 /// Of everything Gmsh logged since the session began; its errors do not always come as exceptions.
 std::string first_logged_error(std::size_t from) {
@@ -78,56 +68,6 @@ std::string gmsh_complaint(const std::function<void()>& body) {
   }
   const std::string logged = first_logged_error(before);
   return logged.empty() ? thrown : logged;
-}
-
-namespace {
-
-/// Of this process from now on. The address sanitizer reserves address space without end.
-void limit_use(double seconds, double bytes) {
-  const auto whole_seconds = static_cast<rlim_t>(std::ceil(seconds));
-  const rlimit time{whole_seconds, whole_seconds};
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CPU, &time);
-  ::setrlimit(RLIMIT_CORE, &no_core);
-#ifndef __SANITIZE_ADDRESS__
-  double pages = 0.0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const auto most =
-      static_cast<rlim_t>(pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) + bytes);
-  const rlimit memory{most, most};
-  ::setrlimit(RLIMIT_AS, &memory);
-#else
-  static_cast<void>(bytes);
-#endif
-}
-
-/// Libraries print as they end; that is dropped.
-void silence() {
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  if (nowhere < 0) return;
-  ::dup2(nowhere, STDOUT_FILENO);
-  ::dup2(nowhere, STDERR_FILENO);
-}
-
-}  // namespace
-
-std::string gmsh_crash(const std::function<void()>& body, double max_seconds, double max_bytes) {
-  constexpr int too_much = 3;
-  const pid_t child = ::fork();
-  if (child < 0) throw FileError("no second process can be started to read a file in");
-  if (child == 0) {
-    silence();
-    limit_use(max_seconds, max_bytes);
-    ::_exit(gmsh_complaint(body) == no_memory ? too_much : 0);
-  }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-  const bool over_limit = WIFEXITED(status)
-                              ? WEXITSTATUS(status) == too_much
-                              : WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL;
-  return over_limit ? "takes more time or memory than its size explains" : "crashes";
 }
 
 }  // namespace suffuse

@@ -8,6 +8,8 @@
 
 namespace suffuse {
 
+inline constexpr const char* no_memory = "not enough memory";
+
 class GmshSession {
  public:
   GmshSession();
@@ -16,14 +18,8 @@ class GmshSession {
   ~GmshSession();
 };
 
-/// Runs `body` and returns what Gmsh complained about, or empty when it did not.
+/// Runs `body` and returns what Gmsh complained about, or empty when it did not; `no_memory` where
+/// there was not enough.
 std::string gmsh_complaint(const std::function<void()>& body);
-
-/// Runs `body` in a process of its own and returns how that ended, or empty when it ended well: a
-/// damaged file can crash Gmsh, keep it busy for ever or have it fill the memory. Complaints are no
-/// bad end.
-/// \param max_seconds  of processor time; beyond, the process is ended
-/// \param max_bytes  of memory, beside what is in use already
-std::string gmsh_crash(const std::function<void()>& body, double max_seconds, double max_bytes);
 
 }  // namespace suffuse

@@ -40,7 +40,7 @@ struct Arguments {
   std::string output;
   std::string msh;
   std::vector<std::string> overrides;
-  double geometry_timeout = 600.0;  // s of processor time
+  double geometry_timeout = default_geometry_seconds;
   bool check = false;
   bool version = false;
   bool scene_reference = false;

@@ -1,7 +1,5 @@
 #include "mesh_extraction.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -56,7 +54,8 @@ struct Elements {
 template <int Dim>
 class Extraction {
  public:
-  explicit Extraction(Quadrangles quadrangles) : quadrangles_(quadrangles) {}
+  Extraction(const GmshModel& model, Quadrangles quadrangles)
+      : model_(model), quadrangles_(quadrangles) {}
 
   ExtractedMesh<Dim> run() {
     read_nodes();
@@ -86,12 +85,11 @@ class Extraction {
   }
 
   void read_nodes() {
-    std::vector<Tag> tags;
-    std::vector<double> coordinates;
-    std::vector<double> parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+    const std::vector<Tag>& tags = model_.node_tags;
+    const std::vector<double>& x = model_.coordinates;
+    coordinates_.reserve(tags.size());
     for (std::size_t i = 0; i < tags.size(); ++i) {
-      coordinates_[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
+      coordinates_[tags[i]] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
       last_tag_ = std::max(last_tag_, tags[i]);
     }
   }
@@ -107,32 +105,34 @@ class Extraction {
     return place_text<Dim>(centre);
   }
 
+  /// Nothing where Gmsh has no such entity.
+  [[nodiscard]] const GmshEntity* find_entity(int dimension, int tag) const {
+    const auto found = std::ranges::find_if(model_.entities, [&](const GmshEntity& entity) {
+      return entity.dimension == dimension && entity.tag == tag;
+    });
+    return found == model_.entities.end() ? nullptr : &*found;
+  }
+
   /// The elements of an entity that have the wanted type; the others are problems.
-  Elements read_entity(int dimension, int entity, int wanted, ProblemKind& wrong_types) {
+  Elements read_entity(const GmshEntity& entity, int wanted, ProblemKind& wrong_types) {
     Elements result;
-    std::vector<int> types;
-    std::vector<std::vector<Tag>> tags;
-    std::vector<std::vector<Tag>> nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
-    for (std::size_t t = 0; t < types.size(); ++t) {
-      if (tags[t].empty()) continue;
-      const std::size_t per_element = nodes[t].size() / tags[t].size();
-      for (std::size_t i = 0; i < tags[t].size(); ++i) {
-        const auto first = nodes[t].begin() + static_cast<std::ptrdiff_t>(i * per_element);
-        std::vector<Tag> corners(first, first + static_cast<std::ptrdiff_t>(per_element));
+    for (const GmshElements& block : entity.elements) {
+      for (std::size_t i = 0; i < block.tags.size(); ++i) {
+        const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(i) * block.nodes_each;
+        std::vector<Tag> corners(first, first + block.nodes_each);
         if constexpr (Dim == 2) {
-          if (types[t] == gmsh_type::quadrangle && wanted == gmsh_type::triangle &&
+          if (block.type == gmsh_type::quadrangle && wanted == gmsh_type::triangle &&
               quadrangles_ == Quadrangles::cut_along_diagonals) {
-            cut(tags[t][i], corners, result);
+            cut(block.tags[i], corners, result);
             continue;
           }
         }
-        if (types[t] != wanted) {
-          wrong_types.add("element " + std::to_string(tags[t][i]) + " (" + type_name(types[t]) +
+        if (block.type != wanted) {
+          wrong_types.add("element " + std::to_string(block.tags[i]) + " (" + block.type_name +
                           ") at " + place_of(corners));
           continue;
         }
-        result.tags.push_back(tags[t][i]);
+        result.tags.push_back(block.tags[i]);
         result.nodes.push_back(std::move(corners));
       }
     }
@@ -160,66 +160,29 @@ class Extraction {
     }
   }
 
-  static std::string type_name(int type) {
-    std::string name;
-    int dimension = 0;
-    int order = 0;
-    int node_count = 0;
-    int primary_count = 0;
-    std::vector<double> coordinates;
-    gmsh::model::mesh::getElementProperties(type, name, dimension, order, node_count, coordinates,
-                                            primary_count);
-    return name;
-  }
-
-  static bool has_elements(int dimension, int entity) {
-    std::vector<int> types;
-    std::vector<std::vector<Tag>> tags;
-    std::vector<std::vector<Tag>> nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
-    return !types.empty();
-  }
-
-  static std::vector<int> entities(int dimension) {
-    gmsh::vectorpair pairs;
-    gmsh::model::getEntities(pairs, dimension);
-    std::vector<int> tags;
-    for (const auto& [ignored, tag] : pairs) tags.push_back(tag);
-    return tags;
-  }
-
-  struct Group {
-    std::string name;
-    std::vector<int> entities;
-  };
-
   /// As a .geo file has it.
   static std::string script_word(int dimension) {
     return dimension == 3 ? "Volume" : dimension == 2 ? "Surface" : "Curve";
   }
 
   /// Named physical groups; those without a name, and names given twice, are problems.
-  std::vector<Group> groups(int dimension, const std::string& what) {
-    gmsh::vectorpair pairs;
-    gmsh::model::getPhysicalGroups(pairs, dimension);
-    std::vector<Group> groups;
+  std::vector<const GmshGroup*> groups(int dimension, const std::string& what) {
+    std::vector<const GmshGroup*> groups;
     std::set<std::string> names;
-    for (const auto& [ignored, tag] : pairs) {
-      Group group;
-      gmsh::model::getPhysicalName(dimension, tag, group.name);
-      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, group.entities);
+    for (const GmshGroup& group : model_.groups) {
+      if (group.dimension != dimension) continue;
+      const std::string which = "physical " + what + " " + std::to_string(group.tag);
       if (group.name.empty()) {
-        report("physical " + what + " " + std::to_string(tag) + " without a name",
+        report(which + " without a name",
                "a name, as in Physical " + script_word(dimension) + "(\"name\") = {...};");
       } else if (!is_plain_name(group.name)) {
-        report(
-            "physical " + what + " " + std::to_string(tag) + " with a name that is no plain text",
-            "a name in UTF-8 of at most " + std::to_string(longest_name) +
-                " bytes, without control characters");
+        report(which + " with a name that is no plain text",
+               "a name in UTF-8 of at most " + std::to_string(longest_name) +
+                   " bytes, without control characters");
       } else if (!names.insert(group.name).second) {
         report("two physical " + what + "s named \"" + group.name + "\"", "different names");
       } else {
-        groups.push_back(std::move(group));
+        groups.push_back(&group);
       }
     }
     return groups;
@@ -227,7 +190,7 @@ class Extraction {
 
   void read_regions() {
     const std::string region = Words::region;
-    const std::vector<Group> regions = groups(Dim, region);
+    const std::vector<const GmshGroup*> regions = groups(Dim, region);
     if (regions.empty()) {
       report("no named physical " + region,
              "each region as a physical " + region + ", as in Physical " + script_word(Dim) +
@@ -236,29 +199,32 @@ class Extraction {
     }
     std::map<int, std::vector<int>> regions_of;  // entity -> indices of regions
     for (std::size_t r = 0; r < regions.size(); ++r) {
-      mesh().region_names.push_back(regions[r].name);
-      for (int entity : regions[r].entities) regions_of[entity].push_back(static_cast<int>(r));
+      mesh().region_names.push_back(regions[r]->name);
+      for (int entity : regions[r]->entities) regions_of[entity].push_back(static_cast<int>(r));
     }
     ProblemKind wrong_types(result_.problems,
                             std::string(Words::elements) + " of " + (Dim == 2 ? "three" : "four") +
                                 " nodes (in Gmsh: Mesh.ElementOrder = 1, no Recombine)");
     region_has_elements_.assign(regions.size(), false);
-    for (int entity : entities(Dim)) add_entity(entity, regions_of[entity], wrong_types);
+    for (const GmshEntity& entity : model_.entities) {
+      if (entity.dimension == Dim) add_entity(entity, regions_of[entity.tag], wrong_types);
+    }
     for (std::size_t r = 0; r < regions.size(); ++r) {
       if (region_has_elements_[r]) continue;
-      report("physical " + region + " \"" + regions[r].name + "\" without " + Words::elements,
+      report("physical " + region + " \"" + regions[r]->name + "\" without " + Words::elements,
              "a region that is not empty");
     }
   }
 
-  void add_entity(int entity, const std::vector<int>& regions, ProblemKind& wrong_types) {
-    const Elements found = read_entity(Dim, entity, simplex, wrong_types);
+  void add_entity(const GmshEntity& entity, const std::vector<int>& regions,
+                  ProblemKind& wrong_types) {
+    const Elements found = read_entity(entity, simplex, wrong_types);
     for (int region : regions) {
-      region_has_elements_[region] = region_has_elements_[region] || has_elements(Dim, entity);
+      region_has_elements_[region] = region_has_elements_[region] || !entity.elements.empty();
     }
     if (found.tags.empty()) return;
     const std::string word = Words::region;
-    const std::string which = word + " " + std::to_string(entity) + " (" +
+    const std::string which = word + " " + std::to_string(entity.tag) + " (" +
                               std::to_string(found.tags.size()) + " " + Words::elements +
                               ", one of them " + std::to_string(found.tags.front()) + " at " +
                               place_of(found.nodes.front()) + ")";
@@ -275,21 +241,19 @@ class Extraction {
   }
 
   /// What a user can name, when nothing is named.
-  static std::string inventory(const std::vector<int>& dimensions) {
+  [[nodiscard]] std::string inventory(const std::vector<int>& dimensions) const {
     std::string text;
     for (const int dimension : dimensions) {
-      for (int entity : entities(dimension)) {
-        std::array<double, 6> box{};
-        gmsh::model::getBoundingBox(dimension, entity, box[0], box[1], box[2], box[3], box[4],
-                                    box[5]);
-        const auto rounded = [](double value) {
-          return short_number(std::round(value * 1e6) / 1e6);
+      for (const GmshEntity& entity : model_.entities) {
+        if (entity.dimension != dimension || entity.elements.empty()) continue;
+        const auto rounded = [&entity](std::size_t i) {
+          return short_number(std::round(entity.box[i] * 1e6) / 1e6);
         };
         std::string word = script_word(dimension);
         word[0] = static_cast<char>(std::tolower(word[0]));
-        text += "\n    " + word + " " + std::to_string(entity) + ": x " + rounded(box[0]) + " to " +
-                rounded(box[3]) + ", y " + rounded(box[1]) + " to " + rounded(box[4]);
-        if (Dim == 3) text += ", z " + rounded(box[2]) + " to " + rounded(box[5]);
+        text += "\n    " + word + " " + std::to_string(entity.tag) + ": x " + rounded(0) + " to " +
+                rounded(3) + ", y " + rounded(1) + " to " + rounded(4);
+        if (Dim == 3) text += ", z " + rounded(2) + " to " + rounded(5);
       }
     }
     return text.empty() ? "" : " the model has" + text;
@@ -339,24 +303,26 @@ class Extraction {
 
   void read_boundaries() {
     const std::string word = Words::boundary;
-    gmsh::vectorpair named;
-    gmsh::model::getPhysicalGroups(named, Dim - 1);
-    if (named.empty()) result_.curves_to_name = inventory({Dim - 1});
+    const bool has_groups = std::ranges::any_of(
+        model_.groups, [](const GmshGroup& group) { return group.dimension == Dim - 1; });
+    if (!has_groups) result_.curves_to_name = inventory({Dim - 1});
     const FaceTable<Dim> faces(mesh());
     ProblemKind wrong_types(result_.problems, std::string(Words::sides) + " of " +
                                                   (Dim == 2 ? "two" : "three") +
                                                   " nodes (in Gmsh: Mesh.ElementOrder = 1)");
-    for (const Group& group : groups(Dim - 1, word)) {
+    for (const GmshGroup* group : groups(Dim - 1, word)) {
       std::vector<std::vector<Tag>> sides;
-      for (int entity : group.entities) {
-        Elements more = read_entity(Dim - 1, entity, simplex_side, wrong_types);
+      for (const int tag : group->entities) {
+        const GmshEntity* entity = find_entity(Dim - 1, tag);
+        if (entity == nullptr) continue;
+        Elements more = read_entity(*entity, simplex_side, wrong_types);
         std::ranges::move(more.nodes, std::back_inserter(sides));
       }
       if (sides.empty()) {
-        report("physical " + word + " \"" + group.name + "\" without " + Words::sides,
+        report("physical " + word + " \"" + group->name + "\" without " + Words::sides,
                "a boundary that is not empty");
       }
-      add_boundary(group.name, sides, faces);
+      add_boundary(group->name, sides, faces);
     }
   }
 
@@ -402,20 +368,15 @@ class Extraction {
   /// Points without a name, or off the mesh, are of no use to anybody: they may be there for
   /// something else.
   void read_points() {
-    gmsh::vectorpair pairs;
-    gmsh::model::getPhysicalGroups(pairs, 0);
-    for (const auto& [ignored, tag] : pairs) {
-      std::string name;
-      gmsh::model::getPhysicalName(0, tag, name);
-      std::vector<Tag> nodes;
-      std::vector<double> coordinates;
-      gmsh::model::mesh::getNodesForPhysicalGroup(0, tag, nodes, coordinates);
-      if (name.empty() || !is_plain_name(name) || nodes.size() != 1) continue;
-      const auto node = index_.find(nodes.front());
-      if (node != index_.end()) result_.points.push_back({name, node->second});
+    for (const GmshGroup& group : model_.groups) {
+      if (group.dimension != 0 || group.nodes.size() != 1) continue;
+      if (group.name.empty() || !is_plain_name(group.name)) continue;
+      const auto node = index_.find(group.nodes.front());
+      if (node != index_.end()) result_.points.push_back({group.name, node->second});
     }
   }
 
+  const GmshModel& model_;
   ExtractedMesh<Dim> result_;
   Quadrangles quadrangles_;
   Tag last_tag_ = 0;  // of a node
@@ -429,17 +390,11 @@ class Extraction {
 }  // namespace
 
 template <int Dim>
-ExtractedMesh<Dim> extract_mesh(Quadrangles quadrangles) {
-  return Extraction<Dim>(quadrangles).run();
+ExtractedMesh<Dim> extract_mesh(const GmshModel& model, Quadrangles quadrangles) {
+  return Extraction<Dim>(model, quadrangles).run();
 }
 
-template ExtractedMesh<2> extract_mesh(Quadrangles);
-template ExtractedMesh<3> extract_mesh(Quadrangles);
-
-int model_dimension() {
-  gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, 3);
-  return volumes.empty() ? 2 : 3;
-}
+template ExtractedMesh<2> extract_mesh(const GmshModel&, Quadrangles);
+template ExtractedMesh<3> extract_mesh(const GmshModel&, Quadrangles);
 
 }  // namespace suffuse

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Makes a mesh from that of the current Gmsh model.
+/// Makes a mesh from that of a Gmsh model.
 
 #include <optional>
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "case/errors.hpp"
 #include "case/mesh.hpp"
+#include "gmsh_model.hpp"
 
 namespace suffuse {
 
@@ -45,11 +46,10 @@ enum class Quadrangles {
   cut_along_diagonals,
 };
 
+/// \param model  of dimension `Dim`, without a `gmsh_model_defect`
 /// \param quadrangles  of a mesh in two dimensions
 template <int Dim>
-ExtractedMesh<Dim> extract_mesh(Quadrangles quadrangles = Quadrangles::refused);
-
-/// 3 where the current Gmsh model has volumes, else 2.
-int model_dimension();
+ExtractedMesh<Dim> extract_mesh(const GmshModel& model,
+                                Quadrangles quadrangles = Quadrangles::refused);
 
 }  // namespace suffuse

@@ -2,17 +2,14 @@
 
 #include <gmsh.h>
 
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
 #include <string_view>
 
-#include "case/scratch_folder.hpp"
+#include "system_call_filter.hpp"
 
 namespace suffuse {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -43,10 +40,9 @@ gmsh::vectorpair points_without_size(std::istream& unrolled) {
 
 void set_default_point_size(double size) {
   // The API of Gmsh 4.8 sets sizes but does not tell them; its unrolled geometry does.
-  const ScratchFolder folder("suffuse");
-  const std::string path = (folder.path() / "model.geo_unrolled").string();
-  gmsh::write(path);
-  std::ifstream stream(path);
+  const WritesToMemory memory;
+  gmsh::write("model.geo_unrolled");
+  std::ifstream stream(memory.path());
   const gmsh::vectorpair points = points_without_size(stream);
   if (!points.empty()) gmsh::model::mesh::setSize(points, size);
 }

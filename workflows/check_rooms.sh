@@ -15,7 +15,7 @@ rooms+='post/drawing post/values post/tables post/figures post/report post/comma
 others='mesher:solver/physics,mesher/case post:solver/physics,mesher/case,solver/results'
 max_rooms=12 max_arrows=40 max_lines=500
 # The schema is one list, which is read from top to bottom. The others are still to be divided.
-long_files='mesher/case/scene_keys.cpp mesher/case/hdf5_io.cpp mesher/mesh_extraction.cpp'
+long_files='mesher/case/scene_keys.cpp mesher/case/hdf5_io.cpp'
 
 mapfile -t files < <(find solver mesher post -name '*.[ch]pp' | sort)
 awk -v rooms="$rooms" -v others="$others" -v max_rooms=$max_rooms -v max_arrows=$max_arrows \

@@ -36,12 +36,18 @@ Target find_target(const std::string& name) {
     words.settings = scene_settings();
     return {name, try_scene, words, drawn_scene_line};
   }
+  if (name == "geometry") {
+    Vocabulary words;
+    words.settings = geometry_lines();
+    return {name, try_geometry, words, drawn_geometry_line};
+  }
   if (name == "case") return {name, try_case, case_vocabulary(), drawn_edit};
   if (name == "results") return {name, try_results, results_vocabulary(), drawn_edit};
 #ifndef SUFFUSE_FUZZ_READERS
   if (name == "model") return {name, try_model, case_vocabulary(), drawn_edit};
 #endif
-  std::fprintf(stderr, "fuzz: got '%s'; expected --target=scene, case, results or model\n",
+  std::fprintf(stderr,
+               "fuzz: got '%s'; expected --target=scene, geometry, case, results or model\n",
                name.c_str());
   std::exit(2);
 }

@@ -179,6 +179,24 @@ std::string drawn_scene_line(const Vocabulary& words, const Draw& draw) {
   }
 }
 
+std::string drawn_geometry_line(const Vocabulary& words, const Draw& draw) {
+  const std::string line = one_of(words.settings, draw);
+  switch (draw(12)) {
+    case 0:
+      return "/* " + line + (draw(2) == 0 ? " */" : "");
+    case 1:
+      return "If(" + number(draw) + ")\n" + line + "\nEndIf";
+    case 2:
+      return "Macro m\n" + line + "\nReturn\nCall m;";
+    case 3:
+      return "For i In {1:" + std::to_string(draw(4)) + "}\n" + line + "\nEndFor";
+    case 4:
+      return "\"" + line;
+    default:
+      return line;
+  }
+}
+
 std::string changed(const std::string& input, const Draw& draw,
                     const std::function<std::string()>& new_line) {
   Lines lines = lines_of(input);

@@ -19,6 +19,9 @@ std::string drawn_edit(const Vocabulary& words, const Draw& draw);
 /// One more line of a scene.
 std::string drawn_scene_line(const Vocabulary& words, const Draw& draw);
 
+/// One more line of a geometry, which may be within a comment, a condition or a macro.
+std::string drawn_geometry_line(const Vocabulary& words, const Draw& draw);
+
 /// `input` with a few lines added, removed, repeated, swapped or changed.
 /// \param new_line  makes one
 std::string changed(const std::string& input, const Draw& draw,

@@ -37,7 +37,11 @@ class Replay : public testing::TestWithParam<std::string> {};
 
 TEST_P(Replay, EveryInputIsTakenOrRefused) {
   static const std::map<std::string, void (*)(const std::string&)> targets{
-      {"scene", try_scene}, {"case", try_case}, {"results", try_results}, {"model", try_model}};
+      {"scene", try_scene},
+      {"geometry", try_geometry},
+      {"case", try_case},
+      {"results", try_results},
+      {"model", try_model}};
   const std::vector<fs::path> inputs = inputs_of(GetParam());
   EXPECT_GE(inputs.size(), 3U);
   for (const fs::path& input : inputs) {
@@ -76,7 +80,8 @@ TEST(Seeds, AreValid) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Replay, testing::Values("scene", "case", "results", "model"),
+INSTANTIATE_TEST_SUITE_P(Targets, Replay,
+                         testing::Values("scene", "geometry", "case", "results", "model"),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace

@@ -23,4 +23,8 @@ void try_results(const std::string& input);
 /// A case file as in try_case. If the reader takes it, it must run: plans it and takes a few steps.
 void try_model(const std::string& input);
 
+/// A geometry in Gmsh's language, or a .msh or STEP file by how it begins; `@` stands for its
+/// folder. Whatever it has Gmsh do, no command is run and no file is made, changed or removed.
+void try_geometry(const std::string& input);
+
 }  // namespace suffuse::fuzz

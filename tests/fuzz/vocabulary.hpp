@@ -19,6 +19,9 @@ struct Vocabulary {
 /// Every key of a scene with values that it may have, may just have, and may not.
 std::vector<std::string> scene_settings();
 
+/// Commands of Gmsh, above all those that run programs and write or read files.
+std::vector<std::string> geometry_lines();
+
 Vocabulary case_vocabulary();
 Vocabulary results_vocabulary();
 

@@ -113,9 +113,9 @@ Mesh<2> gmsh_column(double size, MeshStructure structure, double height = 1.0) {
   scene.mesh.structure = structure;
   const std::string complaint = gmsh_complaint([&] { mesh_column(column_of(scene), scene.mesh); });
   EXPECT_EQ(complaint, "");
-  ExtractedMesh extracted =
-      extract_mesh<2>(structure == MeshStructure::crossed ? Quadrangles::cut_along_diagonals
-                                                          : Quadrangles::refused);
+  ExtractedMesh extracted = extract_mesh<2>(
+      read_gmsh_model(), structure == MeshStructure::crossed ? Quadrangles::cut_along_diagonals
+                                                             : Quadrangles::refused);
   EXPECT_TRUE(extracted.problems.empty());
   return std::move(extracted.mesh);
 }

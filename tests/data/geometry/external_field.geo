@@ -11,3 +11,4 @@ Plane Surface(1) = {1};
 Physical Surface("specimen") = {1};
 Field[1] = ExternalProcess;
 Field[1].CommandLine = "touch ran-a-command";
+Background Field = 1;

@@ -1,0 +1,283 @@
+#include "geometry_file.hpp"
+
+#include <gmsh.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <new>
+#include <optional>
+#include <string_view>
+
+#include "case/geometry_checks.hpp"
+#include "case/scene_schema.hpp"
+#include "case/short_number.hpp"
+#include "confined_child.hpp"
+#include "curve_crossings.hpp"
+#include "geometry.hpp"
+#include "gmsh_session.hpp"
+#include "mesh_limits.hpp"
+#include "mesh_problems.hpp"
+#include "point_sizes.hpp"
+
+namespace suffuse {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* advice_on_mesh =
+    "a mesh that Gmsh can read: open it in Gmsh, look at it and save it anew";
+
+const char* advice_on(const std::string& path) {
+  return is_mesh_file(path) ? advice_on_mesh : "a geometry that Gmsh can mesh";
+}
+
+/// Gmsh names an edge of its own that it cannot recover; the user knows the curves.
+std::string crossings_behind(const std::string& complaint) {
+  const std::vector<std::string> crossings =
+      complaint.starts_with("Unable to recover") ? curve_crossings() : std::vector<std::string>{};
+  return listed(crossings, "and");
+}
+
+/// `'FILE', line N: MESSAGE` is how Gmsh places an error in a script.
+InputProblem gmsh_problem(const SceneDocument& document, const std::string& path,
+                          const std::string& complaint) {
+  constexpr std::string_view before_line = "', line ";
+  const std::size_t name_end = complaint.find(before_line);
+  const std::size_t message = complaint.find(": ", std::min(name_end, complaint.size()));
+  if (complaint.starts_with('\'') && message != std::string::npos) {
+    const std::size_t line = name_end + before_line.size();
+    return {complaint.substr(1, name_end - 1) + ":" + complaint.substr(line, message - line), "",
+            complaint.substr(message + 2), "valid Gmsh text", ""};
+  }
+  const std::string where = document.locate("geometry.file");
+  if (const std::string crossings = crossings_behind(complaint); !crossings.empty()) {
+    return {where, "geometry.file", '"' + path + "\" with " + crossings,
+            "curves that meet at points of both alone: split them there, or use BooleanFragments",
+            ""};
+  }
+  return {where, "geometry.file", '"' + path + "\", of which Gmsh says: " + complaint,
+          advice_on(path), ""};
+}
+
+void run_gmsh(const SceneDocument& document, const std::string& path,
+              const std::function<void()>& body) {
+  const std::string complaint = gmsh_complaint(body);
+  if (complaint == no_memory) throw std::bad_alloc();
+  if (!complaint.empty()) {
+    throw InputError(std::vector<InputProblem>{gmsh_problem(document, path, complaint)});
+  }
+}
+
+/// The labels of a STEP file's shapes become physical groups. Gmsh gives them as paths of an
+/// assembly; the last part is the shape's own name.
+void name_groups_by_label(int dimension) {
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  std::map<std::string, std::vector<int>> groups;
+  for (const auto& [ignored, tag] : entities) {
+    std::string label;
+    gmsh::model::getEntityName(dimension, tag, label);
+    label = label.substr(label.rfind('/') + 1);
+    const bool automatic = label.starts_with("Open CASCADE STEP translator");
+    if (!label.empty() && !automatic) groups[label].push_back(tag);
+  }
+  for (const auto& [name, tags] : groups) {
+    const int group = gmsh::model::addPhysicalGroup(dimension, tags);
+    gmsh::model::setPhysicalName(dimension, group, name);
+  }
+}
+
+void open_step(const std::string& path) {
+  gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+  gmsh::open(path);
+  const int dimension = gmsh_model_dimension();
+  gmsh::vectorpair regions;
+  gmsh::model::getEntities(regions, dimension);
+  if (regions.size() > 1) {
+    gmsh::model::occ::removeAllDuplicates();  // neighbours come with a border each
+    gmsh::model::occ::synchronize();
+  }
+  name_groups_by_label(dimension);
+  name_groups_by_label(dimension - 1);
+}
+
+bool has_mesh(int dimension) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags;
+  std::vector<std::vector<std::size_t>> nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, dimension);
+  return !types.empty();
+}
+
+void generate_mesh(const SceneDocument& document, const std::string& path, int dimension) {
+  std::array<double, 6> box{};
+  gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
+  const double scale = document.scene.geometry.scale;
+  const double area = (box[3] - box[0]) * scale * (box[4] - box[1]) * scale;
+  if (dimension == 2) {
+    refuse_too_many_triangles(document, area);
+  } else {
+    refuse_too_many_tetrahedra(document, area * (box[5] - box[2]) * scale);
+  }
+  const double size = document.scene.mesh.size / scale;  // in the file's unit
+  double largest = 0.0;
+  gmsh::option::getNumber("Mesh.MeshSizeMax", largest);
+  if (size < largest) gmsh::option::setNumber("Mesh.MeshSizeMax", size);
+  if (dimension == 2 && document.scene.mesh.structure == MeshStructure::crossed) {
+    // Triangles twice as large, each then split into three quadrangles by Gmsh: its recombination
+    // of triangles into quadrangles crashes on small models (4.8).
+    gmsh::option::setNumber("Mesh.MeshSizeFactor", 2.0);
+    gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
+  }
+  run_gmsh(document, path, [&] {
+    if (std::isfinite(size)) set_default_point_size(size);
+    gmsh::model::mesh::generate(dimension);
+  });
+}
+
+/// Whether the file asks for more threads than the one that Gmsh has here. A number that no machine
+/// has is refused.
+bool wants_threads(const SceneDocument& document) {
+  constexpr double most = 1024.0;
+  bool several = false;
+  for (const std::string option : {"General.NumThreads", "Mesh.MaxNumThreads1D",
+                                   "Mesh.MaxNumThreads2D", "Mesh.MaxNumThreads3D"}) {
+    double count = 0.0;
+    gmsh::option::getNumber(option, count);
+    if (count > most) {
+      refuse_key(
+          document, "geometry.file",
+          '"' + document.scene.geometry.file + "\" with " + option + " = " + short_number(count),
+          "at most " + short_number(most) + "; Gmsh uses one thread here");
+    }
+    several = several || count > 1.0;
+  }
+  return several;
+}
+
+/// In the confined child, within a session of Gmsh.
+GmshReply mesh_file(const SceneDocument& document, const std::string& path) {
+  GmshReply reply;
+  run_gmsh(document, path, [&] { is_step_file(path) ? open_step(path) : gmsh::open(path); });
+  reply.wants_threads = wants_threads(document);
+  const int dimension = gmsh_model_dimension();
+  if (!is_mesh_file(path)) {
+    if (dimension == 3 && document.where.contains("mesh.structure") &&
+        document.scene.mesh.structure == MeshStructure::crossed) {
+      refuse_key(document, "mesh.structure", "\"crossed\" for a file with volumes",
+                 "\"free\", or no such key: only triangles can be crossed");
+    }
+    reply.meshes_itself = has_mesh(dimension);
+    if (!reply.meshes_itself) generate_mesh(document, path, dimension);
+  }
+  run_gmsh(document, path, [&] { reply.model = read_gmsh_model(); });
+  return reply;
+}
+
+std::string reply_of_child(const SceneDocument& document, const std::string& path) {
+  GmshReply reply;
+  try {
+    reply = mesh_file(document, path);
+  } catch (const InputError& error) {
+    reply.problems = error.problems();
+  }
+  return bytes_of(reply);
+}
+
+/// A mesh is read in next to no time; how long it takes to make one, nobody knows.
+ChildLimits limits_for(const std::string& path, double max_seconds) {
+  constexpr double seconds = 10.0;
+  constexpr double seconds_per_byte = 2e-6;  // a hundred times what it takes
+  constexpr double memory = 1e9;
+  constexpr double memory_per_byte = 100.0;
+  constexpr double wall_per_processor_time = 10.0;  // on a machine with other work
+  ChildLimits limits{max_seconds, 0.0, 0.0};
+  if (is_mesh_file(path)) {
+    std::error_code ignored;
+    const auto bytes = static_cast<double>(fs::file_size(path, ignored));
+    limits.processor_seconds = std::min(max_seconds, seconds + seconds_per_byte * bytes);
+    limits.bytes = memory + memory_per_byte * bytes;
+  } else {
+    limits.bytes = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+                   static_cast<double>(::sysconf(_SC_PAGESIZE));
+  }
+  limits.wall_seconds = wall_per_processor_time * limits.processor_seconds;
+  return limits;
+}
+
+[[noreturn]] void refuse_end(const SceneDocument& document, const ChildEnd& end,
+                             const ChildLimits& limits) {
+  using How = ChildEnd::How;
+  const std::string& name = document.scene.geometry.file;
+  const bool is_mesh = is_mesh_file(name);
+  const auto refuse = [&](const std::string& what, const std::string& expected) {
+    refuse_key(document, "geometry.file", '"' + name + "\", " + what, expected);
+  };
+  switch (end.how) {
+    case How::refused:
+      refuse("which has Gmsh " + end.text,
+             "a geometry that reads regular files, runs no commands, writes nothing and does not "
+             "wait");
+      break;
+    case How::processor_time:
+    case How::wall_time:
+      if (is_mesh) break;
+      refuse("over which Gmsh has spent " +
+                 short_number(end.how == How::wall_time ? limits.wall_seconds
+                                                        : limits.processor_seconds) +
+                 (end.how == How::wall_time ? " s" : " s of processor time") + " without an end",
+             "a file without endless loops and with sizes that suit the model; for a large one a "
+             "longer --geometry-timeout");
+      break;
+    case How::memory:
+      if (is_mesh) break;
+      refuse("over which Gmsh needs more memory than this machine has",
+             "sizes of elements that suit the model");
+      break;
+    case How::left:
+      refuse("which ends Gmsh before there is a mesh", "a file without Exit or Abort");
+      break;
+    case How::crashed:
+    case How::replied:
+      refuse("over which Gmsh crashes", advice_on(name));
+  }
+  refuse("over which Gmsh takes more time or memory than its size explains", advice_on_mesh);
+  throw std::logic_error("unreachable");
+}
+
+}  // namespace
+
+GmshReply read_geometry_file(const SceneDocument& document, double max_seconds) {
+  const std::string path = geometry_path(document);
+  if (!is_step_file(path) && !is_mesh_file(path) && !is_geo_file(path)) {
+    refuse_key(document, "geometry.file", '"' + document.scene.geometry.file + '"',
+               "a file ending in .geo, .msh, .step or .stp");
+  }
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) {
+    throw FileError(document.locate("geometry.file") + ": geometry.file: there is no file " + path);
+  }
+  const ChildLimits limits = limits_for(path, max_seconds);
+  // Gmsh writes as it starts and ends: it starts before it may not, and never ends.
+  std::optional<GmshSession> of_child;
+  const auto start_gmsh = [&of_child] {
+    // Parallel regions have one thread, whatever the file asks for: more could not be started.
+    ::omp_set_max_active_levels(0);
+    of_child.emplace();
+  };
+  const ChildEnd end = run_confined(
+      start_gmsh, [&] { return reply_of_child(document, path); }, limits);
+  if (end.how != ChildEnd::How::replied) refuse_end(document, end, limits);
+  GmshReply reply = reply_from(end.text);
+  if (!reply.problems.empty()) throw InputError(std::move(reply.problems));
+  return reply;
+}
+
+}  // namespace suffuse

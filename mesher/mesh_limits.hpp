@@ -1,0 +1,23 @@
+#pragma once
+
+/// Refuses sizes of elements that make more of them than anybody wants.
+
+#include <string>
+
+#include "case/scene.hpp"
+
+namespace suffuse {
+
+/// Throws an InputError about this key of the scene.
+[[noreturn]] void refuse_key(const SceneDocument& document, const std::string& key,
+                             const std::string& found, const std::string& expected);
+
+/// \param area  m2
+/// \param strip  width of what is meshed besides, in rows of elements, all rows together, m
+void refuse_too_many_triangles(const SceneDocument& document, double area, double strip = 0.0);
+
+/// \param volume  m3
+/// \param layer  area of what is meshed besides, in rows of elements, all rows together, m2
+void refuse_too_many_tetrahedra(const SceneDocument& document, double volume, double layer = 0.0);
+
+}  // namespace suffuse

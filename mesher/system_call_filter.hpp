@@ -1,0 +1,47 @@
+#pragma once
+
+/// Takes from a process the rights that reading a file and computing do not need.
+
+#include <string>
+
+namespace suffuse {
+
+/// What a confined process may not do.
+enum class Refused : char {
+  process = 'p',  ///< start a program, a process or a thread
+  writing = 'w',  ///< write, make, rename or remove a file
+  network = 'n',  ///< open a connection
+  waiting = 's',  ///< sleep
+  special = 'd',  ///< read what is no regular file: a pipe, a device
+};
+
+/// From now on this process may compute, allocate memory, read regular files, write to the
+/// descriptors that it has, and end: every system call that these do not need is refused, by an
+/// allow list. An attempt at what `Refused` lists ends the process; any other call fails with
+/// EPERM. The process cannot take this back.
+///
+/// An attempt is reported as the byte `report_mark`, the byte of `Refused` and the name of the file
+/// if there is one. A process that blocks signals, as one does that is about to start another, is
+/// ended by SIGSYS and reports nothing.
+/// \param report_to  descriptor
+/// Throws FileError where the system has no such filter.
+void confine_process(int report_to);
+
+inline constexpr char report_mark = 'C';
+
+/// While it lives, a file that a confined process opens to write is a file in memory instead, which
+/// is removed with this object. There is at most one at a time.
+class WritesToMemory {
+ public:
+  WritesToMemory();
+  WritesToMemory(const WritesToMemory&) = delete;
+  WritesToMemory& operator=(const WritesToMemory&) = delete;
+  ~WritesToMemory();
+  /// Of the file in memory, to be read.
+  [[nodiscard]] std::string path() const;
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace suffuse
