@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/errors.hpp"
-
 namespace suffuse {
 namespace {
 
@@ -17,8 +15,9 @@ constexpr double step_accuracy = 0.03;
 /// Of the linear systems, relative to their right-hand side.
 constexpr double linear_accuracy = 3e-3;
 constexpr int max_step_iterations = 8;
-/// After steps of so many iterations or fewer the next is longer.
-constexpr int few_iterations = 3;
+/// Steps become as long as takes about so many iterations: that is least work in all.
+constexpr double good_iterations = 4.0;
+/// Lengths of consecutive steps differ by this factor at most.
 constexpr double growth = 4.0;
 /// Newton's step is halved so often; a shorter part of it is worth less than a shorter step.
 constexpr int max_halvings = 6;
@@ -47,10 +46,10 @@ SettledSoil<Dim> PseudoTime<Dim>::settle(NodeVectors<Dim> start, const SettlingL
          soil_.iterations < limits.max_iterations) {
     if (step(limits.max_iterations - soil_.iterations)) {
       judge(limits);
-      if (step_iterations_ <= few_iterations) length_ *= growth;
+      length_ *= std::min(good_iterations / std::max(step_iterations_, 1), growth);
     } else {
       equilibrium_.displace(soil_.displacement, true);
-      length_ /= growth;
+      length_ *= 0.5;
     }
   }
   return soil_;

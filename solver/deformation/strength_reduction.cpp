@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 
 #include "deformation/pseudo_time.hpp"
 
@@ -58,24 +60,30 @@ class StrengthReduction {
   SafetyFactor find() {
     result_.fails = std::numeric_limits<double>::infinity();
     double factor = 1.0;
-    while (factor >= limits_.least && factor <= limits_.largest) {
+    while (factor >= limits_.least && factor <= limits_.largest &&
+           result_.fails > (1.0 + limits_.tolerance) * result_.holds) {
       attempt(factor);
-      if (result_.trials.back().end == TrialEnd::undecided) return result_;
-      if (std::isinf(result_.fails)) {
-        factor = 2.0 * result_.holds;
-      } else if (result_.holds == 0.0) {
-        factor = 0.5 * result_.fails;
-      } else if (result_.fails > (1.0 + limits_.tolerance) * result_.holds) {
-        factor = std::sqrt(result_.holds * result_.fails);
-      } else {
-        break;
-      }
+      if (static_cast<int>(undecided_.size()) == limits_.most_undecided) return result_;
+      factor = next_factor();
     }
+    result_.undecided_node = -1;
     result_.factor = result_.holds == 0.0 ? 0.0 : std::sqrt(result_.holds * result_.fails);
     return result_;
   }
 
  private:
+  [[nodiscard]] double next_factor() const {
+    // Those between what holds and what fails.
+    const auto first = undecided_.upper_bound(result_.holds);
+    const auto last = undecided_.lower_bound(result_.fails);
+    const double below = first == last ? result_.fails : *first;
+    const double above = first == last ? result_.holds : *std::prev(last);
+    if (std::isinf(result_.fails)) return 2.0 * above;
+    if (result_.holds == 0.0) return 0.5 * below;
+    const bool upper = result_.fails * result_.holds > below * above;
+    return upper ? std::sqrt(above * result_.fails) : std::sqrt(result_.holds * below);
+  }
+
   /// One trial, from the equilibrium of the largest factor that holds.
   void attempt(double factor) {
     set_strength(factor);
@@ -117,6 +125,7 @@ class StrengthReduction {
       result_.mechanism = components(soil.motion);
     } else {
       result_.undecided_node = soil.worst_node;
+      undecided_.insert(factor);
     }
     result_.trials.push_back(trial);
   }
@@ -171,6 +180,7 @@ class StrengthReduction {
   double stiffness_ = 1.0;    ///< of trials over that of the soil
   NodeVectors<Dim> elastic_;  ///< displacement of the elastic body in trials, m
   SafetyFactor result_;
+  std::set<double> undecided_;
   double elastic_max_ = 0.0;  ///< largest displacement of the elastic body in trials, m
 };
 

@@ -22,7 +22,9 @@ struct StrengthReductionLimits {
   /// are up to a thousand times those of the stiff soil of the trials: thus the tolerance.
   NewtonLimits newton{.max_iterations = 60, .tolerance = 1e-9};
   /// Iterations of a trial in pseudo-time, after those of Newton's method.
-  int settling_iterations = 400;
+  int settling_iterations = 600;
+  /// After so many trials that decide nothing the search is given up.
+  int most_undecided = 3;
 };
 
 /// How a trial ended. Iterations that ran out decide nothing: soil that Newton's method finds no
@@ -52,8 +54,8 @@ struct SafetyFactor {
   /// directions and shares show how the soil fails, its size means nothing. Dim values per node;
   /// empty where no trial failed.
   std::vector<double> mechanism;
-  /// Where forces are out of balance most in the last trial, which is undecided: there is no factor
-  /// then. -1: all are decided.
+  /// Where forces are out of balance most in the last trial, which is undecided, as some before:
+  /// there is no factor then. -1: there is.
   int undecided_node = -1;
 };
 
@@ -64,8 +66,9 @@ struct SafetyFactor {
 /// Looks for the factor by bisection, in the logarithm. Each trial loads the body from no stress in
 /// one increment: what a perfectly plastic body can carry does not depend on the stress before.
 /// Newton's method starts at the displacement of the largest factor that holds. Where it finds no
-/// equilibrium, `PseudoTime` goes on from there until the soil rests or runs away. A trial in which
-/// it does neither ends the search.
+/// equilibrium, `PseudoTime` goes on from there until the soil rests or runs away. Where it does
+/// neither, as next to the limit, the search goes on above that factor and below, and gives up
+/// after a few.
 ///
 /// The factor does not depend on Young's modulus either. The trials multiply it by one number in
 /// all of the soil, so that its shape stays. Displacements are those of the soil as it is, to first

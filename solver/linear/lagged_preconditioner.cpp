@@ -31,7 +31,7 @@ std::unique_ptr<Factor> flow_factor(int dimension, int faces) {
 }
 
 std::unique_ptr<Factor> newton_factor(int dimension, int faces) {
-  if (dimension == 3 && faces >= 10'000) return std::make_unique<Multigrid>();
+  if (dimension == 3 && faces >= 3'000) return std::make_unique<Multigrid>();
   return std::make_unique<CholeskyFactor>();
 }
 
