@@ -128,7 +128,7 @@ TEST_P(UnsaturatedLevee, InSpaceIsLikeItsSection) {
 
 INSTANTIATE_TEST_SUITE_P(Retention, UnsaturatedLevee,
                          testing::Values(std::array{1.0, 1.5}, std::array{15.0, 2.7}),
-                         [](const auto& info) { return info.index == 0 ? "Mild" : "Steep"; });
+                         [](const auto& tested) { return tested.index == 0 ? "Mild" : "Steep"; });
 
 }  // namespace
 }  // namespace suffuse
