@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <new>
@@ -31,6 +32,9 @@
 #if __has_feature(address_sanitizer)
 #define SUFFUSE_ADDRESS_SANITIZER
 #endif
+#endif
+#ifdef SUFFUSE_ADDRESS_SANITIZER
+#include <sanitizer/common_interface_defs.h>
 #endif
 
 namespace suffuse {
@@ -74,6 +78,14 @@ void reset_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
+/// Ends the child where a library ends it, without the work that the parent's program does last.
+void leave_nothing_to_do_at_exit() {
+  static_cast<void>(std::atexit([] { ::_exit(1); }));
+#ifdef SUFFUSE_ADDRESS_SANITIZER
+  __sanitizer_set_death_callback([] { std::abort(); });  // what it finds is a crash
+#endif
+}
+
 /// Keeps the one descriptor, under the number that it returns; nothing is read or shown.
 int keep_only(int descriptor) {
   constexpr int kept = STDERR_FILENO + 1;
@@ -107,6 +119,7 @@ void write_all(int descriptor, char mark, const std::string& text) {
   reset_signals();
   descriptor = keep_only(descriptor);
   limit_use(limits);
+  leave_nothing_to_do_at_exit();
   try {
     prepare();
     confine_process(descriptor);
