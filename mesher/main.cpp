@@ -66,6 +66,16 @@ std::string output_path(const Arguments& arguments) {
   return fs::path(arguments.scene).stem().string() + ".case.h5";
 }
 
+/// Where the case is, when that is neither said by `-o` nor beside the scene.
+std::vector<std::string> place_notes(const Arguments& arguments) {
+  const std::string output = output_path(arguments);
+  const std::string beside = file_beside_scene(arguments.scene, output);
+  std::error_code ignored;
+  if (!arguments.output.empty() || fs::equivalent(output, beside, ignored)) return {};
+  return {"the case is in the current folder, " + fs::absolute(output).string() + "; -o " + beside +
+          " puts it beside the scene"};
+}
+
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return fs::equivalent(a, b, ignored) ||
@@ -156,8 +166,10 @@ void make_case_of(const Arguments& arguments, const SceneDocument& document,
   if (!arguments.msh.empty()) write_gmsh(arguments.msh, result.mesh);
   write_case(output_path(arguments), result);
 
+  std::vector<std::string> notes = place_notes(arguments);
+  notes.insert(notes.end(), geometry.notes.begin(), geometry.notes.end());
   std::cout << output_path(arguments) << '\n'
-            << case_summary(result, geometry.notes) << grading_summary(document);
+            << case_summary(result, notes) << grading_summary(document);
   const std::string warning = angle_warning(result.mesh);
   if (!warning.empty()) warn({warning});
   warn(plausibility_warnings(document, result.mesh));

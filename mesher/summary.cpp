@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "case/free_space.hpp"
+
 namespace suffuse {
 
 namespace {
@@ -57,6 +59,28 @@ double boundary_size(const Mesh<Dim>& mesh, const BoundarySet<Dim>& set) {
   return size;
 }
 
+/// The median length of the elements' edges, beside the size that the scene asks for.
+template <int Dim>
+std::string edge_text(const Mesh<Dim>& mesh, const SceneDocument& document) {
+  std::vector<double> lengths;
+  lengths.reserve(mesh.elements.size() * Dim * (Dim + 1) / 2);
+  for (const auto& corners : mesh.elements) {
+    for (int a = 0; a <= Dim; ++a) {
+      for (int b = a + 1; b <= Dim; ++b) {
+        lengths.push_back((mesh.nodes[corners[b]] - mesh.nodes[corners[a]]).norm());
+      }
+    }
+  }
+  const auto middle = lengths.begin() + std::ssize(lengths) / 2;
+  std::ranges::nth_element(lengths, middle);
+  std::ostringstream text;
+  text << std::setprecision(3) << *middle << " m";
+  if (document.where.contains("mesh.size")) {
+    text << "; mesh.size is " << document.scene.mesh.size << " m";
+  }
+  return text.str();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -68,12 +92,13 @@ std::string case_summary(const Case<Dim>& c, const std::vector<std::string>& not
   if (c.liquid_points.size() > 0) {
     lines.push_back({"liquid points", liquid_counts(mesh, c.liquid_points)});
   }
+  lines.push_back({"median edge", edge_text(mesh, c.document)});
   lines.push_back({"smallest angle", number(smallest_angle(mesh), "degrees")});
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
     const std::string& region = mesh.region_names[r];
-    const std::string water = c.document.scene.is_free_water(region) ? ", free water" : "";
-    lines.push_back(
-        {"region " + region, number(region_volume(mesh, r), Dim == 2 ? "m2" : "m3") + water});
+    const std::string free = free_space_text(mesh, c.document.scene, static_cast<int>(r));
+    lines.push_back({"region " + region, number(region_volume(mesh, r), Dim == 2 ? "m2" : "m3") +
+                                             (free.empty() ? "" : ", ") + free});
   }
   for (const BoundarySet<Dim>& set : mesh.boundaries) {
     lines.push_back(

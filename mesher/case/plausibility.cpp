@@ -8,9 +8,8 @@
 
 #include "case/geometry_checks.hpp"
 #include "case/place_text.hpp"
-#include "case/scene_schema.hpp"
+#include "case/plausibility_base.hpp"
 #include "case/short_number.hpp"
-#include "physics/head.hpp"
 #include "physics/skeleton/skeleton_law.hpp"
 
 namespace suffuse {
@@ -29,15 +28,10 @@ constexpr double unnoticed_suction = 0.5;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-std::string table_of(const Soil& soil) {
-  return joined("soil", shown_name(soil.region));
-}
-
 template <int Dim>
-class Plausibility {
+class Plausibility : private PlausibilityBase<Dim> {
  public:
-  Plausibility(const SceneDocument& document, const Mesh<Dim>& mesh)
-      : document_(document), scene_(document.scene), mesh_(mesh) {}
+  using PlausibilityBase<Dim>::PlausibilityBase;
 
   std::vector<std::string> unusual() {
     check_lengths();
@@ -59,12 +53,15 @@ class Plausibility {
   }
 
  private:
-  void warn(const std::string& key, const std::string& sentence) {
-    const std::string where = document_.locate(key);
-    warnings_.push_back((where.empty() ? "" : where + ": ") + key + ": " + sentence);
-  }
-
-  [[nodiscard]] bool given(const std::string& key) const { return document_.where.contains(key); }
+  using Base = PlausibilityBase<Dim>;
+  using Base::as_head;
+  using Base::given;
+  using Base::mesh_;
+  using Base::scene_;
+  using Base::table_of;
+  using Base::warn;
+  using Base::warnings_;
+  using Base::z;
 
   void check_lengths() {
     const Vector<Dim> sides = extent(mesh_);
@@ -209,12 +206,6 @@ class Plausibility {
     return set == mesh_.boundaries.end() ? nullptr : &*set;
   }
 
-  [[nodiscard]] double z(int node) const { return height(mesh_.nodes[node], scene_.gravity); }
-
-  [[nodiscard]] double as_head(double pressure) const {
-    return pressure / unit_weight(scene_.liquid.density, scene_.gravity);
-  }
-
   /// No head is above it once the flow is steady; nothing where liquid is pressed in, or no head is
   /// prescribed.
   [[nodiscard]] std::optional<double> highest_head() const {
@@ -294,11 +285,6 @@ class Plausibility {
              "conducts less. Up to " +
              short_number(unnoticed_suction) + " m are usual");
   }
-
-  const SceneDocument& document_;
-  const Scene& scene_;
-  const Mesh<Dim>& mesh_;
-  std::vector<std::string> warnings_;
 };
 
 }  // namespace
@@ -306,7 +292,12 @@ class Plausibility {
 template <int Dim>
 std::vector<std::string> plausibility_warnings(const SceneDocument& document,
                                                const Mesh<Dim>& mesh) {
-  return Plausibility<Dim>(document, mesh).unusual();
+  std::vector<std::string> warnings = Plausibility<Dim>(document, mesh).unusual();
+  for (const auto& part : {time_warnings<Dim>, flow_warnings<Dim>, soil_warnings<Dim>}) {
+    const std::vector<std::string> more = part(document, mesh);
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  }
+  return warnings;
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "case/errors.hpp"
+#include "case/toml_fault.hpp"
 
 namespace suffuse {
 namespace {
@@ -338,7 +339,9 @@ SceneNode read_toml(const std::string& text, const std::string& path) {
     SceneNode root = read_node(table, "", {.source = 0, .line = 0, .text = path}, locate);
     return root;
   } catch (const toml::parse_error& error) {
-    refuse(locate(error.source()).text, "not TOML: " + std::string(error.description()));
+    throw InputError(
+        std::vector{toml_fault(text, error.source().begin.line, locate(error.source()).text,
+                               std::string(error.description()))});
   }
 }
 

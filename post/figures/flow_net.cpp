@@ -120,7 +120,7 @@ std::vector<double> inner_levels(double low, double step, double high) {
 void paint_net(vtkContext2D& painter, const ModelView& view, const FlowNet& net,
                const std::vector<Polyline>& phreatic) {
   const Mesh<2>& mesh = net.map.mesh;
-  const auto [lowest, highest] = std::ranges::minmax(net.map.head);
+  const auto [lowest, highest] = head_range(net.map);
   const auto heads = inner_levels(lowest, (highest - lowest) / net.drops, highest);
   const auto& psi = net.stream.at_nodes;
   const auto shares = inner_levels(0.0, net.stream.discharge / net.tubes, std::ranges::max(psi));
@@ -135,7 +135,8 @@ void paint_net(vtkContext2D& painter, const ModelView& view, const FlowNet& net,
   LineLabels labels(view);
   labels.avoid(phreatic);
   labels.avoid(streamlines);
-  paint_contours(painter, view, {mesh, net.map.head, heads}, {black, potential_width}, labels);
+  const Mesh<2> drawn = drawn_mesh(net.map);
+  paint_contours(painter, view, {drawn, net.map.head, heads}, {black, potential_width}, labels);
   paint_phreatic_lines(painter, view, phreatic);
   view.paint_axes(painter);
 }
@@ -175,7 +176,7 @@ FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
   const std::size_t index = chosen_snapshot(run, time, command);
   net.map = head_map(run, time, command);
   net.stream = stream_function(run, index, net.map.mesh, command);
-  const auto [lowest, highest] = std::ranges::minmax(net.map.head);
+  const auto [lowest, highest] = head_range(net.map);
   const double fall = highest - lowest;
   const auto soils = soils_of(run, net.map.mesh);
   const bool alike = !soils.empty() && conduct_alike(soils);
@@ -195,7 +196,7 @@ FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
 }
 
 void draw_flow_net(const FlowNet& net, const std::string& path) {
-  const auto phreatic = phreatic_lines(net.map.mesh, net.map.pressure);
+  const auto phreatic = phreatic_lines(drawn_mesh(net.map), net.map.pressure);
   std::vector<Curve> rows{legend_line("streamline", stream_blue, stream_width),
                           legend_line("equipotential, head in m", black, potential_width)};
   add_water_legend(rows, !phreatic.empty(), !net.map.water.empty());

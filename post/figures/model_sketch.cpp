@@ -9,6 +9,7 @@
 
 #include "case/errors.hpp"
 #include "case/faces.hpp"
+#include "case/free_space.hpp"
 #include "drawing/chart_legend.hpp"
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
@@ -98,15 +99,17 @@ struct RegionTint {
   Color color{};
 };
 
-std::vector<RegionTint> region_tints(const ResultsReader& run,
-                                     const std::vector<std::string>& regions) {
+template <int Dim>
+std::vector<RegionTint> region_tints(const ResultsReader& run, const Mesh<Dim>& mesh) {
   const Scene& scene = run.scene().scene;
   std::vector<RegionTint> tints;
   std::size_t soils = 0;
-  for (const auto& region : regions) {
-    const bool water = scene.is_free_water(region);
-    tints.push_back({region_label(scene, region),
-                     water ? water_tint : soil_tints.at(soils++ % soil_tints.size())});
+  for (int r = 0; r < static_cast<int>(mesh.region_names.size()); ++r) {
+    const std::string content = free_space_text(mesh, scene, r);
+    tints.push_back({region_label(mesh, scene, r), content.empty()
+                                                       ? soil_tints.at(soils++ % soil_tints.size())
+                                                   : content.starts_with("air") ? white
+                                                                                : water_tint});
   }
   return tints;
 }
@@ -164,8 +167,12 @@ void draw_space_sketch(const ResultsReader& run, const std::string& path);
 
 }  // namespace
 
-std::string region_label(const Scene& scene, const std::string& region) {
-  if (scene.is_free_water(region)) return region + ": free water";
+template <int Dim>
+std::string region_label(const Mesh<Dim>& mesh, const Scene& scene, int number) {
+  const std::string& region = mesh.region_names[number];
+  if (const std::string content = free_space_text(mesh, scene, number); !content.empty()) {
+    return region + ": " + content;
+  }
   const Soil* soil = scene.find_soil(region);
   if (soil == nullptr || !soil->erosion.law->erodes()) {
     return region + ": soil, does not erode";
@@ -201,6 +208,8 @@ std::vector<SketchedBoundary<Dim>> sketched_boundaries(const Mesh<Dim>& mesh, co
   }
   return found;
 }
+template std::string region_label(const Mesh<2>&, const Scene&, int);
+template std::string region_label(const Mesh<3>&, const Scene&, int);
 template std::vector<SketchedBoundary<2>> sketched_boundaries(const Mesh<2>&, const Scene&);
 template std::vector<SketchedBoundary<3>> sketched_boundaries(const Mesh<3>&, const Scene&);
 
@@ -215,7 +224,7 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   const auto solid = run.point_positions(0, "solid");
   const auto liquid = double_point ? run.point_positions(0, "liquid") : std::vector<Vector<2>>{};
   const auto boundaries = sketched_boundaries(run);
-  const auto tints = region_tints(run, mesh.region_names);
+  const auto tints = region_tints(run, mesh);
 
   std::vector<Curve> rows;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
@@ -318,7 +327,7 @@ void draw_space_sketch(const ResultsReader& run, const std::string& path) {
   const Scene& scene = run.scene().scene;
   const Sheet surface = outer_sheet(mesh);
   const PictureModel model = space_model(mesh, surface, upward<3>(scene));
-  const auto tints = region_tints(run, mesh.region_names);
+  const auto tints = region_tints(run, mesh);
   std::vector<Curve> rows;
   const auto colors = surface_colors(mesh, surface, scene, tints, rows);
   for (const auto& tint : tints) rows.push_back(marker_row(tint.label, tint.color, Marker::square));

@@ -23,8 +23,10 @@ std::vector<SketchedBoundary<2>> sketched_boundaries(const ResultsReader& run);
 template <int Dim>
 std::vector<SketchedBoundary<Dim>> sketched_boundaries(const Mesh<Dim>& mesh, const Scene& scene);
 
-/// The legend's text for a region: "specimen: soil, erodes (constant law)", "inflow: free water".
-std::string region_label(const Scene& scene, const std::string& region);
+/// The legend's text for a region: "specimen: soil, erodes (constant law)", "inflow: free water",
+/// "free_above: air".
+template <int Dim>
+std::string region_label(const Mesh<Dim>& mesh, const Scene& scene, int number);
 
 /// Draws the mesh in black, the points of the first snapshot (solid red, liquid blue), regions
 /// tinted, boundaries as thick lines; of a model in space the surface, boundaries with a condition

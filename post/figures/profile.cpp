@@ -43,7 +43,7 @@ SampleRequest request_of(const ResultsReader& run, const FigureOptions& options)
   return request;
 }
 
-std::string time_text(double time, const TimeUnit& unit) {
+std::string time_label(double time, const TimeUnit& unit) {
   return "t = " + tick_text(time / unit.seconds) + " " + unit.name;
 }
 
@@ -59,7 +59,7 @@ void add_curves(const Table& table, const SampleRequest& request, const std::str
   for (std::size_t k = 0; k < charts.size(); ++k) {
     for (std::size_t i = 0; i < request.times.size(); ++i) {
       Curve curve = curve_at(before + i, count);
-      curve.label = label + time_text(request.times[i], unit);
+      curve.label = label + time_label(request.times[i], unit);
       for (std::size_t p = 0; p < places; ++p) {
         curve.x.push_back((request.positions[p] - request.positions[0]).norm());
         curve.y.push_back(table.columns[first_field(table) + k][i * places + p]);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "case/errors.hpp"
+#include "case/free_space.hpp"
 #include "drawing/chart_legend.hpp"
 #include "drawing/color_map.hpp"
 #include "drawing/colored_triangles.hpp"
@@ -55,6 +56,7 @@ void paint_bands(vtkContext2D& painter, const Sheet& sheet) {
   ColoredTriangles triangles;
   const Mesh<2>& mesh = sheet.map.mesh;
   for (int e = 0; e < mesh.element_count(); ++e) {
+    if (!sheet.map.air.empty() && sheet.map.air[e]) continue;
     std::array<Vector<2>, 3> corners;
     std::array<double, 3> values{};
     for (int a = 0; a < 3; ++a) {
@@ -87,8 +89,8 @@ void paint_equipotentials(vtkContext2D& painter, const Sheet& sheet,
   const std::vector<double> inner(sheet.levels.begin() + 1, sheet.levels.end() - 1);
   LineLabels labels(sheet.view);
   labels.avoid(hidden);
-  paint_contours(painter, sheet.view, {sheet.map.mesh, sheet.map.head, inner}, {black, line_width},
-                 labels);
+  const Mesh<2> mesh = drawn_mesh(sheet.map);
+  paint_contours(painter, sheet.view, {mesh, sheet.map.head, inner}, {black, line_width}, labels);
 }
 
 void paint_bar(vtkContext2D& painter, const Sheet& sheet, float left, float bottom, float height) {
@@ -130,12 +132,55 @@ SeepageMap map_of(const ResultsReader& run, std::size_t index, const std::option
   return map;
 }
 
+/// Elements of regions without soil that no soil has moved into and that hold less than half of
+/// the water they could; empty where there is none.
+std::vector<bool> elements_of_air(const ResultsReader& run, std::size_t index,
+                                  const Mesh<2>& mesh) {
+  const Scene& scene = run.scene().scene;
+  const auto is_open = [&](const std::string& region) { return can_hold_air(scene, region); };
+  if (std::ranges::none_of(mesh.region_names, is_open)) return {};
+  constexpr double soil_is_there = 0.99;  // porosity
+  const auto porosity = run.field(index, "cell", "porosity").values;
+  const auto saturation = run.field(index, "cell", "saturation").values;
+  std::vector<bool> air;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    air.push_back(is_open(mesh.region_names[mesh.element_region[e]]) &&
+                  porosity[e] > soil_is_there && saturation[e] < 0.5);
+  }
+  return air;
+}
+
 }  // namespace
+
+Mesh<2> drawn_mesh(const SeepageMap& map) {
+  if (map.air.empty()) return map.mesh;
+  Mesh<2> drawn = map.mesh;
+  drawn.elements.clear();
+  drawn.element_region.clear();
+  for (int e = 0; e < map.mesh.element_count(); ++e) {
+    if (map.air[e]) continue;
+    drawn.elements.push_back(map.mesh.elements[e]);
+    drawn.element_region.push_back(map.mesh.element_region[e]);
+  }
+  return drawn;
+}
+
+std::array<double, 2> head_range(const SeepageMap& map) {
+  std::array<double, 2> range{HUGE_VAL, -HUGE_VAL};
+  for (const auto& corners : drawn_mesh(map).elements) {
+    for (const int node : corners) {
+      range = {std::min(range[0], map.head[node]), std::max(range[1], map.head[node])};
+    }
+  }
+  return range;
+}
 
 SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time,
                     const std::string& command) {
-  SeepageMap map = map_of(run, chosen_snapshot(run, time, command), time);
+  const std::size_t index = chosen_snapshot(run, time, command);
+  SeepageMap map = map_of(run, index, time);
   map.label = "head h (m)";
+  map.air = elements_of_air(run, index, map.mesh);
   return map;
 }
 
@@ -180,7 +225,7 @@ void align_maps(std::vector<SeepageMap>& maps) {
   std::array<double, 2> heads{HUGE_VAL, -HUGE_VAL};
   std::vector<OutsideWater> room;
   for (const SeepageMap& map : maps) {
-    const auto [low, high] = std::ranges::minmax(map.head);
+    const auto [low, high] = head_range(map);
     heads = {std::min(heads[0], low), std::max(heads[1], high)};
     room.insert(room.end(), map.water.begin(), map.water.end());
   }
@@ -191,14 +236,15 @@ void align_maps(std::vector<SeepageMap>& maps) {
 }
 
 void draw_seepage_map(const SeepageMap& map, const std::string& path) {
-  const std::vector<Polyline> phreatic = phreatic_lines(map.mesh, map.pressure);
-  const auto& shown = map.saturation.empty() ? map.head : map.saturation;
-  auto [low, high] = std::ranges::minmax(shown);
+  const bool of_heads = map.saturation.empty();
+  const std::vector<Polyline> phreatic = phreatic_lines(drawn_mesh(map), map.pressure);
+  std::array<double, 2> range = head_range(map);
+  if (!of_heads) range = {std::ranges::min(map.saturation), std::ranges::max(map.saturation)};
+  auto [low, high] = range;
   if (map.covered_heads) {
     low = std::min(low, (*map.covered_heads)[0]);
     high = std::max(high, (*map.covered_heads)[1]);
   }
-  const bool of_heads = map.saturation.empty();
   const std::vector<double> levels =
       of_heads ? band_levels(low, high) : band_levels(std::min(low, 0.9), 1.0);
   std::vector<Curve> rows;

@@ -18,7 +18,9 @@ struct SeepageMap {
   std::string title;
   std::string label;  ///< of the colours, with the unit
   Mesh<2> mesh;
-  std::vector<double> head;        ///< per node, m; coloured, with equipotentials
+  std::vector<double> head;  ///< per node, m; coloured, with equipotentials
+  /// Per element: it holds air alone, of which no head is drawn; empty where none does.
+  std::vector<bool> air{};
   std::vector<double> saturation;  ///< per element; coloured in the place of heads; or empty
   std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
   std::vector<OutsideWater> water;
@@ -34,6 +36,12 @@ struct SeepageMap {
 SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time,
                     const std::string& command = "suffuse-post figure head");
 SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>& time);
+
+/// The mesh without the elements of air, with the same nodes.
+Mesh<2> drawn_mesh(const SeepageMap& map);
+
+/// The lowest and the highest head that is drawn.
+std::array<double, 2> head_range(const SeepageMap& map);
 
 /// Gives maps of heads of one run the same colours, and the model the same place in all of them.
 void align_maps(std::vector<SeepageMap>& maps);

@@ -199,18 +199,6 @@ std::string field_html(const ResultsReader& run, const ShownField& field,
 
 }  // namespace
 
-TimeUnit fitting_time_unit(double end) {
-  for (const char* word : {"a", "d", "h", "min"}) {
-    TimeUnit unit = parse_time_unit(word, "");
-    if (end >= 2.0 * unit.seconds && end >= 600.0) return unit;
-  }
-  return {};
-}
-
-std::string time_text(double seconds, const TimeUnit& unit) {
-  return short_text(seconds / unit.seconds) + " " + unit.name;
-}
-
 std::vector<std::size_t> snapshots_evenly(const std::vector<double>& times, std::size_t count) {
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < count && !times.empty(); ++k) {

@@ -7,13 +7,9 @@
 
 #include "results/reader.hpp"
 #include "tables/table_output.hpp"
+#include "values/time_unit.hpp"
 
 namespace suffuse {
-
-/// The unit in which times up to `end` (s) are small numbers.
-TimeUnit fitting_time_unit(double end);
-/// "6 d"
-std::string time_text(double seconds, const TimeUnit& unit);
 
 /// At most `count` snapshots, evenly in time, the first and the last among them.
 std::vector<std::size_t> snapshots_evenly(const std::vector<double>& times, std::size_t count);

@@ -9,12 +9,6 @@
 namespace suffuse {
 namespace {
 
-const std::vector<TimeUnit>& time_units() {
-  static const std::vector<TimeUnit> units{
-      {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}, {"a", 365.25 * 86400.0}};
-  return units;
-}
-
 std::vector<std::string> time_unit_names() {
   std::vector<std::string> names;
   for (const TimeUnit& unit : time_units()) names.push_back(unit.name);

@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "results/reader.hpp"
+#include "values/time_unit.hpp"
 
 namespace suffuse {
-
-/// A unit of time: s, min, h, d, or a of 365.25 d.
-struct TimeUnit {
-  std::string name = "s";
-  double seconds = 1.0;
-};
 
 /// Throws InputError, naming `command`, for another word.
 TimeUnit parse_time_unit(const std::string& word, const std::string& command);

@@ -7,8 +7,8 @@
 
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
-#include "drawing/ticks.hpp"
 #include "values/derived_fields.hpp"
+#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {
@@ -140,9 +140,10 @@ std::size_t snapshot_at(const ResultsReader& results, const std::optional<double
 std::string snapshot_title(const ResultsReader& results, std::size_t index,
                            const std::optional<double>& asked) {
   const double t = results.times()[index];
-  std::string title = results.scene().scene.name + ", t = " + tick_text(t) + " s";
+  const TimeUnit unit = fitting_time_unit(results.times().back());
+  std::string title = results.scene().scene.name + ", t = " + time_text(t, unit);
   if (asked && std::abs(*asked - t) > 1e-9 * std::max(1.0, std::abs(t))) {
-    title += " (snapshot nearest to " + tick_text(*asked) + " s)";
+    title += " (snapshot nearest to " + time_text(*asked, unit) + ")";
   }
   return title;
 }

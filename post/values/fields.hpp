@@ -45,7 +45,8 @@ std::string field_label(const FieldPlace& place, const ScalarField& field);
 
 /// The snapshot nearest to a time, s, or the last. Throws FileError where there is none yet.
 std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time);
-/// "NAME, t = 12 s", with the time asked for where the snapshot has another.
+/// "NAME, t = 12 s", in a unit that fits the run, with the time asked for where the snapshot has
+/// another.
 std::string snapshot_title(const ResultsReader& results, std::size_t index,
                            const std::optional<double>& asked);
 

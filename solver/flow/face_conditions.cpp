@@ -47,7 +47,6 @@ FaceCondition condition_of(const BoundaryCondition& boundary, int index, double 
   } else if (boundary.seepage_face) {
     prescribe(FaceKind::seepage, 0.0);
   }
-  condition.concentration_given = boundary.concentration.has_value();
   if (boundary.concentration) condition.concentration = boundary.concentration->value(time);
   return condition;
 }

@@ -25,9 +25,8 @@ enum class FaceKind : unsigned char {
 struct FaceCondition {
   FaceKind kind = FaceKind::interior;
   double value = 0.0;
-  double concentration = 0.0;        ///< c of liquid that enters
-  bool concentration_given = false;  ///< by the scene; else clean water enters, with a warning
-  int boundary = -1;                 ///< index of the scene's boundary entry
+  double concentration = 0.0;  ///< c of liquid that enters; without one in the scene 0
+  int boundary = -1;           ///< index of the scene's boundary entry
   /// The kind may change during the run: an implicit flow keeps an unknown for the face.
   bool switches = false;
 

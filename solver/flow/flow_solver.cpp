@@ -24,8 +24,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
       soils_(solid.soils()),
       skeleton_(solid),
       threads_(threads),
-      grain_density_(scene_.soils.front().grain_density),
-      inflow_warned_(scene_.boundaries.size(), false) {
+      grain_density_(scene_.soils.front().grain_density) {
   initial_porosity_.reserve(grid.mesh.elements.size());
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     initial_porosity_.push_back(
@@ -53,7 +52,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
 
 template <int Dim>
 void FlowSolver<Dim>::archive(StateArchive& archive) {
-  archive(conditions_, coefficients_, inflow_warned_, suction_warned_, warnings_);
+  archive(conditions_, coefficients_, suction_warned_, warnings_);
 }
 
 template <int Dim>
@@ -254,26 +253,6 @@ double FlowSolver<Dim>::fines_weight_share(const FlowState<Dim>& state) const {
     spent += grid_.volume[e] * resistance * flux[e].squaredNorm();
   }
   return spent > 0.0 ? weight / spent : 0.0;
-}
-
-template <int Dim>
-void FlowSolver<Dim>::warn_of_unstated_inflow(double time, const std::vector<double>& entered) {
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    const FaceCondition& condition = conditions_[f];
-    if (condition.boundary < 0 || condition.concentration_given ||
-        inflow_warned_[condition.boundary]) {
-      continue;
-    }
-    // The round-off of a flow at rest is no inflow.
-    const int e = grid_.face_left[f];
-    if (entered[f] >= -1e-12 * coefficients_.porosity[e] * grid_.volume[e]) continue;
-    inflow_warned_[condition.boundary] = true;
-    std::ostringstream message;
-    message << "liquid enters through boundary \"" << scene_.boundaries[condition.boundary].on
-            << "\" at t = " << time
-            << " s and the scene gives it no concentration: clean water is taken (concentration 0)";
-    warn(message.str());
-  }
 }
 
 template <int Dim>

@@ -170,9 +170,6 @@ class FlowSolver {
   /// rest.
   [[nodiscard]] double fines_weight_share(const FlowState<Dim>& state) const;
 
-  /// Adds a warning for each boundary through which liquid entered although the scene gives it no
-  /// concentration, once. `entered`: volume along each face's normal, m3; `time` in s.
-  void warn_of_unstated_inflow(double time, const std::vector<double>& entered);
   /// Adds a warning where soil without a retention is under suction, once; `time` in s. Without
   /// gravity a pressure may be negative anyway.
   void warn_of_suction(double time);
@@ -237,7 +234,6 @@ class FlowSolver {
   std::vector<double> initial_porosity_;  ///< per element, at its centroid
   std::vector<double> grain_size_;  ///< per element, of Ergun's drag; empty where no soil has it, m
   double grain_density_ = unset;
-  std::vector<bool> inflow_warned_;
   bool suction_warned_ = false;
   std::vector<std::string> warnings_;
 };

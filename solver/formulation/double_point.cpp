@@ -27,7 +27,6 @@ void DoublePoint<Dim>::advance(double latest) {
   this->time_ = flow.end;
   // Masses that crossed borders with the points.
   this->masses_.book(liquid_->crossings());
-  this->flow_->warn_of_unstated_inflow(this->time_, flow.volumes.liquid);
   update_flow(pores());
 }
 

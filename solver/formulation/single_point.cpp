@@ -184,9 +184,6 @@ void SinglePoint<Dim>::book(const FaceVolumes& volumes) {
     if (!conservative) water[f] *= coefficients.porosity[grid.face_left[f]];
   });
   this->masses_.book(water, fines);
-  if (this->options_.transport) {
-    this->flow_->warn_of_unstated_inflow(this->time_, volumes.liquid);
-  }
   if (!conservative) return;
   for_each_index(grid.mesh.element_count(), this->threads(), [&](int e) {
     for (int k = 0; k <= Dim; ++k) {

@@ -59,6 +59,9 @@ inline std::string state(std::size_t index) {
 
 /// Groups of a snapshot file beside /VTKHDF.
 inline constexpr const char* own_group = "/Suffuse";
+/// Names of the regions, in the order of their numbers.
+inline constexpr const char* region_names = "/Suffuse/region_names";
+inline constexpr const char* field_data_group = "/VTKHDF/FieldData";
 inline constexpr const char* element_vertex_group = "/Suffuse/element_vertex";
 inline constexpr const char* restart_group = "/Suffuse/restart";
 inline constexpr const char* restart_state = "/Suffuse/restart/state";

@@ -189,7 +189,8 @@ std::string field_group(const std::string& where) {
 
 /// VTK follows every link that it meets: only those to the grid beside the file are left to it.
 void refuse_links(const Hdf5File& file, const std::string& grid) {
-  for (const std::string group : {"/VTKHDF", "/VTKHDF/CellData", "/VTKHDF/PointData"}) {
+  for (const std::string group :
+       {"/VTKHDF", "/VTKHDF/CellData", "/VTKHDF/PointData", layout::field_data_group}) {
     if (!file.exists(group)) continue;
     for (const std::string& name : file.children(group)) {
       const std::string object = std::string(group).append("/").append(name);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "case/errors.hpp"
+#include "results/layout.hpp"
 
 namespace suffuse {
 namespace {
@@ -95,6 +96,11 @@ void write_offsets(Hdf5File& file, std::size_t cells, int nodes_per_cell) {
   file.write_compressed("/VTKHDF/Offsets", std::span<const std::int64_t>(offsets), {cells + 1});
 }
 
+std::string region_array(std::size_t region, std::string name) {
+  std::ranges::replace(name, '/', '_');
+  return std::string(layout::field_data_group) + "/region " + std::to_string(region) + ": " + name;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -162,6 +168,22 @@ void write_vtkhdf_on(Hdf5File& file, const std::string& grid_file,
     file.link_to(std::string(cell_data) + "/" + name, grid_file);
   }
   write_data(file, point_data, fields.point, fields.precision);
+}
+
+void write_region_names(Hdf5File& file, const std::vector<std::string>& names) {
+  file.create_group(layout::field_data_group);
+  for (std::size_t r = 0; r < names.size(); ++r) {
+    const auto number = static_cast<std::int64_t>(r);
+    file.write(region_array(r, names[r]), std::span(&number, 1), {1});
+  }
+}
+
+void link_region_names(Hdf5File& file, const std::string& grid_file,
+                       const std::vector<std::string>& names) {
+  file.create_group(layout::field_data_group);
+  for (std::size_t r = 0; r < names.size(); ++r) {
+    file.link_to(region_array(r, names[r]), grid_file);
+  }
 }
 
 void write_field(Hdf5File& file, const std::string& group, const Field& field,

@@ -50,6 +50,16 @@ void write_vtkhdf(Hdf5File& file, VtkGrid grid, const VtkFields& fields);
 void write_vtkhdf_on(Hdf5File& file, const std::string& grid_file,
                      const std::vector<std::string>& linked, const VtkFields& fields);
 
+/// Names the numbers of the field `region`: for each region an array of the grid's field data with
+/// its number, called `region NUMBER: NAME`. VTK reads text of variable length alone, of which a
+/// damaged file makes HDF5 crash, so the text is in the names; `/` ends one in HDF5 and becomes
+/// `_`.
+void write_region_names(Hdf5File& file, const std::vector<std::string>& names);
+
+/// Links to them in the grid file beside.
+void link_region_names(Hdf5File& file, const std::string& grid_file,
+                       const std::vector<std::string>& names);
+
 /// Writes `field` to GROUP/NAME with its unit and components as attributes; `shape` ends before the
 /// components.
 void write_field(Hdf5File& file, const std::string& group, const Field& field,

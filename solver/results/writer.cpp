@@ -336,6 +336,8 @@ void ResultsWriter<Dim>::write_grids() const {
     const std::vector<int>& regions = case_.mesh.element_region;
     write_vtkhdf(file, vtk_grid(case_.mesh),
                  {.cell = {{region_field, "1", 1, {regions.begin(), regions.end()}, true}}});
+    write_region_names(file, case_.mesh.region_names);
+    file.write_texts(layout::region_names, case_.mesh.region_names);
   });
   write_hdf5_whole(layout::in_folder(folder_, layout::grid("solid")), [&](Hdf5File& file) {
     write_vtkhdf(file, vtk_grid(case_.mesh, case_.solid_points), {});
@@ -383,6 +385,7 @@ void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
   write(mesh_name, [&](Hdf5File& file) {
     write_vtkhdf_on(file, layout::grid_name("mesh"), {region_field},
                     {std::move(snapshot.cell), std::move(snapshot.node), precision});
+    link_region_names(file, layout::grid_name("mesh"), case_.mesh.region_names);
     write_own_fields(file, snapshot, case_.mesh.elements.size(), Dim + 1, precision);
   });
   if (snapshot.restart) {

@@ -53,6 +53,22 @@ TEST_F(CommandLine, MakesACaseNamedAfterTheScene) {
   EXPECT_EQ(made.document.path, "column.toml");
 }
 
+TEST_F(CommandLine, SaysWhereTheCaseOfASceneInAnotherFolderIs) {
+  const std::string before = "mkdir -p other/here && cp column.toml other";
+  const Outcome outcome = run("other/column.toml", before);
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  const std::string place = std::filesystem::canonical(folder_.path()) / "column.case.h5";
+  EXPECT_NE(outcome.text.find("  note: the case is in the current folder, " + place +
+                              "; -o other/column.case.h5 puts it beside the scene\n"),
+            std::string::npos)
+      << outcome.text;
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("column.case.h5")));
+  for (const std::string arguments : {"column.toml", "./column.toml", "other/../column.toml",
+                                      "other/column.toml -o other/column.case.h5"}) {
+    EXPECT_EQ(run(arguments).text.find("note: the case"), std::string::npos) << arguments;
+  }
+}
+
 TEST_F(CommandLine, MakesADoublePointCase) {
   const Outcome outcome =
       run("'" SUFFUSE_TEST_DATA "/scenes/double-point.toml' -o dp.case.h5 --msh dp.msh");
@@ -63,6 +79,7 @@ TEST_F(CommandLine, MakesADoublePointCase) {
             "  nodes             65\n"
             "  solid points      64\n"
             "  liquid points     2048 (12 to 40 per element)\n"
+            "  median edge       0.25 m; mesh.size is 0.25 m\n"
             "  smallest angle    45 degrees\n"
             "  region outflow    0.5 m2, free water\n"
             "  region buffer     1 m2\n"

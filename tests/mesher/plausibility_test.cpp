@@ -41,7 +41,7 @@ Mesh<2> grid(
   return mesh;
 }
 
-const std::string on_top = "[[boundary]]\non = \"top\"\npressure = 1.0\n";
+const std::string on_top = "[[boundary]]\non = \"top\"\npressure = 1e3\n";
 const std::string on_bottom = "[[boundary]]\non = \"bottom\"\npressure = 0.0\n";
 const std::string column = "[geometry]\nshape = \"column\"\nwidth = 1.0\nheight = 1.0\n";
 const std::string size = "[mesh]\nsize = 0.25\n";

@@ -80,6 +80,21 @@ TEST(ModelSketch, NamesEveryConditionOfSeepage) {
   EXPECT_EQ(label([](BoundaryCondition& b) { b.rate = -2e-4; }), "top: rate -2e-04 m3/s");
 }
 
+TEST(ModelSketch, ARegionWithoutSoilHoldsWaterOrAir) {
+  const auto label = [](double water_level) {
+    const Case<2> c = testing::open_above_case(water_level);
+    return region_label(c.mesh, c.document.scene, 1);
+  };
+  EXPECT_EQ(label(0.2), "free_above: air");
+  EXPECT_EQ(label(0.7), "free_above: free water, air above it");
+  EXPECT_EQ(label(1.0), "free_above: free water");
+  Case<2> c = testing::open_above_case(0.2);
+  c.document.scene.initial_flow = InitialFlow::steady;
+  EXPECT_EQ(region_label(c.mesh, c.document.scene, 1), "free_above: air, or free water");
+  c.document.scene.soils.front().retention.law = nullptr;
+  EXPECT_EQ(region_label(c.mesh, c.document.scene, 1), "free_above: free water");
+}
+
 TEST(ModelSketch, EdgesOfTheMeshAreBlackAndPointsRedOrBlue) {
   const ScratchFolder scratch;
   testing::double_point::write_results(scratch / "run.results");

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkHDFReader.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -244,6 +245,34 @@ TEST(Results, VtkReadsTheMesh) {
     expect_array(grid->GetPointData()->GetArray(field.name.c_str()), field);
   }
   expect_array(grid->GetCellData()->GetArray("region"), region_field(c));
+}
+
+TEST(Results, VtkReadsTheNamesOfTheRegions) {
+  const ScratchFolder scratch;
+  Case<2> c = unit_square_case();
+  c.mesh.region_names = {"core/clay", "shell"};
+  for (int e = 4; e < 8; ++e) c.mesh.element_region[e] = 1;
+  ResultsWriter<2>(scratch / "run.results", c).write_snapshot(linear_snapshot(c, 0.0, 0));
+  for (const std::string name : {"mesh_000000.hdf", "mesh_grid.hdf"}) {
+    vtkNew<vtkHDFReader> reader;
+    auto* grid = read_vtk(*reader, scratch / ("run.results/snapshots/" + name));
+    for (const auto& [array, number] :
+         {std::pair("region 0: core_clay", 0.0), std::pair("region 1: shell", 1.0)}) {
+      vtkDataArray* const found = grid->GetFieldData()->GetArray(array);
+      ASSERT_NE(found, nullptr) << array << " of " << name;
+      ASSERT_EQ(found->GetNumberOfTuples(), 1);
+      EXPECT_EQ(found->GetComponent(0, 0), number);
+    }
+    EXPECT_EQ(grid->GetCellData()->GetArray("region")->GetComponent(7, 0), 1.0);
+  }
+  const Hdf5File grid(scratch / "run.results/snapshots/mesh_grid.hdf", Hdf5File::Mode::read);
+  EXPECT_EQ(grid.read_texts("/Suffuse/region_names"), c.mesh.region_names);
+  // Nothing else may stand among them that VTK would follow.
+  const ResultsReader reader(scratch / "run.results");
+  EXPECT_NO_THROW(static_cast<void>(reader.field_names(0, "cell")));
+  Hdf5File(reader.snapshot_path("mesh", 0), Hdf5File::Mode::create)
+      .link_to("/VTKHDF/FieldData/region 0: core_clay", "other.hdf");
+  EXPECT_THROW(static_cast<void>(reader.field_names(0, "cell")), FileError);
 }
 
 TEST(Results, TheGridIsWrittenOnceAndReadFromAnywhere) {

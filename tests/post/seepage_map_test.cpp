@@ -289,6 +289,46 @@ TEST(SeepageMap, TakesHeadsOfTheSnapshotAskedFor) {
   EXPECT_GT(Pixels(scratch / "head.png").inked(), 8000);
 }
 
+TEST(SeepageMap, HasNoHeadsOfAir) {
+  const ScratchFolder scratch;
+  const Case<2> c = testing::open_above_case(0.2);
+  {
+    ResultsWriter<2> writer(scratch / "run.results", c);
+    for (const double share : {0.01, 1.0}) {
+      Snapshot s = testing::linear_snapshot(c, share, 0);
+      Field pressure{"pressure", "Pa", 1, {}};
+      for (const Vector<2>& x : c.mesh.nodes) {
+        const double head = x[1] > 0.75 ? 50.0 : 2.0 + x[0];
+        pressure.values.push_back(9810.0 * (head - x[1]));
+      }
+      s.node.push_back(pressure);
+      s.cell.push_back({"saturation", "1", 1, {1, 1, 1, 1, share, share, share, share}});
+      // Soil has moved into the last element.
+      for (Field& field : s.cell) {
+        if (field.name == "porosity") field.values = {0.3, 0.3, 0.3, 0.3, 1, 1, 1, 0.4};
+      }
+      writer.write_snapshot(s);
+    }
+  }
+  const ResultsReader run(scratch / "run.results");
+  SeepageMap map = head_map(run, 0.01);
+  EXPECT_EQ(map.air, (std::vector<bool>{false, false, false, false, true, true, true, false}));
+  EXPECT_EQ(drawn_mesh(map).element_count(), 5);
+  EXPECT_EQ(head_map(run, 1.0).air, std::vector<bool>(8, false)) << "free water has a head";
+  map.air.back() = true;
+  EXPECT_NEAR(head_range(map)[0], 2.0, 1e-12);
+  EXPECT_NEAR(head_range(map)[1], 3.0, 1e-12);
+  draw_seepage_map(map, scratch / "head.png");
+  const Pixels pixels(scratch / "head.png");
+  const auto at = [&](double x, double y) {
+    const double scale = 800.0;
+    const auto color = pixels.at(Eigen::Vector2d{110.0 + scale * x, 90.0 + 30.0 + scale * y});
+    return color[0] + color[1] + color[2];
+  };
+  EXPECT_EQ(at(0.33, 0.77), 3 * 255) << "air is left white";
+  EXPECT_LT(at(0.33, 0.37), 700);
+}
+
 std::string refusal(const auto& body) {
   try {
     body();

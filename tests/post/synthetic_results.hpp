@@ -87,6 +87,24 @@ inline Case<2> unit_square_case(const std::string& name = "synthetic",
   return c;
 }
 
+/// Soil that moves and retains in the lower half, with a region of no soil above.
+/// \param water_level  at the start, m
+inline Case<2> open_above_case(double water_level) {
+  Case<2> c = unit_square_case();
+  c.document =
+      parse_scene("gravity = [0.0, -9.81]\n" + c.document.text, "open.toml",
+                  {"time.scheme=implicit", "soil.specimen.retention.model=gardner",
+                   "soil.specimen.retention.alpha=2", "soil.specimen.skeleton.law=elastic",
+                   "soil.specimen.skeleton.young=1e7", "soil.specimen.skeleton.poisson=0.3",
+                   "initial.water_level=" + std::to_string(water_level)});
+  c.mesh.region_names.emplace_back("free_above");
+  c.mesh.element_region = {0, 0, 0, 0, 1, 1, 1, 1};
+  c.solid_points.element.resize(4);
+  c.solid_points.barycentric.resize(4);
+  c.solid_points.volume.resize(4);
+  return c;
+}
+
 /// Linear in space and time, so that interpolation must be exact.
 inline double linear_porosity(double x, double y, double t) {
   return 0.3 + 0.01 * x + 0.02 * y + 1e-3 * t * (1.0 + x);

@@ -88,7 +88,6 @@ TEST(BoundaryValues, ChangeInTime) {
   EXPECT_EQ(column.on("bottom", start).kind, FaceKind::flux);
   EXPECT_EQ(column.on("bottom", start).value, -0.01);
   EXPECT_NEAR(column.on("bottom", start).concentration, 0.02, 1e-16);
-  EXPECT_TRUE(column.on("bottom", start).concentration_given);
   EXPECT_EQ(column.on("left", start).kind, FaceKind::velocity);
   EXPECT_EQ(column.on("left", start).value, 0.04);
   EXPECT_EQ(column.on("right", start).kind, FaceKind::wall);

@@ -393,9 +393,10 @@ TEST_F(Fault, StreamsThatAreClosed) {
   const std::string folder = place_.path("results");
   // A message that comes when tables are open already must not end up in one.
   const std::string warned = place_.make_case(
-      test::with(mode(), "warned", {R"(boundary[0]={on = "inflow", darcy_flux = 0.012})"}));
+      test::with(mode(), "warned",
+                 {R"(boundary[0]={on = "inflow", darcy_flux = 0.012, concentration = 0.7})"}));
   const Outcome undisturbed = place_.solve(warned, whole_, {"--force"});
-  ASSERT_NE(undisturbed.error.find("clean water is taken"), std::string::npos);
+  ASSERT_NE(undisturbed.error.find("of its volume in fines"), std::string::npos);
   Process process({SUFFUSE_BIN "/suffuse-solver", warned, "-o", folder}, place_.path("error.txt"),
                   [] {
                     for (const int stream : {0, 1, 2}) ::close(stream);

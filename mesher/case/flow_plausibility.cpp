@@ -1,0 +1,136 @@
+#include <cmath>
+
+#include "case/plausibility_base.hpp"
+#include "case/short_number.hpp"
+
+namespace suffuse {
+namespace {
+
+// What raises no warning.
+/// Of a head above the model, in heights of the model and in m: the larger counts.
+constexpr double farthest_head = 3.0;
+constexpr double least_far_head = 30.0;
+/// m/s, 3.6 m/h; the heaviest rain that was ever measured fell at 0.6e-3.
+constexpr double heaviest_rain = 1e-3;
+/// Of a pressure over that of water as high as the model, where that is more than `noticed` Pa.
+constexpr double least_pressure = 2e-3;
+constexpr double noticed = 1e3;
+
+template <int Dim>
+class Flow : private PlausibilityBase<Dim> {
+ public:
+  using PlausibilityBase<Dim>::PlausibilityBase;
+
+  std::vector<std::string> run() {
+    check_sideways();
+    check_missing_gravity();
+    if (scene_.water_level && given("initial.water_level")) {
+      check_head("initial.water_level", *scene_.water_level);
+    }
+    for (const BoundaryCondition& boundary : scene_.boundaries) check_boundary(boundary);
+    return std::move(warnings_);
+  }
+
+ private:
+  using Base = PlausibilityBase<Dim>;
+  using Base::given;
+  using Base::mesh_;
+  using Base::scene_;
+  using Base::warn;
+  using Base::warnings_;
+
+  [[nodiscard]] bool has_heads() const {
+    return std::ranges::any_of(scene_.boundaries, [](const auto& b) { return b.head.has_value(); });
+  }
+
+  /// Water has a surface that is found by the run.
+  [[nodiscard]] bool has_free_surface() const {
+    return std::ranges::any_of(scene_.soils, &Soil::drains) ||
+           std::ranges::any_of(scene_.boundaries,
+                               [](const auto& b) { return b.seepage_face || b.rain; });
+  }
+
+  void check_sideways() {
+    if (!has_heads() && !has_free_surface() && !scene_.moves()) return;
+    const double across =
+        Dim == 2 ? std::abs(scene_.gravity[0]) : std::hypot(scene_.gravity[0], scene_.gravity[1]);
+    if (across <= std::abs(scene_.gravity[Dim - 1])) return;
+    std::vector<double> g(scene_.gravity.begin(), scene_.gravity.begin() + Dim);
+    std::string text = shown_value(g) + " points sideways, more across " + (Dim == 2 ? "y" : "z") +
+                       " than along it";
+    g.assign(Dim, 0.0);
+    g.back() = -9.81;
+    warn("gravity", text + "; " + shown_value(g) + " is usual");
+  }
+
+  void check_missing_gravity() {
+    if (given("gravity")) return;
+    for (const BoundaryCondition& b : scene_.boundaries) {
+      if (!b.head) continue;
+      warn(joined(b.key, given(joined(b.key, "file")) ? "file" : "head"),
+           std::string("a head without gravity is a pressure in excess of the hydrostatic one; ") +
+               (Dim == 2 ? "gravity = [0.0, -9.81] is usual, and gravity = [0.0, 0.0]"
+                         : "gravity = [0.0, 0.0, -9.81] is usual, and gravity = [0.0, 0.0, 0.0]") +
+               " says that there is none");
+      return;
+    }
+  }
+
+  void check_boundary(const BoundaryCondition& b) {
+    const double end = scene_.time.end;
+    if (b.head) {
+      check_head(joined(b.key, given(joined(b.key, "file")) ? "file" : "head"),
+                 b.head->range(0.0, end).second);
+    }
+    if (b.rain) check_rain(joined(b.key, "rain"), b.rain->range(0.0, end).second);
+    if (b.pressure) {
+      const auto [low, high] = b.pressure->range(0.0, end);
+      check_pressure(joined(b.key, "pressure"), std::max(std::abs(low), std::abs(high)));
+    }
+  }
+
+  /// Without gravity heads count from 0, and the model is as high as it is long. A level far below
+  /// says that the model is dry.
+  void check_head(const std::string& key, double head) {
+    const bool falls = has_gravity(scene_.gravity);
+    const auto [low, high] = falls ? this->heights() : std::pair(0.0, 0.0);
+    const double size = falls ? high - low : extent(mesh_).maxCoeff();
+    const double usual = std::max(farthest_head * size, least_far_head);
+    if (head - high <= usual) return;
+    const std::string model =
+        falls ? "the model lies between " + short_number(low) + " and " + short_number(high) + " m"
+              : "the model is " + short_number(size) + " m long";
+    warn(key, short_number(head) + " m, and " + model + "; up to " + short_number(usual) +
+                  " m above it are usual");
+  }
+
+  void check_rain(const std::string& key, double rain) {
+    double fastest = 0.0;
+    for (const Soil& soil : scene_.soils) fastest = std::max(fastest, soil.conductivity);
+    if (rain <= heaviest_rain || rain <= fastest) return;
+    warn(key, short_number(rain) + " m/s, and no soil conducts more than " + short_number(fastest) +
+                  " m/s; at most " + short_number(heaviest_rain) +
+                  " is usual: 1 mm/h is 2.8e-7 m/s");
+  }
+
+  void check_pressure(const std::string& key, double pressure) {
+    if (!has_gravity(scene_.gravity) || pressure == 0.0) return;
+    const double water =
+        unit_weight(scene_.liquid.density, scene_.gravity) * this->height_of_model();
+    if (water <= noticed || pressure >= least_pressure * water) return;
+    warn(key, short_number(pressure) + " Pa, and water as high as the model has " +
+                  short_number(water) + " Pa; pressures are in Pa, 1 kPa = 1e3 Pa");
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::string> flow_warnings(const SceneDocument& document, const Mesh<Dim>& mesh) {
+  return Flow<Dim>(document, mesh).run();
+}
+
+template std::vector<std::string> flow_warnings(const SceneDocument&, const Mesh<2>&);
+template std::vector<std::string> flow_warnings(const SceneDocument&, const Mesh<3>&);
+
+}  // namespace suffuse

@@ -1,0 +1,76 @@
+#pragma once
+
+/// What the warnings of `plausibility.hpp` share, and the parts that they come from.
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "case/mesh.hpp"
+#include "case/scene.hpp"
+#include "case/scene_schema.hpp"
+#include "physics/head.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class PlausibilityBase {
+ public:
+  PlausibilityBase(const SceneDocument& document, const Mesh<Dim>& mesh)
+      : document_(document), scene_(document.scene), mesh_(mesh) {}
+
+ protected:
+  void warn(const std::string& key, const std::string& sentence) {
+    const std::string where = document_.locate(key);
+    warnings_.push_back((where.empty() ? "" : where + ": ") + key + ": " + sentence);
+  }
+
+  [[nodiscard]] bool given(const std::string& key) const { return document_.where.contains(key); }
+
+  [[nodiscard]] static std::string table_of(const Soil& soil) {
+    return joined("soil", shown_name(soil.region));
+  }
+
+  [[nodiscard]] double z(int node) const { return height(mesh_.nodes[node], scene_.gravity); }
+
+  [[nodiscard]] double as_head(double pressure) const {
+    return pressure / unit_weight(scene_.liquid.density, scene_.gravity);
+  }
+
+  /// Lowest and highest node along gravity; along the last axis where there is none, m.
+  [[nodiscard]] std::pair<double, double> heights() const {
+    const bool falls = has_gravity(scene_.gravity);
+    std::pair<double, double> range{0.0, 0.0};
+    for (int i = 0; i < mesh_.node_count(); ++i) {
+      const double at = falls ? z(i) : mesh_.nodes[i][Dim - 1];
+      range.first = i == 0 ? at : std::min(range.first, at);
+      range.second = i == 0 ? at : std::max(range.second, at);
+    }
+    return range;
+  }
+
+  [[nodiscard]] double height_of_model() const {
+    const auto [low, high] = heights();
+    return high - low;
+  }
+
+  const SceneDocument& document_;
+  const Scene& scene_;
+  const Mesh<Dim>& mesh_;
+  std::vector<std::string> warnings_;
+};
+
+/// Tables in another unit of time, and snapshots that fill the disk.
+template <int Dim>
+std::vector<std::string> time_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
+
+/// Heads, pressures and rain in another unit, gravity that is missing or points sideways.
+template <int Dim>
+std::vector<std::string> flow_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
+
+/// Grains, strengths and loads in another unit, and loads that come at once.
+template <int Dim>
+std::vector<std::string> soil_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
+
+}  // namespace suffuse

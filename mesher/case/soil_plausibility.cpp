@@ -1,0 +1,158 @@
+#include <cmath>
+
+#include "case/grading_checks.hpp"
+#include "case/plausibility_base.hpp"
+#include "case/short_number.hpp"
+#include "physics/skeleton/skeleton_law.hpp"
+
+namespace suffuse {
+namespace {
+
+// What raises no warning.
+/// Of a conductivity over that of Hazen's rule, k = 0.01 d10^2 with d10 in mm and k in m/s. Sizes
+/// in m make it a million.
+constexpr double most_over_hazen = 1e3;
+constexpr double least_friction = 1.5;   // degrees, which are 86 degrees where they are radians
+constexpr double least_cohesion = 50.0;  // Pa
+constexpr double noticed_stress = 1e4;   // Pa, beside which a smaller cohesion is nothing
+
+template <int Dim>
+class Soils : private PlausibilityBase<Dim> {
+ public:
+  using PlausibilityBase<Dim>::PlausibilityBase;
+
+  std::vector<std::string> run() {
+    const double stress = largest_stress();
+    for (const Soil& soil : scene_.soils) {
+      check_sizes(soil);
+      check_fines(soil);
+      check_friction(soil);
+      check_cohesion(soil, stress);
+    }
+    for (const BoundaryCondition& boundary : scene_.boundaries) check_traction(boundary);
+    return std::move(warnings_);
+  }
+
+ private:
+  using Base = PlausibilityBase<Dim>;
+  using Base::given;
+  using Base::mesh_;
+  using Base::scene_;
+  using Base::table_of;
+  using Base::warn;
+  using Base::warnings_;
+
+  void check_sizes(const Soil& soil) {
+    if (soil.gradation.empty()) return;
+    constexpr double tenth = 10.0;
+    // d10 is at least the size found.
+    const double d10 = soil.gradation.smallest_finer() <= tenth ? soil.gradation.size(tenth)
+                                                                : soil.gradation.smallest_size();
+    const double hazen = 0.01 * d10 * d10;
+    if (soil.conductivity <= most_over_hazen * hazen) return;
+    warn(joined(table_of(soil), "gradation"),
+         "d10 = " + short_number(d10) + " mm, of which a conductivity of some " +
+             short_number(hazen) + " m/s is usual, and the soil has " +
+             short_number(soil.conductivity) + "; sizes are in mm, not in m");
+  }
+
+  /// Where the gradation gives the skeleton, the warnings of gradations say it.
+  void check_fines(const Soil& soil) {
+    const std::string key = joined(table_of(soil), "skeleton_fraction");
+    if (!soil.erosion.law->erodes() || !given(key)) return;
+    const double fines = 100.0 * (soil.porosity_max() - soil.porosity) / (1.0 - soil.porosity);
+    if (fines <= load_bearing_fines) return;
+    warn(key, percent_text(fines) +
+                  " of the solid is fines, 1 - n_C/(1 - n_0), which erode; up to " +
+                  percent_text(load_bearing_fines) +
+                  " are usual: more of them carry load, and are not fines between coarse grains");
+  }
+
+  void check_friction(const Soil& soil) {
+    double friction = 0.0;
+    for (const auto& [share, value] : soil.skeleton.friction.pairs) {
+      friction = std::max(friction, value);
+    }
+    if (friction == 0.0 || friction >= least_friction) return;
+    warn(joined(joined(table_of(soil), "skeleton"), "friction"),
+         short_number(friction) +
+             " degrees; sand has 30 and more. Angles are in degrees, not in "
+             "radians");
+  }
+
+  /// Of weight and tractions, Pa.
+  [[nodiscard]] double largest_stress() const {
+    double heaviest = 0.0;
+    for (const Soil& soil : scene_.soils) {
+      heaviest = std::max(heaviest, soil.porosity * scene_.liquid.density +
+                                        (1.0 - soil.porosity) * soil.grain_density);
+    }
+    double stress = heaviest * acceleration(scene_.gravity) * this->height_of_model();
+    for (const BoundaryCondition& b : scene_.boundaries) {
+      if (!b.traction) continue;
+      for (const auto& [time, load] : b.traction->knots) {
+        stress = std::max(stress, std::hypot(load[0], load[1], load[2]));
+      }
+    }
+    return stress;
+  }
+
+  void check_cohesion(const Soil& soil, double stress) {
+    double cohesion = 0.0;
+    for (const auto& [share, value] : soil.skeleton.cohesion.pairs) {
+      cohesion = std::max(cohesion, value);
+    }
+    if (cohesion == 0.0 || cohesion >= least_cohesion || stress <= noticed_stress) return;
+    warn(joined(joined(table_of(soil), "skeleton"), "cohesion"),
+         short_number(cohesion) + " Pa, and stresses reach some " +
+             short_number(std::round(stress / 1e3)) +
+             " kPa; cohesions are in Pa, 1 kPa = 1e3 Pa, and 0 is none");
+  }
+
+  /// s/m2: 1/c_v, mean over the soil that moves.
+  [[nodiscard]] double consolidation() const {
+    double sum = 0.0;
+    double volume = 0.0;
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      const Soil* soil = scene_.find_soil(mesh_.region_names[mesh_.element_region[e]]);
+      if (!soil || !soil->skeleton.moves()) continue;
+      const double part = element_volume(mesh_, e);
+      const double conductivity =
+          std::isnan(soil->conductivity_across) ? soil->conductivity : soil->conductivity_across;
+      const double storage = 1.0 / soil->skeleton.at(1.0).oedometer_modulus() +
+                             soil->porosity / scene_.liquid.bulk_modulus;
+      sum += part * unit_weight(scene_.liquid.density, scene_.gravity) * storage / conductivity;
+      volume += part;
+    }
+    return volume > 0.0 ? sum / volume : 0.0;
+  }
+
+  /// What a number says acts at the start, when the soil is in equilibrium and its water at rest.
+  void check_traction(const BoundaryCondition& b) {
+    const bool is_number = b.traction && b.traction->knots.size() == 1;
+    if (!is_number || !scene_.initial_from.empty()) return;
+    const auto& load = b.traction->knots.front().second;
+    if (load == VectorFunction::Components{}) return;
+    const double height = this->height_of_model();
+    const double time = height * height * consolidation();
+    if (time <= scene_.time.end) return;
+    warn(joined(b.key, "traction"),
+         "a load that is there at t = 0 is taken as drained, and the soil consolidates in some " +
+             short_number(std::stod(three_digits(time))) + " s (H^2/c_v), longer than the run of " +
+             short_number(scene_.time.end) +
+             " s. A table from 0, [[0, 0, 0], [60, ...]], lets the load come during the run; one "
+             "without a change says that the soil has consolidated");
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::string> soil_warnings(const SceneDocument& document, const Mesh<Dim>& mesh) {
+  return Soils<Dim>(document, mesh).run();
+}
+
+template std::vector<std::string> soil_warnings(const SceneDocument&, const Mesh<2>&);
+template std::vector<std::string> soil_warnings(const SceneDocument&, const Mesh<3>&);
+
+}  // namespace suffuse

@@ -1,0 +1,102 @@
+/// Scenes that say what they hardly mean: each in tests/data/scenes/doubtful raises the warnings of
+/// its .expected file, and no others.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <variant>
+
+#include "case/plausibility.hpp"
+#include "case/soil_grading.hpp"
+#include "geometry.hpp"
+#include "temporary_folder.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path folder = fs::path(SUFFUSE_TEST_DATA) / "scenes/doubtful";
+
+std::vector<std::string> doubtful_scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+/// One per line.
+std::string warnings_of(const SceneDocument& document) {
+  std::string lines;
+  const auto add = [&](const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) lines += warning + '\n';
+  };
+  std::visit(
+      [&](const auto& geometry) {
+        add(plausibility_warnings(document, geometry.mesh));
+        add(suction_warnings(document, geometry.mesh));
+      },
+      build_geometry(document, default_geometry_seconds));
+  add(grading_warnings(document));
+  return lines;
+}
+
+class DoubtfulScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(DoubtfulScene, raises_these_warnings) {
+  // Messages have the path of the scene.
+  fs::current_path(folder);
+  const std::string expected = test::read_file(GetParam() + ".expected");
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(warnings_of(read_scene(GetParam() + ".toml")), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, DoubtfulScene, testing::ValuesIn(doubtful_scenes()),
+                         [](const auto& scene) {
+                           std::string name = scene.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+/// What is usual beside each of them: a warning too many is as bad as one too few.
+TEST(DoubtfulScene, none_where_the_numbers_are_right) {
+  fs::current_path(folder);
+  const auto mended = [](const std::string& name, const std::vector<std::string>& overrides) {
+    return warnings_of(read_scene(name + ".toml", overrides));
+  };
+  EXPECT_EQ(mended("table-longer-than-the-run", {"time.end=3456", "output.every=100"}), "");
+  EXPECT_EQ(mended("table-in-days", {"time.end=2000", "output.every=100"}), "");
+  EXPECT_EQ(
+      mended("table-in-days", {R"(boundary[1]={on = "top", head = [[0, 4], [1, 4], [1.001, 6]]})"}),
+      "")
+      << "a jump at the start is no course";
+  EXPECT_EQ(mended("head-in-millimetres", {"boundary[1].head=34"}), "");
+  EXPECT_EQ(mended("water-level-in-centimetres", {"initial.water_level=4"}), "");
+  EXPECT_EQ(mended("rain-in-millimetres-per-hour", {"boundary[1].rain=1e-3"}), "");
+  EXPECT_EQ(mended("rain-in-millimetres-per-hour",
+                   {"boundary[1].rain=2e-3", "soil.specimen.conductivity=1e-2"}),
+            "");
+  EXPECT_EQ(mended("gradation-in-metres", {"soil.specimen.conductivity=1e-7"}), "");
+  EXPECT_EQ(mended("fines-of-77-per-cent", {"soil.specimen.skeleton_fraction=0.43"}), "");
+  EXPECT_EQ(mended("snapshot-every-second", {"output.every=600"}), "");
+  EXPECT_EQ(mended("friction-in-radians", {"soil.specimen.skeleton.friction=1.5"}), "");
+  EXPECT_EQ(mended("friction-in-radians", {"soil.specimen.skeleton.friction=0"}), "");
+  EXPECT_EQ(mended("cohesion-in-kilopascal", {"soil.specimen.skeleton.cohesion=50"}), "");
+  EXPECT_EQ(mended("cohesion-in-kilopascal", {"soil.specimen.skeleton.cohesion=0"}), "");
+  EXPECT_EQ(mended("head-without-gravity", {"gravity=[0, 0]"}), "");
+  EXPECT_EQ(mended("gravity-sideways",
+                   {"gravity=[-5, -5]", "boundary[0].head=6", "initial.water_level=6"}),
+            "");
+  EXPECT_EQ(mended("pressure-in-kilopascal", {"boundary[1].pressure=80"}), "");
+  EXPECT_EQ(mended("load-taken-as-drained", {"time.end=1.3e7", "output.every=1e5"}), "");
+  EXPECT_EQ(mended("load-taken-as-drained", {"boundary[3].traction=[[0, 0, 0], [60, 0, -1e4]]"}),
+            "");
+  EXPECT_EQ(mended("load-taken-as-drained", {"boundary[3].traction=[[0, 0, -1e4], [60, 0, -1e4]]"}),
+            "");
+}
+
+}  // namespace
+}  // namespace suffuse
