@@ -143,6 +143,7 @@ std::vector<bool> elements_of_air(const ResultsReader& run, std::size_t index,
   const auto porosity = run.field(index, "cell", "porosity").values;
   const auto saturation = run.field(index, "cell", "saturation").values;
   std::vector<bool> air;
+  air.reserve(mesh.elements.size());
   for (int e = 0; e < mesh.element_count(); ++e) {
     air.push_back(is_open(mesh.region_names[mesh.element_region[e]]) &&
                   porosity[e] > soil_is_there && saturation[e] < 0.5);

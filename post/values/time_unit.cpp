@@ -1,7 +1,5 @@
 #include "values/time_unit.hpp"
 
-#include <ranges>
-
 #include "results/number_text.hpp"
 
 namespace suffuse {
@@ -13,10 +11,11 @@ const std::vector<TimeUnit>& time_units() {
 }
 
 TimeUnit fitting_time_unit(double end) {
-  for (const TimeUnit& unit : time_units() | std::views::reverse) {
-    if (end >= 2.0 * unit.seconds && end >= 600.0) return unit;
+  TimeUnit fitting;
+  for (const TimeUnit& unit : time_units()) {
+    if (end >= 2.0 * unit.seconds && end >= 600.0) fitting = unit;
   }
-  return {};
+  return fitting;
 }
 
 std::string time_text(double seconds, const TimeUnit& unit) {

@@ -11,6 +11,7 @@
 #include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
+#include "values/fields.hpp"
 
 namespace suffuse {
 namespace {
@@ -287,6 +288,18 @@ TEST(SeepageMap, TakesHeadsOfTheSnapshotAskedFor) {
   EXPECT_EQ(saturation_map(run, {}).saturation.front(), 0.5);
   draw_figure("head", {run}, scratch / "head.png", {2.0, ""});
   EXPECT_GT(Pixels(scratch / "head.png").inked(), 8000);
+}
+
+TEST(SeepageMap, TitlesHaveTheUnitThatFitsTheRun) {
+  const ScratchFolder scratch;
+  const Case<2> c = testing::unit_square_case();
+  {
+    ResultsWriter<2> writer(scratch / "run.results", c);
+    for (const double t : {0.0, 864000.0}) writer.write_snapshot(testing::linear_snapshot(c, t, 0));
+  }
+  const ResultsReader run(scratch / "run.results");
+  EXPECT_EQ(snapshot_title(run, 1, {}), "synthetic, t = 10 d");
+  EXPECT_EQ(snapshot_title(run, 0, 43200.0), "synthetic, t = 0 d (snapshot nearest to 0.5 d)");
 }
 
 TEST(SeepageMap, HasNoHeadsOfAir) {
