@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <variant>
 
+#include "case/errors.hpp"
 #include "case/plausibility.hpp"
+#include "case/plausibility_base.hpp"
 #include "case/soil_grading.hpp"
 #include "geometry.hpp"
 #include "temporary_folder.hpp"
@@ -96,6 +98,35 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
             "");
   EXPECT_EQ(mended("load-taken-as-drained", {"boundary[3].traction=[[0, 0, -1e4], [60, 0, -1e4]]"}),
             "");
+}
+
+/// Scenes that are run as they are have none of these doubts. Those that are to be refused are
+/// passed over.
+TEST(DoubtfulScene, none_of_the_workflows_and_the_cases) {
+  int scenes = 0;
+  for (const char* const part : {"workflows", "tests/cases"}) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(SUFFUSE_SOURCE_DIR) / part)) {
+      if (entry.path().extension() != ".toml") continue;
+      try {
+        const SceneDocument document = read_scene(entry.path().string());
+        std::visit(
+            [&](const auto& geometry) {
+              const auto& mesh = geometry.mesh;
+              for (const auto& found :
+                   {time_warnings(document, mesh), flow_warnings(document, mesh),
+                    soil_warnings(document, mesh)}) {
+                EXPECT_EQ(found, std::vector<std::string>{}) << entry.path();
+              }
+            },
+            build_geometry(document, default_geometry_seconds));
+        ++scenes;
+      } catch (const InputError&) {
+        continue;
+      }
+    }
+  }
+  EXPECT_GT(scenes, 40);
 }
 
 }  // namespace
