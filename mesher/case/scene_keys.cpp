@@ -617,11 +617,13 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .at_most(0.1)
           .otherwise(1e-3),
-      choice("time.failure", at(&Scene::time, &TimeSettings::failure),
-             {{"stop", AtFailure::stop}, {"follow", AtFailure::follow}},
-             "When soil whose skeleton moves loses its equilibrium: stop, with exit code 3 and the "
-             "last equilibrium as the last snapshot; or follow it with its inertia, until it has "
-             "come to rest.")
+      choice(
+          "time.failure", at(&Scene::time, &TimeSettings::failure),
+          {{"stop", AtFailure::stop}, {"follow", AtFailure::follow}},
+          "When soil whose skeleton moves loses its equilibrium, or has none at the start: stop, "
+          "with exit code 3 and the last equilibrium, if any, as the last snapshot; or follow it "
+          "with "
+          "its inertia, until it has come to rest.")
           .otherwise_as("follow where a single-point scene has regions of free water; stop where "
                         "there is no room for the soil"),
       key("time.mass_scaling", at(&Scene::time, &TimeSettings::mass_scaling),

@@ -53,19 +53,24 @@ template <int Dim>
 bool MovingSkeleton<Dim>::let_fail(double time) {
   if (!watches_failure()) return false;
   inertia_.begin(points_.size());
+  repeated_failure_.fails(time, points_.position, mean_size());
   failure_time_ = time;
   step_.reset();
   return true;
 }
 
 template <int Dim>
-double MovingSkeleton<Dim>::time_of_fall() const {
-  const double g = acceleration(this->soils().scene().gravity);
-  if (g == 0.0) return 0.0;
+double MovingSkeleton<Dim>::mean_size() const {
   const std::vector<double>& volume = this->grid_.volume;
   const double mean =
       std::accumulate(volume.begin(), volume.end(), 0.0) / this->grid_.mesh.element_count();
-  return std::sqrt(2.0 * std::pow(mean, 1.0 / Dim) / g);
+  return std::pow(mean, 1.0 / Dim);
+}
+
+template <int Dim>
+double MovingSkeleton<Dim>::time_of_fall() const {
+  const double g = acceleration(this->soils().scene().gravity);
+  return g > 0.0 ? std::sqrt(2.0 * mean_size() / g) : 0.0;
 }
 
 template <int Dim>
@@ -109,8 +114,10 @@ void MovingSkeleton<Dim>::take_velocities() {
     for (const double mass : inertia_.nodes().mass) squared += mass * mass;
     loads = acceleration(scene.gravity) * std::sqrt(squared);
   }
+  const SoilExtent soil = extent(moved_masses(tried_));
   inertia_.finish_step(this->grid_, points_, step_->displacement(), tried_.duration, motion_.travel,
-                       step_->equilibrium().inertia_norm() / loads, extent(moved_masses(tried_)));
+                       step_->equilibrium().inertia_norm() / loads, soil);
+  if (!inertia_.acts()) repeated_failure_.rests(tried_.end, soil.time_of_fall());
 }
 
 template class MovingSkeleton<2>;

@@ -34,6 +34,7 @@ void MovingSkeleton<Dim>::sort_points() {
         this->state_.erodible_volume, this->state_.deposited_volume, this->initial_porosity_, id_,
         region_, initial_erodible_);
     inertia_.reorder(order);
+    repeated_failure_.reorder(order);
   }
   show_points();
   find_filling();

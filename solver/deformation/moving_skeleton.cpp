@@ -216,14 +216,19 @@ void MovingSkeleton<Dim>::start_motion(const MotionForcing& forcing) {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
   const Scene& scene = this->soils().scene();
-  find_start_stress(this->grid_, skeletons(), supports_,
-                    {.forces = loads(forcing, sorted, classes),
-                     .pressure = forcing.pressure,
-                     .gravity = scene.gravity,
-                     .earth_pressure = scene.earth_pressure},
-                    points_, this->threads_);
+  const bool stands = find_start_stress(this->grid_, skeletons(), supports_,
+                                        {.forces = loads(forcing, sorted, classes),
+                                         .pressure = forcing.pressure,
+                                         .gravity = scene.gravity,
+                                         .earth_pressure = scene.earth_pressure},
+                                        points_, this->threads_);
   pressure_ = forcing.pressure;
   step_.reset();
+  if (stands || let_fail(0.0)) return;
+  throw NumericalError(
+      "the soil has no equilibrium at the start: it cannot carry its weight and the loads at "
+      "t = 0; give it more strength or stiffness, fix a boundary that it leans on, or let it move "
+      "(time.failure = \"follow\")");
 }
 
 template <int Dim>
@@ -265,6 +270,8 @@ void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
 
 template <int Dim>
 const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing) {
+  if (inertia_.acts())
+    repeated_failure_.refuse_creep(forcing.end - forcing.duration, points_.position);
   expect_losses(forcing.porosity);
   prepare_step(forcing);
   tried_ = forcing;
@@ -386,8 +393,8 @@ template <int Dim>
 void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
-          boundary_loads_, crossing_forces_, inertia_, failure_time_, solid_, region_gain_,
-          pressure_, face_rate_, filling_, correction_, newton_iterations_);
+          boundary_loads_, crossing_forces_, inertia_, repeated_failure_, failure_time_, solid_,
+          region_gain_, pressure_, face_rate_, filling_, correction_, newton_iterations_);
   if (!archive.restores()) return;
   step_.reset();
   show_points();

@@ -8,6 +8,7 @@
 #include "deformation/boundary_loads.hpp"
 #include "deformation/crossing_forces.hpp"
 #include "deformation/motion_flux.hpp"
+#include "deformation/repeated_failure.hpp"
 #include "deformation/soil_inertia.hpp"
 #include "deformation/solid_flux.hpp"
 #include "grid/compensated_sum.hpp"
@@ -103,6 +104,8 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> moved_masses(const MotionForcing& forcing) const;
   /// Whether the soil is in equilibrium, and inertia is to follow when it is lost.
   [[nodiscard]] bool watches_failure() const;
+  /// Of the elements, m.
+  [[nodiscard]] double mean_size() const;
   /// \param mass  what counts for inertia, kg per point
   [[nodiscard]] SoilExtent extent(const std::vector<double>& mass) const;
   /// Whether the step that is accepted moved the soil as fast as it falls. `before`: places of the
@@ -140,6 +143,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   BoundaryLoads<Dim> boundary_loads_;
   CrossingForces<Dim> crossing_forces_;  ///< while inertia does not act
   SoilInertia<Dim> inertia_;
+  RepeatedFailure<Dim> repeated_failure_;
   bool slides_ = false;                      ///< see `slides`; of the last step
   double failure_time_ = 0.0;                ///< when equilibrium was lost last, s; 0: never
   std::vector<double> solid_;                ///< per element, m3

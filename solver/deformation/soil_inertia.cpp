@@ -42,7 +42,11 @@ void SoilInertia<Dim>::finish_step(const Grid<Dim>& grid, const SolidPoints<Dim>
   share_ = share;
   const bool rests = is_at_rest(share, velocities_.kinetic_energy(mass_), extent);
   rested_ = rests ? rested_ + duration : 0.0;
-  if (rested_ * rested_ * extent.load > 2.0 * extent.height * extent.mass) end();
+  if (rested_ > extent.time_of_fall()) end();
+}
+
+double SoilExtent::time_of_fall() const {
+  return std::sqrt(2.0 * height * mass / load);
 }
 
 bool is_at_rest(double inertia_share, double kinetic_energy, const SoilExtent& extent) {

@@ -14,6 +14,9 @@ struct SoilExtent {
   double mass = 0.0;    ///< kg
   double load = 0.0;    ///< its weight, or the loads of all nodes where there is no gravity, N
   double height = 0.0;  ///< along gravity, m
+
+  /// In which its loads would move it by its height, s.
+  [[nodiscard]] double time_of_fall() const;
 };
 
 template <int Dim>

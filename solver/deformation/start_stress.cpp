@@ -72,10 +72,21 @@ void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
   }
 }
 
+/// Points yield where they are, as far as they have to.
+template <int Dim>
+void yield(const std::vector<PointSkeleton>& skeleton, SolidPoints<Dim>& points, int threads) {
+  for_each_index(points.size(), threads, [&](int p) {
+    const auto& [law, parameters] = skeleton[p];
+    points.elastic_b[p] = skeleton_response<Dim>(*law, parameters, points.elastic_b[p],
+                                                 Eigen::Matrix<double, Dim, Dim>::Identity())
+                              .elastic_b;
+  });
+}
+
 }  // namespace
 
 template <int Dim>
-void find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+bool find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
                        const Supports<Dim>& supports, const StartLoads<Dim>& loads,
                        SolidPoints<Dim>& points, int threads) {
   std::vector<PointSkeleton> elastic = skeleton;
@@ -89,19 +100,22 @@ void find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& 
     std::ranges::fill(points.elastic_b, Eigen::Matrix3d::Identity());
     return settle(grid, soil, supports, loads, parts, points, threads);
   };
-  bool found = from_rest(elastic, 1) || from_rest(elastic, load_parts);
-  if (found && loads.earth_pressure) set_earth_pressure(elastic, skeleton, loads, points);
-  found = found && settle(grid, skeleton, supports, loads, 1, points, threads);
-  if (!found && !from_rest(skeleton, load_parts)) {
-    throw NumericalError(
-        "the soil has no equilibrium at the start: it cannot carry its weight and the loads at "
-        "t = 0; give it more strength or stiffness, or fix a boundary that it leans on");
-  }
+  const auto elastic_stress = [&] {
+    const bool found = from_rest(elastic, 1) || from_rest(elastic, load_parts);
+    if (found && loads.earth_pressure) set_earth_pressure(elastic, skeleton, loads, points);
+    return found;
+  };
+  const bool found =
+      elastic_stress() && settle(grid, skeleton, supports, loads, 1, points, threads);
+  if (found || from_rest(skeleton, load_parts)) return true;
+  if (!elastic_stress()) std::ranges::fill(points.elastic_b, Eigen::Matrix3d::Identity());
+  yield(skeleton, points, threads);
+  return false;
 }
 
-template void find_start_stress(const Grid<2>&, const std::vector<PointSkeleton>&,
+template bool find_start_stress(const Grid<2>&, const std::vector<PointSkeleton>&,
                                 const Supports<2>&, const StartLoads<2>&, SolidPoints<2>&, int);
-template void find_start_stress(const Grid<3>&, const std::vector<PointSkeleton>&,
+template bool find_start_stress(const Grid<3>&, const std::vector<PointSkeleton>&,
                                 const Supports<3>&, const StartLoads<3>&, SolidPoints<3>&, int);
 
 }  // namespace suffuse

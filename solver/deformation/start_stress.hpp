@@ -26,9 +26,10 @@ struct StartLoads {
 /// ground, and the horizontal one K_0 times as much in all directions; then the soil finds its
 /// equilibrium from there. Volumes and places do not change, and plastic strains count from here.
 /// \param skeleton  per point
-/// Throws NumericalError where there is no equilibrium.
+/// Returns false where there is no equilibrium: points then have the stress of elastic soil, as far
+/// as they can bear it.
 template <int Dim>
-void find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+bool find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
                        const Supports<Dim>& supports, const StartLoads<Dim>& loads,
                        SolidPoints<Dim>& points, int threads);
 

@@ -10,6 +10,11 @@ namespace suffuse {
 template <int Dim>
 void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
   const bool at_the_start = schedule_.past_rows().count == 0;
+  if (at_the_start && model_->solid().has_inertia()) {
+    sink.warn(
+        "the soil has no equilibrium at t = 0 s: from there on it moves with its inertia, until it "
+        "has come to rest");
+  }
   if (at_the_start) output(sink);
   bool goes_on = true;
   while (goes_on && !schedule_.finished() && !interrupted()) {

@@ -9,6 +9,13 @@
 #include "grid/face_flux.hpp"
 
 namespace suffuse {
+namespace {
+
+/// The first step of soil that falls from the start, over the time in which it falls through an
+/// element.
+constexpr double first_step_of_fall = 1e-2;
+
+}  // namespace
 
 template <int Dim>
 void ImplicitFlow<Dim>::start() {
@@ -56,8 +63,12 @@ void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>*
   const bool smooth = !at_rest && !solid_.moves();
   const double of_run = implicit_thresholds.first_step * scene.time.end;
   const double of_liquid = shortest_change({});
-  const double shortest = solid_.moves() ? shortest_change(solid_.compressibility(0.0)) : of_liquid;
-  const double first = smooth ? of_run : std::min(of_run, at_rest ? of_liquid : shortest);
+  // In a step of the whole run no inertia holds the soil.
+  const double shortest =
+      solid_.moves() ? shortest_change(solid_.compressibility(scene.time.end)) : of_liquid;
+  const double of_fall = solid_.has_inertia() ? first_step_of_fall * solid_.time_of_fall() : 0.0;
+  const double of_change = of_fall > 0.0 ? of_fall : at_rest ? of_liquid : shortest;
+  const double first = smooth ? of_run : std::min(of_run, of_change);
   control_.start(first, smooth, shortest);
 }
 

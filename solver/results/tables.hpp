@@ -63,7 +63,7 @@ struct HistoryRow {
   double solid_correction = 0.0;
   double newton_iterations = 0.0;  ///< of the solid's equilibrium, since the start
   double inertia = 0.0;  ///< forces of inertia over the loads, in the last step; 0 in equilibrium
-  double failure_time = 0.0;  ///< when the soil lost its equilibrium last, s; 0: never
+  double failure_time = 0.0;  ///< when the soil lost its equilibrium last, s; 0: never, or at t = 0
 
   // No columns: what the checks of the run ask for besides.
   std::string concentration_max_at;  ///< the element of `concentration_max`

@@ -137,8 +137,8 @@ class Skeleton {
   [[nodiscard]] virtual bool moves() const { return false; }
   /// Times at which what loads the solid has a kink, s.
   [[nodiscard]] virtual std::vector<double> load_breakpoints() const { return {}; }
-  /// Finds the stress at the start. `forcing`: without a duration. Throws NumericalError where
-  /// there is no equilibrium.
+  /// Finds the stress at the start. `forcing`: without a duration. Where there is no equilibrium,
+  /// the solid has inertia from the start, or NumericalError is thrown.
   virtual void start_motion(const MotionForcing& /*forcing*/) {}
   /// Volume by which each element's soil would shrink in a step of `duration`, s, per Pa of pore
   /// pressure less, m3/Pa: about how strongly pressure and motion depend on each other. V_e / E_oed
