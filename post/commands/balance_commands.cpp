@@ -37,6 +37,7 @@ void ledger(const LedgerOptions& o) {
   if (o.table.path != "-") std::cout << balance_text(results, found);
   if (!o.table.path.empty()) write_csv(results, o.table, results.ledger());
   check_balances(found, o.tolerance);
+  check_stored_water(results);
 }
 
 struct TableOptions {

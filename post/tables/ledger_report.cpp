@@ -159,6 +159,19 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
   return text;
 }
 
+void check_stored_water(const ResultsReader& results) {
+  const Table history = results.history();
+  if (!history.has("eos_error")) return;
+  const std::vector<double>& misfit = history.column("eos_error");
+  const auto bad = std::ranges::find_if_not(misfit, [](double m) { return m <= max_water_misfit; });
+  if (bad == misfit.end()) return;
+  const double t = history.column("t")[static_cast<std::size_t>(bad - misfit.begin())];
+  throw NumericalError(
+      "an element holds water that differs by a share of " + short_number(*bad, "%.3g") +
+      " from what its pores take at t = " + short_number(t, "%.6g") + " s; at most " +
+      short_number(max_water_misfit, "%.3g") + " may be missing or too much");
+}
+
 void check_balances(const std::vector<Balance>& balances, double tolerance) {
   for (const auto& b : balances) {
     if (b.worst_residual <= tolerance) continue;

@@ -43,7 +43,9 @@ FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
                                 std::min(interval.longest, solid_.longest_step()), interval.pores};
   follow_soils();
   double dt = control_.propose(interval.start, until, ahead.longest);
-  MixedStep<Dim> step = reuse_.active() ? steady_step(dt) : accepted_step(ahead, dt);
+  std::optional<MixedStep<Dim>> kept;
+  if (reuse_.active()) kept = steady_step(dt);
+  MixedStep<Dim> step = kept ? *std::move(kept) : accepted_step(ahead, dt);
   const double end = dt < until - interval.start ? interval.start + dt : until;
   FlowProgress progress{1, dt, end, {}};
   if (solid_.moves()) move_solid(step, progress);
@@ -94,57 +96,6 @@ MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interva
     blending_.record(forcing_.back().coefficients);
     if (follows_pores_) blending_.expect(coefficients_at(interval, interval.start + dt));
     return std::move(step);
-  }
-}
-
-template <int Dim>
-std::vector<double> ImplicitFlow<Dim>::expansion_in(const MixedStep<Dim>& step) const {
-  const Grid<Dim>& grid = this->grid();
-  const double bulk_modulus = this->scene().liquid.bulk_modulus;
-  const FaceVolumes volumes =
-      face_volumes(grid, now_.state.face_pressure, pressure_, step, bulk_modulus, this->threads());
-  const std::vector<double> end = element_pressure(grid, step.end.face_pressure, this->threads());
-  std::vector<double> result(grid.mesh.element_count());
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    double mass = 0.0;  // over the reference density, m3
-    double fines = 0.0;
-    for (int k = 0; k <= Dim; ++k) {
-      const int f = grid.element_face[e][k];
-      const double c = this->coefficients_.face_concentration[f];
-      const double sign = grid.element_face_sign[e][k];
-      mass -= sign * (1.0 - c) * (volumes.liquid[f] + volumes.density_excess[f]);
-      fines += sign * c * volumes.liquid[f];
-    }
-    const double last = density_ratio(end[e], bulk_modulus);
-    const double pressed =
-        this->coefficients_.water_volume[e] * std::expm1((end[e] - pressure_[e]) / bulk_modulus);
-    result[e] = mass / last - pressed - fines;
-  }
-  return result;
-}
-
-template <int Dim>
-void ImplicitFlow<Dim>::let_out_expansion(double dt,
-                                          const std::vector<const FlowForcing<Dim>*>& stages,
-                                          MixedStep<Dim>& step) {
-  if (std::isinf(this->scene().liquid.bulk_modulus) || scheme_.is_nonlinear()) return;
-  if (solid_.moves()) return;  // its steps are short against what a flow needs to fill an element
-  if (dt < limits.expansion_time * filling_time()) return;
-  const std::vector<double>& holds = this->coefficients_.water_volume;
-  const std::vector<double> released = relaxation_.released(dt, filling_time());
-  for (int repeat = 0; repeat < limits.expansion_repeats; ++repeat) {
-    std::vector<double> growth = expansion_in(step);
-    double largest = 0.0;
-    for (std::size_t e = 0; e < growth.size(); ++e) {
-      if (!released.empty()) growth[e] += released[e];
-      largest = std::max(largest, std::abs(growth[e]) / holds[e]);
-    }
-    if (largest <= limits.expansion) return;
-    for (FlowForcing<Dim>& forcing : forcing_) {
-      forcing.source.resize(growth.size(), 0.0);
-      for (std::size_t e = 0; e < growth.size(); ++e) forcing.source[e] += growth[e] / dt;
-    }
-    step = scheme_.step(now_.state, dt, stages);
   }
 }
 
@@ -240,15 +191,6 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
 }
 
 template <int Dim>
-MixedStep<Dim> ImplicitFlow<Dim>::steady_step(double dt) {
-  const PassTimer timer(reusing_);
-  ++reusing_.calls;
-  MixedStep<Dim> step{now_.state, now_.face_flux, now_.face_flux, now_.face_flux};
-  for (double& volume : step.face_volume) volume *= dt;
-  return step;
-}
-
-template <int Dim>
 void ImplicitFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
   MixedFlow<Dim> end = end_of(std::move(step));
   scales_.include(end.state.face_pressure, end.flux_through);
@@ -259,7 +201,7 @@ void ImplicitFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
   if (reuse_.active()) control_.grow(dt);
   control_.finish(dt);
   blending_.finish(dt);
-  relaxation_.finish(dt);
+  relaxation_.finish(dt, filling_time());
 }
 
 template <int Dim>
@@ -302,21 +244,6 @@ void ImplicitFlow<Dim>::reuse_if_steady(double time) {
 }
 
 template <int Dim>
-void ImplicitFlow<Dim>::update_steady_flow() {
-  std::vector<double> source = relaxation_.wanted_source(control_.last_step(), filling_time());
-  if (!reuse_.needs_update(relaxation_.source(), source, scales_.flux)) return;
-  MixedStep<Dim> steady = scheme_.steady({this->coefficients_, this->conditions_, source});
-  if (!reuse_.is_close(now_.face_flux, steady.face_flux, scales_.flux)) {
-    // The flow is changing again and has to be followed.
-    reuse_.stop();
-    return;
-  }
-  relaxation_.set_source(std::move(source));
-  // Element pressures follow with the next step: the mismatch is that at the present ones.
-  replace_flow(std::move(steady));
-}
-
-template <int Dim>
 void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
                                const std::vector<double>& face_concentration) {
   FlowSolver<Dim>::update(time, pores, face_concentration);
@@ -344,26 +271,6 @@ std::vector<double> ImplicitFlow<Dim>::losses() const {
     result.push_back(drag * flux.squaredNorm() * this->grid().volume[e]);
   }
   return result;
-}
-
-template <int Dim>
-void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& water_mass) {
-  const LiquidProperties& liquid = this->scene().liquid;
-  const std::vector<double>& volume = this->coefficients_.water_volume;
-  std::vector<double> mismatch(water_mass.size());
-  eos_error_ = 0.0;
-  for (std::size_t e = 0; e < water_mass.size(); ++e) {
-    const double fills =
-        water_mass[e] / (liquid.density * density_ratio(pressure_[e], liquid.bulk_modulus));
-    if (!(fills > 0.0)) this->refuse_dry(static_cast<int>(e), time);
-    mismatch[e] = fills - volume[e];
-    eos_error_ = std::max(eos_error_, std::abs(mismatch[e]) / volume[e]);
-  }
-  // Water without compressibility fits by construction; its round-off has nowhere to go.
-  // Air that moves with the soil takes the place of what does not fit.
-  if (std::isinf(liquid.bulk_modulus) || scheme_.soils().air_moves()) return;
-  relaxation_.observe(std::move(mismatch), volume);
-  if (reuse_.active()) update_steady_flow();
 }
 
 template <int Dim>

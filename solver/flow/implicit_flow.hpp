@@ -70,6 +70,9 @@ class ImplicitFlow final : public FlowSolver<Dim> {
                          MixedStep<Dim>& step);
   /// Volume by which an element's water grows beyond what its pores take at its pressure, m3.
   [[nodiscard]] std::vector<double> expansion_in(const MixedStep<Dim>& step) const;
+  /// Volume per element, m3, that a step of `dt` would have to let out in addition. Empty where the
+  /// step is short or lets out enough.
+  [[nodiscard]] std::vector<double> excess_in(const MixedStep<Dim>& step, double dt) const;
   void follow_soils() {
     if (solid_.moves()) {
       scheme_.follow(flow_soils(this->scene(), solid_.soils(), solid_.filling()));
@@ -81,17 +84,24 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
                                                       double time) const;
   [[nodiscard]] double error_of(const MixedStep<Dim>& step, double start, double dt) const;
-  /// The steady flow over `dt` seconds more.
-  [[nodiscard]] MixedStep<Dim> steady_step(double dt);
+  /// The steady flow over `dt` seconds more, with the sources that let out what water expands by in
+  /// that time. Nothing, and no more reuse, where these change the flow by too much.
+  [[nodiscard]] std::optional<MixedStep<Dim>> steady_step(double dt);
+  /// The flow of now for `dt` seconds.
+  [[nodiscard]] MixedStep<Dim> kept_flow(double dt) const;
   void remember(MixedStep<Dim> step, double dt);
   /// A step of `dt` ended on a breakpoint at `time`: the flow may have a kink there.
   void pass_breakpoint(double time, double dt);
   /// From here on the flow is reused, if it has become steady and nothing that drives it will
   /// change by itself.
   void reuse_if_steady(double time);
-  /// Solves the steady flow again where its sources have changed; stops to reuse it where that
-  /// changes the flow by too much.
+  /// Throws NumericalError: this mass of water, kg, is not what the element's pores take.
+  [[noreturn]] void refuse_misfit(std::size_t element, double time, double water_mass) const;
+  /// Solves the steady flow again where its sources have changed.
   void update_steady_flow();
+  /// Solves the steady flow with this source, m3/s per element. Where that changes the flow by too
+  /// much, leaves the flow as it is, stops to reuse it, and returns false.
+  bool take_steady_flow(std::vector<double> source);
   /// Takes the pressures and fluxes of a steady flow; the air stays where it is.
   void replace_flow(MixedStep<Dim> steady) {
     steady.end.air = std::move(now_.state.air);

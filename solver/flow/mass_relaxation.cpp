@@ -45,11 +45,14 @@ std::vector<double> MassRelaxation::released(double dt, double filling_time) con
 }
 
 std::vector<double> MassRelaxation::next_source(double dt, double filling_time) const {
-  return between(source_, wanted_source(dt, filling_time), std::min(1.0, dt / change_time_));
+  return between(source_, wanted_source(dt, filling_time), std::min(1.0, dt / blending_time_));
 }
 
-void MassRelaxation::finish(double dt) {
+void MassRelaxation::finish(double dt, double filling_time) {
   change_time_ = std::max(dt, change_time_ - limits.fading * dt);
+  // By the steps: a jump of the flow that lasts for no time shortens nothing.
+  const double counted = std::min(dt, limits.expansion_time * filling_time);
+  blending_time_ = std::max(counted, blending_time_ - limits.fading * dt);
 }
 
 }  // namespace suffuse

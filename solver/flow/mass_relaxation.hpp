@@ -31,23 +31,27 @@ class MassRelaxation {
   [[nodiscard]] std::vector<double> released(double dt, double filling_time) const;
   /// The source of the next step: the wanted one, or a part of the change towards it where the step
   /// is shorter than recent ones. A change that did not shrink with the step would be a jump that
-  /// no step is short enough for.
+  /// no step is short enough for. Recent steps count up to the length from which sources are found
+  /// for each step anew.
   [[nodiscard]] std::vector<double> next_source(double dt, double filling_time) const;
 
   /// The source of the last step, m3/s per element; empty until a mismatch has been observed.
   [[nodiscard]] const std::vector<double>& source() const { return source_; }
   /// This source is in effect.
   void set_source(std::vector<double> source) { source_ = std::move(source); }
-  /// A step of `dt` seconds is over.
-  void finish(double dt);
+  /// A step of `dt` seconds is over; the flow at its end fills an element in `filling_time`.
+  void finish(double dt, double filling_time);
 
-  void archive(auto& archive) { archive(mismatch_, outflow_, source_, change_time_); }
+  void archive(auto& archive) {
+    archive(mismatch_, outflow_, source_, change_time_, blending_time_);
+  }
 
  private:
   std::vector<double> mismatch_;  ///< water too much per element, m3
   std::vector<double> outflow_;   ///< that keeps it from growing (moving water expands), m3/s
   std::vector<double> source_;    ///< of the last step, m3/s
-  double change_time_ = 0.0;      ///< in which the source changes: the last step, or longer, s
+  double change_time_ = 0.0;      ///< over which the mismatch grew: the last step, or longer, s
+  double blending_time_ = 0.0;    ///< in which the source changes, s
 };
 
 }  // namespace suffuse

@@ -33,7 +33,7 @@ struct Element {
   void step(double dt, double filling_time) {
     const std::vector<double> source = relaxation.next_source(dt, filling_time);
     relaxation.set_source(source);
-    relaxation.finish(dt);
+    relaxation.finish(dt, filling_time);
     let_out += dt * source[0];
     mismatch += dt * (growth - source[0]);
     relaxation.observe({mismatch}, {1.0});
@@ -104,7 +104,7 @@ TEST(MassRelaxation, WhatLeavesTheElementsCrossesTheBoundary) {
     }
     state = step.end;
     relaxation.set_source(m.forcing.source);
-    relaxation.finish(2.0);
+    relaxation.finish(2.0, 0.0);
     relaxation.observe(mismatch, m.forcing.coefficients.water_volume);
   }
   const double sum = std::accumulate(first.begin(), first.end(), 0.0);
@@ -117,7 +117,7 @@ TEST(MassRelaxation, WhatLeavesTheElementsCrossesTheBoundary) {
 
 TEST(MassRelaxation, ShortStepsChangeTheSourceByLittle) {
   Element element(1e-4);
-  for (int n = 0; n < 3; ++n) element.step(1.0, 0.0);
+  for (int n = 0; n < 3; ++n) element.step(1.0, 1.0);
   const double source = element.relaxation.source()[0];
   for (const double dt : {0.1, 0.01, 0.001}) {
     const double wanted = element.relaxation.wanted_source(dt, infinite)[0];
@@ -129,14 +129,14 @@ TEST(MassRelaxation, ShortStepsChangeTheSourceByLittle) {
 TEST(MassRelaxation, RoundOffOfAVolumeIsNoRate) {
   MassRelaxation relaxation;
   relaxation.observe({0.0}, {1.0});
-  relaxation.finish(1e-12);
+  relaxation.finish(1e-12, infinite);
   relaxation.observe({1e-15}, {1.0});
   EXPECT_EQ(relaxation.wanted_source(1e-12, infinite)[0], 0.0);
 }
 
 TEST(MassRelaxation, GoesOnAsArchived) {
   Element element(1e-4);
-  for (int n = 0; n < 3; ++n) element.step(1.0, 0.0);
+  for (int n = 0; n < 3; ++n) element.step(1.0, 1.0);
   StateArchive stored;
   element.relaxation.archive(stored);
   StateArchive restored(stored.finish());

@@ -1,0 +1,178 @@
+// How the implicit flow keeps water fitting its pores: what moving water expands by in a step, and
+// what the masses say after it.
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "case/errors.hpp"
+#include "flow/implicit_flow.hpp"
+#include "flow/implicit_thresholds.hpp"
+#include "grid/face_flux.hpp"
+#include "physics/liquid.hpp"
+#include "results/pass_timer.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr const ImplicitThresholds& limits = implicit_thresholds;
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> ImplicitFlow<Dim>::expansion_in(const MixedStep<Dim>& step) const {
+  const Grid<Dim>& grid = this->grid();
+  const double bulk_modulus = this->scene().liquid.bulk_modulus;
+  const FaceVolumes volumes =
+      face_volumes(grid, now_.state.face_pressure, pressure_, step, bulk_modulus, this->threads());
+  const std::vector<double> end = element_pressure(grid, step.end.face_pressure, this->threads());
+  std::vector<double> result(grid.mesh.element_count());
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    double mass = 0.0;  // over the reference density, m3
+    double fines = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      const int f = grid.element_face[e][k];
+      const double c = this->coefficients_.face_concentration[f];
+      const double sign = grid.element_face_sign[e][k];
+      mass -= sign * (1.0 - c) * (volumes.liquid[f] + volumes.density_excess[f]);
+      fines += sign * c * volumes.liquid[f];
+    }
+    const double last = density_ratio(end[e], bulk_modulus);
+    const double pressed =
+        this->coefficients_.water_volume[e] * std::expm1((end[e] - pressure_[e]) / bulk_modulus);
+    result[e] = mass / last - pressed - fines;
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, double dt) const {
+  if (std::isinf(this->scene().liquid.bulk_modulus) || scheme_.is_nonlinear()) return {};
+  if (solid_.moves())
+    return {};  // its steps are short against what a flow needs to fill an element
+  const std::vector<double>& holds = this->coefficients_.water_volume;
+  // The flux of the step itself counts: a flow from rest has none at its start.
+  const double passes = largest_magnitude(step.face_volume) / std::ranges::min(holds);
+  if (passes < limits.expansion_time) return {};
+  std::vector<double> excess = expansion_in(step);
+  const std::vector<double> released = relaxation_.released(dt, filling_time());
+  double largest = 0.0;
+  for (std::size_t e = 0; e < excess.size(); ++e) {
+    if (!released.empty()) excess[e] += released[e];
+    largest = std::max(largest, std::abs(excess[e]) / holds[e]);
+  }
+  if (largest <= limits.expansion) return {};
+  return excess;
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::let_out_expansion(double dt,
+                                          const std::vector<const FlowForcing<Dim>*>& stages,
+                                          MixedStep<Dim>& step) {
+  for (int repeat = 0; repeat < limits.expansion_repeats; ++repeat) {
+    const std::vector<double> excess = excess_in(step, dt);
+    if (excess.empty()) return;
+    for (FlowForcing<Dim>& forcing : forcing_) {
+      forcing.source.resize(excess.size(), 0.0);
+      for (std::size_t e = 0; e < excess.size(); ++e) forcing.source[e] += excess[e] / dt;
+    }
+    step = scheme_.step(now_.state, dt, stages);
+  }
+}
+
+template <int Dim>
+MixedStep<Dim> ImplicitFlow<Dim>::kept_flow(double dt) const {
+  MixedStep<Dim> step{now_.state, now_.face_flux, now_.face_flux, now_.face_flux};
+  for (double& volume : step.face_volume) volume *= dt;
+  return step;
+}
+
+template <int Dim>
+std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::steady_step(double dt) {
+  const PassTimer timer(reusing_);
+  ++reusing_.calls;
+  MixedStep<Dim> step = kept_flow(dt);
+  for (int repeat = 0; repeat < limits.expansion_repeats; ++repeat) {
+    const std::vector<double> excess = excess_in(step, dt);
+    if (excess.empty()) break;
+    std::vector<double> source = relaxation_.source();
+    source.resize(excess.size(), 0.0);
+    for (std::size_t e = 0; e < excess.size(); ++e) source[e] += excess[e] / dt;
+    if (!take_steady_flow(std::move(source))) return std::nullopt;
+    step = kept_flow(dt);
+  }
+  return step;
+}
+
+template <int Dim>
+bool ImplicitFlow<Dim>::take_steady_flow(std::vector<double> source) {
+  MixedStep<Dim> steady = scheme_.steady({this->coefficients_, this->conditions_, source});
+  if (!reuse_.is_close(now_.face_flux, steady.face_flux, scales_.flux)) {
+    // The flow is changing again and has to be followed.
+    reuse_.stop();
+    return false;
+  }
+  relaxation_.set_source(std::move(source));
+  // Element pressures follow with the next step: the mismatch is that at the present ones.
+  replace_flow(std::move(steady));
+  return true;
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::update_steady_flow() {
+  std::vector<double> source = relaxation_.wanted_source(control_.last_step(), filling_time());
+  if (reuse_.needs_update(relaxation_.source(), source, scales_.flux)) {
+    take_steady_flow(std::move(source));
+  }
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::refuse_misfit(std::size_t element, double time, double water_mass) const {
+  const LiquidProperties& liquid = this->scene().liquid;
+  const double fits = liquid.density * this->coefficients_.water_volume[element] *
+                      density_ratio(pressure_[element], liquid.bulk_modulus);
+  std::ostringstream message;
+  message << element_text(this->grid(), static_cast<int>(element)) << " holds " << water_mass
+          << " kg of water at t = " << time << " s; its pores take " << fits << " kg at "
+          << pressure_[element] << " Pa, and up to " << limits.misfit
+          << " of that may differ; take a smaller time.tolerance or time.step";
+  throw NumericalError(message.str());
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& water_mass) {
+  const LiquidProperties& liquid = this->scene().liquid;
+  const std::vector<double>& volume = this->coefficients_.water_volume;
+  std::vector<double> mismatch(water_mass.size());
+  eos_error_ = 0.0;
+  std::size_t worst = 0;
+  for (std::size_t e = 0; e < water_mass.size(); ++e) {
+    const double fills =
+        water_mass[e] / (liquid.density * density_ratio(pressure_[e], liquid.bulk_modulus));
+    if (!(fills > 0.0)) this->refuse_dry(static_cast<int>(e), time);
+    mismatch[e] = fills - volume[e];
+    const double error = std::abs(mismatch[e]) / volume[e];
+    if (error > eos_error_) {
+      eos_error_ = error;
+      worst = e;
+    }
+  }
+  const bool air_fits = scheme_.soils().air_moves();
+  if (!air_fits && eos_error_ > limits.misfit) refuse_misfit(worst, time, water_mass[worst]);
+  // Water without compressibility fits by construction; its round-off has nowhere to go.
+  // Air that moves with the soil takes the place of what does not fit.
+  if (std::isinf(liquid.bulk_modulus) || air_fits) return;
+  relaxation_.observe(std::move(mismatch), volume);
+  if (reuse_.active()) update_steady_flow();
+}
+
+template void ImplicitFlow<2>::let_out_expansion(double, const std::vector<const FlowForcing<2>*>&,
+                                                 MixedStep<2>&);
+template std::optional<MixedStep<2>> ImplicitFlow<2>::steady_step(double);
+template void ImplicitFlow<2>::match_masses(double, const std::vector<double>&);
+template void ImplicitFlow<3>::let_out_expansion(double, const std::vector<const FlowForcing<3>*>&,
+                                                 MixedStep<3>&);
+template std::optional<MixedStep<3>> ImplicitFlow<3>::steady_step(double);
+template void ImplicitFlow<3>::match_masses(double, const std::vector<double>&);
+
+}  // namespace suffuse
