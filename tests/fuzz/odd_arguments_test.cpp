@@ -15,6 +15,7 @@
 
 #include "bytes.hpp"
 #include "mesher/temporary_folder.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse::fuzz {
 namespace {

@@ -16,6 +16,7 @@
 #include "formulation/two_phase_model.hpp"
 #include "results/reader.hpp"
 #include "targets.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse::fuzz {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "case/case_file.hpp"
 #include "temporary_folder.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

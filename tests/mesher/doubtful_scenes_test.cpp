@@ -13,6 +13,7 @@
 #include "case/soil_grading.hpp"
 #include "geometry.hpp"
 #include "temporary_folder.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -18,6 +18,7 @@
 #include "hilbert_order.hpp"
 #include "summary.hpp"
 #include "temporary_folder.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -14,6 +14,7 @@
 #include "mesher/shuffled_mesh.hpp"
 #include "seeding.hpp"
 #include "temporary_folder.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -15,6 +15,7 @@
 #include "case/closest_name.hpp"
 #include "case/errors.hpp"
 #include "case/scene_schema.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

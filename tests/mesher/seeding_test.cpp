@@ -11,6 +11,7 @@
 
 #include "case/errors.hpp"
 #include "geometry.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "post/synthetic_results.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

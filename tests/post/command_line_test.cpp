@@ -10,6 +10,7 @@
 
 #include "post/synthetic_results.hpp"
 #include "results/reader.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "results/reader.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "post/synthetic_results.hpp"
 #include "tables/safety_check.hpp"
+#include "test_paths.hpp"
 #include "values/sample.hpp"
 
 namespace suffuse {

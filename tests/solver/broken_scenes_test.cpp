@@ -10,6 +10,7 @@
 
 #include "results/reader.hpp"
 #include "solver/solver_process.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

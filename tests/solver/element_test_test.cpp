@@ -13,6 +13,7 @@
 #include "case/errors.hpp"
 #include "mesher/temporary_folder.hpp"
 #include "solver/csv_columns.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

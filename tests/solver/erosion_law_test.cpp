@@ -10,6 +10,7 @@
 #include <set>
 
 #include "reference_table.hpp"
+#include "test_paths.hpp"
 #include "verification/model_run.hpp"
 
 namespace suffuse {

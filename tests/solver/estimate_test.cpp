@@ -13,6 +13,7 @@
 #include "mesher/temporary_folder.hpp"
 #include "results/number_text.hpp"
 #include "solver/double_point_case.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

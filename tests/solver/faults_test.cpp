@@ -17,6 +17,7 @@
 #include "results/reader.hpp"
 #include "solver/own_mounts.hpp"
 #include "solver/solver_process.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -9,6 +9,7 @@
 #include "results/layout.hpp"
 #include "results/reader.hpp"
 #include "solver/solver_process.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -16,6 +16,7 @@
 #include "case/hdf5_io.hpp"
 #include "results/layout.hpp"
 #include "results/reader.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse::test {
 namespace {

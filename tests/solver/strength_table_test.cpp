@@ -15,6 +15,7 @@
 #include "results/number_text.hpp"
 #include "results/vtkhdf.hpp"
 #include "solver/csv_columns.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

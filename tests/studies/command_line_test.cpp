@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "post/synthetic_results.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

@@ -16,6 +16,7 @@
 #include "model_run.hpp"
 #include "reference_table.hpp"
 #include "seeding.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

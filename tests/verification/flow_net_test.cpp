@@ -16,6 +16,7 @@
 
 #include "case/errors.hpp"
 #include "drawing/line_labels.hpp"
+#include "test_paths.hpp"
 #include "values/sample.hpp"
 
 namespace suffuse {

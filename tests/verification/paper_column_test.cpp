@@ -12,6 +12,7 @@
 #include "model_run.hpp"
 #include "reference_table.hpp"
 #include "results/reader.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

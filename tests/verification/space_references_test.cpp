@@ -12,6 +12,7 @@
 #include "reference_table.hpp"
 #include "scene_run.hpp"
 #include "solver/flow_model.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {

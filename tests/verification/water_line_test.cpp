@@ -8,6 +8,7 @@
 #include "case/water_line.hpp"
 #include "mesher/temporary_folder.hpp"
 #include "scene_run.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace {
