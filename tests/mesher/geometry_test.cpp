@@ -1180,6 +1180,7 @@ TEST(Summary, IsAlignedAndComplete) {
             "  elements         32\n"
             "  nodes            25\n"
             "  solid points     0\n"
+            "  median edge      0.25 m; mesh.size is 0.25 m\n"
             "  smallest angle   45 degrees\n"
             "  region specimen  1 m2\n"
             "  boundary top     1 m\n"
