@@ -36,7 +36,8 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
 /// or is not a number.
 void check_balances(const std::vector<Balance>& balances, double tolerance);
 
-/// Largest share by which water in an element may differ from what its pores take at its pressure.
+/// Largest difference of the water in an element from what its pores take at its pressure, as a
+/// share of the pores.
 /// The solver ends a run with the implicit flow there.
 inline constexpr double max_water_misfit = 0.05;
 

@@ -135,7 +135,7 @@ void ImplicitFlow<Dim>::refuse_misfit(std::size_t element, double time, double w
   message << element_text(this->grid(), static_cast<int>(element)) << " holds " << water_mass
           << " kg of water at t = " << time << " s; its pores take " << fits << " kg at "
           << pressure_[element] << " Pa, and up to " << limits.misfit
-          << " of that may differ; take a smaller time.tolerance or time.step";
+          << " of what the pores hold may differ; take a smaller time.tolerance or time.step";
   throw NumericalError(message.str());
 }
 
@@ -151,7 +151,9 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
         water_mass[e] / (liquid.density * density_ratio(pressure_[e], liquid.bulk_modulus));
     if (!(fills > 0.0)) this->refuse_dry(static_cast<int>(e), time);
     mismatch[e] = fills - volume[e];
-    const double error = std::abs(mismatch[e]) / volume[e];
+    // Of the pores: where fines leave next to no room for water, a share of it says nothing.
+    const double pores = this->coefficients_.porosity[e] * this->grid().volume[e];
+    const double error = std::abs(mismatch[e]) / pores;
     if (error > eos_error_) {
       eos_error_ = error;
       worst = e;
