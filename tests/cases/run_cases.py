@@ -65,7 +65,7 @@ def problems_of(case, bin_folder, folder):
     if spent > limit:
         problems.append(f"took {spent:.1f} s of processor time, expected at most {limit:g} s")
     results = folder / f"{stem}.results"
-    if code == 0 and results.exists():
+    if code == 0 and results.is_dir():  # a table of factors is a file
         code, output, _ = run([bin_folder / "suffuse-post", "ledger", results, "--tolerance", "1e-12"], folder, 60)
         if code != 0:
             problems.append(f"suffuse-post ledger: {output.strip()[-600:]}")
