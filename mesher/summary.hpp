@@ -10,7 +10,8 @@
 namespace suffuse {
 
 /// Counts, median edge, smallest angle, areas of the regions (and which of them are free water or
-/// air) and lengths of the boundaries, in three dimensions volumes and areas, then the notes; one aligned line each.
+/// air) and lengths of the boundaries, in three dimensions volumes and areas, then the notes; one
+/// aligned line each.
 template <int Dim>
 std::string case_summary(const Case<Dim>& c, const std::vector<std::string>& notes);
 
