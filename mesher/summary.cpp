@@ -59,7 +59,7 @@ double boundary_size(const Mesh<Dim>& mesh, const BoundarySet<Dim>& set) {
   return size;
 }
 
-/// The median length of the elements' edges, beside the size that the scene asks for.
+/// The median length of the elements' edges, in addition to the size that the scene asks for.
 template <int Dim>
 std::string edge_text(const Mesh<Dim>& mesh, const SceneDocument& document) {
   std::vector<double> lengths;

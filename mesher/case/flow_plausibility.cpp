@@ -7,12 +7,13 @@ namespace suffuse {
 namespace {
 
 // What raises no warning.
-/// Of a head above the model, in heights of the model and in m: the larger counts.
+/// How far a head may be above the model, in heights of the model and in m: the larger counts.
 constexpr double farthest_head = 3.0;
 constexpr double least_far_head = 30.0;
 /// m/s, 3.6 m/h; the heaviest rain that was ever measured fell at 0.6e-3.
 constexpr double heaviest_rain = 1e-3;
-/// Of a pressure over that of water as high as the model, where that is more than `noticed` Pa.
+/// The least ratio of a pressure to that of water as high as the model; it counts where the latter
+/// is more than `noticed` Pa.
 constexpr double least_pressure = 2e-3;
 constexpr double noticed = 1e3;
 

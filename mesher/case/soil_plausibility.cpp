@@ -9,8 +9,8 @@ namespace suffuse {
 namespace {
 
 // What raises no warning.
-/// Of a conductivity over that of Hazen's rule, k = 0.01 d10^2 with d10 in mm and k in m/s. Sizes
-/// in m make it a million.
+/// The largest ratio of a conductivity to that of Hazen's rule, k = 0.01 d10^2 with d10 in mm and k
+/// in m/s. Sizes in m make the ratio a million.
 constexpr double most_over_hazen = 1e3;
 constexpr double least_friction = 1.5;   // degrees, which are 86 degrees where they are radians
 constexpr double least_cohesion = 50.0;  // Pa
@@ -56,7 +56,8 @@ class Soils : private PlausibilityBase<Dim> {
              short_number(soil.conductivity) + "; sizes are in mm, not in m");
   }
 
-  /// Where the gradation gives the skeleton, the warnings of gradations say it.
+  /// Only for a given `skeleton_fraction`: where the gradation gives it, the check of gradations
+  /// warns.
   void check_fines(const Soil& soil) {
     const std::string key = joined(table_of(soil), "skeleton_fraction");
     if (!soil.erosion.law->erodes() || !given(key)) return;
@@ -80,7 +81,7 @@ class Soils : private PlausibilityBase<Dim> {
              "radians");
   }
 
-  /// Of weight and tractions, Pa.
+  /// The largest stress that the weight of the soil and the tractions make, Pa.
   [[nodiscard]] double largest_stress() const {
     double heaviest = 0.0;
     for (const Soil& soil : scene_.soils) {

@@ -7,6 +7,7 @@
 
 #include "case/errors.hpp"
 #include "results/number_text.hpp"
+#include "results/tables.hpp"
 
 namespace suffuse {
 namespace {
@@ -163,13 +164,13 @@ void check_stored_water(const ResultsReader& results) {
   const Table history = results.history();
   if (!history.has("eos_error")) return;
   const std::vector<double>& misfit = history.column("eos_error");
-  const auto bad = std::ranges::find_if_not(misfit, [](double m) { return m <= max_water_misfit; });
+  const auto bad = std::ranges::find_if_not(misfit, [](double m) { return m <= max_eos_error; });
   if (bad == misfit.end()) return;
   const double t = history.column("t")[static_cast<std::size_t>(bad - misfit.begin())];
   throw NumericalError(
       "an element holds water that differs by a share of " + short_number(*bad, "%.3g") +
       " from what its pores take at t = " + short_number(t, "%.6g") + " s; at most " +
-      short_number(max_water_misfit, "%.3g") + " may be missing or too much");
+      short_number(max_eos_error, "%.3g") + " may be missing or too much");
 }
 
 void check_balances(const std::vector<Balance>& balances, double tolerance) {

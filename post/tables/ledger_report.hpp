@@ -36,11 +36,6 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
 /// or is not a number.
 void check_balances(const std::vector<Balance>& balances, double tolerance);
 
-/// Largest difference of the water in an element from what its pores take at its pressure, as a
-/// share of the pores.
-/// The solver ends a run with the implicit flow there.
-inline constexpr double max_water_misfit = 0.05;
-
 /// Throws NumericalError, naming the time, where `eos_error` of history.csv is larger or is not a
 /// number: masses can balance in pores that do not hold them.
 void check_stored_water(const ResultsReader& results);

@@ -270,8 +270,9 @@ void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
 
 template <int Dim>
 const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing) {
-  if (inertia_.acts())
+  if (inertia_.acts()) {
     repeated_failure_.refuse_creep(forcing.end - forcing.duration, points_.position);
+  }
   expect_losses(forcing.porosity);
   prepare_step(forcing);
   tried_ = forcing;

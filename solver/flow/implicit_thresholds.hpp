@@ -76,9 +76,6 @@ struct ImplicitThresholds {
   double expansion = 1e-4;
   /// At most so many times: each leaves a share p / K of the difference.
   int expansion_repeats = 10;
-  /// A run ends where the water of an element and what its pores take at its pressure differ by
-  /// more than this share of the pores.
-  double misfit = 0.05;
   /// A change of volume below this share of the volume is round-off: 16 units in the last place.
   double volume_round_off = 16.0 * 2.220446049250313e-16;
 

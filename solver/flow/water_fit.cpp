@@ -11,11 +11,18 @@
 #include "grid/face_flux.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"
+#include "results/tables.hpp"
 
 namespace suffuse {
 namespace {
 
 constexpr const ImplicitThresholds& limits = implicit_thresholds;
+
+/// Lets `volume` per element, m3, out over `dt` in addition.
+void let_out(const std::vector<double>& volume, double dt, std::vector<double>& source) {
+  source.resize(volume.size(), 0.0);
+  for (std::size_t e = 0; e < volume.size(); ++e) source[e] += volume[e] / dt;
+}
 
 }  // namespace
 
@@ -48,8 +55,8 @@ std::vector<double> ImplicitFlow<Dim>::expansion_in(const MixedStep<Dim>& step) 
 template <int Dim>
 std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, double dt) const {
   if (std::isinf(this->scene().liquid.bulk_modulus) || scheme_.is_nonlinear()) return {};
-  if (solid_.moves())
-    return {};  // its steps are short against what a flow needs to fill an element
+  // Soil that moves has steps that are short against what a flow needs to fill an element.
+  if (solid_.moves()) return {};
   const std::vector<double>& holds = this->coefficients_.water_volume;
   // The flux of the step itself counts: a flow from rest has none at its start.
   const double passes = largest_magnitude(step.face_volume) / std::ranges::min(holds);
@@ -72,10 +79,7 @@ void ImplicitFlow<Dim>::let_out_expansion(double dt,
   for (int repeat = 0; repeat < limits.expansion_repeats; ++repeat) {
     const std::vector<double> excess = excess_in(step, dt);
     if (excess.empty()) return;
-    for (FlowForcing<Dim>& forcing : forcing_) {
-      forcing.source.resize(excess.size(), 0.0);
-      for (std::size_t e = 0; e < excess.size(); ++e) forcing.source[e] += excess[e] / dt;
-    }
+    for (FlowForcing<Dim>& forcing : forcing_) let_out(excess, dt, forcing.source);
     step = scheme_.step(now_.state, dt, stages);
   }
 }
@@ -96,8 +100,7 @@ std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::steady_step(double dt) {
     const std::vector<double> excess = excess_in(step, dt);
     if (excess.empty()) break;
     std::vector<double> source = relaxation_.source();
-    source.resize(excess.size(), 0.0);
-    for (std::size_t e = 0; e < excess.size(); ++e) source[e] += excess[e] / dt;
+    let_out(excess, dt, source);
     if (!take_steady_flow(std::move(source))) return std::nullopt;
     step = kept_flow(dt);
   }
@@ -134,7 +137,7 @@ void ImplicitFlow<Dim>::refuse_misfit(std::size_t element, double time, double w
   std::ostringstream message;
   message << element_text(this->grid(), static_cast<int>(element)) << " holds " << water_mass
           << " kg of water at t = " << time << " s; its pores take " << fits << " kg at "
-          << pressure_[element] << " Pa, and up to " << limits.misfit
+          << pressure_[element] << " Pa, and up to " << max_eos_error
           << " of what the pores hold may differ; take a smaller time.tolerance or time.step";
   throw NumericalError(message.str());
 }
@@ -160,7 +163,7 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
     }
   }
   const bool air_fits = scheme_.soils().air_moves();
-  if (!air_fits && eos_error_ > limits.misfit) refuse_misfit(worst, time, water_mass[worst]);
+  if (!air_fits && eos_error_ > max_eos_error) refuse_misfit(worst, time, water_mass[worst]);
   // Water without compressibility fits by construction; its round-off has nowhere to go.
   // Air that moves with the soil takes the place of what does not fit.
   if (std::isinf(liquid.bulk_modulus) || air_fits) return;

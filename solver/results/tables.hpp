@@ -19,6 +19,9 @@ struct Column {
   std::string_view unit;
 };
 
+/// A run ends where `eos_error` exceeds this: masses can balance in pores that do not hold them.
+inline constexpr double max_eos_error = 0.05;
+
 /// One row of history.csv: the state of the flow at time t. Fluxes are liquid volumes per second
 /// (m3/s per metre of thickness in 2D).
 struct HistoryRow {
@@ -41,8 +44,9 @@ struct HistoryRow {
   /// Root mean square of the pressures (of elements, or of liquid points where they carry it) about
   /// the smooth field of the node pressures, Pa.
   double pressure_scatter = 0.0;
-  /// Single-point, implicit: largest relative difference between an element's mass of water and
-  /// what fits its pores at its pressure (equation of state); the next step corrects it.
+  /// Single-point, implicit: largest difference between an element's mass of water and what fits
+  /// its pores at its pressure (equation of state), as a share of the pores; the next step corrects
+  /// it.
   double eos_error = 0.0;
   /// Implicit: how far pressures lie outside the range of their boundary and initial values, over
   /// that range; 0 where gravity or a prescribed flux leaves them without such bounds.
