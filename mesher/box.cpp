@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "gmsh_groups.hpp"
+
 namespace suffuse {
 
 namespace geo = gmsh::model::geo;
@@ -108,11 +110,6 @@ class RegularBox {
   Index cells_;
   Mesh<3> mesh_;
 };
-
-void name_group(int dimension, const std::vector<int>& entities, const std::string& name) {
-  const int group = gmsh::model::addPhysicalGroup(dimension, entities);
-  gmsh::model::setPhysicalName(dimension, group, name);
-}
 
 /// The rectangle at the foot.
 int add_floor(const ColumnShape& column, double depth, double size) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "gmsh_groups.hpp"
+
 namespace suffuse {
 
 namespace geo = gmsh::model::geo;
@@ -26,11 +28,6 @@ Level add_level(double y, double width, double size, int columns, bool regular) 
   level.line = geo::addLine(level.left, level.right);
   if (regular) geo::mesh::setTransfiniteCurve(level.line, columns + 1);
   return level;
-}
-
-void name_group(int dimension, const std::vector<int>& entities, const std::string& name) {
-  const int group = gmsh::model::addPhysicalGroup(dimension, entities);
-  gmsh::model::setPhysicalName(dimension, group, name);
 }
 
 /// The nearest multiple of length / rows.

@@ -214,38 +214,38 @@ ChildLimits limits_for(const std::string& path, double max_seconds) {
 
 [[noreturn]] void refuse_end(const SceneDocument& document, const ChildEnd& end,
                              const ChildLimits& limits) {
-  using How = ChildEnd::How;
   const std::string& name = document.scene.geometry.file;
   const bool is_mesh = is_mesh_file(name);
   const auto refuse = [&](const std::string& what, const std::string& expected) {
     refuse_key(document, "geometry.file", '"' + name + "\", " + what, expected);
   };
   switch (end.how) {
-    case How::refused:
+    case ChildEnd::How::refused:
       refuse("which has Gmsh " + end.text,
              "a geometry that reads regular files, runs no commands, writes nothing and does not "
              "wait");
       break;
-    case How::processor_time:
-    case How::wall_time:
+    case ChildEnd::How::processor_time:
+    case ChildEnd::How::wall_time:
       if (is_mesh) break;
       refuse("over which Gmsh has spent " +
-                 short_number(end.how == How::wall_time ? limits.wall_seconds
-                                                        : limits.processor_seconds) +
-                 (end.how == How::wall_time ? " s" : " s of processor time") + " without an end",
+                 short_number(end.how == ChildEnd::How::wall_time ? limits.wall_seconds
+                                                                  : limits.processor_seconds) +
+                 (end.how == ChildEnd::How::wall_time ? " s" : " s of processor time") +
+                 " without an end",
              "a file without endless loops and with sizes that suit the model; for a large one a "
              "longer --geometry-timeout");
       break;
-    case How::memory:
+    case ChildEnd::How::memory:
       if (is_mesh) break;
       refuse("over which Gmsh needs more memory than this machine has",
              "sizes of elements that suit the model");
       break;
-    case How::left:
+    case ChildEnd::How::left:
       refuse("which ends Gmsh before there is a mesh", "a file without Exit or Abort");
       break;
-    case How::crashed:
-    case How::replied:
+    case ChildEnd::How::crashed:
+    case ChildEnd::How::replied:
       refuse("over which Gmsh crashes", advice_on(name));
   }
   refuse("over which Gmsh takes more time or memory than its size explains", advice_on_mesh);

@@ -35,10 +35,10 @@ inline InputError unknown_argument(const CLI::App& app) {
     }
   }
   const bool is_option = first.starts_with("-");
-  return InputError(std::vector{InputProblem{
+  return InputError(InputProblem{
       "", "", '"' + first + '"',
       (is_option ? "an option of " : "no more arguments of ") + program + " (see --help)",
-      is_option ? closest_name(first.substr(0, first.find('=')), known) : ""}});
+      is_option ? closest_name(first.substr(0, first.find('=')), known) : ""});
 }
 
 /// Names a misspelt command, which CLI11 would report as a missing one.

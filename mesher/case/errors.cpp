@@ -49,9 +49,9 @@ std::string InputProblem::message() const {
 InputError::InputError(std::vector<InputProblem> problems)
     : std::runtime_error(join_messages(problems)), problems_(std::move(problems)) {}
 
-InputError::InputError(const std::string& sentence)
-    : InputError(std::vector{InputProblem{
-          .where = {}, .key = sentence, .found = {}, .expected = {}, .suggestion = {}}}) {}
+InputError::InputError(InputProblem problem) : InputError(std::vector{std::move(problem)}) {}
+
+InputError::InputError(const std::string& sentence) : InputError(InputProblem{.key = sentence}) {}
 
 void prepare_process() {
   for (const int stream : {0, 1, 2}) {

@@ -21,11 +21,11 @@ enum class ExitCode : int {
 /// `WHERE: KEY: got FOUND; expected EXPECTED; did you mean SUGGESTION?`
 /// where WHERE is `FILE:LINE` (or `--set KEY=VALUE`), and empty parts are left out.
 struct InputProblem {
-  std::string where;
-  std::string key;
-  std::string found;
-  std::string expected;
-  std::string suggestion;
+  std::string where{};
+  std::string key{};
+  std::string found{};
+  std::string expected{};
+  std::string suggestion{};
 
   [[nodiscard]] std::string message() const;
 };
@@ -34,6 +34,7 @@ struct InputProblem {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<InputProblem> problems);
+  explicit InputError(InputProblem problem);
   /// A single problem that is one sentence, with no key (a command line, a mesh).
   explicit InputError(const std::string& sentence);
   [[nodiscard]] const std::vector<InputProblem>& problems() const { return problems_; }

@@ -11,8 +11,8 @@ namespace {
 /// Sizes of grains, mm: beyond is a slip.
 constexpr double smallest_grain = 1e-6;
 constexpr double largest_grain = 1e6;
-/// Per cent. What differs by less is the same percentage, but for round-off.
-constexpr double round_off = 1e-9;
+/// Percentages that differ by less are equal.
+constexpr double percentage_margin = 1e-9;
 
 }  // namespace
 
@@ -34,14 +34,15 @@ double Gradation::between(std::size_t i, double finer) const {
 double Gradation::size(double finer, End end) const {
   if (end == End::fine) {
     std::size_t i = 0;
-    while (i + 1 < points_.size() && points_[i].finer < finer - round_off) ++i;
-    return points_[i].finer <= finer + round_off || i == 0 ? points_[i].size
-                                                           : between(i - 1, finer);
+    while (i + 1 < points_.size() && points_[i].finer < finer - percentage_margin) ++i;
+    return points_[i].finer <= finer + percentage_margin || i == 0 ? points_[i].size
+                                                                   : between(i - 1, finer);
   }
   std::size_t i = points_.size() - 1;
-  while (i > 0 && points_[i].finer > finer + round_off) --i;
-  return points_[i].finer >= finer - round_off || i + 1 == points_.size() ? points_[i].size
-                                                                          : between(i, finer);
+  while (i > 0 && points_[i].finer > finer + percentage_margin) --i;
+  return points_[i].finer >= finer - percentage_margin || i + 1 == points_.size()
+             ? points_[i].size
+             : between(i, finer);
 }
 
 std::string gradation_fault(const std::vector<std::vector<double>>& rows) {

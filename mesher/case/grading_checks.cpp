@@ -18,8 +18,8 @@ constexpr double size_ratio = 4.0;
 /// Where less than this lies between d and 4 d, the curve is as level as in a gap (Kezdi), per
 /// cent.
 constexpr double level = 15.0;
-/// Per cent, and relative, of ratios: what differs by less is equal, but for round-off.
-constexpr double round_off = 1e-9;
+/// Percentages (absolute) and ratios (relative) that differ by less are equal.
+constexpr double equality_margin = 1e-9;
 
 /// A size at which H/F may be smallest.
 struct ShapePoint {
@@ -53,7 +53,8 @@ std::vector<ShapePoint> shape_points(const Gradation& gradation,
   for (const double size : sizes) {
     if (size < gradation.smallest_size()) continue;
     const ShapePoint point = shape_at(gradation, size);
-    if (point.finer > round_off && (all.empty() || size > all.back().size)) all.push_back(point);
+    if (point.finer > equality_margin && (all.empty() || size > all.back().size))
+      all.push_back(point);
   }
   return all;
 }
@@ -64,8 +65,8 @@ template <class Value>
 const ShapePoint* smallest(const std::vector<ShapePoint>& points, double limit, Value value) {
   const ShapePoint* found = nullptr;
   for (const ShapePoint& point : points) {
-    if (point.finer > limit + round_off) continue;
-    if (!found || value(point) <= value(*found) * (1.0 + round_off)) found = &point;
+    if (point.finer > limit + equality_margin) continue;
+    if (!found || value(point) <= value(*found) * (1.0 + equality_margin)) found = &point;
   }
   return found;
 }
@@ -83,7 +84,7 @@ struct SizeRatios {
 };
 
 std::optional<SizeRatios> size_ratios(const Gradation& gradation) {
-  if (gradation.smallest_finer() > 15.0 + round_off) return std::nullopt;
+  if (gradation.smallest_finer() > 15.0 + equality_margin) return std::nullopt;
   const double d90 = gradation.size(90.0);
   return SizeRatios{d90 / gradation.size(60.0), d90 / gradation.size(15.0)};
 }
@@ -104,7 +105,7 @@ double search_limit(const Gradation& gradation) {
   if (gradation.smallest_finer() > of_coarse(10.0)) return narrow;
   const double uniformity =
       gradation.size(of_coarse(60.0)) / gradation.size(of_coarse(10.0), End::coarse);
-  return uniformity > 3.0 * (1.0 + round_off) ? wide : narrow;
+  return uniformity > 3.0 * (1.0 + equality_margin) ? wide : narrow;
 }
 
 std::optional<FinesContent> fines_content(const Gradation& gradation) {
@@ -112,7 +113,7 @@ std::optional<FinesContent> fines_content(const Gradation& gradation) {
   const std::vector<ShapePoint> points = shape_points(gradation, {limit});
   const ShapePoint* found = smallest(points, limit, [](const auto& p) { return p.ratio(); });
   const auto falls = [&](std::size_t from, std::size_t to) {
-    return points[to].ratio() < points[from].ratio() * (1.0 - round_off);
+    return points[to].ratio() < points[from].ratio() * (1.0 - equality_margin);
   };
   bool at_limit = false;
   if (found) {
@@ -121,7 +122,7 @@ std::optional<FinesContent> fines_content(const Gradation& gradation) {
   }
   // A gap beyond: H/F falls down to it and rises again, behind a stretch that may be level.
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const bool gap = points[i].finer > limit + round_off && points[i].above < level;
+    const bool gap = points[i].finer > limit + equality_margin && points[i].above < level;
     if (!gap || !falls(i - 1, i)) continue;
     std::size_t next = i + 1;
     while (next < points.size() && !falls(i, next) && !falls(next, i)) ++next;
@@ -141,7 +142,7 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
   constexpr double end = 85.0;
   const std::string check = "Kezdi (1979)";
   const double start = gradation.smallest_finer();
-  if (start >= end - round_off) {
+  if (start >= end - equality_margin) {
     return unknown(check, gradation, "splits below S = 100 %");
   }
   // The logarithm of the ratio is linear in u between these, and jumps where sizes do.
@@ -153,19 +154,19 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
   double largest = 0.0;
   double at = unset;
   for (const double u : splits) {
-    if (u < start - round_off || u > end + round_off) continue;
+    if (u < start - equality_margin || u > end + equality_margin) continue;
     for (const End side : {End::fine, End::coarse}) {
       // Before the first split and behind the last there is none.
-      if (std::abs(u - (side == End::fine ? start : end)) <= round_off) continue;
+      if (std::abs(u - (side == End::fine ? start : end)) <= equality_margin) continue;
       const double ratio = split_ratio(gradation, u, side);
-      if (ratio <= largest * (1.0 + round_off)) continue;
+      if (ratio <= largest * (1.0 + equality_margin)) continue;
       largest = ratio;
       at = u / 0.85;
     }
   }
   return {.check = check,
-          .stability = largest > largest_stable * (1.0 + round_off) ? Stability::unstable
-                                                                    : Stability::stable,
+          .stability = largest > largest_stable * (1.0 + equality_margin) ? Stability::unstable
+                                                                          : Stability::stable,
           .value = largest,
           .at_finer = at,
           .known_from = start / 0.85,
@@ -179,7 +180,7 @@ GradingVerdict check_kenney_lau(const Gradation& gradation) {
   const auto points = shape_points(gradation, {limit});
   const auto* found = smallest(points, limit, [](const auto& p) { return p.ratio(); });
   if (!found) return unknown(check, gradation, "sizes up to F = " + percent_text(limit));
-  const bool unstable = found->ratio() < 1.0 - round_off;
+  const bool unstable = found->ratio() < 1.0 - equality_margin;
   return {.check = check,
           .stability = unstable ? Stability::unstable : Stability::stable,
           .value = found->ratio(),
@@ -197,7 +198,7 @@ GradingVerdict check_li_fannin(const Gradation& gradation) {
   const auto value = [](const ShapePoint& p) { return p.above / std::min(p.finer, level); };
   const auto* found = smallest(points, limit, value);
   if (!found) return unknown(check, gradation, "sizes up to F = " + percent_text(limit));
-  const bool unstable = value(*found) < 1.0 - round_off;
+  const bool unstable = value(*found) < 1.0 - equality_margin;
   return {.check = check,
           .stability = unstable ? Stability::unstable : Stability::stable,
           .value = value(*found),

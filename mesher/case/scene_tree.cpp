@@ -113,8 +113,8 @@ SceneNode read_node(const toml::node& node, std::string name, const Place& place
 }
 
 [[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
-  throw InputError(std::vector{InputProblem{
-      .where = where, .key = sentence, .found = {}, .expected = {}, .suggestion = {}}});
+  throw InputError(
+      InputProblem{.where = where, .key = sentence, .found = {}, .expected = {}, .suggestion = {}});
 }
 
 /// How deep tables lie in each other at most, by dotted keys, headings and braces. Tables are
@@ -218,12 +218,12 @@ template <class PlaceOf>
 void refuse_deep_tables(std::string_view text, const PlaceOf& place_of) {
   const std::size_t line = DepthScan(text).run();
   if (line == 0) return;
-  throw InputError(std::vector{InputProblem{
+  throw InputError(InputProblem{
       .where = place_of(line),
       .key = {},
       .found = "tables that lie more than " + std::to_string(deepest_table) + " deep in each other",
       .expected = "a scene, whose tables lie three deep",
-      .suggestion = {}}});
+      .suggestion = {}});
 }
 
 /// Takes `"quoted"`, `'quoted'` or a bare name off the front of `rest`; empty when there is none.

@@ -28,9 +28,8 @@ void declare_ledger(CLI::App& command, LedgerOptions& o) {
 
 void ledger(const LedgerOptions& o) {
   if (!(o.tolerance >= 0.0)) {
-    throw InputError(
-        std::vector{InputProblem{"suffuse-post ledger", "--tolerance", number_text(o.tolerance),
-                                 "a number that is not negative", ""}});
+    throw InputError(InputProblem{"suffuse-post ledger", "--tolerance", number_text(o.tolerance),
+                                  "a number that is not negative"});
   }
   const ResultsReader results(o.results);
   const auto found = balances(results);

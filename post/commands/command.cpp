@@ -26,9 +26,9 @@ void refuse_inside(const ResultsReader& results, const std::string& option,
   const fs::path place = fs::weakly_canonical(fs::absolute(path));
   const fs::path from_results = place.lexically_relative(fs::canonical(results.folder()));
   if (*from_results.begin() == "..") return;
-  throw InputError(std::vector{InputProblem{
-      "suffuse-post", option, '"' + path + '"',
-      "a place outside " + results.folder() + ", which belongs to suffuse-solver", ""}});
+  throw InputError(
+      InputProblem{"suffuse-post", option, '"' + path + '"',
+                   "a place outside " + results.folder() + ", which belongs to suffuse-solver"});
 }
 
 void add_table_options(CLI::App& command, TableOutput& output, const std::string& what) {

@@ -7,17 +7,17 @@
 namespace suffuse {
 namespace {
 
-struct TableOptions {
+struct RunTableOptions {
   std::vector<std::string> results;
   std::string csv;
 };
 
-void declare_table(CLI::App& command, TableOptions& o) {
+void declare_table(CLI::App& command, RunTableOptions& o) {
   add_results(command, o.results);
   command.add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
 }
 
-void table(const TableOptions& o) {
+void table(const RunTableOptions& o) {
   const auto runs = open_all(o.results);
   for (const auto& run : runs) refuse_inside(run, "--csv", o.csv);
   write_run_table(o.csv, runs);

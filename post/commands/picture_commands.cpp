@@ -186,8 +186,8 @@ void figure(const FigureCommandOptions& o) {
     options.columns.assign(folders.begin(), first);
     folders.erase(folders.begin(), first);
     if (folders.empty()) {
-      throw InputError(std::vector{InputProblem{"suffuse-post figure curves", "RESULTS", "none",
-                                                "a results folder behind the columns", ""}});
+      throw InputError(InputProblem{"suffuse-post figure curves", "RESULTS", "none",
+                                    "a results folder behind the columns"});
     }
   }
   const auto runs = open_all(folders);

@@ -38,8 +38,7 @@ void declare_sweep(CLI::App& command, SweepOptions& o) {
 void sweep(const SweepOptions& o) {
   picture_format(o.output, "suffuse-post sweep");
   if (o.y.empty() && o.over_time.empty()) {
-    throw InputError(
-        std::vector{InputProblem{"suffuse-post sweep", "", "neither", "--y or --over-time", ""}});
+    throw InputError(InputProblem{"suffuse-post sweep", "", "neither", "--y or --over-time"});
   }
   const SweepTable table = read_sweep(o.table);
   if (o.y.empty()) {

@@ -32,10 +32,10 @@ constexpr float plot_width = 720.0F;
 constexpr float plot_height = 630.0F;
 constexpr float left_room = 120.0F;
 constexpr float bottom_room = 90.0F;
-constexpr float top_room = 80.0F;
+constexpr float room_above_chart = 80.0F;
 constexpr float margin = 30.0F;
 constexpr float cell_width = left_room + plot_width + margin;
-constexpr float cell_height = bottom_room + plot_height + top_room;
+constexpr float cell_height = bottom_room + plot_height + room_above_chart;
 
 /// The rows of a curve as VTK's charts want them: all, or those with a marker.
 vtkSmartPointer<vtkTable> table_of(const Curve& curve, bool marked_only) {
@@ -261,7 +261,7 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
       static_cast<float>(legend_in_cell ? columns - 1 : columns) * cell_width +
       (legend_in_cell ? left_room : 0);
   const float legend_top =
-      (legend_in_cell ? 1.0F : static_cast<float>(lines)) * cell_height - top_room;
+      (legend_in_cell ? 1.0F : static_cast<float>(lines)) * cell_height - room_above_chart;
   const float height = static_cast<float>(lines) * cell_height;
   const ChartTable& table = charts.front().table;
   const float legend_width = std::max(ChartLegend::width(rows), table_width(table));

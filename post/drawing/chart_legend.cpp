@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "drawing/picture.hpp"
+#include "drawing/type_size.hpp"
 
 namespace suffuse {
 namespace {
@@ -16,9 +17,6 @@ namespace {
 constexpr float max_row_height = 30.0F;
 constexpr float symbol_width = 64.0F;
 constexpr float symbol_gap = 12.0F;
-constexpr int font_size = 18;
-/// Of the widest font that viewers use in place of Helvetica, pixels.
-constexpr float letter_width = 0.56F * font_size;
 
 void paint_marker(vtkContext2D* painter, const Curve& curve, float x, float y) {
   for (const auto& layer : marker_layers(curve)) {

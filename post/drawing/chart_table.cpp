@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "drawing/picture.hpp"
+#include "drawing/type_size.hpp"
 
 namespace suffuse {
 namespace {
@@ -12,9 +13,6 @@ namespace {
 constexpr float row_height = 28.0F;
 constexpr float room_above = 24.0F;
 constexpr float column_gap = 24.0F;
-constexpr int font_size = 18;
-/// Of the widest font that viewers use in place of Helvetica, pixels.
-constexpr float letter_width = 0.56F * font_size;
 
 std::vector<float> column_widths(const ChartTable& table) {
   std::vector<float> widths;

@@ -1,6 +1,7 @@
 #include "drawing/color_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace suffuse {
 
@@ -22,6 +23,10 @@ Color viridis(double fraction) {
     color.at(k) = std::clamp(value, 0.0, 1.0);
   }
   return color;
+}
+
+unsigned char byte_of(double part) {
+  return static_cast<unsigned char>(std::lround(255.0 * part));
 }
 
 double luminance(const Color& color) {

@@ -11,6 +11,9 @@ namespace suffuse {
 /// of S. van der Walt and N. Smith (2015).
 Color viridis(double fraction);
 
+/// A colour's part, 0 to 1, as a byte.
+unsigned char byte_of(double part);
+
 /// Luminance of a colour, 0 to 1 (Rec. 709).
 double luminance(const Color& color);
 

@@ -1,4 +1,5 @@
 #include "drawing/colored_triangles.hpp"
+#include "drawing/color_map.hpp"
 
 #include <vtkMapper.h>
 #include <vtkOpenGLGL2PSHelper.h>
@@ -8,13 +9,7 @@
 #include <map>
 
 namespace suffuse {
-namespace {
-
-unsigned char byte_of(double value) {
-  return static_cast<unsigned char>(std::lround(255.0 * value));
-}
-
-}  // namespace
+namespace {}  // namespace
 
 ColoredTriangles::ColoredTriangles() {
   colors_->SetNumberOfComponents(4);

@@ -13,7 +13,7 @@ namespace suffuse {
 namespace {
 
 constexpr int label_size = 16;
-constexpr double letter_width = 9.0;
+constexpr double label_letter_width = 9.0;
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void LineLabels::avoid(const std::vector<Polyline>& lines) {
 
 void LineLabels::paint(vtkContext2D& painter, const std::vector<Polyline>& lines,
                        const std::string& text) {
-  const Vector<2> half(0.5 * letter_width * static_cast<double>(text.size()) + 3.0, 10.0);
+  const Vector<2> half(0.5 * label_letter_width * static_cast<double>(text.size()) + 3.0, 10.0);
   const auto longest = std::ranges::max_element(lines, {}, length);
   if (longest == lines.end() || view_.scale() * length(*longest) < 3.0 * half[0]) return;
   for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8}) {

@@ -8,20 +8,17 @@
 #include <cmath>
 
 #include "case/faces.hpp"
+#include "drawing/color_map.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"
+#include "drawing/type_size.hpp"
 
 namespace suffuse {
 namespace {
 
-constexpr int font_size = 18;
 constexpr float tick_length = 8.0F;
 /// More discs than this are drawn in one call of VTK, which is faster; they are less round.
 constexpr std::size_t max_round_discs = 20'000;
-
-unsigned char byte_of(double value) {
-  return static_cast<unsigned char>(std::lround(255.0 * value));
-}
 
 template <class Wanted>
 Edges edges_where(const Mesh<2>& mesh, const Wanted& wanted) {

@@ -27,7 +27,7 @@ namespace {
 
 InputError wrong_format(const std::string& path, const std::string& command,
                         const std::string& expected) {
-  return InputError(std::vector{InputProblem{command, "-o", "\"" + path + "\"", expected, ""}});
+  return InputError(InputProblem{command, "-o", "\"" + path + "\"", expected});
 }
 
 void write_png(vtkRenderWindow& window, const std::string& path) {

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <map>
 
+#include "drawing/color_map.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"
 
@@ -28,13 +29,9 @@ const Vector<3> viewer(0.45, 0.75, 0.48);
 /// By which lines lie in front of the triangles at their place, pixels, and as much for each
 /// pixel of their width: wide ones lie over narrow ones.
 constexpr double line_lift = 2.0;
-constexpr double tick_length = 9.0;
+constexpr double tick_length_in_space = 9.0;
 constexpr double label_distance = 24.0;
 constexpr double name_distance = 74.0;
-
-unsigned char byte_of(double value) {
-  return static_cast<unsigned char>(std::lround(255.0 * value));
-}
 
 /// Points with a colour each, and the cells that join them.
 struct Cells {
@@ -108,7 +105,7 @@ void paint_axis(vtkContext2D& painter, const ModelView& paper, const SpaceBox& b
   const double high = box.high[axis.along];
   for (const double tick : ticks_within(low, high, scale, 45.0)) {
     const Vector<2> from = at(tick, 3.0);
-    const Vector<2> to = at(tick, 3.0 + tick_length);
+    const Vector<2> to = at(tick, 3.0 + tick_length_in_space);
     painter.DrawLine(static_cast<float>(from[0]), static_cast<float>(from[1]),
                      static_cast<float>(to[0]), static_cast<float>(to[1]));
     text(tick_text(tick), 18, at(tick, label_distance));

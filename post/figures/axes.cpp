@@ -18,8 +18,7 @@ std::array<double, 2> parse_range(const std::string& text, const std::string& co
       return {*low, *high};
     }
   }
-  throw InputError(
-      std::vector{InputProblem{command, option, '"' + text + '"', "LO:HI with LO below HI", ""}});
+  throw InputError(InputProblem{command, option, '"' + text + '"', "LO:HI with LO below HI"});
 }
 
 void set_axes(const AxisOptions& options, const std::string& command, Chart& chart) {
@@ -39,8 +38,8 @@ void set_axes(const AxisOptions& options, const std::string& command, Chart& cha
     if (text.empty()) return;
     range = parse_range(text, command, option);
     if (logarithmic && !((*range)[0] > 0.0)) {
-      throw InputError(std::vector{InputProblem{command, option, '"' + text + '"',
-                                                "positive numbers on a logarithmic axis", ""}});
+      throw InputError(InputProblem{command, option, '"' + text + '"',
+                                    "positive numbers on a logarithmic axis"});
     }
   };
   set(options.x_range, "--x-range", chart.logarithmic_x, chart.x_range);

@@ -13,6 +13,7 @@
 #include "drawing/line_labels.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"
+#include "drawing/type_size.hpp"
 #include "figures/arrows.hpp"
 #include "figures/map_water.hpp"
 
@@ -23,11 +24,10 @@ using Layout = PictureLayout;
 constexpr Color mesh_color{0.55, 0.55, 0.55};
 constexpr Color stream_color{0.75, 0.0, 0.1};
 constexpr Color region_color{0.25, 0.25, 0.25};
-constexpr float top_room = 70.0F;
+constexpr float room_above_picture = 70.0F;
 /// For the head beside a level that touches the top of the view.
 constexpr float level_room = 30.0F;
 constexpr float bar_room = 215.0F;
-constexpr float legend_row = 30.0F;
 constexpr float contour_width = 1.2F;
 constexpr float stream_width = 1.8F;
 constexpr float path_width = 2.5F;
@@ -387,8 +387,8 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
   const float legend = view.left() + ChartLegend::width(rows) + Layout::gap;
   sheet.width = static_cast<int>(
       std::max({right + side, Layout::title_width(picture.title), rows.empty() ? 0.0F : legend}));
-  sheet.height =
-      static_cast<int>(view.bottom() + bar_height + top_room + (has_water ? level_room : 0.0F));
+  sheet.height = static_cast<int>(view.bottom() + bar_height + room_above_picture +
+                                  (has_water ? level_room : 0.0F));
   SpaceDrawing space;
   if (model.space) space = space_drawing(sheet);
   const auto fill = [&](vtkContextScene& scene) {

@@ -94,9 +94,8 @@ const std::vector<Figure>& figures() {
 const Figure& find_figure(const std::string& name) {
   const auto found = std::ranges::find(figures(), name, &Figure::name);
   if (found != figures().end()) return *found;
-  throw InputError(
-      std::vector{InputProblem{"suffuse-post figure", "NAME", "\"" + name + "\"",
-                               quoted_list(figure_names()), closest_name(name, figure_names())}});
+  throw InputError(InputProblem{"suffuse-post figure", "NAME", "\"" + name + "\"",
+                                quoted_list(figure_names()), closest_name(name, figure_names())});
 }
 
 /// An option that only some figures have a use for.
@@ -125,9 +124,8 @@ void check_options(const Figure& figure, const Options& options) {
   const std::string command = "suffuse-post figure " + figure.name;
   for (const OptionUse& use : option_uses(options)) {
     if (!use.given || std::ranges::find(use.figures, figure.name) != use.figures.end()) continue;
-    throw InputError(
-        std::vector{InputProblem{command, use.option, "it with the figure \"" + figure.name + '"',
-                                 "it with " + quoted_list(use.figures), ""}});
+    throw InputError(InputProblem{command, use.option, "it with the figure \"" + figure.name + '"',
+                                  "it with " + quoted_list(use.figures)});
   }
   const AxisOptions& axes = options.axes;
   const bool has_axes = axes.log_x || axes.log_y || !axes.x_range.empty() ||
@@ -165,9 +163,8 @@ void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs
   }
   check_options(figure, options);
   if (runs.size() != 1) {
-    throw InputError(
-        std::vector{InputProblem{"suffuse-post figure " + name, "RESULTS",
-                                 std::to_string(runs.size()) + " folders", "one", ""}});
+    throw InputError(InputProblem{"suffuse-post figure " + name, "RESULTS",
+                                  std::to_string(runs.size()) + " folders", "one"});
   }
   figure.picture(runs.front(), path, options);
 }

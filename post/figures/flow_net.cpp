@@ -11,6 +11,7 @@
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"
+#include "drawing/type_size.hpp"
 #include "figures/map_water.hpp"
 #include "physics/head.hpp"
 #include "values/snapshot_choice.hpp"
@@ -19,13 +20,12 @@ namespace suffuse {
 namespace {
 
 using Layout = PictureLayout;
-const std::string command = "suffuse-post figure flownet";
+const std::string flow_net_command = "suffuse-post figure flownet";
 constexpr Color stream_blue{0.1, 0.35, 0.9};
 constexpr Color boundary_grey{0.45, 0.45, 0.45};
 constexpr float potential_width = 1.2F;
 constexpr float stream_width = 2.2F;
-constexpr float top_room = 100.0F;
-constexpr float row = 30.0F;
+constexpr float room_above_net = 100.0F;
 constexpr int max_tubes = 100;
 constexpr int max_drops = 200;
 /// Larger ones are said.
@@ -168,14 +168,13 @@ SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes) {
 FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
                  const std::optional<int>& tubes) {
   if (tubes && (*tubes < 1 || *tubes > max_tubes)) {
-    throw InputError(
-        std::vector{InputProblem{command, "--tubes", std::to_string(*tubes),
-                                 "a number from 1 to " + std::to_string(max_tubes), ""}});
+    throw InputError(InputProblem{flow_net_command, "--tubes", std::to_string(*tubes),
+                                  "a number from 1 to " + std::to_string(max_tubes)});
   }
   FlowNet net;
-  const std::size_t index = chosen_snapshot(run, time, command);
-  net.map = head_map(run, time, command);
-  net.stream = stream_function(run, index, net.map.mesh, command);
+  const std::size_t index = chosen_snapshot(run, time, flow_net_command);
+  net.map = head_map(run, time, flow_net_command);
+  net.stream = stream_function(run, index, net.map.mesh, flow_net_command);
   const auto [lowest, highest] = head_range(net.map);
   const double fall = highest - lowest;
   const auto soils = soils_of(run, net.map.mesh);
@@ -200,8 +199,8 @@ void draw_flow_net(const FlowNet& net, const std::string& path) {
   std::vector<Curve> rows{legend_line("streamline", stream_blue, stream_width),
                           legend_line("equipotential, head in m", black, potential_width)};
   add_water_legend(rows, !phreatic.empty(), !net.map.water.empty());
-  const float caption_height = row * static_cast<float>(net.caption.size());
-  const float legend_height = row * static_cast<float>(rows.size());
+  const float caption_height = legend_row * static_cast<float>(net.caption.size());
+  const float legend_height = legend_row * static_cast<float>(rows.size());
   const ModelView view = view_with_water(net.map.mesh, net.map.water,
                                          axes_bottom + caption_height + legend_height + 10.0F);
   float width = view.left() + std::max(view.width(), ChartLegend::width(rows)) + Layout::gap;
@@ -209,16 +208,16 @@ void draw_flow_net(const FlowNet& net, const std::string& path) {
   for (const auto& line : net.caption) {
     width = std::max(width, view.left() + 10.0F * static_cast<float>(line.size()) + Layout::gap);
   }
-  const auto height = static_cast<int>(view.bottom() + view.height() + top_room);
+  const auto height = static_cast<int>(view.bottom() + view.height() + room_above_net);
   const auto columns = static_cast<int>(width);
   draw_picture(columns, height, net.map.title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
       paint_net(painter, view, net, phreatic);
       paint_title(painter, net.map.title, columns, height);
-      float y = caption_height - 0.5F * row + 6.0F;
+      float y = caption_height - 0.5F * legend_row + 6.0F;
       for (const auto& line : net.caption) {
         paint_text(painter, line, 18, view.left(), y, Anchor::left);
-        y -= row;
+        y -= legend_row;
       }
     });
     vtkNew<ChartLegend> legend;

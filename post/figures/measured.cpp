@@ -10,6 +10,7 @@
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
 #include "tables/table_output.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
@@ -22,21 +23,17 @@ bool has_runs(const std::string& path) {
   return std::ranges::find(names, "run") != names.end();
 }
 
-[[noreturn]] void refuse(const std::string& where, const std::string& found,
-                         const std::string& allowed) {
-  throw InputError(
-      std::vector{InputProblem{"suffuse-post figure", "--measured " + where, found, allowed, ""}});
-}
-
 void check(const Table& table, const std::string& path) {
   for (std::size_t k = 0; k < table.names.size(); ++k) {
     for (const double value : table.columns[k]) {
       if (!std::isfinite(value)) {
-        refuse(path + ": " + table.names[k], number_text(value), "a number");
+        refuse("suffuse-post figure", "--measured " + (path + ": " + table.names[k]),
+               number_text(value), "a number");
       }
     }
     if (const std::string now = renamed_column(table.names[k]); !now.empty()) {
-      refuse(path, "a column " + table.names[k], now + ", the name of today");
+      refuse("suffuse-post figure", "--measured " + path, "a column " + table.names[k],
+             now + ", the name of today");
     }
   }
 }
@@ -63,7 +60,8 @@ void add_measured(const MeasuredPoints& measured, const std::string& x, const st
     if (!points.table.has(x) || !points.table.has(column)) continue;
     const auto run = std::ranges::find(labels, points.name);
     if (!points.name.empty() && run == labels.end()) {
-      refuse(measured.path, '"' + points.name + '"', quoted_list(labels));
+      refuse("suffuse-post figure", "--measured " + measured.path, '"' + points.name + '"',
+             quoted_list(labels));
     }
     const RunStyle style = curve_style(points.name.empty() ? 0 : run - labels.begin());
     Curve curve;

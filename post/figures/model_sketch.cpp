@@ -13,7 +13,9 @@
 #include "drawing/chart_legend.hpp"
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
+#include "drawing/type_size.hpp"
 #include "figures/field_picture.hpp"
+#include "figures/map_water.hpp"
 #include "results/number_text.hpp"
 #include "values/derived_fields.hpp"
 #include "values/run_names.hpp"
@@ -23,7 +25,6 @@
 namespace suffuse {
 namespace {
 
-constexpr Color black{0.0, 0.0, 0.0};
 constexpr Color white{1.0, 1.0, 1.0};
 constexpr Color red{0.84, 0.0, 0.0};
 constexpr Color blue{0.1, 0.35, 0.9};
@@ -33,13 +34,12 @@ constexpr std::array<Color, 5> boundary_colors{
 constexpr Color impervious_color{0.95, 0.5, 0.1};
 constexpr std::array<Color, 4> soil_tints{
     {{0.96, 0.90, 0.78}, {0.86, 0.84, 0.80}, {0.90, 0.94, 0.82}, {0.97, 0.86, 0.84}}};
-constexpr Color water_tint{0.86, 0.94, 1.0};
+constexpr Color free_water_tint{0.86, 0.94, 1.0};
 constexpr float boundary_width = 6.0F;
 constexpr float max_width = 900.0F;
 constexpr float max_height = 1100.0F;
 constexpr float title_room = 80.0F;
 constexpr float legend_gap = 50.0F;
-constexpr float legend_row = 30.0F;
 
 /// A constant as "6000"; a value that changes in time as "0 to 6000", its smallest and largest.
 std::string range_text(const TimeFunction& f) {
@@ -109,7 +109,7 @@ std::vector<RegionTint> region_tints(const ResultsReader& run, const Mesh<Dim>& 
     tints.push_back({region_label(mesh, scene, r), content.empty()
                                                        ? soil_tints.at(soils++ % soil_tints.size())
                                                    : content.starts_with("air") ? white
-                                                                                : water_tint});
+                                                                                : free_water_tint});
   }
   return tints;
 }
@@ -320,8 +320,8 @@ std::vector<Color> surface_colors(const Mesh<3>& mesh, const Sheet& surface, con
 
 void draw_space_sketch(const ResultsReader& run, const std::string& path) {
   if (picture_format(path) != ".png") {
-    throw InputError(std::vector{InputProblem{"suffuse-post figure model", "-o", '"' + path + '"',
-                                              "a .png for a model in space", ""}});
+    throw InputError(InputProblem{"suffuse-post figure model", "-o", '"' + path + '"',
+                                  "a .png for a model in space"});
   }
   const Mesh<3> mesh = run.mesh<3>();
   const Scene& scene = run.scene().scene;

@@ -8,18 +8,13 @@
 #include "case/errors.hpp"
 #include "figures/run_curves.hpp"
 #include "results/number_text.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
 
 constexpr double hour = 3600.0;
 const std::vector<std::string> measured_columns{"fines_lost", "conductance"};
-
-[[noreturn]] void refuse(const std::string& where, const std::string& found,
-                         const std::string& allowed) {
-  throw InputError(
-      std::vector{InputProblem{"suffuse-post figure", "--measured " + where, found, allowed, ""}});
-}
 
 /// Lines have dashes of their own, as colours may be lost.
 Curve line_of(const std::string& label, std::size_t run) {
@@ -69,11 +64,14 @@ Curve conductance_of(const ResultsReader& run, Curve curve) {
 
 MeasuredPoints read_measured_points(const std::string& path) {
   MeasuredPoints measured = read_measured(path);
-  if (measured.runs.empty()) refuse(path, "no row", "at least one");
+  if (measured.runs.empty())
+    refuse("suffuse-post figure", "--measured " + path, "no row", "at least one");
   const Table& first = measured.runs.front().table;
-  if (!first.has("hours")) refuse(path, "no column \"hours\"", "times in hours");
+  if (!first.has("hours"))
+    refuse("suffuse-post figure", "--measured " + path, "no column \"hours\"", "times in hours");
   if (std::ranges::none_of(measured_columns, [&](const auto& name) { return first.has(name); })) {
-    refuse(path, "no column of values", quoted_list(measured_columns));
+    refuse("suffuse-post figure", "--measured " + path, "no column of values",
+           quoted_list(measured_columns));
   }
   return measured;
 }

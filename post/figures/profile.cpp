@@ -5,20 +5,16 @@
 #include "drawing/ticks.hpp"
 #include "figures/measured.hpp"
 #include "tables/table_output.hpp"
+#include "values/refusal.hpp"
 #include "values/run_names.hpp"
 #include "values/sample.hpp"
 
 namespace suffuse {
 namespace {
 
-const std::string command = "suffuse-post figure profile";
+const std::string profile_command = "suffuse-post figure profile";
 constexpr std::size_t max_curves = 12;
 const std::string distance = "distance";
-
-[[noreturn]] void refuse(const std::string& option, const std::string& found,
-                         const std::string& expected) {
-  throw InputError(std::vector{InputProblem{command, option, found, expected, ""}});
-}
 
 /// Earlier curves are darker; dashes differ too, as colours may be lost.
 Curve curve_at(std::size_t number, std::size_t count) {
@@ -74,11 +70,11 @@ void add_curves(const Table& table, const SampleRequest& request, const std::str
 std::vector<Chart> profile_charts(const std::vector<ResultsReader>& runs,
                                   const FigureOptions& options) {
   if (options.line.empty())
-    refuse("--line", "nothing", "x0,y0:x1,y1 or x0,y0,z0:x1,y1,z1 in metres");
-  if (options.fields.empty()) refuse("--fields", "nothing", "names of fields");
-  const SampleNames names{command, "--times", "--line", "--fields"};
-  const TimeUnit unit =
-      parse_time_unit(options.axes.time_unit.empty() ? "s" : options.axes.time_unit, command);
+    refuse(profile_command, "--line", "nothing", "x0,y0:x1,y1 or x0,y0,z0:x1,y1,z1 in metres");
+  if (options.fields.empty()) refuse(profile_command, "--fields", "nothing", "names of fields");
+  const SampleNames names{profile_command, "--times", "--line", "--fields"};
+  const TimeUnit unit = parse_time_unit(
+      options.axes.time_unit.empty() ? "s" : options.axes.time_unit, profile_command);
   const std::vector<std::string> labels = run_labels(runs);
   std::vector<SampleRequest> requests;
   std::size_t count = 0;
@@ -87,7 +83,8 @@ std::vector<Chart> profile_charts(const std::vector<ResultsReader>& runs,
     count += requests.back().times.size();
   }
   if (count > max_curves) {
-    refuse("--times", std::to_string(count) + " curves", "at most " + std::to_string(max_curves));
+    refuse(profile_command, "--times", std::to_string(count) + " curves",
+           "at most " + std::to_string(max_curves));
   }
   std::vector<Chart> charts;
   std::vector<std::string> columns;

@@ -15,6 +15,7 @@
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 #include "values/flow_paths.hpp"
+#include "values/refusal.hpp"
 #include "values/sample.hpp"
 #include "values/snapshot_choice.hpp"
 #include "values/stream_function.hpp"
@@ -22,7 +23,7 @@
 namespace suffuse {
 namespace {
 
-const std::string command = "suffuse-post render";
+const std::string render_command = "suffuse-post render";
 /// Streamlines of one picture.
 constexpr double tubes = 10.0;
 constexpr int paths_in_space = 60;
@@ -34,16 +35,11 @@ constexpr std::size_t max_kept_values = 20'000'000;
 constexpr double round_off = 1e-15;
 constexpr double flux_round_off = 1e-10;
 
-[[noreturn]] void refuse(const std::string& option, const std::string& found,
-                         const std::string& expected) {
-  throw InputError(std::vector{InputProblem{command, option, found, expected, ""}});
-}
-
 std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
                                           const RenderRequest& request) {
   const auto& times = results.times();
   if (!request.snapshots.empty()) return request.snapshots;
-  if (!request.all) return {chosen_snapshot(results, request.time, command)};
+  if (!request.all) return {chosen_snapshot(results, request.time, render_command)};
   if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
   std::vector<std::size_t> every;
   for (std::size_t i = 0; i < times.size(); ++i) every.push_back(i);
@@ -90,27 +86,32 @@ struct Canvas {
 /// Throws InputError for what only some dimensions have.
 void check_dimension(const ResultsReader& results, const RenderRequest& request) {
   const bool in_space = results.dimension() == 3;
-  if (!in_space && request.cut) refuse("--cut", "a plane model", "it with one in space");
+  if (!in_space && request.cut)
+    refuse(render_command, "--cut", "a plane model", "it with one in space");
   if (!in_space && !request.levels.empty()) {
-    refuse("--iso", "a plane model", "--contours, or a model in space");
+    refuse(render_command, "--iso", "a plane model", "--contours, or a model in space");
   }
   if (!in_space) return;
   if (request.streamlines && request.cut) {
-    refuse("--streamlines", "it with --cut", "--vectors: a cut has no streamlines of its own");
+    refuse(render_command, "--streamlines", "it with --cut",
+           "--vectors: a cut has no streamlines of its own");
   }
   if (request.on == "solid" || request.on == "liquid") {
-    refuse("--on", '"' + request.on + "\" of a model in space",
+    refuse(render_command, "--on", '"' + request.on + "\" of a model in space",
            "\"cell\" or \"node\"; ParaView shows the points");
   }
-  if (request.cut && !request.levels.empty()) refuse("--iso", "it with --cut", "one of them");
+  if (request.cut && !request.levels.empty())
+    refuse(render_command, "--iso", "it with --cut", "one of them");
   if (request.cut) return;
   const std::string option = request.contours  ? "--contours"
                              : request.vectors ? "--vectors"
                              : request.view    ? "--view"
                                                : "";
-  if (!option.empty()) refuse(option, "it without --cut", "--cut, the plane that shows it");
-  if (picture_format(request.output, command) != ".png") {
-    refuse("-o", '"' + request.output + "\" for a model seen from outside", "a .png, or --cut");
+  if (!option.empty())
+    refuse(render_command, option, "it without --cut", "--cut, the plane that shows it");
+  if (picture_format(request.output, render_command) != ".png") {
+    refuse(render_command, "-o", '"' + request.output + "\" for a model seen from outside",
+           "a .png, or --cut");
   }
 }
 
@@ -124,7 +125,7 @@ Canvas make_canvas(const ResultsReader& results, const RenderRequest& request) {
     canvas.model = space_model(*canvas.mesh, canvas.sheet, upward<3>(results.scene().scene));
     return canvas;
   }
-  PlaneCut cut = plane_cut(*canvas.mesh, *request.cut, command);
+  PlaneCut cut = plane_cut(*canvas.mesh, *request.cut, render_command);
   constexpr std::array<const char*, 3> names{"x (m)", "y (m)", "z (m)"};
   canvas.model = picture_model(cut.mesh, request.view);
   canvas.model.axes = {names.at(cut.axes[0]), names.at(cut.axes[1])};
@@ -172,7 +173,7 @@ double round_off_of(const ResultsReader& results, const std::string& unit) {
 
 FieldPlace wanted_place(const ResultsReader& results, std::size_t index,
                         const RenderRequest& request) {
-  FieldPlace place = find_field(results, index, request.field, request.on, command);
+  FieldPlace place = find_field(results, index, request.field, request.on, render_command);
   place.change = request.change;
   return place;
 }
@@ -217,11 +218,12 @@ class Frames {
 
 void Frames::refuse_what_cannot_be_drawn() const {
   if (model_.visible_count == 0) {
-    refuse("--view", "a part with nothing of the model in it", "x0,y0:x1,y1 in metres, with some");
+    refuse(render_command, "--view", "a part with nothing of the model in it",
+           "x0,y0:x1,y1 in metres, with some");
   }
-  const bool drawn = picture_format(request_.output, command) != ".png";
+  const bool drawn = picture_format(request_.output, render_command) != ".png";
   if (drawn && model_.visible_count > max_drawn_elements) {
-    refuse("-o",
+    refuse(render_command, "-o",
            '"' + request_.output + "\" for " + std::to_string(model_.visible_count) + " elements",
            "a .png, or at most " + std::to_string(max_drawn_elements) +
                " elements: --view shows a part");
@@ -232,14 +234,17 @@ void Frames::refuse_what_cannot_be_drawn() const {
                              : request_.change      ? "--change"
                                                     : "";
   if (has_kinds && !option.empty()) {
-    refuse(option, "a field of kinds, \"" + place_.name + '"', "a field of numbers");
+    refuse(render_command, option, "a field of kinds, \"" + place_.name + '"',
+           "a field of numbers");
   }
   if (request_.contours && (place_.where == "solid" || place_.where == "liquid")) {
-    refuse("--contours", "a field of points, \"" + place_.name + "\" on " + place_.where,
+    refuse(render_command, "--contours",
+           "a field of points, \"" + place_.name + "\" on " + place_.where,
            "a field on cell or node");
   }
   if (request_.logarithmic && request_.range && !((*request_.range)[0] > 0.0)) {
-    refuse("--range", number_text((*request_.range)[0]) + " with --log", "a range above zero");
+    refuse(render_command, "--range", number_text((*request_.range)[0]) + " with --log",
+           "a range above zero");
   }
 }
 
@@ -258,7 +263,8 @@ FieldScale Frames::scale() {
   const double zero = round_off_of(results_, series_.at(snapshots_.front()).unit);
   const auto is_positive = [&](const WeightedValue& v) { return v.value > zero; };
   if (request_.logarithmic && std::ranges::none_of(values, is_positive)) {
-    refuse("--log", '"' + place_.name + "\" without a value above zero", "a field with some");
+    refuse(render_command, "--log", '"' + place_.name + "\" without a value above zero",
+           "a field with some");
   }
   const bool of_points = place_.where == "solid" || place_.where == "liquid";
   return value_scale(std::move(values),
@@ -292,7 +298,7 @@ void Frames::add_flow(FieldPicture& picture, std::size_t index) const {
     }
   }
   if (!request_.streamlines || canvas_.mesh) return;
-  StreamFunction stream = stream_function(results_, index, model_.mesh, command);
+  StreamFunction stream = stream_function(results_, index, model_.mesh, render_command);
   picture.streamfunction = std::move(stream.at_nodes);
   picture.tube = stream.discharge / tubes;
   picture.misfit = stream.misfit;
@@ -388,16 +394,17 @@ std::array<double, 2> parse_range(const std::string& text) {
       return {*low, *high};
     }
   }
-  refuse("--range", '"' + text + '"', "LO:HI with LO below HI");
+  refuse(render_command, "--range", '"' + text + '"', "LO:HI with LO below HI");
 }
 
 ViewBox parse_view(const std::string& text) {
-  const SampleLine corners = parse_line(text, command, "--view");
+  const SampleLine corners = parse_line(text, render_command, "--view");
   const bool plane = corners.from.size() == 2;
   if (plane && (corners.from.array() < corners.to.array()).all()) {
     return {Vector<2>(corners.from), Vector<2>(corners.to)};
   }
-  refuse("--view", '"' + text + '"', "x0,y0:x1,y1 with x0 below x1 and y0 below y1");
+  refuse(render_command, "--view", '"' + text + '"',
+         "x0,y0:x1,y1 with x0 below x1 and y0 below y1");
 }
 
 std::vector<double> parse_levels(const std::string& text) {
@@ -405,7 +412,7 @@ std::vector<double> parse_levels(const std::string& text) {
   for (const std::string& part : parse_field_names(text)) {
     const auto level = parse_number(part);
     if (!level || !std::isfinite(*level)) {
-      refuse("--iso", '"' + text + '"', "numbers with commas between");
+      refuse(render_command, "--iso", '"' + text + '"', "numbers with commas between");
     }
     levels.push_back(*level);
   }
@@ -413,7 +420,7 @@ std::vector<double> parse_levels(const std::string& text) {
 }
 
 std::vector<std::string> render(const ResultsReader& results, const RenderRequest& request) {
-  picture_format(request.output, command);
+  picture_format(request.output, render_command);
   return Frames(results, request).draw();
 }
 

@@ -17,6 +17,7 @@
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"
+#include "drawing/type_size.hpp"
 #include "figures/map_water.hpp"
 #include "physics/head.hpp"
 #include "values/fields.hpp"
@@ -26,13 +27,12 @@ namespace suffuse {
 namespace {
 
 using Layout = PictureLayout;
-constexpr float top_room = 100.0F;
+constexpr float room_above_map = 100.0F;
 constexpr float bar_room = 190.0F;
-constexpr float legend_row = 30.0F;
 constexpr float line_width = 1.2F;
 
 /// What all of a picture is painted with.
-struct Sheet {
+struct MapSheet {
   const SeepageMap& map;
   ModelView view;
   std::vector<double> levels;
@@ -52,7 +52,7 @@ struct Sheet {
   }
 };
 
-void paint_bands(vtkContext2D& painter, const Sheet& sheet) {
+void paint_bands(vtkContext2D& painter, const MapSheet& sheet) {
   ColoredTriangles triangles;
   const Mesh<2>& mesh = sheet.map.mesh;
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -83,7 +83,7 @@ void paint_bands(vtkContext2D& painter, const Sheet& sheet) {
 }
 
 /// `hidden`: lines that are drawn over these, which labels keep clear of.
-void paint_equipotentials(vtkContext2D& painter, const Sheet& sheet,
+void paint_equipotentials(vtkContext2D& painter, const MapSheet& sheet,
                           const std::vector<Polyline>& hidden) {
   if (!sheet.map.saturation.empty()) return;
   const std::vector<double> inner(sheet.levels.begin() + 1, sheet.levels.end() - 1);
@@ -93,7 +93,8 @@ void paint_equipotentials(vtkContext2D& painter, const Sheet& sheet,
   paint_contours(painter, sheet.view, {mesh, sheet.map.head, inner}, {black, line_width}, labels);
 }
 
-void paint_bar(vtkContext2D& painter, const Sheet& sheet, float left, float bottom, float height) {
+void paint_bar(vtkContext2D& painter, const MapSheet& sheet, float left, float bottom,
+               float height) {
   const std::size_t bands = sheet.levels.size() - 1;
   const float step = height / static_cast<float>(bands);
   painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
@@ -189,9 +190,9 @@ SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>&
   const std::size_t index = chosen_snapshot(run, time, "suffuse-post figure saturation");
   const auto names = run.field_names(index, "cell");
   if (std::ranges::find(names, "saturation") == names.end()) {
-    throw InputError(std::vector{InputProblem{"suffuse-post figure saturation", "RESULTS",
-                                              run.folder() + ", in which every soil is saturated",
-                                              "a run with a soil that has a retention law", ""}});
+    throw InputError(InputProblem{"suffuse-post figure saturation", "RESULTS",
+                                  run.folder() + ", in which every soil is saturated",
+                                  "a run with a soil that has a retention law"});
   }
   SeepageMap map = map_of(run, index, time);
   map.saturation = run.field(index, "cell", "saturation").values;
@@ -257,14 +258,14 @@ void draw_seepage_map(const SeepageMap& map, const std::string& path) {
   add_water_legend(rows, map.covered_heads ? !map.pressure.empty() : !phreatic.empty(),
                    !room.empty());
   const float legend_height = legend_row * static_cast<float>(rows.size());
-  const Sheet sheet{map, view_with_water(map.mesh, room, axes_bottom + legend_height), levels};
+  const MapSheet sheet{map, view_with_water(map.mesh, room, axes_bottom + legend_height), levels};
   const ModelView& view = sheet.view;
   const float right = view.left() + view.width() + Layout::gap;
   const float bar_height = std::max(view.height(), Layout::min_bar_height);
   const float title = Layout::title_width(map.title);
   const float legend = view.left() + ChartLegend::width(rows) + Layout::gap;
   const auto width = static_cast<int>(std::max({right + bar_room, title, legend}));
-  const auto height = static_cast<int>(view.bottom() + bar_height + top_room);
+  const auto height = static_cast<int>(view.bottom() + bar_height + room_above_map);
   draw_picture(width, height, map.title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
       paint_outside_water(painter, view, map.water);

@@ -90,9 +90,9 @@ std::pair<std::vector<double>, std::vector<double>> finite_pairs(const std::vect
 }
 
 [[noreturn]] void refuse_without_numbers(const std::string& option, const std::string& column) {
-  throw InputError(std::vector{InputProblem{"suffuse-post sweep", option,
-                                            "no number in the column \"" + column + '"',
-                                            "a number of one run at least", ""}});
+  throw InputError(InputProblem{"suffuse-post sweep", option,
+                                "no number in the column \"" + column + '"',
+                                "a number of one run at least"});
 }
 
 std::vector<std::size_t> order_of(const std::vector<double>& x) {
@@ -147,8 +147,8 @@ Curve in_time(const ResultsReader& run, const std::string& column) {
   }
   std::vector<std::string> known = history.names;
   known.insert(known.end(), ledger.names.begin(), ledger.names.end());
-  throw InputError(std::vector{InputProblem{"suffuse-post sweep", "--over-time", '"' + column + '"',
-                                            quoted_list(known), closest_column(column, known)}});
+  throw InputError(InputProblem{"suffuse-post sweep", "--over-time", '"' + column + '"',
+                                quoted_list(known), closest_column(column, known)});
 }
 
 /// Linear between the points of a curve, whose x ascend and enclose `x`.

@@ -10,16 +10,12 @@
 #include "figures/run_curves.hpp"
 #include "results/number_text.hpp"
 #include "tables/table_output.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
 
-const std::string command = "suffuse-post figure curves";
-
-[[noreturn]] void refuse(const std::string& key, const std::string& found,
-                         const std::string& expected, const std::string& suggestion = {}) {
-  throw InputError(std::vector{InputProblem{command, key, found, expected, suggestion}});
-}
+const std::string curves_command = "suffuse-post figure curves";
 
 /// The parts of a table that share a value of its column `by`, which gets that value as a name.
 std::vector<NamedTable> parts_of(const Table& table, const std::string& by,
@@ -77,7 +73,7 @@ ColumnName parse_column(const std::string& text) {
   name.table = name.column.substr(0, dot);
   name.column.erase(0, dot + 1);
   if (std::ranges::find(table_names, name.table) == table_names.end()) {
-    refuse("COLUMN", '"' + text + '"', "a table out of " + quoted_list(table_names),
+    refuse(curves_command, "COLUMN", '"' + text + '"', "a table out of " + quoted_list(table_names),
            closest_name(name.table, table_names));
   }
   return name;
@@ -95,7 +91,7 @@ std::vector<NamedTable> find_parts(const ResultsReader& run, const ColumnName& n
       if (std::ranges::find(known, column) == known.end()) known.push_back(column);
     }
   }
-  refuse("COLUMN", '"' + name.text + '"',
+  refuse(curves_command, "COLUMN", '"' + name.text + '"',
          known.empty() ? "a table that " + run.folder() + " has" : quoted_list(known),
          closest_column(name.column, known));
 }
@@ -107,8 +103,8 @@ std::vector<NamedTable> wanted(std::vector<NamedTable> parts, const ColumnName& 
     if (part.name == name.part) return {part};
     known.push_back(part.name);
   }
-  refuse("COLUMN", '"' + name.text + '"', "behind the colon one of " + quoted_list(known),
-         closest_name(name.part, known));
+  refuse(curves_command, "COLUMN", '"' + name.text + '"',
+         "behind the colon one of " + quoted_list(known), closest_name(name.part, known));
 }
 
 std::string label_of(const std::string& column, int dimension) {
@@ -157,7 +153,7 @@ Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::st
   for (std::size_t r = 0; r < runs.size(); ++r) {
     for (const NamedTable& part : wanted(find_parts(runs[r], name), name)) {
       if (!part.table.has(x)) {
-        refuse("--x", '"' + x + '"', quoted_list(part.table.names),
+        refuse(curves_command, "--x", '"' + x + '"', quoted_list(part.table.names),
                closest_column(x, part.table.names));
       }
       require_curve(runs[r], part.table, name.text);
@@ -175,7 +171,8 @@ Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::st
 std::vector<Chart> table_curves(const std::vector<ResultsReader>& runs,
                                 const FigureOptions& options) {
   if (options.columns.empty()) {
-    refuse("COLUMN", "none", "a column of a table, such as \"flux_out\", before the results");
+    refuse(curves_command, "COLUMN", "none",
+           "a column of a table, such as \"flux_out\", before the results");
   }
   const std::vector<std::string> labels = run_labels(runs);
   const std::string x = options.x.empty() ? "t" : options.x;
@@ -190,7 +187,7 @@ std::vector<Chart> table_curves(const std::vector<ResultsReader>& runs,
   if (!options.measured.empty() && std::ranges::none_of(charts, [](const Chart& chart) {
         return std::ranges::any_of(chart.curves, &Curve::markers);
       })) {
-    refuse("--measured", options.measured,
+    refuse(curves_command, "--measured", options.measured,
            "columns " + x + " and one of " + quoted_list(options.columns));
   }
   return charts;

@@ -86,10 +86,4 @@ std::string summary_text(const ResultsReader& run, const RunNumbers& numbers) {
                                  : "The solver gave " + std::to_string(warnings) + " warnings.");
 }
 
-std::string place_text(const std::vector<double>& place) {
-  std::string text;
-  for (const double x : place) text += (text.empty() ? "(" : ", ") + short_text(x);
-  return text + ")";
-}
-
 }  // namespace suffuse

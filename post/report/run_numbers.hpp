@@ -31,7 +31,4 @@ RunNumbers run_numbers(const ResultsReader& run);
 /// A paragraph with the numbers.
 std::string summary_text(const ResultsReader& run, const RunNumbers& numbers);
 
-/// "(2.05, 0.967)"
-std::string place_text(const std::vector<double>& place);
-
 }  // namespace suffuse

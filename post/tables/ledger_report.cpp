@@ -8,6 +8,7 @@
 #include "case/errors.hpp"
 #include "results/number_text.hpp"
 #include "results/tables.hpp"
+#include "tables/table_output.hpp"
 
 namespace suffuse {
 namespace {
@@ -82,12 +83,6 @@ Balance balance(const Table& table, const std::string& place, const std::string&
   return b;
 }
 
-std::string cell(const std::string& text, int width) {
-  const auto size = static_cast<int>(text.size());
-  const std::string gap(std::max(0, std::abs(width) - size), ' ');
-  return width < 0 ? text + gap : gap + text;
-}
-
 std::string short_number(double value, const char* format) {
   char buffer[48];
   std::snprintf(buffer, sizeof buffer, format, value);
@@ -133,22 +128,22 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
   std::size_t longest = 6;
   for (const auto& b : balances) longest = std::max(longest, b.place.size());
   const int place = -static_cast<int>(longest) - 2;
-  text += cell("place", place) + cell("", -8);
+  text += padded("place", place) + padded("", -8);
   for (const auto* head :
        {"initial", "in", "out", "stored", "eroded", "deposited", "worst residual", "at t"}) {
-    text += cell(head, 15);
+    text += padded(head, 15);
   }
   text += "\n";
   for (const auto& b : balances) {
-    text += cell(b.place, place) + cell(b.constituent, -8);
+    text += padded(b.place, place) + padded(b.constituent, -8);
     for (const double mass : {b.initial, b.in, b.out, b.stored}) {
-      text += cell(short_number(mass, "%.8g"), 15);
+      text += padded(short_number(mass, "%.8g"), 15);
     }
     for (const double mass : {b.eroded, b.deposited}) {
-      text += cell(b.constituent == "water" ? "-" : short_number(mass, "%.8g"), 15);
+      text += padded(b.constituent == "water" ? "-" : short_number(mass, "%.8g"), 15);
     }
-    text += cell(short_number(b.worst_residual, "%.2e"), 15);
-    text += cell(short_number(b.worst_time, "%.6g"), 15) + "\n";
+    text += padded(short_number(b.worst_residual, "%.2e"), 15);
+    text += padded(short_number(b.worst_time, "%.6g"), 15) + "\n";
   }
   for (const auto& b : balances) {
     if (b.carried == 0.0) continue;
@@ -187,15 +182,15 @@ std::string history_text(const ResultsReader& results) {
   const Table history = results.history();
   if (history.rows() == 0) throw FileError(results.folder() + ": history.csv has no rows yet");
   std::string text = results.folder() + ": " + results.status() + ", " +
-                     std::to_string(history.rows()) + " rows\n" + cell("column", -22);
-  for (const auto* head : {"first", "last", "smallest", "largest"}) text += cell(head, 15);
+                     std::to_string(history.rows()) + " rows\n" + padded("column", -22);
+  for (const auto* head : {"first", "last", "smallest", "largest"}) text += padded(head, 15);
   text += "\n";
   for (std::size_t k = 0; k < history.names.size(); ++k) {
     const auto& values = history.columns[k];
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    text += cell(history.names[k], -22);
+    text += padded(history.names[k], -22);
     for (const double value : {values.front(), values.back(), *low, *high}) {
-      text += cell(short_number(value, "%.8g"), 15);
+      text += padded(short_number(value, "%.8g"), 15);
     }
     text += "\n";
   }

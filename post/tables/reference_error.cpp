@@ -11,18 +11,14 @@
 #include "case/pending_file.hpp"
 #include "results/number_text.hpp"
 #include "tables/table_output.hpp"
+#include "values/refusal.hpp"
 #include "values/sample.hpp"
 
 namespace suffuse {
 namespace {
 
-const std::string command = "suffuse-post error";
+const std::string error_command = "suffuse-post error";
 const std::string mean_prefix = "mean_";
-
-InputError wrong(const std::string& key, const std::string& found, const std::string& expected,
-                 const std::string& suggestion = {}) {
-  return InputError(std::vector{InputProblem{command, key, found, expected, suggestion}});
-}
 
 bool is_place(const std::string& column) {
   return column == "x" || column == "y" || column == "z";
@@ -93,7 +89,7 @@ std::vector<const std::vector<double>*> sampled_columns(const Table& sampled,
       for (const auto& column : sampled.names) {
         if (column.starts_with(field_of(name)) && !is_place(column)) known.push_back(column);
       }
-      throw wrong(path, '"' + name + '"', quoted_list(known), closest_name(name, known));
+      refuse(error_command, path, '"' + name + '"', quoted_list(known), closest_name(name, known));
     }
     columns.push_back(&sampled.column(name));
   }
@@ -110,7 +106,7 @@ std::vector<ErrorSum> field_errors(const ResultsReader& run, const ReferenceTabl
   }
   const std::vector<std::string> axes =
       table.has("z") ? std::vector<std::string>{"x", "y", "z"} : std::vector<std::string>{"x", "y"};
-  const SampleNames input_names{command, reference.path + ": t", reference.path + ": x, y",
+  const SampleNames input_names{error_command, reference.path + ": t", reference.path + ": x, y",
                                 reference.path};
   std::vector<ErrorSum> sums(names.size());
   for (const auto& [t, rows] : rows_by_time(table)) {
@@ -142,9 +138,9 @@ struct TimeSeries {
 double interpolate(const TimeSeries& curve, double t, const std::string& path) {
   const double slack = 1e-12 * std::max(std::abs(curve.t.front()), std::abs(curve.t.back()));
   if (!(t >= curve.t.front() - slack && t <= curve.t.back() + slack)) {
-    throw wrong(path + ": t", number_text(t),
-                "a time from " + number_text(curve.t.front()) + " to " +
-                    number_text(curve.t.back()) + " s, which the run has");
+    refuse(error_command, path + ": t", number_text(t),
+           "a time from " + number_text(curve.t.front()) + " to " + number_text(curve.t.back()) +
+               " s, which the run has");
   }
   const auto above = std::ranges::upper_bound(curve.t, t);
   if (above == curve.t.begin()) return curve.values.front();
@@ -207,10 +203,10 @@ TimeSeries curve_of(const ResultsReader& run, const std::string& quantity,
   std::vector<std::string> known = quantity_names(history);
   const auto more = quantity_names(ledger);
   known.insert(known.end(), more.begin(), more.end());
-  throw wrong(path, '"' + quantity + '"',
-              "a column of history.csv or ledger.csv, \"mean_\" and a field of the elements (a "
-              "vector with _x, _y or _z), or columns x and y with places",
-              closest_column(quantity, known));
+  refuse(error_command, path, '"' + quantity + '"',
+         "a column of history.csv or ledger.csv, \"mean_\" and a field of the elements (a "
+         "vector with _x, _y or _z), or columns x and y with places",
+         closest_column(quantity, known));
 }
 
 std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTable& reference,
@@ -232,26 +228,28 @@ std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTabl
 void check(const ReferenceTable& reference) {
   const Table& table = reference.values;
   const auto names = quantity_names(table);
-  if (!table.has("t")) throw wrong(reference.path, "no column \"t\"", "times in s");
+  if (!table.has("t")) refuse(error_command, reference.path, "no column \"t\"", "times in s");
   if (table.has("x") != table.has("y")) {
-    throw wrong(reference.path, "one column of places", "both \"x\" and \"y\", or neither");
+    refuse(error_command, reference.path, "one column of places",
+           "both \"x\" and \"y\", or neither");
   }
   if (table.has("z") && !table.has("x")) {
-    throw wrong(reference.path, "\"z\" alone", "\"x\" and \"y\" beside it");
+    refuse(error_command, reference.path, "\"z\" alone", "\"x\" and \"y\" beside it");
   }
-  if (names.empty()) throw wrong(reference.path, "no column of values", "at least one");
-  if (table.rows() == 0) throw wrong(reference.path, "no row", "at least one");
+  if (names.empty()) refuse(error_command, reference.path, "no column of values", "at least one");
+  if (table.rows() == 0) refuse(error_command, reference.path, "no row", "at least one");
   for (std::size_t k = 0; k < table.names.size(); ++k) {
     for (const double value : table.columns[k]) {
       if (!std::isfinite(value)) {
-        throw wrong(reference.path + ": " + table.names[k], number_text(value), "finite numbers");
+        refuse(error_command, reference.path + ": " + table.names[k], number_text(value),
+               "finite numbers");
       }
     }
   }
   for (const auto& name : names) {
     if (std::ranges::all_of(table.column(name), [](double value) { return value == 0.0; })) {
-      throw wrong(reference.path + ": " + name, "zeros alone",
-                  "a value that differences can be relative to");
+      refuse(error_command, reference.path + ": " + name, "zeros alone",
+             "a value that differences can be relative to");
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "case/faces.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
+#include "tables/table_output.hpp"
 #include "values/derived_fields.hpp"
 
 namespace suffuse {
@@ -106,21 +107,10 @@ void include(const SafetyState& state, int element, const std::vector<double>& p
   part.least = LeastSafety{safety, gradient, critical, state.time, place};
 }
 
-std::string cell(const std::string& text, int width) {
-  const auto room = static_cast<std::size_t>(width);
-  return std::string(room - std::min(room, text.size()), ' ') + text;
-}
-
 std::string cell(const char* format, double value, int width) {
   char text[32];
   std::snprintf(text, sizeof text, format, value);
-  return cell(std::string(text), width);
-}
-
-std::string place_text(const std::vector<double>& x) {
-  std::string text;
-  for (const double value : x) text += (text.empty() ? "(" : ", ") + cell("%.4g", value, 0);
-  return text + ")";
+  return padded(text, width);
 }
 
 std::string motion_text(const Table& history) {
@@ -164,6 +154,12 @@ std::vector<PartSafety> safety_of(const ResultsReader& results) {
   return with_mesh(results, [&](const auto& mesh) { return safety_in(results, mesh); });
 }
 
+std::string place_text(const std::vector<double>& place) {
+  std::string text;
+  for (const double x : place) text += (text.empty() ? "(" : ", ") + short_text(x);
+  return text + ")";
+}
+
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts) {
   std::size_t width = 0;
   for (const PartSafety& part : parts) width = std::max(width, part.name.size());
@@ -175,19 +171,19 @@ std::string safety_text(const ResultsReader& results, const std::vector<PartSafe
       " snapshots until t = " + number_text(times.back()) +
       " s\nleast safety i_cr / i against heave, i: hydraulic gradient upwards, i_cr = (1 - n) "
       "(rho_s / rho_w - 1)\n" +
-      std::string(width, ' ') + cell("safety", 10) + cell("i", 10) + cell("i_cr", 10) +
-      cell("t (s)", 12) + cell("at (m)", place_width) +
-      cell("discharge now (" + std::string(is_plane ? "m2/s" : "m3/s") + ")", 23) + "\n";
+      std::string(width, ' ') + padded("safety", 10) + padded("i", 10) + padded("i_cr", 10) +
+      padded("t (s)", 12) + padded("at (m)", place_width) +
+      padded("discharge now (" + std::string(is_plane ? "m2/s" : "m3/s") + ")", 23) + "\n";
   for (const PartSafety& part : parts) {
     text += part.name + std::string(width - part.name.size(), ' ');
     if (part.least) {
       const LeastSafety& least = *part.least;
       text += cell("%.4g", least.safety, 10) + cell("%.4g", least.gradient, 10) +
               cell("%.4g", least.critical_gradient, 10) + cell("%.6g", least.time, 12) +
-              cell(place_text(least.place), place_width);
+              padded(place_text(least.place), place_width);
     } else {
-      text += cell("-", 10) + cell("-", 10) + cell("-", 10) + cell("-", 12) +
-              cell("water rises nowhere", place_width);
+      text += padded("-", 10) + padded("-", 10) + padded("-", 10) + padded("-", 12) +
+              padded("water rises nowhere", place_width);
     }
     if (part.discharge) text += cell("%.10g", *part.discharge, 23);
     text += "\n";

@@ -35,6 +35,9 @@ struct PartSafety {
 /// All soil first, then the boundaries of the scene. Throws FileError.
 std::vector<PartSafety> safety_of(const ResultsReader& results);
 
+/// As "(1.5, 0.25)", m.
+std::string place_text(const std::vector<double>& place);
+
 /// As an aligned table, with what it means.
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts);
 

@@ -10,15 +10,10 @@
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
 #include "tables/table_output.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
-
-InputError wrong(const std::string& where, const std::string& found, const std::string& expected,
-                 const std::string& suggestion = {}) {
-  return InputError(
-      std::vector{InputProblem{"suffuse-post sweep", where, found, expected, suggestion}});
-}
 
 std::size_t position(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
@@ -30,15 +25,15 @@ std::vector<double> SweepTable::numbers(const std::string& column,
                                         const std::string& option) const {
   const std::size_t k = position(names, column);
   if (k == names.size()) {
-    throw wrong(option, '"' + column + '"', "a column of " + path + ": " + quoted_list(names),
-                closest_column(column, names));
+    refuse("suffuse-post sweep", option, '"' + column + '"',
+           "a column of " + path + ": " + quoted_list(names), closest_column(column, names));
   }
   std::vector<double> values;
   for (const auto& row : rows) {
     const auto value = parse_number(row[k]);
     if (!value && !row[k].empty()) {
-      throw wrong(option, "column \"" + column + "\" with \"" + row[k] + '"',
-                  "a column of numbers");
+      refuse("suffuse-post sweep", option, "column \"" + column + "\" with \"" + row[k] + '"',
+             "a column of numbers");
     }
     values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   }
@@ -73,7 +68,7 @@ SweepTable read_sweep(const std::string& path) {
     if (cells[status] == "done") table.rows.push_back(std::move(cells));
   }
   if (table.rows.empty())
-    throw wrong("TABLE", path + " without a run that is done", "one at least");
+    refuse("suffuse-post sweep", "TABLE", path + " without a run that is done", "one at least");
   return table;
 }
 

@@ -37,9 +37,8 @@ const std::map<std::string, std::string>& column_units() {
 TimeUnit find_time_unit(const std::string& word, const std::string& where, const std::string& key) {
   const auto found = std::ranges::find(time_units(), word, &TimeUnit::name);
   if (found != time_units().end()) return *found;
-  throw InputError(
-      std::vector{InputProblem{where, key, '"' + word + '"', quoted_list(time_unit_names()),
-                               closest_name(word, time_unit_names())}});
+  throw InputError(InputProblem{where, key, '"' + word + '"', quoted_list(time_unit_names()),
+                                closest_name(word, time_unit_names())});
 }
 
 /// Whether a quantity of this unit is per metre of thickness in 2D.
@@ -72,6 +71,12 @@ std::string closest_column(const std::string& name, const std::vector<std::strin
 std::string shown_unit(const std::string& unit, int dimension) {
   if (unit == "1" || unit.empty()) return "-";
   return dimension == 2 && is_extensive(unit) ? unit + "/m" : unit;
+}
+
+std::string padded(const std::string& text, int width) {
+  const auto size = static_cast<int>(text.size());
+  const std::string gap(std::max(0, std::abs(width) - size), ' ');
+  return width < 0 ? text + gap : gap + text;
 }
 
 Table with_units(Table table, int dimension, const TimeUnit& time) {

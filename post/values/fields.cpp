@@ -88,9 +88,9 @@ FieldPlace find_field(const ResultsReader& results, std::size_t index, const std
       known.insert(known.end(), names.begin(), names.end());
     }
   }
-  throw InputError(std::vector{InputProblem{
+  throw InputError(InputProblem{
       command, "--field", '"' + name + '"' + (on.empty() ? "" : " on " + on),
-      "one of the fields " + fields_and_places(results, index), closest_name(name, known)}});
+      "one of the fields " + fields_and_places(results, index), closest_name(name, known)});
 }
 
 Field read_field(const ResultsReader& results, std::size_t index, const FieldPlace& place) {

@@ -26,7 +26,7 @@ constexpr std::array<const char*, 3> kinds_of_place{"element_vertex", "node", "c
 InputError wrong(const std::string& option, const std::string& found, const std::string& expected,
                  const std::string& suggestion = {},
                  const std::string& command = SampleNames{}.command) {
-  return InputError(std::vector{InputProblem{command, option, found, expected, suggestion}});
+  return InputError(InputProblem{command, option, found, expected, suggestion});
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {

@@ -132,11 +132,10 @@ InputError beside_model(const Mesh<3>& mesh, const CutPlane& plane, const std::s
     return a[plane.axis] < b[plane.axis];
   };
   const auto [low, high] = std::ranges::minmax_element(mesh.nodes, less);
-  return InputError(std::vector{InputProblem{
+  return InputError(InputProblem{
       command, "--cut", cut_text(plane),
       "a plane through the model, " + std::string(axis_names.at(plane.axis)) + " from " +
-          number_text((*low)[plane.axis]) + " to " + number_text((*high)[plane.axis]) + " m",
-      ""}});
+          number_text((*low)[plane.axis]) + " to " + number_text((*high)[plane.axis]) + " m"});
 }
 
 }  // namespace

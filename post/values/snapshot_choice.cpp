@@ -17,11 +17,9 @@ std::size_t chosen_snapshot(const ResultsReader& results, const std::optional<do
   const double before = count > 1 ? 0.5 * (times[1] - times[0]) : 0.0;
   const double after = count > 1 ? 0.5 * (times[count - 1] - times[count - 2]) : 0.0;
   if (*time >= times.front() - before && *time <= times.back() + after) return index;
-  throw InputError(
-      std::vector{InputProblem{command, "--time", number_text(*time),
-                               "a time from " + number_text(times.front()) + " to " +
-                                   number_text(times.back()) + " s, the first and last snapshot",
-                               ""}});
+  throw InputError(InputProblem{command, "--time", number_text(*time),
+                                "a time from " + number_text(times.front()) + " to " +
+                                    number_text(times.back()) + " s, the first and last snapshot"});
 }
 
 }  // namespace suffuse

@@ -20,9 +20,9 @@ constexpr double good_iterations = 4.0;
 /// Lengths of consecutive steps differ by this factor at most.
 constexpr double growth = 4.0;
 /// Newton's step is halved so often; a shorter part of it is worth less than a shorter step.
-constexpr int max_halvings = 6;
+constexpr int max_step_halvings = 6;
 /// The defect must fall by this share of what the linear model promises (Armijo's rule).
-constexpr double enough = 1e-4;
+constexpr double least_fall = 1e-4;
 
 }  // namespace
 
@@ -128,11 +128,11 @@ bool PseudoTime<Dim>::improve(Eigen::VectorXd& defect) {
   }
   const double before = defect.norm();
   double share = 1.0;
-  for (int halving = 0; halving <= max_halvings; ++halving, share *= 0.5) {
+  for (int halving = 0; halving <= max_step_halvings; ++halving, share *= 0.5) {
     NodeVectors<Dim> shorter = trial_;
     equilibrium_.unknowns().add(step, share, shorter);
     if (!take(shorter, defect)) continue;
-    if (!(defect.norm() <= (1.0 - enough * share) * before)) continue;
+    if (!(defect.norm() <= (1.0 - least_fall * share) * before)) continue;
     trial_ = std::move(shorter);
     return true;
   }

@@ -59,11 +59,11 @@ SoilElementTarget target_of(const ElementTableRow& row) {
 
 [[noreturn]] void refuse(const ElementTable& table, const ElementTableRow& row,
                          const std::string& found, const std::string& expected) {
-  throw InputError(std::vector{InputProblem{.where = table.path + ':' + std::to_string(row.line),
-                                            .key = {},
-                                            .found = found,
-                                            .expected = expected,
-                                            .suggestion = {}}});
+  throw InputError(InputProblem{.where = table.path + ':' + std::to_string(row.line),
+                                .key = {},
+                                .found = found,
+                                .expected = expected,
+                                .suggestion = {}});
 }
 
 /// The part of the way to a row, `share` of it, as a target of its own.

@@ -105,7 +105,7 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
   found.precision(6);
   found << plan.flow.step << " s";
   throw InputError(
-      {{c.document.locate("time.step"), "time.step", found.str(), expected.str(), ""}});
+      InputProblem{c.document.locate("time.step"), "time.step", found.str(), expected.str()});
 }
 
 /// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero.
@@ -143,11 +143,11 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
     if (std::abs(net) <= round_off * gross) continue;
     const std::string key = stiff ? "liquid.bulk_modulus" : "initial.flow";
     throw InputError(
-        {{c.document.locate(key), key,
-          std::string(stiff ? "inf" : "\"steady\"") + " with boundaries that bring in " +
-              short_text(net) + " m3/s more than they take out" +
-              (time > 0.0 ? " at t = " + short_text(time) + " s" : ""),
-          "prescribed fluxes that add up to zero, or a boundary with a pressure", ""}});
+        InputProblem{c.document.locate(key), key,
+                     std::string(stiff ? "inf" : "\"steady\"") + " with boundaries that bring in " +
+                         short_text(net) + " m3/s more than they take out" +
+                         (time > 0.0 ? " at t = " + short_text(time) + " s" : ""),
+                     "prescribed fluxes that add up to zero, or a boundary with a pressure"});
   }
 }
 
@@ -162,8 +162,9 @@ void refuse_ergun_beside_switching_faces(const Case<Dim>& c,
   const BoundaryCondition& boundary = scene.boundaries[face->boundary];
   const std::string name = boundary.seepage_face ? "seepage_face" : boundary.rain ? "rain" : "head";
   const std::string key = joined("soil", shown_name(ergun->region)) + ".drag";
-  throw InputError({{c.document.locate(key), key, "\"ergun\" beside " + joined(boundary.key, name),
-                     "\"darcy\": where faces open, close or fall dry, drag is linear", ""}});
+  throw InputError(InputProblem{c.document.locate(key), key,
+                                "\"ergun\" beside " + joined(boundary.key, name),
+                                "\"darcy\": where faces open, close or fall dry, drag is linear"});
 }
 
 /// Longest time constant with which drag stops the flow in a soil, k / (n g), s.

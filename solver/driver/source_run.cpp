@@ -93,7 +93,7 @@ class Comparison {
 
 [[noreturn]] void refuse(const SceneDocument& document, const std::string& found,
                          const std::string& expected) {
-  throw InputError({{document.locate(key), key, found, expected, ""}});
+  throw InputError(InputProblem{document.locate(key), key, found, expected});
 }
 
 /// Puts a model of that case into the state of its last snapshot.

@@ -85,7 +85,7 @@ Snapshot read_snapshot(const ResultsReader& results, std::size_t index) {
 
 [[noreturn]] void refuse_option(const std::string& option, const std::string& found,
                                 const std::string& expected) {
-  throw InputError(std::vector{InputProblem{"", option, found, expected, ""}});
+  throw InputError(InputProblem{"", option, found, expected});
 }
 
 /// `0, 10, 20 s`; of many the first, the last, and how many there are.

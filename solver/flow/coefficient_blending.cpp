@@ -6,11 +6,7 @@
 #include "flow/implicit_thresholds.hpp"
 
 namespace suffuse {
-namespace {
-
-constexpr const ImplicitThresholds& limits = implicit_thresholds;
-
-}  // namespace
+namespace {}  // namespace
 
 template <int Dim>
 void CoefficientBlending<Dim>::blend(double elapsed, const FlowCoefficients<Dim>& now,
@@ -60,12 +56,12 @@ double CoefficientBlending<Dim>::learn(const FlowCoefficients<Dim>& now, double 
 
 template <int Dim>
 void CoefficientBlending<Dim>::finish(double dt) {
-  blend_time_ = std::max(dt, blend_time_ - limits.fading * dt);
+  blend_time_ = std::max(dt, blend_time_ - implicit_thresholds.fading * dt);
 }
 
 template <int Dim>
 void CoefficientBlending<Dim>::shorten(double dt) {
-  blend_time_ = std::min(blend_time_, limits.breakpoint_blending * dt);
+  blend_time_ = std::min(blend_time_, implicit_thresholds.breakpoint_blending * dt);
 }
 
 template class CoefficientBlending<2>;

@@ -12,8 +12,6 @@
 namespace suffuse {
 namespace {
 
-constexpr const ImplicitThresholds& limits = implicit_thresholds;
-
 /// Reciprocal of the element's smallest height, 1/m.
 template <int Dim>
 double steepest_shape(const Grid<Dim>& grid, int e) {
@@ -31,7 +29,7 @@ bool is_obtuse(const Grid<Dim>& grid, int e) {
       widest = std::max(widest, g[a].dot(g[b]) / (g[a].norm() * g[b].norm()));
     }
   }
-  return widest > limits.obtuse_cosine;
+  return widest > implicit_thresholds.obtuse_cosine;
 }
 
 }  // namespace
@@ -46,7 +44,7 @@ void FlowScales::include(const std::vector<double>& face_pressure,
 
 void FlowScales::include_loads(double change, double stiffness) {
   has_bounds = false;
-  pressure = std::max({pressure, change, limits.nothing_strain * stiffness});
+  pressure = std::max({pressure, change, implicit_thresholds.nothing_strain * stiffness});
 }
 
 void FlowScales::include_in_bounds(const std::vector<double>& face_pressure) {
@@ -109,16 +107,17 @@ void raise_over_round_off(FlowScales& scales, const Grid<Dim>& grid,
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  double pressure = limits.nothing * liquid.density * conductivity_gravity * (high - low).norm();
+  double pressure =
+      implicit_thresholds.nothing * liquid.density * conductivity_gravity * (high - low).norm();
   if (std::isfinite(liquid.bulk_modulus)) {
-    pressure = std::max(pressure, limits.state_round_off * liquid.bulk_modulus);
+    pressure = std::max(pressure, implicit_thresholds.state_round_off * liquid.bulk_modulus);
   }
   double flux = 0.0;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const double steepest = steepest_shape(grid, e);
     const double mobility = coefficients.porosity[e] / coefficients.drag[e];
     flux = std::max({flux, mobility * pressure * grid.volume[e] * steepest * steepest,
-                     limits.nothing * coefficients.water_volume[e] / end});
+                     implicit_thresholds.nothing * coefficients.water_volume[e] / end});
   }
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     scales.pore_volume += coefficients.porosity[e] * grid.volume[e];

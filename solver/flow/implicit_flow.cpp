@@ -12,11 +12,7 @@
 #include "results/pass_timer.hpp"
 
 namespace suffuse {
-namespace {
-
-constexpr const ImplicitThresholds& limits = implicit_thresholds;
-
-}  // namespace
+namespace {}  // namespace
 
 template <int Dim>
 ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skeleton<Dim>& solid,
@@ -89,8 +85,8 @@ MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interva
     const bool given = control_.has_given_step() || solid_.has_inertia();
     const double error = given ? 0.0 : error_of(step, interval.start, dt);
     if (!control_.accept(interval.start, error, previous_.has_value(), dt)) continue;
-    if (scheme_.iterations() > limits.slow_iterations) control_.hold(dt);
-    if (solid_.has_inertia()) control_.hold(limits.inertial_growth * dt);
+    if (scheme_.iterations() > implicit_thresholds.slow_iterations) control_.hold(dt);
+    if (solid_.has_inertia()) control_.hold(implicit_thresholds.inertial_growth * dt);
     let_out_expansion(dt, stages, step);
     if (!forcing_.back().source.empty()) relaxation_.set_source(forcing_.back().source);
     blending_.record(forcing_.back().coefficients);
@@ -111,8 +107,8 @@ std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::try_step(
     }
     return scheme_.step(now_.state, dt, stages);
   } catch (const NotConverged& error) {
-    const double share =
-        solid_.has_inertia() ? limits.min_unsolved_inertial_step : limits.min_unsolved_step;
+    const double share = solid_.has_inertia() ? implicit_thresholds.min_unsolved_inertial_step
+                                              : implicit_thresholds.min_unsolved_step;
     if (dt >= share * this->scene().time.end) {
       control_.reject(start, dt);
     } else if (solid_.let_fail(start)) {
@@ -149,7 +145,7 @@ template <int Dim>
 FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>& interval,
                                                          double time) const {
   // A breakpoint at the end of the step is not yet in effect.
-  const double before = time - limits.end_margin * (time - interval.start);
+  const double before = time - implicit_thresholds.end_margin * (time - interval.start);
   PoreState pores = interval.pores.at(before);
   if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
     // Forecast fines have not moved yet: where they would lock, more liquid comes with them.
@@ -173,7 +169,7 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
     };
     const auto air_of = [&](const MixedFlow<Dim>& flow) { return air(flow.state); };
     const double largest = std::max(scales_.flux_sum, sum_of_magnitudes(step.flux_through));
-    const double passing = limits.passing_flux * this->scene().time.end;
+    const double passing = implicit_thresholds.passing_flux * this->scene().time.end;
     const double flux_scale = largest * (1.0 + passing / dt);
     return control_.error(
         start, dt,

@@ -8,11 +8,11 @@
 
 #include "case/errors.hpp"
 #include "grid/parallel.hpp"
+#include "physics/numbers.hpp"
 
 namespace suffuse {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Alexander's gamma: both stages last gamma dt, which makes their matrices alike.
 constexpr double stage_share = 1.0 - 0.5 * std::numbers::sqrt2;
 

@@ -22,8 +22,9 @@ std::unique_ptr<FlowSolver<Dim>> make_flow(const Case<Dim>& c, const Grid<Dim>& 
 template <int Dim>
 void check_scheme(const Case<Dim>& c) {
   if (Dim == 2 || c.document.scene.time.scheme == FlowScheme::implicit_mixed) return;
-  throw InputError({{c.document.locate("time.scheme"), "time.scheme", "\"explicit\"",
-                     "\"implicit\": the explicit scheme is for meshes of triangles alone", ""}});
+  throw InputError(
+      InputProblem{c.document.locate("time.scheme"), "time.scheme", "\"explicit\"",
+                   "\"implicit\": the explicit scheme is for meshes of triangles alone"});
 }
 
 template void check_scheme(const Case<2>&);

@@ -7,11 +7,7 @@
 #include "flow/implicit_thresholds.hpp"
 
 namespace suffuse {
-namespace {
-
-constexpr const ImplicitThresholds& limits = implicit_thresholds;
-
-}  // namespace
+namespace {}  // namespace
 
 void MassRelaxation::observe(std::vector<double> mismatch, const std::vector<double>& volume) {
   const std::size_t elements = mismatch.size();
@@ -22,7 +18,8 @@ void MassRelaxation::observe(std::vector<double> mismatch, const std::vector<dou
     // steps round-off would be a large rate.
     for (std::size_t e = 0; e < elements; ++e) {
       const double growth = mismatch[e] - mismatch_[e];
-      const double round_off = limits.volume_round_off * (volume[e] + std::abs(mismatch[e]));
+      const double round_off =
+          implicit_thresholds.volume_round_off * (volume[e] + std::abs(mismatch[e]));
       const double certain = std::copysign(std::max(0.0, std::abs(growth) - round_off), growth);
       outflow_[e] = certain / change_time_ + source_[e];
     }
@@ -32,14 +29,14 @@ void MassRelaxation::observe(std::vector<double> mismatch, const std::vector<dou
 
 std::vector<double> MassRelaxation::wanted_source(double dt, double filling_time) const {
   std::vector<double> source = outflow_;
-  const double rate = 1.0 / std::max(limits.release_steps * dt, filling_time);
+  const double rate = 1.0 / std::max(implicit_thresholds.release_steps * dt, filling_time);
   for (std::size_t e = 0; e < mismatch_.size(); ++e) source[e] += rate * mismatch_[e];
   return source;
 }
 
 std::vector<double> MassRelaxation::released(double dt, double filling_time) const {
   std::vector<double> result = mismatch_;
-  const double share = dt / std::max(limits.release_steps * dt, filling_time);
+  const double share = dt / std::max(implicit_thresholds.release_steps * dt, filling_time);
   for (double& volume : result) volume *= share;
   return result;
 }
@@ -49,10 +46,10 @@ std::vector<double> MassRelaxation::next_source(double dt, double filling_time) 
 }
 
 void MassRelaxation::finish(double dt, double filling_time) {
-  change_time_ = std::max(dt, change_time_ - limits.fading * dt);
+  change_time_ = std::max(dt, change_time_ - implicit_thresholds.fading * dt);
   // By the steps: a jump of the flow that lasts for no time shortens nothing.
-  const double counted = std::min(dt, limits.expansion_time * filling_time);
-  blending_time_ = std::max(counted, blending_time_ - limits.fading * dt);
+  const double counted = std::min(dt, implicit_thresholds.expansion_time * filling_time);
+  blending_time_ = std::max(counted, blending_time_ - implicit_thresholds.fading * dt);
 }
 
 }  // namespace suffuse

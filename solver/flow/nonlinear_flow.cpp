@@ -10,12 +10,12 @@
 #include "case/errors.hpp"
 #include "flow/implicit_mixed.hpp"
 #include "grid/parallel.hpp"
+#include "physics/numbers.hpp"
 
 namespace suffuse {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int max_iterations = 60;
+constexpr int max_newton_iterations = 60;
 /// From here on the iteration of a step has to be nearer to the balance than at its start.
 constexpr int patient_iterations = 20;
 /// What is missing of the balance at a face may be this share of the largest flux, beside round-off
@@ -310,7 +310,7 @@ void ImplicitMixed<Dim>::solve_nonlinear(const MixedState<Dim>& base, double dur
     // A shorter step starts nearer to its end.
     const bool wanders =
         std::isfinite(duration) && iterations_ >= patient_iterations && norm > first_norm;
-    if (!std::isfinite(left) || wanders || iterations_ == max_iterations) {
+    if (!std::isfinite(left) || wanders || iterations_ == max_newton_iterations) {
       refuse_unsettled(iterations_, left, scale, switched);
     }
     share = 1.0;

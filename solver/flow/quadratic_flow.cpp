@@ -9,11 +9,10 @@
 #include "case/errors.hpp"
 #include "flow/implicit_mixed.hpp"
 #include "grid/parallel.hpp"
+#include "physics/numbers.hpp"
 
 namespace suffuse {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 template <int Dim>
 std::vector<Vector<Dim>> part_of_way(const std::vector<Vector<Dim>>& from,

@@ -20,7 +20,7 @@ constexpr double held_storage = 1.5;
 constexpr double beside_mobility = 1e-3;
 /// Air whose suction acts on the soil by no more than this share does not take part.
 constexpr double least_suction_share = 1e-3;
-constexpr int max_iterations = 40;
+constexpr int max_coupling_iterations = 40;
 /// Of water that hardly leaves, over the stiffness of soil that cannot move sideways.
 constexpr double undrained_stiffness = 300.0;
 constexpr int memory = 20;
@@ -30,7 +30,7 @@ constexpr double longest_growth = 10.0;
 constexpr double accuracy = 1e-7;
 /// ... or by this share of the largest pressure, or by the stress of the stiffest soil at such a
 /// strain: to that the solid is in equilibrium (`NewtonLimits`, `Equilibrium::least_strain`).
-constexpr double round_off = 1e-7;
+constexpr double accuracy_of_pressure = 1e-7;
 constexpr double round_off_strain = 1e-12;
 /// Of soil that fails, relative to both: its pressures swing by more with each step.
 constexpr double accuracy_in_motion = 1e-4;
@@ -75,7 +75,7 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
   const double scale =
       largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
   int failed = 0;
-  for (int iteration = 1; iteration <= max_iterations; ++iteration) {
+  for (int iteration = 1; iteration <= max_coupling_iterations; ++iteration) {
     ++iterations_;
     const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
     motion_forcing.pressure = on_solid(of_elements);
@@ -104,7 +104,7 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
     }
     rise = mixing.next(rise, found);
   }
-  const std::string count = std::to_string(max_iterations) + " iterations";
+  const std::string count = std::to_string(max_coupling_iterations) + " iterations";
   if (failed > 0) throw NoEquilibrium("the soil has found no equilibrium in " + count);
   throw NotConverged("flow and motion of the soil do not agree in " + count);
 }
@@ -182,7 +182,7 @@ Eigen::VectorXd SolidCoupling<Dim>::rise_at_soil(const std::vector<double>& befo
 template <int Dim>
 double SolidCoupling<Dim>::allowed(double rise, double pressure, double floor) const {
   if (solid_.has_inertia()) return accuracy_in_motion * (rise + pressure);
-  return accuracy * rise + round_off * pressure + floor;
+  return accuracy * rise + accuracy_of_pressure * pressure + floor;
 }
 
 template <int Dim>

@@ -7,11 +7,7 @@
 #include "flow/implicit_thresholds.hpp"
 
 namespace suffuse {
-namespace {
-
-constexpr const ImplicitThresholds& limits = implicit_thresholds;
-
-}  // namespace
+namespace {}  // namespace
 
 template <int Dim>
 bool boundary_values_rest(const BoundaryValues<Dim>& values,
@@ -33,7 +29,7 @@ void SteadyReuse<Dim>::check(const FlowCoefficients<Dim>& coefficients) {
 template <int Dim>
 bool SteadyReuse<Dim>::is_close(const std::vector<double>& a, const std::vector<double>& b,
                                 double scale) const {
-  return largest_difference(a, b) <= limits.steady * settings_.tolerance * scale;
+  return largest_difference(a, b) <= implicit_thresholds.steady * settings_.tolerance * scale;
 }
 
 template <int Dim>
@@ -42,14 +38,14 @@ bool SteadyReuse<Dim>::needs_update(const std::vector<double>& source,
                                     double flux_scale) const {
   double together = 0.0;
   for (std::size_t e = 0; e < source.size(); ++e) together += std::abs(new_source[e] - source[e]);
-  return together > limits.steady_update * settings_.tolerance * flux_scale;
+  return together > implicit_thresholds.steady_update * settings_.tolerance * flux_scale;
 }
 
 template <int Dim>
 bool SteadyReuse<Dim>::resists_alike(const FlowCoefficients<Dim>& a,
                                      const FlowCoefficients<Dim>& b) const {
   const auto same = [](double x, double y) {
-    return std::abs(x - y) <= limits.resistance_round_off * std::abs(y);
+    return std::abs(x - y) <= implicit_thresholds.resistance_round_off * std::abs(y);
   };
   for (std::size_t e = 0; e < a.drag.size(); ++e) {
     if (!same(a.drag[e] / a.porosity[e], b.drag[e] / b.porosity[e])) return false;

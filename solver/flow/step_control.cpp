@@ -12,12 +12,10 @@
 namespace suffuse {
 namespace {
 
-constexpr const ImplicitThresholds& limits = implicit_thresholds;
-
 /// The length of a step that is short against the time from which it starts becomes the difference
 /// of the two times, as transport and the solid see it.
 double rounded(double start, double dt) {
-  return dt < limits.rounded_step * start ? (start + dt) - start : dt;
+  return dt < implicit_thresholds.rounded_step * start ? (start + dt) - start : dt;
 }
 
 }  // namespace
@@ -31,8 +29,9 @@ void StepControl::start(double first_step, bool smooth, double shortest_change) 
 
 bool StepControl::is_jump(double start, double dt) const {
   const double unnoticed =
-      std::min(limits.jump * settings_.end / settings_.tolerance, shortest_change_);
-  const double unresolved = limits.unresolved_steps * limits.min_step_of_time * start;
+      std::min(implicit_thresholds.jump * settings_.end / settings_.tolerance, shortest_change_);
+  const double unresolved =
+      implicit_thresholds.unresolved_steps * implicit_thresholds.min_step_of_time * start;
   if (!(dt <= std::max(unnoticed, unresolved))) return false;
   const bool starts_at_kink = start == 0.0 || contains_time(settings_.kinks, start);
   return starts_at_kink && contains_time(settings_.kinks, start + dt);
@@ -44,8 +43,8 @@ double StepControl::propose(double start, double until, double longest) {
   const double left = until - start;
   if (settings_.given_step) {
     // The given step is the longest one: what is left is divided evenly.
-    return left /
-           std::max(1.0, std::ceil(left / *settings_.given_step * (1.0 - limits.end_margin)));
+    return left / std::max(1.0, std::ceil(left / *settings_.given_step *
+                                          (1.0 - implicit_thresholds.end_margin)));
   }
   if (is_jump(start, left)) return left;
   double dt = std::min(next_, longest);
@@ -57,7 +56,7 @@ double StepControl::propose(double start, double until, double longest) {
 }
 
 double StepControl::up_to(double dt, double left) {
-  return dt * (1.0 + limits.end_margin) >= left ? left : dt;
+  return dt * (1.0 + implicit_thresholds.end_margin) >= left ? left : dt;
 }
 
 double StepControl::error(double start, double dt,
@@ -90,12 +89,13 @@ double StepControl::error(double start, double dt,
 bool StepControl::accept(double start, double error, bool predicted, double& dt) {
   if (settings_.given_step) return true;
   const double order = (predicted ? 2.0 : 1.0) + settings_.unnoticed / (dt + settings_.unnoticed);
-  const double wanted =
-      error > 0.0 ? limits.safety * std::pow(error, -1.0 / order) : limits.max_growth;
+  const double wanted = error > 0.0 ? implicit_thresholds.safety * std::pow(error, -1.0 / order)
+                                    : implicit_thresholds.max_growth;
   if (error <= 1.0) {
-    double next = dt * std::clamp(wanted, limits.min_shrinkage, limits.max_growth);
+    double next =
+        dt * std::clamp(wanted, implicit_thresholds.min_shrinkage, implicit_thresholds.max_growth);
     if (settings_.length_alone_changes_matrix && wanted >= 1.0 &&
-        wanted < limits.min_growth_for_new_matrix) {
+        wanted < implicit_thresholds.min_growth_for_new_matrix) {
       next = dt;
     }
     // A step that the interval cut short says nothing against the longer one that was planned.
@@ -116,13 +116,15 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
   shortened_ = true;
   rejected_dt_ = dt;
   rejected_error_ = error;
-  return !shorten(start, std::clamp(wanted, limits.min_shrinkage, limits.max_retry), dt);
+  return !shorten(
+      start, std::clamp(wanted, implicit_thresholds.min_shrinkage, implicit_thresholds.max_retry),
+      dt);
 }
 
 bool StepControl::shorten(double start, double factor, double& dt) {
-  const double shortest = rounded(start, 2.0 * limits.min_step_of_time * start);
+  const double shortest = rounded(start, 2.0 * implicit_thresholds.min_step_of_time * start);
   const double shorter = rounded(start, factor * dt);
-  if (!settles_ || unresolved_ == limits.max_unresolved || shorter > shortest) {
+  if (!settles_ || unresolved_ == implicit_thresholds.max_unresolved || shorter > shortest) {
     dt = shorter;
     refuse_too_short(start, dt);
     return true;
@@ -141,15 +143,15 @@ void StepControl::reject(double start, double& dt) {
   ++rejected_;
   shortened_ = true;
   rejected_dt_ = 0.0;
-  dt *= limits.unsolved_shrinkage;
+  dt *= implicit_thresholds.unsolved_shrinkage;
   next_ = dt;
   refuse_too_short(start, dt);
 }
 
 bool StepControl::is_too_short(double start, double dt) const {
-  const double at_start = std::min(limits.min_step_of_run * settings_.end,
-                                   limits.min_step_of_change * shortest_change_);
-  return dt <= limits.min_step_of_time * start || dt < at_start;
+  const double at_start = std::min(implicit_thresholds.min_step_of_run * settings_.end,
+                                   implicit_thresholds.min_step_of_change * shortest_change_);
+  return dt <= implicit_thresholds.min_step_of_time * start || dt < at_start;
 }
 
 void StepControl::refuse_too_short(double start, double dt) const {
@@ -174,14 +176,15 @@ void StepControl::pass_kink() {
 }
 
 void StepControl::grow(double dt) {
-  if (!settings_.given_step) next_ = std::max(next_, limits.max_growth * dt);
+  if (!settings_.given_step) next_ = std::max(next_, implicit_thresholds.max_growth * dt);
 }
 
 void StepControl::account_for(double error) {
   if (settings_.given_step) return;
   const double relative = error / settings_.tolerance;
   if (relative > 1.0) {
-    const double share = std::max(limits.safety * std::pow(relative, -0.5), limits.min_shrinkage);
+    const double share = std::max(implicit_thresholds.safety * std::pow(relative, -0.5),
+                                  implicit_thresholds.min_shrinkage);
     next_ = std::min(next_, share * last_);
   }
 }

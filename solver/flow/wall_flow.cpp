@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "flow/implicit_mixed.hpp"
+#include "physics/numbers.hpp"
 
 namespace suffuse {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// A wall that conducts so much better than the elements beside it hinders nothing, while its
 /// conductance would hide theirs in the matrix.
 constexpr double most_of_elements = 1e6;

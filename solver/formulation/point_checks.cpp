@@ -40,8 +40,8 @@ void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
           << element_centroid(grid.mesh, e).transpose()
           << ") that what they erode or catch leaves no pores elsewhere in it";
     throw InputError(
-        {{c.document.locate("points.jitter"), "points", found.str(),
-          "points nearer to their Gauss positions, with less jitter, or more of them", ""}});
+        InputProblem{c.document.locate("points.jitter"), "points", found.str(),
+                     "points nearer to their Gauss positions, with less jitter, or more of them"});
   }
 }
 

@@ -81,8 +81,8 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
     const Soil* soil = c.document.scene.find_soil(region);
     if (soil == nullptr && c.document.scene.is_free_water(region)) soil = free_water_.get();
     if (soil == nullptr) {
-      throw InputError({{c.document.locate("soil"), "soil." + region, "nothing",
-                         "a soil for region '" + region + "' of the mesh", ""}});
+      throw InputError(InputProblem{c.document.locate("soil"), "soil." + region, "nothing",
+                                    "a soil for region '" + region + "' of the mesh"});
     }
     soil_of_region_.push_back(soil);
     exchange_of_region_.push_back(exchange_model(*soil, c.document.scene.liquid));

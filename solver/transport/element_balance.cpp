@@ -1,15 +1,13 @@
 #include "transport/element_balance.hpp"
+#include "physics/numbers.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace suffuse {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Values at vertices from those at field nodes.
 template <class Values>

@@ -1,8 +1,8 @@
 #include "transport/eulerian.hpp"
+#include "physics/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "case/errors.hpp"
@@ -11,8 +11,6 @@
 
 namespace suffuse {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void include(ConcentrationRange& range, double value) {
   range.low = std::min(range.low, value);

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <set>
 
+#include "physics/numbers.hpp"
 #include "reference_table.hpp"
 #include "test_paths.hpp"
 #include "verification/model_run.hpp"
@@ -25,8 +25,6 @@ constexpr double n_0 = 0.3;
 constexpr double n_max = 0.4;
 constexpr double start = 2.0;
 constexpr double flux = 0.012;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 ErosionModel model(const ErosionLaw* law, double rate) {
   ErosionModel result{law, rate, start, n_max};
   if (!law->drive.empty()) result.drive = drive_law(law->drive);

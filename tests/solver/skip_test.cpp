@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/numbers.hpp"
 #include "solver/double_point_case.hpp"
 #include "verification/model_run.hpp"
 
 namespace suffuse {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Scene single_point_scene(FlowScheme scheme) {
   Scene scene = model::paper_scene();

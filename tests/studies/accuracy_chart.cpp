@@ -54,7 +54,7 @@ std::vector<std::string> schemes() {
 
 InputError wrong(const std::string& where, const std::string& key, const std::string& found,
                  const std::string& expected, const std::string& suggestion = {}) {
-  return InputError(std::vector{InputProblem{where, key, found, expected, suggestion}});
+  return InputError(InputProblem{where, key, found, expected, suggestion});
 }
 
 double positive(const std::string& where, const std::string& key, const std::string& text) {

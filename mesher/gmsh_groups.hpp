@@ -1,0 +1,13 @@
+#pragma once
+
+/// Physical groups of Gmsh's current model.
+
+#include <string>
+#include <vector>
+
+namespace suffuse {
+
+/// Makes a physical group of entities of a dimension and names it. Gmsh chooses its tag.
+void name_group(int dimension, const std::vector<int>& entities, const std::string& name);
+
+}  // namespace suffuse

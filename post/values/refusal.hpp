@@ -1,0 +1,18 @@
+#pragma once
+
+/// How commands refuse what they were given.
+
+#include <string>
+
+#include "case/errors.hpp"
+
+namespace suffuse {
+
+/// Throws an InputError: `COMMAND: OPTION: got FOUND; expected EXPECTED; did you mean SUGGESTION?`
+[[noreturn]] inline void refuse(const std::string& command, const std::string& option,
+                                const std::string& found, const std::string& expected,
+                                const std::string& suggestion = {}) {
+  throw InputError(InputProblem{command, option, found, expected, suggestion});
+}
+
+}  // namespace suffuse
