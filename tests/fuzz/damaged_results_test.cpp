@@ -13,7 +13,7 @@
 #include "results/reader.hpp"
 
 namespace suffuse::fuzz {
-namespace {
+namespace damaged_results_test {
 
 std::string failure(const std::function<void()>& body) {
   try {
@@ -128,5 +128,5 @@ TEST(DamagedResults, APipeIsNotWaitedFor) {
             folder + "/history.csv: cannot be read");
 }
 
-}  // namespace
+}  // namespace damaged_results_test
 }  // namespace suffuse::fuzz

@@ -18,7 +18,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse::fuzz {
-namespace {
+namespace odd_arguments_test {
 
 struct Outcome {
   int code = -1;  // 128 and the signal's number where one ended it
@@ -189,5 +189,5 @@ TEST_F(OddArguments, HelpEndsWithTheExitCodes) {
   }
 }
 
-}  // namespace
+}  // namespace odd_arguments_test
 }  // namespace suffuse::fuzz

@@ -19,7 +19,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse::fuzz {
-namespace {
+namespace replay_test {
 
 namespace fs = std::filesystem;
 
@@ -85,5 +85,5 @@ INSTANTIATE_TEST_SUITE_P(Targets, Replay,
                          testing::Values("scene", "geometry", "case", "results", "model"),
                          [](const auto& tested) { return tested.param; });
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace suffuse::fuzz

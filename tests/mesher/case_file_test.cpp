@@ -15,7 +15,7 @@
 #include "temporary_folder.hpp"
 
 namespace suffuse {
-namespace {
+namespace case_file_test {
 
 using test::read_file;
 using test::TemporaryFolder;
@@ -589,5 +589,5 @@ TEST(Hdf5File, ATextWithNulIsNotCutOff) {
   EXPECT_THROW(file.write_text("/text", std::string("a\0b", 3)), FileError);
 }
 
-}  // namespace
+}  // namespace case_file_test
 }  // namespace suffuse

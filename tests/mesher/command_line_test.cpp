@@ -9,7 +9,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace command_line_test {
 
 using test::TemporaryFolder;
 
@@ -353,5 +353,5 @@ TEST_F(CommandLine, AnUnwritableOutputIsAFileFailureAndLeavesNothing) {
   EXPECT_EQ(folder_.count(), 1);
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace suffuse

@@ -24,7 +24,7 @@
 #include "temporary_folder.hpp"
 
 namespace suffuse {
-namespace {
+namespace confined_child_test {
 
 using How = ChildEnd::How;
 
@@ -214,5 +214,5 @@ TEST(GmshReply, MovesNoCursor) {
   EXPECT_EQ(reply_from(bytes_of(reply)).problems.at(0).found, "?[2Jtext\nmore");
 }
 
-}  // namespace
+}  // namespace confined_child_test
 }  // namespace suffuse

@@ -16,7 +16,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace doubtful_scenes_test {
 
 namespace fs = std::filesystem;
 
@@ -130,5 +130,5 @@ TEST(DoubtfulScene, none_of_the_workflows_and_the_cases) {
   EXPECT_GT(scenes, 40);
 }
 
-}  // namespace
+}  // namespace doubtful_scenes_test
 }  // namespace suffuse

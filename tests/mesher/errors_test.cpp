@@ -7,7 +7,7 @@
 #include <system_error>
 
 namespace suffuse {
-namespace {
+namespace errors_test {
 
 struct Outcome {
   int code;
@@ -77,5 +77,5 @@ TEST(RunProgram, calls_anything_else_a_bug) {
   EXPECT_EQ(outcome_of_throwing(42).code, 3);
 }
 
-}  // namespace
+}  // namespace errors_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "temporary_folder.hpp"
 
 namespace suffuse {
-namespace {
+namespace geometry_attacks_test {
 
 namespace fs = std::filesystem;
 
@@ -117,5 +117,5 @@ TEST_F(Attacks, AreNotWhatAFileForManyProcessorsIs) {
   EXPECT_EQ(refusal("General.NumThreads=4; Mesh.MaxNumThreads2D=4;"), "");
 }
 
-}  // namespace
+}  // namespace geometry_attacks_test
 }  // namespace suffuse

@@ -21,7 +21,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace geometry_test {
 
 namespace fs = std::filesystem;
 using test::scene_text;
@@ -1213,5 +1213,5 @@ TEST(Summary, WarnsOfSharpAngles) {
   EXPECT_EQ(angle_warning(mesh), "");
 }
 
-}  // namespace
+}  // namespace geometry_test
 }  // namespace suffuse

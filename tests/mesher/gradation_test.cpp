@@ -9,7 +9,7 @@
 #include "case/grading_checks.hpp"
 
 namespace suffuse {
-namespace {
+namespace gradation_test {
 
 using End = Gradation::End;
 
@@ -396,5 +396,5 @@ TEST(SkemptonBrogan, a_reconstruction_of_material_d_is_stable) {
   }
 }
 
-}  // namespace
+}  // namespace gradation_test
 }  // namespace suffuse

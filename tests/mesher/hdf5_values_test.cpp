@@ -12,7 +12,7 @@
 #include "mesher/temporary_folder.hpp"
 
 namespace suffuse {
-namespace {
+namespace hdf5_values_test {
 
 using test::TemporaryFolder;
 
@@ -116,5 +116,5 @@ TEST(CompressedValues, AChangedByteIsSeen) {
   }
 }
 
-}  // namespace
+}  // namespace hdf5_values_test
 }  // namespace suffuse

@@ -17,7 +17,7 @@
 #include "mesher/shuffled_mesh.hpp"
 
 namespace suffuse {
-namespace {
+namespace hilbert_order_test {
 
 // The curve
 
@@ -328,5 +328,5 @@ TEST(HilbertOrder, PartsOfConsecutiveElementsHaveShortBorders) {
   EXPECT_GT(cut_faces(mesh, 16), 10.0 * straight);
 }
 
-}  // namespace
+}  // namespace hilbert_order_test
 }  // namespace suffuse

@@ -8,7 +8,7 @@
 #include "case/faces.hpp"
 
 namespace suffuse {
-namespace {
+namespace mesh_test {
 
 Mesh<2> triangle(const Vector<2>& a, const Vector<2>& b, const Vector<2>& c) {
   Mesh<2> mesh;
@@ -88,5 +88,5 @@ TEST(Faces, OppositeFaceLacksTheCorner) {
   EXPECT_EQ(face, (std::array<int, 3>{1, 5, 7}));
 }
 
-}  // namespace
+}  // namespace mesh_test
 }  // namespace suffuse

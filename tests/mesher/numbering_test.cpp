@@ -17,7 +17,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace numbering_test {
 
 using test::TemporaryFolder;
 
@@ -89,5 +89,5 @@ INSTANTIATE_TEST_SUITE_P(Schemes, Numbering,
                          testing::Values("{end=2.0,scheme=\"explicit\",mass_scaling=1e4}",
                                          "{end=2.0,scheme=\"implicit\",step=0.25}"));
 
-}  // namespace
+}  // namespace numbering_test
 }  // namespace suffuse

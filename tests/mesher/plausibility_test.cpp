@@ -7,7 +7,7 @@
 #include "temporary_folder.hpp"
 
 namespace suffuse {
-namespace {
+namespace plausibility_test {
 
 using Warnings = std::vector<std::string>;
 
@@ -247,5 +247,5 @@ TEST(SuctionWarning, OfWhatABoundaryPrescribes) {
       Warnings{because("2", "(0.25, 4)", "boundary[1] prescribes the suction of a head of 2 m")});
 }
 
-}  // namespace
+}  // namespace plausibility_test
 }  // namespace suffuse

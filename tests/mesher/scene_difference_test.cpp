@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace suffuse {
-namespace {
+namespace scene_difference_test {
 
 using Lines = std::vector<std::string>;
 
@@ -77,5 +77,5 @@ TEST(SceneDifference, OfWhatCannotBeReadIsTheText) {
   EXPECT_EQ(scene_differences(document("name ="), document("name =")), Lines{});
 }
 
-}  // namespace
+}  // namespace scene_difference_test
 }  // namespace suffuse

@@ -18,7 +18,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace scene_test {
 
 namespace fs = std::filesystem;
 
@@ -874,5 +874,5 @@ TEST(HostileScene, deep_values_and_odd_bytes_are_no_toml) {
   }
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace suffuse

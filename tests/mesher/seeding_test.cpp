@@ -14,7 +14,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace seeding_test {
 
 /// A scalene triangle and its neighbour.
 Mesh<2> two_triangles() {
@@ -513,5 +513,5 @@ TEST(RandomSeeding, FavoursNoPartOfTheTriangle) {
   EXPECT_LT(linear_error({together}), 4.0 * std::sqrt(1.0 / 18.0 / all));
 }
 
-}  // namespace
+}  // namespace seeding_test
 }  // namespace suffuse

@@ -4,7 +4,7 @@
 #include "physics/skeleton/skeleton_law.hpp"
 
 namespace suffuse {
-namespace {
+namespace skeleton_scene_test {
 
 constexpr const char* text = R"(formulation = "single-point"
 gravity = [0, -9.81]
@@ -90,5 +90,5 @@ TEST(SkeletonScene, a_constant_traction_may_be_a_plain_vector) {
   EXPECT_EQ(scene.boundaries[2].traction->value(7.0), (VectorFunction::Components{1, 2, 3}));
 }
 
-}  // namespace
+}  // namespace skeleton_scene_test
 }  // namespace suffuse

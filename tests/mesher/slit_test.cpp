@@ -12,7 +12,7 @@
 #include "hilbert_order.hpp"
 
 namespace suffuse {
-namespace {
+namespace slit_test {
 
 using Edge = std::array<int, 2>;
 
@@ -268,5 +268,5 @@ TEST(Slit, works_in_three_dimensions) {
   EXPECT_EQ(pieces(halves), 2);
 }
 
-}  // namespace
+}  // namespace slit_test
 }  // namespace suffuse

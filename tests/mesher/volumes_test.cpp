@@ -18,7 +18,7 @@
 #include "temporary_folder.hpp"
 
 namespace suffuse {
-namespace {
+namespace volumes_test {
 
 using test::scene_text;
 using test::TemporaryFolder;
@@ -454,5 +454,5 @@ TEST(SeedingOfTetrahedra, HasFourSolidPointsUnlessTheSceneSaysOtherwise) {
   EXPECT_EQ(document.scene.points.solid_per_element, 14);
 }
 
-}  // namespace
+}  // namespace volumes_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace column_fines_test {
 
 using testing::ScratchFolder;
 
@@ -178,5 +178,5 @@ TEST(ColumnFlow, IsNotThereWhereNothingIsExact) {
   EXPECT_FALSE(flow_of(scratch, c, "law = \"constant\"", "law = \"none\""));
 }
 
-}  // namespace
+}  // namespace column_fines_test
 }  // namespace suffuse

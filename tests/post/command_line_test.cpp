@@ -13,7 +13,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace command_line_test {
 
 namespace fs = std::filesystem;
 using testing::file_text;
@@ -41,7 +41,7 @@ class PostCommand : public ::testing::Test {
  protected:
   PostCommand() { write_synthetic_results(run); }
   [[nodiscard]] Outcome post(const std::string& arguments) const {
-    return suffuse::post(scratch, arguments);
+    return command_line_test::post(scratch, arguments);
   }
   void expect_refusal(const std::string& arguments, int code, const std::string& message) const {
     const Outcome outcome = post(arguments);
@@ -405,5 +405,5 @@ TEST_F(PostCommand, MisspeltCommandsAndOptions) {
   EXPECT_EQ(post("--help").code, 0);
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "values/fields.hpp"
 
 namespace suffuse {
-namespace {
+namespace derived_fields_test {
 
 using testing::ScratchFolder;
 using testing::unit_square_case;
@@ -112,5 +112,5 @@ TEST_F(DerivedFields, LeastSafetyIsThatOfAllTimes) {
   EXPECT_NE(safety_text(results(), parts).find("water rises nowhere"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace derived_fields_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace exact_solution_test {
 
 const std::string reference = std::string(SUFFUSE_TEST_DATA) + "/reference/";
 
@@ -103,5 +103,5 @@ TEST(ExactSolution, WithoutALawNothingErodes) {
   EXPECT_EQ(porosity_of(paper_soil(erosion_law("none"), 1.0), 0.3, 100.0), 0.3);
 }
 
-}  // namespace
+}  // namespace exact_solution_test
 }  // namespace suffuse

@@ -15,7 +15,7 @@
 #include "values/sample.hpp"
 
 namespace suffuse {
-namespace {
+namespace exit_gradient_test {
 
 using testing::ScratchFolder;
 
@@ -97,5 +97,5 @@ TEST(ExitGradient, DischargesAgree) {
   EXPECT_EQ(compared, 2);
 }
 
-}  // namespace
+}  // namespace exit_gradient_test
 }  // namespace suffuse

@@ -8,7 +8,7 @@
 #include "drawing/ticks.hpp"
 
 namespace suffuse {
-namespace {
+namespace field_scale_test {
 
 /// 0, 1, ..., 999, one each.
 std::vector<WeightedValue> thousand() {
@@ -101,5 +101,5 @@ TEST(Ticks, AreWrittenAsByHand) {
   EXPECT_EQ(tick_text(518400.0), "518400");
 }
 
-}  // namespace
+}  // namespace field_scale_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace figures_test {
 
 using testing::file_text;
 using testing::Pixels;
@@ -364,5 +364,5 @@ TEST(LogarithmicTicks, Text) {
   EXPECT_EQ(logarithmic_tick_text(1e5), "1e5");
 }
 
-}  // namespace
+}  // namespace figures_test
 }  // namespace suffuse

@@ -16,7 +16,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace film_test {
 
 namespace fs = std::filesystem;
 using testing::file_text;
@@ -203,5 +203,5 @@ TEST_F(Film, PicturesBecomeAsLargeAsTheLargest) {
   EXPECT_EQ(png_size(small), png_size(large));
 }
 
-}  // namespace
+}  // namespace film_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace gradation_figure_test {
 
 using testing::file_text;
 using testing::Pixels;
@@ -168,5 +168,5 @@ TEST(GradationFigure, is_drawn_with_its_texts) {
   EXPECT_GT(pixels.inked(), 8000);
 }
 
-}  // namespace
+}  // namespace gradation_figure_test
 }  // namespace suffuse

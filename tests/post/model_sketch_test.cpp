@@ -9,7 +9,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace model_sketch_test {
 
 using testing::file_text;
 using testing::ScratchFolder;
@@ -129,5 +129,5 @@ TEST(ModelSketch, EveryOuterEdgeBelongsToOneBoundary) {
   EXPECT_EQ(boundaries.back().label, "unnamed: impervious");
 }
 
-}  // namespace
+}  // namespace model_sketch_test
 }  // namespace suffuse

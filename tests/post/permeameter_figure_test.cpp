@@ -9,7 +9,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace permeameter_figure_test {
 
 using testing::file_text;
 using testing::ScratchFolder;
@@ -128,5 +128,5 @@ TEST(PermeameterFigure, RefusesTablesAndFiguresThatDoNotFit) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace permeameter_figure_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace reference_error_test {
 
 using testing::linear_porosity;
 using testing::ScratchFolder;
@@ -137,5 +137,5 @@ TEST(ReferenceErrorText, ReadsBack) {
   EXPECT_EQ(error_text(errors), "porosity: L1 0.125, L2 0.25, largest 0.5 of 3 values\n");
 }
 
-}  // namespace
+}  // namespace reference_error_test
 }  // namespace suffuse

@@ -15,7 +15,7 @@
 #include "values/fields.hpp"
 
 namespace suffuse {
-namespace {
+namespace render_test {
 
 using testing::expect_color;
 using testing::Pixels;
@@ -384,5 +384,5 @@ TEST_F(Render, RefusesLinesColoursAndPartsThatCannotBe) {
   EXPECT_THROW(render(run(), r), InputError);
 }
 
-}  // namespace
+}  // namespace render_test
 }  // namespace suffuse

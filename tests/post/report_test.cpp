@@ -15,7 +15,7 @@
 #include "results/number_text.hpp"
 
 namespace suffuse {
-namespace {
+namespace report_test {
 
 using testing::file_text;
 using testing::ScratchFolder;
@@ -268,5 +268,5 @@ TEST(ReportText, ArgumentsOfAShellAreQuoted) {
   EXPECT_EQ(shell_argument(""), "''");
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace suffuse

@@ -16,7 +16,7 @@
 #include "results/reader.hpp"
 
 namespace suffuse {
-namespace {
+namespace results_test {
 
 namespace fs = std::filesystem;
 using testing::file_text;
@@ -465,5 +465,5 @@ TEST(Results, OtherSeparatorsAreNamed) {
   EXPECT_EQ(message("t,head\n0,2.5\n"), "accepted");
 }
 
-}  // namespace
+}  // namespace results_test
 }  // namespace suffuse

@@ -8,7 +8,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace run_table_test {
 
 using testing::ScratchFolder;
 
@@ -118,5 +118,5 @@ TEST(RunTable, ErrorsAreSharesOfTheErodibleMass) {
   EXPECT_EQ(row["status"], "stopped without notice");
 }
 
-}  // namespace
+}  // namespace run_table_test
 }  // namespace suffuse

@@ -6,7 +6,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace sample_test {
 
 using testing::linear_porosity;
 using testing::ScratchFolder;
@@ -121,5 +121,5 @@ TEST_F(DoublePointSample, FieldsOfPointsAreRefusedWithTheReason) {
   }
 }
 
-}  // namespace
+}  // namespace sample_test
 }  // namespace suffuse

@@ -14,7 +14,7 @@
 #include "values/fields.hpp"
 
 namespace suffuse {
-namespace {
+namespace seepage_map_test {
 
 using testing::file_text;
 using testing::Pixels;
@@ -374,5 +374,5 @@ TEST(SeepageMap, RefusesWhatItCannotDraw) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace seepage_map_test
 }  // namespace suffuse

@@ -25,7 +25,7 @@
 #include "values/specimen.hpp"
 
 namespace suffuse {
-namespace {
+namespace space_test {
 
 using testing::ScratchFolder;
 
@@ -474,5 +474,5 @@ TEST_F(Space, WhatHasNoSenseIsRefused) {
                 "surfaces and cuts, sample and the figure profile follow lines");
 }
 
-}  // namespace
+}  // namespace space_test
 }  // namespace suffuse

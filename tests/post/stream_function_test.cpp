@@ -11,7 +11,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace stream_function_test {
 
 using testing::ScratchFolder;
 
@@ -204,5 +204,5 @@ TEST(StreamFunction, IsRefusedOfLiquidAtRest) {
   }
 }
 
-}  // namespace
+}  // namespace stream_function_test
 }  // namespace suffuse

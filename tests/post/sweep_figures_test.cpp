@@ -10,7 +10,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace sweep_figures_test {
 
 using testing::file_text;
 using testing::Pixels;
@@ -233,5 +233,5 @@ TEST(AxisText, KeysHaveTheUnitsOfTheScene) {
             "soil.specimen.erosion.threshold (m/s)");
 }
 
-}  // namespace
+}  // namespace sweep_figures_test
 }  // namespace suffuse

@@ -12,7 +12,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace table_curves_test {
 
 using testing::file_text;
 using testing::linear_porosity;
@@ -185,5 +185,5 @@ TEST_F(TableCurves, ProfileAlongALineAtSeveralTimes) {
   EXPECT_NEAR(make_figure("profile", run(), options)[0].curves[1].y[2], 1e-2 * 1.25, 1e-14);
 }
 
-}  // namespace
+}  // namespace table_curves_test
 }  // namespace suffuse

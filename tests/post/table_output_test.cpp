@@ -6,7 +6,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace table_output_test {
 
 using testing::file_text;
 using testing::ScratchFolder;
@@ -54,5 +54,5 @@ TEST(TableOutput, RefusesAnUnknownUnitOfTime) {
   }
 }
 
-}  // namespace
+}  // namespace table_output_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace broken_scenes_test {
 
 const std::string folder_of_scenes = SUFFUSE_SOURCE_DIR "/tests/cases/";
 
@@ -123,5 +123,5 @@ TEST(BrokenScenes, DepositsStayInSoilThatIsCompressed) {
   }
 }
 
-}  // namespace
+}  // namespace broken_scenes_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "solver/carried_column.hpp"
 
 namespace suffuse {
-namespace {
+namespace carried_points_test {
 
 using model::Column;
 using model::fast_column;
@@ -297,5 +297,5 @@ TEST(PointBlocks, TakeInAsManyPointsAsCome) {
   EXPECT_EQ(blocks.size(), 44);
 }
 
-}  // namespace
+}  // namespace carried_points_test
 }  // namespace suffuse

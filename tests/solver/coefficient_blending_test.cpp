@@ -9,7 +9,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace coefficient_blending_test {
 
 using model::FlowModel;
 using model::Uniform;
@@ -167,5 +167,5 @@ TEST_F(CoefficientBlendingTest, GoesOnAsArchived) {
   EXPECT_EQ(distance(blended(other, 0.7), blended(blending, 0.7)), 0.0);
 }
 
-}  // namespace
+}  // namespace coefficient_blending_test
 }  // namespace suffuse

@@ -15,7 +15,7 @@
 #include "solver/solid_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace deformation_parts_test {
 
 using model::PlaneModel;
 
@@ -645,5 +645,5 @@ TEST(HeldByInertia, IsTheMobilityOfAFluidInShortSteps) {
   }
 }
 
-}  // namespace
+}  // namespace deformation_parts_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "solver/solver_process.hpp"
 
 namespace suffuse {
-namespace {
+namespace determinism_test {
 
 using test::Outcome;
 
@@ -87,5 +87,5 @@ std::vector<test::Mode> modes() {
 }
 INSTANTIATE_TEST_SUITE_P(Modes, Determinism, testing::ValuesIn(modes()), name_of);
 
-}  // namespace
+}  // namespace determinism_test
 }  // namespace suffuse

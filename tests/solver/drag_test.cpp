@@ -7,7 +7,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace drag_test {
 
 ConductivityModel model(const char* law) {
   return {conductivity_law(law), 2e-2, 0.6};
@@ -46,5 +46,5 @@ TEST(Conductivity, AgreesWithErgunsGrains) {
   EXPECT_NEAR(model("kozeny-carman").at(n_0, n), permeability * 1000.0 * 9.81 / 1e-3, 1e-15);
 }
 
-}  // namespace
+}  // namespace drag_test
 }  // namespace suffuse

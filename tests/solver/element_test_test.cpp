@@ -16,7 +16,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace element_test_test {
 
 using test::columns_of;
 using test::TemporaryFolder;
@@ -211,5 +211,5 @@ TEST(ElementTest, program_refuses_and_writes_nothing) {
   EXPECT_FALSE(std::filesystem::exists(program.folder.file("a.csv")));
 }
 
-}  // namespace
+}  // namespace element_test_test
 }  // namespace suffuse

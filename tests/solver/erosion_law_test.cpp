@@ -19,7 +19,7 @@ namespace erosion {
 extern const ErosionLaw second_order;  // not in the list: as a law that is added
 }  // namespace erosion
 
-namespace {
+namespace erosion_law_test {
 
 constexpr double n_0 = 0.3;
 constexpr double n_max = 0.4;
@@ -285,5 +285,5 @@ TEST(LogarithmicLaw, ApproachesItsCapWithoutPassingIt) {
   EXPECT_EQ(porosity_after(m, n_0, 0.0, 86400.0, unset), n_max);
 }
 
-}  // namespace
+}  // namespace erosion_law_test
 }  // namespace suffuse

@@ -16,7 +16,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace estimate_test {
 
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
@@ -289,5 +289,5 @@ TEST(Explain, PrintsTheEstimateAndLeavesNothingBehind) {
   EXPECT_NE(explain(folder.file("missing")).find("of unknown size"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace estimate_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace eulerian_test {
 
 constexpr double height_flux = 0.012;
 
@@ -160,5 +160,5 @@ TEST(EulerianTransport, AStepBeyondTheLimitIsWhatTheLimitIsFor) {
             std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace eulerian_test
 }  // namespace suffuse

@@ -6,7 +6,7 @@
 #include <set>
 
 namespace suffuse {
-namespace {
+namespace exchange_test {
 
 constexpr double n_0 = 0.35;
 constexpr double n_max = 0.55;
@@ -342,5 +342,5 @@ TEST(Viscosity, IsEinsteinsWhereThereIsLittle) {
   EXPECT_EQ(ViscosityModel{}.ratio(0.5), 1.0);
 }
 
-}  // namespace
+}  // namespace exchange_test
 }  // namespace suffuse

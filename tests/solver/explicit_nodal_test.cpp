@@ -14,7 +14,7 @@
 #include "verification/free_mesh.hpp"
 
 namespace suffuse {
-namespace {
+namespace explicit_nodal_test {
 
 constexpr double modulus = 2.0e7;
 
@@ -246,5 +246,5 @@ TEST(ExplicitNodal, IsTheSameOnTwoThreads) {
   }
 }
 
-}  // namespace
+}  // namespace explicit_nodal_test
 }  // namespace suffuse

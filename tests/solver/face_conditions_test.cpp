@@ -5,7 +5,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace face_conditions_test {
 
 using Knots = std::vector<std::pair<double, double>>;
 
@@ -320,5 +320,5 @@ TEST(Well, spreads_its_rate_over_its_faces) {
   }
 }
 
-}  // namespace
+}  // namespace face_conditions_test
 }  // namespace suffuse

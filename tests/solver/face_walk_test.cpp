@@ -12,7 +12,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace face_walk_test {
 
 /// The same numbers on every platform, in [0, 1).
 class Random {
@@ -483,5 +483,5 @@ TEST(FaceWalk, CrossingsCountElementsPassed) {
   }
 }
 
-}  // namespace
+}  // namespace face_walk_test
 }  // namespace suffuse

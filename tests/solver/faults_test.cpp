@@ -20,7 +20,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace faults_test {
 
 namespace fs = std::filesystem;
 using test::Outcome;
@@ -522,5 +522,5 @@ TEST_F(Fault, ExportLeavesWholeFilesAlone) {
   }
 }
 
-}  // namespace
+}  // namespace faults_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "solver/double_point_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace fines_transfer_test {
 
 constexpr double grain_density = 2700.0;
 
@@ -268,5 +268,5 @@ TEST(FinesTransfer, AlongPathsFinesThatNoPointTookGoToPointsNear) {
   EXPECT_NEAR(dry.pending_mass(), grain_density * 1e-3, 1e-13);
 }
 
-}  // namespace
+}  // namespace fines_transfer_test
 }  // namespace suffuse

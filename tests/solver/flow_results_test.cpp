@@ -11,7 +11,7 @@
 #include "verification/model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace flow_results_test {
 
 using model::column_mesh;
 using model::jittered;
@@ -506,5 +506,5 @@ TEST(DoublePointSnapshot, ErodesAsTheStepDoes) {
   EXPECT_GT(rate.front(), 0.0);
 }
 
-}  // namespace
+}  // namespace flow_results_test
 }  // namespace suffuse

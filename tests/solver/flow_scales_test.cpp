@@ -10,7 +10,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace flow_scales_test {
 
 using model::FlowModel;
 
@@ -162,5 +162,5 @@ TEST(MixedFlow, WaterCrossesWithTheDensityOfWhereItComesFrom) {
   EXPECT_EQ(stiff.density_excess, std::vector<double>(faces, 0.0));
 }
 
-}  // namespace
+}  // namespace flow_scales_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace flux_correction_test {
 
 using model::FlowModel;
 using model::imbalance;
@@ -160,5 +160,5 @@ TEST(FluxCorrection, FindsSealedPieces) {
   }
 }
 
-}  // namespace
+}  // namespace flux_correction_test
 }  // namespace suffuse

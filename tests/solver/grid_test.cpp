@@ -10,7 +10,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace grid_test {
 
 const Mesh<2> mesh = model::column_mesh(5, 4, 1.0, 1.0, model::jittered(0.06, 1));
 
@@ -82,5 +82,5 @@ TEST(CompensatedSum, KeepsWhatAPlainSumLoses) {
   EXPECT_NEAR(sum.value(), 300.0, 1e-10);  // a plain sum gives 0
 }
 
-}  // namespace
+}  // namespace grid_test
 }  // namespace suffuse

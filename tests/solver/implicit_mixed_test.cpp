@@ -13,7 +13,7 @@
 #include "flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace implicit_mixed_test {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -435,5 +435,5 @@ TEST(ImplicitMixed, WithoutPressureBoundaryFluxesMustCancel) {
   }
 }
 
-}  // namespace
+}  // namespace implicit_mixed_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "case/errors.hpp"
 
 namespace suffuse {
-namespace {
+namespace lagged_preconditioner_test {
 
 /// Five-point matrix of flow on an n x n grid, conductances 1 + amount * (something between -1 and
 /// 1 that depends on place), grounded on one side.
@@ -222,5 +222,5 @@ TEST(LaggedPreconditioner, TwoThreadsGiveTheSameBits) {
   EXPECT_EQ(solution(1), solution(2));
 }
 
-}  // namespace
+}  // namespace lagged_preconditioner_test
 }  // namespace suffuse

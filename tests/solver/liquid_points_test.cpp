@@ -9,7 +9,7 @@
 #include "transport/concentration_fit.hpp"
 
 namespace suffuse {
-namespace {
+namespace liquid_points_test {
 
 /// Points at random in the elements, every column of a point telling its id.
 LiquidPoints<2> tagged_points(int count, int elements, bool with_flow) {
@@ -179,5 +179,5 @@ TEST(ConcentrationFit, IsZeroWithoutAnyLiquid) {
   }
 }
 
-}  // namespace
+}  // namespace liquid_points_test
 }  // namespace suffuse

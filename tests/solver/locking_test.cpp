@@ -6,7 +6,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace locking_test {
 
 /// Each square cut along both diagonals.
 Mesh<2> crossed_mesh(int cells, double jitter) {
@@ -106,5 +106,5 @@ TEST(Locking, IsNoMatterForTheColumn) {
               1e-10);
 }
 
-}  // namespace
+}  // namespace locking_test
 }  // namespace suffuse

@@ -8,7 +8,7 @@
 #include "solver/solver_process.hpp"
 
 namespace suffuse {
-namespace {
+namespace lost_equilibrium_test {
 
 /// Water rises through sand until it floats: from 1 - 1/1.7 = 0.41 of pores on, or a little before,
 /// as fines make it heavier.
@@ -64,5 +64,5 @@ TEST(LostEquilibrium, StopsTheRunWithItsLastStateWritten) {
   }
 }
 
-}  // namespace
+}  // namespace lost_equilibrium_test
 }  // namespace suffuse

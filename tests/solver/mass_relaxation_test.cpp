@@ -13,7 +13,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace mass_relaxation_test {
 
 using model::FlowModel;
 using model::Uniform;
@@ -147,5 +147,5 @@ TEST(MassRelaxation, GoesOnAsArchived) {
   EXPECT_EQ(other.source(), element.relaxation.source());
 }
 
-}  // namespace
+}  // namespace mass_relaxation_test
 }  // namespace suffuse

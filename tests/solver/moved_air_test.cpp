@@ -11,7 +11,7 @@
 #include "model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace moved_air_test {
 
 class MovedAirTest : public testing::Test {
  protected:
@@ -181,5 +181,5 @@ TEST(FlowSoils, MixWhereSoilFillsAPart) {
   EXPECT_NEAR(soils.suction_share(0, 0.55), 0.5, 1e-15);
 }
 
-}  // namespace
+}  // namespace moved_air_test
 }  // namespace suffuse

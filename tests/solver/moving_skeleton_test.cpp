@@ -18,7 +18,7 @@
 #include "solver/solid_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace moving_skeleton_test {
 
 BoundaryCondition held(const std::string& name) {
   BoundaryCondition b;
@@ -611,5 +611,5 @@ TEST(StartMotion, SaysWhenThereIsNoEquilibrium) {
   }
 }
 
-}  // namespace
+}  // namespace moving_skeleton_test
 }  // namespace suffuse

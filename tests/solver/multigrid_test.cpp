@@ -12,7 +12,7 @@
 #include "linear/newton_system.hpp"
 
 namespace suffuse {
-namespace {
+namespace multigrid_test {
 
 /// Seven-point matrix of flow through n x n x n cells, grounded at one side. `contrast`: of the
 /// conductivities of layers, which are multiplied by up to 1e4 at random places.
@@ -150,5 +150,5 @@ TEST(NewtonSystem, SolvesTangentsThatAreFarFromTheSymmetricMatrix) {
   EXPECT_GT(2 * (system.counts().iterations - before), 3 * before);
 }
 
-}  // namespace
+}  // namespace multigrid_test
 }  // namespace suffuse

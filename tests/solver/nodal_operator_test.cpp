@@ -11,7 +11,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace nodal_operator_test {
 
 /// Uneven porosities on a distorted mesh.
 double uneven(const Vector<2>& x) {
@@ -152,5 +152,5 @@ TEST(SteadyFlow, IsDarcysLaw) {
   }
 }
 
-}  // namespace
+}  // namespace nodal_operator_test
 }  // namespace suffuse

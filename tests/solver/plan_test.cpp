@@ -11,7 +11,7 @@
 #include "solver/solid_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace plan_test {
 
 Scene fluxes(double top, double bottom) {
   Scene scene = model::paper_scene();
@@ -335,5 +335,5 @@ TEST(Plan, WarnsOfInertiaInFreeWater) {
   EXPECT_EQ(warnings({}), 0U);
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace suffuse

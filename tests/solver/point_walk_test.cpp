@@ -10,7 +10,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace point_walk_test {
 
 /// The same numbers on every platform, in [0, 1).
 class Random {
@@ -243,5 +243,5 @@ TEST(PointWalk, TheCrossingRateIsTheInverseOfTheTimeToCross) {
   }
 }
 
-}  // namespace
+}  // namespace point_walk_test
 }  // namespace suffuse

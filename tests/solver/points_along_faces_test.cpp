@@ -13,7 +13,7 @@
 #include "verification/exact_fines.hpp"
 
 namespace suffuse {
-namespace {
+namespace points_along_faces_test {
 
 constexpr LiquidDensities densities{1000.0, 2700.0};
 constexpr double bulk_modulus = 2.0e7;
@@ -302,5 +302,5 @@ TEST(PointsAlongFaces, StepsMayCrossOneElement) {
   EXPECT_NEAR(column.liquid.longest_step(column.face_rate), transport_safety * 6.25, 1e-12);
 }
 
-}  // namespace
+}  // namespace points_along_faces_test
 }  // namespace suffuse

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 namespace suffuse {
-namespace {
+namespace progress_test {
 
 TEST(TimeLeft, OfASteadyPaceIsKnownSoon) {
   TimeLeft left(0.0, 100.0);
@@ -70,5 +70,5 @@ TEST(Progress, SaysTheTimeLeftOrWhyItIsUnknown) {
   EXPECT_EQ(outlook(standing), "soil fails");
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace suffuse

@@ -7,7 +7,7 @@
 #include "results/state_archive.hpp"
 
 namespace suffuse {
-namespace {
+namespace repeated_failure_test {
 
 constexpr double size = 0.5;  // of elements, m
 constexpr double fall = 1.0;  // s
@@ -89,5 +89,5 @@ TEST(RepeatedFailure, CountsOnFromItsArchiveAndInAnotherOrderOfPoints) {
   EXPECT_EQ(resumed.failures_until_creep(0.0, 0.0), 5);
 }
 
-}  // namespace
+}  // namespace repeated_failure_test
 }  // namespace suffuse

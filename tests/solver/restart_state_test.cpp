@@ -13,7 +13,7 @@
 #include "results/writer.hpp"
 
 namespace suffuse {
-namespace {
+namespace restart_state_test {
 
 namespace fs = std::filesystem;
 using test::read_file;
@@ -306,5 +306,5 @@ TEST(FolderLock, GoesWithTheProcessThatHeldIt) {
   EXPECT_EQ(failure([&] { FolderLock lock(folder); }), "no FileError");
 }
 
-}  // namespace
+}  // namespace restart_state_test
 }  // namespace suffuse

@@ -12,7 +12,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace resume_test {
 
 namespace fs = std::filesystem;
 using test::Outcome;
@@ -541,5 +541,5 @@ TEST_F(ResumedRun, NothingIsDoneAwayWithWhereNoSnapshotWillDo) {
   EXPECT_EQ(test::difference(folder, whole_), "");
 }
 
-}  // namespace
+}  // namespace resume_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace rigid_skeleton_test {
 
 /// Solid points of a small column of eroding soil.
 struct SolidCase {
@@ -131,5 +131,5 @@ TEST(PoreForecast, IsWhatErosionThenDoes) {
   }
 }
 
-}  // namespace
+}  // namespace rigid_skeleton_test
 }  // namespace suffuse

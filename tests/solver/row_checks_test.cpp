@@ -9,7 +9,7 @@
 #include "solver/double_point_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace row_checks_test {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -99,5 +99,5 @@ TEST_F(Rows, WhatWasSaidIsRememberedAcrossAResume) {
   EXPECT_TRUE(resumed.check(with_fines(0.9, 0.1)).empty());
 }
 
-}  // namespace
+}  // namespace row_checks_test
 }  // namespace suffuse

@@ -8,7 +8,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace run_loop_test {
 
 /// Keeps what it is given.
 class Notes final : public OutputSink<2> {
@@ -139,5 +139,5 @@ TEST(RowChecks, SayWhatCanTakePressuresOutOfTheirBounds) {
   EXPECT_EQ(warning(0.03, 0), "") << "nothing to change";
 }
 
-}  // namespace
+}  // namespace run_loop_test
 }  // namespace suffuse

@@ -7,7 +7,7 @@
 #include <iostream>
 
 namespace suffuse::model {
-namespace {
+namespace scheme_energy_test {
 
 BoxSettings box(unsigned seed, double conductivity) {
   BoxSettings settings;
@@ -71,5 +71,5 @@ TEST(SchemeEnergy, IsLostByTheImplicitScheme) {
   }
 }
 
-}  // namespace
+}  // namespace scheme_energy_test
 }  // namespace suffuse::model

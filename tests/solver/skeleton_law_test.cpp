@@ -11,7 +11,7 @@
 #include "physics/skeleton/skeleton_response.hpp"
 
 namespace suffuse {
-namespace {
+namespace skeleton_law_test {
 
 using Eigen::Matrix2d;
 using Eigen::Matrix3d;
@@ -385,5 +385,5 @@ TEST(FinesFunction, is_linear_between_pairs_in_either_order) {
   EXPECT_EQ(FinesFunction(7.0).value(0.3), 7.0);
 }
 
-}  // namespace
+}  // namespace skeleton_law_test
 }  // namespace suffuse

@@ -7,7 +7,7 @@
 #include "verification/model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace skip_test {
 
 Scene single_point_scene(FlowScheme scheme) {
   Scene scene = model::paper_scene();
@@ -134,5 +134,5 @@ TEST(SkipInTime, OnlyWhatIsCertain) {
   }
 }
 
-}  // namespace
+}  // namespace skip_test
 }  // namespace suffuse

@@ -8,7 +8,7 @@
 #include "physics/skeleton/skeleton_law.hpp"
 
 namespace suffuse {
-namespace {
+namespace soil_element_test {
 
 SkeletonModel elastic(double young, double poisson) {
   return {.law = skeleton_law("elastic"), .young = young, .poisson = poisson};
@@ -168,5 +168,5 @@ TEST(SoilElement, many_steps_lead_to_the_same_state) {
   EXPECT_LT((one.state().stress - many.state().stress).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-}  // namespace
+}  // namespace soil_element_test
 }  // namespace suffuse

@@ -5,7 +5,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace stability_limit_test {
 
 TEST(StableStep, AgreesWithEigenvaluesOfTheAmplificationMatrix) {
   for (const auto& row : read_reference("critical-step-rigid.csv")) {
@@ -22,5 +22,5 @@ TEST(StableStep, TendsToTwiceTheRelaxationTimeForStrongDrag) {
   EXPECT_NEAR(stable_step(1.0, 1e9, DragIntegration::explicit_drag) * 1e9, 2.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace stability_limit_test
 }  // namespace suffuse

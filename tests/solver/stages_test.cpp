@@ -10,7 +10,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace stages_test {
 
 namespace fs = std::filesystem;
 using test::Outcome;
@@ -350,5 +350,5 @@ TEST_F(FromEarlierOnce, WhatDoesNotFitIsRefused) {
          "done: let it go on with --resume");
 }
 
-}  // namespace
+}  // namespace stages_test
 }  // namespace suffuse

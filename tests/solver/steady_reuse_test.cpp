@@ -8,7 +8,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace steady_reuse_test {
 
 using model::FlowModel;
 
@@ -129,5 +129,5 @@ TEST_F(SteadyReuseTest, GoesOnAsArchived) {
   EXPECT_FALSE(other.active());
 }
 
-}  // namespace
+}  // namespace steady_reuse_test
 }  // namespace suffuse

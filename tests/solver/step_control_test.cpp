@@ -14,7 +14,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace step_control_test {
 
 constexpr const ImplicitThresholds& limits = implicit_thresholds;
 
@@ -302,5 +302,5 @@ TEST(StepControl, GoesOnAsArchived) {
   EXPECT_EQ(other.rejected(), 1);
 }
 
-}  // namespace
+}  // namespace step_control_test
 }  // namespace suffuse

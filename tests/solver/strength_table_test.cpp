@@ -18,7 +18,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace strength_table_test {
 
 using test::Columns;
 using test::columns_of;
@@ -547,5 +547,5 @@ TEST(StrengthTable, WarnsOfSuctionInSoilThatStaysFull) {
       << w.errors();
 }
 
-}  // namespace
+}  // namespace strength_table_test
 }  // namespace suffuse

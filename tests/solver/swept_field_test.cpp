@@ -11,7 +11,7 @@
 #include "transport/field_transport.hpp"
 
 namespace suffuse {
-namespace {
+namespace swept_field_test {
 
 /// A closed box of water in soil, or a column that water crosses; the flow comes of a stream
 /// function, so that it balances to round-off.
@@ -222,5 +222,5 @@ TEST(FieldTransport, QuestionsChangeNothing) {
   }
 }
 
-}  // namespace
+}  // namespace swept_field_test
 }  // namespace suffuse

@@ -14,7 +14,7 @@
 #include "verification/exact_fines.hpp"
 
 namespace suffuse {
-namespace {
+namespace tetrahedra_points_test {
 
 constexpr LiquidDensities densities{1000.0, 2700.0};
 constexpr double flux = 0.012;
@@ -125,5 +125,5 @@ TEST(TetrahedraPoints, CarryFinesAsTheExactSolutionDoes) {
   }
 }
 
-}  // namespace
+}  // namespace tetrahedra_points_test
 }  // namespace suffuse

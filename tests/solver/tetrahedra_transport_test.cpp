@@ -13,7 +13,7 @@
 #include "transport/point_injection.hpp"
 
 namespace suffuse {
-namespace {
+namespace tetrahedra_transport_test {
 
 constexpr double flux = 0.012;
 
@@ -306,5 +306,5 @@ TEST(TetrahedraPlacement, PointsComeInOnTheFaceThatLiquidEnters) {
   }
 }
 
-}  // namespace
+}  // namespace tetrahedra_transport_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace tetrahedra_walk_test {
 
 /// Uniform in [0, 1), the same on every platform.
 class Random {
@@ -418,5 +418,5 @@ TEST(TetrahedraWalk, NothingIsLostAndTwoPartsAreTheWhole) {
   EXPECT_LE(worst, 1e-12);
 }
 
-}  // namespace
+}  // namespace tetrahedra_walk_test
 }  // namespace suffuse

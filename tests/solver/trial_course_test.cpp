@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace suffuse {
-namespace {
+namespace trial_course_test {
 
 TEST(TrialCourse, EqualStepsGoOnAsTheyAre) {
   TrialCourse course{{{0.0, 0.0, 3.0}}};  // 3 s to set the model up
@@ -35,5 +35,5 @@ TEST(TrialCourse, OneIntervalIsAllThereIs) {
   EXPECT_DOUBLE_EQ(course.seconds_per_step(), 0.25);
 }
 
-}  // namespace
+}  // namespace trial_course_test
 }  // namespace suffuse

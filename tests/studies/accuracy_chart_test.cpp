@@ -9,7 +9,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace accuracy_chart_test {
 
 using testing::ScratchFolder;
 
@@ -132,5 +132,5 @@ TEST(AccuracyCharts, AreDrawn) {
   EXPECT_NE(svg.find("1e-5"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace accuracy_chart_test
 }  // namespace suffuse

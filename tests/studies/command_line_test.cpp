@@ -9,7 +9,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace command_line_test {
 
 using testing::file_text;
 using testing::ScratchFolder;
@@ -63,5 +63,5 @@ TEST_F(StudiesCommand, KnowsNoOtherCommands) {
   EXPECT_EQ(studies("--help"), 0);
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace suffuse

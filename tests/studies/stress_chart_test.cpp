@@ -9,7 +9,7 @@
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {
-namespace {
+namespace stress_chart_test {
 
 using testing::ScratchFolder;
 
@@ -57,5 +57,5 @@ TEST(StressChart, ShowsEverySweepAndItsNumbers) {
   }
 }
 
-}  // namespace
+}  // namespace stress_chart_test
 }  // namespace suffuse

@@ -14,7 +14,7 @@
 #include "physics/drag.hpp"
 
 namespace suffuse {
-namespace {
+namespace bedding_test {
 
 constexpr double better = 1e-3;  // m/s
 constexpr double worse = 1e-4;   // m/s
@@ -136,5 +136,5 @@ TEST(Bedding, StaysBesideSoilWithErgunsDrag) {
   }
 }
 
-}  // namespace
+}  // namespace bedding_test
 }  // namespace suffuse

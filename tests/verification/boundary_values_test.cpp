@@ -10,7 +10,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace boundary_values_test {
 
 using Knots = std::vector<std::pair<double, double>>;
 
@@ -222,5 +222,5 @@ TEST(BoundaryVelocity, CrossesTheFaceAsItChanges) {
   }
 }
 
-}  // namespace
+}  // namespace boundary_values_test
 }  // namespace suffuse

@@ -11,7 +11,7 @@
 #include "scene_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace box_test {
 
 using model::SceneRun;
 
@@ -214,5 +214,5 @@ TEST(ExtrudedScene, TendsToTheSameAsThePlaneOne) {
   }
 }
 
-}  // namespace
+}  // namespace box_test
 }  // namespace suffuse

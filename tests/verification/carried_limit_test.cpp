@@ -10,7 +10,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace carried_limit_test {
 
 Scene carried_scene(int points_per_element) {
   Scene scene = model::paper_scene();
@@ -73,5 +73,5 @@ TEST(CarriedLimit, IsThatOfMixedIntegrationLessWhatPointsPassOnLate) {
   EXPECT_NEAR(limit() / carried, std::sqrt(1.75), 0.01) << "drag takes a little from both";
 }
 
-}  // namespace
+}  // namespace carried_limit_test
 }  // namespace suffuse

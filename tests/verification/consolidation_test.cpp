@@ -11,7 +11,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace consolidation_test {
 
 constexpr double young = 1e7;             // Pa
 constexpr double conductivity = 1e-6;     // m/s
@@ -212,5 +212,5 @@ TEST(Consolidation, UndrainedLoadGoesToTheWater) {
   }
 }
 
-}  // namespace
+}  // namespace consolidation_test
 }  // namespace suffuse

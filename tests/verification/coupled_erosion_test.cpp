@@ -12,7 +12,7 @@
 #include "scheme_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace coupled_erosion_test {
 
 constexpr double flux = 0.012;
 constexpr double kappa = 0.05;
@@ -104,5 +104,5 @@ TEST(PermeabilityFeedbackDoublePoint, FluxVolumeAndFinesFollowTheExactSolution) 
   EXPECT_LE(run.worst_residual(), 1e-12);
 }
 
-}  // namespace
+}  // namespace coupled_erosion_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "moving_soil.hpp"
 
 namespace suffuse {
-namespace {
+namespace coupling_iterations_test {
 
 constexpr double young = 1e7;             // Pa
 constexpr double conductivity = 1e-6;     // m/s
@@ -58,5 +58,5 @@ TEST(CouplingIterations, DependOnNeitherMeshNorPoissonNorDrainage) {
   }
 }
 
-}  // namespace
+}  // namespace coupling_iterations_test
 }  // namespace suffuse

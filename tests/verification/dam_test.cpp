@@ -12,7 +12,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace dam_test {
 
 constexpr double conductivity = 1e-5;  // m/s
 constexpr double length = 2.0;         // m
@@ -109,5 +109,5 @@ TEST(RectangularDam, WithASeepageFaceLetsThroughCharnysDischarge) {
   EXPECT_LT(last, 1.02);
 }
 
-}  // namespace
+}  // namespace dam_test
 }  // namespace suffuse

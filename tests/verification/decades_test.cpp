@@ -19,7 +19,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace decades_test {
 
 constexpr double flux = 1e-3;  // m/s
 constexpr double porosity = 0.35;
@@ -350,5 +350,5 @@ TEST(Decades, AStepWhoseWaterDoesNotFitIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace decades_test
 }  // namespace suffuse

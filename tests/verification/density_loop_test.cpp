@@ -15,7 +15,7 @@
 #include "verification/model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace density_loop_test {
 
 constexpr int columns = 5;
 constexpr int rows = 12;
@@ -108,5 +108,5 @@ TEST_F(SlowSeepage, WithWeightLosesTwiceAsMuchAndSaysSo) {
   ASSERT_EQ(checks.check(states[1].history).size(), 1U);
 }
 
-}  // namespace
+}  // namespace density_loop_test
 }  // namespace suffuse

@@ -11,7 +11,7 @@
 #include "scheme_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace double_point_column_test {
 
 constexpr double erodible_mass = 2700.0 * 0.1;  ///< of one square metre of specimen, kg
 
@@ -183,5 +183,5 @@ TEST(DoublePointColumnPoints, InThePapersModeTooFewPointsErodeTooLittle) {
   }
 }
 
-}  // namespace
+}  // namespace double_point_column_test
 }  // namespace suffuse

@@ -11,7 +11,7 @@
 #include "exact_fines.hpp"
 
 namespace suffuse {
-namespace {
+namespace double_point_faces_test {
 
 constexpr double flux = 0.012;
 constexpr double rate = 5e-3;
@@ -172,5 +172,5 @@ TEST(DoublePointFaces, ThreadsChangeNothing) {
   EXPECT_EQ(result(1), result(3));
 }
 
-}  // namespace
+}  // namespace double_point_faces_test
 }  // namespace suffuse

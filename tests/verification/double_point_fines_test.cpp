@@ -13,7 +13,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace double_point_fines_test {
 
 constexpr double flux = 0.012;
 constexpr double rate = 1e-3;
@@ -320,5 +320,5 @@ TEST(DoublePointFines, FluxOfGrainsIsContinuousWherePorosityJumps) {
   EXPECT_LE(run.worst_residual(), 1e-12);
 }
 
-}  // namespace
+}  // namespace double_point_fines_test
 }  // namespace suffuse

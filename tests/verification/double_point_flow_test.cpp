@@ -12,7 +12,7 @@
 #include "exact_fines.hpp"
 
 namespace suffuse {
-namespace {
+namespace double_point_flow_test {
 
 constexpr double flux = 0.012;
 
@@ -231,5 +231,5 @@ TEST(DoublePointCarried, BooksCloseAtEveryOutput) {
   EXPECT_LE(jump, 2.0 * 0.12 / 0.3);
 }
 
-}  // namespace
+}  // namespace double_point_flow_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "free_mesh.hpp"
 
 namespace suffuse {
-namespace {
+namespace double_point_long_test {
 
 constexpr double flux = 0.012;
 constexpr double pore_volume_time = 0.3 / flux;  ///< s, for a column one metre high
@@ -125,5 +125,5 @@ TEST(DoublePointInjection, DoNotDependOnTheStep) {
   }
 }
 
-}  // namespace
+}  // namespace double_point_long_test
 }  // namespace suffuse

@@ -9,7 +9,7 @@
 #include "moving_soil.hpp"
 
 namespace suffuse {
-namespace {
+namespace dry_column_test {
 
 using model::fixed_on;
 
@@ -116,5 +116,5 @@ TEST(DryBank, StandsWhereItIsLessSteepThanItsFriction) {
   EXPECT_LT(states.back().history.displacement_max, 1e-3);
 }
 
-}  // namespace
+}  // namespace dry_column_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "scheme_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace equilibrium_test {
 
 const auto schemes =
     ::testing::Values(model::explicit_scheme, model::implicit_scheme, model::implicit_one_second);
@@ -133,5 +133,5 @@ TEST_P(SteadyFlow, StaysSteady) {
   }
 }
 
-}  // namespace
+}  // namespace equilibrium_test
 }  // namespace suffuse

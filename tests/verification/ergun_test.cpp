@@ -10,7 +10,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace ergun_test {
 
 /// Flux at the start and after 3000 steps of a run, m/s.
 struct Fluxes {
@@ -108,5 +108,5 @@ TEST(ErgunFlux, IsReachedFromRestByTheImplicitScheme) {
   std::cout << "Ergun, implicit from rest: largest relative error " << worst << '\n';
 }
 
-}  // namespace
+}  // namespace ergun_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace eroding_soil_long_test {
 
 using model::clean_pressure_on;
 using model::fixed_on;
@@ -228,5 +228,5 @@ TEST(InfiniteSlope, FailsWhenItsFrictionHasFallenWithItsFines) {
   EXPECT_NEAR(found, exact, 0.01 * exact);
 }
 
-}  // namespace
+}  // namespace eroding_soil_long_test
 }  // namespace suffuse

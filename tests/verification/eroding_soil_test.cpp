@@ -10,7 +10,7 @@
 #include "moving_soil.hpp"
 
 namespace suffuse {
-namespace {
+namespace eroding_soil_test {
 
 using model::clean_pressure_on;
 using model::fixed_on;
@@ -244,5 +244,5 @@ TEST(TwoSoils, KeepTheirLawsInImplicitTransport) {
   check_two_soils(TransportScheme::implicit_sweeps);
 }
 
-}  // namespace
+}  // namespace eroding_soil_test
 }  // namespace suffuse

@@ -11,7 +11,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace erosion_drives_test {
 
 constexpr double weight = 1000.0 * 9.81;
 
@@ -184,5 +184,5 @@ TEST(Suspension, PushesCleanWaterOut) {
   std::cout << run.steps() << " steps\n";
 }
 
-}  // namespace
+}  // namespace erosion_drives_test
 }  // namespace suffuse

@@ -14,7 +14,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace exchange_profiles_test {
 
 struct ExchangeCase {
   const char* name;
@@ -295,5 +295,5 @@ INSTANTIATE_TEST_SUITE_P(Cases, ExchangeProfiles,
                                             ::testing::Values(FlowScheme::implicit_mixed)),
                          [](const auto& param_info) { return std::get<0>(param_info.param).name; });
 
-}  // namespace
+}  // namespace exchange_profiles_test
 }  // namespace suffuse

@@ -8,7 +8,7 @@
 #include "moving_soil.hpp"
 
 namespace suffuse {
-namespace {
+namespace failing_soil_test {
 
 using model::clean_pressure_on;
 using model::fixed_on;
@@ -256,5 +256,5 @@ TEST(Bank, GoesOnFromWithinItsSlide) {
   }
 }
 
-}  // namespace
+}  // namespace failing_soil_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace filter_paths_test {
 
 constexpr double lambda = 2.0;
 constexpr double entering = 1e-4;  // so little that pores stay as they are
@@ -168,5 +168,5 @@ TEST(FilterPaths, UnderAWeirAreTheStreamlines) {
   EXPECT_LT(worst, 0.01);
 }
 
-}  // namespace
+}  // namespace filter_paths_test
 }  // namespace suffuse

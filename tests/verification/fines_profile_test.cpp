@@ -15,7 +15,7 @@
 #include "scheme_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace fines_profile_test {
 
 constexpr double flux = 0.012;
 constexpr double start = 2.0;
@@ -302,5 +302,5 @@ TEST(PorosityGradientTerm, WithoutItWaterIsCreatedOrLost) {
             << " % of the water that entered is made from nothing\n";
 }
 
-}  // namespace
+}  // namespace fines_profile_test
 }  // namespace suffuse

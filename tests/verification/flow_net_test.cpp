@@ -20,7 +20,7 @@
 #include "values/sample.hpp"
 
 namespace suffuse {
-namespace {
+namespace flow_net_test {
 
 constexpr double conductivity = 1e-4;  // m/s
 constexpr double fall = 2.5;           // m
@@ -240,5 +240,5 @@ TEST(FlowNet, HasSquaresOfAnyShareOfTheHead) {
   expect(square_net(1e6, {}), 1, 200);
 }
 
-}  // namespace
+}  // namespace flow_net_test
 }  // namespace suffuse

@@ -12,7 +12,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace flow_startup_test {
 
 constexpr double density = 1000.0;
 constexpr double porosity = 0.3;
@@ -246,5 +246,5 @@ TEST(FlowStartup, DiffusesWhereDragDominates) {
   EXPECT_EQ(compared, 6);
 }
 
-}  // namespace
+}  // namespace flow_startup_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace implicit_convergence_test {
 
 using model::FlowModel;
 
@@ -216,5 +216,5 @@ TEST(ImplicitDam, DischargeOnGradedMeshesIsWithinAThousandth) {
   }
 }
 
-}  // namespace
+}  // namespace implicit_convergence_test
 }  // namespace suffuse

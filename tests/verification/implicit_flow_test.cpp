@@ -12,7 +12,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace implicit_flow_test {
 
 using model::FlowModel;
 
@@ -301,5 +301,5 @@ TEST(ImplicitLayers, FluxThroughLayersInSeriesHasEveryDigitWhateverTheContrast) 
   }
 }
 
-}  // namespace
+}  // namespace implicit_flow_test
 }  // namespace suffuse

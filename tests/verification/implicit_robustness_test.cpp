@@ -13,7 +13,7 @@
 #include "scheme_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace implicit_robustness_test {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -271,5 +271,5 @@ TEST(Outputs, EndSteps) {
   }
 }
 
-}  // namespace
+}  // namespace implicit_robustness_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace implicit_single_point_test {
 
 constexpr double stiff = std::numeric_limits<double>::infinity();
 constexpr double head = 5886.0;  ///< Pa over one metre: a gradient of 0.6
@@ -102,9 +102,9 @@ struct FeedbackCase {
   double tolerance;
 };
 
-class PermeabilityFeedback : public ::testing::TestWithParam<FeedbackCase> {};
+class ImplicitPermeabilityFeedback : public ::testing::TestWithParam<FeedbackCase> {};
 
-TEST_P(PermeabilityFeedback, FluxVolumeAndFinesFollowTheExactSolution) {
+TEST_P(ImplicitPermeabilityFeedback, FluxVolumeAndFinesFollowTheExactSolution) {
   const FeedbackCase& feedback = GetParam();
   std::vector<double> times;
   std::vector<ReferenceRow> rows;
@@ -161,14 +161,14 @@ TEST_P(PermeabilityFeedback, FluxVolumeAndFinesFollowTheExactSolution) {
   EXPECT_LE(run.worst_residual(), 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, PermeabilityFeedback,
+INSTANTIATE_TEST_SUITE_P(Laws, ImplicitPermeabilityFeedback,
                          ::testing::Values(FeedbackCase{"slow_one_second", 1e-3, 1.0, 1e-3},
                                            FeedbackCase{"slow_tolerance", 1e-3, {}, 1e-3},
                                            FeedbackCase{"fast_one_second", 5e-3, 1.0, 1e-3},
                                            FeedbackCase{"fast_tolerance", 5e-3, {}, 1e-3}),
                          [](const auto& param_info) { return param_info.param.name; });
 
-TEST(PermeabilityFeedback, ItsErrorFallsWithTheSquareOfTheStep) {
+TEST(ImplicitPermeabilityFeedback, ItsErrorFallsWithTheSquareOfTheStep) {
   // Volume through at t = 22 s, on a coarse mesh: space plays no part in it.
   double exact = 0.0;
   for (const auto& row : read_reference("permeability-feedback.csv")) {
@@ -382,5 +382,5 @@ TEST(KeptFlow, SteadyFlowIsNotSolvedAgain) {
   }
 }
 
-}  // namespace
+}  // namespace implicit_single_point_test
 }  // namespace suffuse

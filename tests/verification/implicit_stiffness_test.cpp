@@ -10,7 +10,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace implicit_stiffness_test {
 
 constexpr double stiff = std::numeric_limits<double>::infinity();
 constexpr double head = 5886.0;  ///< Pa over one metre: a gradient of 0.6
@@ -56,5 +56,5 @@ TEST(Stiffness, AnySoilAndAnyWaterGetThroughADay) {
   }
 }
 
-}  // namespace
+}  // namespace implicit_stiffness_test
 }  // namespace suffuse

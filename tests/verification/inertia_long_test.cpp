@@ -7,7 +7,7 @@
 #include "inertial_soil.hpp"
 
 namespace suffuse {
-namespace {
+namespace inertia_long_test {
 
 double runout_of(const model::Collapse& c) {
   const model::CollapseResult result = model::collapse(c);
@@ -32,5 +32,5 @@ TEST(CollapseLong, OfATallColumnIsThatOfSand) {
   }
 }
 
-}  // namespace
+}  // namespace inertia_long_test
 }  // namespace suffuse

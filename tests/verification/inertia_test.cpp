@@ -10,7 +10,7 @@
 #include "results/state_archive.hpp"
 
 namespace suffuse {
-namespace {
+namespace inertia_test {
 
 using model::Collapse;
 using model::CollapseResult;
@@ -212,5 +212,5 @@ TEST(Collapse, GoesOnFromItsArchiveToTheLastBit) {
   EXPECT_EQ(rest->energy(), whole->energy());
 }
 
-}  // namespace
+}  // namespace inertia_test
 }  // namespace suffuse

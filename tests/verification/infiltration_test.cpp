@@ -12,7 +12,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace infiltration_test {
 
 constexpr double stiff = std::numeric_limits<double>::infinity();
 
@@ -269,5 +269,5 @@ TEST(Celia, MassesBalanceAtEveryStep) {
   }
 }
 
-}  // namespace
+}  // namespace infiltration_test
 }  // namespace suffuse

@@ -3,7 +3,7 @@
 #include "large_strain.hpp"
 
 namespace suffuse {
-namespace {
+namespace large_strain_test {
 
 TEST(LargeStrain, TendsToTheExactSolution) {
   const model::Deviation coarse = model::deviation_at_large_strain("constant", 32, 0.05);
@@ -21,5 +21,5 @@ TEST(LargeStrain, ReachesItsEndThoughPoresCloseAtTheSurface) {
   EXPECT_LT(off.pressure, 0.03);
 }
 
-}  // namespace
+}  // namespace large_strain_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace leaky_wall_test {
 
 constexpr double stiff = std::numeric_limits<double>::infinity();
 constexpr double unit_weight = 9810.0;  ///< N/m3
@@ -495,5 +495,5 @@ TEST(LeakyWall, OneAndTwoThreadsGiveTheSameBitsAndARestoredRunToo) {
   EXPECT_GT(one.model().ledger().fines_out, 0.0);
 }
 
-}  // namespace
+}  // namespace leaky_wall_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace levee_test {
 
 constexpr double end = 4e5;  // s
 
@@ -174,5 +174,5 @@ TEST(Levee, HasTheSameBitsOnTwoThreads) {
   }
 }
 
-}  // namespace
+}  // namespace levee_test
 }  // namespace suffuse

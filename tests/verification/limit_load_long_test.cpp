@@ -5,7 +5,7 @@
 #include "verification/footing.hpp"
 
 namespace suffuse::footing {
-namespace {
+namespace limit_load_long_test {
 
 TEST(Footing, OnSoilOf30DegreesCarriesReissnersLoads) {
   const double q = exact_surcharge_factor(30.0);
@@ -18,5 +18,5 @@ TEST(Footing, OnSoilOf30DegreesCarriesReissnersLoads) {
   EXPECT_NEAR(limit_of_fine_meshes(cohesive, c), c, 0.04 * c);
 }
 
-}  // namespace
+}  // namespace limit_load_long_test
 }  // namespace suffuse::footing

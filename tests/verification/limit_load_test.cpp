@@ -5,7 +5,7 @@
 #include "verification/footing.hpp"
 
 namespace suffuse::footing {
-namespace {
+namespace limit_load_test {
 
 TEST(Footing, OnTrescasSoilCarriesPrandtlsLoad) {
   const double exact = exact_cohesion_factor(0.0);
@@ -35,5 +35,5 @@ TEST(Footing, OnSoilWithFrictionCarriesReissnersLoads) {
   EXPECT_NEAR(limit_of_fine_meshes(cohesive, c), c, 0.04 * c);
 }
 
-}  // namespace
+}  // namespace limit_load_test
 }  // namespace suffuse::footing

@@ -10,7 +10,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace mandel_test {
 
 constexpr double young = 1e7;             // Pa
 constexpr double conductivity = 1e-6;     // m/s
@@ -100,5 +100,5 @@ TEST_P(Mandel, PressureInTheMiddleFirstRises) {
   EXPECT_LT(quarter.run().worst_residual(), 1e-12);
 }
 
-}  // namespace
+}  // namespace mandel_test
 }  // namespace suffuse

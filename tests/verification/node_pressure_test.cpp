@@ -17,7 +17,7 @@
 #include "verification/model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace node_pressure_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -166,5 +166,5 @@ TEST(NodePressures, OfASmoothFieldAreOfSecondOrder) {
   }
 }
 
-}  // namespace
+}  // namespace node_pressure_test
 }  // namespace suffuse

@@ -15,7 +15,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace paper_column_test {
 
 namespace fs = std::filesystem;
 
@@ -221,5 +221,5 @@ TEST(PaperColumnLong, BalancesCloseAfterAHundredThousandSteps) {
   std::cout << "1e5 steps: worst residual " << worst_residual(run.ledger()) << '\n';
 }
 
-}  // namespace
+}  // namespace paper_column_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "reference_table.hpp"
 
 namespace suffuse {
-namespace {
+namespace permeability_feedback_test {
 
 constexpr double height = 1.0;
 
@@ -105,5 +105,5 @@ TEST_P(PermeabilityFeedback, FollowsTheReferenceTableImplicitly) {
 
 INSTANTIATE_TEST_SUITE_P(Rates, PermeabilityFeedback, ::testing::Values(1e-3, 5e-3));
 
-}  // namespace
+}  // namespace permeability_feedback_test
 }  // namespace suffuse

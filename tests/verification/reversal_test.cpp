@@ -7,7 +7,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace reversal_test {
 
 constexpr double end_time = 240.0;
 constexpr double least_porosity = 0.22;
@@ -175,5 +175,5 @@ TEST(Reversal, OneAndTwoThreadsGiveTheSameBits) {
   expect_same_bits(twofold(1), twofold(2));
 }
 
-}  // namespace
+}  // namespace reversal_test
 }  // namespace suffuse

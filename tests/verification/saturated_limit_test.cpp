@@ -9,7 +9,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace saturated_limit_test {
 
 /// Under a head of 3 to 4 m, with erosion by the flux, bedding and fines that enter.
 Scene confined_scene(bool retains) {
@@ -68,5 +68,5 @@ TEST(SaturatedLimit, ARetentionLawUnderWaterChangesNothing) {
   EXPECT_LT(std::abs(eroded), 1e-10);
 }
 
-}  // namespace
+}  // namespace saturated_limit_test
 }  // namespace suffuse

@@ -12,7 +12,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace seepage_measures_test {
 
 constexpr double weight = 1000.0 * 9.81;
 
@@ -114,5 +114,5 @@ TEST(SpentEnergy, IsExactForPowerThatIsLinearInTime) {
   }
 }
 
-}  // namespace
+}  // namespace seepage_measures_test
 }  // namespace suffuse

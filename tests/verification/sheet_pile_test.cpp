@@ -15,7 +15,7 @@
 #include "seeding.hpp"
 
 namespace suffuse {
-namespace {
+namespace sheet_pile_test {
 
 /// A layer 1 m deep and 12 m long; elements of `size` at the foot of the pile, and larger with the
 /// distance from it.
@@ -73,5 +73,5 @@ TEST(SheetPile, OfHalfTheDepthLetsHalfThrough) {
   EXPECT_GT(std::log2(error[0] / error[1]), 0.8);
 }
 
-}  // namespace
+}  // namespace sheet_pile_test
 }  // namespace suffuse

@@ -14,7 +14,7 @@
 #include "seeding.hpp"
 
 namespace suffuse {
-namespace {
+namespace sliver_test {
 
 /// Splits an element in three at a point next to its first edge, from whose ends the point is seen
 /// at an angle of `degrees` above the edge.
@@ -126,5 +126,5 @@ TEST(Slivers, WaterFlowsAsWithoutThem) {
   }
 }
 
-}  // namespace
+}  // namespace sliver_test
 }  // namespace suffuse

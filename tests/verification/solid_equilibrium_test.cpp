@@ -14,7 +14,7 @@
 #include "solver/solid_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace solid_equilibrium_test {
 
 using model::PlaneModel;
 
@@ -420,5 +420,5 @@ TEST(Newton, TakesPartOfAStepThatWouldTurnElementsInsideOut) {
   for (int p = 0; p < m.points.size(); ++p) EXPECT_NEAR(m.stress(p)(1, 1), -3e6, 1e-3);
 }
 
-}  // namespace
+}  // namespace solid_equilibrium_test
 }  // namespace suffuse

@@ -15,7 +15,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace space_references_test {
 
 using model::SceneRun;
 using std::numbers::pi;
@@ -283,5 +283,5 @@ TEST(ExactInSpace, DepositInAColumn) {
   }
 }
 
-}  // namespace
+}  // namespace space_references_test
 }  // namespace suffuse

@@ -11,7 +11,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace stability_test {
 
 /// Flow alone on a mesh whose elements have their own porosity and conductivity.
 class FreeFlow {
@@ -204,5 +204,5 @@ TEST(StabilityLimitRefusal, TheLimitFollowsErosion) {
   EXPECT_LT(limit, 0.09);
 }
 
-}  // namespace
+}  // namespace stability_test
 }  // namespace suffuse

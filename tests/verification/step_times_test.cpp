@@ -10,7 +10,7 @@
 #include "scene_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace step_times_test {
 
 constexpr double unit_weight = 1000.0 * 9.81;  // of water, N/m3
 
@@ -220,5 +220,5 @@ TEST(StepTimes, AStepInWhichSoilFailsIsAsLongAsItWasSolvedFor) {
   EXPECT_NEAR(model->time(), 10.0, 1e-3);
 }
 
-}  // namespace
+}  // namespace step_times_test
 }  // namespace suffuse

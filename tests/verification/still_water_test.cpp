@@ -10,7 +10,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace still_water_test {
 
 constexpr double ten_days = 864000.0;  // s
 constexpr double level = 3.0;          // m, of the pond
@@ -123,5 +123,5 @@ TEST(StillWater, UnderLayersWithSuctionAboveErodesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace still_water_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "solver/solid_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace strength_reduction_long_test {
 
 /// Half of a strip of width 2 m on weightless soil without dilation, under 15 times its cohesion.
 SafetyFactor strip_factor(int cells) {
@@ -49,5 +49,5 @@ TEST(Strip, OnSoilWithoutDilationHasAFactorThatTheMeshHardlyChanges) {
   EXPECT_NEAR(fine.factor, coarse.factor, 0.06 * coarse.factor);
 }
 
-}  // namespace
+}  // namespace strength_reduction_long_test
 }  // namespace suffuse

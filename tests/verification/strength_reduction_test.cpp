@@ -13,7 +13,7 @@
 #include "solver/solid_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace strength_reduction_test {
 
 using model::PlaneModel;
 
@@ -312,5 +312,5 @@ TEST(VerticalCut, FailsAtItsHeight) {
   EXPECT_NEAR(limit, 3.776, 0.03 * 3.776);
 }
 
-}  // namespace
+}  // namespace strength_reduction_test
 }  // namespace suffuse

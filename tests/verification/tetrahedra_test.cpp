@@ -17,7 +17,7 @@
 #include "solver/flow_model.hpp"
 
 namespace suffuse {
-namespace {
+namespace tetrahedra_test {
 
 using FlowModel3 = model::FlowModelOf<3>;
 
@@ -281,5 +281,5 @@ TEST(TetrahedraSuffusion, TheExplicitSchemeIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace tetrahedra_test
 }  // namespace suffuse

@@ -6,7 +6,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace threads_test {
 
 /// A column with more nodes, faces and elements than the loops need to go parallel.
 Scene large_scene() {
@@ -99,5 +99,5 @@ INSTANTIATE_TEST_SUITE_P(Threads, InSpace,
                                                                             : "DoublePoint";
                          });
 
-}  // namespace
+}  // namespace threads_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace unsaturated_erosion_test {
 
 constexpr double conductivity = 1e-4;
 constexpr double porosity = 0.4;
@@ -70,5 +70,5 @@ TEST(UnsaturatedErosion, GoesWithTheWaterThatFlows) {
   }
 }
 
-}  // namespace
+}  // namespace unsaturated_erosion_test
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 #include "solver/model_case.hpp"
 
 namespace suffuse {
-namespace {
+namespace unsaturated_space_test {
 
 constexpr double end = 6e4;     // s
 constexpr double along = 1.0;   // m of the levee
@@ -130,5 +130,5 @@ INSTANTIATE_TEST_SUITE_P(Retention, UnsaturatedLevee,
                          testing::Values(std::array{1.0, 1.5}, std::array{15.0, 2.7}),
                          [](const auto& tested) { return tested.index == 0 ? "Mild" : "Steep"; });
 
-}  // namespace
+}  // namespace unsaturated_space_test
 }  // namespace suffuse

@@ -11,7 +11,7 @@
 #include "test_paths.hpp"
 
 namespace suffuse {
-namespace {
+namespace water_line_test {
 
 constexpr double conductivity = 1e-4;  // m/s
 constexpr double drop = 0.25;          // m, of the head from the top to the bottom
@@ -142,5 +142,5 @@ TEST(SlopeAtTheWater, is_wet_below_the_level_alone) {
   EXPECT_GT(line.wet_above({0, 1}), -1e-11);
 }
 
-}  // namespace
+}  // namespace water_line_test
 }  // namespace suffuse

@@ -10,7 +10,7 @@
 #include "model_run.hpp"
 
 namespace suffuse {
-namespace {
+namespace well_test {
 
 constexpr double inner = 0.1;   // m
 constexpr double outer = 10.0;  // m
@@ -71,5 +71,5 @@ TEST(Well, DrawsTheHeadDownByTheLogarithm) {
   EXPECT_GT(order, 1.8);
 }
 
-}  // namespace
+}  // namespace well_test
 }  // namespace suffuse

@@ -1,5 +1,0 @@
-/// Nothing but a home for the precompiled headers of the tests.
-
-int main() {
-  return 0;
-}
