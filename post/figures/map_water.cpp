@@ -44,8 +44,7 @@ ModelView view_with_water(const Mesh<2>& mesh, const std::vector<OutsideWater>& 
     for (const auto& corners : water.body) std::ranges::for_each(corners, include);
     std::ranges::for_each(water.level, include);
   }
-  using Layout = PictureLayout;
-  return {low, high, axes_left, bottom, Layout::max_width, Layout::max_height};
+  return {low, high, axes_left, bottom, PictureLayout::max_width, PictureLayout::max_height};
 }
 
 void paint_outside_water(vtkContext2D& painter, const ModelView& view,

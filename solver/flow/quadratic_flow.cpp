@@ -84,10 +84,10 @@ typename ImplicitMixed<Dim>::FluxChange ImplicitMixed<Dim>::flux_change(
 template <int Dim>
 double ImplicitMixed<Dim>::damp(Field& new_flux, Field& new_push,
                                 const std::vector<double>& quadratic_drag) const {
-  constexpr double min_share = 1e-3;
+  constexpr double least_share = 1e-3;
   const double error = momentum_error(work_.flux, work_.push, quadratic_drag);
   double share = 1.0;
-  while (share > min_share) {
+  while (share > least_share) {
     Field part_flux = part_of_way<Dim>(work_.flux, new_flux, share);
     Field part_push = part_of_way<Dim>(work_.push, new_push, share);
     if (momentum_error(part_flux, part_push, quadratic_drag) <= error) {
