@@ -316,8 +316,6 @@ const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
   bubbles_.reset();
   loss_.clear();
   pressure_ = tried_.pressure;
-  face_rate_ = motion_.solid_face_volume;
-  for (double& v : face_rate_) v /= tried_.duration;
   sort_points();
   return motion_;
 }
@@ -395,7 +393,7 @@ void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
           boundary_loads_, crossing_forces_, inertia_, repeated_failure_, failure_time_, solid_,
-          region_gain_, pressure_, face_rate_, filling_, correction_, newton_iterations_);
+          region_gain_, pressure_, filling_, correction_, newton_iterations_);
   if (!archive.restores()) return;
   step_.reset();
   show_points();

@@ -30,7 +30,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
     return (initial_erodible_[point] - this->state_.erodible_volume[point]) / points_.volume[point];
   }
   [[nodiscard]] std::vector<double> element_porosity() const override;
-  [[nodiscard]] const std::vector<double>& face_volume_rate() const override { return face_rate_; }
 
   void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& waiting,
                 std::vector<double>& exchange) override;
@@ -150,7 +149,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   std::vector<CompensatedSum> region_gain_;  ///< per region of the mesh, m3
   std::vector<double> loss_;          ///< per point, in the step that is tried, m3; empty: none
   std::vector<double> pressure_;      ///< of the pores at the last equilibrium, per element, Pa
-  std::vector<double> face_rate_;     ///< m3/s
   std::vector<SoilFilling> filling_;  ///< after the last motion
   SolidFlux<Dim> solid_flux_;
   double correction_ = 0.0;  ///< see HistoryRow::solid_correction

@@ -183,14 +183,16 @@ auto ExplicitFlow<Dim>::plan_steps(const FlowInterval<Dim>& interval) -> Steps {
 
 template <int Dim>
 FlowProgress ExplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
-  const PassTimer timer(timing_);
   const Steps steps = plan_steps(interval);
-  for (long s = 0; s < steps.count; ++s) step(steps.start_of(s), steps.dt);
-  return finish(steps);
-}
-
-template <int Dim>
-FlowProgress ExplicitFlow<Dim>::finish(const Steps& steps) {
+  if (carrier_ != nullptr) carrier_->before_steps(interval, steps.end);
+  for (long s = 0; s < steps.count; ++s) {
+    const double start = steps.start_of(s);
+    if (carrier_ != nullptr) carrier_->before_step();
+    step(start, steps.dt);
+    if (carrier_ == nullptr) continue;
+    this->update_boundary_values(start, start + steps.dt);
+    carrier_->after_step(steps.dt);
+  }
   timing_.calls += steps.count;
   this->update_boundary_values(steps.start, steps.end);
   return {steps.count, steps.dt, steps.end, scheme_.volumes()};
@@ -198,6 +200,7 @@ FlowProgress ExplicitFlow<Dim>::finish(const Steps& steps) {
 
 template <int Dim>
 void ExplicitFlow<Dim>::step(double start, double dt) {
+  const PassTimer timer(timing_);
   if (this->boundary_values().vary()) {
     operator_.set_boundary_values(this->boundary_values(), start, start + 0.5 * dt);
   }

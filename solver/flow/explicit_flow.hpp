@@ -11,6 +11,19 @@
 
 namespace suffuse {
 
+/// What carries the flow from one of its steps to the next (material-point integration).
+template <int Dim>
+class FlowCarrier {
+ public:
+  virtual ~FlowCarrier() = default;
+  /// Steps up to `end`, s, make up the interval.
+  virtual void before_steps(const FlowInterval<Dim>& interval, double end) = 0;
+  /// Sets the state that a step starts from.
+  virtual void before_step() = 0;
+  /// Takes what a step of `dt` seconds has changed.
+  virtual void after_step(double dt) = 0;
+};
+
 template <int Dim>
 class ExplicitFlow final : public FlowSolver<Dim> {
  public:
@@ -32,6 +45,23 @@ class ExplicitFlow final : public FlowSolver<Dim> {
     return {.one_transport_step = true, .follows_pores = false};
   }
 
+  /// From now on the carrier, which outlives the last step, has its part in each step.
+  void set_carrier(FlowCarrier<Dim>& carrier) { carrier_ = &carrier; }
+  FlowProgress advance(const FlowInterval<Dim>& interval) override;
+
+  [[nodiscard]] const std::vector<double>& pressure() const override { return scheme_.pressure(); }
+  void match_masses(double time, const std::vector<double>& water_mass) override;
+
+  void archive(StateArchive& archive) override;
+
+  [[nodiscard]] FlowState<Dim> state(double time) const override;
+  [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
+
+  /// Stability limit with the coefficients and speeds of this moment: element by element, and in
+  /// double-point scenes, where `step` is above that, of the assembled scheme.
+  [[nodiscard]] StabilityLimit current_limit(double step) const;
+
+ private:
   /// Steps of one length for an interval.
   struct Steps {
     double start;  ///< s
@@ -49,25 +79,6 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] Steps plan_steps(const FlowInterval<Dim>& interval);
   /// One of them, under the boundary values of its time.
   void step(double start, double dt);
-  /// Boundary values at `now`, with the concentrations of what entered `since`.
-  using FlowSolver<Dim>::update_boundary_values;
-  /// What the steps came to.
-  FlowProgress finish(const Steps& steps);
-  FlowProgress advance(const FlowInterval<Dim>& interval) override;
-
-  [[nodiscard]] const std::vector<double>& pressure() const override { return scheme_.pressure(); }
-  void match_masses(double time, const std::vector<double>& water_mass) override;
-
-  void archive(StateArchive& archive) override;
-
-  [[nodiscard]] FlowState<Dim> state(double time) const override;
-  [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
-
-  /// Stability limit with the coefficients and speeds of this moment: element by element, and in
-  /// double-point scenes, where `step` is above that, of the assembled scheme.
-  [[nodiscard]] StabilityLimit current_limit(double step) const;
-
- private:
   void check_step(double time);
   void warn_of_locking(const VectorField<Dim>& steady_velocity);
 
@@ -75,8 +86,9 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   ExplicitNodal<Dim> scheme_;
   double step_;
   bool step_given_;
-  long last_steps_ = 1;   ///< of the last interval
-  double last_dt_ = 0.0;  ///< of its steps, s
+  FlowCarrier<Dim>* carrier_ = nullptr;  ///< nothing where the flow itself keeps its state
+  long last_steps_ = 1;                  ///< of the last interval
+  double last_dt_ = 0.0;                 ///< of its steps, s
   PassTiming timing_{"flow", 0, 0.0};
   /// The two limits when the assembled one was last found; it follows the other until that has
   /// moved.

@@ -11,22 +11,19 @@ namespace suffuse {
 
 template <int Dim>
 void DoublePoint<Dim>::advance(double latest) {
-  // Flow, as far as erosion and transport can follow (momentum, Eq. 4).
+  // Flow, as far as erosion and transport can follow (momentum, Eq. 4); soil that moves, and points
+  // that carry the flow, do so in its steps.
   const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
   const FlowProgress flow =
-      liquid_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
+      this->flow_->advance({start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
   // Erosion (Eqs. 1, 6, 7), the points that carry water and fines (Eq. 5), and what they leave.
-  for (const TransportStep& step : liquid_->start_interval(start, flow)) {
-    const std::vector<double>& eroded = this->exchange({step.start, step.end}, liquid_->waiting());
-    note_concentration();
-    liquid_->advance(step, flow.volumes, eroded, this->flow_->pressure());
-    settle_deposits();
-  }
+  const RegionCrossings& crossed =
+      liquid_->move(start, flow, this->flow_->pressure(), this->exchange_);
   this->time_ = flow.end;
   // Masses that crossed borders with the points.
-  this->masses_.book(liquid_->crossings());
+  this->masses_.book(crossed);
   update_flow(pores());
 }
 
@@ -86,7 +83,7 @@ EarlierState<Dim> DoublePoint<Dim>::last_state() const {
 template <int Dim>
 void DoublePoint<Dim>::archive(StateArchive& archive) {
   TwoPhaseModel<Dim>::archive(archive);
-  archive(*liquid_, concentration_before_, coefficients_timing_);
+  archive(*liquid_, coefficients_timing_);
 }
 
 template <int Dim>
@@ -102,39 +99,10 @@ PoreState DoublePoint<Dim>::clean_pores() const {
 }
 
 template <int Dim>
-std::vector<double> DoublePoint<Dim>::element_concentration() const {
-  const LiquidContent content = liquid_->content();
-  std::vector<double> result(content.liquid.size());
-  for (std::size_t e = 0; e < result.size(); ++e) {
-    result[e] = content.liquid[e] > 0.0 ? content.fines[e] / content.liquid[e] : 0.0;
-  }
-  return result;
-}
-
-template <int Dim>
-void DoublePoint<Dim>::note_concentration() {
-  if (!this->soils_.exchange_depends_on().concentration) return;
-  concentration_before_ = element_concentration();
-}
-
-template <int Dim>
-void DoublePoint<Dim>::settle_deposits() {
-  if (liquid_->deposited().empty()) return;
-  this->solid_->deposit(liquid_->deposited());
-  liquid_->follow_deposits();
-}
-
-template <int Dim>
 void DoublePoint<Dim>::find_liquid(PointFlows& flows) const {
-  // At the middle of the step to come, as it went in the last one: of second order.
   const ViscosityModel& viscosity = this->scene().liquid.viscosity_model;
   const double most = viscosity.depends_on_concentration() ? viscosity.maximum_concentration : 1.0;
-  std::vector<double> concentration = element_concentration();
-  for (std::size_t e = 0; e < concentration_before_.size(); ++e) {
-    const double now = concentration[e];
-    const double ahead = now + 0.5 * (now - concentration_before_[e]);
-    concentration[e] = std::clamp(ahead, 0.0, std::max(now, 0.5 * (now + most)));
-  }
+  const std::vector<double> concentration = liquid_->concentration_ahead(most);
   const MaterialPoints<Dim>& points = this->soils_.points();
   flows.concentration.resize(points.size());
   flows.motion = LiquidMotion::passes;
@@ -171,7 +139,7 @@ void DoublePoint<Dim>::update_flow(const PoreState& pores) {
 template <int Dim>
 std::vector<PassTiming> DoublePoint<Dim>::passes() const {
   std::vector<PassTiming> result = this->flow_->passes();
-  result.push_back(this->erosion_timing_);
+  result.push_back(this->exchange_.timing());
   for (PassTiming& timing : liquid_->passes()) result.push_back(std::move(timing));
   result.push_back(coefficients_timing_);
   return result;

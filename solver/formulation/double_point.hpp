@@ -35,12 +35,6 @@ class DoublePoint final : public TwoPhaseModel<Dim> {
   [[nodiscard]] std::vector<Stored> stored() const override;
   /// The flow takes the pores as they are now.
   void update_flow(const PoreState& pores);
-  /// Mean concentration of the points in each element; 0 where there is none.
-  [[nodiscard]] std::vector<double> element_concentration() const;
-  /// Remembers the concentration of the elements where the exchange of fines depends on it.
-  void note_concentration();
-  /// The solid takes the fines that points left, and the points follow its pores.
-  void settle_deposits();
   /// Pores full of clean water.
   [[nodiscard]] PoreState clean_pores() const;
   /// Flow and liquid points as the scene wants them.
@@ -51,8 +45,6 @@ class DoublePoint final : public TwoPhaseModel<Dim> {
 
   LiquidDensities densities_;
   std::unique_ptr<PointTransport<Dim>> liquid_;
-  /// Of the elements a step ago, where the exchange of fines depends on it; else empty.
-  std::vector<double> concentration_before_;
   PassTiming coefficients_timing_{"coefficients of the flow", 0, 0.0};
 };
 

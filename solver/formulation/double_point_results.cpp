@@ -128,7 +128,7 @@ Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
   std::vector<double> concentration = concentrations(points, volume);
 
   Snapshot result = element_snapshot(grid, *this->solid_, fines_state(flow), flow, this->scene(),
-                                     this->steps(), element_concentration());
+                                     this->steps(), liquid_->element_concentration());
 
   Field saturation{"saturation_state", "1", 1, {}, true};
   Field count{"liquid_points", "1", 1, {}, true};

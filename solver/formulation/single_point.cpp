@@ -23,41 +23,20 @@ FieldTransportSettings field_settings(const Scene& scene, const ModelOptions& op
 
 template <int Dim>
 void SinglePoint<Dim>::advance(double latest) {
-  // Flow, as far as erosion and transport can follow (momentum, Eq. 2).
+  // Flow, as far as erosion and transport can follow (momentum, Eq. 2); soil that moves does so in
+  // the steps of the flow.
   const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
   const FlowProgress flow =
-      fines_->drive(*this->flow_, {start, latest, this->coupling_interval(), forecast});
+      this->flow_->advance({start, latest, this->coupling_interval(), forecast});
   this->note_flow(start, flow);
   // Erosion (Eqs. 1, 6, 7), deposition, and transport (Eq. 3), with the volumes that crossed faces.
-  if (fines_->takes_implicit_steps(start, flow)) {
-    exchange_while_moving(start, flow);
-  } else {
-    exchange_and_move(start, flow);
-  }
+  std::vector<double> fines = fines_->move(start, flow, this->exchange_);
   this->time_ = flow.end;
   // Masses, and the pressures that follow from them.
-  book(flow.volumes);
+  book(flow.volumes, std::move(fines));
   update_flow();
   match_masses();
-}
-
-template <int Dim>
-void SinglePoint<Dim>::exchange_and_move(double start, const FlowProgress& flow) {
-  for (const TransportStep& step : fines_->start_interval(start, flow)) {
-    const auto times = this->exchange_times(step);
-    fines_->receive(this->exchange(times.before));
-    fines_->advance(step, flow.volumes, this->exchange(times.during), this->flow_->pressure());
-    fines_->receive(this->exchange(times.after));
-  }
-}
-
-template <int Dim>
-void SinglePoint<Dim>::exchange_while_moving(double start, const FlowProgress& flow) {
-  fines_->start_implicit(start, flow);
-  while (fines_->goes_on()) {
-    fines_->finish(this->apply(fines_->solve(*this->solid_, this->flows_)));
-  }
 }
 
 template <int Dim>
@@ -168,14 +147,13 @@ void SinglePoint<Dim>::update_flow() {
 }
 
 template <int Dim>
-void SinglePoint<Dim>::book(const FaceVolumes& volumes) {
+void SinglePoint<Dim>::book(const FaceVolumes& volumes, std::vector<double> fines) {
   const PassTimer timer(water_timing_);
   ++water_timing_.calls;
   const Grid<Dim>& grid = this->grid_;
   const bool conservative = this->scene().flow.porosity_gradient_term;
   const double density = this->scene().liquid.density;
   const FlowCoefficients<Dim>& coefficients = this->flow_->coefficients();
-  std::vector<double> fines = fines_->crossed();
   std::vector<double> water(grid.face_count());
   for_each_index(grid.face_count(), this->threads(), [&](int f) {
     const double excess = (1.0 - coefficients.face_concentration[f]) * volumes.density_excess[f];
@@ -266,7 +244,7 @@ Snapshot SinglePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
 template <int Dim>
 std::vector<PassTiming> SinglePoint<Dim>::passes() const {
   std::vector<PassTiming> result = this->flow_->passes();
-  result.push_back(this->erosion_timing_);
+  result.push_back(this->exchange_.timing());
   for (const PassTiming& timing : fines_->passes()) result.push_back(timing);
   result.push_back(water_timing_);
   return result;

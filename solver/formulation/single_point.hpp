@@ -40,12 +40,8 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
     return fines_->state();
   }
   [[nodiscard]] std::vector<Stored> stored() const override;
-  /// Exchange of fines with the solid, and transport, over an interval that the flow has crossed:
-  /// in turns, or together in one system.
-  void exchange_and_move(double start, const FlowProgress& flow);
-  void exchange_while_moving(double start, const FlowProgress& flow);
-  /// Books the water and the fines that crossed faces in an interval of the flow.
-  void book(const FaceVolumes& volumes);
+  /// Books the liquid and the fines in it, m3, that crossed faces in an interval of the flow.
+  void book(const FaceVolumes& volumes, std::vector<double> fines);
   /// The flow takes the pores as they are now.
   void update_flow();
   /// Sets the water masses that fit the pressures.

@@ -19,7 +19,8 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
                            options.flow.threads)),
       masses_(c, grid_),
       observations_(c, grid_),
-      grain_density_(c.document.scene.soils.front().grain_density) {
+      grain_density_(c.document.scene.soils.front().grain_density),
+      exchange_(*solid_, [this](PointFlows& flows) { find_liquid(flows); }) {
   flux_history_.mean.assign(grid_.face_count(), 0.0);
   flux_history_.end = flux_history_.mean;
 }
@@ -27,7 +28,7 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
 template <int Dim>
 void TwoPhaseModel<Dim>::archive(StateArchive& archive) {
   archive(*solid_, *flow_, masses_, observations_, time_, flux_history_, last_dt_, steps_,
-          erosion_timing_);
+          exchange_);
 }
 
 template <int Dim>
@@ -74,14 +75,9 @@ std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
 }
 
 template <int Dim>
-void TwoPhaseModel<Dim>::update_liquid() {
-  if (soils_.exchange_depends_on().concentration) find_liquid(flows_);
-}
-
-template <int Dim>
 PoreForecast<Dim> TwoPhaseModel<Dim>::pore_forecast() {
-  update_liquid();
-  return {grid_, *solid_, time_, pores(), flows_, flux_history_, threads()};
+  const PointFlows& flows = exchange_.find_flows();
+  return {grid_, *solid_, time_, pores(), flows, flux_history_, threads()};
 }
 
 template <int Dim>
@@ -96,42 +92,17 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   flux_history_.duration = flow.end - start;
   flux_history_.mean = per_time(flow.relative_volumes(), flux_history_.duration);
   flux_history_.end = needed.flux ? flow_->face_flux(flow.end) : flux_history_.mean;
-  flows_ = point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
-  flows_.start = start;
-  flows_.end = flow.end;
-  find_flux_change(grid_, soils_, flux_history_, flows_, threads());
+  PointFlows flows =
+      point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
+  flows.start = start;
+  flows.end = flow.end;
+  find_flux_change(grid_, soils_, flux_history_, flows, threads());
+  exchange_.start_interval(std::move(flows));
   masses_.book_liquid(flow.volumes.liquid);
   observations_.book_liquid(flow.volumes.liquid);
   steps_ += flow.steps;
   flow_->warn_of_suction(flow.end);
   last_dt_ = flow.dt;
-}
-
-template <int Dim>
-auto TwoPhaseModel<Dim>::exchange_times(const TransportStep& step) const -> ExchangeTimes {
-  if (!soils_.exchange_depends_on().concentration) return {.during = {step.start, step.end}};
-  const double middle = 0.5 * (step.start + step.end);
-  return {.before = {step.start, middle}, .after = {middle, step.end}};
-}
-
-template <int Dim>
-const std::vector<double>& TwoPhaseModel<Dim>::exchange(const TimeSpan& time,
-                                                        const std::vector<char>& waiting) {
-  exchange_.clear();
-  if (time.start >= time.end || !solid_->exchanges_within(time.start, time.end)) return exchange_;
-  const PassTimer timer(erosion_timing_);
-  ++erosion_timing_.calls;
-  update_liquid();
-  solid_->exchange(time.start, time.end, flows_, waiting, exchange_);
-  return exchange_;
-}
-
-template <int Dim>
-const std::vector<double>& TwoPhaseModel<Dim>::apply(const std::vector<Exchange>& change) {
-  const PassTimer timer(erosion_timing_);
-  ++erosion_timing_.calls;
-  solid_->apply(change, exchange_);
-  return exchange_;
 }
 
 template <int Dim>

@@ -14,6 +14,7 @@
 #include "formulation/observations.hpp"
 #include "results/writer.hpp"
 #include "solid/pores.hpp"
+#include "transport/solid_exchange.hpp"
 #include "transport/transport.hpp"
 
 namespace suffuse {
@@ -92,24 +93,8 @@ class TwoPhaseModel {
   [[nodiscard]] const Scene& scene() const { return case_.document.scene; }
   [[nodiscard]] int threads() const { return options_.flow.threads; }
   [[nodiscard]] PoreForecast<Dim> pore_forecast();
-  /// Concentration and saturation of the liquid at the solid points, as it lies now.
+  /// Finds concentration and saturation of the liquid at the solid points, as it lies now.
   virtual void find_liquid(PointFlows& flows) const = 0;
-  /// When solid and liquid exchange fines around a step of transport. Where the exchange depends on
-  /// the fines in the liquid, half of it comes before the liquid moves and half after (Strang),
-  /// which is of second order; else all of it comes while it moves.
-  struct ExchangeTimes {
-    TimeSpan before = TimeSpan::never();
-    TimeSpan during = TimeSpan::never();
-    TimeSpan after = TimeSpan::never();
-  };
-  [[nodiscard]] ExchangeTimes exchange_times(const TransportStep& step) const;
-  /// Exchanges fines between solid and liquid over a time: m3 per solid point into the liquid;
-  /// empty where none can be exchanged. Elements of `waiting` (may be empty) stay as they are.
-  [[nodiscard]] const std::vector<double>& exchange(const TimeSpan& time,
-                                                    const std::vector<char>& waiting = {});
-  /// The solid takes an exchange that is known: per solid point and volume of soil. Returns as
-  /// `exchange`.
-  [[nodiscard]] const std::vector<double>& apply(const std::vector<Exchange>& change);
   /// Once the flow has started.
   void start_flux_history();
   /// What solid and flow take; the pores follow in between by `update`.
@@ -147,19 +132,12 @@ class TwoPhaseModel {
   Observations<Dim> observations_;
   double grain_density_;
   double time_ = 0.0;
-  PointFlows flows_;  ///< at the solid points over the last interval
+  SolidExchange<Dim> exchange_;
 
  private:
-  /// Concentration and saturation in `flows_`, where some soil asks for them.
-  void update_liquid();
-
   FluxHistory flux_history_;
-  std::vector<double> exchange_;
   double last_dt_ = 0.0;
   long steps_ = 0;
-
- protected:
-  PassTiming erosion_timing_{"erosion", 0, 0.0};
 };
 
 /// The formulation that the scene asks for. Keeps a reference to the case.

@@ -13,11 +13,9 @@ class RigidSkeleton final : public ErodingSkeleton<Dim> {
                 int threads);
 
   [[nodiscard]] std::vector<double> element_porosity() const override;
-  [[nodiscard]] const std::vector<double>& face_volume_rate() const override { return at_rest_; }
 
  private:
   std::vector<double> initial_pores_;  ///< volume per element, m3
-  std::vector<double> at_rest_;        ///< empty: no solid crosses a face
 };
 
 }  // namespace suffuse

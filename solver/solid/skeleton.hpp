@@ -96,9 +96,6 @@ class Skeleton {
   [[nodiscard]] virtual double eroded_share(int point) const = 0;
   /// Mean n_L per element.
   [[nodiscard]] virtual std::vector<double> element_porosity() const = 0;
-  /// Volume of solid that crosses each face per second, along its normal, m3/s. Empty while the
-  /// solid stays in place.
-  [[nodiscard]] virtual const std::vector<double>& face_volume_rate() const = 0;
 
   /// Whether fines can be exchanged with the liquid between two times.
   [[nodiscard]] virtual bool exchanges_within(double from, double to) const = 0;

@@ -158,7 +158,7 @@ template <int Dim>
 void CarriedPoints<Dim>::grid_to_points(const FlowChange<Dim>& change, const WalkField<Dim>& field,
                                         double duration,
                                         const std::vector<ArrivingPoint<Dim>>& arriving,
-                                        std::vector<CarriedCrossing>& crossings) {
+                                        std::vector<PointCrossing>& crossings) {
   const int elements = grid_.mesh.element_count();
   const auto together = static_cast<int>(departures_.size()) - 1;
 #pragma omp parallel for schedule(static) \

@@ -11,6 +11,7 @@
 #include "flow/flow.hpp"
 #include "grid/point_walk.hpp"
 #include "transport/point_blocks.hpp"
+#include "transport/point_crossing.hpp"
 
 namespace suffuse {
 
@@ -30,16 +31,6 @@ struct ArrivingPoint {
   CarriedPoint<Dim> point;
   double time;
   int face;  ///< by which it enters
-};
-
-/// A point that changed its region; -1 is outside.
-struct CarriedCrossing {
-  int from;
-  int to;
-  int entered_by;  ///< outer face, -1 for none
-  int left_by;     ///< likewise
-  double water_mass;
-  double fines_mass;
 };
 
 template <int Dim>
@@ -62,7 +53,7 @@ class CarriedPoints {
   /// NumericalError as `walk` does.
   void grid_to_points(const FlowChange<Dim>& change, const WalkField<Dim>& field, double duration,
                       const std::vector<ArrivingPoint<Dim>>& arriving,
-                      std::vector<CarriedCrossing>& crossings);
+                      std::vector<PointCrossing>& crossings);
 
  private:
   /// What the points of an element give to one of its nodes.
@@ -78,7 +69,7 @@ class CarriedPoints {
   /// Points that leave the elements which one thread handles together.
   struct Departures {
     std::vector<Traveller> travellers;
-    std::vector<CarriedCrossing> crossings;
+    std::vector<PointCrossing> crossings;
     std::exception_ptr failure;
   };
   /// The step as the points of one element see it.

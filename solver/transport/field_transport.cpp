@@ -91,21 +91,68 @@ bool FieldTransport<Dim>::is_implicit(const std::vector<double>& face_rate) cons
 }
 
 template <int Dim>
-std::vector<TransportStep> FieldTransport<Dim>::start_interval(double start,
-                                                               const FlowProgress& flow) {
+std::vector<double> FieldTransport<Dim>::move(double start, const FlowProgress& flow,
+                                              SolidExchange<Dim>& exchange) {
   if (settings_.points_move) find_basis();
-  carries_ = flow.end > settings_.fines_from;
-  sweeps_ = false;
-  gained_ = flow.room_gained;
-  if (!carries_) {
-    gain(state_, gained_);
-    return {{start, flow.end, 1.0}};
+  const bool implicitly =
+      holds_fines(flow.end) && is_implicit(per_time(flow.volumes.liquid, flow.end - start));
+  return implicitly ? move_implicitly(start, flow, exchange)
+                    : move_explicitly(start, flow, exchange);
+}
+
+template <int Dim>
+std::vector<double> FieldTransport<Dim>::move_explicitly(double start, const FlowProgress& flow,
+                                                         SolidExchange<Dim>& exchange) {
+  std::vector<double> crossed(grid_.face_count(), 0.0);
+  std::vector<double> gained = flow.room_gained;
+  if (!holds_fines(flow.end)) {
+    gain(state_, gained);
+    return crossed;
   }
+  for (const TransportStep& step : start_steps(start, flow, gained)) {
+    const auto times = exchange.times(step);
+    receive(exchange.over(times.before));
+    const std::vector<double>& eroded = exchange.over(times.during);
+    {
+      const PassTimer timer(timing_);
+      ++timing_.calls;
+      eroded_.clear();
+      if (!eroded.empty()) spread(eroded, eroded_);
+      scheme_.advance(state_, eroded_, gained, scratch_);
+    }
+    receive(exchange.over(times.after));
+  }
+  scheme_.fines_crossed(scratch_, crossed);
+  return crossed;
+}
+
+template <int Dim>
+std::vector<double> FieldTransport<Dim>::move_implicitly(double start, const FlowProgress& flow,
+                                                         SolidExchange<Dim>& exchange) {
+  implicit_.start(start, flow);
+  while (!implicit_.finished()) {
+    const std::vector<double>& given =
+        exchange.take(implicit_.solve(state_, exchange.solid(), exchange.flows()));
+    if (given.empty()) {
+      eroded_.assign(grid_.mesh.element_count(), ElementValues<Dim>{});
+    } else {
+      spread(given, eroded_);
+    }
+    implicit_.finish(state_, eroded_);
+  }
+  std::vector<double> crossed(grid_.face_count(), 0.0);
+  implicit_.field().fines_crossed(crossed);
+  return crossed;
+}
+
+template <int Dim>
+std::vector<TransportStep> FieldTransport<Dim>::start_steps(double start, const FlowProgress& flow,
+                                                            std::vector<double>& gained) {
   double allowed = scheme_.steps_allowed(state_, flow.volumes.liquid);
-  if (!gained_.empty()) {
+  if (!gained.empty()) {
     // Where liquid drains, what is left in the end limits the step.
     FinesState<Dim> after = state_;
-    gain(after, gained_);
+    gain(after, gained);
     allowed = std::min(allowed, scheme_.steps_allowed(after, flow.volumes.liquid));
   }
   std::vector<TransportStep> steps =
@@ -113,22 +160,10 @@ std::vector<TransportStep> FieldTransport<Dim>::start_interval(double start,
   std::vector<double> step_volume = flow.volumes.liquid;
   if (steps.size() > 1) {
     for (double& volume : step_volume) volume *= steps.front().share;
-    for (double& volume : gained_) volume *= steps.front().share;
+    for (double& volume : gained) volume *= steps.front().share;
   }
   scheme_.start(state_, step_volume, scratch_);
   return steps;
-}
-
-template <int Dim>
-void FieldTransport<Dim>::advance(const TransportStep& /*step*/, const FaceVolumes& /*volumes*/,
-                                  const std::vector<double>& exchange,
-                                  const std::vector<double>& /*pressure*/) {
-  if (!carries_) return;
-  const PassTimer timer(timing_);
-  ++timing_.calls;
-  eroded_.clear();
-  if (!exchange.empty()) spread(exchange, eroded_);
-  scheme_.advance(state_, eroded_, gained_, scratch_);
 }
 
 template <int Dim>
@@ -140,23 +175,6 @@ void FieldTransport<Dim>::receive(const std::vector<double>& exchange) {
 }
 
 template <int Dim>
-void FieldTransport<Dim>::start_implicit(double start, const FlowProgress& flow) {
-  if (settings_.points_move) find_basis();
-  carries_ = sweeps_ = true;
-  implicit_.start(start, flow);
-}
-
-template <int Dim>
-void FieldTransport<Dim>::finish(const std::vector<double>& exchange) {
-  if (exchange.empty()) {
-    eroded_.assign(grid_.mesh.element_count(), ElementValues<Dim>{});
-  } else {
-    spread(exchange, eroded_);
-  }
-  implicit_.finish(state_, eroded_);
-}
-
-template <int Dim>
 std::vector<PassTiming> FieldTransport<Dim>::passes() const {
   std::vector<PassTiming> result{timing_};
   if (implicit_.timing().calls > 0) result.push_back(implicit_.timing());
@@ -164,20 +182,9 @@ std::vector<PassTiming> FieldTransport<Dim>::passes() const {
 }
 
 template <int Dim>
-std::vector<double> FieldTransport<Dim>::crossed() const {
-  std::vector<double> result(grid_.face_count(), 0.0);
-  if (carries_ && sweeps_) {
-    implicit_.field().fines_crossed(result);
-  } else if (carries_) {
-    scheme_.fines_crossed(scratch_, result);
-  }
-  return result;
-}
-
-template <int Dim>
 std::vector<double> FieldTransport<Dim>::face_concentration(
     double time, const std::vector<double>& face_rate) const {
-  if (time > settings_.fines_from) return scheme_.face_concentration(state_, face_rate);
+  if (holds_fines(time)) return scheme_.face_concentration(state_, face_rate);
   return std::vector<double>(grid_.face_count(), 0.0);
 }
 

@@ -4,6 +4,7 @@
 /// in each element and carried by the volumes that cross faces.
 
 #include "transport/eulerian.hpp"
+#include "transport/solid_exchange.hpp"
 #include "transport/swept_steps.hpp"
 #include "transport/transport.hpp"
 
@@ -37,47 +38,38 @@ class FieldTransport final : public Transport<Dim> {
   [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
     return {.steps = 32.0, .pore_growth = 2e-3};
   }
-  [[nodiscard]] std::vector<TransportStep> start_interval(double start,
-                                                          const FlowProgress& flow) override;
-  void advance(const TransportStep& step, const FaceVolumes& volumes,
-               const std::vector<double>& exchange, const std::vector<double>& pressure) override;
-
-  /// Whether the interval that the flow has crossed holds fines and is crossed by implicit steps.
-  [[nodiscard]] bool takes_implicit_steps(double start, const FlowProgress& flow) const {
-    return flow.end > settings_.fines_from &&
-           is_implicit(per_time(flow.volumes.liquid, flow.end - start));
-  }
-  /// The same in implicit steps, as long as this is true.
-  [[nodiscard]] bool goes_on() const { return !implicit_.finished(); }
-  void start_implicit(double start, const FlowProgress& flow);
-  /// Solves for the next of them, together with the exchange of fines with the solid, which it
-  /// returns: per solid point and volume of soil.
-  const std::vector<Exchange>& solve(const Skeleton<Dim>& solid, const PointFlows& flows) {
-    return implicit_.solve(state_, solid, flows);
-  }
-  /// Takes that step. `exchange`: what each solid point has given, m3; empty: none.
-  void finish(const std::vector<double>& exchange);
+  /// Moves liquid and fines through an interval that the flow has crossed since `start`, s, while
+  /// they exchange fines with the solid: in turns, in explicit steps, or together with it in one
+  /// system, in implicit steps. Returns the volume of fines that crossed each face, m3. Throws
+  /// NumericalError.
+  [[nodiscard]] std::vector<double> move(double start, const FlowProgress& flow,
+                                         SolidExchange<Dim>& exchange);
 
   void archive(StateArchive& archive) override { archive(state_, timing_, implicit_); }
   [[nodiscard]] std::vector<PassTiming> passes() const override;
-
-  /// Fines that each solid point gives to the liquid or takes from it, m3, at one moment between
-  /// steps; empty: none.
-  void receive(const std::vector<double>& exchange);
 
   /// The liquid that is there when the run starts: without this air, m3 per element.
   void start(const std::vector<double>& air);
   /// The same as another run left it.
   void start_from(const FinesState<Dim>& earlier) { state_ = earlier; }
   [[nodiscard]] const FinesState<Dim>& state() const { return state_; }
-  /// Volume of fines that crossed each face in the interval so far, m3. Questions about the state
-  /// do not change it.
-  [[nodiscard]] std::vector<double> crossed() const;
   /// Mean concentration of the liquid that would cross each face at these volumes.
   [[nodiscard]] std::vector<double> face_concentration(double time,
                                                        const std::vector<double>& face_rate) const;
 
  private:
+  [[nodiscard]] bool holds_fines(double time) const { return time > settings_.fines_from; }
+  [[nodiscard]] std::vector<double> move_explicitly(double start, const FlowProgress& flow,
+                                                    SolidExchange<Dim>& exchange);
+  [[nodiscard]] std::vector<double> move_implicitly(double start, const FlowProgress& flow,
+                                                    SolidExchange<Dim>& exchange);
+  /// Explicit steps that cross the interval. `gained`: volume that the liquid of each element
+  /// gains, m3, in the interval; becomes that in each step.
+  [[nodiscard]] std::vector<TransportStep> start_steps(double start, const FlowProgress& flow,
+                                                       std::vector<double>& gained);
+  /// Fines that each solid point gives to the liquid or takes from it, m3, at one moment between
+  /// steps; empty: none.
+  void receive(const std::vector<double>& exchange);
   /// Exchange at solid points as a field, m3 per element and field node. Its sum is that of the
   /// points exactly.
   void spread(const std::vector<double>& exchange, ElementField<Dim>& field) const;
@@ -92,9 +84,6 @@ class FieldTransport final : public Transport<Dim> {
   EulerianTransport<Dim> scheme_;
   SweptSteps<Dim> implicit_;
   FinesState<Dim> state_;
-  bool carries_ = false;        ///< fines in this interval
-  bool sweeps_ = false;         ///< by implicit steps
-  std::vector<double> gained_;  ///< liquid per element and step of transport, m3; may be empty
   /// Values of the element's basis functions at its points; only of the first element's points
   /// where they lie alike in every element that has any.
   std::vector<ElementValues<Dim>> basis_;

@@ -23,7 +23,46 @@ PointTransport<Dim>::PointTransport(const Grid<Dim>& grid, const Skeleton<Dim>& 
       pending_(grid.mesh.node_count(), 0.0) {}
 
 template <int Dim>
-std::vector<char> PointTransport<Dim>::waiting() const {
+const RegionCrossings& PointTransport<Dim>::move(double start, const FlowProgress& flow,
+                                                 const std::vector<double>& pressure,
+                                                 SolidExchange<Dim>& exchange,
+                                                 std::optional<double> steps) {
+  start_interval(flow);
+  if (!steps) steps = steps_needed(start, flow);
+  for (const TransportStep& step : equal_steps(start, flow.end, *steps)) {
+    const std::vector<double>& eroded = exchange.over({step.start, step.end}, dry_elements());
+    if (exchange.depends_on_concentration()) concentration_before_ = element_concentration();
+    advance(step, flow.volumes, eroded, pressure);
+    if (deposition_.deposited().empty()) continue;
+    exchange.deposit(deposition_.deposited());
+    follow_deposits();
+  }
+  return crossings_;
+}
+
+template <int Dim>
+std::vector<double> PointTransport<Dim>::element_concentration() const {
+  const LiquidContent content = this->content();
+  std::vector<double> result(content.liquid.size());
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    result[e] = content.liquid[e] > 0.0 ? content.fines[e] / content.liquid[e] : 0.0;
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> PointTransport<Dim>::concentration_ahead(double most) const {
+  std::vector<double> concentration = element_concentration();
+  for (std::size_t e = 0; e < concentration_before_.size(); ++e) {
+    const double now = concentration[e];
+    const double ahead = now + 0.5 * (now - concentration_before_[e]);
+    concentration[e] = std::clamp(ahead, 0.0, std::max(now, 0.5 * (now + most)));
+  }
+  return concentration;
+}
+
+template <int Dim>
+std::vector<char> PointTransport<Dim>::dry_elements() const {
   std::vector<char> result;
   const SoilMap<Dim>& soils = solid_.soils();
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {

@@ -2,24 +2,18 @@
 
 /// Liquid as material points (double-point formulation): what both strategies of moving them share.
 
+#include <optional>
+
 #include "results/tables.hpp"
 #include "solid/skeleton.hpp"
 #include "transport/fines_deposition.hpp"
 #include "transport/fines_transfer.hpp"
+#include "transport/point_crossing.hpp"
 #include "transport/point_injection.hpp"
+#include "transport/solid_exchange.hpp"
 #include "transport/transport.hpp"
 
 namespace suffuse {
-
-/// A point that changed its region; -1 is outside.
-struct PointCrossing {
-  int from;
-  int to;
-  int entered_by;     ///< outer face, -1: none
-  int left_by;        ///< likewise
-  double water_mass;  ///< kg
-  double fines_mass;  ///< kg
-};
 
 /// Masses that crossed borders of regions in an interval.
 struct RegionCrossings {
@@ -54,12 +48,24 @@ class PointTransport : public Transport<Dim> {
     return {.steps = 4.0, .pore_growth = 1e-3};
   }
 
+  /// Moves liquid and fines through an interval that the flow has crossed since `start`, s, in
+  /// steps, each after the exchange of fines with the solid. `pressure`: per element, Pa. `steps`:
+  /// their number; nothing for as many as points need. Returns what crossed borders; the reference
+  /// holds until the next interval. Throws NumericalError, also where far too many steps are
+  /// needed.
+  const RegionCrossings& move(double start, const FlowProgress& flow,
+                              const std::vector<double>& pressure, SolidExchange<Dim>& exchange,
+                              std::optional<double> steps = {});
+
   /// Sorted by element. The reference holds until the next interval.
   [[nodiscard]] virtual const LiquidPoints<Dim>& points() const = 0;
   [[nodiscard]] virtual int size() const = 0;
   [[nodiscard]] virtual LiquidContent content() const = 0;
-  /// Elements whose solid waits for liquid before it erodes, 1 for each; empty where none does.
-  [[nodiscard]] std::vector<char> waiting() const;
+  /// Mean concentration of the points in each element; 0 where there is none.
+  [[nodiscard]] std::vector<double> element_concentration() const;
+  /// The same at the middle of the step to come, as it went in the last one (of second order),
+  /// below `most`.
+  [[nodiscard]] std::vector<double> concentration_ahead(double most) const;
   /// Whether fines wait at nodes for liquid.
   [[nodiscard]] bool has_pending() const;
 
@@ -72,13 +78,6 @@ class PointTransport : public Transport<Dim> {
   /// Columns of the history that this strategy alone knows.
   virtual void describe(const FlowState<Dim>& /*flow*/, HistoryRow& /*row*/) const {}
 
-  /// Fines that the last step left in the soil, per solid point, m3; empty: none.
-  [[nodiscard]] const std::vector<double>& deposited() const { return deposition_.deposited(); }
-  /// The soil has them: the next step starts with the pores that they leave.
-  virtual void follow_deposits() {}
-
-  /// Of this interval.
-  [[nodiscard]] const RegionCrossings& crossings() const { return crossings_; }
   /// Volume of fines per node that waits for liquid, m3.
   [[nodiscard]] const std::vector<double>& pending() const { return pending_; }
   [[nodiscard]] const InflowAccount& inflow() const { return inflow_; }
@@ -96,10 +95,22 @@ class PointTransport : public Transport<Dim> {
   [[nodiscard]] EarlierLiquid<Dim> last_liquid() const { return {points(), inflow_, pending_}; }
 
   void archive(StateArchive& archive) override {
-    archive(inflow_, pending_, empty_total_, fines_timing_, movement_timing_);
+    archive(inflow_, pending_, empty_total_, concentration_before_, fines_timing_,
+            movement_timing_);
   }
 
  protected:
+  virtual void start_interval(const FlowProgress& flow) = 0;
+  /// Number of steps that points need for an interval.
+  [[nodiscard]] virtual double steps_needed(double start, const FlowProgress& flow) const = 0;
+  /// One step. `eroded`: fines that each solid point gives to the liquid in it, m3; empty where
+  /// none can.
+  virtual void advance(const TransportStep& step, const FaceVolumes& volumes,
+                       const std::vector<double>& eroded, const std::vector<double>& pressure) = 0;
+  /// The soil has taken the deposits of a step: the next one starts with the pores that they leave.
+  virtual void follow_deposits() {}
+  /// Elements whose solid does not erode as they have no liquid, 1 for each; empty where none is.
+  [[nodiscard]] std::vector<char> dry_elements() const;
   /// Replaces all points by these, which need not carry the flow.
   virtual void take_points(LiquidPoints<Dim> points, const FlowState<Dim>& flow) = 0;
   [[nodiscard]] virtual bool has_points(int element) const = 0;
@@ -120,6 +131,8 @@ class PointTransport : public Transport<Dim> {
   std::vector<double> pending_;
   double empty_total_ = 0.0;
   RegionCrossings crossings_;
+  /// Of the elements a step ago, where the exchange of fines depends on it; otherwise empty.
+  std::vector<double> concentration_before_;
   PassTiming fines_timing_{"transfer of fines", 0, 0.0};
   PassTiming movement_timing_{"movement of liquid points", 0, 0.0};
 };

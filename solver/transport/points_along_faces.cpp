@@ -90,8 +90,7 @@ double PointsAlongFaces<Dim>::longest_step(const std::vector<double>& face_rate)
 }
 
 template <int Dim>
-std::vector<TransportStep> PointsAlongFaces<Dim>::start_interval(double start,
-                                                                 const FlowProgress& flow) {
+void PointsAlongFaces<Dim>::start_interval(const FlowProgress& flow) {
   this->start_crossings();
   porosity_ = this->solid_.element_porosity();
   if (this->solid_.moves()) {
@@ -102,9 +101,6 @@ std::vector<TransportStep> PointsAlongFaces<Dim>::start_interval(double start,
       porosity_[e] -= opening_[e];
     }
   }
-  // In shares of the interval, as these volumes are those of all of it.
-  const double allowed = longest_step(flow.volumes.liquid);
-  return equal_steps(start, flow.end, checked_step_count(allowed, start, flow.end - start));
 }
 
 template <int Dim>
@@ -124,11 +120,11 @@ std::vector<double> PointsAlongFaces<Dim>::porosity_after(double share, bool exc
 
 template <int Dim>
 void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes& volumes,
-                                    const std::vector<double>& exchange,
+                                    const std::vector<double>& eroded,
                                     const std::vector<double>& pressure) {
   std::vector<double> volume = volumes.liquid;
   for (double& v : volume) v *= step.share;
-  const bool erodes = !exchange.empty();
+  const bool erodes = !eroded.empty();
   std::vector<double> porosity_end = porosity_after(step.share, erodes);
   if (this->deposition_.active()) this->deposition_.start(step.end - step.start);
   if (erodes) mean_fines_ = mean_fines();
@@ -141,7 +137,7 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
   if (erodes || this->has_pending()) {
     const PassTimer timer(this->fines_timing_);
     ++this->fines_timing_.calls;
-    this->book(this->transfer_.transfer_along_paths(exchange, point_volume(points_, pressure),
+    this->book(this->transfer_.transfer_along_paths(eroded, point_volume(points_, pressure),
                                                     points_, paths.uptakes, this->pending_));
   }
   if (this->deposition_.active()) {

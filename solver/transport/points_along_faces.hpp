@@ -18,12 +18,6 @@ class PointsAlongFaces final : public PointTransport<Dim> {
                    const MaterialPoints<Dim>& places, const std::vector<double>& pressure);
 
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
-  [[nodiscard]] std::vector<TransportStep> start_interval(double start,
-                                                          const FlowProgress& flow) override;
-  void advance(const TransportStep& step, const FaceVolumes& volumes,
-               const std::vector<double>& exchange, const std::vector<double>& pressure) override;
-
-  void follow_deposits() override;
 
   [[nodiscard]] const LiquidPoints<Dim>& points() const override { return points_; }
   [[nodiscard]] int size() const override { return points_.size(); }
@@ -39,6 +33,14 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   }
 
  private:
+  void start_interval(const FlowProgress& flow) override;
+  [[nodiscard]] double steps_needed(double start, const FlowProgress& flow) const override {
+    // In shares of the interval, as these volumes are those of all of it.
+    return checked_step_count(longest_step(flow.volumes.liquid), start, flow.end - start);
+  }
+  void advance(const TransportStep& step, const FaceVolumes& volumes,
+               const std::vector<double>& eroded, const std::vector<double>& pressure) override;
+  void follow_deposits() override;
   void take_points(LiquidPoints<Dim> points, const FlowState<Dim>& /*flow*/) override {
     points.pressure.clear();
     points.velocity.clear();

@@ -29,6 +29,7 @@ PointsCarryingFlow<Dim>::PointsCarryingFlow(const Grid<Dim>& grid, const Skeleto
   this->inflow_ = this->injection_.initial_account(places.size());
   fill(clean_liquid(places, flow.pressure(), densities, bulk_modulus), flow.pressure(),
        flow.scheme().velocity());
+  flow.set_carrier(*this);
 }
 
 template <int Dim>
@@ -57,23 +58,14 @@ void PointsCarryingFlow<Dim>::archive(StateArchive& archive) {
 }
 
 template <int Dim>
-FlowProgress PointsCarryingFlow<Dim>::drive(FlowSolver<Dim>& /*flow*/,
-                                            const FlowInterval<Dim>& interval) {
+void PointsCarryingFlow<Dim>::before_steps(const FlowInterval<Dim>& interval, double end) {
   this->start_crossings();
   output_points_ = {};
-  const auto steps = flow_.plan_steps(interval);
-  porosity_ = interval.pores.at(0.5 * (steps.start + steps.end)).porosity;
-  for (long s = 0; s < steps.count; ++s) {
-    points_to_grid();
-    flow_.step(steps.start_of(s), steps.dt);
-    flow_.update_boundary_values(steps.start_of(s), steps.start_of(s) + steps.dt);
-    grid_to_points(steps.dt);
-  }
-  return flow_.finish(steps);
+  porosity_ = interval.pores.at(0.5 * (interval.start + end)).porosity;
 }
 
 template <int Dim>
-void PointsCarryingFlow<Dim>::points_to_grid() {
+void PointsCarryingFlow<Dim>::before_step() {
   const PassTimer timer(exchange_timing_);
   ++exchange_timing_.calls;
   flow_.scheme().rewrite([this](VectorField<Dim>& velocity, std::vector<double>& pressure) {
@@ -83,7 +75,7 @@ void PointsCarryingFlow<Dim>::points_to_grid() {
 }
 
 template <int Dim>
-void PointsCarryingFlow<Dim>::grid_to_points(double dt) {
+void PointsCarryingFlow<Dim>::after_step(double dt) {
   const PassTimer timer(this->movement_timing_);
   ++this->movement_timing_.calls;
   flow_.node_flux(node_flux_);
@@ -94,9 +86,8 @@ void PointsCarryingFlow<Dim>::grid_to_points(double dt) {
   points_.grid_to_points(
       {scheme.previous_velocity(), scheme.velocity(), pressure_before_, scheme.pressure()},
       {node_flux_, porosity_, this->injection_.is_open()}, dt, arriving_, moved_);
-  for (const CarriedCrossing& point : moved_) {
-    this->crossings_.points.push_back({point.from, point.to, point.entered_by, point.left_by,
-                                       point.water_mass, point.fines_mass});
+  for (const PointCrossing& point : moved_) {
+    this->crossings_.points.push_back(point);
     if (point.left_by < 0) continue;
     this->inflow_.volume[point.left_by] +=
         liquid_volume(point.water_mass, point.fines_mass, this->densities_, 1.0);
@@ -140,14 +131,14 @@ double PointsCarryingFlow<Dim>::longest_step(const std::vector<double>& /*face_r
 
 template <int Dim>
 void PointsCarryingFlow<Dim>::advance(const TransportStep& step, const FaceVolumes& volumes,
-                                      const std::vector<double>& exchange,
+                                      const std::vector<double>& eroded,
                                       const std::vector<double>& /*pressure*/) {
   const bool catches = this->deposition_.active();
-  if (exchange.empty() && !this->has_pending() && !catches) return;
+  if (eroded.empty() && !this->has_pending() && !catches) return;
   output_points_ = {};
   const PassTimer timer(this->fines_timing_);
   ++this->fines_timing_.calls;
-  this->book(this->transfer_.transfer(exchange, porosity_, this->densities_, points_.blocks(),
+  this->book(this->transfer_.transfer(eroded, porosity_, this->densities_, points_.blocks(),
                                       this->pending_));
   if (!catches) return;
   this->deposition_.start(step.end - step.start);

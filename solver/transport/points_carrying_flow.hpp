@@ -11,10 +11,10 @@
 namespace suffuse {
 
 template <int Dim>
-class PointsCarryingFlow final : public PointTransport<Dim> {
+class PointsCarryingFlow final : public PointTransport<Dim>, private FlowCarrier<Dim> {
  public:
-  /// Points in their places, clean, with the pressure and velocity of `flow`, which has started and
-  /// outlives this.
+  /// Points in their places, clean, with the pressure and velocity of `flow`, which has started,
+  /// outlives this and from now on is carried by these points.
   PointsCarryingFlow(const Grid<Dim>& grid, const Skeleton<Dim>& solid, ExplicitFlow<Dim>& flow,
                      InjectionSettings injection, LiquidDensities densities, double bulk_modulus,
                      int threads, const MaterialPoints<Dim>& places);
@@ -24,16 +24,7 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
   [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
     return {.steps = 1.0, .pore_growth = 2e-4};
   }
-  /// Runs the flow that this was made for; points move with each of its steps.
-  FlowProgress drive(FlowSolver<Dim>& flow, const FlowInterval<Dim>& interval) override;
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
-  [[nodiscard]] std::vector<TransportStep> start_interval(double start,
-                                                          const FlowProgress& flow) override {
-    return {{start, flow.end, 1.0}};
-  }
-  /// Hands the fines to the points, which have moved already.
-  void advance(const TransportStep& step, const FaceVolumes& volumes,
-               const std::vector<double>& exchange, const std::vector<double>& pressure) override;
 
   [[nodiscard]] const LiquidPoints<Dim>& points() const override {
     if (output_points_.size() == 0) output_points_ = points_.blocks().points();
@@ -53,6 +44,17 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
   }
 
  private:
+  void before_steps(const FlowInterval<Dim>& interval, double end) override;
+  void before_step() override;
+  void after_step(double dt) override;
+
+  void start_interval(const FlowProgress& /*flow*/) override {}
+  [[nodiscard]] double steps_needed(double /*start*/, const FlowProgress& /*flow*/) const override {
+    return 1.0;
+  }
+  /// Hands the fines to the points, which have moved already.
+  void advance(const TransportStep& step, const FaceVolumes& volumes,
+               const std::vector<double>& eroded, const std::vector<double>& pressure) override;
   /// Points that do not carry the flow take it from their elements and nodes.
   void take_points(LiquidPoints<Dim> points, const FlowState<Dim>& flow) override;
   void fill(LiquidPoints<Dim> points, const std::vector<double>& pressure,
@@ -60,10 +62,6 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
   [[nodiscard]] bool has_points(int element) const override {
     return points_.blocks().count(element) > 0;
   }
-  /// Nodes and elements take velocity and pressure from the points.
-  void points_to_grid();
-  /// After a step of the flow of `dt` seconds: points take the change and move.
-  void grid_to_points(double dt);
   void inject(double dt);
 
   ExplicitFlow<Dim>& flow_;
@@ -79,7 +77,7 @@ class PointsCarryingFlow final : public PointTransport<Dim> {
   std::vector<double> entered_;          ///< per open face, m3
   std::vector<InjectedPoint<Dim>> injected_;
   std::vector<ArrivingPoint<Dim>> arriving_;
-  std::vector<CarriedCrossing> moved_;
+  std::vector<PointCrossing> moved_;
 };
 
 }  // namespace suffuse

@@ -1,8 +1,9 @@
 #pragma once
 
-/// Moves liquid and the fines in it with the flow. Three strategies share this interface: a field
-/// on the mesh, points along the volumes that cross faces, and points that carry the flow
-/// themselves.
+/// Moves liquid and the fines in it with the flow, and lets them exchange fines with the solid.
+/// Three strategies share this interface: a field on the mesh, points along the volumes that cross
+/// faces, and points that carry the flow themselves. The move itself returns what crossed borders:
+/// volumes through faces (FieldTransport), or points (PointTransport).
 
 #include <vector>
 
@@ -25,10 +26,6 @@ class Transport {
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;
 
-  /// Runs the flow over an interval. Throws NumericalError.
-  virtual FlowProgress drive(FlowSolver<Dim>& flow, const FlowInterval<Dim>& interval) {
-    return flow.advance(interval);
-  }
   /// Longest step of transport at these volumes through faces per second (m3/s, along each face's
   /// normal), s.
   [[nodiscard]] virtual double longest_step(const std::vector<double>& face_rate) const = 0;
@@ -42,15 +39,6 @@ class Transport {
     double pore_growth;  ///< relative, where the flow does not forecast the pores
   };
   [[nodiscard]] virtual Coupling coupling() const = 0;
-  /// Starts on the interval that the flow has crossed. Returns the steps that make it up, in their
-  /// order. Throws NumericalError where these would be far too many.
-  [[nodiscard]] virtual std::vector<TransportStep> start_interval(double start,
-                                                                  const FlowProgress& flow) = 0;
-  /// One of them. `exchange`: fines that each solid point gives to the liquid in it, m3; empty
-  /// where none can. `pressure`: per element, Pa. Throws NumericalError.
-  virtual void advance(const TransportStep& step, const FaceVolumes& volumes,
-                       const std::vector<double>& exchange,
-                       const std::vector<double>& pressure) = 0;
 
   virtual void archive(StateArchive& archive) = 0;
   /// What this cost, for run.json.

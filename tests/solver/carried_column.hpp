@@ -98,7 +98,7 @@ class Column {
     points_.grid_to_points(
         {scheme.previous_velocity(), scheme.velocity(), pressure_before_, scheme.pressure()},
         walk_field(), dt, arriving, crossings_);
-    for (const CarriedCrossing& point : crossings_) {
+    for (const PointCrossing& point : crossings_) {
       crossed[{point.from, point.to}] += point.water_mass;
       if (point.from < 0) fines_in.add(point.fines_mass);
       if (point.to < 0) fines_in.add(-point.fines_mass);
@@ -134,7 +134,7 @@ class Column {
     return arriving;
   }
   /// A point that left through an outer face takes its volume along.
-  static void account_for(const CarriedCrossing& point, InflowAccount& inflow) {
+  static void account_for(const PointCrossing& point, InflowAccount& inflow) {
     inflow.volume[point.left_by] +=
         liquid_volume(point.water_mass, point.fines_mass, densities_, 1.0);
   }
@@ -169,7 +169,7 @@ class Column {
   std::vector<double> entered_;
   std::vector<double> pressure_before_;
   VectorField<2> node_flux_;
-  std::vector<CarriedCrossing> crossings_;
+  std::vector<PointCrossing> crossings_;
 };
 
 }  // namespace suffuse::model

@@ -44,12 +44,12 @@ struct Column {
   void step(double dt) {
     FlowProgress flow{1, dt, time + dt, {face_rate, {}}};
     for (double& volume : flow.volumes.liquid) volume *= dt;
-    static_cast<void>(liquid.start_interval(time, flow));
-    std::vector<double> exchange;
-    solid.exchange(time, time + dt, {}, liquid.waiting(), exchange);
-    for (const double volume : exchange) eroded += densities.grain * volume;
-    liquid.advance({time, time + dt, 1.0}, flow.volumes, exchange, pressure);
-    note(liquid.crossings());
+    const RegionCrossings& crossed = liquid.move(time, flow, pressure, exchange, 1.0);
+    eroded = 0.0;
+    for (int p = 0; p < solid.soils().points().size(); ++p) {
+      eroded += densities.grain * solid.soils().points().volume[p] * solid.eroded_share(p);
+    }
+    note(crossed);
     time += dt;
   }
 
@@ -112,6 +112,7 @@ struct Column {
   Grid<2> grid;
   SoilMap<2> soils;
   RigidSkeleton<2> solid;
+  SolidExchange<2> exchange{solid, [](PointFlows&) {}};
   std::vector<FaceCondition> conditions;
   std::vector<double> pressure;
   PointsAlongFaces<2> liquid;

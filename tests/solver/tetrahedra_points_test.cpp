@@ -59,12 +59,12 @@ struct Box {
   void step(double dt) {
     FlowProgress flow{1, dt, time + dt, {face_rate, {}}};
     for (double& volume : flow.volumes.liquid) volume *= dt;
-    static_cast<void>(liquid.start_interval(time, flow));
-    std::vector<double> exchange;
-    solid.exchange(time, time + dt, {}, liquid.waiting(), exchange);
-    for (const double volume : exchange) eroded += densities.grain * volume;
-    liquid.advance({time, time + dt, 1.0}, flow.volumes, exchange, pressure);
-    for (const PointCrossing& point : liquid.crossings().points) {
+    const RegionCrossings& crossed = liquid.move(time, flow, pressure, exchange, 1.0);
+    eroded = 0.0;
+    for (int p = 0; p < solid.soils().points().size(); ++p) {
+      eroded += densities.grain * solid.soils().points().volume[p] * solid.eroded_share(p);
+    }
+    for (const PointCrossing& point : crossed.points) {
       if (point.to < 0) fines_out += point.fines_mass;
     }
     time += dt;
@@ -96,6 +96,7 @@ struct Box {
   Grid<3> grid;
   SoilMap<3> soils;
   RigidSkeleton<3> solid;
+  SolidExchange<3> exchange{solid, [](PointFlows&) {}};
   std::vector<FaceCondition> conditions;
   std::vector<double> pressure;
   PointsAlongFaces<3> liquid;
