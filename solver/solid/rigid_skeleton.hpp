@@ -7,7 +7,7 @@
 namespace suffuse {
 
 template <int Dim>
-class RigidSkeleton final : public ErodingSkeleton<Dim> {
+class RigidSkeleton : public ErodingSkeleton<Dim> {
  public:
   RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const TimeSpan& span,
                 int threads);

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <numeric>
 
-#include "solid/rigid_skeleton.hpp"
+#include "solver/counting_skeleton.hpp"
 #include "solver/double_point_case.hpp"
 #include "transport/points_along_faces.hpp"
 #include "verification/exact_fines.hpp"
@@ -45,10 +45,7 @@ struct Column {
     FlowProgress flow{1, dt, time + dt, {face_rate, {}}};
     for (double& volume : flow.volumes.liquid) volume *= dt;
     const RegionCrossings& crossed = liquid.move(time, flow, pressure, exchange, 1.0);
-    eroded = 0.0;
-    for (int p = 0; p < solid.soils().points().size(); ++p) {
-      eroded += densities.grain * solid.soils().points().volume[p] * solid.eroded_share(p);
-    }
+    eroded = densities.grain * solid.given();
     note(crossed);
     time += dt;
   }
@@ -111,7 +108,7 @@ struct Column {
   Case<2> input;
   Grid<2> grid;
   SoilMap<2> soils;
-  RigidSkeleton<2> solid;
+  CountingSkeleton<2> solid;
   SolidExchange<2> exchange{solid, [](PointFlows&) {}};
   std::vector<FaceCondition> conditions;
   std::vector<double> pressure;

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "box_mesh.hpp"
-#include "solid/rigid_skeleton.hpp"
+#include "solver/counting_skeleton.hpp"
 #include "solver/model_case.hpp"
 #include "transport/points_along_faces.hpp"
 #include "verification/exact_fines.hpp"
@@ -60,10 +60,7 @@ struct Box {
     FlowProgress flow{1, dt, time + dt, {face_rate, {}}};
     for (double& volume : flow.volumes.liquid) volume *= dt;
     const RegionCrossings& crossed = liquid.move(time, flow, pressure, exchange, 1.0);
-    eroded = 0.0;
-    for (int p = 0; p < solid.soils().points().size(); ++p) {
-      eroded += densities.grain * solid.soils().points().volume[p] * solid.eroded_share(p);
-    }
+    eroded = densities.grain * solid.given();
     for (const PointCrossing& point : crossed.points) {
       if (point.to < 0) fines_out += point.fines_mass;
     }
@@ -95,7 +92,7 @@ struct Box {
   Case<3> input;
   Grid<3> grid;
   SoilMap<3> soils;
-  RigidSkeleton<3> solid;
+  CountingSkeleton<3> solid;
   SolidExchange<3> exchange{solid, [](PointFlows&) {}};
   std::vector<FaceCondition> conditions;
   std::vector<double> pressure;
