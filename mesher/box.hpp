@@ -2,9 +2,9 @@
 
 /// The built-in geometry of three dimensions: a column with a depth, of tetrahedra.
 
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
 #include "column.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "case/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

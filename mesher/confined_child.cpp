@@ -21,7 +21,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "plain_text.hpp"
 #include "system_call_filter.hpp"
 

@@ -10,10 +10,10 @@
 #include <set>
 #include <utility>
 
-#include "case/mesh.hpp"
-#include "case/short_number.hpp"
+#include "common/short_number.hpp"
 #include "gmsh_session.hpp"
 #include "gmsh_types.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

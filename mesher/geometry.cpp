@@ -6,11 +6,9 @@
 
 #include "box.hpp"
 #include "case/consistency.hpp"
-#include "case/errors.hpp"
-#include "case/geometry_checks.hpp"
-#include "case/scene_schema.hpp"
-#include "case/short_number.hpp"
 #include "column.hpp"
+#include "common/errors.hpp"
+#include "common/short_number.hpp"
 #include "geometry_file.hpp"
 #include "gmsh_session.hpp"
 #include "hilbert_order.hpp"
@@ -18,6 +16,8 @@
 #include "mesh_extraction.hpp"
 #include "mesh_limits.hpp"
 #include "mesh_problems.hpp"
+#include "scene/geometry_checks.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 

@@ -14,9 +14,7 @@
 #include <optional>
 #include <string_view>
 
-#include "case/geometry_checks.hpp"
-#include "case/scene_schema.hpp"
-#include "case/short_number.hpp"
+#include "common/short_number.hpp"
 #include "confined_child.hpp"
 #include "curve_crossings.hpp"
 #include "geometry.hpp"
@@ -24,6 +22,8 @@
 #include "mesh_limits.hpp"
 #include "mesh_problems.hpp"
 #include "point_sizes.hpp"
+#include "scene/geometry_checks.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 

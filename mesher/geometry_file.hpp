@@ -2,8 +2,8 @@
 
 /// Has a user's geometry file read and meshed by Gmsh, in a process that may do nothing else.
 
-#include "case/scene.hpp"
 #include "gmsh_reply.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <numeric>
 
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 #include "gmsh_session.hpp"
 #include "gmsh_types.hpp"
 

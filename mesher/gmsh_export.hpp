@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "case/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

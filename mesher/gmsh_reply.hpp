@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "gmsh_model.hpp"
 
 namespace suffuse {

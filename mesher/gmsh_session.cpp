@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 

@@ -4,8 +4,8 @@
 #include <iomanip>
 #include <sstream>
 
-#include "case/grading_checks.hpp"
-#include "case/scene_schema.hpp"
+#include "scene/grading_checks.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "case/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

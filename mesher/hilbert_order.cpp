@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "case/faces.hpp"
-#include "case/slit.hpp"
+#include "mesh/faces.hpp"
+#include "mesh/slit.hpp"
 
 namespace suffuse {
 

@@ -11,7 +11,7 @@
 #include <array>
 #include <cstdint>
 
-#include "case/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

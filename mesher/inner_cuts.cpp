@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "case/faces.hpp"
-#include "case/slit.hpp"
+#include "mesh/faces.hpp"
+#include "mesh/slit.hpp"
 #include "mesh_problems.hpp"
 
 namespace suffuse {

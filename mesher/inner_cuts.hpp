@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "case/consistency.hpp"
-#include "case/scene.hpp"
 #include "mesh_extraction.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "case/case_file.hpp"
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
 #include "case/plausibility.hpp"
-#include "case/scene_schema.hpp"
-#include "case/soil_grading.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "geometry.hpp"
 #include "gmsh_export.hpp"
 #include "grading_summary.hpp"
+#include "scene/scene_schema.hpp"
+#include "scene/soil_grading.hpp"
 #include "seeding.hpp"
 #include "summary.hpp"
 

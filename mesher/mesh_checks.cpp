@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "case/faces.hpp"
+#include "mesh/faces.hpp"
 #include "mesh_problems.hpp"
 
 namespace suffuse {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "case/errors.hpp"
-#include "case/mesh.hpp"
+#include "common/errors.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

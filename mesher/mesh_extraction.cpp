@@ -9,10 +9,10 @@
 #include <set>
 #include <unordered_map>
 
-#include "case/closest_name.hpp"
-#include "case/faces.hpp"
-#include "case/short_number.hpp"
+#include "common/closest_name.hpp"
+#include "common/short_number.hpp"
 #include "gmsh_types.hpp"
+#include "mesh/faces.hpp"
 #include "mesh_checks.hpp"
 #include "mesh_problems.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "case/errors.hpp"
-#include "case/mesh.hpp"
+#include "common/errors.hpp"
 #include "gmsh_model.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

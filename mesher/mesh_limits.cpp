@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "case/errors.hpp"
-#include "case/short_number.hpp"
+#include "common/errors.hpp"
+#include "common/short_number.hpp"
 
 namespace suffuse {
 

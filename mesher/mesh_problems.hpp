@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "case/errors.hpp"
-#include "case/mesh.hpp"
-#include "case/place_text.hpp"
+#include "common/errors.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/place_text.hpp"
 
 namespace suffuse {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "case/material_points.hpp"
-#include "case/scene.hpp"
+#include "mesh/material_points.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -16,7 +16,7 @@
 #include <optional>
 #include <system_error>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 

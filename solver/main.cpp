@@ -4,7 +4,7 @@
 #include <iostream>
 #include <utility>
 
-#include "case/command_line.hpp"
+#include "common/command_line.hpp"
 #include "driver/element_test.hpp"
 #include "driver/estimate.hpp"
 #include "driver/interrupt.hpp"

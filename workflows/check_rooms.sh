@@ -8,14 +8,15 @@ set -eu
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 # A room is a folder; it may include itself and what stands before it.
-rooms='solver/physics mesher/case solver/results solver/grid solver/linear solver/solid solver/deformation '
+rooms='solver/physics mesher/common mesher/mesh mesher/scene mesher/case solver/results solver/grid solver/linear solver/solid solver/deformation '
 rooms+='solver/flow solver/transport solver/formulation solver/driver solver/main.cpp '
 rooms+='post/drawing post/values post/tables post/figures post/report post/commands'
 # Programs beside the solver, and all that they may include.
-others='mesher:solver/physics,mesher/case post:solver/physics,mesher/case,solver/results'
-max_rooms=12 max_arrows=40 max_lines=500
+below_mesher='solver/physics,mesher/common,mesher/mesh,mesher/scene,mesher/case'
+others="mesher:$below_mesher post:$below_mesher,solver/results"
+max_rooms=18 max_arrows=68 max_lines=500
 # The schema is one list, which is read from top to bottom. The others are still to be divided.
-long_files='mesher/case/scene_keys.cpp mesher/case/hdf5_io.cpp'
+long_files='mesher/scene/scene_keys.cpp mesher/common/hdf5_io.cpp'
 
 mapfile -t files < <(find solver mesher post -name '*.[ch]pp' | sort)
 awk -v rooms="$rooms" -v others="$others" -v max_rooms=$max_rooms -v max_arrows=$max_arrows \

@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "case/consistency.hpp"
-#include "case/errors.hpp"
-#include "case/faces.hpp"
-#include "case/hdf5_io.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/hdf5_io.hpp"
+#include "common/pending_file.hpp"
+#include "mesh/faces.hpp"
 
 namespace suffuse {
 

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "case/material_points.hpp"
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
+#include "mesh/material_points.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

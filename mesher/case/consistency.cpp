@@ -5,12 +5,12 @@
 #include <map>
 #include <set>
 
-#include "case/closest_name.hpp"
-#include "case/faces.hpp"
-#include "case/place_text.hpp"
-#include "case/short_number.hpp"
-#include "case/slit.hpp"
-#include "case/water_line.hpp"
+#include "common/closest_name.hpp"
+#include "common/short_number.hpp"
+#include "mesh/faces.hpp"
+#include "mesh/place_text.hpp"
+#include "mesh/slit.hpp"
+#include "mesh/water_line.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "case/errors.hpp"
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
+#include "common/errors.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "case/plausibility_base.hpp"
-#include "case/short_number.hpp"
+#include "common/short_number.hpp"
 
 namespace suffuse {
 namespace {

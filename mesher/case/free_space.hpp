@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -6,11 +6,11 @@
 #include <limits>
 #include <optional>
 
-#include "case/geometry_checks.hpp"
-#include "case/place_text.hpp"
 #include "case/plausibility_base.hpp"
-#include "case/short_number.hpp"
+#include "common/short_number.hpp"
+#include "mesh/place_text.hpp"
 #include "physics/skeleton/skeleton_law.hpp"
+#include "scene/geometry_checks.hpp"
 
 namespace suffuse {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

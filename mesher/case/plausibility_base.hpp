@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
-#include "case/scene_schema.hpp"
+#include "mesh/mesh.hpp"
 #include "physics/head.hpp"
+#include "scene/scene.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 

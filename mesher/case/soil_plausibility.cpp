@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "case/grading_checks.hpp"
 #include "case/plausibility_base.hpp"
-#include "case/short_number.hpp"
+#include "common/short_number.hpp"
 #include "physics/skeleton/skeleton_law.hpp"
+#include "scene/grading_checks.hpp"
 
 namespace suffuse {
 namespace {

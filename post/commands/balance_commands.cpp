@@ -3,8 +3,8 @@
 #include <iostream>
 #include <optional>
 
-#include "case/errors.hpp"
 #include "commands/command.hpp"
+#include "common/errors.hpp"
 #include "results/number_text.hpp"
 #include "tables/boundary_text.hpp"
 #include "tables/ledger_report.hpp"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "tables/table_output.hpp"
 
 namespace suffuse {

@@ -1,7 +1,7 @@
 /// suffuse-post: tables and figures from results folders.
 
-#include "case/command_line.hpp"
 #include "commands/command.hpp"
+#include "common/command_line.hpp"
 
 namespace suffuse {
 namespace {

@@ -5,9 +5,9 @@
 #include <iostream>
 #include <optional>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
 #include "commands/command.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "drawing/picture.hpp"
 #include "figures/figures.hpp"
 #include "figures/film.hpp"

@@ -1,7 +1,7 @@
 /// The subcommand `sweep`.
 
-#include "case/errors.hpp"
 #include "commands/command.hpp"
+#include "common/errors.hpp"
 #include "drawing/picture.hpp"
 #include "figures/sweep_figures.hpp"
 

@@ -13,8 +13,8 @@
 #include <array>
 #include <vector>
 
-#include "case/mesh.hpp"
 #include "drawing/chart.hpp"
+#include "mesh/mesh.hpp"
 
 class vtkOpenGLGL2PSHelper;
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "case/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

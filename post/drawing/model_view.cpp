@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/faces.hpp"
 #include "drawing/color_map.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"
 #include "drawing/type_size.hpp"
+#include "mesh/faces.hpp"
 
 namespace suffuse {
 namespace {

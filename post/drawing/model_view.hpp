@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "case/mesh.hpp"
 #include "drawing/chart.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <string>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/vtk_messages.hpp"
 
 namespace suffuse {

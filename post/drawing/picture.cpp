@@ -16,8 +16,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 #include "drawing/offscreen_window.hpp"
 #include "drawing/space.hpp"
 #include "drawing/vtk_messages.hpp"

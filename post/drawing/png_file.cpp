@@ -12,8 +12,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 
 namespace suffuse {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 namespace {

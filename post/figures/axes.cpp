@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "results/number_text.hpp"
 #include "tables/table_output.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "figures/run_curves.hpp"
 #include "values/specimen.hpp"
 

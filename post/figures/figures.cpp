@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "figures/axes.hpp"
 #include "figures/boundary_figures.hpp"
 #include "figures/flow_figures.hpp"

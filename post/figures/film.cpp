@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "case/errors.hpp"
-#include "case/scratch_folder.hpp"
+#include "common/errors.hpp"
+#include "common/scratch_folder.hpp"
 #include "drawing/png_file.hpp"
 #include "figures/film_encoder.hpp"
 

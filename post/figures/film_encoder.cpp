@@ -11,8 +11,8 @@
 #include <fstream>
 #include <optional>
 
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 
 namespace suffuse {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/chart_legend.hpp"
 #include "drawing/line_labels.hpp"
 #include "drawing/model_view.hpp"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "case/errors.hpp"
-#include "case/grading_checks.hpp"
+#include "common/errors.hpp"
 #include "figures/run_curves.hpp"
+#include "scene/grading_checks.hpp"
 
 namespace suffuse {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "figures/run_curves.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"

@@ -7,15 +7,15 @@
 #include <cmath>
 #include <map>
 
-#include "case/errors.hpp"
-#include "case/faces.hpp"
 #include "case/free_space.hpp"
+#include "common/errors.hpp"
 #include "drawing/chart_legend.hpp"
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/type_size.hpp"
 #include "figures/field_picture.hpp"
 #include "figures/map_water.hpp"
+#include "mesh/faces.hpp"
 #include "results/number_text.hpp"
 #include "values/derived_fields.hpp"
 #include "values/run_names.hpp"

@@ -1,6 +1,6 @@
 #include "figures/profile.hpp"
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/color_map.hpp"
 #include "drawing/ticks.hpp"
 #include "figures/measured.hpp"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <map>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/picture.hpp"
 #include "figures/categories.hpp"
 #include "figures/map_water.hpp"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/errors.hpp"
 #include "case/free_space.hpp"
+#include "common/errors.hpp"
 #include "drawing/chart_legend.hpp"
 #include "drawing/color_map.hpp"
 #include "drawing/colored_triangles.hpp"

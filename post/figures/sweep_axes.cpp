@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "case/scene_schema.hpp"
+#include "scene/scene_schema.hpp"
 #include "tables/table_output.hpp"
 
 namespace suffuse {

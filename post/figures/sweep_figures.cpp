@@ -5,8 +5,8 @@
 #include <numeric>
 #include <set>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "figures/axes.hpp"
 #include "figures/sweep_axes.hpp"
 #include "results/number_text.hpp"

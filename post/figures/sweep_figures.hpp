@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "case/scene.hpp"
 #include "drawing/chart.hpp"
+#include "scene/scene.hpp"
 #include "tables/sweep_table.hpp"
 
 namespace suffuse {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "figures/axes.hpp"
 #include "figures/measured.hpp"
 #include "figures/run_curves.hpp"

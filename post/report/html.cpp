@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "results/number_text.hpp"
 
 namespace suffuse::html {

@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 #include "report/html.hpp"
 #include "report/page_files.hpp"  // generated: page_style, page_script
 #include "report/report_pictures.hpp"

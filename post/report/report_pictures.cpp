@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/errors.hpp"
-#include "case/scratch_folder.hpp"
+#include "common/errors.hpp"
+#include "common/scratch_folder.hpp"
 #include "drawing/png_file.hpp"
 #include "figures/figures.hpp"
 #include "figures/render.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "results/number_text.hpp"
 
 namespace suffuse {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 #include "drawing/vtk_messages.hpp"
 #include "results/number_text.hpp"
 

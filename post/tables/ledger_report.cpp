@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "results/number_text.hpp"
 #include "results/tables.hpp"
 #include "tables/table_output.hpp"

@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 #include "results/number_text.hpp"
 #include "tables/table_output.hpp"
 #include "values/refusal.hpp"

@@ -8,8 +8,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "case/errors.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "values/column_fines.hpp"

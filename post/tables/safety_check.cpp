@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <map>
 
-#include "case/errors.hpp"
-#include "case/faces.hpp"
+#include "common/errors.hpp"
+#include "mesh/faces.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
 #include "tables/table_output.hpp"

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
-#include "case/regular_file.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
+#include "common/regular_file.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
 #include "tables/table_output.hpp"

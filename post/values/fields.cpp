@@ -5,8 +5,8 @@
 #include <iterator>
 #include <map>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "values/derived_fields.hpp"
 #include "values/time_unit.hpp"
 

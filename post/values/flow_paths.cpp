@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "case/faces.hpp"
+#include "mesh/faces.hpp"
 
 namespace suffuse {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

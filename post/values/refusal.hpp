@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 

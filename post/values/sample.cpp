@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "results/number_text.hpp"
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"

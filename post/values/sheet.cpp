@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "case/errors.hpp"
-#include "case/faces.hpp"
+#include "common/errors.hpp"
+#include "mesh/faces.hpp"
 #include "results/number_text.hpp"
 
 namespace suffuse {

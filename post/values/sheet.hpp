@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "case/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <numeric>
 
-#include "case/errors.hpp"
-#include "case/faces.hpp"
+#include "common/errors.hpp"
+#include "mesh/faces.hpp"
 #include "results/number_text.hpp"
 
 namespace suffuse {

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
-#include "case/scene_schema.hpp"
-#include "case/table_file.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "results/number_text.hpp"
+#include "scene/scene_schema.hpp"
+#include "scene/table_file.hpp"
 
 namespace suffuse {
 namespace {

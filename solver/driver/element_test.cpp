@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
-#include "case/scene_schema.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "driver/text_output.hpp"
 #include "physics/skeleton/soil_element.hpp"
 #include "results/number_text.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 namespace {

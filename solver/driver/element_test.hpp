@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "case/scene.hpp"
 #include "driver/element_table.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

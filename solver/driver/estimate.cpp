@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include "case/errors.hpp"
-#include "case/scratch_folder.hpp"
+#include "common/errors.hpp"
+#include "common/scratch_folder.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/row_checks.hpp"

@@ -1,6 +1,6 @@
 #include "driver/exchange_sentences.hpp"
 
-#include "case/scene_schema.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 namespace {

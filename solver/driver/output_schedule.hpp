@@ -8,8 +8,8 @@
 #include <limits>
 #include <optional>
 
-#include "case/scene.hpp"
 #include "flow/flow_values.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -5,9 +5,8 @@
 #include <limits>
 #include <sstream>
 
-#include "case/errors.hpp"
 #include "case/plausibility.hpp"
-#include "case/scene_schema.hpp"
+#include "common/errors.hpp"
 #include "driver/exchange_sentences.hpp"
 #include "flow/flow_scales.hpp"
 #include "flow/implicit_settings.hpp"
@@ -18,6 +17,7 @@
 #include "physics/head.hpp"
 #include "physics/liquid.hpp"
 #include "results/number_text.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 namespace {

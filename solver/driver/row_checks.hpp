@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "case/scene.hpp"
 #include "results/state_archive.hpp"
 #include "results/tables.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/progress.hpp"

@@ -3,15 +3,15 @@
 #include <cmath>
 #include <filesystem>
 
-#include "case/errors.hpp"
-#include "case/law_texts.hpp"
-#include "case/scene_difference.hpp"
-#include "case/scene_schema.hpp"
+#include "common/errors.hpp"
 #include "driver/plan.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/run_notes.hpp"
 #include "results/layout.hpp"
 #include "results/reader.hpp"
+#include "scene/law_texts.hpp"
+#include "scene/scene_difference.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <utility>
 
-#include "case/errors.hpp"
-#include "case/scene_schema.hpp"
+#include "common/errors.hpp"
 #include "results/layout.hpp"
 #include "results/writer.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 namespace {

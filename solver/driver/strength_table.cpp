@@ -6,10 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "case/errors.hpp"
-#include "case/law_texts.hpp"
-#include "case/pending_file.hpp"
-#include "case/scene_schema.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
 #include "deformation/soil_state.hpp"
 #include "driver/plan.hpp"
 #include "driver/run_loop.hpp"
@@ -20,6 +18,8 @@
 #include "results/number_text.hpp"
 #include "results/reader.hpp"
 #include "results/vtkhdf.hpp"
+#include "scene/law_texts.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 namespace {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "case/pending_file.hpp"
+#include "common/pending_file.hpp"
 
 namespace suffuse {
 

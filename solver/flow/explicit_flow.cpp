@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/locking.hpp"
 #include "flow/mixed_flow.hpp"
 #include "flow/steady_nodal.hpp"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "case/errors.hpp"
-#include "case/water_line.hpp"
+#include "common/errors.hpp"
+#include "mesh/water_line.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {

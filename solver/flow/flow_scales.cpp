@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/flow_values.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "physics/drag.hpp"

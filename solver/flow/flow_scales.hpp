@@ -5,11 +5,11 @@
 
 #include <vector>
 
-#include "case/scene.hpp"
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "flow/implicit_mixed.hpp"
 #include "grid/grid.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

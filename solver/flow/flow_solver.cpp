@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "grid/compensated_sum.hpp"
 #include "grid/parallel.hpp"
 #include "physics/drag.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/implicit_settings.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "flow/moved_air.hpp"

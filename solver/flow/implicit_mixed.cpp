@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "grid/parallel.hpp"
 #include "physics/numbers.hpp"
 

@@ -18,8 +18,7 @@
 #include <optional>
 #include <vector>
 
-#include "case/errors.hpp"
-#include "case/scene.hpp"
+#include "common/errors.hpp"
 #include "flow/face_conditions.hpp"
 #include "flow/flow.hpp"
 #include "flow/flow_soils.hpp"
@@ -30,6 +29,7 @@
 #include "linear/lagged_preconditioner.hpp"
 #include "linear/newton_system.hpp"
 #include "results/state_archive.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/implicit_mixed.hpp"
 #include "grid/face_flux.hpp"
 

@@ -1,4 +1,4 @@
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/explicit_flow.hpp"
 #include "flow/flow_solver.hpp"
 #include "flow/implicit_flow.hpp"

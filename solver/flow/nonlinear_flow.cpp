@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/implicit_mixed.hpp"
 #include "grid/parallel.hpp"
 #include "physics/numbers.hpp"

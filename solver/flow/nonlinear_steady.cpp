@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/implicit_mixed.hpp"
 
 namespace suffuse {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/implicit_mixed.hpp"
 
 namespace suffuse {

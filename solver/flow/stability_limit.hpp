@@ -4,10 +4,10 @@
 
 #include <array>
 
-#include "case/scene.hpp"
 #include "flow/flow.hpp"
 #include "flow/nodal_operator.hpp"
 #include "grid/grid.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

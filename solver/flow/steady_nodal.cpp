@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/flow_values.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "grid/parallel.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/implicit_flow.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "grid/face_flux.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "solid/pores.hpp"
 
 namespace suffuse {

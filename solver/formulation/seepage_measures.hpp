@@ -2,8 +2,8 @@
 
 /// How strongly water seeps: hydraulic gradients, and the power that it spends on the soil.
 
-#include "case/scene.hpp"
 #include "flow/flow_solver.hpp"
+#include "scene/scene.hpp"
 #include "solid/soil_map.hpp"
 
 namespace suffuse {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "case/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <sstream>
 
-#include "case/errors.hpp"
-#include "case/mesh.hpp"
+#include "common/errors.hpp"
 #include "grid/grid.hpp"
+#include "mesh/mesh.hpp"
 
 namespace suffuse {
 

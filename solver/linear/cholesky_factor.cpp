@@ -1,6 +1,6 @@
 #include "linear/cholesky_factor.hpp"
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "linear/multigrid.hpp"
 
 namespace suffuse {

@@ -4,7 +4,7 @@
 #include <Eigen/SparseLU>
 #include <string>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 namespace {

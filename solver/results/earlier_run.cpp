@@ -6,11 +6,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "case/errors.hpp"
-#include "case/regular_file.hpp"
-#include "case/scene_difference.hpp"
+#include "common/errors.hpp"
+#include "common/regular_file.hpp"
 #include "results/layout.hpp"
 #include "results/restart_point.hpp"
+#include "scene/scene_difference.hpp"
 
 namespace suffuse {
 namespace {

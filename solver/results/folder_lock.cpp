@@ -11,8 +11,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "case/errors.hpp"
-#include "case/regular_file.hpp"
+#include "common/errors.hpp"
+#include "common/regular_file.hpp"
 #include "results/layout.hpp"
 
 namespace suffuse {

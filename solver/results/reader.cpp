@@ -7,16 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
-#include "case/errors.hpp"
-#include "case/hdf5_io.hpp"
-#include "case/pending_file.hpp"
-#include "case/regular_file.hpp"
-#include "case/table_file.hpp"
+#include "common/errors.hpp"
+#include "common/hdf5_io.hpp"
+#include "common/pending_file.hpp"
+#include "common/regular_file.hpp"
 #include "results/folder_lock.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/table_files.hpp"
 #include "results/vtkhdf.hpp"
+#include "scene/table_file.hpp"
 
 namespace suffuse {
 namespace {

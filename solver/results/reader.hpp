@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "case/hdf5_io.hpp"
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
+#include "common/hdf5_io.hpp"
+#include "mesh/mesh.hpp"
 #include "results/tables.hpp"
 #include "results/writer.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "case/errors.hpp"
-#include "case/regular_file.hpp"
-#include "case/scene_difference.hpp"
+#include "common/errors.hpp"
+#include "common/regular_file.hpp"
 #include "results/layout.hpp"
+#include "scene/scene_difference.hpp"
 
 namespace suffuse {
 namespace {

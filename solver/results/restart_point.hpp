@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
-#include "case/hdf5_io.hpp"
+#include "common/hdf5_io.hpp"
 #include "results/table_files.hpp"
 
 namespace suffuse {

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "case/errors.hpp"
-#include "case/regular_file.hpp"
+#include "common/errors.hpp"
+#include "common/regular_file.hpp"
 #include "results/layout.hpp"
 
 namespace suffuse {

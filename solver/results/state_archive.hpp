@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "results/pass_timer.hpp"
 
 namespace suffuse {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "results/layout.hpp"
 
 namespace suffuse {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "case/hdf5_io.hpp"
-#include "case/material_points.hpp"
-#include "case/mesh.hpp"
-#include "case/scene.hpp"
+#include "common/hdf5_io.hpp"
+#include "mesh/material_points.hpp"
+#include "mesh/mesh.hpp"
 #include "results/writer.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 

@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "case/errors.hpp"
-#include "case/hdf5_io.hpp"
-#include "case/regular_file.hpp"
+#include "common/errors.hpp"
+#include "common/hdf5_io.hpp"
+#include "common/regular_file.hpp"
 #include "results/layout.hpp"
 #include "results/versions.hpp"
 #include "results/vtkhdf.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "grid/parallel.hpp"
 
 namespace suffuse {

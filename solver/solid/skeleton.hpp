@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "grid/grid.hpp"
 #include "results/state_archive.hpp"
 #include "results/writer.hpp"

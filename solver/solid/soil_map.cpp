@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 namespace {

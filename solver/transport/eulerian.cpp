@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "grid/parallel.hpp"
 #include "transport/linear_fines.hpp"
 

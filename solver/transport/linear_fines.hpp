@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "grid/parallel.hpp"
 #include "transport/element_sides.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "case/material_points.hpp"
 #include "grid/point_place.hpp"
+#include "mesh/material_points.hpp"
 
 namespace suffuse {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "physics/liquid.hpp"
 #include "transport/face_placement.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bytes.hpp"
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "edited_files.hpp"
 #include "results/reader.hpp"
 

@@ -3,7 +3,7 @@
 #include <hdf5.h>
 
 #include "bytes.hpp"
-#include "case/scratch_folder.hpp"
+#include "common/scratch_folder.hpp"
 #include "file_edits.hpp"
 
 namespace suffuse::fuzz {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse::fuzz {
 

@@ -5,7 +5,7 @@
 #include "box_mesh.hpp"
 #include "bytes.hpp"
 #include "case/case_file.hpp"
-#include "case/scratch_folder.hpp"
+#include "common/scratch_folder.hpp"
 #include "post/synthetic_results.hpp"
 
 namespace suffuse::fuzz {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bytes.hpp"
-#include "case/scratch_folder.hpp"
+#include "common/scratch_folder.hpp"
 #include "geometry.hpp"
 #include "mesher/temporary_folder.hpp"
 #include "refusal.hpp"

@@ -2,9 +2,9 @@
 #include <vector>
 
 #include "case/consistency.hpp"
-#include "case/scene.hpp"
 #include "post/synthetic_results.hpp"
 #include "refusal.hpp"
+#include "scene/scene.hpp"
 #include "seeds.hpp"
 #include "targets.hpp"
 

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "bytes.hpp"
-#include "case/scene_schema.hpp"
-#include "case/scratch_folder.hpp"
+#include "common/scratch_folder.hpp"
+#include "scene/scene_schema.hpp"
 #include "seeds.hpp"
 
 namespace suffuse::fuzz {

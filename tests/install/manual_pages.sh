@@ -30,7 +30,7 @@ for program in suffuse-mesher suffuse-solver suffuse-post; do
 done
 
 # Exit codes are those of the programs.
-codes=$(sed -n '/enum class ExitCode/,/^}/s/.*= \([0-9]*\).*/\1/p' "$source/mesher/case/errors.hpp" | sort -n)
+codes=$(sed -n '/enum class ExitCode/,/^}/s/.*= \([0-9]*\).*/\1/p' "$source/mesher/common/errors.hpp" | sort -n)
 said=$(sed -n 's/^\.B \([0-9]*\)$/\1/p' "$source/docs/man/exit-status.man" | sort -n)
 [ "$codes" = "$said" ] || fail "exit codes: got $said; expected $codes"
 echo ok

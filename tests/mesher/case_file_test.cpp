@@ -9,9 +9,9 @@
 #include <limits>
 #include <thread>
 
-#include "case/errors.hpp"
-#include "case/hdf5_io.hpp"
-#include "case/pending_file.hpp"
+#include "common/errors.hpp"
+#include "common/hdf5_io.hpp"
+#include "common/pending_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace suffuse {

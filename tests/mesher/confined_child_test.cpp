@@ -19,7 +19,7 @@
 #include <new>
 #include <thread>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "gmsh_reply.hpp"
 #include "temporary_folder.hpp"
 

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <variant>
 
-#include "case/errors.hpp"
 #include "case/plausibility.hpp"
 #include "case/plausibility_base.hpp"
-#include "case/soil_grading.hpp"
+#include "common/errors.hpp"
 #include "geometry.hpp"
+#include "scene/soil_grading.hpp"
 #include "temporary_folder.hpp"
 #include "test_paths.hpp"
 

@@ -1,4 +1,4 @@
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "geometry.hpp"
 #include "temporary_folder.hpp"
 

@@ -11,11 +11,11 @@
 #include <new>
 #include <set>
 
-#include "case/errors.hpp"
-#include "case/slit.hpp"
+#include "common/errors.hpp"
 #include "gmsh_export.hpp"
 #include "gmsh_session.hpp"
 #include "hilbert_order.hpp"
+#include "mesh/slit.hpp"
 #include "summary.hpp"
 #include "temporary_folder.hpp"
 #include "test_paths.hpp"

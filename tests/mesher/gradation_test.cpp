@@ -1,4 +1,4 @@
-#include "case/gradation.hpp"
+#include "scene/gradation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "case/grading_checks.hpp"
+#include "scene/grading_checks.hpp"
 
 namespace suffuse {
 namespace gradation_test {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "case/errors.hpp"
-#include "case/hdf5_io.hpp"
+#include "common/errors.hpp"
+#include "common/hdf5_io.hpp"
 #include "mesher/temporary_folder.hpp"
 
 namespace suffuse {

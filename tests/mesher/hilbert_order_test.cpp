@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "case/faces.hpp"
 #include "column.hpp"
 #include "gmsh_session.hpp"
+#include "mesh/faces.hpp"
 #include "mesh_extraction.hpp"
 #include "mesher/shuffled_mesh.hpp"
 

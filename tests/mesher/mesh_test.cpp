@@ -1,11 +1,11 @@
-#include "case/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "case/faces.hpp"
+#include "mesh/faces.hpp"
 
 namespace suffuse {
 namespace mesh_test {

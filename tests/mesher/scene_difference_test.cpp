@@ -1,4 +1,4 @@
-#include "case/scene_difference.hpp"
+#include "scene/scene_difference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "case/scene.hpp"
+#include "scene/scene.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,9 +12,9 @@
 #include <set>
 #include <sstream>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
-#include "case/scene_schema.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
+#include "scene/scene_schema.hpp"
 #include "test_paths.hpp"
 
 namespace suffuse {

@@ -9,7 +9,7 @@
 #include <set>
 #include <span>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "geometry.hpp"
 #include "test_paths.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "case/faces.hpp"
+#include "mesh/faces.hpp"
 
 namespace suffuse::test {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "case/scene.hpp"
 #include "physics/skeleton/skeleton_law.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse {
 namespace skeleton_scene_test {

@@ -1,4 +1,4 @@
-#include "case/slit.hpp"
+#include "mesh/slit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <set>
 
-#include "case/faces.hpp"
 #include "hilbert_order.hpp"
+#include "mesh/faces.hpp"
 
 namespace suffuse {
 namespace slit_test {

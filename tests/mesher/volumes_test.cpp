@@ -8,11 +8,11 @@
 #include <functional>
 #include <map>
 
-#include "case/errors.hpp"
-#include "case/slit.hpp"
+#include "common/errors.hpp"
 #include "geometry.hpp"
 #include "gmsh_export.hpp"
 #include "gmsh_session.hpp"
+#include "mesh/slit.hpp"
 #include "seeding.hpp"
 #include "summary.hpp"
 #include "temporary_folder.hpp"

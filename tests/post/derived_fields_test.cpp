@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "post/synthetic_results.hpp"
 #include "tables/safety_check.hpp"
 #include "values/fields.hpp"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/ticks.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"

@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/png_file.hpp"
 #include "post/synthetic_results.hpp"
 

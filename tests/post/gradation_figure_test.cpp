@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "figures/figures.hpp"
 #include "post/synthetic_results.hpp"
 

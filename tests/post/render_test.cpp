@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/color_map.hpp"
 #include "drawing/model_view.hpp"
 #include "figures/categories.hpp"

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <regex>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "post/synthetic_results.hpp"
 #include "report/html.hpp"
 #include "report/report_pictures.hpp"

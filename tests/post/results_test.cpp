@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "case/errors.hpp"
-#include "case/hdf5_io.hpp"
+#include "common/errors.hpp"
+#include "common/hdf5_io.hpp"
 #include "post/synthetic_results.hpp"
 #include "results/reader.hpp"
 

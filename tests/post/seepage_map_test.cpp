@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/contours.hpp"
 #include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"

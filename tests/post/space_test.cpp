@@ -9,13 +9,13 @@
 #include <numbers>
 
 #include "box_mesh.hpp"
-#include "case/errors.hpp"
-#include "case/scene_defaults.hpp"
+#include "common/errors.hpp"
 #include "drawing/space.hpp"
 #include "figures/figures.hpp"
 #include "figures/render.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
+#include "scene/scene_defaults.hpp"
 #include "tables/reference_error.hpp"
 #include "tables/safety_check.hpp"
 #include "values/derived_fields.hpp"

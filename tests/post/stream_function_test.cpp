@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "case/errors.hpp"
-#include "case/slit.hpp"
+#include "common/errors.hpp"
+#include "mesh/slit.hpp"
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {

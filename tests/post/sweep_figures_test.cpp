@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "figures/sweep_axes.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"

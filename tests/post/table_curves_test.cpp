@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {

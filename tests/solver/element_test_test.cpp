@@ -10,7 +10,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "mesher/temporary_folder.hpp"
 #include "solver/csv_columns.hpp"
 #include "test_paths.hpp"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <iostream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "grid/face_flux.hpp"
 #include "solver/model_case.hpp"
 

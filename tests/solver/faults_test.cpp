@@ -10,8 +10,8 @@
 #include <memory>
 #include <thread>
 
-#include "case/errors.hpp"
-#include "case/hdf5_io.hpp"
+#include "common/errors.hpp"
+#include "common/hdf5_io.hpp"
 #include "results/folder_lock.hpp"
 #include "results/layout.hpp"
 #include "results/reader.hpp"

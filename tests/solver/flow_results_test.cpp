@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/face_conditions.hpp"
 #include "formulation/observations.hpp"
 #include "results/state_archive.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/slit.hpp"
 #include "flow_model.hpp"
+#include "mesh/slit.hpp"
 
 namespace suffuse {
 namespace flux_correction_test {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow_model.hpp"
 
 namespace suffuse {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 namespace lagged_preconditioner_test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "case/hdf5_io.hpp"
+#include "common/hdf5_io.hpp"
 #include "results/layout.hpp"
 #include "results/reader.hpp"
 #include "solver/solver_process.hpp"

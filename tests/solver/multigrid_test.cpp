@@ -7,7 +7,7 @@
 #include <iostream>
 #include <memory>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "linear/lagged_preconditioner.hpp"
 #include "linear/newton_system.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/steady_nodal.hpp"
 #include "solver/model_case.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "solver/double_point_case.hpp"
 #include "solver/solid_model.hpp"
 

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "case/hdf5_io.hpp"
+#include "common/hdf5_io.hpp"
 #include "results/layout.hpp"
 #include "results/reader.hpp"
 #include "solver/solver_process.hpp"

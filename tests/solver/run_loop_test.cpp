@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "driver/plan.hpp"
 #include "driver/row_checks.hpp"
 #include "solver/model_case.hpp"

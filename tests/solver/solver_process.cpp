@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "case/errors.hpp"
-#include "case/hdf5_io.hpp"
+#include "common/errors.hpp"
+#include "common/hdf5_io.hpp"
 #include "results/layout.hpp"
 #include "results/reader.hpp"
 #include "test_paths.hpp"

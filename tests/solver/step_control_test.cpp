@@ -8,7 +8,7 @@
 #include <iostream>
 #include <utility>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "results/state_archive.hpp"
 #include "solver/flow_model.hpp"

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "case/hdf5_io.hpp"
+#include "common/hdf5_io.hpp"
 #include "mesher/temporary_folder.hpp"
 #include "results/number_text.hpp"
 #include "results/vtkhdf.hpp"

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "box_mesh.hpp"
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "grid/face_flux.hpp"
 #include "grid/face_walk.hpp"
 #include "solver/flow_model.hpp"

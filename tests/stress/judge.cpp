@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "results/reader.hpp"
 #include "stress/known_porosity.hpp"
 #include "stress/stress_mesh.hpp"

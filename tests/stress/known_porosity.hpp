@@ -2,7 +2,7 @@
 
 /// Mean porosity of the one soil that erodes, where its law does not depend on the flow.
 
-#include "case/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse::stress {
 

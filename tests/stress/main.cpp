@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "stress/energy.hpp"
 #include "stress/judge.hpp"
 #include "stress/stress_case.hpp"

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "case/consistency.hpp"
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "driver/plan.hpp"
 #include "seeding.hpp"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {

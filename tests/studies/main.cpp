@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/chart.hpp"
 #include "drawing/picture.hpp"
 #include "studies/accuracy_chart.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
-#include "case/closest_name.hpp"
-#include "case/errors.hpp"
+#include "common/closest_name.hpp"
+#include "common/errors.hpp"
 #include "drawing/chart.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"

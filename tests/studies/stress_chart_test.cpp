@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "post/synthetic_results.hpp"
 
 namespace suffuse {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 
 namespace suffuse {
 namespace {

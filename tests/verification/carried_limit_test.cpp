@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "model_run.hpp"
 
 namespace suffuse {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <sstream>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "geometry.hpp"
 #include "model_run.hpp"
 #include "reference_table.hpp"

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <set>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "drawing/line_labels.hpp"
 #include "test_paths.hpp"
 #include "values/sample.hpp"

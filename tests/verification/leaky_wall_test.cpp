@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "box_mesh.hpp"
-#include "case/slit.hpp"
 #include "flow/leaky_walls.hpp"
+#include "mesh/slit.hpp"
 #include "model_run.hpp"
 #include "solver/flow_model.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "case/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace suffuse::model {
 

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <random>
 
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "flow/explicit_nodal.hpp"
 #include "free_mesh.hpp"
 #include "model_run.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "box_mesh.hpp"
-#include "case/errors.hpp"
+#include "common/errors.hpp"
 #include "driver/plan.hpp"
 #include "exact_fines.hpp"
 #include "flow/implicit_mixed.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "case/water_line.hpp"
+#include "mesh/water_line.hpp"
 #include "mesher/temporary_folder.hpp"
 #include "scene_run.hpp"
 #include "test_paths.hpp"

@@ -1,0 +1,44 @@
+#include "mesh/faces.hpp"
+
+#include <algorithm>
+
+namespace suffuse {
+
+template <int Dim>
+std::array<int, Dim> face_key(std::array<int, Dim> nodes) {
+  std::ranges::sort(nodes);
+  return nodes;
+}
+
+template <int Dim>
+std::array<int, Dim> face_opposite(const std::array<int, Dim + 1>& element, int corner) {
+  std::array<int, Dim> face{};
+  for (int d = 0; d < Dim; ++d) face[d] = element[(corner + 1 + d) % (Dim + 1)];
+  return face;
+}
+
+template <int Dim>
+FaceTable<Dim>::FaceTable(const Mesh<Dim>& mesh) {
+  keys_.reserve(mesh.elements.size() * (Dim + 1));
+  for (const auto& element : mesh.elements) {
+    for (int corner = 0; corner <= Dim; ++corner) {
+      keys_.push_back(face_key<Dim>(face_opposite<Dim>(element, corner)));
+    }
+  }
+  std::ranges::sort(keys_);
+}
+
+template <int Dim>
+int FaceTable<Dim>::owners(const std::array<int, Dim>& face) const {
+  const auto [first, last] = std::equal_range(keys_.begin(), keys_.end(), face_key<Dim>(face));
+  return static_cast<int>(last - first);
+}
+
+template std::array<int, 2> face_key<2>(std::array<int, 2>);
+template std::array<int, 3> face_key<3>(std::array<int, 3>);
+template std::array<int, 2> face_opposite<2>(const std::array<int, 3>&, int);
+template std::array<int, 3> face_opposite<3>(const std::array<int, 4>&, int);
+template class FaceTable<2>;
+template class FaceTable<3>;
+
+}  // namespace suffuse

@@ -1,0 +1,31 @@
+#pragma once
+
+/// Which faces of a boundary lie under the water level of its `head`.
+
+#include <array>
+
+#include "mesh/mesh.hpp"
+
+namespace suffuse {
+
+/// A face counts as one piece: under water where its centre is below the level, and where it is
+/// level ground that the water just reaches.
+template <int Dim>
+class WaterLine {
+ public:
+  /// `gravity` in m/s2, not zero.
+  WaterLine(const Mesh<Dim>& mesh, const std::array<double, 3>& gravity);
+  /// Height of the centre of a face, m.
+  [[nodiscard]] double centre_height(const std::array<int, Dim>& face) const;
+  /// A face is under water where the head exceeds this value, m: the height of its centre; for a
+  /// level face, a little less, so that a head equal to its height counts as water although the
+  /// coordinates are rounded.
+  [[nodiscard]] double wet_above(const std::array<int, Dim>& face) const;
+
+ private:
+  const Mesh<Dim>& mesh_;
+  std::array<double, 3> gravity_;
+  double round_off_ = 0.0;  ///< of heights, m
+};
+
+}  // namespace suffuse

@@ -1,0 +1,75 @@
+#pragma once
+
+/// Whether the fines of a soil can move between its coarse grains, judged by its gradation alone:
+/// the criteria of the literature, each with its source. docs/theory.md, "Gradings".
+///
+/// F: mass finer than d; H: mass between d and 4 d; both in per cent of the whole.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "physics/local_state.hpp"
+#include "scene/gradation.hpp"
+
+namespace suffuse {
+
+/// `unknown`: the check needs sizes below the first point of the gradation.
+enum class Stability { stable, unstable, unknown };
+
+/// What one criterion says.
+struct GradingVerdict {
+  std::string check;  ///< "Kenney and Lau (1986)"
+  Stability stability = Stability::unknown;
+  double value = unset;     ///< the number that decides, unset where unknown
+  double at_finer = unset;  ///< F (or S, of a split) where it is, per cent; unset for whole curves
+  /// Per cent finer below which the gradation gives nothing, though the check would look there; 0:
+  /// nothing is missing.
+  double known_from = 0.0;
+  std::string reason;  ///< number, limit, or what is missing
+};
+
+/// The part of the grains that is loose between the others, as far as a gradation tells.
+struct FinesContent {
+  double finer = unset;   ///< F*, per cent: where H/F is smallest
+  double size = unset;    ///< d there, mm
+  double ratio = unset;   ///< H/F there
+  bool at_limit = false;  ///< no gap: H/F still falls where the search ends
+};
+
+/// Fines above this carry load, and the coarse grains float in them, per cent.
+inline constexpr double load_bearing_fines = 35.0;
+
+/// Up to which F a loose part is looked for: 20 %, or 30 % where the coarse grains are of one size,
+/// C_u = D60/D10 <= 3 of what is coarser than at F = 30 % (Kenney and Lau 1985).
+double search_limit(const Gradation& gradation);
+
+/// F* at the smallest H/F, for F up to the limit of the search, and at gaps beyond: sizes with
+/// H < 15 % at which H/F is smaller than on both sides. Nothing where the gradation starts beyond
+/// the limit and has no gap.
+std::optional<FinesContent> fines_content(const Gradation& gradation);
+
+/// Every split into a finer and a coarser soil, at F = S: D15 of the coarser over d85 of the finer
+/// above 4 is unstable.
+GradingVerdict check_kezdi(const Gradation& gradation);
+/// H/F < 1 at some F up to the limit of the search is unstable.
+GradingVerdict check_kenney_lau(const Gradation& gradation);
+/// H < min(F, 15 %) at some F up to that of fines that carry load is unstable.
+GradingVerdict check_li_fannin(const Gradation& gradation);
+/// 0.76 log h'' + 1 < h' < 1.86 log h'' + 1 is stable; h' = d90/d60, h'' = d90/d15.
+GradingVerdict check_burenkova(const Gradation& gradation);
+/// P = 1/(1 + exp(-Z)), Z = 2.378 log h'' - 3.648 h' + 3.701; above one half is unstable.
+GradingVerdict check_wan_fell(const Gradation& gradation);
+
+/// All of them, in this order.
+std::vector<GradingVerdict> check_grading(const Gradation& gradation);
+
+/// Three digits: gradations are not known better.
+std::string three_digits(double value);
+/// The same of a percentage, with its sign.
+std::string percent_text(double value);
+
+/// `stable`, `unstable` or `cannot be told`; `stable above 5 %` where what is finer is not given.
+std::string stability_text(const GradingVerdict& verdict);
+
+}  // namespace suffuse

@@ -1,0 +1,23 @@
+#pragma once
+
+/// What differs between two scenes as written, for messages.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace suffuse {
+
+/// Every key that the scene gives, `--set` applied, with its value as messages show it. Throws
+/// InputError where the text is not TOML.
+std::map<std::string, std::string> written_values(const SceneDocument& document);
+
+/// One line for each key whose value differs, `--set` applied, and for each file of values with
+/// another text: `time.end: 200 there, 100 here`. Comments, spaces and the order of keys do not
+/// count. Of both documents `text`, `overrides` and `files` count, nothing else. Empty where
+/// nothing differs.
+std::vector<std::string> scene_differences(const SceneDocument& there, const SceneDocument& here);
+
+}  // namespace suffuse

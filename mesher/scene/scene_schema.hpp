@@ -1,0 +1,117 @@
+#pragma once
+
+/// Every key of a scene, declared once: what it may be, what it means and where it is kept.
+/// The declarations are in `scene_keys.cpp`. Checking, `--set`, suggestions and
+/// docs/scene-reference.md all follow these declarations.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace suffuse {
+
+/// Arrays of numbers: a table of values against time has two in each.
+using Rows = std::vector<std::vector<double>>;
+
+/// A value as TOML has it; an array counts only when it holds nothing but numbers, or nothing but
+/// arrays of numbers.
+using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, Rows>;
+
+enum class ValueKind {
+  text,
+  word,
+  number,
+  number_or_pair,
+  integer,
+  boolean,
+  vector,
+  number_or_word,   ///< a number, or one of `words`
+  function,         ///< a number, or pairs of numbers
+  vector_function,  ///< a vector, or a time and a vector in each of many
+  gradation
+};
+
+struct Bound {
+  double value = 0.0;
+  bool open = false;  ///< the bound itself is not allowed
+};
+
+struct SceneKey {
+  /// Dotted; `*` stands for any name and `[]` for any entry of a list: `soil.*.porosity`.
+  std::string pattern;
+  ValueKind kind = ValueKind::number;
+  std::string sentence;
+  std::string symbol;
+  std::string unit;
+  std::optional<Bound> lower;
+  std::optional<Bound> upper;
+  bool infinite_allowed = false;  ///< of a number: inf is within the bounds
+  /// What the pairs of a function go by: its symbol, and it in words.
+  std::string argument = "t";
+  std::string arguments = "times (s, ascending)";
+  bool argument_is_share = false;      ///< between 0 and 1; pairs may descend too
+  std::vector<std::string> words;      ///< all there are, for ValueKind::word
+  std::vector<std::int64_t> integers;  ///< all there are, or empty for any within the bounds
+  bool required = false;
+  std::string unless;  ///< the other key of its table that stands in for a required one
+  std::optional<Value> default_value;
+  std::string default_note;  ///< what holds without the key, where that is no plain value
+  /// Keeps an accepted value in the soil or boundary of this index, or in the scene itself.
+  std::function<void(Scene&, std::size_t, const Value&)> store;
+
+  [[nodiscard]] std::string leaf() const;    ///< `porosity`
+  [[nodiscard]] std::string bounds() const;  ///< `0 < n_0 < 1`, or empty
+  [[nodiscard]] std::string expected() const;
+  /// The value as `store` wants it, or nothing when it is not allowed here.
+  [[nodiscard]] std::optional<Value> accept(const Value& value) const;
+  /// What is wrong with the pairs of a function or a gradation, where one of them is: `t = 3 after
+  /// t = 5`. Empty where the value as a whole is to be quoted.
+  [[nodiscard]] std::string fault(const Value& value) const;
+
+ private:
+  [[nodiscard]] std::string fault_of_pairs(const Rows& rows) const;
+  [[nodiscard]] std::optional<Value> accept_number(const Value& value) const;
+};
+
+/// A table of the scene, for the reference.
+struct SceneSection {
+  std::string pattern;  ///< `soil.*`; empty for the top level
+  std::string heading;  ///< `[soil.NAME]`
+  std::string sentence;
+};
+
+const std::vector<SceneKey>& scene_keys();
+const std::vector<SceneSection>& scene_sections();
+
+/// nullptr when no key has this pattern.
+const SceneKey* find_scene_key(const std::string& pattern);
+
+/// What may follow a pattern, in the order of declaration: names, `*` or `[]`. Empty for keys and
+/// for what does not exist. The empty pattern is the whole scene.
+std::vector<std::string> scene_children(const std::string& pattern);
+
+/// `parent.child`, `parent[]`, or `child` at the top level.
+std::string joined(const std::string& parent, const std::string& child);
+
+/// A name as it stands in a dotted key: quoted where TOML wants it.
+std::string shown_name(const std::string& name);
+
+/// A number as short as reads back exactly, `2e7`.
+std::string shown_number(double value);
+
+/// A value as one would write it in a scene.
+std::string shown_value(const Value& value);
+
+/// What is wrong with a time, or another argument, that does not lie above the one before it; at a
+/// jump, where the two are the same, how to give one.
+std::string out_of_order(const std::string& argument, double value, double earlier);
+
+/// `a, b or c`
+std::string listed(const std::vector<std::string>& items, const std::string& last_joint = "or");
+
+}  // namespace suffuse
