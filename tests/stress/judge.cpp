@@ -289,7 +289,8 @@ class Judge {
                          (index == 0 || catches || porosity[p] >= last_porosity_[p] - round_off);
       if (holds) continue;
       complain("porosity " + shown(porosity[p]) + " of a solid point in " + where + ", outside " +
-               shown(least) + " to " + shown(most));
+               shown(least) + " to " + shown(most) + " (by " + shown(porosity[p] - least) + ", " +
+               shown(porosity[p] - most) + ")");
       break;
     }
     last_porosity_ = porosity;
