@@ -12,7 +12,7 @@ constexpr int max_passes = 60;
 /// The loads come in so many parts where soil yields too much for all at once.
 constexpr int load_parts = 20;
 /// A displacement by this share of the size of the model is a failure, and so is soil that does not
-/// rest within so many iterations.
+/// rest within so many iterations in all.
 constexpr double far_share = 0.1;
 constexpr int max_iterations = 100;
 /// Elastic soil must have a volume to lose.
@@ -61,15 +61,16 @@ template <int Dim>
 StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
                           const Supports<Dim>& supports, const StartLoads<Dim>& loads,
                           SolidPoints<Dim>& points, int threads) {
-  const SettlingLimits limits{.tolerance = NewtonLimits().tolerance,
-                              .far = far_share * extent(grid.mesh).norm(),
-                              .max_iterations = max_iterations};
+  SettlingLimits limits{.tolerance = NewtonLimits().tolerance,
+                        .far = far_share * extent(grid.mesh).norm(),
+                        .max_iterations = max_iterations};
   StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);
-  for (int pass = 0; pass < max_passes; ++pass) {
-    const bool found = step.solve(loads.forces, loads.pressure) ||
-                       step.settle(loads.forces, loads.pressure, limits);
-    if (!found) break;
+  while (limits.max_iterations > 0) {
+    if (!step.solve(loads.forces, loads.pressure)) {
+      if (!step.settle(loads.forces, loads.pressure, limits)) break;
+    }
     if (step.iterations() == 0) return {.stands = true};
+    limits.max_iterations -= step.iterations();
     take_stress(grid, step, points, threads);
     step.restart();
   }

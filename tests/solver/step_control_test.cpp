@@ -166,6 +166,18 @@ TEST(StepControl, AfterAKinkStepsAreAsShortAsTimeHasDigits) {
   EXPECT_THROW(step(2.0), NumericalError);
 }
 
+/// Two halves of what is left would be shorter than the digits of time allow.
+TEST(StepControl, StepsAreNotHalvedBelowTheDigitsOfTime) {
+  constexpr double kink = 1e9;
+  StepControl control = after_step(settings(1e-3, 3e9), 1e7);
+  control.pass_kink();
+  double dt = control.propose(kink, 2e9, 1e9);
+  while (!control.accept(kink, 2.0, true, dt)) continue;
+  control.finish(dt);
+  const double left = 1.5 * limits.min_step_of_time * kink;
+  EXPECT_GE(control.propose(kink, kink + left, 1e9), limits.min_step_of_time * kink);
+}
+
 TEST(StepControl, StartsHoweverFarTheEndWhereTheFlowChangesFast) {
   for (const double shortest : {1e-8, std::numeric_limits<double>::infinity()}) {
     StepControl control(settings(1e-3, 1e15));
