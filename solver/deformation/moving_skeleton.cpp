@@ -225,10 +225,12 @@ void MovingSkeleton<Dim>::start_motion(const MotionForcing& forcing) {
   pressure_ = forcing.pressure;
   step_.reset();
   if (start.stands || let_fail(0.0)) return;
+  const std::string place =
+      start.worst_node < 0 ? "" : ", least " + node_text(this->grid_, start.worst_node);
   throw NumericalError(
       "the soil has no equilibrium at the start: it cannot carry its weight and the loads at "
-      "t = 0 s, least " +
-      node_text(this->grid_, start.worst_node) +
+      "t = 0 s" +
+      place +
       "; give it more strength or stiffness, fix a boundary that it leans on, or let it move "
       "(time.failure = \"follow\")");
 }

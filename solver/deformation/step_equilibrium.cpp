@@ -46,7 +46,7 @@ bool StepEquilibrium<Dim>::solve(const NodeVectors<Dim>& loads, std::vector<doub
     solution = solver_.solve(loads, rest, limits_);
   }
   iterations_ = solution.iterations();
-  worst_node_ = solution.worst_node;
+  if (!solution.converged) worst_node_ = solution.worst_node;
   if (solution.converged) displacement_ = std::move(solution.displacement);
   return solution.converged;
 }
@@ -59,8 +59,8 @@ bool StepEquilibrium<Dim>::settle(const NodeVectors<Dim>& loads, std::vector<dou
       PseudoTime<Dim>(equilibrium_, loads)
           .settle(NodeVectors<Dim>(displacement_.size(), Vector<Dim>::Zero()), limits);
   iterations_ = soil.iterations;
-  worst_node_ = soil.worst_node;
   const bool rests = soil.end == Settling::rests;
+  if (!rests) worst_node_ = soil.worst_node;
   if (rests) displacement_ = std::move(soil.displacement);
   return rests;
 }
