@@ -134,8 +134,8 @@ Sweep to_the_grains_sweep() {
     const bool erodes = seed % 2 == 0;
     std::string young = number(stiffness);
     if (erodes) {
-      // Softer soil is a slurry, which the water carries.
-      const double left = std::max(stiffness * random.decades(1e-4, 0.3), 0.02 * load);
+      // Where softer soil has lost its fines, steps become too short (docs/stability.md).
+      const double left = std::max(stiffness * random.decades(1e-4, 0.3), 0.6 * load);
       young = "[[1.0, " + young + "], [0.0, " + number(left) + "]]";
     }
     std::string soil = "soil.specimen={" + entry("porosity", porosity) +
