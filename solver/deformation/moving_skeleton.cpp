@@ -216,18 +216,22 @@ void MovingSkeleton<Dim>::start_motion(const MotionForcing& forcing) {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
   const Scene& scene = this->soils().scene();
-  const bool stands = find_start_stress(this->grid_, skeletons(), supports_,
-                                        {.forces = loads(forcing, sorted, classes),
-                                         .pressure = forcing.pressure,
-                                         .gravity = scene.gravity,
-                                         .earth_pressure = scene.earth_pressure},
-                                        points_, this->threads_);
+  const StartStress start = find_start_stress(this->grid_, skeletons(), supports_,
+                                              {.forces = loads(forcing, sorted, classes),
+                                               .pressure = forcing.pressure,
+                                               .gravity = scene.gravity,
+                                               .earth_pressure = scene.earth_pressure},
+                                              points_, this->threads_);
   pressure_ = forcing.pressure;
   step_.reset();
-  if (stands || let_fail(0.0)) return;
+  if (start.stands || let_fail(0.0)) return;
+  const std::string place =
+      start.worst_node < 0 ? "" : ", least " + node_text(this->grid_, start.worst_node);
   throw NumericalError(
       "the soil has no equilibrium at the start: it cannot carry its weight and the loads at "
-      "t = 0; give it more strength or stiffness, fix a boundary that it leans on, or let it move "
+      "t = 0 s" +
+      place +
+      "; give it more strength or stiffness, fix a boundary that it leans on, or let it move "
       "(time.failure = \"follow\")");
 }
 
@@ -280,6 +284,7 @@ const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing)
   forces_ = loads(forcing, step_->sorted(), step_->classes());
   if (!inertia_.acts()) crossing_forces_.add(forcing.duration, forces_);
   motion_.converged = step_->solve(forces_, forcing.pressure, forcing.stiffness);
+  if (!motion_.converged) motion_.worst_node = step_->worst_node();
   motion_.iterations = step_->iterations();
   step_iterations_ += motion_.iterations;
   motion_.travel = largest_travel(this->grid_, step_->sorted(), step_->displacement());

@@ -29,6 +29,7 @@ NewtonSolution<Dim> EquilibriumSolver<Dim>::solve(const NodeVectors<Dim>& loads,
   result.displacement = std::move(start);
   equilibrium_.displace(result.displacement, true);
   iterate(loads, limits, result);
+  if (!result.converged) result.worst_node = unknowns().longest(unbalanced(loads));
   return result;
 }
 

@@ -27,6 +27,8 @@ struct NewtonSolution {
   bool converged = false;
   /// Norm of the forces out of balance before each iteration and at the end, relative as above.
   std::vector<double> residuals;
+  /// Where it did not: the node at which forces are out of balance most.
+  int worst_node = -1;
 
   [[nodiscard]] int iterations() const { return static_cast<int>(residuals.size()) - 1; }
 };

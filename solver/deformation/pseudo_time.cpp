@@ -151,12 +151,7 @@ void PseudoTime<Dim>::judge(const SettlingLimits& limits) {
   } else if (soil_.residual <= limits.tolerance) {
     soil_.end = Settling::rests;
   }
-  NodeVectors<Dim> forces(loads_.size(), Vector<Dim>::Zero());
-  equilibrium_.unknowns().add(unbalanced_, 1.0, forces);
-  const auto larger = [](const Vector<Dim>& a, const Vector<Dim>& b) {
-    return a.squaredNorm() < b.squaredNorm();
-  };
-  soil_.worst_node = static_cast<int>(std::ranges::max_element(forces, larger) - forces.begin());
+  soil_.worst_node = equilibrium_.unknowns().longest(unbalanced_);
 }
 
 template class PseudoTime<2>;

@@ -11,6 +11,10 @@ namespace {
 constexpr int max_passes = 60;
 /// The loads come in so many parts where soil yields too much for all at once.
 constexpr int load_parts = 20;
+/// A displacement by this share of the size of the model is a failure, and so is soil that does not
+/// rest within so many iterations in all.
+constexpr double far_share = 0.1;
+constexpr int max_iterations = 100;
 /// Elastic soil must have a volume to lose.
 constexpr double max_poisson = 0.45;
 
@@ -52,6 +56,27 @@ bool settle(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
   return true;
 }
 
+/// All loads at once, from the stress that points have, which Newton's method need not find.
+template <int Dim>
+StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+                          const Supports<Dim>& supports, const StartLoads<Dim>& loads,
+                          SolidPoints<Dim>& points, int threads) {
+  SettlingLimits limits{.tolerance = NewtonLimits().tolerance,
+                        .far = far_share * extent(grid.mesh).norm(),
+                        .max_iterations = max_iterations};
+  StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);
+  while (limits.max_iterations > 0) {
+    if (!step.solve(loads.forces, loads.pressure)) {
+      if (!step.settle(loads.forces, loads.pressure, limits)) break;
+    }
+    if (step.iterations() == 0) return {.stands = true};
+    limits.max_iterations -= step.iterations();
+    take_stress(grid, step, points, threads);
+    step.restart();
+  }
+  return {.worst_node = step.worst_node()};
+}
+
 /// The stress whose vertical part is that of the points, and whose horizontal one is K_0 times it.
 template <int Dim>
 void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
@@ -86,9 +111,9 @@ void yield(const std::vector<PointSkeleton>& skeleton, SolidPoints<Dim>& points,
 }  // namespace
 
 template <int Dim>
-bool find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
-                       const Supports<Dim>& supports, const StartLoads<Dim>& loads,
-                       SolidPoints<Dim>& points, int threads) {
+StartStress find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+                              const Supports<Dim>& supports, const StartLoads<Dim>& loads,
+                              SolidPoints<Dim>& points, int threads) {
   std::vector<PointSkeleton> elastic = skeleton;
   for (PointSkeleton& of_point : elastic) {
     of_point.law = skeleton_law("elastic");
@@ -107,15 +132,20 @@ bool find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& 
   };
   const bool found =
       elastic_stress() && settle(grid, skeleton, supports, loads, 1, points, threads);
-  if (found || from_rest(skeleton, load_parts)) return true;
+  if (found || from_rest(skeleton, load_parts)) return {.stands = true};
   if (!elastic_stress()) std::ranges::fill(points.elastic_b, Eigen::Matrix3d::Identity());
   yield(skeleton, points, threads);
-  return false;
+  const std::vector<Eigen::Matrix3d> yielded = points.elastic_b;
+  const StartStress slow = settle_slowly(grid, skeleton, supports, loads, points, threads);
+  if (!slow.stands) points.elastic_b = yielded;
+  return slow;
 }
 
-template bool find_start_stress(const Grid<2>&, const std::vector<PointSkeleton>&,
-                                const Supports<2>&, const StartLoads<2>&, SolidPoints<2>&, int);
-template bool find_start_stress(const Grid<3>&, const std::vector<PointSkeleton>&,
-                                const Supports<3>&, const StartLoads<3>&, SolidPoints<3>&, int);
+template StartStress find_start_stress(const Grid<2>&, const std::vector<PointSkeleton>&,
+                                       const Supports<2>&, const StartLoads<2>&, SolidPoints<2>&,
+                                       int);
+template StartStress find_start_stress(const Grid<3>&, const std::vector<PointSkeleton>&,
+                                       const Supports<3>&, const StartLoads<3>&, SolidPoints<3>&,
+                                       int);
 
 }  // namespace suffuse

@@ -46,8 +46,23 @@ bool StepEquilibrium<Dim>::solve(const NodeVectors<Dim>& loads, std::vector<doub
     solution = solver_.solve(loads, rest, limits_);
   }
   iterations_ = solution.iterations();
+  if (!solution.converged) worst_node_ = solution.worst_node;
   if (solution.converged) displacement_ = std::move(solution.displacement);
   return solution.converged;
+}
+
+template <int Dim>
+bool StepEquilibrium<Dim>::settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
+                                  const SettlingLimits& limits) {
+  equilibrium_.set_pressure(std::move(pressure));
+  SettledSoil<Dim> soil =
+      PseudoTime<Dim>(equilibrium_, loads)
+          .settle(NodeVectors<Dim>(displacement_.size(), Vector<Dim>::Zero()), limits);
+  iterations_ = soil.iterations;
+  const bool rests = soil.end == Settling::rests;
+  if (!rests) worst_node_ = soil.worst_node;
+  if (rests) displacement_ = std::move(soil.displacement);
+  return rests;
 }
 
 template class StepEquilibrium<2>;

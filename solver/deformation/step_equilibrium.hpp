@@ -4,6 +4,7 @@
 
 #include "deformation/newton.hpp"
 #include "deformation/point_velocities.hpp"
+#include "deformation/pseudo_time.hpp"
 
 namespace suffuse {
 
@@ -26,6 +27,10 @@ class StepEquilibrium {
   /// \param pressure  of the pores, per element, Pa; empty: none
   bool solve(const NodeVectors<Dim>& loads, std::vector<double> pressure,
              std::vector<double> stiffness = {});
+  /// The same slowly, through a pseudo-time, where Newton's method alone does not find it: in sand
+  /// without cohesion.
+  bool settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
+              const SettlingLimits& limits);
   /// Inertia over a step of `duration`, s; nodes go on as they go, to start from.
   void set_inertia(const NodalMotion<Dim>& nodes, double duration);
   /// Goes back to the start of the step: the stress of the points has changed.
@@ -35,6 +40,8 @@ class StepEquilibrium {
   [[nodiscard]] const NodeVectors<Dim>& displacement() const { return displacement_; }
   /// Iterations of Newton's method that it took.
   [[nodiscard]] int iterations() const { return iterations_; }
+  /// Where the last one was none: the node at which forces are out of balance most.
+  [[nodiscard]] int worst_node() const { return worst_node_; }
   [[nodiscard]] const PointsByElement& sorted() const { return sorted_; }
   [[nodiscard]] const ElementClasses& classes() const { return classes_; }
   [[nodiscard]] const std::vector<PointSkeleton>& skeleton() const { return skeleton_; }
@@ -55,6 +62,7 @@ class StepEquilibrium {
   std::vector<Eigen::Matrix<double, Dim, Dim>> start_stress_;
   NodeVectors<Dim> displacement_;
   int iterations_ = 0;
+  int worst_node_ = -1;
 };
 
 }  // namespace suffuse

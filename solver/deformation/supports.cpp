@@ -1,5 +1,6 @@
 #include "deformation/supports.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace suffuse {
@@ -109,6 +110,16 @@ void DisplacementUnknowns<Dim>::add(const Eigen::VectorXd& components, double sh
 
 template class Supports<2>;
 template class Supports<3>;
+template <int Dim>
+int DisplacementUnknowns<Dim>::longest(const Eigen::VectorXd& components) const {
+  NodeVectors<Dim> vectors(first_.size(), Vector<Dim>::Zero());
+  add(components, 1.0, vectors);
+  const auto shorter = [](const Vector<Dim>& a, const Vector<Dim>& b) {
+    return a.squaredNorm() < b.squaredNorm();
+  };
+  return static_cast<int>(std::ranges::max_element(vectors, shorter) - vectors.begin());
+}
+
 template class DisplacementUnknowns<2>;
 template class DisplacementUnknowns<3>;
 

@@ -71,6 +71,8 @@ class DisplacementUnknowns {
   [[nodiscard]] Eigen::VectorXd components(const NodeVectors<Dim>& vectors) const;
   /// Adds `share` times the vectors that have these components.
   void add(const Eigen::VectorXd& components, double share, NodeVectors<Dim>& vectors) const;
+  /// The node whose vector of these components is the longest.
+  [[nodiscard]] int longest(const Eigen::VectorXd& components) const;
 
  private:
   const Supports<Dim>& supports_;

@@ -79,8 +79,7 @@ class Run final : public OutputSink<Dim> {
       return ExitCode::done;
     } catch (const EquilibriumLost& error) {
       progress_.finish();
-      write_last_equilibrium();
-      note_failure(error.what());
+      fail_in_last_equilibrium(error.what());
       throw NumericalError(std::string(error.what()) +
                            "\nWhat is written is complete, with the last equilibrium in the last "
                            "row and the last snapshot");
@@ -174,6 +173,17 @@ class Run final : public OutputSink<Dim> {
       writer_.write_snapshot(loop_.model().snapshot(flow));
     }
     write_checkpoint();
+  }
+
+  /// The run has failed for this reason, whether its last state can be written or not.
+  void fail_in_last_equilibrium(const std::string& message) {
+    try {
+      write_last_equilibrium();
+    } catch (const std::exception&) {
+      note_failure(message);
+      throw;
+    }
+    note_failure(message);
   }
 
   /// Waits for the snapshot that is being written. Throws what its writing threw.

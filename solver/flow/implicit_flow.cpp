@@ -207,6 +207,7 @@ void ImplicitFlow<Dim>::pass_breakpoint(double time, double dt) {
   coupling_.expect_short_steps();
   if (follows_pores_) blending_.shorten(dt);
   const bool boundary_kink = contains_time(this->kinks(), time);
+  if (boundary_kink) relaxation_.pass_kink();
   // Where erosion starts, the steady flow still fits its coefficients, but not those to come.
   if (boundary_kink || follows_pores_ || has_gravity_) reuse_.stop();
 }

@@ -42,9 +42,10 @@ struct ImplicitThresholds {
   double min_step_of_time = 1e-14;
   /// Boundary values that change within so many of these shortest steps jump as well.
   double unresolved_steps = 8.0;
-  /// After a kink at most so many shortest steps in succession are accepted whatever their error:
-  /// what happens meanwhile is faster than time has digits.
-  int max_unresolved = 10;
+  /// After a kink at most so many shortest steps in succession, over the root of the tolerance, are
+  /// accepted whatever their error: what happens meanwhile is faster than time has digits. Of what
+  /// spreads from a jump step n of equal ones errs by a half over n squared.
+  double max_unresolved = 2.0;
   /// Steps below this share of the time reached are rounded to what can be added to that time.
   double rounded_step = 1e-10;
   /// At the start a step below this share of the run is too short ...

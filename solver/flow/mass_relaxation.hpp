@@ -39,6 +39,8 @@ class MassRelaxation {
   [[nodiscard]] const std::vector<double>& source() const { return source_; }
   /// This source is in effect.
   void set_source(std::vector<double> source) { source_ = std::move(source); }
+  /// The flow changes at once: how fast a mismatch grows shows in the steps from here on alone.
+  void pass_kink() { change_time_ = 0.0; }
   /// A step of `dt` seconds is over; the flow at its end fills an element in `filling_time`.
   void finish(double dt, double filling_time);
 

@@ -75,6 +75,8 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
   const double scale =
       largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
   int failed = 0;
+  int worst_node = -1;
+  int worst_element = 0;
   for (int iteration = 1; iteration <= max_coupling_iterations; ++iteration) {
     ++iterations_;
     const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
@@ -82,6 +84,7 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
     const SolidMotion& motion = solid_.try_motion(motion_forcing);
     if (!motion.converged) {
       ++failed;
+      worst_node = motion.worst_node;
       const bool guessed = iteration == 1 && rise.squaredNorm() > 0.0;
       rise = guessed ? Eigen::VectorXd::Zero(rise.size())
                      : at_faces(undrained_rise(motion_forcing, of_elements), forcing.mean_storage);
@@ -102,11 +105,15 @@ MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedS
       rise_time_ = dt;
       return step;
     }
+    if (iteration == max_coupling_iterations) {
+      (new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
+    }
     rise = mixing.next(rise, found);
   }
   const std::string count = std::to_string(max_coupling_iterations) + " iterations";
-  if (failed > 0) throw NoEquilibrium("the soil has found no equilibrium in " + count);
-  throw NotConverged("flow and motion of the soil do not agree in " + count);
+  if (failed > 0) throw NoEquilibrium("the soil has found no equilibrium in " + count, worst_node);
+  throw NotConverged("flow and motion of the soil do not agree in " + count + ", least in " +
+                     element_text(grid_, worst_element));
 }
 
 template <int Dim>
@@ -198,13 +205,16 @@ void SolidCoupling<Dim>::watch_steps(double time, double next_step) {
 template <int Dim>
 void SolidCoupling<Dim>::refuse_unsolved(double time, const NotConverged& error) const {
   if (!solid_.moves()) throw NumericalError(error.what());
+  const auto* lost = dynamic_cast<const NoEquilibrium*>(&error);
   std::ostringstream message;
   message << "t = " << time << " s: ";
   if (solid_.has_inertia()) {
     message << error.what() << ": the motion of the soil that fails has no solution";
-  } else if (dynamic_cast<const NoEquilibrium*>(&error) != nullptr) {
+  } else if (lost != nullptr) {
     message << "the soil has lost its equilibrium: it cannot carry its weight, its loads and the "
-               "pressure of the water any longer (to follow it: time.failure = \"follow\")";
+               "pressure of the water any longer"
+            << (lost->worst_node < 0 ? "" : ", least " + node_text(grid_, lost->worst_node))
+            << " (to follow it: time.failure = \"follow\")";
   } else {
     message << error.what()
             << ", however short the step is: soil that yields is about to lose its equilibrium";
@@ -222,7 +232,9 @@ Eigen::VectorXd SolidCoupling<Dim>::undrained_rise(MotionForcing forcing,
     forcing.stiffness[e] = undrained_stiffness * grid_.volume[e] / compressibility[e];
   }
   const SolidMotion& motion = solid_.try_motion(forcing);
-  if (!motion.converged) throw NoEquilibrium("the soil has found no equilibrium");
+  if (!motion.converged) {
+    throw NoEquilibrium("the soil has found no equilibrium", motion.worst_node);
+  }
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     double growth = 0.0;
     for (int k = 0; k <= Dim; ++k) {

@@ -16,7 +16,9 @@ namespace suffuse {
 /// The solid has found no equilibrium: in a shorter step it may.
 class NoEquilibrium : public NotConverged {
  public:
-  using NotConverged::NotConverged;
+  NoEquilibrium(const std::string& what, int node) : NotConverged(what), worst_node(node) {}
+
+  int worst_node;  ///< at which forces are out of balance most; -1: not known
 };
 
 template <int Dim>

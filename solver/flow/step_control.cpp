@@ -51,7 +51,7 @@ double StepControl::propose(double start, double until, double longest) {
   planned_ = dt;
   if (dt < left) refuse_too_short(start, dt);
   // No short step before the end: two halves are better than nine tenths and one.
-  if (dt < left && left < 2.0 * dt) dt = 0.5 * left;
+  if (dt < left && left < 2.0 * dt) dt = is_too_short(start, 0.5 * left) ? left : 0.5 * left;
   return up_to(rounded(start, dt), left);
 }
 
@@ -124,7 +124,7 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
 bool StepControl::shorten(double start, double factor, double& dt) {
   const double shortest = rounded(start, 2.0 * implicit_thresholds.min_step_of_time * start);
   const double shorter = rounded(start, factor * dt);
-  if (!settles_ || unresolved_ == implicit_thresholds.max_unresolved || shorter > shortest) {
+  if (!settles_ || unresolved_ >= max_unresolved() || shorter > shortest) {
     dt = shorter;
     refuse_too_short(start, dt);
     return true;
@@ -137,6 +137,10 @@ bool StepControl::shorten(double start, double factor, double& dt) {
   ++unresolved_;
   next_ = dt;
   return false;
+}
+
+double StepControl::max_unresolved() const {
+  return limits.max_unresolved / std::sqrt(settings_.tolerance);
 }
 
 void StepControl::reject(double start, double& dt) {

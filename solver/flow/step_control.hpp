@@ -102,6 +102,8 @@ class StepControl {
  private:
   [[nodiscard]] bool is_jump(double start, double dt) const;
   /// Whether a step of `dt` is too short to change the time.
+  /// Steps after a kink that may be accepted for being the shortest.
+  [[nodiscard]] double max_unresolved() const;
   [[nodiscard]] bool is_too_short(double start, double dt) const;
   /// Throws NumericalError where it is.
   void refuse_too_short(double start, double dt) const;

@@ -124,7 +124,9 @@ bool ImplicitFlow<Dim>::take_steady_flow(std::vector<double> source) {
 template <int Dim>
 void ImplicitFlow<Dim>::update_steady_flow() {
   std::vector<double> source = relaxation_.wanted_source(control_.last_step(), filling_time());
-  if (reuse_.needs_update(relaxation_.source(), source, scales_.flux)) {
+  // Relative to the flow that there is: a source that was right for a faster one would fill or
+  // drain the elements of a slow one in time.
+  if (reuse_.needs_update(relaxation_.source(), source, largest_magnitude(now_.face_flux))) {
     take_steady_flow(std::move(source));
   }
 }

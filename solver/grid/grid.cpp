@@ -134,9 +134,18 @@ std::string element_text(const Grid<Dim>& grid, int element) {
   return text.str();
 }
 
+template <int Dim>
+std::string node_text(const Grid<Dim>& grid, int node) {
+  std::ostringstream text;
+  text << "at (" << grid.mesh.nodes[node].transpose() << ")";
+  return text.str();
+}
+
 template struct Grid<2>;
 template struct Grid<3>;
 template std::string element_text(const Grid<2>&, int);
 template std::string element_text(const Grid<3>&, int);
+template std::string node_text(const Grid<2>&, int);
+template std::string node_text(const Grid<3>&, int);
 
 }  // namespace suffuse

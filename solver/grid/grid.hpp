@@ -72,5 +72,8 @@ struct Grid {
 /// "element 5 at (0.1 0.2)", with the centroid, for messages.
 template <int Dim>
 std::string element_text(const Grid<Dim>& grid, int element);
+/// "at (x y)" for error messages.
+template <int Dim>
+std::string node_text(const Grid<Dim>& grid, int node);
 
 }  // namespace suffuse

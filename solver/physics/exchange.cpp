@@ -93,6 +93,11 @@ class SoilVolume {
   [[nodiscard]] double available() const {
     return stays_ ? fines_ : std::numeric_limits<double>::infinity();
   }
+  /// x where deposits have taken all room; that is 0 in soil without room.
+  [[nodiscard]] double least_change() const {
+    if (!model_.deposition.has_room_limit()) return -std::numeric_limits<double>::infinity();
+    return std::min(0.0, model_.deposition.porosity_min - place_.porosity);
+  }
   /// Nothing is left to erode, to the last digit.
   [[nodiscard]] bool is_bare(double x) const {
     constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
@@ -202,6 +207,12 @@ Exchange SoilVolume::integrated() const {
     deposited += share * next.deposited - missing;
     done += fails ? h : share * h;
     h = std::max(shortest, h * std::min(5.0, factor));
+  }
+  // Deposits take no more room than there is, which the error of a step could.
+  const double beyond = least_change() - x;
+  if (caught_ != 0.0 && beyond > 0.0) {
+    x += beyond;
+    deposited = std::max(0.0, deposited - beyond);
   }
   return {x + deposited, deposited};
 }

@@ -103,7 +103,8 @@ double ErodingSkeleton<Dim>::take(int point, const Exchange& change) {
   // What the rounded state lost, so that none is lost on the way to the liquid.
   const double into_liquid = erodible - left;
   erodible = left;
-  if (change.deposited != 0.0) state_.deposited_volume[point] += volume * change.deposited;
+  // Soil filled a last digit beyond its room gives that back, which is erosion.
+  if (change.deposited > 0.0) state_.deposited_volume[point] += volume * change.deposited;
   porosity_[point] = porosity_of(point);
   return into_liquid;
 }

@@ -55,6 +55,8 @@ struct MotionForcing {
 struct SolidMotion {
   /// Whether an equilibrium was found; else the step must be shorter.
   bool converged = true;
+  /// Where none was found: the node at which forces are out of balance most; -1: not known.
+  int worst_node = -1;
   /// Volume of soil with its pores that crosses each face along its normal, m3 (S_f). What leaves
   /// an element is what its soil grows by, V_e (J - 1), and what the bubbles of its faces carry
   /// (docs/theory.md). 0 between elements without soil.

@@ -24,7 +24,9 @@ void FinesDeposition<Dim>::start(double duration) {
   capacity_.assign(grid_.mesh.element_count(), std::numeric_limits<double>::infinity());
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const DepositionModel& deposition = soils.exchange_of_element(e).deposition;
-    if (!deposition.deposits() || !deposition.has_room_limit()) continue;
+    const bool is_left = soils.points_begin(e) == soils.points_begin(e + 1);  // by soil that moves
+    if (is_left) room_[e] = 0.0;
+    if (is_left || !deposition.deposits() || !deposition.has_room_limit()) continue;
     double room = 0.0;
     double volume = 0.0;
     capacity_[e] = 0.0;

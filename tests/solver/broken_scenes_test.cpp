@@ -23,7 +23,7 @@ test::Mode scene_of(const std::string& name) {
   std::stringstream text;
   text << in.rdbuf();
   std::string scene = text.str();
-  for (const std::string file : {"sec.geo", "negative-porosity-nan.geo"}) {
+  for (const std::string file : {"sec.geo", "negative-porosity-nan.geo", "sand-beside-rigid.geo"}) {
     const auto at = scene.find("\"" + file);
     if (at != std::string::npos) scene.insert(at + 1, folder_of_scenes);
   }
@@ -121,6 +121,34 @@ TEST(BrokenScenes, DepositsStayInSoilThatIsCompressed) {
     EXPECT_GT(deposited[5], deposited[3]);
     EXPECT_EQ(deposited.back(), deposited[7]);
   }
+}
+
+/// Soil that is full gives nothing back where nothing erodes it.
+TEST(BrokenScenes, DepositsOfFullPoresBecomeNoFewer) {
+  const SceneRun run("full-pores");
+  ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+  const std::vector<double> deposited = run.results.ledger().column("deposited");
+  EXPECT_GT(deposited.back(), 270.0);
+  EXPECT_TRUE(std::ranges::is_sorted(deposited));
+  expect_pores(run);
+}
+
+/// Water keeps to its pores to a thousandth, where 5 % end a run.
+TEST(BrokenScenes, WaterFitsItsPoresBehindAJump) {
+  for (const char* name : {"jump-to-slow-flow", "slow-flow-kept"}) {
+    const SceneRun run(name);
+    ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+    const std::vector<double> error = run.results.history().column("eos_error");
+    std::cout << name << ": eos_error up to " << *std::ranges::max_element(error) << "\n";
+    EXPECT_LT(*std::ranges::max_element(error), 1e-3);
+  }
+}
+
+/// Level sand beside a rigid wall does not move.
+TEST(BrokenScenes, SandBesideRigidSoilRests) {
+  const SceneRun run("sand-beside-rigid");
+  ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+  EXPECT_LT(run.results.history().column("displacement_max").back(), 1e-6);
 }
 
 }  // namespace broken_scenes_test

@@ -314,7 +314,7 @@ TEST(Exchange, StaysWithinItsBounds) {
       for (const double duration : {1e-3, 1.0, 1e6}) {
         const Exchange x = exchange_over(m, {n_0, n_0}, flow_of(flux, c), 0.0, duration);
         const double n = n_0 + x.into_liquid();
-        EXPECT_GE(n, 0.3 - 1e-10);
+        EXPECT_GE(n, 0.3 - 1e-15);
         EXPECT_LE(n, n_max + 1e-15);
         EXPECT_GE(n_0 * c + x.into_liquid(), -1e-17);
         EXPECT_GE(x.deposited, 0.0);

@@ -51,6 +51,7 @@ TEST(LostEquilibrium, StopsTheRunWithItsLastStateWritten) {
     EXPECT_NE(outcome.error.find(" s: the soil has lost its equilibrium: it cannot carry"),
               std::string::npos)
         << outcome.error;
+    EXPECT_NE(outcome.error.find("any longer, least at ("), std::string::npos) << outcome.error;
     EXPECT_NE(outcome.error.find("the last equilibrium in the last row and the last snapshot"),
               std::string::npos)
         << outcome.error;

@@ -126,6 +126,21 @@ TEST(MassRelaxation, ShortStepsChangeTheSourceByLittle) {
   }
 }
 
+TEST(MassRelaxation, BehindAKinkTheRateOfTheFirstStepCounts) {
+  // What grew by 1e-5 m3/s in steps of 1e6 s no longer does.
+  const auto rate_after = [](bool passes_kink) {
+    Element element(0.0);
+    element.growth = 1e-5;
+    for (int n = 0; n < 40; ++n) element.step(1e6, 1e3);
+    element.growth = 0.0;
+    if (passes_kink) element.relaxation.pass_kink();
+    element.step(1.0, 1e3);
+    return element.relaxation.wanted_source(1.0, infinite)[0];
+  };
+  EXPECT_NEAR(rate_after(true), 0.0, 1e-10);
+  EXPECT_NEAR(rate_after(false), 1e-5, 1e-8);
+}
+
 TEST(MassRelaxation, RoundOffOfAVolumeIsNoRate) {
   MassRelaxation relaxation;
   relaxation.observe({0.0}, {1.0});

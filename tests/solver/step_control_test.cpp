@@ -157,13 +157,25 @@ TEST(StepControl, AfterAKinkStepsAreAsShortAsTimeHasDigits) {
     EXPECT_LT(dt, 3.0 * limits.min_step_of_time * time);
     time += dt;
   };
-  for (int i = 0; i < limits.max_unresolved; ++i) step(2.0);
+  for (int i = 0; i < limits.max_unresolved / std::sqrt(1e-3); ++i) step(2.0);
   // What goes on for longer is no answer to the kink.
   EXPECT_THROW(step(2.0), NumericalError);
   control.pass_kink();
   step(2.0);
   step(0.5);
   EXPECT_THROW(step(2.0), NumericalError);
+}
+
+/// Two halves of what is left would be shorter than the digits of time allow.
+TEST(StepControl, StepsAreNotHalvedBelowTheDigitsOfTime) {
+  constexpr double kink = 1e9;
+  StepControl control = after_step(settings(1e-3, 3e9), 1e7);
+  control.pass_kink();
+  double dt = control.propose(kink, 2e9, 1e9);
+  while (!control.accept(kink, 2.0, true, dt)) continue;
+  control.finish(dt);
+  const double left = 1.5 * limits.min_step_of_time * kink;
+  EXPECT_GE(control.propose(kink, kink + left, 1e9), limits.min_step_of_time * kink);
 }
 
 TEST(StepControl, StartsHoweverFarTheEndWhereTheFlowChangesFast) {

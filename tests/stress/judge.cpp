@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
 #include "common/errors.hpp"
+#include "physics/liquid.hpp"
 #include "results/reader.hpp"
 #include "stress/known_porosity.hpp"
 #include "stress/stress_mesh.hpp"
@@ -30,6 +32,8 @@ constexpr double max_overshoot = 1e-10;
 constexpr double max_discharge_error = 3e-3;
 /// Of a mean porosity that is known.
 constexpr double max_porosity_error = 1e-9;
+/// Factors of safety are found within 1 %, two of them within twice as much.
+constexpr double max_factor_error = 0.021;
 
 std::string shown(double value) {
   std::ostringstream text;
@@ -53,6 +57,9 @@ class Judge {
     check_ledger();
     check_regions();
     for (std::size_t i = 0; i < results_.times().size(); ++i) check_snapshot(i);
+    if (ended_well && scenario_.demands) {
+      for (const std::string& complaint : scenario_.demands(results_)) complain(complaint);
+    }
     return std::move(complaints_);
   }
 
@@ -90,9 +97,10 @@ class Judge {
         scenario_.scheme == Scheme::sp_monotone || scenario_.scheme == Scheme::dp_monotone;
     const bool no_source =
         is_double_point(scenario_.scheme) || std::isinf(scene_.liquid.bulk_modulus);
-    const bool darcy =
-        std::ranges::all_of(scene_.soils, [](const Soil& s) { return s.drag == SoilDrag::darcy; });
-    return monotone && no_source && darcy && !keeps_inertia_ && obtuse_elements(case_.mesh) == 0;
+    const bool scalar = std::ranges::all_of(scene_.soils, [](const Soil& s) {
+      return s.drag == SoilDrag::darcy && s.anisotropy() == 1.0;
+    });
+    return monotone && no_source && scalar && !keeps_inertia_ && obtuse_elements(case_.mesh) == 0;
   }
 
   void check_finite(const Table& table, const std::string& file) {
@@ -122,6 +130,9 @@ class Judge {
     j_.concentration_max = largest("concentration_max");
     check_concentration(j_.concentration_min, j_.concentration_max, "history.csv");
     j_.volume_defect = largest("volume_defect");
+    j_.eos_error = largest("eos_error");
+    expect(j_.eos_error <= max_eos_error,
+           "water does not fit its pores in an element: eos_error = " + shown(j_.eos_error));
     j_.overshoot = largest("pressure_overshoot");
     expect(!j_.bounded || j_.overshoot <= max_overshoot,
            "pressure_overshoot = " + shown(j_.overshoot) + " where pressures have bounds");
@@ -239,6 +250,7 @@ class Judge {
       }
     }
     check_porosity(index, where);
+    check_stored_water(index, where);
     const std::vector<double> fitted = results_.field(index, "cell", "concentration").values;
     if (is_double_point(scenario_.scheme)) {
       j_.fitted_min = std::min(j_.fitted_min, *std::ranges::min_element(fitted));
@@ -278,7 +290,8 @@ class Judge {
                          (index == 0 || catches || porosity[p] >= last_porosity_[p] - round_off);
       if (holds) continue;
       complain("porosity " + shown(porosity[p]) + " of a solid point in " + where + ", outside " +
-               shown(least) + " to " + shown(most));
+               shown(least) + " to " + shown(most) + " (by " + shown(porosity[p] - least) + ", " +
+               shown(porosity[p] - most) + ")");
       break;
     }
     last_porosity_ = porosity;
@@ -288,6 +301,44 @@ class Judge {
       complain("porosity " + shown(n) + " of an element in " + where);
       return;
     }
+  }
+
+  /// The water of the ledger fills the pores that it can fill, up to what fines take of them.
+  void check_stored_water(std::size_t index, const std::string& where) {
+    const Table ledger = results_.ledger();
+    const std::vector<double>& t = ledger.column("t");
+    const double time = results_.times()[index];
+    const auto row = std::ranges::find_if(
+        t, [&](double at) { return std::abs(at - time) <= round_off * scene_.time.end; });
+    if (row == t.end()) return;  // of a run that failed between two rows
+    const auto i = static_cast<std::size_t>(row - t.begin());
+    const auto cells = [&](const char* name) { return results_.field(index, "cell", name).values; };
+    const std::vector<double> porosity = cells("porosity");
+    const std::vector<double> pressure = cells("pressure");
+    const std::vector<std::string> names = results_.field_names(index, "cell");
+    const bool has_air = std::ranges::count(names, "saturation") > 0;
+    const std::vector<double> saturation =
+        has_air ? cells("saturation") : std::vector<double>(porosity.size(), 1.0);
+    double pores = 0.0;
+    double liquid = 0.0;
+    double room = 0.0;
+    for (int e = 0; e < case_.mesh.element_count(); ++e) {
+      const double of_element = porosity[e] * element_volume(case_.mesh, e);
+      pores += of_element;
+      liquid += of_element * saturation[e];
+      room += of_element * saturation[e] * density_ratio(pressure[e], scene_.liquid.bulk_modulus);
+    }
+    // Grains do not give way to pressure.
+    const double fines = ledger.column("fines")[i] / scene_.soils.front().grain_density;
+    const double fits = room * (1.0 - fines / liquid);
+    const double stored = ledger.column("water")[i] / scene_.liquid.density;
+    const double misfit = std::abs(stored - fits) / pores;
+    j_.misfit = std::max(j_.misfit, misfit);
+    // Points carry masses, whose volumes are off by what the run says.
+    const double allowed = std::max(
+        max_eos_error, is_double_point(scenario_.scheme) ? j_.volume_defect + round_off : 0.0);
+    expect(misfit <= allowed, "the water stored in " + where + " takes " + shown(stored) +
+                                  " m3 without pressure, the pores have room for " + shown(fits));
   }
 
   /// n_e that stays whatever the flow.
@@ -355,12 +406,23 @@ std::string error_line(const std::string& output) {
   return found;
 }
 
+/// A time in s, but for a strength reduction, and a place.
+bool says_where(const std::string& message) {
+  static const std::regex time("t = [-+0-9.e]+ s");
+  static const std::regex place(R"(at \( *[-+0-9.e]+,? +[-+0-9.e]+)");
+  const bool has_time =
+      std::regex_search(message, time) || message.find("at the start") != std::string::npos;
+  return has_time && std::regex_search(message, place);
+}
+
 /// A controlled refusal says something, and does not call itself a bug.
 Judgement refusal(const Scenario& scenario, int exit_code, const std::string& message) {
   Judgement result;
   result.exit_code = exit_code;
   result.message = message;
-  const bool controlled = !message.empty() && message.find("a bug in Suffuse") == std::string::npos;
+  const bool controlled = !message.empty() &&
+                          message.find("a bug in Suffuse") == std::string::npos &&
+                          (!scenario.refusal_says_where || says_where(message));
   result.verdict = controlled && scenario.expected != Expected::done ? "refused" : "failed";
   if (controlled && scenario.expected == Expected::done) {
     result.message = "refused though the method covers it: " + message;
@@ -424,13 +486,58 @@ Judgement judge_run(const Scenario& scenario, const Case<Dim>& c, const ChildEnd
   return with_end(std::move(result), end);
 }
 
+Judgement judge_strength(const Scenario& scenario, const std::vector<ChildEnd>& ends,
+                         const std::vector<std::string>& tables) {
+  Judgement result;
+  std::vector<double> factors;
+  double seconds = 0.0;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const ChildEnd& end = ends[k];
+    seconds += end.seconds;
+    result.exit_code = end.exit_code;
+    result.verdict = "failed";
+    if (end.exit_code == static_cast<int>(ExitCode::numerical_failure)) {
+      result = refusal(scenario, end.exit_code, error_line(end.output));
+      if (result.verdict == "failed") break;
+      continue;
+    }
+    if (end.exit_code != 0) {
+      result.message = end.timed_out ? "time limit" : error_line(end.output);
+      break;
+    }
+    const Table table = read_table(tables[k]);
+    const auto at = [&](const char* name) { return table.column(name).front(); };
+    const double factor = at("factor");
+    const bool holds = table.rows() == 1 && std::isfinite(factor) && factor > 0.0 &&
+                       at("holds") <= factor && factor <= at("fails") &&
+                       at("fails") <= 1.011 * at("holds") && at("displacement_max") >= 0.0;
+    if (!holds) {
+      result.message = "the factor is " + shown(factor) + ", between " + shown(at("holds")) +
+                       " and " + shown(at("fails"));
+      break;
+    }
+    factors.push_back(factor);
+    result.verdict = "pass";
+  }
+  if (factors.size() == 2) {
+    const double error = factors[1] / (factors[0] * scenario.strength->ratio) - 1.0;
+    if (std::abs(error) > max_factor_error) {
+      result.verdict = "failed";
+      result.message = "the factor is " + shown(factors[0]) + ", and " + shown(factors[1]) +
+                       " with " + shown(scenario.strength->ratio) + " times the strength";
+    }
+  }
+  result.seconds = seconds;
+  return result;
+}
+
 template Judgement judge_run(const Scenario&, const Case<2>&, const ChildEnd&, const std::string&);
 template Judgement judge_run(const Scenario&, const Case<3>&, const ChildEnd&, const std::string&);
 
 std::string table_head() {
   return "sweep,scheme,parameters,seed,verdict,exit_code,seconds,steps,warnings,residual,bounded,"
-         "overshoot,concentration_min,concentration_max,fitted_min,volume_defect,porosity_error,"
-         "discharge_error,solutions,message";
+         "overshoot,concentration_min,concentration_max,fitted_min,volume_defect,eos_error,misfit,"
+         "porosity_error,discharge_error,solutions,message";
 }
 
 std::string table_line(const std::string& sweep, const Scenario& scenario, const Judgement& j) {
@@ -440,8 +547,9 @@ std::string table_line(const std::string& sweep, const Scenario& scenario, const
        << scenario.seed << ',' << j.verdict << ',' << j.exit_code << ',' << j.seconds << ','
        << j.steps << ',' << j.warnings << ',' << j.residual << ',' << j.bounded << ','
        << j.overshoot << ',' << j.concentration_min << ',' << j.concentration_max << ','
-       << j.fitted_min << ',' << j.volume_defect << ',' << j.porosity_error << ','
-       << j.discharge_error << ',' << j.solutions << ',' << cell(j.message);
+       << j.fitted_min << ',' << j.volume_defect << ',' << j.eos_error << ',' << j.misfit << ','
+       << j.porosity_error << ',' << j.discharge_error << ',' << j.solutions << ','
+       << cell(j.message);
   return line.str();
 }
 

@@ -22,6 +22,8 @@ struct Judgement {
   double concentration_max = 0.0;
   double fitted_min = 0.0;  ///< of the fitted field of double-point snapshots: not judged
   double volume_defect = 0.0;
+  double eos_error = 0.0;  ///< largest of the history: single-point, implicit
+  double misfit = 0.0;     ///< of stored water and pores, over all pores: largest of snapshots
   double discharge_error = 0.0;  ///< where it is known; relative
   double porosity_error = 0.0;   ///< of the mean porosity, where it is known
   double steps = 0.0;
@@ -35,6 +37,11 @@ Judgement judge_refusal(const Scenario& scenario, const std::string& message);
 template <int Dim>
 Judgement judge_run(const Scenario& scenario, const Case<Dim>& c, const ChildEnd& end,
                     const std::string& folder);
+
+/// Of a reduction of strength that wrote `tables`: with the strength of the scenario, and with the
+/// scaled one. The second did not run where the first ended without a factor.
+Judgement judge_strength(const Scenario& scenario, const std::vector<ChildEnd>& ends,
+                         const std::vector<std::string>& tables);
 
 /// One line of the table, and its first line.
 std::string table_line(const std::string& sweep, const Scenario& scenario,

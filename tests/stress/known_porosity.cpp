@@ -37,6 +37,12 @@ double logarithmic(double first, double most, double scaled_time) {
   return most * std::exp(-std::exp(high));
 }
 
+/// Some fines stay. A scene that says nothing has a residual of 0.
+bool has_residual(const ErosionModel& model) {
+  return std::ranges::any_of(model.residual.pairs,
+                             [](const auto& pair) { return pair.second > 0.0; });
+}
+
 }  // namespace
 
 KnownPorosity::KnownPorosity(const Scene& scene) {
@@ -45,7 +51,7 @@ KnownPorosity::KnownPorosity(const Scene& scene) {
     const ErosionModel model = soil.erosion_model();
     if (soil_ != nullptr || soil.porosity_gradient != std::array<double, 3>{} ||
         soil.deposition.deposits() || depends_on_flux(model) || depends_on_concentration(model) ||
-        !model.residual.pairs.empty() || soil.erosion.empty_elements == EmptyElements::dry) {
+        has_residual(model) || soil.erosion.empty_elements == EmptyElements::dry) {
       soil_ = nullptr;
       return;
     }

@@ -10,6 +10,7 @@
 #include "stress/energy.hpp"
 #include "stress/judge.hpp"
 #include "stress/stress_case.hpp"
+#include "stress/sweep_parts.hpp"
 
 namespace {
 
@@ -28,6 +29,33 @@ struct Arguments {
   bool list = false;
   bool keep = false;
 };
+
+/// Twice: with the strength of the scenario, and with that scaled.
+Judgement judged_strength(const Scenario& scenario, const Arguments& arguments,
+                          const std::string& stem) {
+  std::vector<ChildEnd> ends;
+  std::vector<std::string> tables;
+  for (const bool scaled : {false, true}) {
+    Scenario one = scenario;
+    if (scaled) {
+      one.changes = [&](const Span& span) {
+        return joined(scenario.changes(span), scenario.strength->scaled);
+      };
+    }
+    const std::string path = stem + ".case.h5";
+    tables.push_back(stem + (scaled ? ".scaled.csv" : ".csv"));
+    try {
+      write_case(path, make_case<2>(one));
+    } catch (const InputError& error) {
+      return judge_refusal(scenario, error.what());
+    }
+    ends.push_back(
+        run_child({arguments.solver, path, "--strength-reduction", "-o", tables.back(), "--quiet"},
+                  stem + ".log", arguments.limit));
+    if (ends.back().exit_code != 0) break;
+  }
+  return judge_strength(scenario, ends, tables);
+}
 
 template <int Dim>
 Judgement judged(const Scenario& scenario, const Arguments& arguments, const std::string& stem) {
@@ -63,8 +91,9 @@ int run_sweep(const Sweep& sweep, const Arguments& arguments, std::ostream& tabl
     const std::string stem =
         (fs::path(arguments.folder) / (sweep.name + "-" + std::to_string(i))).string();
     const bool in_space = std::holds_alternative<std::function<Mesh<3>()>>(scenario.mesh);
-    const Judgement judgement =
-        in_space ? judged<3>(scenario, arguments, stem) : judged<2>(scenario, arguments, stem);
+    const Judgement judgement = scenario.strength ? judged_strength(scenario, arguments, stem)
+                                : in_space        ? judged<3>(scenario, arguments, stem)
+                                                  : judged<2>(scenario, arguments, stem);
     table << table_line(sweep.name, scenario, judgement) << std::endl;
     if (judgement.verdict == "failed") {
       ++failed;
@@ -72,7 +101,8 @@ int run_sweep(const Sweep& sweep, const Arguments& arguments, std::ostream& tabl
                 << scenario.parameters << ", seed " << scenario.seed << "): " << judgement.message
                 << '\n';
     } else if (!arguments.keep) {
-      for (const char* end : {".case.h5", ".results", ".log"}) fs::remove_all(stem + end);
+      for (const char* end : {".case.h5", ".results", ".log", ".csv", ".scaled.csv"})
+        fs::remove_all(stem + end);
     }
   }
   return failed;

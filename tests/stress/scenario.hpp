@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "results/reader.hpp"
 
 namespace suffuse::stress {
 
@@ -44,6 +45,16 @@ enum class Expected {
   either
 };
 
+/// What does not hold, a sentence each.
+using Complaints = std::vector<std::string>;
+
+/// The run is a reduction of strength, not a course in time. The factor of safety is proportional
+/// to the strength of all soils, so a second run with another strength has a factor that is known.
+struct StrengthRun {
+  Changes scaled;      ///< in addition to those of the scenario
+  double ratio = 1.0;  ///< of strengths, tan(phi) and c, with `scaled` over those without
+};
+
 struct Scenario {
   Scheme scheme = Scheme::sp_implicit;
   std::string parameters;  ///< in words, for the table
@@ -58,6 +69,11 @@ struct Scenario {
   Expected expected = Expected::done;
   /// Volume per time that the implicit schemes must end with, m3/s (per metre); known exactly.
   std::optional<double> discharge;
+  /// What must hold of a run that ends well in addition to what holds of all.
+  std::function<Complaints(const ResultsReader&)> demands;
+  /// A run that is refused must say when (s) and where (x, y) as well.
+  bool refusal_says_where = false;
+  std::optional<StrengthRun> strength;
 };
 
 struct Sweep {

@@ -82,5 +82,9 @@ std::vector<Sweep> flow_sweeps();
 std::vector<Sweep> mesh_sweeps();
 /// Liquid that weighs, turns, and carries fines from boundaries and soils.
 std::vector<Sweep> transport_sweeps();
+/// The classes of input for which the scenes of tests/cases stand: of water, and of soil that
+/// moves.
+std::vector<Sweep> water_case_sweeps();
+std::vector<Sweep> soil_case_sweeps();
 
 }  // namespace suffuse::stress

@@ -7,7 +7,8 @@ namespace suffuse::stress {
 
 std::vector<Sweep> all_sweeps() {
   std::vector<Sweep> result;
-  for (std::vector<Sweep> some : {flow_sweeps(), mesh_sweeps(), transport_sweeps()}) {
+  for (std::vector<Sweep> some : {flow_sweeps(), mesh_sweeps(), transport_sweeps(),
+                                  water_case_sweeps(), soil_case_sweeps()}) {
     std::ranges::move(some, std::back_inserter(result));
   }
   for (Sweep (*const one)() : {seepage_sweep, soils_sweep, motion_sweep, space_sweep}) {
