@@ -49,6 +49,11 @@ struct TrialCourse {
     }
     return steps;
   }
+  /// Of a step since the start.
+  [[nodiscard]] double mean_seconds() const {
+    return (last().seconds - marks.front().seconds) / last().steps;
+  }
+  /// Of a step in the later half.
   [[nodiscard]] double seconds_per_step() const {
     return (last().seconds - half().seconds) / (last().steps - half().steps);
   }

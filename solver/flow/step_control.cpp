@@ -92,6 +92,7 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
   const double order = (predicted ? 2.0 : 1.0) + settings_.unnoticed / (dt + settings_.unnoticed);
   const double wanted =
       error > 0.0 ? limits.safety * std::pow(error, -1.0 / order) : limits.max_growth;
+  accepted_error_ = error;
   if (error <= 1.0) {
     double next = dt * std::clamp(wanted, limits.min_shrinkage, limits.max_growth);
     if (settings_.length_alone_changes_matrix && wanted >= 1.0 &&
@@ -180,10 +181,17 @@ void StepControl::grow(double dt) {
 void StepControl::account_for(double error) {
   if (settings_.given_step) return;
   const double relative = error / settings_.tolerance;
+  accepted_error_ = std::max(accepted_error_, relative);
   if (relative > 1.0) {
     const double share = std::max(limits.safety * std::pow(relative, -0.5), limits.min_shrinkage);
     next_ = std::min(next_, share * last_);
   }
+}
+
+double StepControl::step_within(double tolerance) const {
+  const double error = accepted_error_ * settings_.tolerance / tolerance;
+  const double longest = limits.max_growth * last_;
+  return error > 0.0 ? std::min(longest, limits.safety * last_ / std::sqrt(error)) : longest;
 }
 
 }  // namespace suffuse

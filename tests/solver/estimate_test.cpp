@@ -213,7 +213,7 @@ TEST(Estimate, OfTheStartUpAloneIsNear) {
     // The flow is not on its way for a hundredth of the time that it needs to settle.
     const TrialBudget start{.seconds = 60.0, .share = 1e-4};
     const Estimate estimate = estimate_run(input, make_plan(input, {}), start);
-    EXPECT_GT(estimate.steady_steps, 0);
+    EXPECT_GT(estimate.pilot_steps, 0);
     EXPECT_LT(estimate.trial_time, 0.01);
     expect_within_factor(2.0, estimate.steps, run(input).steps);
   }
