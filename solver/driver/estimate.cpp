@@ -202,6 +202,7 @@ class Trial final : public OutputSink<Dim> {
     Pilot<Dim> pilot(case_, plan_, loop_.model());
     pilot.look_ahead(std::min(wanted, budget_.patience - watch_.seconds()), each, course_);
     result.pilot_steps = pilot.steps();
+    result.pilot_time = course_.last().time;
     result.too_short = result.trial_steps + result.pilot_steps < fewest_steps;
   }
 
@@ -329,7 +330,10 @@ std::vector<std::string> sentences(const Estimate& e, int threads) {
   } else {
     from << "first " << counted(e.trial_steps, "step") << " (t = " << short_text(e.trial_time)
          << " s) ";
-    if (e.pilot_steps > 0) from << "and of " << e.pilot_steps << " long ones ahead of it, ";
+    if (e.pilot_steps > 0) {
+      from << "and of " << counted(e.pilot_steps, "long step")
+           << " from there to t = " << short_text(e.pilot_time) << " s, ";
+    }
     from << "in " << duration_text(e.trial_seconds);
     if (e.over_budget && e.pilot_steps == 0) {
       from << "; the case is too large for a longer one, so take it with care";

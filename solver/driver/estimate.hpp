@@ -35,6 +35,7 @@ struct Estimate {
   double trial_seconds = 0.0;  ///< of wall time
   bool whole = false;          ///< the trial reached the end
   bool over_budget = false;    ///< the first interval alone took longer than the budget
+  double pilot_time = 0.0;     ///< simulated, that they reach, s
   bool too_short = false;      ///< too few steps ended in time: there is no estimate
   std::string transport;       ///< which runs, and what the other would cost; empty: none
   std::string warning;         ///< of liquid points that have far to go; empty: none

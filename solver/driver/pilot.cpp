@@ -23,8 +23,9 @@ constexpr double fewest_steps = 2.0;
 constexpr double most_steps = 24.0;
 /// Such a step takes as long as so many of the run's own.
 constexpr double long_over_own = 4.0;
-/// They grow by this factor at least until they have that length, and after half of them they have.
+/// They grow by a factor between these until they have that length; after half of them they should.
 constexpr double least_growth = 8.0;
+constexpr double most_growth = 100.0;
 /// So many of them at least lie between two breakpoints of what drives the flow.
 constexpr double fewest_between_kinks = 3.0;
 /// The share of the time that is spent on the pilot, and that of it on the former kind of steps.
@@ -34,8 +35,9 @@ constexpr double share_of_control = 0.55;
 constexpr double worth_control = 40.0;
 /// States that are kept at most.
 constexpr std::size_t most_places = 16;
-/// Steps that are tried at a place. The first, which follows a long one, is not counted.
-constexpr int tried = 4;
+/// Steps that are tried at a place. The first, which follow a long one, are not counted.
+constexpr int uncounted = 2;
+constexpr int counted = 3;
 
 template <int Dim>
 std::vector<std::uint8_t> state_of(TwoPhaseModel<Dim>& model) {
@@ -97,7 +99,7 @@ void Pilot<Dim>::travel(double tolerance, double count, double seconds) {
     restore(*model, state_);
     const double longest = (scene.time.end - time_) / count;
     const double growth =
-        std::max(least_growth, std::pow(longest / model->last_step(), 2.0 / count));
+        std::clamp(std::pow(longest / model->last_step(), 2.0 / count), least_growth, most_growth);
     const std::vector<double>& kinks = model->flow().boundary_values().breakpoints();
     while (!has_arrived()) {
       const double start = time_;
@@ -140,10 +142,12 @@ template <int Dim>
 void Pilot<Dim>::try_steps(double seconds) {
   const Deadline deadline(seconds);
   std::size_t width = 2;
-  while (width < 2 * places_.size()) width *= 2;
+  while (width < places_.size()) width *= 2;
   try {
+    // What is extrapolated costs what the last place does.
+    if (!places_.empty()) try_steps_at(places_.back());
     for (; width >= 2; width /= 2) {
-      for (std::size_t k = width / 2; k <= places_.size(); k += width) {
+      for (std::size_t k = width / 2; k < places_.size(); k += width) {
         try_steps_at(places_[k - 1]);
       }
     }
@@ -157,10 +161,10 @@ void Pilot<Dim>::try_steps_at(Place& place) {
     restore(model_, place.state);
     const double end = case_.document.scene.time.end;
     model_.plan_step(place.step);
-    model_.advance(end);
+    for (int k = 0; k < uncounted && model_.time() < end; ++k) model_.advance(end);
     const Stopwatch watch;
     const long before = model_.steps();
-    for (int k = 1; k < tried && model_.time() < end; ++k) model_.advance(end);
+    for (int k = 0; k < counted && model_.time() < end; ++k) model_.advance(end);
     const long taken = model_.steps() - before;
     if (taken > 0) place.seconds = watch.seconds() / static_cast<double>(taken);
   } catch (const NumericalError&) {

@@ -42,7 +42,7 @@ class Pilot {
   void travel(double tolerance, double count, double seconds);
   void note_step(TwoPhaseModel<Dim>& model, double start);
   [[nodiscard]] bool has_arrived() const { return time_ >= case_.document.scene.time.end; }
-  /// Tries steps at the places, those in the middle first, for so many seconds.
+  /// Tries steps at the places for so many seconds, in the order of what they tell.
   void try_steps(double seconds);
   void try_steps_at(Place& place);
 

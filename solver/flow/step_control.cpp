@@ -189,7 +189,8 @@ void StepControl::account_for(double error) {
 }
 
 double StepControl::step_within(double tolerance) const {
-  const double error = accepted_error_ * settings_.tolerance / tolerance;
+  // Where a step has missed the curve altogether, its error tells no more than that.
+  const double error = std::min(accepted_error_ * settings_.tolerance, 1.0) / tolerance;
   const double longest = limits.max_growth * last_;
   return error > 0.0 ? std::min(longest, limits.safety * last_ / std::sqrt(error)) : longest;
 }
