@@ -216,9 +216,10 @@ class Trial final : public OutputSink<Dim> {
     const double of_each = course_.last().steps / static_cast<double>(passed + 1);
     const double by_kinks =
         is_adaptive() ? static_cast<double>(std::ssize(kinks) - passed) * of_each : 0.0;
-    const double steps = std::max({1.0, by_kinks, course_.steps_to_go(longest, scene.time.end)});
-    result.steps += steps;
-    result.seconds += steps * course_.seconds_per_step();
+    const double by_time = std::max(1.0, course_.steps_to_go(longest, scene.time.end));
+    result.steps += std::max(by_kinks, by_time);
+    result.seconds += by_kinks > by_time ? by_kinks * course_.mean_seconds()
+                                         : by_time * course_.seconds_per_step();
   }
 
   /// Of computing, s.

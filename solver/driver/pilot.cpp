@@ -22,15 +22,18 @@ constexpr double no_tolerance = 100.0;
 constexpr double fewest_steps = 2.0;
 constexpr double most_steps = 24.0;
 /// Such a step takes as long as so many of the run's own.
-constexpr double long_over_own = 4.0;
+constexpr double long_over_own = 8.0;
 /// They grow by a factor between these until they have that length; after half of them they should.
 constexpr double least_growth = 8.0;
-constexpr double most_growth = 100.0;
+constexpr double most_growth = 1000.0;
 /// So many of them at least lie between two breakpoints of what drives the flow.
 constexpr double fewest_between_kinks = 3.0;
+constexpr double hardly_growing = 1.2;
+/// After a breakpoint the run's own steps start short, and so many are spent on growing.
+constexpr double steps_after_kink = 4.0;
 /// The share of the time that is spent on the pilot, and that of it on the former kind of steps.
 constexpr double share_of_pilot = 0.7;
-constexpr double share_of_control = 0.55;
+constexpr double share_of_control = 0.45;
 /// With time for fewer of the run's own steps there are none of the former kind.
 constexpr double worth_control = 40.0;
 /// States that are kept at most.
@@ -67,10 +70,11 @@ void Pilot<Dim>::look_ahead(double seconds, double each, TrialCourse& course) {
   if (to_travel > worth_control * each) {
     const double tolerance = std::min(loosest, looser * scene.time.tolerance);
     travel(std::max(tolerance, scene.time.tolerance), 0.0, share_of_control * to_travel);
-    each = std::max(each, watch.seconds() / static_cast<double>(steps_.size() + 1));
+    smooth_steps_ = steps_.size();
   }
   if (!has_arrived()) {
-    const double affordable = (to_travel - watch.seconds()) / (long_over_own * each);
+    const double dearer = std::max(each, watch.seconds() / static_cast<double>(steps_.size() + 1));
+    const double affordable = (to_travel - watch.seconds()) / (long_over_own * dearer);
     if (affordable < fewest_steps) to_travel = seconds;
     const double count = std::clamp(affordable, fewest_steps, most_steps);
     travel(no_tolerance, count, to_travel - watch.seconds());
@@ -80,7 +84,10 @@ void Pilot<Dim>::look_ahead(double seconds, double each, TrialCourse& course) {
   auto place = places_.begin();
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     while (place != places_.end() && place->index < i) ++place;
-    if (place != places_.end() && place->seconds > 0.0) cost = place->seconds;
+    if (place != places_.end() && place->seconds > 0.0) {
+      // After steps without a tolerance the state is rough, and steps take longer than in the run.
+      cost = i < smooth_steps_ ? place->seconds : std::sqrt(place->seconds * each);
+    }
     const Mark& last = course.last();
     course.marks.push_back(
         {steps_[i].end, last.steps + steps_[i].count, last.seconds + steps_[i].count * cost});
@@ -98,7 +105,7 @@ void Pilot<Dim>::travel(double tolerance, double count, double seconds) {
     const auto model = make_model(changed, options_);
     restore(*model, state_);
     const double longest = (scene.time.end - time_) / count;
-    const double growth =
+    double growth =
         std::clamp(std::pow(longest / model->last_step(), 2.0 / count), least_growth, most_growth);
     const std::vector<double>& kinks = model->flow().boundary_values().breakpoints();
     while (!has_arrived()) {
@@ -113,12 +120,21 @@ void Pilot<Dim>::travel(double tolerance, double count, double seconds) {
         model->plan_step(dt);
         latest = std::min(latest, start + dt);
       }
-      model->advance(latest);
+      try {
+        model->advance(latest);
+      } catch (const NumericalError&) {
+        // So long a step has no result. A shorter one may have.
+        growth = std::sqrt(growth);
+        if (count == 0.0 || growth < hardly_growing) return;
+        restore(*model, state_);
+        continue;
+      }
       note_step(*model, start);
     }
   } catch (const NumericalError&) {
-    // The pilot has come as far as such long steps go.
+    // The pilot does not even start.
   } catch (const DeadlinePassed&) {
+    // It has come as far as it could in the time.
   }
 }
 
@@ -131,7 +147,9 @@ void Pilot<Dim>::note_step(TwoPhaseModel<Dim>& model, double start) {
   const double own = std::min({model.flow().step_within(scene.time.tolerance), time_ - start,
                                scene.output.every, scene.output.snapshot_every});
   if (steps_.size() % stride_ == 0) places_.push_back({steps_.size(), state_, own});
-  steps_.push_back({time_, (time_ - start) / own});
+  const bool starts_at_kink =
+      std::ranges::binary_search(model.flow().boundary_values().breakpoints(), start);
+  steps_.push_back({time_, (time_ - start) / own + (starts_at_kink ? steps_after_kink : 0.0)});
   if (places_.size() <= most_places) return;
   for (std::size_t k = 1; 2 * k < places_.size(); ++k) places_[k] = std::move(places_[2 * k]);
   places_.resize((places_.size() + 1) / 2);

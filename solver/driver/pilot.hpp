@@ -52,7 +52,8 @@ class Pilot {
   double time_;  ///< that the pilot has reached, s
   std::vector<std::uint8_t> state_;
   std::vector<Step> steps_;
-  std::vector<Place> places_;  ///< the ends of every `stride_`-th step
+  std::size_t smooth_steps_ = 0;  ///< the first ones, which kept a tolerance
+  std::vector<Place> places_;     ///< the ends of every `stride_`-th step
   std::size_t stride_ = 1;
 };
 
