@@ -18,12 +18,11 @@ $(eval $(call plan_skips,dp-consistent-fine,dp-consistent,mesh.size=0.0625 $(pla
 $(eval $(call plan_skips,sp-implicit-fine,sp-implicit,mesh.size=0.0125 $(plan_fine)))
 $(eval $(call plan_skips,dp-implicit-fine,dp-implicit,mesh.size=0.025 $(plan_fine)))
 
-# A flood and a falling reservoir, with retention; years and centuries; three dimensions.
+# A flood and a falling reservoir, with retention; years and centuries; a plane section of the lens.
 $(eval $(call plan_scene,levee-flood,levee/flood.toml))
 $(eval $(call plan_scene,levee-dam,levee/dam.toml))
 $(eval $(call plan_scene,decades-weir,decades/weir.toml))
 $(eval $(call plan_scene,decades-levee,decades/levee.toml))
-$(eval $(call plan_scene,lens,lens/lens.toml))
 $(eval $(call plan_scene,lens-section,lens/lens.toml,geometry.file="section.geo" gravity=[0.0$(comma)-9.81]))
 # A channel that erosion opens, a laboratory's specimen, a sheet pile, a weir.
 $(eval $(call plan_scene,channel,laboratory/channel.toml,mesh.size=10e-3))
@@ -31,10 +30,11 @@ $(eval $(call plan_scene,specimen,laboratory/specimen.toml))
 $(eval $(call plan_scene,pile,pictures/pile.toml))
 $(eval $(call plan_scene,sweep-weir,sweep/weir.toml))
 $(eval $(call plan_scene,day,stiffness/day.toml))
-# Soil that moves: a bank that slides, one of the study of killed runs, soil with layers.
-$(eval $(call plan_scene,slide,slide/slide.toml))
+# Soil that moves: a bank, soil with layers.
 $(eval $(call plan_scene,kill-bank,stress/kill-bank.toml))
 $(eval $(call plan_scene,bedding,../tests/cases/bedding.toml))
 # Cases: deposits, pores that erode until no water is left, drives that grow, changes at once after decades.
 $(foreach case,residual-decades no-water-left negative-deposits gradient-drive jump-in-decades,\
   $(eval $(call plan_scene,$(case),../tests/cases/$(case).toml)))
+# Three dimensions.
+$(eval $(call plan_scene,lens,lens/lens.toml))
