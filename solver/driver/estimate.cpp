@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "case/deadline.hpp"
 #include "case/errors.hpp"
 #include "case/scratch_folder.hpp"
 #include "driver/interrupt.hpp"
@@ -18,7 +19,6 @@
 #include "driver/stopwatch.hpp"
 #include "driver/transport_cost.hpp"
 #include "driver/trial_course.hpp"
-#include "grid/deadline.hpp"
 #include "results/layout.hpp"
 #include "results/number_text.hpp"
 #include "results/writer.hpp"

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <utility>
 
+#include "case/deadline.hpp"
 #include "case/errors.hpp"
 #include "driver/stopwatch.hpp"
-#include "grid/deadline.hpp"
 #include "results/state_archive.hpp"
 
 namespace suffuse {

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "grid/deadline.hpp"
+#include "case/deadline.hpp"
 
 namespace suffuse {
 

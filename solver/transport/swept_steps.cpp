@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "case/deadline.hpp"
 #include "case/errors.hpp"
-#include "grid/deadline.hpp"
 
 namespace suffuse {
 namespace {
