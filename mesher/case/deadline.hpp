@@ -15,23 +15,23 @@ struct DeadlinePassed {};
 /// While it lives, it sets the deadline of this thread.
 class Deadline {
  public:
-  explicit Deadline(double seconds) : outer_(moment_) {
+  explicit Deadline(double seconds) : outer_(moment) {
     const std::chrono::duration<double> left(seconds);
-    moment_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(left);
+    moment = Clock::now() + std::chrono::duration_cast<Clock::duration>(left);
   }
-  ~Deadline() { moment_ = outer_; }
+  ~Deadline() { moment = outer_; }
   Deadline(const Deadline&) = delete;
   Deadline& operator=(const Deadline&) = delete;
 
   /// Throws DeadlinePassed once it has.
   static void check() {
-    if (moment_ && Clock::now() >= *moment_) throw DeadlinePassed();
+    if (moment && Clock::now() >= *moment) throw DeadlinePassed();
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  static inline thread_local std::optional<Clock::time_point> moment_;
+  static inline thread_local std::optional<Clock::time_point> moment;
   std::optional<Clock::time_point> outer_;
 };
 

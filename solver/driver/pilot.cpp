@@ -7,6 +7,7 @@
 
 #include "case/deadline.hpp"
 #include "case/errors.hpp"
+#include "driver/interrupt.hpp"
 #include "driver/stopwatch.hpp"
 #include "results/state_archive.hpp"
 
@@ -79,7 +80,7 @@ void Pilot<Dim>::look_ahead(double seconds, double each, TrialCourse& course) {
     const double count = std::clamp(affordable, fewest_steps, most_steps);
     travel(no_tolerance, count, to_travel - watch.seconds());
   }
-  try_steps(seconds - watch.seconds());
+  if (!interrupted()) try_steps(seconds - watch.seconds());
   double cost = course.seconds_per_step();
   auto place = places_.begin();
   for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -108,7 +109,7 @@ void Pilot<Dim>::travel(double tolerance, double count, double seconds) {
     double growth =
         std::clamp(std::pow(longest / model->last_step(), 2.0 / count), least_growth, most_growth);
     const std::vector<double>& kinks = model->flow().boundary_values().breakpoints();
-    while (!has_arrived()) {
+    while (!has_arrived() && !interrupted()) {
       const double start = time_;
       double latest = scene.time.end;
       if (count > 0.0) {
@@ -170,6 +171,7 @@ void Pilot<Dim>::try_steps(double seconds) {
       }
     }
   } catch (const DeadlinePassed&) {
+    // The time is over: other places remain without.
   }
 }
 

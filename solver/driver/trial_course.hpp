@@ -55,11 +55,11 @@ struct TrialCourse {
     }
     return steps;
   }
-  /// Of a step since the start.
+  /// Mean wall time of a step since the start, s.
   [[nodiscard]] double mean_seconds() const {
     return (last().seconds - marks.front().seconds) / last().steps;
   }
-  /// Of a step in the later half.
+  /// Mean wall time of a step in the later half, s.
   [[nodiscard]] double seconds_per_step() const {
     return (last().seconds - half().seconds) / (last().steps - half().steps);
   }
