@@ -145,6 +145,8 @@ class Trial final : public OutputSink<Dim> {
     if (complete) {
       seconds_of_files = add_files(result);
       describe(result);
+    } else {
+      add_written_files(result);
     }
     if (complete && !result.whole && result.failure.empty() && !interrupted()) look_ahead(result);
     result.steps = course_.last().steps;
@@ -256,6 +258,15 @@ class Trial final : public OutputSink<Dim> {
     } catch (const FileError&) {
     }
     return seconds;
+  }
+
+  /// The files of the run where the last state is incomplete, as far as those written tell.
+  void add_written_files(Estimate& result) {
+    result.snapshots = loop_.schedule().snapshots().count();
+    if (!files_ || files_->last() < 0) return;
+    const long kept = std::min<long>(result.snapshots, case_.document.scene.output.restarts);
+    result.disk = files_->bytes_of_all(result.snapshots) + files_->size_without_snapshots() +
+                  static_cast<double>(kept) * files_->state_size();
   }
 
   /// The tables and what is there once, bytes; `seconds` becomes the time to write them. Throws
