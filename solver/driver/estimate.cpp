@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
 
+#include "common/deadline.hpp"
 #include "common/errors.hpp"
 #include "common/scratch_folder.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
+#include "driver/pilot.hpp"
 #include "driver/row_checks.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/stopwatch.hpp"
@@ -22,6 +25,11 @@
 
 namespace suffuse {
 namespace {
+
+/// A step that takes longer is expensive, s.
+constexpr double expensive_step = 0.1;
+/// Fewer steps that keep a tolerance tell nothing of others.
+constexpr long fewest_steps = 3;
 
 double size_of(const std::string& path) {
   std::error_code none;
@@ -101,7 +109,9 @@ class Trial final : public OutputSink<Dim> {
   Trial(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget,
         const EarlierState<Dim>* earlier)
       : case_(c),
+        plan_(plan),
         budget_(budget),
+        deadline_(budget.patience),
         loop_(c, plan, earlier),
         checks_(c.document.scene, plan.speed_that_drag_follows) {
     try {
@@ -111,34 +121,47 @@ class Trial final : public OutputSink<Dim> {
     }
   }
 
+  /// Throws DeadlinePassed where not even one step has ended.
   Estimate run() {
     Estimate result;
     course_.marks = {{0.0, 0.0, seconds()}};
+    bool complete = true;
     try {
       loop_.run(*this);
     } catch (const NumericalError& error) {
       result.failure = error.what();
+    } catch (const DeadlinePassed&) {
+      if (course_.marks.size() < 2) throw;
+      result.too_short = is_adaptive() && course_.marks.size() <= fewest_steps;
+      complete = false;  // what the model and its outputs hold must not be used any more
     }
+    deadline_.reset();
+    result.memory = peak_memory();
     result.whole = loop_.finished();
     result.over_budget = course_.marks.size() == 2 && !result.whole && budget_.share >= 1.0;
-    result.trial_steps = loop_.model().steps();
-    result.trial_time = loop_.model().time();
-    result.steps = static_cast<double>(result.trial_steps);
+    result.trial_steps = std::lround(course_.last().steps);
+    result.trial_time = course_.last().time;
+    double seconds_of_files = 0.0;
+    if (complete) {
+      seconds_of_files = add_files(result);
+      describe(result);
+    } else {
+      add_written_files(result);
+    }
+    if (complete && !result.whole && result.failure.empty() && !interrupted()) look_ahead(result);
+    result.steps = course_.last().steps;
     result.seconds = course_.last().seconds;
     if (!result.whole && result.failure.empty() && result.trial_steps > 0) extrapolate(result);
-    add_files(result);
-    const Scene& scene = case_.document.scene;
-    const bool has_a_choice = scene.formulation == Formulation::single_point &&
-                              scene.time.scheme == FlowScheme::implicit_mixed;
-    if (has_a_choice) result.transport = transport_sentence(loop_.model(), scene.time.end);
-    if (const auto text = many_crossings_warning(loop_.model(), scene.time.end)) {
-      result.warning = *text;
+    result.steps = std::round(result.steps);
+    // Snapshots are written while the run goes on.
+    if (files_) {
+      result.seconds =
+          std::max(result.seconds, static_cast<double>(result.snapshots) * files_->seconds());
     }
-    result.memory = peak_memory();
+    result.seconds += seconds_of_files;
     result.trial_seconds = watch_.seconds();
     return result;
   }
-  [[nodiscard]] const TrialCourse& course() const { return course_; }
 
   void warn(const std::string& /*text*/) override {}
   void write_row(const FlowState<Dim>& flow) override {
@@ -158,13 +181,47 @@ class Trial final : public OutputSink<Dim> {
   }
 
  private:
+  /// What is said of transport.
+  void describe(Estimate& result) const {
+    const Scene& scene = case_.document.scene;
+    const bool has_a_choice = scene.formulation == Formulation::single_point &&
+                              scene.time.scheme == FlowScheme::implicit_mixed;
+    if (has_a_choice) result.transport = transport_sentence(loop_.model(), scene.time.end);
+    if (const auto text = many_crossings_warning(loop_.model(), scene.time.end)) {
+      result.warning = *text;
+    }
+  }
+
+  /// Steps that keep a tolerance change their length in the course of the run.
+  [[nodiscard]] bool is_adaptive() const {
+    return case_.document.scene.time.scheme == FlowScheme::implicit_mixed && !plan_.flow.step_given;
+  }
+
+  void look_ahead(Estimate& result) {
+    if (!is_adaptive() || course_.marks.size() < 2) return;
+    const double each = course_.mean_seconds();
+    const double wanted = each > expensive_step ? budget_.ahead_if_expensive : budget_.ahead;
+    Pilot<Dim> pilot(case_, plan_, loop_.model());
+    pilot.look_ahead(std::min(wanted, budget_.patience - watch_.seconds()), each, course_);
+    result.pilot_steps = pilot.steps();
+    result.pilot_time = course_.last().time;
+    result.too_short = result.trial_steps + result.pilot_steps < fewest_steps;
+  }
+
   void extrapolate(Estimate& result) const {
     const Scene& scene = case_.document.scene;
-    const double longest = std::min(
-        {loop_.model().coupling_interval(), scene.output.every, scene.output.snapshot_every});
-    const double steps = std::max(1.0, course_.steps_to_go(longest, scene.time.end));
-    result.steps = std::round(result.steps + steps);
-    result.seconds += steps * course_.seconds_per_step();
+    if (course_.last().time >= scene.time.end) return;
+    const double longest = std::min(scene.output.every, scene.output.snapshot_every);
+    // What drives the flow changes at once at its breakpoints, and each has cost so many steps.
+    const auto& kinks = loop_.model().flow().boundary_values().breakpoints();
+    const auto passed = std::ranges::upper_bound(kinks, course_.last().time) - kinks.begin();
+    const double of_each = course_.last().steps / static_cast<double>(passed + 1);
+    const double by_kinks =
+        is_adaptive() ? static_cast<double>(std::ssize(kinks) - passed) * of_each : 0.0;
+    const double by_time = std::max(1.0, course_.steps_to_go(longest, scene.time.end));
+    result.steps += std::max(by_kinks, by_time);
+    result.seconds += by_kinks > by_time ? by_kinks * course_.mean_seconds()
+                                         : by_time * course_.seconds_per_step();
   }
 
   /// Of computing, s.
@@ -183,30 +240,38 @@ class Trial final : public OutputSink<Dim> {
     seconds_of_writing_ += watch.seconds();
   }
 
-  /// The files of the run and the time to write them. Rows are taken to be like that of the last
-  /// state.
-  void add_files(Estimate& result) {
+  /// The files of the run. Rows are taken to be like that of the last state. Returns the seconds
+  /// that it takes to write the tables.
+  double add_files(Estimate& result) {
     const OutputTimes& times = loop_.schedule().snapshots();
     result.snapshots = times.count();
     const FlowState<Dim> flow = loop_.model().flow_state();
     if (files_ && files_->last() < result.snapshots - 1) {
       write_sample(std::max(files_->last() + 1, times.past() - 1), flow);
     }
-    if (!files_) return;
+    if (!files_) return 0.0;
     const long kept = std::min<long>(result.snapshots, case_.document.scene.output.restarts);
+    double seconds = 0.0;
     try {
       result.disk = files_->bytes_of_all(result.snapshots) +
-                    static_cast<double>(kept) * files_->state_size() + add_rows(result, flow);
+                    static_cast<double>(kept) * files_->state_size() + add_rows(seconds, flow);
     } catch (const FileError&) {
-      return;
     }
-    // Snapshots are written while the run goes on.
-    result.seconds =
-        std::max(result.seconds, static_cast<double>(result.snapshots) * files_->seconds());
+    return seconds;
   }
 
-  /// The tables and what is there once, bytes. Throws FileError.
-  double add_rows(Estimate& result, const FlowState<Dim>& flow) {
+  /// The files of the run where the last state is incomplete, as far as those written tell.
+  void add_written_files(Estimate& result) {
+    result.snapshots = loop_.schedule().snapshots().count();
+    if (!files_ || files_->last() < 0) return;
+    const long kept = std::min<long>(result.snapshots, case_.document.scene.output.restarts);
+    result.disk = files_->bytes_of_all(result.snapshots) + files_->size_without_snapshots() +
+                  static_cast<double>(kept) * files_->state_size();
+  }
+
+  /// The tables and what is there once, bytes; `seconds` becomes the time to write them. Throws
+  /// FileError.
+  double add_rows(double& seconds, const FlowState<Dim>& flow) {
     const auto rows = static_cast<double>(loop_.schedule().rows().count());
     const auto write = [&] {
       files_->writer().append_history(loop_.model().history_row(flow));
@@ -217,13 +282,15 @@ class Trial final : public OutputSink<Dim> {
     const double before = files_->size_without_snapshots();
     const Stopwatch watch;
     write();
-    result.seconds += rows * watch.seconds();
+    seconds = rows * watch.seconds();
     return others + rows * (files_->size_without_snapshots() - before);
   }
 
   const Case<Dim>& case_;
+  const Plan& plan_;
   TrialBudget budget_;
   Stopwatch watch_;
+  std::optional<Deadline> deadline_;  ///< of the model's start and its steps
   RunLoop<Dim> loop_;
   RowChecks checks_;
   TrialCourse course_;
@@ -240,38 +307,25 @@ std::string counted(long count, const std::string& one) {
 template <int Dim>
 Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget,
                       const EarlierState<Dim>* earlier) {
-  Estimate first;
-  TrialCourse start_up;
-  {
-    Trial<Dim> trial(c, plan, budget, earlier);
-    first = trial.run();
-    start_up = trial.course();
+  const Stopwatch watch;
+  try {
+    return Trial<Dim>(c, plan, budget, earlier).run();
+  } catch (const DeadlinePassed&) {
+    Estimate nothing;
+    nothing.too_short = true;
+    nothing.memory = peak_memory();
+    nothing.trial_seconds = watch.seconds();
+    return nothing;
   }
-  const Scene& scene = c.document.scene;
-  const double settled = std::min(plan.settling_time, scene.time.end);
-  const bool starts_up = !earlier && scene.initial_flow == InitialFlow::rest &&
-                         !plan.flow.step_given && first.trial_time <= 2.0 * settled;
-  if (!starts_up || first.whole || !first.failure.empty() || interrupted()) return first;
-
-  // The steps of a start-up tell nothing of those that come after it: a second trial starts there.
-  Case<Dim> steady = c;
-  steady.document.scene.initial_flow = InitialFlow::steady;
-  Trial<Dim> later(steady, plan, {budget.seconds, 1.0}, nullptr);
-  Estimate result = later.run();
-  if (!result.failure.empty()) return first;
-  const double longest = 1.0 / step_rate(later.course().half(), later.course().last());
-  const double more = start_up.steps_to_go(longest, settled);
-  result.steps = std::round(result.steps + start_up.last().steps + more);
-  result.seconds += start_up.last().seconds + more * start_up.seconds_per_step();
-  result.steady_steps = result.trial_steps;
-  result.trial_steps = first.trial_steps;
-  result.trial_time = first.trial_time;
-  result.trial_seconds += first.trial_seconds;
-  result.whole = false;
-  return result;
 }
 
 std::vector<std::string> sentences(const Estimate& e, int threads) {
+  if (e.too_short) {
+    return {"estimate: none, as " +
+            (e.trial_steps == 0 ? "no step" : "only " + counted(e.trial_steps, "step")) +
+            " ended within " + duration_text(e.trial_seconds) + "; " + bytes_text(e.memory) +
+            " of memory so far"};
+  }
   std::ostringstream what;
   what << "estimate: " << std::llround(e.steps) << " steps, " << duration_text(e.seconds) << " on "
        << counted(threads, "thread") << ", " << bytes_text(e.memory) << " of memory, ";
@@ -288,9 +342,14 @@ std::vector<std::string> sentences(const Estimate& e, int threads) {
   } else {
     from << "first " << counted(e.trial_steps, "step") << " (t = " << short_text(e.trial_time)
          << " s) ";
-    if (e.steady_steps > 0) from << "and of " << e.steady_steps << " from the steady flow on, ";
+    if (e.pilot_steps > 0) {
+      from << "and of " << counted(e.pilot_steps, "long step")
+           << " from there to t = " << short_text(e.pilot_time) << " s, ";
+    }
     from << "in " << duration_text(e.trial_seconds);
-    if (e.over_budget) from << "; the case is too large for a longer one, so take it with care";
+    if (e.over_budget && e.pilot_steps == 0) {
+      from << "; the case is too large for a longer one, so take it with care";
+    }
   }
   std::vector<std::string> result{what.str(), from.str()};
   if (!e.transport.empty()) result.push_back(e.transport);

@@ -10,10 +10,14 @@
 
 namespace suffuse {
 
-/// How long a trial may go on. It ends with the interval in which it reaches either bound.
+/// How long an estimate may take, wall time in s. A trial ends with the interval in which it
+/// reaches `seconds` or `share`.
 struct TrialBudget {
-  double seconds = 1.2;  ///< of wall time
-  double share = 1.0;    ///< of the simulated time; a second trial may always go to the end
+  double seconds = 1.2;
+  double share = 1.0;               ///< of the simulated time
+  double ahead = 3.8;               ///< to look at the rest of the run
+  double ahead_if_expensive = 7.0;  ///< the same where steps take long
+  double patience = 9.5;            ///< for all of it; steps that take longer are broken off
 };
 
 struct Estimate {
@@ -27,20 +31,22 @@ struct Estimate {
   // What it rests on.
   long trial_steps = 0;
   double trial_time = 0.0;     ///< simulated, s
-  long steady_steps = 0;       ///< of a second trial that starts with the steady flow; 0: none
+  long pilot_steps = 0;        ///< long ones, of a look ahead (driver/pilot.hpp)
   double trial_seconds = 0.0;  ///< of wall time
   bool whole = false;          ///< the trial reached the end
   bool over_budget = false;    ///< the first interval alone took longer than the budget
+  double pilot_time = 0.0;     ///< simulated, that they reach, s
+  bool too_short = false;      ///< too few steps ended in time: there is no estimate
   std::string transport;       ///< which runs, and what the other would cost; empty: none
   std::string warning;         ///< of liquid points that have far to go; empty: none
   std::string failure;         ///< how the run failed in the trial; empty otherwise
 };
 
 /// Runs the case from its start for a while. Rows are made but not written; some twenty snapshots
-/// at most are written into a temporary folder, for their bytes and seconds. The rest of the run
-/// is extrapolated from the later half of the trial. Where that is still the start-up of the flow,
-/// a second trial starts with the steady flow. `earlier`: what the run starts from, if any. Ends
-/// early on an interrupt (see catch_interrupts).
+/// at most are written into a temporary folder, for their bytes and seconds. Where steps keep a
+/// tolerance, a pilot then looks at the rest of the run. What neither has met is extrapolated from
+/// the later half of what they have. `earlier`: what the run starts from, if any. Ends early on an
+/// interrupt (see catch_interrupts).
 template <int Dim>
 Estimate estimate_run(const Case<Dim>& c, const Plan& plan, const TrialBudget& budget = {},
                       const EarlierState<Dim>* earlier = nullptr);

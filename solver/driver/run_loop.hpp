@@ -60,6 +60,7 @@ class RunLoop {
 
   [[nodiscard]] bool finished() const { return schedule_.finished(); }
   [[nodiscard]] const TwoPhaseModel<Dim>& model() const { return *model_; }
+  [[nodiscard]] TwoPhaseModel<Dim>& model() { return *model_; }
   [[nodiscard]] const OutputSchedule& schedule() const { return schedule_; }
 
   void archive(StateArchive& archive) {

@@ -3,6 +3,7 @@
 /// The course of a trial run, and what it says of the steps that are still to come.
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <vector>
 
@@ -34,21 +35,31 @@ struct TrialCourse {
   /// The start of the later half. What comes before is not like what is to come.
   [[nodiscard]] const Mark& half() const { return at(0.5 * last().time); }
 
-  /// Steps from the end of the trial to `end`. While the time doubles, steps grow by as much as in
-  /// the later half of the trial, until they are `longest`.
+  /// Steps from the last mark to `end`. They go on to grow by the power of time by which they have
+  /// grown in the last two decades, at most as time itself, until they are `longest`.
   [[nodiscard]] double steps_to_go(double longest, double end) const {
-    const Mark& quarter = at(0.5 * half().time);
-    double rate = step_rate(half(), last());
-    const bool shows_growth = half().steps > quarter.steps;
-    const double change =
-        shows_growth ? std::clamp(rate / step_rate(quarter, half()), 0.5, 1.0) : 1.0;
+    const double rate = step_rate(half(), last());
+    const double middle = 0.5 * (half().time + last().time);
+    const Mark& later = at(0.1 * last().time);
+    const Mark& earlier = at(0.1 * later.time);
+    double power = 0.0;
+    if (later.steps > earlier.steps) {
+      const double growth = step_rate(earlier, later) / step_rate(later, last());
+      const double farther = (later.time + last().time) / (earlier.time + later.time);
+      power = std::clamp(std::log(growth) / std::log(farther), 0.0, 1.0);
+    }
     double steps = 0.0;
     for (double t = last().time; t < end; t *= 2.0) {
-      rate *= change;
-      steps += std::max(rate, 1.0 / longest) * std::min(t, end - t);
+      const double there = rate * std::pow(1.5 * t / middle, -power);
+      steps += std::max(there, 1.0 / longest) * std::min(t, end - t);
     }
     return steps;
   }
+  /// Mean wall time of a step since the start, s.
+  [[nodiscard]] double mean_seconds() const {
+    return (last().seconds - marks.front().seconds) / last().steps;
+  }
+  /// Mean wall time of a step in the later half, s.
   [[nodiscard]] double seconds_per_step() const {
     return (last().seconds - half().seconds) / (last().steps - half().steps);
   }

@@ -137,6 +137,12 @@ class FlowSolver {
   /// breakpoint where it reaches one. Throws NumericalError.
   virtual FlowProgress advance(const FlowInterval<Dim>& interval) = 0;
 
+  // For estimates; only a scheme that chooses its steps heeds them.
+  /// The length that keeps this tolerance, as the last step shows, s.
+  [[nodiscard]] virtual double step_within(double /*tolerance*/) const { return unset; }
+  /// The next step to try takes `dt` seconds, whatever was planned.
+  virtual void plan_step(double /*dt*/) {}
+
   /// Pressure per element, Pa.
   [[nodiscard]] virtual const std::vector<double>& pressure() const = 0;
   /// Volume of air per element, m3; empty where all soil is saturated.

@@ -32,6 +32,10 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   void start_from(const EarlierFlow<Dim>& earlier) override;
   /// One step. Throws NumericalError when no step is short enough for the tolerance.
   FlowProgress advance(const FlowInterval<Dim>& interval) override;
+  [[nodiscard]] double step_within(double tolerance) const override {
+    return control_.step_within(tolerance);
+  }
+  void plan_step(double dt) override { control_.plan(dt); }
   [[nodiscard]] typename FlowSolver<Dim>::CouplingLimits coupling_limits() const override {
     return {.one_transport_step = false, .follows_pores = true};
   }

@@ -91,6 +91,7 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
   const double order = (predicted ? 2.0 : 1.0) + settings_.unnoticed / (dt + settings_.unnoticed);
   const double wanted = error > 0.0 ? implicit_thresholds.safety * std::pow(error, -1.0 / order)
                                     : implicit_thresholds.max_growth;
+  accepted_error_ = error;
   if (error <= 1.0) {
     double next =
         dt * std::clamp(wanted, implicit_thresholds.min_shrinkage, implicit_thresholds.max_growth);
@@ -140,7 +141,7 @@ bool StepControl::shorten(double start, double factor, double& dt) {
 }
 
 double StepControl::max_unresolved() const {
-  return limits.max_unresolved / std::sqrt(settings_.tolerance);
+  return implicit_thresholds.max_unresolved / std::sqrt(settings_.tolerance);
 }
 
 void StepControl::reject(double start, double& dt) {
@@ -186,11 +187,20 @@ void StepControl::grow(double dt) {
 void StepControl::account_for(double error) {
   if (settings_.given_step) return;
   const double relative = error / settings_.tolerance;
+  accepted_error_ = std::max(accepted_error_, relative);
   if (relative > 1.0) {
     const double share = std::max(implicit_thresholds.safety * std::pow(relative, -0.5),
                                   implicit_thresholds.min_shrinkage);
     next_ = std::min(next_, share * last_);
   }
+}
+
+double StepControl::step_within(double tolerance) const {
+  // Where a step has missed the curve altogether, its error tells no more than that.
+  const double error = std::min(accepted_error_ * settings_.tolerance, 1.0) / tolerance;
+  const double longest = implicit_thresholds.max_growth * last_;
+  return error > 0.0 ? std::min(longest, implicit_thresholds.safety * last_ / std::sqrt(error))
+                     : longest;
 }
 
 }  // namespace suffuse

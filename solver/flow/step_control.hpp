@@ -88,6 +88,12 @@ class StepControl {
   /// accordingly.
   void account_for(double error);
 
+  /// The length that keeps another tolerance, as far as the error of the last step tells, s: no
+  /// longer than what may follow that step.
+  [[nodiscard]] double step_within(double tolerance) const;
+  /// The next step to try takes `dt` seconds, whatever was planned.
+  void plan(double dt) { next_ = dt; }
+
   /// Whether states so far are points of a smooth curve.
   [[nodiscard]] bool smooth() const { return smooth_; }
   [[nodiscard]] bool has_given_step() const { return settings_.given_step.has_value(); }
@@ -122,6 +128,7 @@ class StepControl {
   int unresolved_ = 0;      ///< steps since then that were accepted for being the shortest
   double planned_ = 0.0;    ///< length of the step at hand, before it was rejected, s
   bool shortened_ = false;  ///< the step at hand has been rejected before
+  double accepted_error_ = 0.0;  ///< of the last step, over the tolerance
   // Of its last rejected attempt.
   double rejected_dt_ = 0.0;
   double rejected_error_ = 0.0;

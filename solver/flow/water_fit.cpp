@@ -16,8 +16,6 @@
 namespace suffuse {
 namespace {
 
-constexpr const ImplicitThresholds& limits = implicit_thresholds;
-
 /// Lets `volume` per element, m3, out over `dt` in addition.
 void let_out(const std::vector<double>& volume, double dt, std::vector<double>& source) {
   source.resize(volume.size(), 0.0);
@@ -60,7 +58,7 @@ std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, dou
   const std::vector<double>& holds = this->coefficients_.water_volume;
   // The flux of the step itself counts: a flow from rest has none at its start.
   const double passes = largest_magnitude(step.face_volume) / std::ranges::min(holds);
-  if (passes < limits.expansion_time) return {};
+  if (passes < implicit_thresholds.expansion_time) return {};
   std::vector<double> excess = expansion_in(step);
   const std::vector<double> released = relaxation_.released(dt, filling_time());
   double largest = 0.0;
@@ -68,7 +66,7 @@ std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, dou
     if (!released.empty()) excess[e] += released[e];
     largest = std::max(largest, std::abs(excess[e]) / holds[e]);
   }
-  if (largest <= limits.expansion) return {};
+  if (largest <= implicit_thresholds.expansion) return {};
   return excess;
 }
 
@@ -76,7 +74,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::let_out_expansion(double dt,
                                           const std::vector<const FlowForcing<Dim>*>& stages,
                                           MixedStep<Dim>& step) {
-  for (int repeat = 0; repeat < limits.expansion_repeats; ++repeat) {
+  for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats; ++repeat) {
     const std::vector<double> excess = excess_in(step, dt);
     if (excess.empty()) return;
     for (FlowForcing<Dim>& forcing : forcing_) let_out(excess, dt, forcing.source);
@@ -96,7 +94,7 @@ std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::steady_step(double dt) {
   const PassTimer timer(reusing_);
   ++reusing_.calls;
   MixedStep<Dim> step = kept_flow(dt);
-  for (int repeat = 0; repeat < limits.expansion_repeats; ++repeat) {
+  for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats; ++repeat) {
     const std::vector<double> excess = excess_in(step, dt);
     if (excess.empty()) break;
     std::vector<double> source = relaxation_.source();

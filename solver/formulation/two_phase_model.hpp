@@ -46,6 +46,9 @@ class TwoPhaseModel {
   /// time. Throws NumericalError.
   virtual void advance(double latest) = 0;
 
+  /// The next step of the flow to try takes `dt` seconds. For estimates: runs choose freely.
+  void plan_step(double dt) { flow_->plan_step(dt); }
+
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] long steps() const { return steps_; }
   /// Length of the last step of the flow, s.

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "common/deadline.hpp"
+
 namespace suffuse {
 
 /// A loop of fewer indices takes less time than waking the threads.
@@ -26,9 +28,11 @@ void run_part(const Loop& loop, int begin, int end) {
 }
 
 /// Calls `loop(begin, end)` for parts that together are [0, count). A loop that one thread runs
-/// does not enter OpenMP, which would call the operating system for nothing.
+/// does not enter OpenMP, which would call the operating system for nothing. Throws DeadlinePassed
+/// where this thread has a deadline that is over.
 template <class Loop>
 void share_among(int threads, int count, int worth, const Loop& loop) {
+  if (omp_in_parallel() == 0) Deadline::check();
   if (threads <= 1 || count < worth) {
     run_part(loop, 0, count);
     return;

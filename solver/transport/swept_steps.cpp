@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/deadline.hpp"
 #include "common/errors.hpp"
 
 namespace suffuse {
@@ -51,6 +52,7 @@ const std::vector<Exchange>& SweptSteps<Dim>::solve(const FinesState<Dim>& state
   const bool shortened = dt_ < next_;
   bool rejected = false;
   for (;;) {
+    Deadline::check();
     ++timing_.calls;
     const bool to_end = dt_ * (1.0 + end_margin) >= left;
     const double to = to_end ? end_ : time_ + dt_;

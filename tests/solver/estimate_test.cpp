@@ -213,10 +213,50 @@ TEST(Estimate, OfTheStartUpAloneIsNear) {
     // The flow is not on its way for a hundredth of the time that it needs to settle.
     const TrialBudget start{.seconds = 60.0, .share = 1e-4};
     const Estimate estimate = estimate_run(input, make_plan(input, {}), start);
-    EXPECT_GT(estimate.steady_steps, 0);
+    EXPECT_GT(estimate.pilot_steps, 0);
     EXPECT_LT(estimate.trial_time, 0.01);
     expect_within_factor(2.0, estimate.steps, run(input).steps);
   }
+}
+
+/// A scene of the workflows or the cases, on a coarse mesh.
+Case<2> case_of(const TemporaryFolder& folder, const std::string& scene, const std::string& size) {
+  const std::string path = folder.file("scene.case.h5");
+  const std::string command = std::string(SUFFUSE_BIN) + "/suffuse-mesher " + SUFFUSE_SOURCE_DIR +
+                              "/" + scene + " -o " + path + " --set mesh.size=" + size +
+                              " > /dev/null 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  return read_case<2>(path);
+}
+
+/// A trial of a tenth of the time has met neither the end of erosion nor most breakpoints.
+TEST(Estimate, LooksAheadInScenesOfManyKinds) {
+  const std::vector<std::pair<std::string, std::string>> scenes{
+      {"workflows/sweep/weir.toml", "0.25"},           // erosion below a weir
+      {"workflows/levee/flood.toml", "1.5"},           // breakpoints, seepage faces, retention
+      {"workflows/levee/dam.toml", "1.5"},             // the same, with long times of rest
+      {"workflows/laboratory/channel.toml", "25e-3"},  // a drive that grows with the pores
+      {"workflows/decades/weir.toml", "0.25"},         // a hundred years from rest
+      {"workflows/stress/kill-bank.toml", "0.5"},      // soil that moves
+  };
+  for (const auto& [scene, size] : scenes) {
+    SCOPED_TRACE(scene);
+    const TemporaryFolder folder;
+    const Case<2> input = case_of(folder, scene, size);
+    const TrialBudget tenth{.seconds = 60.0, .share = 0.1, .ahead = 60.0, .patience = 120.0};
+    const Estimate estimate = estimate_run(input, make_plan(input, {}), tenth);
+    EXPECT_FALSE(estimate.too_short);
+    EXPECT_GT(estimate.pilot_steps, 0);
+    expect_within_factor(2.0, estimate.steps, run(input).steps);
+  }
+}
+
+TEST(Estimate, SaysThatNoStepEndedInTime) {
+  const Case<2> c =
+      model::make_case(model::column_mesh(4, 4), single_point_scene(FlowScheme::implicit_mixed));
+  const auto said = sentences(estimate_run(c, make_plan(c, {}), {.patience = 1e-9}), 1);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].find("estimate: none, as no step ended within "), 0U) << said[0];
 }
 
 TEST(Estimate, SaysWhatItRestsOn) {

@@ -12,6 +12,7 @@
   }
 }
 
+/^estimate: none, / { none = 1; rests = "none" }
 /^estimate: from a trial of the / { rests = /whole run/ ? "whole" : "part" }
 
 BEGIN {
@@ -20,6 +21,7 @@ BEGIN {
 }
 
 END {
+  if (none) { print ",,,,none"; exit }
   if (steps == "" || seconds == "" || memory == "" || disk == "" || rests == "") {
     print "no estimate in " FILENAME > "/dev/stderr"
     exit 1

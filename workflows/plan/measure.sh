@@ -1,12 +1,13 @@
 #!/bin/bash
-# What the plan of a scene is worth: its estimate, its run, and its run with --no-skip.
+# How good the estimate of a scene is: its estimate and its run; and with `skips` what its plan is worth: its run with
+# --no-skip in addition.
 #
-#     measure.sh SOLVER NAME.case.h5 STEM
+#     measure.sh SOLVER NAME.case.h5 STEM [skips]
 #
 # Writes STEM.csv, one line without a header (see report.awk), and keeps STEM.explain. Runs that take
 # less than `small` seconds are repeated, as the median of three says more than one.
 set -eu -o pipefail
-solver=$1 case=$2 stem=$3
+solver=$1 case=$2 stem=$3 skips=${4:-}
 here=$(dirname "$0")
 small=5
 
@@ -31,13 +32,25 @@ run() { # FOLDER OPTION...
 median() { printf '%s' "$1" | sort -g | awk '{ t[NR] = $1 } END { print t[int((NR + 1) / 2)] }'; }
 
 "$solver" "$case" --explain > "$stem.explain"
-run with
-run without --no-skip
+both() {
+  run with
+  [ -z "$skips" ] || run without --no-skip
+}
+both
 if is_small "${times[with]}"; then
-  for again in 2 3; do
-    run with
-    run without --no-skip
-  done
+  for again in 2 3; do both; done
+fi
+
+line() { # COLUMNS...: what no run without a plan has found is empty
+  printf '%s,' "$(basename "$stem")" "$@" "$(value memory_bytes "$stem.with.results")" "$(bytes "$stem.with.results")"
+  awk -f "$here/estimate.awk" "$stem.explain"
+}
+if [ -z "$skips" ]; then
+  line "$(median "${times[with]}")" "" "$(median "${passes[with]}")" "" "$(value steps "$stem.with.results")" "" "" "" "" \
+    > "$stem.csv.tmp"
+  mv "$stem.csv.tmp" "$stem.csv"
+  rm -rf "$stem.with.results"
+  exit
 fi
 
 # A flow that was kept differs from the solved one within time.tolerance; everything else is exact.
@@ -56,13 +69,8 @@ for table in history ledger; do
   apart=$(printf '%s\n%s\n' "$apart" "$found" | sort -gr | head -n 1)
 done
 
-{
-  printf '%s,' "$(basename "$stem")" "$(median "${times[with]}")" "$(median "${times[without]}")" \
-    "$(median "${passes[with]}")" "$(median "${passes[without]}")" \
-    "$(value steps "$stem.with.results")" "$(value steps "$stem.without.results")" \
-    "${apart/ /,}" "$bound"
-  printf '%s,' "$(value memory_bytes "$stem.with.results")" "$(bytes "$stem.with.results")"
-  awk -f "$here/estimate.awk" "$stem.explain"
-} > "$stem.csv.tmp"
+line "$(median "${times[with]}")" "$(median "${times[without]}")" \
+  "$(median "${passes[with]}")" "$(median "${passes[without]}")" \
+  "$(value steps "$stem.with.results")" "$(value steps "$stem.without.results")" "${apart/ /,}" "$bound" > "$stem.csv.tmp"
 mv "$stem.csv.tmp" "$stem.csv"
 rm -rf "$stem.with.results" "$stem.without.results"

@@ -4,6 +4,7 @@
 # is not within a factor of two. Wall time is judged from 5 s on: below, the machine's moods decide.
 
 function ratio(estimate, actual, judged,    r) {
+  if (estimate == "") { wrong = 1; return "none (!)" }
   r = estimate / actual
   if (judged && (r > 2 || r < 0.5)) { wrong = 1; return sprintf("%.2f (!)", r) }
   return judged ? sprintf("%.2f", r) : sprintf("(%.2f)", r)
@@ -33,14 +34,16 @@ FNR == 1 {
   next
 }
 
+function of_skips(text) { return $at["steps_no_skip"] == "" ? "" : text }
+function speed_up(of) { return of_skips(sprintf("%.2f", $at[of "_no_skip"] / ($at[of] > 0 ? $at[of] : 1))) }
+
 {
   difference = sprintf("%.1e", $at["difference"])
   if ($at["difference"] == 0) difference = "0"
   if ($at["difference"] > $at["bound"]) { wrong = 1; difference = difference " (!)" }
-  line(sprintf("%s|%.3g|%.3g|%.2f|%.2f|%d|%d|%s|%s|%s|%s|%s|%s|%s", $at["scene"], $at["seconds"],
-               $at["seconds_no_skip"],
-               $at["seconds_no_skip"] / $at["seconds"], $at["passes_no_skip"] / $at["passes"],
-               $at["steps"], $at["steps_no_skip"], difference, $at["column"], $at["bound"],
+  line(sprintf("%s|%.3g|%s|%s|%s|%d|%s|%s|%s|%s|%s|%s|%s|%s", $at["scene"], $at["seconds"],
+               of_skips(sprintf("%.3g", $at["seconds_no_skip"])), speed_up("seconds"), speed_up("passes"), $at["steps"],
+               $at["steps_no_skip"], of_skips(difference), $at["column"], $at["bound"],
                ratio($at["estimate_steps"], $at["steps"], 1),
                ratio($at["estimate_seconds"], $at["seconds"], $at["seconds"] >= 5),
                ratio($at["estimate_memory"], $at["memory"], 1),

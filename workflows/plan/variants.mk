@@ -1,13 +1,40 @@
-# Runs that take long enough to be timed: finer, and with little to write. Name, scene, KEY=VALUE as for
-# the mesher's --set.
+# The scenes of the table: of every kind that the workflows, the tutorials and the cases have, each of which runs for
+# less than ten minutes. Name, scene, KEY=VALUE as for the mesher's --set, without spaces.
 
-# $(call plan_variant,NAME,SCENE,CHANGES)
-define plan_variant
-plan_variants += $1
-$(call run_rules,$(OUT)/plan/$1,$(PAPER)/$2.toml,name=$1 output.snapshot_every=30.0 $3,plan/variants.mk)
+# $(call plan_scene,NAME,SCENE,CHANGES): its estimate.
+define plan_scene
+plan_names += $1
+$(call run_rules,$(OUT)/plan/$1,$2,name=$1 $3,plan/variants.mk)
 endef
-$(eval $(call plan_variant,sp-consistent-fine,sp-consistent,mesh.size=0.0625))
-$(eval $(call plan_variant,dp-consistent-fine,dp-consistent,mesh.size=0.0625))
-$(eval $(call plan_variant,sp-implicit-fine,sp-implicit,mesh.size=0.0125))
-$(eval $(call plan_variant,dp-implicit-fine,dp-implicit,mesh.size=0.025))
-plan_names += $(plan_variants)
+# $(call plan_skips,NAME,SCENE,CHANGES): the same, and what skipping is worth.
+define plan_skips
+plan_skip_names += $1
+$(call plan_scene,$1,$(PAPER)/$2.toml,$3)
+endef
+# The paper's, and finer ones with little to write, which take long enough to be timed.
+plan_fine := output.snapshot_every=30.0
+$(foreach name,sp-constant-table dp-logarithmic sp-consistent sp-implicit dp-implicit,$(eval $(call plan_skips,$(name),$(name))))
+$(eval $(call plan_skips,dp-consistent-fine,dp-consistent,mesh.size=0.0625 $(plan_fine)))
+$(eval $(call plan_skips,sp-implicit-fine,sp-implicit,mesh.size=0.0125 $(plan_fine)))
+$(eval $(call plan_skips,dp-implicit-fine,dp-implicit,mesh.size=0.025 $(plan_fine)))
+
+# A flood and a falling reservoir, with retention; years and centuries; a plane section of the lens.
+$(eval $(call plan_scene,levee-flood,levee/flood.toml))
+$(eval $(call plan_scene,levee-dam,levee/dam.toml))
+$(eval $(call plan_scene,decades-weir,decades/weir.toml))
+$(eval $(call plan_scene,decades-levee,decades/levee.toml))
+$(eval $(call plan_scene,lens-section,lens/lens.toml,geometry.file="section.geo" gravity=[0.0$(comma)-9.81]))
+# A channel that erosion opens, a laboratory's specimen, a sheet pile, a weir.
+$(eval $(call plan_scene,channel,laboratory/channel.toml,mesh.size=10e-3))
+$(eval $(call plan_scene,specimen,laboratory/specimen.toml))
+$(eval $(call plan_scene,pile,pictures/pile.toml))
+$(eval $(call plan_scene,sweep-weir,sweep/weir.toml))
+$(eval $(call plan_scene,day,stiffness/day.toml))
+# Soil that moves: a bank, soil with layers.
+$(eval $(call plan_scene,kill-bank,stress/kill-bank.toml))
+$(eval $(call plan_scene,bedding,../tests/cases/bedding.toml))
+# Cases: deposits, pores that erode until no water is left, drives that grow, changes at once after decades.
+$(foreach case,residual-decades no-water-left negative-deposits gradient-drive jump-in-decades,\
+  $(eval $(call plan_scene,$(case),../tests/cases/$(case).toml)))
+# Three dimensions.
+$(eval $(call plan_scene,lens,lens/lens.toml))

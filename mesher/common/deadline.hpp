@@ -1,0 +1,38 @@
+#pragma once
+
+/// A moment of wall time by which a thread wants to be done, even within a step. Loops over a mesh
+/// (grid/parallel.hpp) look at the clock before they start. Runs have no deadline.
+
+#include <chrono>
+#include <optional>
+
+namespace suffuse {
+
+/// The deadline has passed. What was being computed is incomplete and must not be used. It is no
+/// error of the computation: handlers of those let it pass.
+struct DeadlinePassed {};
+
+/// While it lives, it sets the deadline of this thread.
+class Deadline {
+ public:
+  explicit Deadline(double seconds) : outer_(moment) {
+    const std::chrono::duration<double> left(seconds);
+    moment = Clock::now() + std::chrono::duration_cast<Clock::duration>(left);
+  }
+  ~Deadline() { moment = outer_; }
+  Deadline(const Deadline&) = delete;
+  Deadline& operator=(const Deadline&) = delete;
+
+  /// Throws DeadlinePassed once it has.
+  static void check() {
+    if (moment && Clock::now() >= *moment) throw DeadlinePassed();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  static inline thread_local std::optional<Clock::time_point> moment;
+  std::optional<Clock::time_point> outer_;
+};
+
+}  // namespace suffuse
