@@ -84,7 +84,7 @@ InputProblem read_problem(ByteReader& from) {
   return problem;
 }
 
-[[noreturn]] void refuse(const std::string& defect) {
+[[noreturn]] void refuse_reply(const std::string& defect) {
   throw InputError(std::vector<InputProblem>{
       {"", "", "over which Gmsh hands back " + defect, "a file that Gmsh can mesh", ""}});
 }
@@ -116,12 +116,12 @@ GmshReply reply_from(std::string_view bytes) {
     reply.meshes_itself = from.number<std::uint8_t>() != 0;
     reply.wants_threads = from.number<std::uint8_t>() != 0;
     reply.model = read_model(from);
-    if (!from.is_at_end()) refuse("more than a mesh");
+    if (!from.is_at_end()) refuse_reply("more than a mesh");
   } catch (const std::out_of_range&) {
-    refuse("a part of a mesh");
+    refuse_reply("a part of a mesh");
   }
   const std::string defect = gmsh_model_defect(reply.model);
-  if (reply.problems.empty() && !defect.empty()) refuse(defect);
+  if (reply.problems.empty() && !defect.empty()) refuse_reply(defect);
   return reply;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view header = "t,head";
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_outer_blanks(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
   const std::size_t begin = text.find_first_not_of(blanks);
   if (begin == std::string_view::npos) return {};
@@ -66,7 +66,7 @@ TableReading read_head_table(const std::string& text, const std::string& path) {
   };
   for (std::string raw; std::getline(lines, raw);) {
     ++number;
-    const std::string_view line = trimmed(raw);
+    const std::string_view line = without_outer_blanks(raw);
     if (number == 1) {
       if (without_blanks(line) != header) {
         return fail(shown_line(line), "the header line t,head" + separator_advice(raw));
@@ -75,10 +75,10 @@ TableReading read_head_table(const std::string& text, const std::string& path) {
     }
     if (line.empty()) continue;
     const std::size_t comma = line.find(',');
-    const auto t = read_number(trimmed(line.substr(0, comma)));
+    const auto t = read_number(without_outer_blanks(line.substr(0, comma)));
     const auto value = comma == std::string_view::npos
                            ? std::nullopt
-                           : read_number(trimmed(line.substr(comma + 1)));
+                           : read_number(without_outer_blanks(line.substr(comma + 1)));
     if (!t || !value) {
       const bool more_commas = std::ranges::count(line, ',') > 1;
       return fail(shown_line(line),

@@ -31,8 +31,8 @@ std::vector<RunBoundary> all_boundaries(const std::vector<ResultsReader>& runs) 
 
 /// Each boundary has a style of its own, the same in both charts. Dashes differ too, as curves of
 /// two boundaries often lie on one another.
-Curve curve_of(const RunBoundary& boundary, std::size_t number, std::size_t count,
-               const char* column) {
+Curve boundary_curve(const RunBoundary& boundary, std::size_t number, std::size_t count,
+                     const char* column) {
   constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
                                        Dash::dash_dot_dot};
   const RunStyle style = curve_style(number);
@@ -65,9 +65,9 @@ std::vector<Chart> boundary_charts(const std::vector<ResultsReader>& runs) {
       "Grains that left through each boundary", "time (s)", "mass (kg per metre of thickness)", {}};
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     const std::size_t count = boundaries.size();
-    discharge.curves.push_back(curve_of(boundaries[b], b, count, "discharge"));
+    discharge.curves.push_back(boundary_curve(boundaries[b], b, count, "discharge"));
     if (lost_fines(boundaries[b])) {
-      fines.curves.push_back(curve_of(boundaries[b], b, count, "fines_out"));
+      fines.curves.push_back(boundary_curve(boundaries[b], b, count, "fines_out"));
     }
   }
   if (discharge.curves.empty()) {

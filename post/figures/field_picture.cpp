@@ -172,7 +172,7 @@ void paint_margins(vtkContext2D& painter, const ModelView& view, int width, int 
   for (const auto& s : sides) painter.DrawLine(s[0], s[1], s[2], s[3]);
 }
 
-std::vector<Curve> legend_rows(const FieldPicture& picture, bool has_water) {
+std::vector<Curve> picture_legend_rows(const FieldPicture& picture, bool has_water) {
   std::vector<Curve> rows;
   if (picture.contours) {
     rows.push_back(legend_line("line of equal " + picture.label, black, contour_width));
@@ -370,7 +370,7 @@ std::vector<double> nodal_values(const Mesh<2>& mesh, const FieldPicture& pictur
 void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
                         const std::string& path) {
   const bool has_water = !picture.room.empty() && !model.box;
-  const std::vector<Curve> rows = legend_rows(picture, has_water);
+  const std::vector<Curve> rows = picture_legend_rows(picture, has_water);
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const bool has_arrows = !picture.arrows.empty();
   const float bottom = axes_bottom + legend_height + (has_arrows ? legend_row : 0.0F);

@@ -48,7 +48,7 @@ std::vector<GradedSoil> graded_soils(const std::vector<ResultsReader>& runs) {
 }
 
 /// Dashes and markers differ, so that curves can be told apart without colours.
-Curve curve_of(const GradedSoil& soil, std::size_t number) {
+Curve grading_curve(const GradedSoil& soil, std::size_t number) {
   constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
                                        Dash::dash_dot_dot};
   const RunStyle style = curve_style(number);
@@ -113,7 +113,7 @@ Chart gradation_chart(const std::vector<ResultsReader>& runs) {
     throw FileError(runs.front().folder() + ": no soil of its scene has a gradation");
   }
   Chart chart{"Gradation", "grain size d (mm)", "finer than d by mass, F (%)", {}};
-  for (std::size_t i = 0; i < soils.size(); ++i) chart.curves.push_back(curve_of(soils[i], i));
+  for (std::size_t i = 0; i < soils.size(); ++i) chart.curves.push_back(grading_curve(soils[i], i));
   chart.extra_y = {0.0, 100.0};
   chart.logarithmic_x = true;
   chart.table = verdicts_of(soils);

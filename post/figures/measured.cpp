@@ -23,7 +23,7 @@ bool has_runs(const std::string& path) {
   return std::ranges::find(names, "run") != names.end();
 }
 
-void check(const Table& table, const std::string& path) {
+void check_measured(const Table& table, const std::string& path) {
   for (std::size_t k = 0; k < table.names.size(); ++k) {
     for (const double value : table.columns[k]) {
       if (!std::isfinite(value)) {
@@ -48,7 +48,7 @@ MeasuredPoints read_measured(const std::string& path) {
     measured.runs.push_back({"", read_table(path)});
   }
   for (NamedTable& run : measured.runs) {
-    check(run.table, path);
+    check_measured(run.table, path);
     run.table = with_seconds(std::move(run.table), path);
   }
   return measured;

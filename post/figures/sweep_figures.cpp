@@ -32,7 +32,7 @@ constexpr Color run_color{0.45, 0.55, 0.65};
 constexpr Color thin_color{0.62, 0.70, 0.78};
 constexpr Color median_color{0.70, 0.20, 0.0};
 
-std::string count_text(std::size_t count) {
+std::string sweep_count_text(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " run" : " runs");
 }
 
@@ -119,7 +119,7 @@ Chart over_key_chart(const std::vector<double>& x, const std::vector<double>& y)
     quantiles.add(quantile(at, 0.5), picked(y, group));
   }
   if (!groups.empty()) chart.curves.push_back(quantiles.band());
-  chart.curves.push_back(points(count_text(x.size()), x, y));
+  chart.curves.push_back(points(sweep_count_text(x.size()), x, y));
   if (!groups.empty()) {
     chart.curves.push_back(
         quantiles.middle("median of each of " + std::to_string(groups.size()) + " groups"));
@@ -251,7 +251,7 @@ std::vector<Chart> distribution_charts(const SweepTable& sweep, const std::vecto
     chart.title = "Distribution over the runs of a sweep";
     chart.x_label = axis_text(column);
     chart.y_label = "runs with less (%)";
-    chart.curves = {line(count_text(values.size()), values, shares), marked};
+    chart.curves = {line(sweep_count_text(values.size()), values, shares), marked};
   }
   charts.front().table = table;
   return charts;
@@ -273,7 +273,7 @@ std::vector<Chart> over_time_charts(const SweepTable& sweep,
       for (const Curve& run : runs) values.push_back(value_at(run, t));
       quantiles.add(t, std::move(values));
     }
-    runs.front().label = count_text(runs.size());
+    runs.front().label = sweep_count_text(runs.size());
     Chart& chart = charts.emplace_back();
     chart.title = "Runs of a sweep in time";
     chart.x_label = seconds_label;

@@ -132,7 +132,8 @@ void remove_missing(Curve& curve, const std::string& column) {
   curve.y.resize(kept);
 }
 
-Curve curve_of(const Table& table, const std::string& x, const std::string& y, std::size_t number) {
+Curve table_curve(const Table& table, const std::string& x, const std::string& y,
+                  std::size_t number) {
   constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
                                        Dash::dash_dot_dot};
   Curve curve;
@@ -157,7 +158,7 @@ Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::st
                closest_column(x, part.table.names));
       }
       require_curve(runs[r], part.table, name.text);
-      Curve curve = curve_of(part.table, x, name.column, chart.curves.size());
+      Curve curve = table_curve(part.table, x, name.column, chart.curves.size());
       remove_missing(curve, name.column);
       curve.label = label_of(labels, r, name.part.empty() ? part.name : "");
       chart.curves.push_back(std::move(curve));

@@ -188,8 +188,8 @@ std::optional<TimeSeries> mean_series(const ResultsReader& run, const std::strin
 }
 
 /// The quantity over the run. Throws InputError when the run does not have it.
-TimeSeries curve_of(const ResultsReader& run, const std::string& quantity,
-                    const std::string& path) {
+TimeSeries reference_curve(const ResultsReader& run, const std::string& quantity,
+                           const std::string& path) {
   const Table history = run.history();
   const Table ledger = run.ledger();
   for (const Table* table : {&history, &ledger}) {
@@ -213,7 +213,7 @@ std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTabl
                                    const std::vector<std::string>& names) {
   std::vector<ErrorSum> sums;
   for (const auto& name : names) {
-    const TimeSeries curve = curve_of(run, name, reference.path);
+    const TimeSeries curve = reference_curve(run, name, reference.path);
     ErrorSum sum;
     for (std::size_t row = 0; row < reference.values.rows(); ++row) {
       sum.add(interpolate(curve, reference.values.column("t")[row], reference.path),
@@ -225,7 +225,7 @@ std::vector<ErrorSum> curve_errors(const ResultsReader& run, const ReferenceTabl
 }
 
 /// Throws InputError for a table that is not as read_reference_table says.
-void check(const ReferenceTable& reference) {
+void check_reference(const ReferenceTable& reference) {
   const Table& table = reference.values;
   const auto names = quantity_names(table);
   if (!table.has("t")) refuse(error_command, reference.path, "no column \"t\"", "times in s");
@@ -258,7 +258,7 @@ void check(const ReferenceTable& reference) {
 
 ReferenceTable read_reference_table(const std::string& path) {
   ReferenceTable reference{path, with_seconds(read_table(path), path)};
-  check(reference);
+  check_reference(reference);
   return reference;
 }
 

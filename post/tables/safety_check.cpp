@@ -107,15 +107,17 @@ void include(const SafetyState& state, int element, const std::vector<double>& p
   part.least = LeastSafety{safety, gradient, critical, state.time, place};
 }
 
-std::string cell(const char* format, double value, int width) {
+std::string number_cell(const char* format, double value, int width) {
   char text[32];
   std::snprintf(text, sizeof text, format, value);
   return padded(text, width);
 }
 
 std::string motion_text(const Table& history) {
-  const auto now = [&](const char* name) { return cell("%.4g", history.column(name).back(), 0); };
-  return "at t = " + cell("%.6g", history.column("t").back(), 0) +
+  const auto now = [&](const char* name) {
+    return number_cell("%.4g", history.column(name).back(), 0);
+  };
+  return "at t = " + number_cell("%.6g", history.column("t").back(), 0) +
          " s the largest settlement of the soil is " + now("settlement_max") +
          " m, its largest displacement " + now("displacement_max") + " m\n";
 }
@@ -178,14 +180,14 @@ std::string safety_text(const ResultsReader& results, const std::vector<PartSafe
     text += part.name + std::string(width - part.name.size(), ' ');
     if (part.least) {
       const LeastSafety& least = *part.least;
-      text += cell("%.4g", least.safety, 10) + cell("%.4g", least.gradient, 10) +
-              cell("%.4g", least.critical_gradient, 10) + cell("%.6g", least.time, 12) +
-              padded(place_text(least.place), place_width);
+      text += number_cell("%.4g", least.safety, 10) + number_cell("%.4g", least.gradient, 10) +
+              number_cell("%.4g", least.critical_gradient, 10) +
+              number_cell("%.6g", least.time, 12) + padded(place_text(least.place), place_width);
     } else {
       text += padded("-", 10) + padded("-", 10) + padded("-", 10) + padded("-", 12) +
               padded("water rises nowhere", place_width);
     }
-    if (part.discharge) text += cell("%.10g", *part.discharge, 23);
+    if (part.discharge) text += number_cell("%.10g", *part.discharge, 23);
     text += "\n";
   }
   const bool lifts = std::ranges::any_of(

@@ -18,7 +18,7 @@ constexpr double on_face = 1e-12;
 constexpr double over_border = 0.5;
 
 template <int Dim>
-double least(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
+double least_barycentric(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
   return std::ranges::min(barycentric(grid.mesh, element, x));
 }
 
@@ -27,7 +27,7 @@ template <int Dim>
 int neighbour_at(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
   for (const int i : grid.mesh.elements[element]) {
     for (int k = grid.node_element_begin[i]; k < grid.node_element_begin[i + 1]; ++k) {
-      if (least(grid, grid.node_element[k], x) >= -on_face) return grid.node_element[k];
+      if (least_barycentric(grid, grid.node_element[k], x) >= -on_face) return grid.node_element[k];
     }
   }
   return -1;
@@ -64,7 +64,7 @@ int element_at(const Grid<Dim>& grid, int start, const Vector<Dim>& x) {
   }
   const int neighbour = neighbour_at(grid, e, x);
   if (neighbour >= 0) return neighbour;
-  const bool is_near = least(grid, e, x) >= -over_border;
+  const bool is_near = least_barycentric(grid, e, x) >= -over_border;
   if (is_near && e == start) return e;
   const auto place = find_place(grid, x);
   if (place) return place->element;

@@ -19,7 +19,7 @@ constexpr double elastic_displacement = 1e-5;
 constexpr double soft_in_trials = 1e-6;
 
 template <int Dim>
-double largest(const NodeVectors<Dim>& vectors) {
+double largest_length(const NodeVectors<Dim>& vectors) {
   double result = 0.0;
   for (const Vector<Dim>& v : vectors) result = std::max(result, v.norm());
   return result;

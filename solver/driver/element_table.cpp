@@ -29,7 +29,7 @@ const std::vector<std::string>& known_columns() {
   return all;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> element_cells(const std::string& line) {
   std::vector<std::string> cells(1);
   for (const char c : line) {
     if (c == ',') {
@@ -52,7 +52,7 @@ class ElementTableReader {
         read_header(line.starts_with("\xEF\xBB\xBF") ? line.substr(3) : line);
         if (!problems_.empty()) break;
       } else if (line.find_first_not_of(" \t\r") != std::string::npos) {
-        read_row(cells_of(line), line);
+        read_row(element_cells(line), line);
       }
     }
     number_ = std::max(number_, 1);
@@ -78,7 +78,7 @@ class ElementTableReader {
   }
 
   void read_header(const std::string& line) {
-    columns_ = cells_of(line);
+    columns_ = element_cells(line);
     const std::vector<std::string>& known = known_columns();
     for (const std::string& column : columns_) {
       if (!std::ranges::count(known, column)) {

@@ -57,8 +57,8 @@ SoilElementTarget target_of(const ElementTableRow& row) {
   return target;
 }
 
-[[noreturn]] void refuse(const ElementTable& table, const ElementTableRow& row,
-                         const std::string& found, const std::string& expected) {
+[[noreturn]] void refuse_row(const ElementTable& table, const ElementTableRow& row,
+                             const std::string& found, const std::string& expected) {
   throw InputError(InputProblem{.where = table.path + ':' + std::to_string(row.line),
                                 .key = {},
                                 .found = found,
@@ -112,9 +112,9 @@ std::string element_test(const Soil& soil, const ElementTable& table, int steps)
   const ElementTableRow& first = table.rows.front();
   SoilElement element(soil.skeleton, stress_of(first), first.fines_left);
   if (!element.is_admissible()) {
-    refuse(table, first,
-           "a stress at the start beyond the strength: " + shown_stress(element.state().stress),
-           "one that the soil can carry");
+    refuse_row(table, first,
+               "a stress at the start beyond the strength: " + shown_stress(element.state().stress),
+               "one that the soil can carry");
   }
   std::string text = header(table.moment) + row_of(first.moment, element.state());
   for (std::size_t k = 1; k < table.rows.size(); ++k) {
@@ -124,11 +124,11 @@ std::string element_test(const Soil& soil, const ElementTable& table, int steps)
     for (int step = 1; step <= steps; ++step) {
       const double share = static_cast<double>(step) / steps;
       if (element.advance(part_of(target, start, share)) < 1.0) {
-        refuse(table, row,
-               "stresses that the soil cannot carry: it yields on the way to this row at " +
-                   shown_stress(element.state().stress) + " with " +
-                   short_text(element.state().fines_left) + " of its fines left",
-               "stresses within the strength, or a strain in the place of one of them");
+        refuse_row(table, row,
+                   "stresses that the soil cannot carry: it yields on the way to this row at " +
+                       shown_stress(element.state().stress) + " with " +
+                       short_text(element.state().fines_left) + " of its fines left",
+                   "stresses within the strength, or a strain in the place of one of them");
       }
       text += row_of(std::lerp(table.rows[k - 1].moment, row.moment, share), element.state());
     }

@@ -19,7 +19,7 @@ void check_finite(const HistoryRow& row) {
 }
 
 /// To two digits.
-std::string rounded(double value) {
+std::string rounded_value(double value) {
   std::ostringstream text;
   text.precision(2);
   text << value;
@@ -100,8 +100,8 @@ std::string RowChecks::check_fines_weight(const HistoryRow& row) {
   std::ostringstream message;
   message
       << "the weight of fluidised fines drives the flow more than the boundaries do: "
-      << rounded(100.0 * row.fines_weight_share) << " % of its power at t = " << row.t
-      << " s, with concentrations up to " << rounded(row.concentration_max)
+      << rounded_value(100.0 * row.fines_weight_share) << " % of its power at t = " << row.t
+      << " s, with concentrations up to " << rounded_value(row.concentration_max)
       << ". That holds for fines that stay in the liquid; where they would settle, clog or stay "
          "in place, more is lost here than in the soil. Look at soil.NAME.erosion "
          "(critical_concentration, threshold, residual) and soil.NAME.deposition, or compute "
@@ -115,8 +115,9 @@ std::string RowChecks::check_packing(const HistoryRow& row) {
   if (packing_warned_ || !(row.concentration_max > packing)) return "";
   packing_warned_ = true;
   std::ostringstream message;
-  message << "the liquid holds " << rounded(row.concentration_max) << " of its volume in fines in "
-          << row.concentration_max_at << " at t = " << row.t << " s: above about " << packing
+  message << "the liquid holds " << rounded_value(row.concentration_max)
+          << " of its volume in fines in " << row.concentration_max_at << " at t = " << row.t
+          << " s: above about " << packing
           << " grains lock and such a liquid does not flow, so that what is computed there is not "
              "to be trusted. Look at soil.NAME.erosion (critical_concentration ends erosion "
              "before; drive \"time\" erodes where no water flows), at soil with little water, and "
@@ -133,10 +134,10 @@ std::string RowChecks::check_volume_defect(const HistoryRow& row) {
   if (defect_warned_ || !(row.volume_defect > expected)) return "";
   defect_warned_ = true;
   std::ostringstream message;
-  message << "liquid points have " << rounded(1.0 + row.volume_defect)
+  message << "liquid points have " << rounded_value(1.0 + row.volume_defect)
           << " times the volume of the pores in " << row.volume_defect_at << " at t = " << row.t
-          << " s: a volume_defect of " << rounded(row.volume_defect) << ", where up to "
-          << rounded(expected) << " is usual with liquid_per_element = " << points
+          << " s: a volume_defect of " << rounded_value(row.volume_defect) << ", where up to "
+          << rounded_value(expected) << " is usual with liquid_per_element = " << points
           << ". Points that come from large elements do not fit into small ones: make the elements "
              "more even, or take more points. Masses stay exact; concentrations there are rough";
   return message.str();

@@ -91,8 +91,8 @@ class Comparison {
   std::vector<InputProblem> problems_;
 };
 
-[[noreturn]] void refuse(const SceneDocument& document, const std::string& found,
-                         const std::string& expected) {
+[[noreturn]] void refuse_source(const SceneDocument& document, const std::string& found,
+                                const std::string& expected) {
   throw InputError(InputProblem{document.locate(key), key, found, expected});
 }
 
@@ -127,25 +127,25 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads) {
   const std::string folder = file_beside_scene(document.path, document.scene.initial_from);
   const std::string shown = shown_value(document.scene.initial_from);
   if (!std::filesystem::exists(layout::in_folder(folder, layout::run_info))) {
-    refuse(document, shown + ", where there are no results",
-           "a results folder, relative to that of the scene; looked for in " + folder);
+    refuse_source(document, shown + ", where there are no results",
+                  "a results folder, relative to that of the scene; looked for in " + folder);
   }
   const std::string status = ResultsReader(folder).status();
   if (status != "done") {
-    refuse(document, shown + ", whose run is " + shown_value(status),
-           "a run that is done: let it go on with --resume");
+    refuse_source(document, shown + ", whose run is " + shown_value(status),
+                  "a run that is done: let it go on with --resume");
   }
   const Case<Dim> earlier = read_case<Dim>(layout::in_folder(folder, layout::case_copy));
   const Scene& scene = earlier.document.scene;
   if (scene.moves()) {
-    refuse(document, shown + ", whose soil has moved",
-           "a run whose skeletons are rigid: --resume goes on with a run of another kind");
+    refuse_source(document, shown + ", whose soil has moved",
+                  "a run whose skeletons are rigid: --resume goes on with a run of another kind");
   }
   Comparison(document, scene, folder).run();
   if (!have_same_points(earlier, c)) {
-    refuse(document, shown + ", whose mesh or solid points differ",
-           "a run on the same mesh and points: the keys of [geometry], [mesh] and "
-           "points.solid_per_element as there");
+    refuse_source(document, shown + ", whose mesh or solid points differ",
+                  "a run on the same mesh and points: the keys of [geometry], [mesh] and "
+                  "points.solid_per_element as there");
   }
   FoundRestart found = newest_restart_point(folder, scene.formulation == Formulation::double_point,
                                             table_files(scene, earlier.mesh.region_names.size()));
