@@ -102,7 +102,8 @@ class StrengthReduction {
                                  .max_iterations = limits_.settling_iterations});
       soil.iterations += solution.iterations();
     } else {
-      soil.end = largest<Dim>(solution.displacement) > far ? Settling::runs_away : Settling::rests;
+      soil.end =
+          largest_length<Dim>(solution.displacement) > far ? Settling::runs_away : Settling::rests;
       soil.motion = solution.displacement;
       for (std::size_t i = 0; i < elastic_.size(); ++i) soil.motion[i] -= elastic_[i];
       soil.displacement = std::move(solution.displacement);
@@ -112,7 +113,7 @@ class StrengthReduction {
 
   void note(double factor, SettledSoil<Dim> soil) {
     StrengthTrial trial{.factor = factor,
-                        .displacement_max = largest<Dim>(soil.displacement) * stiffness_,
+                        .displacement_max = largest_length<Dim>(soil.displacement) * stiffness_,
                         .residual = soil.residual,
                         .iterations = soil.iterations};
     if (soil.end == Settling::rests) {
@@ -149,7 +150,7 @@ class StrengthReduction {
     equilibrium.set_pressure(pressure_);
     elastic_ =
         EquilibriumSolver<Dim>(equilibrium).solve(loads_, held_, limits_.newton).displacement;
-    const double first = largest<Dim>(elastic_);
+    const double first = largest_length<Dim>(elastic_);
     if (first > 0.0) {
       stiffness_ *= first / elastic_max_;
       for (Vector<Dim>& u : elastic_) u *= elastic_max_ / first;
