@@ -79,7 +79,8 @@ class SoilVolume {
     return result;
   }
 
-  [[nodiscard]] Exchange rate_now() const { return rate(0.0, erodible_ > 0.0); }
+  /// Of soil that has nothing left to erode but round-off, nothing erodes.
+  [[nodiscard]] Exchange rate_now() const { return rate(0.0, erodible_ > 0.0 && !is_bare(0.0)); }
   [[nodiscard]] Exchange integrated() const;
 
  private:

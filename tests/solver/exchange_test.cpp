@@ -219,6 +219,17 @@ TEST(Exchange, InLockedLiquidHasNoValue) {
   EXPECT_TRUE(std::isfinite(exchange_over(m, {n_0, n_0}, flow, 0.0, 1.0).into_liquid()));
 }
 
+/// The porosity at the end of erosion is a sum, whose last digits are round-off.
+TEST(ConstantErosion, EndsWithTheLastDigitsOfPorosity) {
+  const ExchangeModel m = that_erodes("constant", "time", 1e-3);
+  const double most = m.erosion.porosity_max;
+  const auto rate = [&](double left) {
+    return exchange_rate(m, {n_0, most - left}, flow_of(0.0, 0.0), 0.0).eroded;
+  };
+  EXPECT_GT(rate(1e-12), 0.0);
+  for (const double left : {2e-16, 1e-16, 0.0, -1e-16}) EXPECT_EQ(rate(left), 0.0) << left;
+}
+
 TEST(CriticalConcentration, StopsErosion) {
   ExchangeModel m = that_erodes("constant", "time", 1e-3);
   m.erosion.critical_concentration = 0.1;
