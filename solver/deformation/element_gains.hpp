@@ -20,7 +20,7 @@ struct GainInput {
 /// Gain of each element, m3: the change of the smooth volumes, and a part of what they differed by
 /// before. That difference, which erosion at single points makes and the start, goes as the soil
 /// moves by an element: it is multiplied by 1 - travel, or less where an element would come to have
-/// less solid than none. So soil that stays in place changes nothing. Gains of a piece add up to
+/// a negative solid volume. So soil that stays in place changes nothing. Gains of a piece add up to
 /// zero.
 std::vector<double> element_gains(const GainInput& input);
 

@@ -49,7 +49,7 @@ class LoadedSurface {
   void add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted, double pressure,
                     NodeVectors<Dim>& loads) const;
 
-  /// The same for a pressure that goes with the place, Pa: `pressure(x)`.
+  /// Adds a pressure that varies in space, Pa, `pressure(x)`, on the surface as it is now.
   template <class Pressure>
   void add_pressures(const Grid<Dim>& grid, const PointsByElement& sorted, const Pressure& pressure,
                      NodeVectors<Dim>& loads) const {

@@ -75,7 +75,8 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// A motion by more than this share of an element's height is refused: points would pass
   /// elements unseen.
   static constexpr double max_travel = 0.5;
-  /// The same in equilibrium that inertia is to follow: a slide must not pass within a long step.
+  /// Limit of the motion in an equilibrium that inertia is to follow, as a share of an element's
+  /// height: a slide must not pass within a long step.
   static constexpr double watched_travel = 0.05;
 
  private:
@@ -103,7 +104,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> moved_masses(const MotionForcing& forcing) const;
   /// Whether the soil is in equilibrium, and inertia is to follow when it is lost.
   [[nodiscard]] bool watches_failure() const;
-  /// Of the elements, m.
+  /// Mean size of the elements, m.
   [[nodiscard]] double mean_size() const;
   /// \param mass  what counts for inertia, kg per point
   [[nodiscard]] SoilExtent extent(const std::vector<double>& mass) const;
@@ -114,7 +115,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// V_e / E_oed, m3/Pa, in free water beside soil that of the softest soil; 0 elsewhere without
   /// soil that moves.
   [[nodiscard]] std::vector<double> drained_compressibility() const;
-  /// Of soil and the liquid in its pores, kg.
+  /// Mass of soil and the liquid in its pores, per node, kg.
   [[nodiscard]] std::vector<double> node_masses() const;
   /// Throws EquilibriumLost where the step that is accepted leaves soil no pores.
   void check_pores() const;

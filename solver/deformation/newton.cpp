@@ -10,7 +10,7 @@ namespace {
 constexpr int max_halvings = 10;
 /// The residual must fall by this share of what the linear model promises (Armijo's rule).
 constexpr double enough = 1e-4;
-/// Of a linear system, relative to its right-hand side.
+/// Smallest accuracy asked of a linear solution, relative to its right-hand side.
 constexpr double best_accuracy = 1e-9;
 
 /// How well the linear system is solved, relative to its right-hand side: as the residual will fall

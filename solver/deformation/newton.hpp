@@ -50,7 +50,7 @@ class EquilibriumSolver {
   /// \param start       displacement to start from, m, which must be possible
   NewtonSolution<Dim> solve(const NodeVectors<Dim>& loads, NodeVectors<Dim> start,
                             const NewtonLimits& limits = {});
-  /// The same from rest, where displacements are prescribed.
+  /// Solves from rest with prescribed displacements.
   /// \param prescribed  displacement over the step in directions that are held, m; empty: none.
   ///                    What it says about free directions is not used.
   NewtonSolution<Dim> solve_prescribed(const NodeVectors<Dim>& loads,

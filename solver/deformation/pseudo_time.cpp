@@ -6,13 +6,13 @@
 namespace suffuse {
 namespace {
 
-/// Of the first step: soil that stays elastic comes half the way to rest in it.
+/// Length of the first step: soil that stays elastic comes half the way to rest in it.
 constexpr double first_length = 1.0;
 /// Steps shorter than this, which elastic soil would not notice, are given up.
 constexpr double least_length = 1e-4;
 /// The defect of a step, over the forces out of balance at its start.
 constexpr double step_accuracy = 0.03;
-/// Of the linear systems, relative to their right-hand side.
+/// Accuracy of linear solutions, relative to their right-hand side.
 constexpr double linear_accuracy = 3e-3;
 constexpr int max_step_iterations = 8;
 /// Steps become as long as takes about so many iterations: that is least work in all.

@@ -16,7 +16,7 @@ std::vector<double> values(const std::vector<Field>& fields, const std::string& 
   return found == fields.end() ? std::vector<double>() : found->values;
 }
 
-/// The same of so many things.
+/// Values of a field, of which there must be `count`. Throws FileError otherwise.
 std::vector<double> values(const std::vector<Field>& fields, const std::string& name,
                            std::size_t count) {
   std::vector<double> result = values(fields, name);

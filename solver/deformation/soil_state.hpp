@@ -7,8 +7,8 @@
 
 namespace suffuse {
 
-/// What the factor of safety depends on, besides the strength of the soils. Stresses are not among
-/// it: the factor does not depend on them.
+/// What the factor of safety depends on, in addition to the strength of the soils. Stresses are not
+/// among it: the factor does not depend on them.
 template <int Dim>
 struct SoilState {
   double time = 0.0;                 ///< s: when loads act on the boundaries

@@ -26,7 +26,7 @@ struct SolidPoints {
 
   std::vector<Vector<Dim>> position;  ///< m
   std::vector<int> element;           ///< that holds the point
-  /// Of soil with its pores at the start, m3: the volume to which Kirchhoff stress refers.
+  /// Volume of soil with its pores at the start, m3: Kirchhoff stress refers to it.
   std::vector<double> reference_volume;
   std::vector<double> volume;  ///< today, m3
   /// Elastic left Cauchy-Green tensor: the stress follows from it.

@@ -27,8 +27,8 @@ class StepEquilibrium {
   /// \param pressure  of the pores, per element, Pa; empty: none
   bool solve(const NodeVectors<Dim>& loads, std::vector<double> pressure,
              std::vector<double> stiffness = {});
-  /// The same slowly, through a pseudo-time, where Newton's method alone does not find it: in sand
-  /// without cohesion.
+  /// Finds the displacement slowly, through a pseudo-time, where Newton's method alone does not
+  /// find it: in sand without cohesion.
   bool settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
               const SettlingLimits& limits);
   /// Inertia over a step of `duration`, s; nodes go on as they go, to start from.
@@ -36,7 +36,7 @@ class StepEquilibrium {
   /// Goes back to the start of the step: the stress of the points has changed.
   void restart();
 
-  /// Of the last solution, m.
+  /// Displacement of the last solution, m.
   [[nodiscard]] const NodeVectors<Dim>& displacement() const { return displacement_; }
   /// Iterations of Newton's method that it took.
   [[nodiscard]] int iterations() const { return iterations_; }

@@ -25,7 +25,7 @@ double largest_length(const NodeVectors<Dim>& vectors) {
   return result;
 }
 
-/// Of the smallest element, m.
+/// Size of the smallest element, m.
 template <int Dim>
 double element_size(const Grid<Dim>& grid) {
   return std::pow(std::ranges::min(grid.volume), 1.0 / Dim);

@@ -22,8 +22,9 @@ void add_normal(std::vector<Vector<Dim>>& normals, const Vector<Dim>& normal) {
   normals.push_back(normal);
 }
 
-/// The direction of what a vector has across `count` orthonormal ones; zero where that is little.
-/// Of the axes, which it serves to choose, enough have much across any directions.
+/// Direction of the part of `v` that is normal to `count` orthonormal vectors; zero where that part
+/// is small. For any such vectors, enough of the axes, among which it serves to choose, have a
+/// large one.
 template <int Dim>
 Vector<Dim> direction_across(const Eigen::Matrix<double, Dim, Dim>& directions, int from, int count,
                              Vector<Dim> v) {

@@ -14,7 +14,7 @@ namespace suffuse {
 template <int Dim>
 using NodeVectors = std::vector<Vector<Dim>>;
 
-/// Of all components.
+/// Euclidean norm of all components.
 template <int Dim>
 double norm(const NodeVectors<Dim>& vectors) {
   double sum = 0.0;

@@ -46,7 +46,7 @@ class WrittenSnapshots {
       : folder_("suffuse-estimate"), writer_(folder_.path().string(), c) {}
 
   [[nodiscard]] ResultsWriter<Dim>& writer() { return writer_; }
-  /// Of what a run writes once, and of the tables, bytes.
+  /// Size of what a run writes once, and of the tables, bytes.
   [[nodiscard]] double size_without_snapshots() const {
     double sum = 0.0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
@@ -56,7 +56,7 @@ class WrittenSnapshots {
     }
     return sum;
   }
-  /// Of the state of a run, bytes.
+  /// Size of the state of a run, bytes.
   [[nodiscard]] double state_size() const { return state_size_; }
   [[nodiscard]] double seconds() const { return seconds_; }
 
@@ -75,7 +75,7 @@ class WrittenSnapshots {
     state_size_ = size_of(path_of(layout::state(samples_.size())));
     samples_.emplace_back(index, bytes);
   }
-  /// Of the last snapshot that was written; -1 before.
+  /// Index of the last snapshot that was written; -1 before the first.
   [[nodiscard]] long last() const { return samples_.empty() ? -1 : samples_.back().first; }
 
   /// All `count` snapshots, bytes: linear in between, and those to come like the last.
@@ -224,7 +224,7 @@ class Trial final : public OutputSink<Dim> {
                                          : by_time * course_.seconds_per_step();
   }
 
-  /// Of computing, s.
+  /// Time spent on computing, s.
   [[nodiscard]] double seconds() const { return watch_.seconds() - seconds_of_writing_; }
 
   void write_sample(long index, const FlowState<Dim>& flow) {

@@ -35,7 +35,7 @@ constexpr double steps_after_kink = 4.0;
 /// The share of the time that is spent on the pilot, and that of it on the former kind of steps.
 constexpr double share_of_pilot = 0.7;
 constexpr double share_of_control = 0.45;
-/// With time for fewer of the run's own steps there are none of the former kind.
+/// If there is time for fewer of the run's own steps, steps of the former kind are left out.
 constexpr double worth_control = 40.0;
 /// States that are kept at most.
 constexpr std::size_t most_places = 16;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a run keeps beside its loop. It is part of the state of the run: listed once, for the run
-/// that goes on and for one that starts from the last state of another.
+/// What a run keeps in addition to its loop. It is part of the state of the run: listed once, for
+/// the run that goes on and for one that starts from the last state of another.
 
 #include <string>
 #include <vector>

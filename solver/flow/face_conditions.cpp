@@ -79,7 +79,7 @@ std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
   return varying;
 }
 
-/// Of the faces of a case: heights against gravity and areas of boundaries.
+/// Heights of the faces of a case against gravity, and areas of its boundaries.
 template <int Dim>
 class Outside {
  public:

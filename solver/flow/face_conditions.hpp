@@ -38,7 +38,7 @@ struct FaceCondition {
   }
 };
 
-/// What the condition of a face depends on beside its boundary's entry in the scene.
+/// What the condition of a face depends on in addition to its boundary's entry in the scene.
 struct FaceSurroundings {
   double unit_weight = 0.0;  ///< pressure per head: rho_w |g|, with 9.81 m/s2 without gravity, N/m3
   bool gravity = false;
@@ -62,8 +62,8 @@ class BoundaryValues {
 
   /// Per face of the grid, at a time in s.
   [[nodiscard]] std::vector<FaceCondition> at(double time) const;
-  /// The same in place: `conditions` come from `at` or `face_conditions` of the same case, at any
-  /// time. Changes only faces of boundaries whose values change in time.
+  /// Sets `conditions`, which `at` or `face_conditions` made of this case for any time, to those at
+  /// `time`. Changes only faces of boundaries whose values change in time.
   void update(double time, std::vector<FaceCondition>& conditions) const;
   /// Sets concentrations alone to those at `time`. Liquid that enters over an interval has the
   /// concentration at its middle, which is the mean where the concentration is linear.

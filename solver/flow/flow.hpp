@@ -18,7 +18,8 @@ struct FlowCoefficients {
   std::vector<double> water_volume;     ///< pore volume minus fluidised fines, m3
   std::vector<double> mixture_density;  ///< rho_L, kg/m3
   std::vector<double> drag;             ///< on the liquid, divided by n_L, kg/(m3 s)
-  /// Of fast flow: b in the pressure gradient b |q| q, kg/m4 (Ergun). Empty where no soil has it.
+  /// Drag of fast flow: b in the pressure gradient b |q| q, kg/m4 (Ergun). Empty where no soil has
+  /// it.
   std::vector<double> quadratic_drag;
   std::vector<double> face_concentration;  ///< per face: c of the liquid that crosses it
 
@@ -30,8 +31,8 @@ struct FlowCoefficients {
 /// What went through the faces of the grid over an interval of time, along each face's normal.
 struct FaceVolumes {
   std::vector<double> liquid;  ///< volume of liquid, m3
-  /// The same weighted with rho_w / rho_w0 - 1 of the water that crossed: what tells water's mass
-  /// from its reference volume.
+  /// Volume of liquid weighted with rho_w / rho_w0 - 1 of the water that crossed, m3: added to
+  /// `liquid`, it gives the mass of water over rho_w0.
   std::vector<double> density_excess;
 };
 

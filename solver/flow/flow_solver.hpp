@@ -110,7 +110,7 @@ class FlowSolver {
   [[nodiscard]] const BoundaryValues<Dim>& boundary_values() const { return boundary_values_; }
   [[nodiscard]] const FlowCoefficients<Dim>& coefficients() const { return coefficients_; }
 
-  /// What limits the length of a coupling interval besides erosion and transport.
+  /// What limits the length of a coupling interval in addition to erosion and transport.
   struct CouplingLimits {
     bool one_transport_step = false;  ///< an interval holds at most one step of transport
     /// The flow uses the forecast of the pores; else they may open by little within an interval.
@@ -126,7 +126,7 @@ class FlowSolver {
   /// Makes the state at the start of the run: at rest or steady, as the scene says. Adds a warning
   /// where this mesh cannot resolve the flow. `update` comes first.
   virtual void start() = 0;
-  /// The same with the pressures, fluxes and air of another run on this mesh.
+  /// Starts with the pressures, fluxes and air of another run on this mesh.
   virtual void start_from(const EarlierFlow<Dim>& earlier) = 0;
   /// This flow for another run.
   [[nodiscard]] EarlierFlow<Dim> last_flow(double time) const {
@@ -147,7 +147,7 @@ class FlowSolver {
   [[nodiscard]] virtual const std::vector<double>& pressure() const = 0;
   /// Volume of air per element, m3; empty where all soil is saturated.
   [[nodiscard]] virtual std::vector<double> air() const { return {}; }
-  /// The same in the share of each side of an element.
+  /// Volume of air in the share of each side of an element, m3; empty where all soil is saturated.
   [[nodiscard]] virtual ElementField<Dim> air_at_sides() const { return {}; }
   /// Makes pressures follow the masses of water, which are what is conserved (single-point): at
   /// once, or over the next steps. `water_mass` per element, kg; `time` in s.
@@ -171,9 +171,9 @@ class FlowSolver {
   /// pressures and speeds, errors.
   void describe(const FlowState<Dim>& state, HistoryRow& row) const;
 
-  /// Of the power that drives the flow of `state`, through boundaries and by gravity, what the
-  /// weight of the fines in the liquid gives; negative where the flow lifts them. 0 of liquid at
-  /// rest.
+  /// Share of the power that drives the flow of `state`, through boundaries and by gravity, that
+  /// the weight of the fines in the liquid gives; negative where the flow lifts them. 0 of liquid
+  /// at rest.
   [[nodiscard]] double fines_weight_share(const FlowState<Dim>& state) const;
 
   /// Adds a warning where soil without a retention is under suction, once; `time` in s. Without
@@ -187,7 +187,7 @@ class FlowSolver {
       double time, const PoreState& pores, const std::vector<double>& face_concentration) const;
   /// Times at which erosion starts or ends or a boundary value has a kink, ascending, s.
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
-  /// Of these the times at which boundary values or loads have a kink, s, ascending.
+  /// Breakpoints at which boundary values or loads have a kink, ascending, s.
   [[nodiscard]] const std::vector<double>& kinks() const { return kinks_; }
   /// The first breakpoint after `start`, or `latest` where that comes first, s.
   [[nodiscard]] double next_breakpoint(double start, double latest) const;

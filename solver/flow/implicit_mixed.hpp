@@ -57,12 +57,11 @@ struct FlowForcing {
   std::vector<FaceCondition> conditions;  ///< per face
   /// Per element: liquid that leaves it beyond what it stores, m3/s. Empty where there is none.
   std::vector<double> source;
-  /// Per element: liquid that it stores beside as its mean pressure rises, m3/Pa. Empty where there
-  /// is none.
+  /// Additional storage per element, with its mean pressure, m3/Pa. Empty where there is none.
   std::vector<double> mean_storage = {};
-  /// Per element: how well it conducts liquid beside, m3 s/kg, as the gradient of its pressure
-  /// departs from that with `expected_rise`, per face, Pa, over the start of the step. Empty where
-  /// there is none; not with quadratic drag.
+  /// Additional mobility per element from the soil's inertia, m3 s/kg: it acts on the difference of
+  /// the pressure gradient from that with `expected_rise`, per face, Pa, over the start of the
+  /// step. Empty where there is none; not with quadratic drag.
   std::vector<double> mean_mobility = {};
   std::vector<double> expected_rise = {};
 };
@@ -78,8 +77,8 @@ struct MixedStep {
   MixedState<Dim> end;
   std::vector<double> face_volume;  ///< over the step, along each face's normal, m3
   std::vector<double> face_flux;    ///< at the end, likewise, m3/s
-  /// The same without what faces with a prescribed pressure store of it in their share of an
-  /// element: that jumps where the pressure has a kink in time, this does not.
+  /// `face_flux` without what faces with a prescribed pressure store in their share of an element:
+  /// that jumps where the pressure has a kink in time, this does not.
   std::vector<double> flux_through;
 };
 
@@ -113,7 +112,7 @@ class ImplicitMixed {
   void follow(FlowSoils<Dim> soils) { soils_ = std::move(soils); }
   /// Steady state, without inertia and storage: face_flux as rates; face_volume stays empty.
   MixedStep<Dim> steady(const FlowForcing<Dim>& forcing);
-  /// The same with every soil saturated at any pressure: a flow as large as it can be.
+  /// Steady state with every soil saturated at any pressure: a flow as large as it can be.
   MixedStep<Dim> saturated_steady(const FlowForcing<Dim>& forcing);
 
   /// Air in the elements at these pressures, m3. `porosity` per element.
@@ -125,10 +124,10 @@ class ImplicitMixed {
   [[nodiscard]] bool has_retention() const { return !ignore_retention_ && !soils_.saturated(); }
   /// Whether steps iterate over retention or seepage faces.
   [[nodiscard]] bool is_nonlinear() const { return has_retention() || !switching_.empty(); }
-  /// Of the last step: how often its system was solved.
+  /// Number of times that the system of the last step was solved.
   [[nodiscard]] int iterations() const { return iterations_; }
 
-  /// Of all calls so far.
+  /// Counts of linear solutions in all calls so far.
   [[nodiscard]] SolveCounts counts() const;
 
   /// What makes the next step start where this one would. `conditions` tell the kinds of faces.
@@ -157,8 +156,8 @@ class ImplicitMixed {
   struct Work {
     std::vector<double> resistance;  ///< linear, per flux, kg/(m3 s)
     Field drive;                     ///< without pressure, Pa/m
-    /// Of each face in this stage: those of the forcing, or with seepage faces as they are, a
-    /// pressure or a flux.
+    /// Condition of each face in this stage: that of the forcing, or for seepage faces a pressure
+    /// or a flux, as they are.
     const std::vector<FaceCondition>* conditions = nullptr;
     std::vector<FaceCondition> resolved;
     std::vector<double> storage;       ///< per face of the element, m3/(s Pa)
@@ -172,20 +171,20 @@ class ImplicitMixed {
     FacePressure pressure;
     Field flux;  ///< per element, m/s
     Field push;  ///< drive minus pressure gradient, Pa/m
-    // Of the air that gives way to liquid; empty where all soil is saturated.
+    // Air that gives way to liquid; empty where all soil is saturated.
     ElementField<Dim> side_storage;   ///< slope of the rate with pressure, m3/(s Pa)
     ElementField<Dim> gain;           ///< dk_r/dp at a side over k_r of the element, 1/Pa
     Eigen::VectorXd step;             ///< of Newton's method, per unknown, Pa
     ElementField<Dim> displaced;      ///< rate at the pressures of the reference, m3/s
     std::vector<int> level_elements;  ///< whose first face holds the level of a sealed piece
-    // Of the linear system.
+    // Linear system.
     Field face_push;                ///< what an element drives without the unknown rises, m/s
     std::vector<double> round_off;  ///< of it, m/s
     std::vector<double> known_rise;
     Eigen::VectorXd load;
     Eigen::VectorXd guess;
     Eigen::VectorXd tolerance;
-    // Of the fluxes through faces.
+    // Fluxes through faces.
     std::vector<double> conductance;
     std::vector<double> net_outflow;
   };
@@ -249,7 +248,7 @@ class ImplicitMixed {
   void find_face_flux(const MixedState<Dim>& base, double duration, const FlowForcing<Dim>& forcing,
                       Stage& stage);
 
-  // Of walls that let liquid through: wall_flow.cpp.
+  // Walls that let liquid through: wall_flow.cpp.
 
   /// Conductances of the walls of this stage.
   void find_wall_conductance();
@@ -261,7 +260,7 @@ class ImplicitMixed {
   [[nodiscard]] double wall_flux(const LeakyFace& wall, double out_of_left,
                                  double out_of_partner) const;
 
-  // Of retention and seepage faces: nonlinear_flow.cpp.
+  // Retention and seepage faces: nonlinear_flow.cpp.
 
   /// Iterates over pressures, conductivities and the set of seepage faces that let water out.
   void solve_nonlinear(const MixedState<Dim>& base, double duration,

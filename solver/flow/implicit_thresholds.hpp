@@ -19,7 +19,8 @@ struct ImplicitThresholds {
   double unsolved_shrinkage = 0.25;
   /// A step below this share of the run whose iteration does not converge ends the run.
   double min_unsolved_step = 1e-9;
-  /// The same where the soil has inertia: with it a shorter step is easier.
+  /// Share of the run below which such a step ends the run where the soil has inertia: with inertia
+  /// a shorter step is easier.
   double min_unsolved_inertial_step = 1e-12;
   /// The longest step of soil with inertia that may follow one, in lengths of that one.
   double inertial_growth = 1.5;

@@ -26,8 +26,8 @@ class MassRelaxation {
   /// The source that the mismatch asks for over steps of `dt`, m3/s per element. `filling_time`: in
   /// which the largest flux fills the smallest element, s; infinite at rest.
   [[nodiscard]] std::vector<double> wanted_source(double dt, double filling_time) const;
-  /// Of that the volume, in such a step, by which a mismatch falls, m3 per element; empty while
-  /// none has been observed.
+  /// Volume by which the mismatch falls in such a step, m3 per element; empty while none has been
+  /// observed.
   [[nodiscard]] std::vector<double> released(double dt, double filling_time) const;
   /// The source of the next step: the wanted one, or a part of the change towards it where the step
   /// is shorter than recent ones. A change that did not shrink with the step would be a jump that

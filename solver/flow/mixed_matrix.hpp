@@ -42,8 +42,8 @@ class MixedMatrix {
   [[nodiscard]] int unknown(int face) const { return unknown_[face]; }
 
   /// Values for a law and for the storage of each element at each of its faces, m3/(s Pa):
-  /// `storage` per element, and beside it `side_storage` per side of an element, and
-  /// `mean_storage` with the mean pressure of an element (both may be empty).
+  /// `storage` per element, in addition `side_storage` per side of an element, and `mean_storage`
+  /// with the mean pressure of an element (both may be empty).
   void assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage,
                 const ElementField<Dim>& side_storage = {},
                 const std::vector<double>& mean_storage = {});

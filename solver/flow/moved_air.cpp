@@ -28,8 +28,8 @@ void share_out(double missing, double room, ElementValues<Dim>& air) {
   for (double& side : air) side += sign * left / (Dim + 1);
 }
 
-/// Air takes the place that water and solid leave, to the last digit: where there is water. Where
-/// they need place, air that is there leaves it. `before`: at the start of the step; `liquid` has
+/// Sets the volume of air from the balance, exactly, where there is water: air fills what water and
+/// solid leave, and gives way to them where it is. `before`: at the start of the step; `liquid` has
 /// crossed the faces, m3.
 template <int Dim>
 void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,

@@ -33,7 +33,8 @@ class MovedAir {
   [[nodiscard]] double water(int face, double solid, const std::vector<double>& saturation) const;
 
  private:
-  /// Of the element that takes in what crosses a face along its normal by this, m3.
+  /// Value of `of_element` in the element that takes in `volume`, m3, which crosses a face along
+  /// its normal.
   [[nodiscard]] double taken_in(int face, double volume,
                                 const std::vector<double>& of_element) const;
 

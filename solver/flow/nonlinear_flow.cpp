@@ -18,15 +18,16 @@ namespace {
 constexpr int max_newton_iterations = 60;
 /// From here on the iteration of a step has to be nearer to the balance than at its start.
 constexpr int patient_iterations = 20;
-/// What is missing of the balance at a face may be this share of the largest flux, beside round-off
+/// The balance at a face may be missed by this share of the largest flux, in addition to round-off
 /// of what gravity drives and of the contents of the elements.
 constexpr double flux_accuracy = 1e-8;
 constexpr double round_off_units = 64.0;
-/// Where the iteration does not come nearer: round-off of what the pressures of an element drive.
+/// Looser tolerance when the iteration stagnates: in units of round-off of what the pressures of an
+/// element drive.
 constexpr double many_round_off_units = 512.0;
 /// From here on seepage faces open and close.
 constexpr double near_solution = 0.1;
-/// Of a step of Newton's method that is taken at least.
+/// Smallest share of a step of Newton's method that is taken.
 constexpr double min_share = 1.0 / 16.0;
 /// In an iteration, suction grows by this factor of itself and a metre at most.
 constexpr double max_suction_growth = 10.0;

@@ -12,16 +12,17 @@
 namespace suffuse {
 namespace {
 
-/// Of the compressibility of soil that cannot move sideways: with less, the iteration of undrained
-/// soil does not always end; with more it is slower (docs/theory.md, "Flow and motion").
+/// Fixed-stress storage, over the compressibility of soil that cannot move sideways: with less, the
+/// iteration of undrained soil does not always end; with more it is slower (docs/theory.md, "Flow
+/// and motion").
 constexpr double held_storage = 1.5;
-/// Of that storage where the mobility of soil with inertia stands for it: holds the level of the
-/// pressure.
+/// Share of that storage that stays where the mobility of soil with inertia replaces it: holds the
+/// level of the pressure.
 constexpr double beside_mobility = 1e-3;
 /// Air whose suction acts on the soil by no more than this share does not take part.
 constexpr double least_suction_share = 1e-3;
 constexpr int max_coupling_iterations = 40;
-/// Of water that hardly leaves, over the stiffness of soil that cannot move sideways.
+/// Stiffness of water that hardly leaves, over that of soil that cannot move sideways.
 constexpr double undrained_stiffness = 300.0;
 constexpr int memory = 20;
 /// The last step says how pressures change in the next, but for one that is so much longer.
@@ -32,16 +33,17 @@ constexpr double accuracy = 1e-7;
 /// strain: to that the solid is in equilibrium (`NewtonLimits`, `Equilibrium::least_strain`).
 constexpr double accuracy_of_pressure = 1e-7;
 constexpr double round_off_strain = 1e-12;
-/// Of soil that fails, relative to both: its pressures swing by more with each step.
+/// Accuracy with inertia, relative to the largest change plus the largest pressure: pressures of
+/// soil that fails swing by more with each step.
 constexpr double accuracy_in_motion = 1e-4;
-/// Of the time in which soil falls through an element: in equilibrium a shorter step is too short.
+/// Shortest step in equilibrium, over the time in which soil falls through an element.
 constexpr double short_step = 1e-2;
 
 double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;
 }
 
-/// Of the pressures of elements that act on the motion.
+/// Largest absolute pressure of the elements that act on the motion, Pa.
 double largest_of_soil(const std::vector<double>& pressure, const std::vector<double>& storage) {
   double result = 0.0;
   for (std::size_t e = 0; e < pressure.size(); ++e) {
@@ -268,7 +270,7 @@ std::vector<double> SolidCoupling<Dim>::source_of(const std::vector<double>& mov
                                                   const Eigen::VectorXd& rise, double dt) const {
   std::vector<double> source(grid_.mesh.element_count());
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
-    // What the element stores beside is that of pressures other than those tried.
+    // The fixed-stress storage acts only on the change from the pressure tried last.
     source[e] = (own.empty() ? 0.0 : own[e]) + storage[e] * rise[e] / dt;
     // Pores that open with the soil take liquid in.
     for (int k = 0; k <= Dim; ++k) {

@@ -35,8 +35,9 @@ class SolidCoupling {
                       const std::vector<double>& pressure, std::vector<double> porosity, double end,
                       double dt, FlowForcing<Dim> forcing);
 
-  /// A step has ended at `time`, s, and the next will be of `next_step`, s. Where an equilibrium
-  /// takes steps in which soil hardly falls, or passes as fast as soil falls, lets the soil fail.
+  /// A step has ended at `time`, s, and the next will be of `next_step`, s. If steps in equilibrium
+  /// get much shorter than the time of a fall, or soil moves as fast as it falls freely, inertia is
+  /// switched on.
   void watch_steps(double time, double next_step);
   /// What drives flow or motion changes at once: short steps follow for that reason.
   void expect_short_steps() { long_steps_ = false; }
@@ -44,19 +45,20 @@ class SolidCoupling {
   /// where the soil does not move.
   [[noreturn]] void refuse_unsolved(double time, const NotConverged& error) const;
 
-  /// Of all steps so far.
+  /// Iterations of all steps so far.
   [[nodiscard]] long iterations() const { return iterations_; }
 
   void archive(auto& archive) { archive(rise_rate_, rise_time_, iterations_, long_steps_); }
 
  private:
-  /// What elements store in the iteration beside their own, of the soil's compressibility, m3/Pa.
+  /// Storage of the elements in the iteration in addition to their own, of the soil's
+  /// compressibility, m3/Pa.
   [[nodiscard]] std::vector<double> held_by_soil(const FlowSoils<Dim>& soils,
                                                  const ElementField<Dim>& air,
                                                  const FlowForcing<Dim>& forcing,
                                                  const std::vector<double>& pressure,
                                                  double dt) const;
-  /// Of the pressure at faces in a step of `dt`, s, after those before it, Pa.
+  /// Expected rise of the pressure at faces in a step of `dt`, s, after the steps before it, Pa.
   [[nodiscard]] Eigen::VectorXd expected_rise(double dt) const;
 
   // What acts on the motion: not the pressure of free water, nor of soil that cannot move. There
@@ -65,14 +67,14 @@ class SolidCoupling {
   /// Means of the elements, of values at faces.
   [[nodiscard]] Eigen::VectorXd at_elements(const Eigen::VectorXd& of_faces,
                                             const std::vector<double>& storage) const;
-  /// Means of the elements beside a face.
+  /// Means of the elements on both sides of a face.
   [[nodiscard]] Eigen::VectorXd at_faces(const Eigen::VectorXd& of_elements,
                                          const std::vector<double>& storage) const;
   [[nodiscard]] Eigen::VectorXd rise_at_soil(const std::vector<double>& before,
                                              const std::vector<double>& after,
                                              const std::vector<double>& storage) const;
-  /// By so much pressures may differ that agree, Pa, where they rise by `rise` from `pressure`;
-  /// `floor`: by so much anyhow.
+  /// Largest pressure difference that counts as converged, Pa, where the largest rise is `rise` and
+  /// the largest pressure `pressure`, Pa; in equilibrium never below `floor`.
   [[nodiscard]] double allowed(double rise, double pressure, double floor) const;
   /// Where drained soil could not bear a load: the pressures if next to no water left, as a start.
   /// Throws NotConverged.

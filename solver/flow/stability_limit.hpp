@@ -20,12 +20,12 @@ struct StabilityLimit {
   int element = -1;
 };
 
-/// With M, C and A the matrices of mass, drag and compression, the scheme is stable while
-/// 4 M - 2 dt C - dt^2 A (explicit drag) or 4 M + 2 dt C - dt^2 A (implicit drag) is positive
-/// definite. Each is a sum over elements, so the smallest limit of one element is safe for the
+/// The scheme is stable while 4 M - 2 dt C - dt^2 A (explicit drag) or 4 M + 2 dt C - dt^2 A
+/// (implicit drag) is positive definite, where M, C and A are the matrices of mass, drag and
+/// compression. Each is a sum over elements, so the smallest limit of one element is safe for the
 /// grid. For one element A has the single eigenvalue omega_e^2 = (Dim + 1) (K / rho_L) sum n_i
-/// |grad N_i|^2 / n_w,e. The drag of fast flow counts at the speeds `node_speed`, m/s; none
-/// without.
+/// |grad N_i|^2 / n_w,e. The drag of fast flow counts at the speeds `node_speed`, m/s; if they are
+/// empty, it does not count.
 template <int Dim>
 StabilityLimit stability_limit(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                                const std::vector<double>& carried_porosity, double bulk_modulus,

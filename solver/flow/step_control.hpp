@@ -129,7 +129,7 @@ class StepControl {
   double planned_ = 0.0;    ///< length of the step at hand, before it was rejected, s
   bool shortened_ = false;  ///< the step at hand has been rejected before
   double accepted_error_ = 0.0;  ///< of the last step, over the tolerance
-  // Of its last rejected attempt.
+  // Last rejected attempt of the step at hand.
   double rejected_dt_ = 0.0;
   double rejected_error_ = 0.0;
 };

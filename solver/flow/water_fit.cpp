@@ -154,7 +154,8 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
         water_mass[e] / (liquid.density * density_ratio(pressure_[e], liquid.bulk_modulus));
     if (!(fills > 0.0)) this->refuse_dry(static_cast<int>(e), time);
     mismatch[e] = fills - volume[e];
-    // Of the pores: where fines leave next to no room for water, a share of it says nothing.
+    // The error is relative to the pores: where fines leave next to no room for water, one relative
+    // to the water says nothing.
     const double pores = this->coefficients_.porosity[e] * this->grid().volume[e];
     const double error = std::abs(mismatch[e]) / pores;
     if (error > eos_error_) {

@@ -31,7 +31,7 @@ class BoundaryAccounts {
 
   /// Masses that left through an outer face, kg; negative: entered.
   void book(int face, double water, double fines);
-  /// The same along the normals of all faces.
+  /// Books masses that crossed all faces along their normals, kg.
   void book(const std::vector<double>& water, const std::vector<double>& fines);
   /// Volumes of liquid along the faces' normals, m3, in one interval of the flow.
   void book_liquid(const std::vector<double>& volumes);

@@ -46,7 +46,7 @@ void DoublePoint<Dim>::start_liquid() {
     this->flow_->start();
     this->start_flux_history();
   };
-  // Of the explicit scheme, which is for triangles alone.
+  // The explicit scheme is for triangles alone.
   if constexpr (Dim == 2) {
     if (this->scene().flow.integration == PressureIntegration::material_point) {
       auto flow = std::make_unique<ExplicitFlow<Dim>>(c, this->grid_, *this->solid_, options);

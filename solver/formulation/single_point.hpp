@@ -29,9 +29,9 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
  private:
   [[nodiscard]] const Transport<Dim>& transport() const override { return *fines_; }
   [[nodiscard]] PoreState pores() const override;
-  /// The same with this air, m3 per element; empty where all soil is saturated.
+  /// Pores with this air, m3 per element; empty where all soil is saturated.
   [[nodiscard]] PoreState pores_with(std::vector<double> air_volume) const;
-  /// Of the liquid that crosses each face.
+  /// Concentration of the liquid that crosses each face.
   [[nodiscard]] std::vector<double> face_concentration() const {
     return fines_->face_concentration(this->time_, this->mean_face_rate());
   }

@@ -22,7 +22,7 @@ Vector<Dim> flux_at(const Grid<Dim>& grid, const std::vector<double>& face_flux,
   return result / (Dim * grid.volume[element]);
 }
 
-/// The same at the centroid of each element.
+/// Flux at the centroid of each element, in the unit of `face_flux` per area.
 template <int Dim>
 std::vector<Vector<Dim>> element_flux(const Grid<Dim>& grid, const std::vector<double>& face_flux) {
   std::vector<Vector<Dim>> result(grid.mesh.element_count());

@@ -59,8 +59,8 @@ struct ElementFlow {
     return bent < 1.0 ? straight * log_quotient(-bent) : never;
   }
 
-  /// Of the path from a place, m: exact where it is straight, else by Gauss' rule with three
-  /// places.
+  /// Length of the path from a place, m: exact where it is straight, otherwise by Gauss' rule with
+  /// three places.
   [[nodiscard]] double path_length(const Mesh<Dim>& mesh, int e,
                                    const std::array<double, Dim + 1>& from, double clock) const {
     constexpr double offset = 0.38729833462074168852;  // sqrt(3/5) / 2

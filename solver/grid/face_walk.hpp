@@ -17,8 +17,8 @@ struct FaceWalkField {
   const std::vector<double>& porosity_start;  ///< per element
   const std::vector<double>& porosity_end;    ///< per element
   bool all_passages = false;  ///< tell passages through pores that did not change too
-  /// Of the change of porosity, per element, what solid and liquid exchange. Null: all of it. The
-  /// rest is solid that moves, and liquid that crosses faces in its place.
+  /// Part of the change of porosity, per element, that solid and liquid exchange. Null: all of it.
+  /// The rest is solid that moves, and liquid that crosses faces in its place.
   const std::vector<double>* exchanged = nullptr;
 };
 

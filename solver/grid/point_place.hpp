@@ -46,8 +46,8 @@ void put_on_face(std::array<double, Count>& at, int vertex) {
   for (double& share : at) share /= sum;
 }
 
-/// The same place in the element on the other side of the inner face opposite local vertex
-/// `vertex`, on which it lies.
+/// Place of a point on the inner face opposite local vertex `vertex`, in the element on the other
+/// side of the face.
 template <int Dim>
 PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int vertex) {
   const int e = place.element;

@@ -27,7 +27,7 @@ class ConjugateGradients {
   /// within the limits; where not, `x` is worth nothing.
   bool solve(const SymmetricSystem& system, Factor& preconditioner, Eigen::VectorXd& x);
 
-  /// Of the last call of `solve`.
+  /// Iterations of the last call of `solve`.
   [[nodiscard]] int iterations() const { return iterations_; }
 
  private:

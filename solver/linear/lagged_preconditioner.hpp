@@ -35,12 +35,12 @@ constexpr bool prefers_multigrid(int dimension, int faces) {
 }
 /// The factor for the flow on such a mesh.
 std::unique_ptr<Factor> flow_factor(int dimension, int faces);
-/// The same for systems of Newton's method, whose matrix is another one each time.
+/// The factor for systems of Newton's method on such a mesh, whose matrix changes each time.
 std::unique_ptr<Factor> newton_factor(int dimension, int faces);
 
 /// When a matrix that has changed is factored anew. A factorisation costs about ten iterations.
 struct LagLimits {
-  /// Of one solution: where it would take more, or goes too slowly, the matrix is factored.
+  /// Limits of one solution: where it would take more, or goes too slowly, the matrix is factored.
   IterationLimits solution;
   /// After a solution that took more than this the next changed matrix is factored at once:
   /// matrices that drift drift on.

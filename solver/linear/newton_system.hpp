@@ -29,9 +29,9 @@ class NewtonSystem {
   void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
              Eigen::VectorXd& x, double accuracy = 1e-9);
 
-  /// The same for a tangent that is far from the symmetric matrix, of a problem whose next
-  /// iteration corrects what this one leaves: with a factor that is not exact, the residual may be
-  /// 1e-4 of the right-hand side.
+  /// Solves for a tangent that is far from the symmetric matrix, in a problem whose next iteration
+  /// corrects what this one leaves: with a factor that is not exact, the residual may be 1e-4 of
+  /// the right-hand side.
   void solve_tangent(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
                      Eigen::VectorXd& x);
 

@@ -79,7 +79,7 @@ class SoilVolume {
     return result;
   }
 
-  /// Of soil that has nothing left to erode but round-off, nothing erodes.
+  /// Rate of exchange at this moment. Nothing erodes where only round-off is left to erode.
   [[nodiscard]] Exchange rate_now() const { return rate(0.0, erodible_ > 0.0 && !is_bare(0.0)); }
   [[nodiscard]] Exchange integrated() const;
 
@@ -104,8 +104,8 @@ class SoilVolume {
     constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
     return std::abs(erodible_ - x) <= round_off;
   }
-  /// Whether erosion and deposition are even, and what is a little beside comes back: so it stays.
-  /// `x` becomes the place where they are.
+  /// Whether erosion and deposition balance, and small deviations from the balance shrink: so it
+  /// stays. `x` becomes the place of the balance.
   [[nodiscard]] bool find_balance(double& x, bool erodes) const;
 
   const ExchangeModel& model_;

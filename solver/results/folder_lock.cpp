@@ -90,7 +90,7 @@ FolderLock::FolderLock(const std::string& folder) {
 
 FolderLock::~FolderLock() {
   if (file_ < 0) return;
-  // Of one that was killed the name stays, of this one it does not.
+  // The name of a process that was killed stays in the file, that of this one does not.
   [[maybe_unused]] const int emptied = ::ftruncate(file_, 0);
   std::error_code ignored;
   if (made_folder_ && holds_one_file(folder_)) {

@@ -22,7 +22,7 @@ inline constexpr const char* boundaries = "boundaries.csv";
 inline constexpr const char* probes = "probes.csv";
 inline constexpr const char* sections = "sections.csv";
 inline constexpr const char* snapshots = "snapshots";
-/// Of a run that was stopped between snapshots.
+/// State of a run that was stopped between snapshots.
 inline constexpr const char* checkpoint = "checkpoint.hdf";
 /// Held by the solver that writes into the folder.
 inline constexpr const char* lock = ".lock";
@@ -57,7 +57,7 @@ inline std::string state(std::size_t index) {
   return snapshot("state", index);
 }
 
-/// Groups of a snapshot file beside /VTKHDF.
+/// Groups of a snapshot file in addition to /VTKHDF.
 inline constexpr const char* own_group = "/Suffuse";
 /// Names of the regions, in the order of their numbers.
 inline constexpr const char* region_names = "/Suffuse/region_names";

@@ -126,7 +126,7 @@ std::vector<std::string> cells_of(const Table& table, std::size_t row) {
   return cells;
 }
 
-/// With commas; `second`, unless it is empty, comes behind the first cell.
+/// Joins `cells` with commas; `second`, unless it is empty, comes behind the first cell.
 std::string joined(const std::vector<std::string>& cells, const std::string& second) {
   std::string line;
   for (std::size_t k = 0; k < cells.size(); ++k) {

@@ -41,7 +41,7 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
 
 /// Writes numbers so that they read back exactly. `-` is standard output.
 void write_table(const std::string& path, const Table& table);
-/// The same of tables of equal columns, row by row, with the column `by` in the second place.
+/// Writes tables of equal columns, row by row, with the column `by` in the second place.
 void write_tables(const std::string& path, const std::string& by,
                   const std::vector<NamedTable>& tables);
 

@@ -24,11 +24,11 @@ struct RestartPoint {
   std::vector<std::uint8_t> state;  ///< the solver's business; empty: not kept
 };
 
-/// 16 hexadecimal digits that tell one from another.
+/// Digest of a restart point: 16 hexadecimal digits that tell one from another.
 std::string digest_of(const RestartPoint& point);
 
-/// The same of everything in a case that must not change while a run lasts: mesh, points and all
-/// keys of the scene but those of `keys_that_may_change`.
+/// Digest of everything in a case that must not change while a run lasts: mesh, points and all keys
+/// of the scene but those of `keys_that_may_change`.
 template <int Dim>
 std::string digest_of(const Case<Dim>& c);
 
@@ -36,15 +36,15 @@ std::string digest_of(const Case<Dim>& c);
 inline constexpr std::array<const char*, 3> keys_that_may_change{"time.end", "output.restarts",
                                                                  "output.precision"};
 
-/// The same of its mesh and points alone.
+/// Digest of a case's mesh and points alone.
 template <int Dim>
 std::string digest_of_model(const Case<Dim>& c);
 
-/// Into `/Suffuse/restart`, which must not be there yet.
+/// Writes to `/Suffuse/restart`, which must not be there yet.
 void write_restart_point(Hdf5File& file, const RestartPoint& point);
 
-/// Of one file; nothing where the file keeps no state. Throws FileError where what it keeps is
-/// damaged or was written by a version whose state this one does not know.
+/// Reads the restart point of one file; nothing where the file keeps no state. Throws FileError
+/// where what it keeps is damaged or was written by a version whose state this one does not know.
 std::optional<RestartPoint> read_restart_point(const std::string& path);
 
 /// What `newest_restart_point` found.

@@ -15,7 +15,8 @@ struct RunRecord {
   std::string model;                            ///< digest of mesh and points
 };
 
-/// Of a results folder. What the file does not have keeps its default. Throws FileError.
+/// Reads the record of a results folder. What the file does not have keeps its default. Throws
+/// FileError.
 RunRecord read_run_record(const std::string& folder);
 
 }  // namespace suffuse

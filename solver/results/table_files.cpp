@@ -29,7 +29,7 @@ std::string values_of(const Row& row, const Columns& columns) {
   return line;
 }
 
-/// With `cells` behind the first column.
+/// Inserts `cells` behind the first column of `line`.
 std::string with_second(std::string line, const std::string& cells) {
   return line.insert(line.find(','), ',' + cells);
 }

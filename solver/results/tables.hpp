@@ -60,7 +60,7 @@ struct HistoryRow {
   double conductivity_ratio = 0.0;
   double power = 0.0;   ///< that water spends on the soil, W
   double energy = 0.0;  ///< since the start, J: of the power in the rows, linear in between
-  // Of a skeleton that moves; else 0.
+  // Motion of the skeleton; 0 where it does not move.
   double settlement_max = 0.0;  ///< largest displacement along gravity, or down in y without it, m
   double displacement_max = 0.0;  ///< m
   /// What makes the solid's flux fit its volumes, over the flux of its motion, in the last step.
@@ -69,10 +69,10 @@ struct HistoryRow {
   double inertia = 0.0;  ///< forces of inertia over the loads, in the last step; 0 in equilibrium
   double failure_time = 0.0;  ///< when the soil lost its equilibrium last, s; 0: never, or at t = 0
 
-  // No columns: what the checks of the run ask for besides.
+  // No columns: further values that the checks of the run ask for.
   std::string concentration_max_at;  ///< the element of `concentration_max`
   std::string volume_defect_at;      ///< the element of `volume_defect`; empty where there is none
-  /// Of the power that drives the flow, what the weight of the fines in the liquid gives.
+  /// Share of the power that drives the flow that the weight of the fines in the liquid gives.
   double fines_weight_share = 0.0;
 };
 

@@ -45,8 +45,8 @@ struct VtkFields {
 /// component, as VTK wants of a vector; their attribute `components` keeps what they had.
 void write_vtkhdf(Hdf5File& file, VtkGrid grid, const VtkFields& fields);
 
-/// The same with links to the grid of the file `grid_file` beside it, and to its fields of cells,
-/// which are `linked`.
+/// Writes the group /VTKHDF with links to the grid of the file `grid_file`, in the same folder, and
+/// to its fields of cells, which are `linked`.
 void write_vtkhdf_on(Hdf5File& file, const std::string& grid_file,
                      const std::vector<std::string>& linked, const VtkFields& fields);
 
@@ -56,7 +56,7 @@ void write_vtkhdf_on(Hdf5File& file, const std::string& grid_file,
 /// `_`.
 void write_region_names(Hdf5File& file, const std::vector<std::string>& names);
 
-/// Links to them in the grid file beside.
+/// Links to the names of the regions in the file `grid_file`, in the same folder.
 void link_region_names(Hdf5File& file, const std::string& grid_file,
                        const std::vector<std::string>& names);
 

@@ -62,7 +62,7 @@ std::string dump(const OrderedJson& json) {
 /// The field of the elements that no snapshot changes.
 constexpr const char* region_field = "region";
 
-/// Files that a run writes beside run.json and the lock.
+/// Files that a run writes in addition to run.json and the lock.
 bool is_own_file(const std::string& name) {
   static const std::regex own(
       R"((case\.h5|checkpoint\.hdf|(history|ledger|regions|boundaries|probes|sections)\.csv|(mesh|solid|liquid)\.hdf\.series)(\.tmp)?|\.case\.\d+\.part\.h5)");

@@ -97,7 +97,7 @@ class ResultsWriter {
   /// Makes the folder, replacing a run of the same case that stood there before, and copies what a
   /// reader needs of the case. Throws as `lock_for_results` does.
   ResultsWriter(const std::string& folder, const Case<Dim>& c);
-  /// The same with the lock in hand, replacing any run.
+  /// Makes the folder with the lock in hand, replacing any run.
   ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock);
   /// Goes on with the run that stands there: drops what came after `point`.
   ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock,

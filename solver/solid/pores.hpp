@@ -24,7 +24,8 @@ struct PoreState {
 template <int Dim>
 ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>& soils);
 
-/// The same now: with what the solid points have given since.
+/// Pore volume per element and field node now, m3: with what the solid points have given since the
+/// start.
 template <int Dim>
 ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid);
 

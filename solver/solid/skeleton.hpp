@@ -61,13 +61,13 @@ struct SolidMotion {
   /// an element is what its soil grows by, V_e (J - 1), and what the bubbles of its faces carry
   /// (docs/theory.md). 0 between elements without soil.
   std::vector<double> face_volume;
-  /// Of that the solid itself, m3 (s_f), and what each element gains by it, m3. Empty until the
-  /// motion is accepted.
+  /// Volume of the solid itself that crosses each face, m3 (s_f), and what each element gains by
+  /// it, m3. Empty until the motion is accepted.
   std::vector<double> solid_face_volume;
   std::vector<double> solid_gain;
   int iterations = 0;   ///< of Newton's method, in the last try
   double travel = 0.0;  ///< largest displacement over the height of an element there
-  /// Of s_f, what makes it balance over what the motion carries; of accepted motions.
+  /// Correction that makes s_f balance, over what the motion carries; of accepted motions.
   double solid_correction = 0.0;
 };
 
@@ -131,7 +131,7 @@ class Skeleton {
 
   virtual void archive(StateArchive& archive) = 0;
 
-  // Of a skeleton that moves. The others stay in place, and nobody asks them for more.
+  // Only moving skeletons use this.
 
   [[nodiscard]] virtual bool moves() const { return false; }
   /// Times at which what loads the solid has a kink, s.

@@ -132,7 +132,7 @@ class ElementBalance {
 
   const SoilMap<Dim>& soils_;
   std::array<SideMatrices, Dim + 1> by_side_;
-  // Of the element that is solved.
+  // Values of the element that is solved.
   int begin_ = 0;
   int end_ = 0;
   bool exchanges_ = false;

@@ -58,7 +58,8 @@ class ElementSides {
     }
     return result;
   }
-  /// The same of each face, along its normal, from what leaves through the sides of all elements.
+  /// Sets `result` to what crosses each face along its normal, from what leaves through the sides
+  /// of all elements.
   void at_faces(const ElementField<Dim>& outflow, int threads, std::vector<double>& result) const;
 
  private:

@@ -104,7 +104,8 @@ class EulerianTransport {
   void agree_at_walls(std::vector<double>& concentration) const;
   /// Range of the means of the elements around a node.
   [[nodiscard]] ConcentrationRange range_around(int node, const std::vector<double>& mean) const;
-  /// The same with what enters there, or may go on as it comes where liquid leaves.
+  /// Range at a node of the boundary: with the elements across a wall, with what enters there, and
+  /// wider where liquid leaves.
   [[nodiscard]] ConcentrationRange range_at_boundary(const OuterNode& outer,
                                                      const TransportScratch<Dim>& scratch) const;
 

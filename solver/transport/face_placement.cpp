@@ -23,8 +23,9 @@ double share_along(double at_begin, double at_end, double u) {
   return sum > 0.0 ? u * (at_begin + at_end) / sum : u;
 }
 
-/// The same along a line from a corner of a triangle to the side opposite, on which the flux counts
-/// the more the further from the corner, as lines part there.
+/// Where the share `u` of a flux has passed along a line from a corner of a triangle to the
+/// opposite side, on which the flux counts the more the further from the corner, as lines part
+/// there.
 double share_from_corner(double at_corner, double at_side, double u) {
   if (at_corner == at_side) return std::sqrt(u);
   const double passed = u * (at_corner + 2.0 * at_side);

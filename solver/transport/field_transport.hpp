@@ -50,7 +50,7 @@ class FieldTransport final : public Transport<Dim> {
 
   /// The liquid that is there when the run starts: without this air, m3 per element.
   void start(const std::vector<double>& air);
-  /// The same as another run left it.
+  /// Starts with the liquid as another run left it.
   void start_from(const FinesState<Dim>& earlier) { state_ = earlier; }
   [[nodiscard]] const FinesState<Dim>& state() const { return state_; }
   /// Mean concentration of the liquid that would cross each face at these volumes.

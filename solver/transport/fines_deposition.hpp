@@ -31,16 +31,16 @@ class FinesDeposition {
   /// step; the masses of `uptakes`, kg, have been added since, and become net ones here.
   void leave_along_paths(const std::vector<double>& fines_before,
                          std::vector<FinesUptake<Dim>>& uptakes, LiquidPoints<Dim>& points);
-  /// The same for points whose paths are not known: they lie where their element's liquid has moved
-  /// by `passed` (m: volume per area since the start of the step) in pores of `porosity`.
+  /// Takes fines from points whose paths are not known: they lie where their element's liquid has
+  /// moved by `passed` (m: volume per area since the start of the step) in pores of `porosity`.
   void leave_in_elements(const std::vector<Vector<Dim>>& passed,
                          const std::vector<double>& porosity, PointBlocks<Dim>& points);
 
   /// What the step left, per solid point, m3; empty: nothing.
   [[nodiscard]] const std::vector<double>& deposited() const { return deposited_; }
-  /// The same by the region of the soil, kg.
+  /// Fines that the step left, by the region of the soil, kg.
   [[nodiscard]] const std::vector<double>& by_region() const { return by_region_; }
-  /// By the region whose liquid lost it, kg.
+  /// Fines that the step left, by the region whose liquid lost them, kg.
   [[nodiscard]] const std::vector<double>& lost_by_region() const { return lost_by_region_; }
 
  private:

@@ -37,7 +37,7 @@ class FinesTransfer {
                   LiquidDensities densities, PointBlocks<Dim>& points,
                   std::vector<double>& pending) const;
 
-  /// The same for points that moved while porosity grew: instead of phi_e V_p / n_L each point by
+  /// Hands fines to points that moved while porosity grew: instead of phi_e V_p / n_L each point by
   /// itself takes up `own_volume` of each of its `uptakes`, and the comparison gives each uptake
   /// its mass. By `element`, what an element eroded is shared in proportion to the uptakes there.
   /// `points`, in any order, are where they ended; `point_volume`: their liquid volumes, m3.

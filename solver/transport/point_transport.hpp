@@ -63,8 +63,8 @@ class PointTransport : public Transport<Dim> {
   [[nodiscard]] virtual LiquidContent content() const = 0;
   /// Mean concentration of the points in each element; 0 where there is none.
   [[nodiscard]] std::vector<double> element_concentration() const;
-  /// The same at the middle of the step to come, as it went in the last one (of second order),
-  /// below `most`.
+  /// Mean concentration of each element at the middle of the step to come, as it went in the last
+  /// one (of second order), below `most`.
   [[nodiscard]] std::vector<double> concentration_ahead(double most) const;
   /// Whether fines wait at nodes for liquid.
   [[nodiscard]] bool has_pending() const;
@@ -131,7 +131,8 @@ class PointTransport : public Transport<Dim> {
   std::vector<double> pending_;
   double empty_total_ = 0.0;
   RegionCrossings crossings_;
-  /// Of the elements a step ago, where the exchange of fines depends on it; otherwise empty.
+  /// Concentration of the elements a step ago, where the exchange of fines depends on it; otherwise
+  /// empty.
   std::vector<double> concentration_before_;
   PassTiming fines_timing_{"transfer of fines", 0, 0.0};
   PassTiming movement_timing_{"movement of liquid points", 0, 0.0};

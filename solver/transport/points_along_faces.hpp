@@ -69,7 +69,7 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   [[nodiscard]] Paths follow(const std::vector<double>& volume,
                              const std::vector<double>& porosity_end,
                              const std::vector<double>& pressure);
-  /// The same for one point; appends what it takes up.
+  /// Moves one point; appends what it takes up.
   void follow_point(int p, double start, const FaceWalkField<Dim>& field, double pressure,
                     std::vector<FacePassage<Dim>>& passages, Paths& paths,
                     std::vector<FinesUptake<Dim>>& uptakes);
@@ -88,7 +88,7 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   std::vector<double> mean_fines_;  ///< at the start of the step
   std::vector<int> begins_;         ///< points of each element
   std::vector<double> porosity_;    ///< per element, at the start of the step
-  // Of solid that moves; else empty.
+  // Motion of the solid; empty where it does not move.
   std::vector<double> opening_;         ///< change of porosity by motion in the interval
   std::vector<double> solid_porosity_;  ///< that the solid has after its motion, without the last
                                         ///< exchange

@@ -66,12 +66,12 @@ class PointsCarryingFlow final : public PointTransport<Dim>, private FlowCarrier
 
   ExplicitFlow<Dim>& flow_;
   CarriedPoints<Dim> points_;
-  /// The same sorted for outputs; made when asked for, empty once the points change.
+  /// Points sorted for outputs; made when asked for, empty once the points change.
   mutable LiquidPoints<Dim> output_points_;
   std::vector<double> porosity_;  ///< per element, in the middle of the interval
   PassTiming exchange_timing_{"exchange of points and nodes", 0, 0.0};
 
-  // Of one step; kept, so that steps allocate nothing.
+  // Values of one step; kept, so that steps allocate nothing.
   std::vector<double> pressure_before_;  ///< per element, that the step started with, Pa
   VectorField<Dim> node_flux_;           ///< m/s
   std::vector<double> entered_;          ///< per open face, m3

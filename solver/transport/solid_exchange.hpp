@@ -27,7 +27,7 @@ class SolidExchange {
   [[nodiscard]] const Skeleton<Dim>& solid() const { return solid_; }
   /// The flow at the solid points in the interval.
   [[nodiscard]] const PointFlows& flows() const { return flows_; }
-  /// The same with the liquid as it lies now.
+  /// The flow at the solid points with the liquid as it lies now.
   const PointFlows& find_flows() {
     if (depends_on_concentration()) find_liquid_(flows_);
     return flows_;

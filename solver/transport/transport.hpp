@@ -29,7 +29,7 @@ class Transport {
   /// Longest step of transport at these volumes through faces per second (m3/s, along each face's
   /// normal), s.
   [[nodiscard]] virtual double longest_step(const std::vector<double>& face_rate) const = 0;
-  /// The same if transport is explicit, s.
+  /// Longest step of explicit transport at these volumes, s.
   [[nodiscard]] virtual double longest_explicit_step(const std::vector<double>& face_rate) const {
     return longest_step(face_rate);
   }

@@ -18,7 +18,7 @@ struct DriveLaw {
   std::string_view equation;   ///< D, for the scene reference
   std::string_view symbol;     ///< in equations
   std::string_view unit = {};  ///< of the threshold
-  /// Of `rate`, so that rate times drive has 1/s.
+  /// Unit of `rate`, so that rate times drive has 1/s.
   std::string_view rate_unit;
   /// D depends on how well the soil conducts, and so on its porosity.
   bool depends_on_conductivity = false;

@@ -35,7 +35,8 @@ struct ErosionLaw {
   /// Porosity after a scaled time; may be above where nothing is left to erode. Null: no closed
   /// form, as the state depends on what is in the liquid.
   double (*porosity_after)(const LocalState& state, double scaled_time) = nullptr;
-  /// The same by another way where `porosity_after` is not a closed form; else null.
+  /// Porosity after a scaled time, found another way where `porosity_after` is not a closed form;
+  /// otherwise null.
   double (*exact_porosity)(const LocalState& state, double scaled_time) = nullptr;
   /// Scaled time until nothing is left to erode. Null: fines never run out.
   double (*exhaustion)(const LocalState& state) = nullptr;
@@ -110,13 +111,13 @@ double erosion_rate(const ErosionModel& model, double porosity, double time, dou
 /// of erosion and at exhaustion, so the length of the interval costs no accuracy.
 double porosity_after(const ErosionModel& model, double porosity, double from, double to,
                       double flux_from, double flux_to);
-/// The same under one |q|.
+/// Porosity at time `to` under a constant |q|: `flux`, m/s.
 inline double porosity_after(const ErosionModel& model, double porosity, double from, double to,
                              double flux) {
   return porosity_after(model, porosity, from, to, flux, flux);
 }
 
-/// The same at time `time`, from the law's exact solution; not a number where the law has none, or
+/// Porosity at time `time` from the law's exact solution; not a number where the law has none, or
 /// depends on a flux that is unset.
 double exact_porosity(const ErosionModel& model, double initial_porosity, double time, double flux);
 

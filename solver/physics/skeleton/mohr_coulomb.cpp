@@ -26,8 +26,8 @@ struct Limit {
         strength(2.0 * p.cohesion * std::cos(p.friction)),
         elastic(elastic_matrix(p)) {}
 
-  /// Of the plane of a pair: (1 + s) tau_i - (1 - s) tau_j = strength for s = sin phi. Plastic flow
-  /// has the same form with s = sin psi.
+  /// Normal of the plane of a pair: (1 + s) tau_i - (1 - s) tau_j = strength for s = sin phi.
+  /// Plastic flow has the same form with s = sin psi.
   [[nodiscard]] static Vector3d normal(int i, int j, double s) {
     Vector3d result = Vector3d::Zero();
     result[i] = 1.0 + s;

@@ -14,7 +14,7 @@ struct SkeletonLaw;
 /// A number that goes with the share of the erodible fines that is left, 1 at the start: linear
 /// between pairs, constant beyond the first and the last.
 struct FinesFunction {
-  /// The same at any share. Implicit: a plain number is the usual value.
+  /// One value at all shares. Implicit: a plain number is the usual value.
   FinesFunction(double value = 0.0) : pairs{{1.0, value}} {}  // NOLINT(google-explicit-constructor)
   /// \param all  share and value, at least one pair; shares strictly ascend, or strictly descend
   explicit FinesFunction(std::vector<std::pair<double, double>> all);

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr int most_iterations = 30;
 constexpr int most_halvings = 5;  ///< of one step of Newton's method
-/// Of the way to a target. Strength is found to this.
+/// Smallest step, as a share of the way to a target. Strength is found to this accuracy.
 constexpr double smallest_share = 1.0 / 16384.0;
 
 Matrix3d tensor_of(const PlaneComponents& c) {
