@@ -86,7 +86,7 @@ LoadedSurface<Dim>::LoadedSurface(const Grid<Dim>& grid, const PointsByElement& 
   }
 }
 
-/// From an element without soil, through the faces that look most against the surface's normal.
+/// Goes from an element without soil through the faces that look most against the surface's normal.
 template <int Dim>
 PointPlace<Dim> LoadedSurface<Dim>::carrier(const Grid<Dim>& grid, const PointsByElement& sorted,
                                             int place) const {

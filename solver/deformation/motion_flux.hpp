@@ -28,8 +28,8 @@ template <int Dim>
 class FaceBubbles {
  public:
   /// Keeps references.
-  /// \param inertia  mass per element over the square of the step's length, N/m: beside the
-  ///                 stiffness a, the bubble is slow. Empty: no inertia.
+  /// \param inertia  mass per element over the square of the step's length, N/m: adds to the
+  ///                 stiffness a and slows the bubble. Empty: no inertia.
   FaceBubbles(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step,
               const std::vector<double>& inertia = {});
 

@@ -83,7 +83,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// Laws and numbers of the points with the fines that they will have at the end of the step.
   [[nodiscard]] std::vector<PointSkeleton> skeletons() const;
   [[nodiscard]] PointSkeleton skeleton_of(int point, double fines_left) const;
-  /// That an erodible volume, m3, is of the one at the start.
+  /// `erodible_volume`, m3, as a share of the erodible volume at the start.
   [[nodiscard]] double share_left(int point, double erodible_volume) const;
   [[nodiscard]] std::vector<double> solid_volumes() const;
   /// `smooth_volumes` of what the points have, m3.

@@ -20,7 +20,7 @@ struct NodalMotion {
 /// Velocity at the place of a point, and its gradient. What a point extrapolates to the nodes keeps
 /// its momentum. One factor per point scales the gradient so that this stays within the velocities
 /// that the point and the nodes of its element had after the last step: a point that has come into
-/// another element would else throw its surface forward.
+/// another element would otherwise throw its surface forward.
 template <int Dim>
 class PointVelocities {
  public:

@@ -40,7 +40,7 @@ struct SettledSoil {
 /// (pseudo-transient continuation: Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508; its use
 /// for soil: Griffiths and Lane, Geotechnique 49 (1999) 387, with viscoplastic strains). For a
 /// perfectly plastic body of associated flow the path is that of steepest descent of a convex
-/// energy: it ends at an equilibrium where there is one, and else the forces that no stress can
+/// energy: it ends at an equilibrium where there is one; otherwise the forces that no stress can
 /// balance make displacements grow in proportion to t. Soil that does not dilate as it rubs has no
 /// such energy, but the same two ends.
 template <int Dim>

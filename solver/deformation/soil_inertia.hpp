@@ -15,7 +15,7 @@ struct SoilExtent {
   double load = 0.0;    ///< its weight, or the loads of all nodes where there is no gravity, N
   double height = 0.0;  ///< along gravity, m
 
-  /// In which its loads would move it by its height, s.
+  /// Time in which its loads would move it by its height, s.
   [[nodiscard]] double time_of_fall() const;
 };
 

@@ -36,9 +36,9 @@ struct SoilFields {
 };
 SoilFields soil_fields(bool moves);
 
-/// By how much the strength of the soils can be divided in this state, under their weight and the
-/// loads of the scene at that time. Loaded surfaces have moved with the soil. Throws NumericalError
-/// when nothing holds the soil.
+/// Largest divisor of the strength of the soils that leaves this state an equilibrium, under their
+/// weight and the loads of the scene at that time. Loaded surfaces have moved with the soil. Throws
+/// NumericalError when nothing holds the soil.
 template <int Dim>
 SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                 const SoilState<Dim>& state, int threads,

@@ -40,7 +40,7 @@ class StepEquilibrium {
   [[nodiscard]] const NodeVectors<Dim>& displacement() const { return displacement_; }
   /// Iterations of Newton's method that it took.
   [[nodiscard]] int iterations() const { return iterations_; }
-  /// Where the last one was none: the node at which forces are out of balance most.
+  /// Node at which forces are out of balance most, where the last solution failed.
   [[nodiscard]] int worst_node() const { return worst_node_; }
   [[nodiscard]] const PointsByElement& sorted() const { return sorted_; }
   [[nodiscard]] const ElementClasses& classes() const { return classes_; }

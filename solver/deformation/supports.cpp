@@ -23,8 +23,8 @@ void add_normal(std::vector<Vector<Dim>>& normals, const Vector<Dim>& normal) {
 }
 
 /// Direction of the part of `v` that is normal to `count` orthonormal vectors; zero where that part
-/// is small. For any such vectors, enough of the axes, among which it serves to choose, have a
-/// large one.
+/// is small. Used to choose among the axes: enough of them have a large such part, whatever the
+/// vectors.
 template <int Dim>
 Vector<Dim> direction_across(const Eigen::Matrix<double, Dim, Dim>& directions, int from, int count,
                              Vector<Dim> v) {

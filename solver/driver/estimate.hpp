@@ -16,7 +16,7 @@ struct TrialBudget {
   double seconds = 1.2;
   double share = 1.0;               ///< of the simulated time
   double ahead = 3.8;               ///< to look at the rest of the run
-  double ahead_if_expensive = 7.0;  ///< the same where steps take long
+  double ahead_if_expensive = 7.0;  ///< to look at the rest where steps take long
   double patience = 9.5;            ///< for all of it; steps that take longer are broken off
 };
 

@@ -18,7 +18,7 @@ void check_finite(const HistoryRow& row) {
   }
 }
 
-/// To two digits.
+/// `value` rounded to two digits.
 std::string rounded_value(double value) {
   std::ostringstream text;
   text.precision(2);

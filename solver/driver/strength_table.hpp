@@ -13,7 +13,7 @@ struct StrengthReductionOptions {
   std::string state;         ///< results folder; empty: the start of the case
   std::string time;          ///< of the state, s; "all": every snapshot; empty: the last
   std::string output = "-";  ///< CSV; `-`: standard output
-  /// VTKHDF: how the soil fails, on the mesh; empty: none. Of one state only.
+  /// VTKHDF: how the soil fails, on the mesh; empty: none. Only for one state.
   std::string mechanism;
   int threads = 1;
   bool quiet = false;  ///< no sentences on standard error, but warnings

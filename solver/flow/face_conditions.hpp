@@ -18,7 +18,7 @@ enum class FaceKind : unsigned char {
   velocity,  ///< value: intrinsic liquid velocity into the model, m/s
   flux,      ///< value: Darcy flux into the model, m/s
   /// Air outside: p <= 0, and a Darcy flux of at most `value` (m/s, >= 0) into the model; at least
-  /// one of the two at its limit. Zero: a seepage face; else rain.
+  /// one of the two at its limit. Zero: a seepage face; otherwise rain.
   seepage,
 };
 

@@ -32,7 +32,7 @@ struct FlowCoefficients {
 struct FaceVolumes {
   std::vector<double> liquid;  ///< volume of liquid, m3
   /// Volume of liquid weighted with rho_w / rho_w0 - 1 of the water that crossed, m3: added to
-  /// `liquid`, it gives the mass of water over rho_w0.
+  /// `liquid`, and times 1 - c, it gives the mass of water over rho_w0.
   std::vector<double> density_excess;
 };
 

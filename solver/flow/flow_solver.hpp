@@ -113,7 +113,8 @@ class FlowSolver {
   /// What limits the length of a coupling interval in addition to erosion and transport.
   struct CouplingLimits {
     bool one_transport_step = false;  ///< an interval holds at most one step of transport
-    /// The flow uses the forecast of the pores; else they may open by little within an interval.
+    /// The flow uses the forecast of the pores; otherwise they may open by little within an
+    /// interval.
     bool follows_pores = false;
   };
   [[nodiscard]] virtual CouplingLimits coupling_limits() const = 0;

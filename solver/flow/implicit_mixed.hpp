@@ -97,7 +97,7 @@ class ImplicitMixed {
   [[nodiscard]] std::vector<double> stages() const;
 
   /// One step of `dt` seconds; forcing[i] at stages()[i]. Faces keep their kind of condition from
-  /// call to call (else everything is set up anew). At faces with a prescribed pressure the end
+  /// call to call (otherwise all is set up anew). At faces with a prescribed pressure the end
   /// state holds that. Water stores (water_volume / K) dp/dt with the volume of each stage. Where
   /// water does not compress and no pressure is prescribed the first face of the piece has p = 0,
   /// and prescribed inflow and sources must cancel. Throws NumericalError when they do not, when an

@@ -28,9 +28,9 @@ void share_out(double missing, double room, ElementValues<Dim>& air) {
   for (double& side : air) side += sign * left / (Dim + 1);
 }
 
-/// Sets the volume of air from the balance, exactly, where there is water: air fills what water and
-/// solid leave, and gives way to them where it is. `before`: at the start of the step; `liquid` has
-/// crossed the faces, m3.
+/// Sets the volume of air from the balance, exactly: at sides with water, air fills the room that
+/// water and solid leave; at sides with air, it leaves the room that they need. `before`: at the
+/// start of the step; `liquid` has crossed the faces, m3.
 template <int Dim>
 void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
                 const std::vector<double>& porosity, const std::vector<double>& liquid,

@@ -24,7 +24,7 @@ class MovedAir {
 
   /// Solid and water, m3: what is left of the soil without its air.
   [[nodiscard]] double without_air(int face) const { return solid_[face] + water_[face]; }
-  /// By how much the pores of an element grow as that solid leaves it, m3.
+  /// Growth of the pores of an element as that solid leaves it, m3.
   [[nodiscard]] double pores_gained(int e) const;
   /// Water that crosses a face as solid does, m3: with what crosses beyond the solid assumed here,
   /// as much water goes the other way as the element that takes it in has in its pores.

@@ -120,7 +120,7 @@ void ImplicitMixed<Dim>::linearise_retention(const MixedState<Dim>& base, double
     const double of_darcy = conducts / w.resistance[e];
     set_mobility(e, of_darcy);
     for (int k = 0; k <= Dim; ++k) {
-      // By differences over a little of the suction: at saturation the slope may be infinite.
+      // The slope is a difference over a little of the suction: at saturation it may be infinite.
       const double p = pressure[grid_.element_face[e][k]];
       const double near = 1.0 + 1e-3 * std::abs(p);  // Pa
       const double rise =

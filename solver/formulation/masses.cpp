@@ -16,7 +16,7 @@ double relative(double residual, double initial, double entered) {
   return all > 0.0 ? residual / all : residual;
 }
 
-/// From what is stored, what crossed and what was stored at the start.
+/// Row of the ledger, from what is stored, what crossed and what was stored at the start.
 LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
                      const Stored& initial) {
   LedgerRow row;

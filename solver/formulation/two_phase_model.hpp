@@ -37,7 +37,8 @@ class TwoPhaseModel {
   TwoPhaseModel& operator=(const TwoPhaseModel&) = delete;
 
   /// Takes the last state of another run in the place of its own at the start; the clock stays at 0
-  /// and the accounts start with these masses. Of the same formulation, mesh and solid points.
+  /// and the accounts start with these masses. Both runs have the same formulation, mesh and solid
+  /// points.
   virtual void start_from(const EarlierState<Dim>& earlier) = 0;
   /// This state for another run.
   [[nodiscard]] virtual EarlierState<Dim> last_state() const = 0;

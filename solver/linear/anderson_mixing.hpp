@@ -13,7 +13,7 @@ class AndersonMixing {
   /// Remembers so many iterations.
   explicit AndersonMixing(int depth) : depth_(depth) {}
 
-  /// From x and g(x): where to go on.
+  /// Next place of the iteration, from x and g(x).
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& g);
 
  private:

@@ -68,7 +68,7 @@ struct SoilPlace {
 enum class LiquidMotion : std::uint8_t {
   stays,     ///< in its place: what is exchanged changes its concentration
   flows_on,  ///< it is renewed at one concentration
-  passes     ///< the same, and what is caught is found along its path, elsewhere (double-point)
+  passes     ///< as `flows_on`; what is caught is found along its path, elsewhere (double-point)
 };
 
 /// The liquid at a place over a step. What no law asks for may stay unset.
@@ -95,10 +95,10 @@ struct Exchange {
 Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double time);
 
-/// What is exchanged between `from` and `to` (s). Exact, or to
-/// about 1e-13, where neither depends on the fines in the liquid; else integrated to 1e-11. The
-/// drive goes linearly from its value at the start to the one at the end, with the porosity there.
-/// Fines in the liquid do not become less than none, nor porosity more than what can erode leaves.
+/// What is exchanged between `from` and `to` (s). Exact, or to about 1e-13, where neither depends on
+/// the fines in the liquid; otherwise integrated to 1e-11. The drive goes linearly from its value at
+/// the start to the one at the end, with the porosity there. Fines in the liquid do not become
+/// negative, nor porosity more than what can erode leaves.
 Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double from, double to);
 

@@ -33,7 +33,7 @@ class StateArchive {
   /// Makes room for so many bytes to be collected.
   void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
 
-  /// Whether members are given their values; else they are asked for them.
+  /// Whether members are given their values; otherwise they are asked for them.
   [[nodiscard]] bool restores() const { return restores_; }
 
   /// Throws FileError when what was collected does not fit what is asked for.

@@ -54,8 +54,8 @@ struct HistoryRow {
   double turbidity_out = 0.0;      ///< mass of fines per volume of the leaving liquid, g/l
   double eroded = 0.0;             ///< grains eroded since the start, kg
   double fines_out = 0.0;          ///< grains that left through the boundaries since the start, kg
-  double fines_out_percent = 0.0;  ///< the same in % of the fines at the start
-  double solid_out_percent = 0.0;  ///< the same in % of the solid at the start, the dry mass
+  double fines_out_percent = 0.0;  ///< `fines_out` in % of the fines at the start
+  double solid_out_percent = 0.0;  ///< `fines_out` in % of the solid at the start, the dry mass
   /// Conductivity of all soil over that at the start (SeepagePower); 0 where nothing flows.
   double conductivity_ratio = 0.0;
   double power = 0.0;   ///< that water spends on the soil, W

@@ -34,7 +34,7 @@ struct PointFlows {
     return {std::max(0.0, mean + slope * (from - middle)),
             std::max(0.0, mean + slope * (to - middle))};
   }
-  /// At a point in `element` from `from` to `to`, s, a part of the interval.
+  /// Flow at a point in `element` from `from` to `to`, s, a part of the interval.
   [[nodiscard]] PlaceFlow at(int point, int element, double from, double to) const;
 };
 

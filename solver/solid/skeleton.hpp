@@ -53,7 +53,7 @@ struct MotionForcing {
 
 /// How the skeleton moves in a step.
 struct SolidMotion {
-  /// Whether an equilibrium was found; else the step must be shorter.
+  /// Whether an equilibrium was found; otherwise the step must be shorter.
   bool converged = true;
   /// Where none was found: the node at which forces are out of balance most; -1: not known.
   int worst_node = -1;
@@ -153,7 +153,7 @@ class Skeleton {
   }
   /// Largest modulus of soil that cannot move sideways, Pa.
   [[nodiscard]] virtual double stiffness() const { return 0.0; }
-  /// By how much tractions change in the run, from that at the start, Pa.
+  /// Largest change of tractions in the run, from those at the start, Pa.
   [[nodiscard]] virtual double largest_load_change() const { return 0.0; }
   /// The equilibrium at the end of a step, from its start, without changing the state. To ask again
   /// with other pressures starts from the last answer.
@@ -170,7 +170,7 @@ class Skeleton {
   [[nodiscard]] virtual bool has_inertia() const { return false; }
   /// Whether soil in equilibrium moved so fast in the last step that it would have fallen.
   [[nodiscard]] virtual bool slides() const { return false; }
-  /// In which soil falls through an element of mean size, s; 0 without gravity.
+  /// Time in which soil falls through an element of mean size, s; 0 without gravity.
   [[nodiscard]] virtual double time_of_fall() const { return 0.0; }
   /// Longest step from now on, s.
   [[nodiscard]] virtual double longest_step() const {

@@ -102,7 +102,7 @@ class ElementBalance {
   /// What transport adds to an element's fines at its nodes, per m3 that leaves through a side.
   struct SideMatrices {
     Matrix inside;      ///< by c at the nodes, where liquid enters there
-    Matrix outflow;     ///< the same where it leaves
+    Matrix outflow;     ///< by c at the nodes, where liquid leaves
     SideMatrix inflow;  ///< by c at the nodes of the side, where it enters
   };
 

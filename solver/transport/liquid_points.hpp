@@ -18,7 +18,7 @@ struct LiquidPoints {
   std::vector<double> water_mass;  ///< kg, constant
   std::vector<double> fines_mass;  ///< kg
   std::vector<long> id;            ///< of this point for ever
-  /// Only where points carry the flow (material-point integration), else empty.
+  /// Only where points carry the flow (material-point integration), otherwise empty.
   std::vector<double> pressure;       ///< Pa
   std::vector<Vector<Dim>> velocity;  ///< m/s
 

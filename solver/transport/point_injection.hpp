@@ -36,7 +36,7 @@ struct InjectionSettings {
   std::vector<double> point_volume;  ///< per face: liquid volume of one point, m3
   /// Per face: points that fill the element behind it.
   std::vector<int> points_per_element;
-  /// Points of one element's volume of inflow come at random times in it; else evenly.
+  /// Points of one element's volume of inflow come at random times in it; otherwise evenly.
   bool random = false;
   int seed = 1;
 };

@@ -16,7 +16,7 @@ constexpr double least = 0.1;
 constexpr double most_retry = 0.9;
 constexpr double unsolved = 0.25;
 constexpr double safety = 0.85;
-/// Share of the run: what comes within it counts as nothing.
+/// What comes in over this share of the run counts as nothing.
 constexpr double passing_share = 1e-6;
 /// A step that misses the end by less than this share of itself ends there.
 constexpr double end_margin = 1e-9;
