@@ -95,10 +95,10 @@ struct Exchange {
 Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double time);
 
-/// What is exchanged between `from` and `to` (s). Exact, or to about 1e-13, where neither depends on
-/// the fines in the liquid; otherwise integrated to 1e-11. The drive goes linearly from its value at
-/// the start to the one at the end, with the porosity there. Fines in the liquid do not become
-/// negative, nor porosity more than what can erode leaves.
+/// What is exchanged between `from` and `to` (s). Exact, or to about 1e-13, where neither depends
+/// on the fines in the liquid; otherwise integrated to 1e-11. The drive goes linearly from its
+/// value at the start to the one at the end, with the porosity there. Fines in the liquid do not
+/// become negative, nor porosity more than what can erode leaves.
 Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double from, double to);
 
