@@ -40,7 +40,7 @@ void add_entities(GmshModel& model, int dimension) {
   for (const auto& [ignored, tag] : pairs) {
     GmshEntity entity{dimension, tag, {}, elements_of(dimension, tag)};
     std::array<double, 6>& box = entity.box;
-    // Of nothing, Gmsh has no box.
+    // Gmsh has no bounding box for an entity without elements.
     if (!entity.elements.empty())
       gmsh::model::getBoundingBox(dimension, tag, box[0], box[1], box[2], box[3], box[4], box[5]);
     model.entities.push_back(std::move(entity));

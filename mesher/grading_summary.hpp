@@ -12,7 +12,7 @@ namespace suffuse {
 /// for each check. Empty when there is none.
 std::string grading_summary(const SceneDocument& document);
 
-/// The same for `--check`, which says so when no soil has a gradation.
+/// `grading_summary` for `--check`; a sentence says so when no soil has a gradation.
 std::string grading_report(const SceneDocument& document);
 
 }  // namespace suffuse

@@ -17,8 +17,8 @@ namespace suffuse {
 
 namespace {
 
-/// Of an element, relative to the longest edge to the power of the dimension; in a triangle an
-/// angle of about 1e-10 degrees.
+/// Smallest volume of an element, relative to its longest edge to the power of the dimension; a
+/// triangle has an angle of about 1e-10 degrees then.
 constexpr double smallest_volume = 1e-12;
 /// Relative to the diagonal of the mesh.
 constexpr double same_place = 1e-9;

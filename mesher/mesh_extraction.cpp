@@ -24,7 +24,7 @@ using Tag = std::size_t;
 
 /// Relative to the diagonal of the mesh.
 constexpr double out_of_plane = 1e-9;
-/// Of a coordinate, m: areas are products of two, and their squares are still numbers.
+/// Largest coordinate, m: the square of an area, a product of four lengths, is still finite.
 constexpr double max_coordinate = 1e50;
 /// Characters.
 constexpr std::size_t longest_name = 127;

@@ -90,7 +90,8 @@ class UniformNumbers {
   std::mt19937_64 engine_;
 };
 
-/// Of a positive number, by Newton's method: libraries differ in the last bit of std::cbrt.
+/// Cube root of a positive number by Newton's method: std::cbrt differs between libraries in the
+/// last bit.
 double cube_root(double x) {
   double root = std::max(1.0, x);
   for (;;) {
@@ -244,7 +245,7 @@ double liquid_volume(const Mesh<Dim>& mesh, const Scene& scene, int element) {
   return porosity * element_volume(mesh, element);
 }
 
-/// Of an element in the regions whose soil `counts`; 0 when there is none.
+/// Mean liquid volume of the elements whose soil `counts`, m3; 0 when there is none.
 template <int Dim, class Counts>
 double mean_liquid_volume(const Mesh<Dim>& mesh, const Scene& scene, Counts counts) {
   double sum = 0.0;

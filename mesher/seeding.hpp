@@ -37,7 +37,7 @@ std::vector<QuadraturePoint<3>> gauss_rule<3>(int count);
 template <int Dim>
 MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const PointSettings& settings);
 
-/// The same in the elements of soil; free water gets none.
+/// Solid points in the elements of soil; free water gets none.
 template <int Dim>
 MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const Scene& scene);
 

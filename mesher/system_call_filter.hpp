@@ -37,7 +37,7 @@ class WritesToMemory {
   WritesToMemory(const WritesToMemory&) = delete;
   WritesToMemory& operator=(const WritesToMemory&) = delete;
   ~WritesToMemory();
-  /// Of the file in memory, to be read.
+  /// Path by which the file in memory is read.
   [[nodiscard]] std::string path() const;
 
  private:

@@ -25,7 +25,7 @@ class Gradation {
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] const std::vector<GradationPoint>& points() const { return points_; }
 
-  /// Of the first point, mm and per cent.
+  /// Size, mm, and percentage of the first point.
   [[nodiscard]] double smallest_size() const { return points_.front().size; }
   [[nodiscard]] double smallest_finer() const { return points_.front().finer; }
 

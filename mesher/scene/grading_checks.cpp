@@ -100,7 +100,7 @@ double split_ratio(const Gradation& gradation, double u, End end) {
 double search_limit(const Gradation& gradation) {
   constexpr double wide = 20.0;
   constexpr double narrow = 30.0;
-  // Of what is coarser than at F = 30 %, D60 and D10 are sizes of the whole at 72 % and 37 %.
+  // D60 and D10 of the grains coarser than at F = 30 % are sizes of the whole at 72 % and 37 %.
   const auto of_coarse = [](double finer) { return narrow + finer * (100.0 - narrow) / 100.0; };
   if (gradation.smallest_finer() > of_coarse(10.0)) return narrow;
   const double uniformity =
@@ -133,7 +133,7 @@ std::optional<FinesContent> fines_content(const Gradation& gradation) {
     }
   }
   if (!found) return std::nullopt;
-  // Of the sizes of a gap the finest, which the fines have.
+  // The finest size of the gap, which is the largest size of the fines.
   return FinesContent{found->finer, gradation.size(found->finer), found->ratio(), at_limit};
 }
 

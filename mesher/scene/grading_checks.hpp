@@ -64,9 +64,9 @@ GradingVerdict check_wan_fell(const Gradation& gradation);
 /// All of them, in this order.
 std::vector<GradingVerdict> check_grading(const Gradation& gradation);
 
-/// Three digits: gradations are not known better.
+/// A number in three digits: gradations are not known better.
 std::string three_digits(double value);
-/// The same of a percentage, with its sign.
+/// A percentage in three digits, with its sign.
 std::string percent_text(double value);
 
 /// `stable`, `unstable` or `cannot be told`; `stable above 5 %` where what is finer is not given.

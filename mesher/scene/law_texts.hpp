@@ -49,11 +49,12 @@ std::vector<ConductivityParameter> conductivity_parameters();
 /// Words of the conductivity laws that ask for this key.
 std::vector<std::string> laws_with_conductivity_parameter(std::string_view key);
 
-/// The same of the retention laws.
+/// Every parameter that some retention law asks for, and the words of the laws that ask for a key.
 std::vector<RetentionParameter> retention_parameters();
 std::vector<std::string> laws_with_retention_parameter(std::string_view key);
 
-/// The same of the laws of the skeleton.
+/// Every parameter that some law of the skeleton asks for, and the words of the laws that ask for a
+/// key.
 std::vector<SkeletonParameter> skeleton_parameters();
 std::vector<std::string> laws_with_skeleton_parameter(std::string_view key);
 

@@ -171,7 +171,7 @@ struct BoundaryCondition {
   bool seepage_face = false;  ///< air outside: lets water out at p = 0, none in
   /// Volume flux that enters as far as the soil takes it in at p = 0, m/s.
   std::optional<TimeFunction> rain;
-  /// Of a well: volume of liquid per second that enters through all its faces, m3/s per m, in
+  /// Rate of a well: volume of liquid that enters through all its faces per second, m3/s per m, in
   /// three dimensions m3/s.
   std::optional<TimeFunction> rate;
   std::optional<TimeFunction> concentration;  ///< c of the liquid that enters
@@ -246,7 +246,8 @@ struct Scene {
   std::array<double, 3> gravity{};  ///< m/s2
   InitialFlow initial_flow = InitialFlow::rest;
   std::string initial_from;  ///< results folder whose last state is the initial one; may be empty
-  /// Of the liquid at rest, m above the datum: as given, or that of the head boundaries at t = 0.
+  /// Level of the liquid at rest, m above the datum: as given, or the head of the boundaries at
+  /// t = 0.
   std::optional<double> water_level;
   /// K_0: horizontal over vertical effective stress at the start; unset: equilibrium under gravity.
   std::optional<double> earth_pressure;
@@ -290,8 +291,8 @@ struct SceneDocument {
 /// problem found otherwise.
 SceneDocument read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// The same from text already at hand, with the texts of the files that the scene names; `path` is
-/// used in messages only.
+/// Reads and checks a scene whose text and files are already in memory; `path` is used in messages
+/// only.
 SceneDocument parse_scene(const std::string& text, const std::string& path,
                           const std::vector<std::string>& overrides = {},
                           const std::map<std::string, std::string>& files = {});

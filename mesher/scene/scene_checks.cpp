@@ -15,7 +15,7 @@
 namespace suffuse {
 namespace {
 
-/// Of each table. More is likelier a slip than intent, and would fill the disk.
+/// Largest number of rows of a table. More is probably a mistake, and would fill the disk.
 constexpr double max_rows = 1e6;
 
 class Checks : private SceneCheckBase {

@@ -8,13 +8,13 @@ namespace {
 
 using namespace declaration;
 
-/// Of the liquid's viscosity.
+/// A member of the liquid's viscosity model.
 template <class Member>
 auto in_viscosity(Member ViscosityModel::*member) {
   return at(&Scene::liquid, &LiquidProperties::viscosity_model, member);
 }
 
-/// A number of rows of elements beside the specimen.
+/// A number of rows of elements next to the specimen.
 auto rows(int LayerSettings::*member) {
   return at(&Scene::geometry, &GeometrySettings::layers, member);
 }

@@ -21,7 +21,7 @@ namespace {
 using Form = SceneNode::Form;
 
 constexpr const char* like = "like";
-/// Of soils, each like the next.
+/// Largest number of soils in a chain in which each is `like` the next.
 constexpr std::size_t longest_chain = 100;
 
 /// The pattern of what is called `name` in a table, or nothing when there is no such key or table.
@@ -228,7 +228,7 @@ class SceneReader {
         expected.starts_with("a number")) {
       expected.replace(0, 1, "a finite");
     }
-    // With a single word, what is expected says it all.
+    // The expected value names the only word, so that a suggestion would repeat it.
     const auto* text = node.value ? std::get_if<std::string>(&*node.value) : nullptr;
     std::string suggestion;
     if (text && declared.words.size() > 1) suggestion = closest_name(*text, declared.words);
@@ -414,8 +414,8 @@ class SceneReader {
     }
   }
 
-  /// A soil that lacks much beside one that lacks nothing is most likely a misspelt name, which is
-  /// one problem and not one for each key.
+  /// A soil that lacks many keys, in a scene with a soil that lacks none, most likely has a
+  /// misspelt name: that is one problem and not one for each key.
   void report_incomplete_soils(const std::vector<Instance>& soils) {
     std::vector<std::string> complete;
     for (const Instance& soil : soils) {

@@ -11,7 +11,7 @@
 namespace suffuse {
 namespace {
 
-/// Of a line that is longer no sentence of our own is worth the search.
+/// Longest line that is searched for the fault; for a longer one the message is the parser's.
 constexpr std::size_t longest_line = 1000;
 
 struct FaultyLine {

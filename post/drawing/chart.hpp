@@ -42,7 +42,7 @@ struct Chart {
   std::string x_label;
   std::string y_label;
   std::vector<Curve> curves;      ///< later ones cover earlier ones
-  std::vector<double> extra_x{};  ///< values that the axis covers too, beside those of the curves
+  std::vector<double> extra_x{};  ///< values that the axis covers in addition to the curves
   std::vector<double> extra_y{};
   bool logarithmic_x = false;  ///< values that are not positive are left out; likewise y
   bool logarithmic_y = false;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Options of figures: what `suffuse-post figure` takes beside runs and a file.
+/// Options of figures: what `suffuse-post figure` takes in addition to runs and a file.
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ struct AxisOptions {
 
 struct FigureOptions {
   std::optional<double> time{};        ///< of the snapshot of a map, s; the last without it
-  std::string measured{};              ///< file of points beside the curves
+  std::string measured{};              ///< file of measured points, drawn with the curves
   std::optional<int> tubes{};          ///< of "flownet"; without it as many as make squares
   std::vector<std::string> columns{};  ///< of "curves": COLUMN or TABLE.COLUMN, then maybe :NAME
   std::string x{};                     ///< of "curves": the column along x; empty: t

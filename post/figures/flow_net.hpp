@@ -29,10 +29,10 @@ struct SquareNet {
 /// nearest to a whole one; `tubes`, where it is given, are kept.
 SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes);
 
-/// Of the snapshot nearest to a time, s, or of the last. Throws InputError for a time outside the
-/// snapshots, tubes that are not 1 to 100, liquid at rest and a flow that has no stream function;
-/// FileError.
-/// Where soils conduct differently there are no squares, and the net has 6 tubes and 12 drops.
+/// The flow net of the snapshot nearest to a time, s, or of the last. Throws InputError for a time
+/// outside the snapshots, tubes that are not 1 to 100, liquid at rest and a flow that has no stream
+/// function; FileError. Where soils conduct differently there are no squares, and the net has 6
+/// tubes and 12 drops.
 FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
                  const std::optional<int>& tubes);
 

@@ -26,7 +26,7 @@ std::vector<OutsideWater> water_outside(const ResultsReader& results, std::size_
 ModelView view_with_water(const Mesh<2>& mesh, const std::vector<OutsideWater>& waters,
                           float bottom);
 
-/// Water and its level with the sign of one, its head beside it.
+/// Paints the water, its level with the triangle of a water level, and the head next to it.
 void paint_outside_water(vtkContext2D& painter, const ModelView& view,
                          const std::vector<OutsideWater>& waters);
 

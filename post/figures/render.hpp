@@ -30,8 +30,8 @@ struct RenderRequest {
   /// the same discharge each, in the colours of the field.
   bool streamlines = false;
   std::optional<ViewBox> view;  ///< unset: all of the model
-  /// Of a model in space: the plane to show, or surfaces of equal values; without either its
-  /// surface from outside.
+  /// What is shown of a model in space: the plane `cut`, or the surfaces on which the field has
+  /// these `levels`; without either its surface from outside.
   std::optional<CutPlane> cut{};
   std::vector<double> levels{};
   std::string output;  ///< NAME.png, .svg or .pdf; of several NAME_0000.png and so on

@@ -27,13 +27,13 @@ std::string data_address(const std::string& path);
 /// A cell of a table.
 struct Cell {
   std::string text;
-  /// By which the column is sorted, exactly; unset: by the text.
+  /// The column is sorted by this exact value; unset: by the text.
   std::optional<double> value{};
 };
 
 /// A number in six digits.
 Cell cell(double value);
-/// The same with a text of its own.
+/// A cell that shows `text` and is sorted by `value`.
 Cell cell(double value, const std::string& text);
 Cell cell(const std::string& text);
 

@@ -10,7 +10,8 @@
 namespace suffuse {
 namespace {
 
-/// An edge leans so little, over its length, that the water beside it is drawn as beside a wall.
+/// Largest lean of an upright edge, relative to its length: the water next to it is drawn as next
+/// to a wall.
 constexpr double upright = 0.05;
 
 /// Directions against gravity and across it.

@@ -41,7 +41,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Of "x,y" or "x,y,z".
+/// The place that "x,y" or "x,y,z" gives; nothing for other texts.
 std::optional<Position> place_of(const std::string& text) {
   const auto coordinates = split(text, ',');
   if (coordinates.size() < 2 || coordinates.size() > 3) return std::nullopt;

@@ -24,7 +24,7 @@ struct Specimen {
   std::vector<int> regions;  ///< numbers as in regions.csv
   std::vector<Portion> portions;
   double volume = 0.0;       ///< m3 (per metre of thickness in 2D)
-  bool has_all_soil = true;  ///< false when there is soil that does not erode beside it
+  bool has_all_soil = true;  ///< false when some other soil does not erode
 };
 
 /// The specimen of a run. Throws FileError.
