@@ -62,7 +62,7 @@ void limit_use(const ChildLimits& limits) {
   set_limit(RLIMIT_CPU, limits.processor_seconds + 1.0);
   set_limit(RLIMIT_CORE, 0.0);
   set_limit(RLIMIT_NOFILE, open_files);
-  set_limit(RLIMIT_FSIZE, limits.bytes);  // of files in memory
+  set_limit(RLIMIT_FSIZE, limits.bytes);  // size of files in memory
 #ifndef SUFFUSE_ADDRESS_SANITIZER
   double pages = 0.0;
   std::ifstream("/proc/self/statm") >> pages;

@@ -10,7 +10,7 @@ namespace suffuse {
 struct ChildLimits {
   double processor_seconds;
   double wall_seconds;
-  double bytes;  ///< of memory, in addition to what this process has; and of the reply
+  double bytes;  ///< memory in addition to what this process has, and largest reply
 };
 
 /// How a child ended.

@@ -40,9 +40,10 @@ struct GmshGroup {
 struct GmshModel {
   int dimension = 2;  ///< 3 where there are volumes
   std::vector<std::size_t> node_tags;
-  std::vector<double> coordinates;   ///< three for each node
-  std::vector<GmshEntity> entities;  ///< of this dimension, then of one less, by ascending tags
-  std::vector<GmshGroup> groups;     ///< of these dimensions and of points
+  std::vector<double> coordinates;  ///< three for each node
+  std::vector<GmshEntity>
+      entities;                   ///< those of this dimension, then of one less, by ascending tags
+  std::vector<GmshGroup> groups;  ///< of these dimensions and of points
 };
 
 /// The current model of Gmsh, whose errors come as its exceptions.

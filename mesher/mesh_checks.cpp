@@ -202,7 +202,7 @@ class MeshChecks {
     for (int e = 0; e < mesh_.element_count(); ++e) {
       for (int corner = 0; corner <= Dim; ++corner) {
         const Face face = face_opposite<Dim>(mesh_.elements[e], corner);
-        int swaps = Dim * corner;  // of the order that leads around outwards
+        int swaps = Dim * corner;  // swaps from the outward order to the ascending one
         for (int a = 0; a < Dim; ++a) {
           for (int b = 0; b < a; ++b) swaps += face[b] > face[a] ? 1 : 0;
         }
@@ -409,7 +409,7 @@ class MeshChecks {
   double tolerance_ = 0.0;
   std::vector<bool> is_flat_;  ///< per element
   std::vector<Side> sides_;    ///< by their keys
-  std::vector<Side> outer_;    ///< of one element alone
+  std::vector<Side> outer_;    ///< sides that belong to one element alone
 };
 
 }  // namespace

@@ -379,7 +379,7 @@ class Extraction {
   const GmshModel& model_;
   ExtractedMesh<Dim> result_;
   Quadrangles quadrangles_;
-  Tag last_tag_ = 0;  // of a node
+  Tag last_tag_ = 0;  // largest tag of a node
   std::unordered_map<Tag, std::array<double, 3>> coordinates_;
   std::unordered_map<Tag, int> index_;
   MeshTags tags_;

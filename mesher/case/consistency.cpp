@@ -194,8 +194,8 @@ class SceneCheck {
   }
 
   void check_boundaries() {
-    std::map<std::array<int, Dim>, std::string>
-        covered;  // faces, with the name of the boundary that has a condition there
+    // Faces with a condition, with the name of their boundary.
+    std::map<std::array<int, Dim>, std::string> covered;
     for (const BoundaryCondition& condition : document_.scene.boundaries) {
       const std::string key = condition.key + ".on";
       const bool fits = condition.key.starts_with("well")

@@ -14,7 +14,7 @@ namespace {
 constexpr double most_over_hazen = 1e3;
 constexpr double least_friction = 1.5;   // degrees; 1.5 radians are 86 degrees
 constexpr double least_cohesion = 50.0;  // Pa
-constexpr double noticed_stress = 1e4;   // Pa; a small cohesion is nothing against more
+constexpr double noticed_stress = 1e4;   // Pa; a cohesion of a few Pa has no effect at more
 
 template <int Dim>
 class Soils : private PlausibilityBase<Dim> {
@@ -45,7 +45,7 @@ class Soils : private PlausibilityBase<Dim> {
   void check_sizes(const Soil& soil) {
     if (soil.gradation.empty()) return;
     constexpr double tenth = 10.0;
-    // d10 is at least the size found.
+    // Below the first point of the gradation sizes are unknown: d10 is at most the smallest size.
     const double d10 = soil.gradation.smallest_finer() <= tenth ? soil.gradation.size(tenth)
                                                                 : soil.gradation.smallest_size();
     const double hazen = 0.01 * d10 * d10;

@@ -14,10 +14,8 @@ namespace suffuse {
 /// Shape of a dataset of numbers and of the chunks, each of which is compressed by itself.
 struct ChunkShape {
   std::size_t rows = 0;
-  std::size_t columns =
-      1;  ///< each compressed by itself: zeros of a third component take few bytes
-  std::size_t chunk_rows =
-      0;  ///< rows in a chunk, of one column; all chunks of a dataset are equal
+  std::size_t columns = 1;      ///< each compressed by itself, so that zeros take few bytes
+  std::size_t chunk_rows = 0;   ///< rows in each chunk, of one column
   std::size_t number_size = 8;  ///< bytes
 };
 

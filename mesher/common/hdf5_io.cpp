@@ -39,9 +39,9 @@ class Handle {
   Close close_;
 };
 
-/// Every failure becomes a FileError, so that HDF5 must not print its error stack as well. HDF5
-/// must not clean up at the end of the program either: it crashes there when a full disk has kept
-/// it from closing a file.
+/// Keeps HDF5 from printing its error stack, as every failure becomes a FileError, and from
+/// cleaning up at the end of the program: it crashes there when a full disk has kept it from
+/// closing a file.
 void tame_hdf5() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

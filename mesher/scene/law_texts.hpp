@@ -14,7 +14,7 @@
 
 namespace suffuse {
 
-/// One member of every law, in their order.
+/// One member of every law, in the order of the laws.
 template <class Law>
 std::vector<std::string> texts_of(std::span<const Law* const> laws, std::string_view Law::*member) {
   std::vector<std::string> texts;
@@ -39,7 +39,7 @@ std::string chained(const std::vector<std::string>& texts, const std::string& se
 
 /// Symbols of the rates: `alpha`, `beta`, ...
 std::vector<std::string> rate_symbols();
-/// Unit of the rate, that of the first drive with those that differ: `1/s ("flux": 1/m)`.
+/// Unit of the rate for the first drive, then the units that differ: `1/s ("flux": 1/m)`.
 std::string rate_unit();
 /// Units of the threshold: `"flux": m/s, ...`.
 std::string threshold_unit();

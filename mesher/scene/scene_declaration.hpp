@@ -1,6 +1,6 @@
 #pragma once
 
-/// How a key of a scene is declared: where its value is kept, what it may be, in one expression.
+/// Declares a key of a scene in one expression: where its value is stored, and what it may be.
 /// For the lists of keys only.
 
 #include <algorithm>
@@ -69,13 +69,13 @@ auto in_output(std::vector<Entry> OutputSettings::*list, Member Entry::*member) 
   return [=](Scene& scene, std::size_t i) -> Member& { return (scene.output.*list)[i].*member; };
 }
 
-/// A boundary, or a well by its place behind the boundaries.
+/// A member of a boundary condition; the wells follow the boundaries in the list.
 template <class Member>
 auto on_boundary(Member BoundaryCondition::*member) {
   return in_list(&Scene::boundaries, member);
 }
 
-// How a value is kept: one overload per type of member, and the kind of value it calls for.
+// How a value is stored: one overload for each type of member, and the kind of value that it needs.
 
 inline void keep(double& member, const Value& value) {
   member = std::get<double>(value);

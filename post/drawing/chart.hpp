@@ -19,12 +19,12 @@ struct Curve {
   std::string label;  ///< in the legend; empty leaves it out
   std::vector<double> x;
   std::vector<double> y;
-  std::vector<double> low{};  ///< lower end of a band whose upper end is y; else empty
+  std::vector<double> low{};  ///< lower end of a band whose upper end is y; empty: no band
   bool markers = false;
   bool joined = false;              ///< draw a line through the markers too
   std::vector<std::size_t> marked;  ///< rows that get a marker; empty: all rows
   Dash dash = Dash::solid;
-  float width = 2.0F;  ///< of the line, pixels
+  float width = 2.0F;  ///< line width, pixels
   Marker marker = Marker::circle;
   bool hollow = false;  ///< white inside; a target gets a smaller dot
   Color color{0.0, 0.0, 0.0};
@@ -46,7 +46,7 @@ struct Chart {
   std::vector<double> extra_y{};
   bool logarithmic_x = false;  ///< values that are not positive are left out; likewise y
   bool logarithmic_y = false;
-  std::optional<std::array<double, 2>> x_range{};  ///< ends of the axis; else those of the values
+  std::optional<std::array<double, 2>> x_range{};  ///< ends of the axis; unset: those of the values
   std::optional<std::array<double, 2>> y_range{};
   ChartTable table{};  ///< beneath the legend; of several charts that of the first
 };

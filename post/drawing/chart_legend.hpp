@@ -15,9 +15,9 @@ int vtk_line_type(Dash dash);
 
 /// One of the shapes painted over one another that make a marker.
 struct MarkerLayer {
-  int shape;   ///< of vtkMarkerUtilities
+  int shape;   ///< style of vtkMarkerUtilities
   float size;  ///< pixels
-  bool white;  ///< else the colour of the curve
+  bool white;  ///< otherwise in the colour of the curve
 };
 /// The shapes of a curve's marker, the lowest first.
 std::vector<MarkerLayer> marker_layers(const Curve& curve);

@@ -264,7 +264,7 @@ SpaceDrawing space_drawing(const Paper& sheet) {
 
 /// Edges where two triangles of a projected surface meet at an angle, or that have one alone.
 Edges bent_edges(const Mesh<2>& mesh, const std::vector<double>& depth) {
-  constexpr double cosine = 0.94;  // of 20 degrees
+  constexpr double cosine = 0.94;  // cosine of 20 degrees
   const auto normal = [&](int triangle) {
     std::array<Vector<3>, 3> x;
     for (int a = 0; a < 3; ++a) {

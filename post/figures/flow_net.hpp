@@ -13,7 +13,7 @@ namespace suffuse {
 
 struct FlowNet {
   SeepageMap map;         ///< heads, phreatic line, water outside
-  StreamFunction stream;  ///< of the snapshot
+  StreamFunction stream;  ///< stream function of the snapshot
   int tubes = 0;          ///< N_f: each carries the discharge over N_f
   int drops = 0;          ///< N_d: each takes the whole fall of the head over N_d
   std::vector<std::string> caption;

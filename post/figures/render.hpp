@@ -22,19 +22,19 @@ struct RenderRequest {
   std::vector<std::size_t> snapshots{};  ///< these alone, likewise; empty: as said above
   bool change = false;  ///< what changed since the start, instead of the field itself
   bool mesh = true;     ///< edges of elements, where these are large
-  std::optional<std::array<double, 2>> range;  ///< of the colours; unset: that of the values
-  bool logarithmic = false;                    ///< of the colours
+  std::optional<std::array<double, 2>> range;  ///< range of the colours; unset: that of the values
+  bool logarithmic = false;                    ///< logarithmic scale of the colours
   bool contours = false;                       ///< lines of equal values
   bool vectors = false;                        ///< arrows of the flux
-  /// A plane model has ten, with the same discharge between two. A model in space has sixty, with
-  /// the same discharge each, in the colours of the field.
+  /// A plane model gets ten, with equal discharges between neighbours. A model in space gets sixty,
+  /// each with an equal discharge, in the colours of the field.
   bool streamlines = false;
   std::optional<ViewBox> view;  ///< unset: all of the model
   /// What is shown of a model in space: the plane `cut`, or the surfaces on which the field has
   /// these `levels`; without either its surface from outside.
   std::optional<CutPlane> cut{};
   std::vector<double> levels{};
-  std::string output;  ///< NAME.png, .svg or .pdf; of several NAME_0000.png and so on
+  std::string output;  ///< NAME.png, .svg or .pdf; for several pictures NAME_0000.png and so on
 };
 
 /// Reads `LO:HI`, or `LO,HI`, with LO < HI. Throws InputError.

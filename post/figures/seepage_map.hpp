@@ -16,7 +16,7 @@ namespace suffuse {
 /// What a map shows.
 struct SeepageMap {
   std::string title;
-  std::string label;  ///< of the colours, with the unit
+  std::string label;  ///< label of the colour bar, with the unit
   Mesh<2> mesh;
   std::vector<double> head;  ///< per node, m; coloured, with equipotentials
   /// Per element: it holds air alone, of which no head is drawn; empty where none does.

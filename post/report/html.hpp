@@ -39,7 +39,7 @@ Cell cell(const std::string& text);
 
 /// A table whose rows the reader can sort.
 struct Table {
-  std::string name;  ///< of the element, by which programs find it
+  std::string name;  ///< name of the HTML element, by which programs find it
   std::vector<std::string> heads;
   std::vector<std::vector<Cell>> rows;
 

@@ -11,7 +11,7 @@ namespace suffuse {
 struct SweepTable {
   std::string path;
   std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;  ///< of the runs that are done
+  std::vector<std::vector<std::string>> rows;  ///< rows of the runs that are done
 
   /// The numbers of a column; NaN where a cell is empty. Throws InputError for a column that there
   /// is not, naming `option`, and for a column of words.

@@ -16,7 +16,7 @@ namespace suffuse {
 struct ColumnFlow {
   Soil soil;                ///< with a law whose porosity is known exactly at a constant flux
   double porosity = unset;  ///< n_0
-  double length = unset;    ///< of the specimen along the flow, m
+  double length = unset;    ///< length of the specimen along the flow, m
   double width = unset;     ///< m
   double flux = unset;      ///< q > 0, m/s
 };

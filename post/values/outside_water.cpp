@@ -74,7 +74,7 @@ std::vector<OutsideWater> outside_water(const Mesh<2>& mesh, const Scene& scene,
   const Vector<2> up = -gravity.normalized();
   const Axes axes{up, Vector<2>(up[1], -up[0])};
   const auto opposite = opposite_nodes(mesh);
-  double middle = 0.0;  // of the model
+  double middle = 0.0;  // middle of the model across gravity, m
   for (const Vector<2>& x : mesh.nodes) {
     middle += x.dot(axes.across) / static_cast<double>(mesh.nodes.size());
   }

@@ -13,7 +13,7 @@ namespace suffuse {
 /// The water at one boundary.
 struct OutsideWater {
   std::string boundary;
-  double head = 0.0;                           ///< of its level, m
+  double head = 0.0;                           ///< head of its level, m
   std::vector<std::array<Vector<2>, 4>> body;  ///< quadrilaterals between boundary and level
   std::array<Vector<2>, 2> level;              ///< the ends of its surface
 };

@@ -14,7 +14,7 @@ namespace suffuse {
 /// A place on an edge of a mesh, or at one of its nodes: then both nodes are the same.
 struct EdgePlace {
   std::array<int, 2> nodes;
-  double share = 0.0;  ///< of the way from the first node to the second
+  double share = 0.0;  ///< share of the way from the first node to the second
 };
 
 /// Triangles, each within one tetrahedron or on its side. Neighbours share nodes.
