@@ -1,6 +1,6 @@
 #pragma once
 
-/// Runs what reads a stranger's file in a process of its own, which may do nothing else.
+/// Runs code that reads a file of unknown origin in a separate process, which may do nothing else.
 
 #include <functional>
 #include <string>

@@ -62,7 +62,8 @@ void add_groups(GmshModel& model, int dimension) {
   }
 }
 
-/// Nodes of an element of a type that meshes of ours have; else as many as there are.
+/// Number of nodes of an element of a type that Suffuse reads; for other types as many as there
+/// are.
 int expected_nodes(const GmshElements& block) {
   switch (block.type) {
     case gmsh_type::line:

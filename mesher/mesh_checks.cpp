@@ -40,7 +40,7 @@ class Bins {
   void add(const Box& box, int thing) {
     visit(box, [&](const Cell& cell) { things_[cell].push_back(thing); });
   }
-  /// What shares a bin with the box, in ascending order.
+  /// The things that share a bin with the box, in ascending order.
   [[nodiscard]] std::vector<int> near(const Box& box) const {
     std::vector<int> result;
     visit(box, [&](const Cell& cell) {

@@ -160,7 +160,7 @@ class Extraction {
     }
   }
 
-  /// As a .geo file has it.
+  /// The word for an entity in a .geo file.
   static std::string script_word(int dimension) {
     return dimension == 3 ? "Volume" : dimension == 2 ? "Surface" : "Curve";
   }
@@ -240,7 +240,7 @@ class Extraction {
     mesh().element_region.resize(tags_.elements.size(), regions.empty() ? 0 : regions.front());
   }
 
-  /// What a user can name, when nothing is named.
+  /// List of the entities that a user can name, for the case that none has a name.
   [[nodiscard]] std::string inventory(const std::vector<int>& dimensions) const {
     std::string text;
     for (const int dimension : dimensions) {
@@ -259,7 +259,7 @@ class Extraction {
     return text.empty() ? "" : " the model has" + text;
   }
 
-  /// Ascending tags become indices.
+  /// Numbers the nodes by ascending tags.
   void number_nodes() {
     std::set<Tag> used;
     for (const auto& nodes : element_nodes_) used.insert(nodes.begin(), nodes.end());
@@ -274,7 +274,7 @@ class Extraction {
     }
   }
 
-  /// Whether all nodes are somewhere; those that are not are problems.
+  /// Whether all nodes have usable coordinates; those without are problems.
   bool has_coordinates() {
     ProblemKind kind(result_.problems,
                      "finite coordinates, in m, below " + short_number(max_coordinate));
@@ -365,8 +365,8 @@ class Extraction {
     mesh().boundaries.push_back({name, {outer.begin(), outer.end()}});
   }
 
-  /// Points without a name, or off the mesh, are of no use to anybody: they may be there for
-  /// something else.
+  /// Reads the named points of the mesh. Points without a name, or off the mesh, are ignored: they
+  /// may have another purpose.
   void read_points() {
     for (const GmshGroup& group : model_.groups) {
       if (group.dimension != 0 || group.nodes.size() != 1) continue;

@@ -12,7 +12,7 @@ enum class Refused : char {
   writing = 'w',  ///< write, make, rename or remove a file
   network = 'n',  ///< open a connection
   waiting = 's',  ///< sleep
-  special = 'd',  ///< read what is no regular file: a pipe, a device
+  special = 'd',  ///< read a file that is not regular: a pipe, a device
 };
 
 /// From now on this process may compute, allocate memory, read regular files, write to the

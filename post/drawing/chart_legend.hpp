@@ -1,7 +1,7 @@
 #pragma once
 
-/// The legend beside a chart: a row for each label, with its line or marker. VTK's own legend draws
-/// lines of 25 pixels, too short to tell dashes apart.
+/// The legend next to a chart: a row for each label, with its line or marker. VTK's own legend
+/// draws lines of 25 pixels, too short to tell dashes apart.
 
 #include <vtkContextItem.h>
 #include <vtkSmartPointer.h>

@@ -17,7 +17,7 @@ namespace suffuse {
 
 /// Layout of a picture of the model with a colour bar to its right, pixels.
 struct PictureLayout {
-  static constexpr float max_width = 1000.0F;  ///< of the model
+  static constexpr float max_width = 1000.0F;  ///< largest size of the model
   static constexpr float max_height = 800.0F;
   static constexpr float gap = 40.0F;  ///< between the model and the bar
   static constexpr float bar_width = 30.0F;

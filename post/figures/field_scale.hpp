@@ -54,7 +54,7 @@ struct ScaleRequest {
 /// positive values.
 FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& request);
 
-/// The bar with its ticks and the label beside it; notes beneath. Pixels.
+/// The bar with its ticks, the label next to it, and notes below. Pixels.
 void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string& label, float left,
                float bottom, float height);
 /// The legend of kinds and its width.

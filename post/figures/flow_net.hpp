@@ -25,8 +25,8 @@ struct SquareNet {
   int drops;
 };
 
-/// `drops_per_tube` is k H / q. Of some forty fields, as many tubes as make the number of drops the
-/// nearest to a whole one; `tubes`, where it is given, are kept.
+/// `drops_per_tube` is k H / q. The net has some forty fields, with the number of tubes for which
+/// the number of drops is nearest to a whole one; `tubes` is kept where it is given.
 SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes);
 
 /// The flow net of the snapshot nearest to a time, s, or of the last. Throws InputError for a time

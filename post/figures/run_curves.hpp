@@ -22,7 +22,7 @@ struct RunStyle {
 /// circles or squares, double-point runs warm colours and diamonds or targets.
 std::vector<RunStyle> run_styles(const std::vector<ResultsReader>& runs);
 
-/// The style of a curve that stands for something else than a run, by its number.
+/// The style of a curve that does not belong to a run, by its number.
 RunStyle curve_style(std::size_t number);
 
 /// "exact, constant law, 0.001 1/s"

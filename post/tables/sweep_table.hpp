@@ -17,7 +17,7 @@ struct SweepTable {
   /// is not, naming `option`, and for a column of words.
   [[nodiscard]] std::vector<double> numbers(const std::string& column,
                                             const std::string& option) const;
-  /// The results folders, beside the table: RUN/RUN.results.
+  /// The results folders, next to the table: RUN/RUN.results.
   [[nodiscard]] std::vector<std::string> results() const;
 };
 

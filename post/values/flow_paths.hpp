@@ -16,7 +16,7 @@ struct FlowPath {
 
 struct FlowPaths {
   std::vector<FlowPath> paths;
-  double discharge = 0.0;  ///< that enters through the surface, m3/s; shared by the paths
+  double discharge = 0.0;  ///< inflow through the surface, m3/s; the paths have equal shares
 };
 
 /// `count` paths, which begin at the surface where liquid enters. In each element they follow the

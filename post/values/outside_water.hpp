@@ -18,9 +18,9 @@ struct OutsideWater {
   std::array<Vector<2>, 2> level;              ///< the ends of its surface
 };
 
-/// At `time`, s, for every boundary under gravity whose head is above some of it; wells are within
-/// the model and have none. Over edges that rise or lie the water reaches up to the level; beside
-/// upright ones it is `breadth` m wide.
+/// The water at `time`, s, at every boundary whose head is above a part of it, under gravity; wells
+/// are within the model and have none. Over sloping or horizontal edges the water reaches up to the
+/// level; next to upright edges it is `breadth` m wide.
 std::vector<OutsideWater> outside_water(const Mesh<2>& mesh, const Scene& scene, double time,
                                         double breadth);
 

@@ -59,7 +59,7 @@ struct PlaneCut {
   std::array<int, 2> axes{0, 2};
   Mesh<2> mesh;
 };
-/// Throws InputError, naming `command`, for a plane beside the model.
+/// Throws InputError, naming `command`, for a plane that misses the model.
 PlaneCut plane_cut(const Mesh<3>& mesh, const CutPlane& plane, const std::string& command);
 
 }  // namespace suffuse

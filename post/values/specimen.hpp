@@ -30,7 +30,7 @@ struct Specimen {
 /// The specimen of a run. Throws FileError.
 Specimen specimen(const ResultsReader& run);
 
-/// How titles name the specimen: "the soil" when it has all soil, else "the soil that erodes".
+/// How titles name the specimen: "the soil" when it has all soil, otherwise "the soil that erodes".
 std::string specimen_name(bool has_all_soil);
 
 /// Integral over the specimen of `density`, a function of (soil, initial porosity, exact porosity
