@@ -23,8 +23,8 @@ struct Effort {
 
 /// The effort that some bytes are worth, judged from a thousand of them. Bytes without frequent
 /// values and with few equal neighbours, such as the low digits of computed numbers, are stored as
-/// they are. With more equal neighbours, only runs of one value are compressed; with many, repeated
-/// strings too.
+/// they are. Where fewer than a quarter of other bytes have equal neighbours, repeated strings are
+/// not searched for, only runs of one value.
 Effort effort_for(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t samples = 1024;
   std::array<std::uint64_t, 256> counts{};

@@ -108,7 +108,7 @@ class Slitting {
 
   Mesh<Dim>& mesh_;
   const std::vector<BoundarySet<Dim>>& cuts_;
-  std::vector<std::array<int, Dim + 1>> elements_;  ///< by doubled nodes; `mesh_` has the old ones
+  std::vector<std::array<int, Dim + 1>> elements_;  ///< with doubled nodes; `mesh_` has single ones
   std::set<Face> cut_;
   std::map<int, std::vector<int>> around_;   ///< elements around each node of the cuts
   std::map<Face, std::vector<int>> owners_;  ///< elements with each of their faces

@@ -36,7 +36,7 @@ struct Curve {
 /// Rows of cells, the first row being the heading.
 using ChartTable = std::vector<std::vector<std::string>>;
 
-/// One chart: what its axes say and the curves in it.
+/// One chart: the texts of its axes and its curves.
 struct Chart {
   std::string title;
   std::string x_label;
@@ -48,7 +48,7 @@ struct Chart {
   bool logarithmic_y = false;
   std::optional<std::array<double, 2>> x_range{};  ///< ends of the axis; unset: those of the values
   std::optional<std::array<double, 2>> y_range{};
-  ChartTable table{};  ///< beneath the legend; of several charts that of the first
+  ChartTable table{};  ///< below the legend; with several charts the table of the first
 };
 
 /// Draws two charts side by side, three or more in rows of two, with one legend for all. The suffix

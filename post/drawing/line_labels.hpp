@@ -33,7 +33,7 @@ class LineLabels {
   void paint(vtkContext2D& painter, const std::vector<Polyline>& lines, const std::string& text);
 
  private:
-  /// A rectangle that is taken, pixels.
+  /// A rectangle that is occupied, pixels.
   struct Box {
     Vector<2> middle;
     Vector<2> half;

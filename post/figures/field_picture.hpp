@@ -29,7 +29,7 @@ struct PictureModel {
   std::ptrdiff_t visible_count = 0;  ///< number of visible elements
   std::array<std::string, 2> axes{"x (m)", "y (m)"};
   std::optional<SpaceBox> space{};  ///< unset: a plane model
-  std::vector<double> depth{};      ///< of nodes of a model in space, towards the viewer, m
+  std::vector<double> depth{};      ///< per node of a model in space, towards the viewer, m
 
   /// Position of a node of a model in space.
   [[nodiscard]] Vector<3> projected(int node) const {
@@ -61,16 +61,16 @@ struct FieldPicture {
   std::vector<Vector<2>> positions;  ///< places of points; empty for fields of elements and nodes
   FieldScale scale;
   std::vector<OutsideWater> water;
-  std::vector<OutsideWater> room;  ///< the water of all pictures that show the model alike
+  std::vector<OutsideWater> room;  ///< water of all pictures of the run, for a common view
   bool mesh_edges = true;          ///< draw the edges of elements, where these are large
   bool contours = false;           ///< draw lines of equal values at the round values of the bar
   std::vector<double> arrows;      ///< two components per element, m/s; empty: none
   std::vector<double> streamfunction;  ///< at nodes, m2/s; empty: no streamlines
-  double tube = 0.0;    ///< discharge between two streamlines, m2/s; in space of each one, m3/s
+  double tube = 0.0;    ///< discharge between two streamlines, m2/s; in space of each, m3/s
   double misfit = 0.0;  ///< misfit of the stream function
   bool hollow = false;  ///< draw the edges of a model in space, not its surface
   std::vector<SpaceTriangle> inside;  ///< triangles inside a hollow model
-  std::vector<SpaceLine> paths;       ///< streamlines inside it
+  std::vector<SpaceLine> paths;       ///< streamlines of a model in space
 
   [[nodiscard]] bool of_points() const { return where == "solid" || where == "liquid"; }
 };

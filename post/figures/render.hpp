@@ -12,16 +12,16 @@
 
 namespace suffuse {
 
-/// What to draw. Of a field that lives in several places, the first of elements, nodes, solid
-/// points and liquid points is drawn.
+/// What to draw. A field that exists in several places is drawn at the first of elements, nodes,
+/// solid points and liquid points.
 struct RenderRequest {
   std::string field;
   std::string on;                        ///< "cell", "node", "solid", "liquid" or empty
   std::optional<double> time;            ///< s; the nearest snapshot is drawn; unset: the last
   bool all = false;                      ///< every snapshot, all with the same colours
-  std::vector<std::size_t> snapshots{};  ///< these alone, likewise; empty: as said above
-  bool change = false;  ///< what changed since the start, instead of the field itself
-  bool mesh = true;     ///< edges of elements, where these are large
+  std::vector<std::size_t> snapshots{};  ///< only these, in the same colours; empty: as above
+  bool change = false;                   ///< the change since the start, not the field itself
+  bool mesh = true;                      ///< edges of elements, where these are large
   std::optional<std::array<double, 2>> range;  ///< range of the colours; unset: that of the values
   bool logarithmic = false;                    ///< logarithmic scale of the colours
   bool contours = false;                       ///< lines of equal values
