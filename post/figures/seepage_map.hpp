@@ -19,9 +19,9 @@ struct SeepageMap {
   std::string label;  ///< label of the colour bar, with the unit
   Mesh<2> mesh;
   std::vector<double> head;  ///< per node, m; coloured, with equipotentials
-  /// Per element: it holds air alone, of which no head is drawn; empty where none does.
+  /// Per element: whether it holds air alone, where no head is drawn; empty where none does.
   std::vector<bool> air{};
-  std::vector<double> saturation;  ///< per element; coloured in the place of heads; or empty
+  std::vector<double> saturation;  ///< per element; coloured instead of heads; or empty
   std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
   std::vector<OutsideWater> water;
   /// For aligned maps: range of heads that the colours cover too, m.

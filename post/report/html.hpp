@@ -8,7 +8,7 @@
 
 namespace suffuse::html {
 
-/// Text as a page shows it: no character of it is taken for markup, in attributes neither.
+/// Text escaped for a page: no character of it is taken for markup, even in attributes.
 std::string escaped(const std::string& text);
 
 /// `<NAME>text</NAME>`, with the text escaped.
@@ -17,7 +17,7 @@ std::string element(const std::string& name, const std::string& text);
 /// `<ul>` of texts.
 std::string list(const std::vector<std::string>& texts);
 
-/// A text that the reader opens.
+/// A text that the reader can open and close.
 std::string folded(const std::string& summary, const std::string& inner_html);
 
 /// A file within the page: its bytes as a `data:` address. The suffix, .png or .svg, gives the

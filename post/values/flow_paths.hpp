@@ -8,7 +8,7 @@
 
 namespace suffuse {
 
-/// The way of the liquid from the surface of a model through its elements.
+/// The path of the liquid from the surface of a model through its elements.
 struct FlowPath {
   std::vector<Vector<3>> places;  ///< m; one more than elements
   std::vector<int> elements;      ///< between two places each

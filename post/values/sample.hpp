@@ -58,7 +58,7 @@ struct SampleNames {
 /// elements of soil there, over those of free water where there is no soil. Between two snapshots
 /// values are linear in time.
 ///
-/// Throws InputError for an unknown field, a field that lives on points only, a time outside the
+/// Throws InputError for an unknown field, a field of points only, a time outside the
 /// snapshots, a point outside the model or of another dimension.
 Table sample(const ResultsReader& results, const SampleRequest& request,
              const SampleNames& input_names = {});
