@@ -14,8 +14,8 @@ namespace suffuse {
 /// ends along z, "left" and "right" along x, "front" and "back" along y.
 Mesh<3> regular_box(const ColumnShape& column, double depth, double size);
 
-/// The same geometry in unstructured tetrahedra, in the current Gmsh model. Gmsh's own errors come
-/// as its exceptions.
+/// Meshes the box of `regular_box` with unstructured tetrahedra in the current Gmsh model. Throws
+/// the exceptions of Gmsh for its own errors.
 void mesh_free_box(const ColumnShape& column, double depth, double size);
 
 }  // namespace suffuse

@@ -39,8 +39,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads what a `ByteWriter` wrote, or whatever else. Throws std::out_of_range instead of reading
-/// beyond the end, and before it allocates.
+/// Reads what a `ByteWriter` wrote; other bytes do no harm. Throws std::out_of_range instead of
+/// reading beyond the end, and before it allocates.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}

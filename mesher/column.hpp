@@ -20,8 +20,8 @@ struct ColumnLayer {
 
 struct ColumnShape {
   double width;                     ///< m, from x = 0
-  double height;                    ///< of the specimen, m, from y = 0
-  int rows;                         ///< of elements in the specimen
+  double height;                    ///< height of the specimen, m, from y = 0
+  int rows;                         ///< rows of elements in the specimen
   std::vector<ColumnLayer> layers;  ///< ascending, without gaps
   std::string lower_boundary;       ///< name of the lowest edge
   std::string upper_boundary;       ///< name of the highest edge
@@ -32,7 +32,7 @@ struct ColumnShape {
 
 /// The column that a scene asks for, bottom to top: outflow, free_below, buffer, specimen, buffer,
 /// free_above, inflow, of which layers without rows are left out. Its ends are called "outflow" and
-/// "inflow" where such layers are, else "bottom" and "top".
+/// "inflow" where it has such layers, otherwise "bottom" and "top".
 ColumnShape column_of(const Scene& scene);
 
 /// Number of elements along a side: as near to `size` as a whole number allows.

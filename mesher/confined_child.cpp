@@ -56,13 +56,13 @@ void set_limit(__rlimit_resource resource, double value) {
   ::setrlimit(resource, &limit);
 }
 
-/// The parent watches the times too, and better; these hold where it cannot.
+/// Sets limits for the case that the parent, which watches the times more closely, cannot.
 void limit_use(const ChildLimits& limits) {
   constexpr double open_files = 64.0;
   set_limit(RLIMIT_CPU, limits.processor_seconds + 1.0);
   set_limit(RLIMIT_CORE, 0.0);
   set_limit(RLIMIT_NOFILE, open_files);
-  set_limit(RLIMIT_FSIZE, limits.bytes);  // of files in memory
+  set_limit(RLIMIT_FSIZE, limits.bytes);  // size of files in memory
 #ifndef SUFFUSE_ADDRESS_SANITIZER
   double pages = 0.0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -281,7 +281,7 @@ ChildEnd run_confined(const std::function<void()>& prepare,
     throw FileError("no pipe to another process can be made");
   const Descriptor reading(ends[0]);
   Descriptor writing(ends[1]);
-  // Where it is ignored, as the program that started this one may have left it, no status comes.
+  // A parent program may have set this signal to be ignored: the child would then leave no status.
   std::signal(SIGCHLD, SIG_DFL);
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Runs what reads a stranger's file in a process of its own, which may do nothing else.
+/// Runs code that reads a file of unknown origin in a separate process, which may do nothing else.
 
 #include <functional>
 #include <string>
@@ -10,7 +10,7 @@ namespace suffuse {
 struct ChildLimits {
   double processor_seconds;
   double wall_seconds;
-  double bytes;  ///< of memory, in addition to what this process has; and of the reply
+  double bytes;  ///< memory in addition to what this process has, and largest reply
 };
 
 /// How a child ended.

@@ -80,7 +80,7 @@ ExtractedMesh<3> build_box(const SceneDocument& document, std::vector<std::strin
   return extract_mesh<3>(read_gmsh_model());
 }
 
-/// Where a problem of the mesh comes from.
+/// Gives the problems of the mesh their place in the scene and their key.
 void place_problems(const SceneDocument& document, std::vector<InputProblem>& problems) {
   const bool from_file = !document.scene.geometry.file.empty();
   const std::string key = from_file ? "geometry.file" : "geometry.shape";

@@ -37,7 +37,7 @@ using AnyGeometry = std::variant<Geometry<2>, Geometry<3>>;
 AnyGeometry build_geometry(const SceneDocument& document,
                            double max_seconds = default_geometry_seconds);
 
-/// The same where the dimension is known.
+/// The geometry of `build_geometry` where its dimension is known.
 template <int Dim>
 Geometry<Dim> build_geometry_of(const SceneDocument& document) {
   return std::get<Geometry<Dim>>(build_geometry(document));

@@ -142,8 +142,8 @@ void generate_mesh(const SceneDocument& document, const std::string& path, int d
   });
 }
 
-/// Whether the file asks for more threads than the one that Gmsh has here. A number that no machine
-/// has is refused.
+/// Whether the file asks for more threads than the one that Gmsh has here. Refuses a number that no
+/// machine has.
 bool wants_threads(const SceneDocument& document) {
   constexpr double most = 1024.0;
   bool several = false;
@@ -162,7 +162,7 @@ bool wants_threads(const SceneDocument& document) {
   return several;
 }
 
-/// In the confined child, within a session of Gmsh.
+/// Reads and meshes the file; runs in the confined child, within a session of Gmsh.
 GmshReply mesh_file(const SceneDocument& document, const std::string& path) {
   GmshReply reply;
   run_gmsh(document, path, [&] { is_step_file(path) ? open_step(path) : gmsh::open(path); });

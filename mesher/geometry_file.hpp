@@ -1,6 +1,6 @@
 #pragma once
 
-/// Has a user's geometry file read and meshed by Gmsh, in a process that may do nothing else.
+/// Reads and meshes a user's geometry file with Gmsh, in a process that may do nothing else.
 
 #include "gmsh_reply.hpp"
 #include "scene/scene.hpp"

@@ -40,7 +40,7 @@ void add_entities(GmshModel& model, int dimension) {
   for (const auto& [ignored, tag] : pairs) {
     GmshEntity entity{dimension, tag, {}, elements_of(dimension, tag)};
     std::array<double, 6>& box = entity.box;
-    // Of nothing, Gmsh has no box.
+    // Gmsh has no bounding box for an entity without elements.
     if (!entity.elements.empty())
       gmsh::model::getBoundingBox(dimension, tag, box[0], box[1], box[2], box[3], box[4], box[5]);
     model.entities.push_back(std::move(entity));
@@ -62,7 +62,8 @@ void add_groups(GmshModel& model, int dimension) {
   }
 }
 
-/// Nodes of an element of a type that meshes of ours have; else as many as there are.
+/// Number of nodes of an element of a type that Suffuse reads; for other types as many as there
+/// are.
 int expected_nodes(const GmshElements& block) {
   switch (block.type) {
     case gmsh_type::line:

@@ -41,18 +41,18 @@ struct GmshModel {
   int dimension = 2;  ///< 3 where there are volumes
   std::vector<std::size_t> node_tags;
   std::vector<double> coordinates;   ///< three for each node
-  std::vector<GmshEntity> entities;  ///< of this dimension, then of one less, by ascending tags
-  std::vector<GmshGroup> groups;     ///< of these dimensions and of points
+  std::vector<GmshEntity> entities;  ///< of `dimension`, then of one less, each by ascending tags
+  std::vector<GmshGroup> groups;     ///< groups of these dimensions and of points
 };
 
-/// The current model of Gmsh, whose errors come as its exceptions.
+/// Reads the current model of Gmsh. Throws the exceptions of Gmsh for its own errors.
 GmshModel read_gmsh_model();
 
-/// 3 where the current Gmsh model has volumes, else 2.
+/// 3 where the current Gmsh model has volumes, otherwise 2.
 int gmsh_model_dimension();
 
-/// What is wrong with a model that did not come from Gmsh itself, or nothing: numbers of values
-/// that do not match, elements at nodes that are not there.
+/// The fault of a model that did not come from Gmsh itself, or an empty text: numbers of values
+/// that do not match, elements at nodes that do not exist.
 std::string gmsh_model_defect(const GmshModel& model);
 
 }  // namespace suffuse

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the process that runs Gmsh over a user's file hands back, and its form as bytes.
+/// The reply of the process that runs Gmsh over a user's file, and its form as bytes.
 
 #include <string>
 #include <string_view>

@@ -13,7 +13,8 @@ namespace suffuse {
 
 namespace {
 
-/// Of everything Gmsh logged since the session began; its errors do not always come as exceptions.
+/// The first error that Gmsh logged from line `from` of its log on; empty where there is none. Gmsh
+/// does not throw an exception for every error.
 std::string first_logged_error(std::size_t from) {
   constexpr std::string_view prefix = "Error: ";
   std::vector<std::string> lines;

@@ -8,11 +8,11 @@
 
 namespace suffuse {
 
-/// For each soil with a gradation: its fines, the skeleton and where that comes from, and a line
-/// for each check. Empty when there is none.
+/// For each soil with a gradation: its fines, its skeleton fraction and the source of that, and a
+/// line for each check. Empty when there is no such soil.
 std::string grading_summary(const SceneDocument& document);
 
-/// The same for `--check`, which says so when no soil has a gradation.
+/// `grading_summary` for `--check`; a sentence says so when no soil has a gradation.
 std::string grading_report(const SceneDocument& document);
 
 }  // namespace suffuse

@@ -54,7 +54,7 @@ std::vector<int> element_order(const Mesh<Dim>& mesh) {
   return order;
 }
 
-/// By nodes. The two sides of a slit stay together.
+/// Sorts faces by their nodes. The two sides of a slit stay together.
 template <int Dim>
 void sort_faces(BoundarySet<Dim>& set, bool in_pairs) {
   if (!in_pairs) {

@@ -28,11 +28,11 @@ inline constexpr int finest_hilbert_level = 63 / Dim;
 template <int Dim>
 std::uint64_t hilbert_position(std::array<std::uint32_t, Dim> cell, int level);
 
-/// The same mesh in another order: elements by the position of their centroids on the curve in the
-/// smallest square or cube around the mesh, where that is equal by their former number; nodes as
-/// the elements in this order name them first; the faces of each boundary by their nodes,
-/// ascending. Corners of an element stay in their order, regions and boundaries in theirs. Every
-/// node belongs to an element.
+/// Renumbers a mesh. Elements are sorted by the position of their centroids on the curve in the
+/// smallest square or cube around the mesh, those with equal positions by their former number.
+/// Nodes are numbered in the order in which the sorted elements name them first. The faces of each
+/// boundary are sorted by their nodes, ascending. The corners of an element, the regions and the
+/// boundaries keep their order. Every node must belong to an element.
 template <int Dim>
 Mesh<Dim> in_hilbert_order(const Mesh<Dim>& mesh);
 

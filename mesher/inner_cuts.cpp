@@ -131,7 +131,7 @@ class InnerCuts {
   /// Nodes at the other ends of the edges of an inner node that may be cut; empty for an outer
   /// node.
   [[nodiscard]] std::vector<int> neighbours(int node) const {
-    std::map<int, int> elements;  // of the edge to each
+    std::map<int, int> elements;  // number of elements at the edge to each node
     for (const auto& corners : extracted_.mesh.elements) {
       if (!std::ranges::count(corners, node)) continue;
       for (const int other : corners) {

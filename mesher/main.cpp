@@ -66,7 +66,7 @@ std::string output_path(const Arguments& arguments) {
   return fs::path(arguments.scene).stem().string() + ".case.h5";
 }
 
-/// Where the case is, when that is neither said by `-o` nor beside the scene.
+/// Tells where the case is when `-o` does not say so and it is not next to the scene.
 std::vector<std::string> place_notes(const Arguments& arguments) {
   const std::string output = output_path(arguments);
   const std::string beside = file_beside_scene(arguments.scene, output);
@@ -108,7 +108,7 @@ void check_outputs(const Arguments& arguments, const SceneDocument& document) {
 
 template <int Dim>
 void refuse_too_many_points(const SceneDocument& document, const Mesh<Dim>& mesh) {
-  // Beyond this a misplaced decimal point is likelier than intent.
+  // More is probably due to a misplaced decimal point.
   constexpr double max_points = 1e8;
   double count = 0.0;
   for (const std::int64_t of_element : liquid_point_counts(mesh, document.scene)) {

@@ -17,8 +17,8 @@ namespace suffuse {
 
 namespace {
 
-/// Of an element, relative to the longest edge to the power of the dimension; in a triangle an
-/// angle of about 1e-10 degrees.
+/// Smallest volume of an element, relative to its longest edge to the power of the dimension; a
+/// triangle has an angle of about 1e-10 degrees then.
 constexpr double smallest_volume = 1e-12;
 /// Relative to the diagonal of the mesh.
 constexpr double same_place = 1e-9;
@@ -40,7 +40,7 @@ class Bins {
   void add(const Box& box, int thing) {
     visit(box, [&](const Cell& cell) { things_[cell].push_back(thing); });
   }
-  /// What shares a bin with the box, in ascending order.
+  /// The things that share a bin with the box, in ascending order.
   [[nodiscard]] std::vector<int> near(const Box& box) const {
     std::vector<int> result;
     visit(box, [&](const Cell& cell) {
@@ -202,7 +202,7 @@ class MeshChecks {
     for (int e = 0; e < mesh_.element_count(); ++e) {
       for (int corner = 0; corner <= Dim; ++corner) {
         const Face face = face_opposite<Dim>(mesh_.elements[e], corner);
-        int swaps = Dim * corner;  // of the order that leads around outwards
+        int swaps = Dim * corner;  // swaps from the outward order to the ascending one
         for (int a = 0; a < Dim; ++a) {
           for (int b = 0; b < a; ++b) swaps += face[b] > face[a] ? 1 : 0;
         }
@@ -409,7 +409,7 @@ class MeshChecks {
   double tolerance_ = 0.0;
   std::vector<bool> is_flat_;  ///< per element
   std::vector<Side> sides_;    ///< by their keys
-  std::vector<Side> outer_;    ///< of one element alone
+  std::vector<Side> outer_;    ///< sides that belong to one element alone
 };
 
 }  // namespace

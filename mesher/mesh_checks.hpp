@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whether elements make a mesh: with volumes, side on side, without gaps that nobody sees.
+/// Checks that elements form a mesh: they have volumes and share whole sides, without hidden gaps.
 
 #include <cstddef>
 #include <vector>

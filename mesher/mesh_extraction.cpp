@@ -24,7 +24,7 @@ using Tag = std::size_t;
 
 /// Relative to the diagonal of the mesh.
 constexpr double out_of_plane = 1e-9;
-/// Of a coordinate, m: areas are products of two, and their squares are still numbers.
+/// Largest coordinate, m: the square of an area, a product of four lengths, is still finite.
 constexpr double max_coordinate = 1e50;
 /// Characters.
 constexpr std::size_t longest_name = 127;
@@ -160,7 +160,7 @@ class Extraction {
     }
   }
 
-  /// As a .geo file has it.
+  /// The word for an entity in a .geo file.
   static std::string script_word(int dimension) {
     return dimension == 3 ? "Volume" : dimension == 2 ? "Surface" : "Curve";
   }
@@ -240,7 +240,7 @@ class Extraction {
     mesh().element_region.resize(tags_.elements.size(), regions.empty() ? 0 : regions.front());
   }
 
-  /// What a user can name, when nothing is named.
+  /// List of the entities that a user can name, for the case that none has a name.
   [[nodiscard]] std::string inventory(const std::vector<int>& dimensions) const {
     std::string text;
     for (const int dimension : dimensions) {
@@ -259,7 +259,7 @@ class Extraction {
     return text.empty() ? "" : " the model has" + text;
   }
 
-  /// Ascending tags become indices.
+  /// Numbers the nodes by ascending tags.
   void number_nodes() {
     std::set<Tag> used;
     for (const auto& nodes : element_nodes_) used.insert(nodes.begin(), nodes.end());
@@ -274,7 +274,7 @@ class Extraction {
     }
   }
 
-  /// Whether all nodes are somewhere; those that are not are problems.
+  /// Whether all nodes have usable coordinates; those without are problems.
   bool has_coordinates() {
     ProblemKind kind(result_.problems,
                      "finite coordinates, in m, below " + short_number(max_coordinate));
@@ -365,8 +365,8 @@ class Extraction {
     mesh().boundaries.push_back({name, {outer.begin(), outer.end()}});
   }
 
-  /// Points without a name, or off the mesh, are of no use to anybody: they may be there for
-  /// something else.
+  /// Reads the named points of the mesh. Points without a name, or off the mesh, are ignored: they
+  /// may have another purpose.
   void read_points() {
     for (const GmshGroup& group : model_.groups) {
       if (group.dimension != 0 || group.nodes.size() != 1) continue;
@@ -379,7 +379,7 @@ class Extraction {
   const GmshModel& model_;
   ExtractedMesh<Dim> result_;
   Quadrangles quadrangles_;
-  Tag last_tag_ = 0;  // of a node
+  Tag last_tag_ = 0;  // largest tag of a node
   std::unordered_map<Tag, std::array<double, 3>> coordinates_;
   std::unordered_map<Tag, int> index_;
   MeshTags tags_;

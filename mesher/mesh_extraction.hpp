@@ -28,13 +28,13 @@ struct ExtractedMesh {
   std::vector<BoundarySet<Dim>> inner_curves;
   /// Physical points that are nodes of the mesh: what a well may name.
   std::vector<NamedNode> points;
-  /// What is wrong with it: `found` and `expected` only, the caller knows where the mesh came from.
+  /// The faults of the mesh: `found` and `expected` only, as the caller knows where it came from.
   std::vector<InputProblem> problems;
-  /// Where there is no physical curve (surface): those that could be one, as the end of a message.
+  /// Without physical curves (surfaces): those that could be physical, as the end of a message.
   std::optional<std::string> curves_to_name;
   /// Clockwise triangles, or tetrahedra inside out, that were turned round.
   int turned = 0;
-  /// False when so much is missing that holding a scene against it would only add noise.
+  /// False when so much is missing that a comparison with the scene would only add more messages.
   bool comparable = false;
 };
 

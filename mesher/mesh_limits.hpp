@@ -13,11 +13,11 @@ namespace suffuse {
                              const std::string& found, const std::string& expected);
 
 /// \param area  m2
-/// \param strip  width of what is meshed besides, in rows of elements, all rows together, m
+/// \param strip  width of what is meshed in rows of elements in addition, all rows together, m
 void refuse_too_many_triangles(const SceneDocument& document, double area, double strip = 0.0);
 
 /// \param volume  m3
-/// \param layer  area of what is meshed besides, in rows of elements, all rows together, m2
+/// \param layer  area of what is meshed in rows of elements in addition, all rows together, m2
 void refuse_too_many_tetrahedra(const SceneDocument& document, double volume, double layer = 0.0);
 
 }  // namespace suffuse

@@ -13,7 +13,7 @@
 
 namespace suffuse {
 
-/// What elements and their sides are called, and the physical groups that hold them.
+/// Names of elements, of their sides, and of the physical groups that hold them.
 template <int Dim>
 struct MeshWords {
   static constexpr const char* elements = Dim == 2 ? "triangles" : "tetrahedra";

@@ -13,7 +13,7 @@ namespace suffuse {
 
 namespace {
 
-/// What Gmsh stores for a point without a size.
+/// The size that Gmsh stores for a point without one.
 constexpr double no_size = 1e22;
 
 /// Reads `cl__1 = 1e+22;` and `Point(7) = {0, 0, 0, cl__1};`.

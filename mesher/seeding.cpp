@@ -70,12 +70,13 @@ Rule<3> fourteen_points() {
 /// Uniform numbers from a fixed recipe: std::uniform_real_distribution differs between libraries.
 class UniformNumbers {
  public:
-  /// Streams of one seed have nothing in common.
+  /// The streams of one seed are independent.
   explicit UniformNumbers(int seed, std::uint64_t stream = 0)
       : engine_(static_cast<std::uint64_t>(seed) + (stream << 32U)) {}
-  /// In [0, 1).
+  /// The next number, in [0, 1).
   double next() { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
-  /// Uniform in angle; by rejection, because sine and cosine differ between libraries.
+  /// A direction, uniform in angle; found by rejection, because sine and cosine differ between
+  /// libraries.
   template <int Dim>
   Vector<Dim> direction() {
     for (;;) {
@@ -90,7 +91,8 @@ class UniformNumbers {
   std::mt19937_64 engine_;
 };
 
-/// Of a positive number, by Newton's method: libraries differ in the last bit of std::cbrt.
+/// Cube root of a positive number by Newton's method: std::cbrt differs between libraries in the
+/// last bit.
 double cube_root(double x) {
   double root = std::max(1.0, x);
   for (;;) {
@@ -244,7 +246,7 @@ double liquid_volume(const Mesh<Dim>& mesh, const Scene& scene, int element) {
   return porosity * element_volume(mesh, element);
 }
 
-/// Of an element in the regions whose soil `counts`; 0 when there is none.
+/// Mean liquid volume of the elements whose soil `counts`, m3; 0 when there is none.
 template <int Dim, class Counts>
 double mean_liquid_volume(const Mesh<Dim>& mesh, const Scene& scene, Counts counts) {
   double sum = 0.0;
@@ -258,8 +260,8 @@ double mean_liquid_volume(const Mesh<Dim>& mesh, const Scene& scene, Counts coun
   return elements > 0 ? sum / elements : 0.0;
 }
 
-/// To the nearest whole number, at least one. Halves go down even where round-off lifts them a
-/// little, so that equal elements have equally many.
+/// Rounds to the nearest whole number, at least one. Halves are rounded down even where round-off
+/// lifts them a little, so that equal elements get equal numbers.
 std::int64_t whole_points(double share) {
   constexpr double round_off = 1e-9;
   constexpr double most = 1e9;

@@ -37,14 +37,14 @@ std::vector<QuadraturePoint<3>> gauss_rule<3>(int count);
 template <int Dim>
 MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const PointSettings& settings);
 
-/// The same in the elements of soil; free water gets none.
+/// Solid points in the elements of soil; free water gets none.
 template <int Dim>
 MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const Scene& scene);
 
-/// Liquid points that each element gets, at least one. Its liquid volume is n_0 V_e, V_e in free
-/// water. With `points.equal_volume` the number goes with it, such that a mean element of the soils
-/// that erode (of all soils where none does) has `points.liquid_per_element`; without it, and with
-/// Gauss points always, every element has as many. At most 1e9 in one element.
+/// Number of liquid points of each element, from 1 to 1e9. With `points.equal_volume` it is
+/// proportional to the liquid volume of the element, n_0 V_e, in free water V_e: a mean element of
+/// the soils that erode (of all soils where none does) has `points.liquid_per_element`. Without it,
+/// and always with Gauss points, every element has `points.liquid_per_element`.
 template <int Dim>
 std::vector<std::int64_t> liquid_point_counts(const Mesh<Dim>& mesh, const Scene& scene);
 

@@ -22,7 +22,7 @@ namespace suffuse {
 
 namespace {
 
-/// Where the handler below reports; it has no other way to get values.
+/// The descriptor to which the handler below reports; it has no other way to get values.
 int report_descriptor = -1;
 /// The file of `WritesToMemory`, or -1.
 int memory_file = -1;
@@ -30,10 +30,10 @@ bool is_confined = false;
 
 /// Flags of open with which a file is written or made.
 constexpr int writing_flags = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
-/// A file is opened by the handler alone, and with this flag: the open of a pipe then returns.
+/// Only the handler opens files, and with this flag, so that opening a pipe does not wait.
 constexpr int handlers_flag = O_NONBLOCK;
 
-/// What takes nothing but memory and time, or works on descriptors that the process has.
+/// System calls that take only memory and time, or use descriptors that the process has.
 constexpr std::array allowed_calls{
     // memory
     SCMP_SYS(brk), SCMP_SYS(mmap), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect),
@@ -42,8 +42,8 @@ constexpr std::array allowed_calls{
     SCMP_SYS(read), SCMP_SYS(readv), SCMP_SYS(pread64), SCMP_SYS(write), SCMP_SYS(writev),
     SCMP_SYS(lseek), SCMP_SYS(close), SCMP_SYS(dup), SCMP_SYS(fstat), SCMP_SYS(getdents64),
     SCMP_SYS(fadvise64),
-    // a pipe that ends where it begins, as there is no second process; sanitizers test addresses
-    // with it
+    // a pipe leads back to this process, as there is no second one; sanitizers use it to test
+    // addresses
     SCMP_SYS(pipe), SCMP_SYS(pipe2),
     // names of files
     SCMP_SYS(stat), SCMP_SYS(lstat), SCMP_SYS(newfstatat), SCMP_SYS(statx), SCMP_SYS(statfs),

@@ -12,7 +12,7 @@ enum class Refused : char {
   writing = 'w',  ///< write, make, rename or remove a file
   network = 'n',  ///< open a connection
   waiting = 's',  ///< sleep
-  special = 'd',  ///< read what is no regular file: a pipe, a device
+  special = 'd',  ///< read a file that is not regular: a pipe, a device
 };
 
 /// From now on this process may compute, allocate memory, read regular files, write to the
@@ -37,7 +37,7 @@ class WritesToMemory {
   WritesToMemory(const WritesToMemory&) = delete;
   WritesToMemory& operator=(const WritesToMemory&) = delete;
   ~WritesToMemory();
-  /// Of the file in memory, to be read.
+  /// Path by which the file in memory is read.
   [[nodiscard]] std::string path() const;
 
  private:

@@ -22,9 +22,9 @@ constexpr const char* format_name = "suffuse-case";
 constexpr const char* solid_group = "/solid_points";
 constexpr const char* liquid_group = "/liquid_points";
 constexpr std::int64_t schema_version = 2;
-/// Barycentric coordinates are sums and products of a few doubles.
+/// Tolerance for barycentric coordinates, which are sums and products of a few doubles.
 constexpr double barycentric_tolerance = 1e-12;
-/// Of what the volumes of an element's points add up to: sums of up to a thousand doubles.
+/// Relative tolerance for the sum of the volumes of an element's points, up to a thousand doubles.
 constexpr double volume_tolerance = 1e-9;
 
 void integer_attribute(Hdf5File& file, const std::string& object, const std::string& name,
@@ -94,7 +94,7 @@ void write_scene(Hdf5File& file, const SceneDocument& document) {
   file.write_texts("/scene/file_texts", texts);
 }
 
-/// Reads one case file; knows its name, so that every complaint carries it.
+/// Reads one case file. Every error names the file.
 template <int Dim>
 class CaseReader {
  public:
@@ -144,7 +144,7 @@ class CaseReader {
     return points;
   }
 
-  /// The scene text is checked again: another version of the schema may have written it.
+  /// The text of the scene is checked again: a version with other keys may have written it.
   [[nodiscard]] SceneDocument scene(const Mesh<Dim>& mesh) const {
     const std::string text = file_.read_text("/scene/text");
     const std::string path = file_.read_text("/scene/path");
@@ -166,7 +166,7 @@ class CaseReader {
                     "; write the case file anew with suffuse-mesher");
   }
 
-  /// Texts of the files that the scene names; without them there are no data sets.
+  /// Texts of the files that the scene names; the case has no such data sets where there are none.
   [[nodiscard]] std::map<std::string, std::string> scene_files() const {
     if (!file_.exists("/scene/file_names")) return {};
     const std::vector<std::string> names = file_.read_texts("/scene/file_names");
@@ -189,7 +189,7 @@ class CaseReader {
     return rows;
   }
 
-  /// Integers of [0, limit).
+  /// Reads integers, each in [0, limit).
   [[nodiscard]] std::vector<int> read_indices(const std::string& dataset, int limit) const {
     const std::vector<std::int64_t> wide = file_.read_integers(dataset);
     std::vector<int> indices(wide.size());
@@ -310,7 +310,8 @@ class CaseReader {
     }
   }
 
-  /// Points fill their element: what the model counts by elements it counts by points too.
+  /// Checks that the volumes of the points of each element add up to the volume that they stand
+  /// for: sums over points must equal sums over elements.
   template <class VolumeOf>
   void check_volumes(const std::string& group, const Mesh<Dim>& mesh,
                      const MaterialPoints<Dim>& points, const VolumeOf& volume_of) const {
@@ -331,7 +332,7 @@ class CaseReader {
   const Hdf5File& file_;
 };
 
-/// Refuses other files; returns the dimension.
+/// Refuses files that are not case files of this version; returns the dimension.
 int check_header(const Hdf5File& file) {
   if (!file.exists("/suffuse") || !file.has_attribute("/suffuse", "format") ||
       file.text_attribute("/suffuse", "format") != format_name) {

@@ -19,8 +19,8 @@ struct Case {
   MaterialPoints<Dim> liquid_points{};  ///< double-point only; volumes are those of liquid
 };
 
-/// Writes to a temporary name beside `path` and renames. Liquid points are written for double-point
-/// scenes only. Throws FileError.
+/// Writes to a temporary file next to `path` and renames it. Liquid points are written for
+/// double-point scenes only. Throws FileError.
 template <int Dim>
 void write_case(const std::string& path, const Case<Dim>& c);
 

@@ -69,7 +69,7 @@ class SceneCheck {
     return closest.empty() ? "" : in_quotes(closest);
   }
 
-  /// A third component, gravity's for one, would silently be dropped in two dimensions.
+  /// In two dimensions a third component, of gravity for example, would have no effect.
   void check_two_dimensional(const std::string& key, const std::array<double, 3>& value) {
     if (Dim == 2 && value[2] != 0.0) {
       report(key, "a third number, " + short_number(value[2]),
@@ -194,7 +194,8 @@ class SceneCheck {
   }
 
   void check_boundaries() {
-    std::map<std::array<int, Dim>, std::string> covered;  // by the condition of that name
+    // Faces with a condition, with the name of their boundary.
+    std::map<std::array<int, Dim>, std::string> covered;
     for (const BoundaryCondition& condition : document_.scene.boundaries) {
       const std::string key = condition.key + ".on";
       const bool fits = condition.key.starts_with("well")
@@ -215,7 +216,7 @@ class SceneCheck {
     return false;
   }
 
-  /// What is not cut although it is there has been reported.
+  /// A curve or point that is inside the mesh but is not cut has been reported elsewhere.
   bool check_inner(const std::string& key, const std::string& name, const std::string& what,
                    const std::vector<std::string>& names) {
     if (std::ranges::find(inner_, name) != inner_.end()) return true;
@@ -234,7 +235,8 @@ class SceneCheck {
     }
   }
 
-  /// A face that the water level passes changes its kind, which the explicit scheme cannot do.
+  /// A face that the water level passes gets another kind of condition. The explicit scheme cannot
+  /// change that.
   void check_explicit_heads() {
     const Scene& scene = document_.scene;
     if (scene.time.scheme != FlowScheme::explicit_nodal || !has_gravity(scene.gravity)) return;
@@ -306,14 +308,14 @@ class SceneCheck {
     return false;
   }
 
-  /// Whether a part of the line lies in some element: it is clipped at each of its edges.
+  /// Whether a part of the line lies in some element; each element clips the line at its edges.
   [[nodiscard]] bool crosses_mesh(const OutputSection& section) const {
     for (int e = 0; e < mesh_.element_count(); ++e) {
       const auto from = barycentric(mesh_, e, position(section.from));
       const auto to = barycentric(mesh_, e, position(section.to));
       double first = 0.0;
       double last = 1.0;
-      for (int k = 0; k <= Dim; ++k) {  // where from + s change >= 0
+      for (int k = 0; k <= Dim; ++k) {  // keep the part with from + s change >= 0
         const double change = to[k] - from[k];
         if (change > 0.0) first = std::max(first, -from[k] / change);
         if (change < 0.0) last = std::min(last, -from[k] / change);
@@ -345,7 +347,7 @@ class SceneCheck {
   const SceneDocument& document_;
   const Mesh<Dim>& mesh_;
   std::vector<std::string> curves_;  ///< inside the mesh, cut or not
-  std::vector<std::string> inner_;   ///< these and points
+  std::vector<std::string> inner_;   ///< `curves_` and points inside the mesh
   std::vector<std::string> outer_;   ///< boundaries
   std::vector<std::string> slit_;    ///< curves and points that are cut
   std::set<std::string> meant_;      ///< regions that soils of other names most likely mean

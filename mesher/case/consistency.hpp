@@ -20,8 +20,9 @@ struct InnerNames {
 /// regions without a soil that are not free water, boundaries, walls and wells that do not exist,
 /// two conditions on one face, heads that the explicit scheme cannot follow, probes and sections
 /// outside the mesh, an initial porosity that leaves (0, 1 - n_C] somewhere in its region, numbers
-/// of Gauss points that its elements cannot have, and what there is in two dimensions only. Empty
-/// when all is well. `inner` is what is known beside the cuts of the mesh itself.
+/// of Gauss points that its elements cannot have, and keys that exist in two dimensions only. Empty
+/// when there is none. `inner` has the names of curves and points inside the mesh that are known in
+/// addition to its cuts.
 template <int Dim>
 std::vector<InputProblem> scene_problems(const SceneDocument& document, const Mesh<Dim>& mesh,
                                          const InnerNames& inner = {});

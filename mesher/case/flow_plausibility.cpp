@@ -6,14 +6,14 @@
 namespace suffuse {
 namespace {
 
-// What raises no warning.
-/// How far a head may be above the model, in heights of the model and in m: the larger counts.
+// Limits within which there is no warning.
+/// Largest height of a head above the model, in heights of the model and in m: the larger counts.
 constexpr double farthest_head = 3.0;
 constexpr double least_far_head = 30.0;
-/// m/s, 3.6 m/h; the heaviest rain that was ever measured fell at 0.6e-3.
+/// m/s, which are 3.6 m/h; the heaviest rain ever measured had 0.6e-3 m/s.
 constexpr double heaviest_rain = 1e-3;
-/// The least ratio of a pressure to that of water as high as the model; it counts where the latter
-/// is more than `noticed` Pa.
+/// Least ratio of a pressure to the pressure under water as high as the model. It is checked where
+/// the latter is more than `noticed` Pa.
 constexpr double least_pressure = 2e-3;
 constexpr double noticed = 1e3;
 
@@ -44,7 +44,7 @@ class Flow : private PlausibilityBase<Dim> {
     return std::ranges::any_of(scene_.boundaries, [](const auto& b) { return b.head.has_value(); });
   }
 
-  /// Water has a surface that is found by the run.
+  /// Whether the run has to find the free surface of the water.
   [[nodiscard]] bool has_free_surface() const {
     return std::ranges::any_of(scene_.soils, &Soil::drains) ||
            std::ranges::any_of(scene_.boundaries,
@@ -90,8 +90,8 @@ class Flow : private PlausibilityBase<Dim> {
     }
   }
 
-  /// Without gravity heads count from 0, and the model is as high as it is long. A level far below
-  /// says that the model is dry.
+  /// Without gravity a head is compared with 0, and with the largest length of the model instead of
+  /// its height. A head far below the model is no fault: the model is dry.
   void check_head(const std::string& key, double head) {
     const bool falls = has_gravity(scene_.gravity);
     const auto [low, high] = falls ? this->heights() : std::pair(0.0, 0.0);

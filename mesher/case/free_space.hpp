@@ -9,7 +9,7 @@
 
 namespace suffuse {
 
-/// Whether the region holds air where no water stands: beside soil with a retention.
+/// Whether the region holds air where no water stands: it does where some soil has a retention law.
 bool can_hold_air(const Scene& scene, const std::string& region);
 
 /// "free water", "air", or both where the water level at the start lies within the region or is

@@ -15,15 +15,15 @@
 namespace suffuse {
 namespace {
 
-// What raises no warning.
+// Limits within which there is no warning.
 constexpr double shortest_model = 1e-3;        // m
 constexpr double longest_model = 1e4;          // m
-constexpr double longest_without_scale = 1e3;  // m, of a file whose unit nothing tells
+constexpr double longest_without_scale = 1e3;  // m, of a file with an unknown unit
 constexpr double lightest_water = 500.0;       // kg/m3
 constexpr double heaviest_water = 2000.0;      // kg/m3
 constexpr double lightest_grains = 1500.0;     // kg/m3
 constexpr double fastest_soil = 1.0;           // m/s
-/// m of water: as much as fine sand holds before it drains.
+/// m of water: fine sand drains at higher suctions.
 constexpr double unnoticed_suction = 0.5;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ class Plausibility : private PlausibilityBase<Dim> {
          text);
   }
 
-  /// Of .step files, which are read in metres.
+  /// Whether the geometry file states its unit of length: .step files do, and are read in metres.
   [[nodiscard]] bool states_unit() const { return is_step_file(scene_.geometry.file); }
 
   void check_water() {
@@ -140,9 +140,9 @@ class Plausibility : private PlausibilityBase<Dim> {
 
   // Elements across a region.
 
-  /// Per node, edges from the nearest place at which liquid may enter or leave its region: 0 and 1;
-  /// 2 stands for all that is farther. An impervious side is none, as flow on both sides of a plane
-  /// of symmetry has one.
+  /// Per node, number of edges to the nearest place where liquid may enter or leave its region: 0,
+  /// 1, or 2 for all that is farther. An impervious side does not count as such a place: a plane of
+  /// symmetry is one, and there is flow on both of its sides.
   [[nodiscard]] std::vector<int> edges_from_flow() const {
     constexpr int far = 2;
     std::vector<int> edges(mesh_.nodes.size(), far);
@@ -167,7 +167,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     return edges;
   }
 
-  /// Rows of the layers of a column are as many as the scene says.
+  /// Whether a region is a layer of a column: the scene gives its number of rows.
   [[nodiscard]] bool is_layer(const std::string& region) const {
     return !scene_.geometry.shape.empty() && region == "buffer";
   }
@@ -194,7 +194,7 @@ class Plausibility : private PlausibilityBase<Dim> {
 
   // Suction in soil that stays full of water.
 
-  /// The highest suction found, as m of water, where and because of what.
+  /// The highest suction found, m of water, its place and its cause.
   struct Suction {
     double height = unnoticed_suction;
     Vector<Dim> at;
@@ -206,8 +206,8 @@ class Plausibility : private PlausibilityBase<Dim> {
     return set == mesh_.boundaries.end() ? nullptr : &*set;
   }
 
-  /// No head is above it once the flow is steady; nothing where liquid is pressed in, or no head is
-  /// prescribed.
+  /// The highest prescribed head, which no head exceeds once the flow is steady; nothing where
+  /// a prescribed flux lets liquid in, or no head is prescribed.
   [[nodiscard]] std::optional<double> highest_head() const {
     double highest = -infinite;
     for (const BoundaryCondition& b : scene_.boundaries) {
@@ -260,7 +260,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     if (!worst.cause.empty()) warn_of_suction(soil, worst);
   }
 
-  /// What a boundary prescribes at its own faces.
+  /// Raises the suction by what a boundary prescribes at a face.
   template <class Raise>
   void raise_at_face(const BoundaryCondition& b, const std::array<int, Dim>& face,
                      const Raise& raise) const {

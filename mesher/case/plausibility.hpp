@@ -1,7 +1,8 @@
 #pragma once
 
-/// What a scene may say but hardly ever means: numbers in another unit, gravity upwards, a mesh
-/// that is too coarse. Each warning is one sentence with place, key, value and what is usual.
+/// Warnings of scenes that are allowed but probably wrong: numbers in another unit, gravity
+/// upwards, a mesh that is too coarse. Each warning is one sentence with place, key, value and
+/// usual values.
 
 #include <string>
 #include <vector>

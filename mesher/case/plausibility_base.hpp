@@ -1,6 +1,7 @@
 #pragma once
 
-/// What the warnings of `plausibility.hpp` share, and the parts that they come from.
+/// What the checks behind the warnings of `plausibility.hpp` share, and the functions that make
+/// these warnings.
 
 #include <algorithm>
 #include <string>
@@ -38,7 +39,7 @@ class PlausibilityBase {
     return pressure / unit_weight(scene_.liquid.density, scene_.gravity);
   }
 
-  /// Lowest and highest node along gravity; along the last axis where there is none, m.
+  /// Heights of the lowest and the highest node, m; without gravity along the last axis.
   [[nodiscard]] std::pair<double, double> heights() const {
     const bool falls = has_gravity(scene_.gravity);
     std::pair<double, double> range{0.0, 0.0};
@@ -61,15 +62,16 @@ class PlausibilityBase {
   std::vector<std::string> warnings_;
 };
 
-/// Tables in another unit of time, and snapshots that fill the disk.
+/// Warnings of tables in another unit of time, and of snapshots that fill the disk.
 template <int Dim>
 std::vector<std::string> time_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
 
-/// Heads, pressures and rain in another unit, gravity that is missing or points sideways.
+/// Warnings of heads, pressures and rain in another unit, and of gravity that is missing or points
+/// sideways.
 template <int Dim>
 std::vector<std::string> flow_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
 
-/// Grains, strengths and loads in another unit, and loads that come at once.
+/// Warnings of grains, strengths and loads in another unit, and of loads that act from the start.
 template <int Dim>
 std::vector<std::string> soil_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
 

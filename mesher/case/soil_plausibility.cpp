@@ -8,13 +8,13 @@
 namespace suffuse {
 namespace {
 
-// What raises no warning.
+// Limits within which there is no warning.
 /// The largest ratio of a conductivity to that of Hazen's rule, k = 0.01 d10^2 with d10 in mm and k
 /// in m/s. Sizes in m make the ratio a million.
 constexpr double most_over_hazen = 1e3;
-constexpr double least_friction = 1.5;   // degrees, which are 86 degrees where they are radians
+constexpr double least_friction = 1.5;   // degrees; 1.5 radians are 86 degrees
 constexpr double least_cohesion = 50.0;  // Pa
-constexpr double noticed_stress = 1e4;   // Pa, beside which a smaller cohesion is nothing
+constexpr double noticed_stress = 1e4;   // Pa; a cohesion of a few Pa has no effect at more
 
 template <int Dim>
 class Soils : private PlausibilityBase<Dim> {
@@ -45,7 +45,7 @@ class Soils : private PlausibilityBase<Dim> {
   void check_sizes(const Soil& soil) {
     if (soil.gradation.empty()) return;
     constexpr double tenth = 10.0;
-    // d10 is at least the size found.
+    // Below the first point of the gradation sizes are unknown: d10 is at most the smallest size.
     const double d10 = soil.gradation.smallest_finer() <= tenth ? soil.gradation.size(tenth)
                                                                 : soil.gradation.smallest_size();
     const double hazen = 0.01 * d10 * d10;
@@ -56,8 +56,8 @@ class Soils : private PlausibilityBase<Dim> {
              short_number(soil.conductivity) + "; sizes are in mm, not in m");
   }
 
-  /// Only for a given `skeleton_fraction`: where the gradation gives it, the check of gradations
-  /// warns.
+  /// Checks a given `skeleton_fraction` only: the check of gradations warns where the gradation
+  /// gives it.
   void check_fines(const Soil& soil) {
     const std::string key = joined(table_of(soil), "skeleton_fraction");
     if (!soil.erosion.law->erodes() || !given(key)) return;
@@ -110,7 +110,7 @@ class Soils : private PlausibilityBase<Dim> {
              " kPa; cohesions are in Pa, 1 kPa = 1e3 Pa, and 0 is none");
   }
 
-  /// s/m2: 1/c_v, mean over the soil that moves.
+  /// 1/c_v, mean over the soil that moves, s/m2.
   [[nodiscard]] double consolidation() const {
     double sum = 0.0;
     double volume = 0.0;
@@ -128,7 +128,8 @@ class Soils : private PlausibilityBase<Dim> {
     return volume > 0.0 ? sum / volume : 0.0;
   }
 
-  /// What a number says acts at the start, when the soil is in equilibrium and its water at rest.
+  /// A traction given as a number acts from the start, when the soil is in equilibrium and its
+  /// water at rest.
   void check_traction(const BoundaryCondition& b) {
     const bool is_number = b.traction && b.traction->knots.size() == 1;
     if (!is_number || !scene_.initial_from.empty()) return;

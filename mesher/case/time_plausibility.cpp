@@ -6,22 +6,22 @@
 namespace suffuse {
 namespace {
 
-// What raises no warning.
-/// Last time of a table over the end of the run: an hour of a flood of two days.
+// Limits within which there is no warning.
+/// Last time of a table over the end of the run, such as 48 for an hour of a flood of two days.
 constexpr double longest_table = 50.0;
 constexpr double shortest_table = 1e-3;
-/// Rows of a table in a file, or in the scene, from which on it is the course of something. With
-/// fewer it is a value that changes at the start, however short that is.
+/// A table in a file, or in the scene, with at least so many rows is a time series. With fewer rows
+/// it is a value that changes at the start, in however short a time.
 constexpr std::size_t course_in_file = 3;
 constexpr std::size_t course_in_scene = 4;
 constexpr double large_results = 1e9;  // bytes
 
-// What a snapshot takes, to a factor of two (docs/file-formats.md, "What it takes").
+// Size of a snapshot, to a factor of two (docs/file-formats.md, "What it takes").
 constexpr double bytes_per_number = 8.0 * 0.3;  // compressed
 constexpr double bytes_per_file = 8e3;
-constexpr double bytes_per_row = 1e3;  // of all tables
+constexpr double bytes_per_row = 1e3;  // of all tables together
 constexpr double numbers_per_element = 12.0;
-constexpr double numbers_per_vertex = 3.0;  // of an element
+constexpr double numbers_per_vertex = 3.0;  // for each vertex of each element
 constexpr double numbers_per_node = 5.0;
 constexpr double numbers_per_solid_point = 7.0;
 constexpr double numbers_per_moving_point = 23.0;
@@ -76,7 +76,7 @@ class Times : private PlausibilityBase<Dim> {
                   " s; both are in seconds");
   }
 
-  /// Bytes, about.
+  /// Approximate size of a snapshot, bytes.
   [[nodiscard]] double snapshot_size() const {
     const auto elements = static_cast<double>(mesh_.elements.size());
     const bool liquid = scene_.formulation == Formulation::double_point;

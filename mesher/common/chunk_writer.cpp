@@ -21,9 +21,10 @@ struct Effort {
   bool operator==(const Effort&) const = default;
 };
 
-/// Nothing is gained where no value is frequent and neighbours differ, as in the low digits of
-/// computed numbers: such bytes are stored. Where neighbours differ, no longer strings are looked
-/// for. Looks at a thousand of the bytes.
+/// The effort that some bytes are worth, judged from a thousand of them. Bytes without frequent
+/// values and with few equal neighbours, such as the low digits of computed numbers, are stored as
+/// they are. Where fewer than a quarter of other bytes have equal neighbours, repeated strings are
+/// not searched for, only runs of one value.
 Effort effort_for(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t samples = 1024;
   std::array<std::uint64_t, 256> counts{};
@@ -35,7 +36,7 @@ Effort effort_for(std::span<const std::uint8_t> bytes) {
     ++seen;
     if (bytes[i] == bytes[i - 1]) ++repeated;
   }
-  // Ordered pairs of equal bytes: one of 256 where all values are equally frequent.
+  // Ordered pairs of equal bytes: 1/256 of all pairs when all values are equally frequent.
   std::uint64_t pairs = 0;
   for (const std::uint64_t count : counts) pairs += count > 0 ? count * (count - 1) : 0;
   if (64 * pairs < seen * seen && 16 * repeated < seen) return {Z_NO_COMPRESSION};
@@ -43,8 +44,8 @@ Effort effort_for(std::span<const std::uint8_t> bytes) {
   return {};
 }
 
-/// Compresses one chunk after the other. To start zlib anew for each takes as long as a small
-/// chunk.
+/// Compresses one chunk after the other. A new start of zlib for each would take as long as
+/// compressing a small chunk.
 class Compressor {
  public:
   Compressor() { works_ = deflateInit(&stream_, effort_.level) == Z_OK; }
@@ -54,12 +55,12 @@ class Compressor {
     if (works_) deflateEnd(&stream_);
   }
 
-  /// Numbers whose bytes are sorted: all first bytes, all second ones, and so on. Valid until the
-  /// next call; empty where zlib fails.
+  /// Compresses numbers whose bytes are sorted: all first bytes, then all second bytes, and so on.
+  /// The result is valid until the next call, and empty where zlib fails.
   std::span<const std::uint8_t> compress(std::span<const std::uint8_t> sorted,
                                          std::size_t number_size) {
     if (!works_ || deflateReset(&stream_) != Z_OK) return {};
-    // Room for the blocks of stored bytes, and for the ends of those before and behind.
+    // Room for the headers of the stored blocks and for the ends of the blocks around them.
     out_.resize(deflateBound(&stream_, sorted.size()) + sorted.size() / 1024 + 64 * number_size);
     stream_.next_out = out_.data();
     stream_.avail_out = static_cast<uInt>(out_.size());

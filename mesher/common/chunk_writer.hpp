@@ -11,11 +11,11 @@
 
 namespace suffuse {
 
-/// Shape of a dataset of numbers, and what is compressed as one piece.
+/// Shape of a dataset of numbers and of the chunks, each of which is compressed by itself.
 struct ChunkShape {
   std::size_t rows = 0;
-  std::size_t columns = 1;  ///< compressed one by one: the zeros of a third component are few bytes
-  std::size_t chunk_rows = 0;   ///< of one column; chunks of one dataset are of equal size
+  std::size_t columns = 1;      ///< each compressed by itself, so that zeros take few bytes
+  std::size_t chunk_rows = 0;   ///< rows in each chunk, of one column
   std::size_t number_size = 8;  ///< bytes
 };
 

@@ -7,8 +7,8 @@
 
 namespace suffuse {
 
-/// Letters to insert, remove, replace or swap with a neighbour to turn one name into the other,
-/// whatever their case.
+/// Number of letters to insert, remove, replace or swap with a neighbour that turns one name into
+/// the other; case does not count.
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
 /// The candidate that takes the fewest single-letter edits (swapping two neighbours counts as one)

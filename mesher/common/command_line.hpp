@@ -1,6 +1,6 @@
 #pragma once
 
-/// The command line of a program. What is wrong with it is said in the same way by all three:
+/// The command line of a program. All three programs report its errors in one form:
 /// `PROGRAM: error: got FOUND; expected EXPECTED (see --help); did you mean SUGGESTION?`
 
 #include <CLI/CLI.hpp>

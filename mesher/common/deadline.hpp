@@ -8,11 +8,11 @@
 
 namespace suffuse {
 
-/// The deadline has passed. What was being computed is incomplete and must not be used. It is no
-/// error of the computation: handlers of those let it pass.
+/// Thrown when the deadline has passed. Results of the computation are incomplete and must not be
+/// used. It is no error of the computation, so that handlers of such errors do not catch it.
 struct DeadlinePassed {};
 
-/// While it lives, it sets the deadline of this thread.
+/// Sets the deadline of this thread during its lifetime.
 class Deadline {
  public:
   explicit Deadline(double seconds) : outer_(moment) {
@@ -23,7 +23,7 @@ class Deadline {
   Deadline(const Deadline&) = delete;
   Deadline& operator=(const Deadline&) = delete;
 
-  /// Throws DeadlinePassed once it has.
+  /// Throws DeadlinePassed once the deadline has passed.
   static void check() {
     if (moment && Clock::now() >= *moment) throw DeadlinePassed();
   }

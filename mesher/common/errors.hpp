@@ -55,9 +55,9 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Opens those of stdin, stdout and stderr that are closed, to read and show nothing:
-/// a file opened later would get the number of one of them, and the messages meant for it. Has a
-/// file that may not grow further (SIGXFSZ) fail the write instead of ending the program.
+/// Opens /dev/null for each of stdin, stdout and stderr that is closed: otherwise a file opened
+/// later would get its number, and the messages meant for it. Makes a write fail where a file may
+/// not grow further (SIGXFSZ), instead of ending the program.
 void prepare_process();
 
 /// Runs `body`, prints what it throws to stderr as `PROGRAM: error: ...` (an InputError's problems

@@ -39,9 +39,9 @@ class Handle {
   Close close_;
 };
 
-/// Every failure becomes a FileError: HDF5 must not print its own stack beside it, nor clean up
-/// when the program ends, because it crashes there over a file that a full disk kept it from
-/// closing.
+/// Keeps HDF5 from printing its error stack, as every failure becomes a FileError, and from
+/// cleaning up at the end of the program: it crashes there when a full disk has kept it from
+/// closing a file.
 void tame_hdf5() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -93,8 +93,8 @@ Handle array_space(const std::vector<std::size_t>& shape) {
   return {H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose};
 }
 
-/// Fixed length for all of them, at least one byte. ASCII where the text allows: VTK's reader wants
-/// its attributes so.
+/// Type of texts of one fixed length, at least one byte. ASCII where the texts allow, as VTK's
+/// reader needs it for its attributes.
 Handle text_type(std::span<const std::string> values) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   std::size_t longest = 1;
@@ -126,8 +126,9 @@ Handle creation_settings(hid_t property_class) {
   return creation;
 }
 
-/// Of a group. Links and attributes stand together in its head: from nine on HDF5 would make
-/// a heap and a tree for them, which take more room than many a field.
+/// How groups are created: links and attributes are stored in the header of the group. Otherwise
+/// HDF5 would make a heap and a tree for nine or more of them, which take more room than many a
+/// field.
 Handle group_settings() {
   constexpr unsigned most = 64;
   Handle creation = creation_settings(H5P_GROUP_CREATE);
@@ -174,7 +175,7 @@ void write_array(hid_t file, const std::string& path, const std::string& dataset
   write_dataset(file, path, dataset, file_type, memory_type, array_space(shape), values.data());
 }
 
-/// A table is compressed column by column, what has no columns is one of them.
+/// A table is compressed column by column; a plain array is one column.
 template <class Value>
 void write_compressed_array(hid_t file, const std::string& path, const std::string& dataset,
                             hid_t type, std::span<const Value> values,
@@ -220,8 +221,8 @@ void write_attribute(hid_t file, const std::string& path, const std::string& obj
   }
 }
 
-/// Followed, a link can lead to any file that the user may read, or to a pipe on which one waits
-/// for ever. Suffuse writes none.
+/// Refuses a link: it can lead to any file that the user may read, or to a pipe on which the
+/// program would wait for ever. Suffuse's own objects are no links.
 void refuse_link(hid_t file, const std::string& path, const std::string& object) {
   H5L_info_t link{};
   if (H5Lget_info(file, object.c_str(), &link, H5P_DEFAULT) < 0) fail_reading(path, object);
@@ -235,7 +236,8 @@ Handle open_dataset(const Hdf5File& file, hid_t id, const std::string& dataset) 
   }
   Handle set(H5Dopen2(id, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set.valid()) fail(file.path(), dataset, "is not a dataset" + hdf5_reason());
-  // Before anything asks for its extents: those of a virtual dataset are read from other files.
+  // This check comes before any query of the extents, which HDF5 reads from other files for a
+  // virtual dataset.
   const Handle creation(H5Dget_create_plist(set.id()), H5Pclose);
   if (H5Pget_layout(creation.id()) == H5D_VIRTUAL || H5Pget_external_count(creation.id()) > 0) {
     fail(file.path(), dataset, "has its values in another file; expected them in this one");
@@ -373,9 +375,9 @@ Value number_attribute(const Hdf5File& file, hid_t id, const std::string& object
   return value;
 }
 
-/// From the second version of its superblock on (H5F_LIBVER_V18), HDF5 keeps checksums of all that
-/// says where things are and what they are, and compares them before it goes by it. Without them,
-/// damage leads HDF5 1.10 itself to read and write where it must not.
+/// From version 2 of the superblock on (H5F_LIBVER_V18), HDF5 stores checksums of all its metadata
+/// and verifies them before it uses the metadata. Without checksums, a damaged file makes HDF5 1.10
+/// itself read and write memory that it must not.
 void refuse_old_layout(const std::string& path) {
   constexpr std::size_t place_of_version = 8;  // behind the signature
   std::array<char, place_of_version + 1> start{};
@@ -416,8 +418,8 @@ hid_t open_existing(const std::string& path) {
 hid_t create_new(const std::string& path) {
   const Handle creation = creation_settings(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // With checksums (see refuse_old_layout), those of where chunks are included; read by HDF5 1.10
-  // and later.
+  // This format has checksums (see refuse_old_layout), also for the index of the chunks; HDF5 1.10
+  // and later can read it.
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110);
   const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
   if (id < 0) {

@@ -23,7 +23,8 @@ class Hdf5File {
   Hdf5File& operator=(Hdf5File&& other) noexcept;
   ~Hdf5File();
 
-  /// Flushes and closes; throws when the file could not be written whole (the destructor cannot).
+  /// Flushes and closes; throws when the file could not be written completely (the destructor
+  /// cannot throw).
   void close();
 
   [[nodiscard]] const std::string& path() const { return path_; }
@@ -42,7 +43,8 @@ class Hdf5File {
              const std::vector<std::size_t>& shape);
   void write(const std::string& dataset, std::span<const std::uint8_t> values,
              const std::vector<std::size_t>& shape);
-  /// The same compressed without loss, in a table column by column: for fields, which are large.
+  /// Writes an array as `write` does, but compressed without loss, a table column by column. For
+  /// fields, which are large.
   void write_compressed(const std::string& dataset, std::span<const double> values,
                         const std::vector<std::size_t>& shape);
   void write_compressed(const std::string& dataset, std::span<const float> values,
@@ -51,13 +53,14 @@ class Hdf5File {
                         const std::vector<std::size_t>& shape);
   void write_compressed(const std::string& dataset, std::span<const std::uint8_t> values,
                         const std::vector<std::size_t>& shape);
-  /// An external link: `object` stands for the object of the same name in `file`, which lies in
-  /// the same folder. It is for other programs. Nothing here follows a link; see `is_in`.
+  /// Writes an external link: `object` stands for the object with its name in `file`, which lies in
+  /// the folder of this file. Links are for other programs; no function here follows them (see
+  /// `is_in`).
   void link_to(const std::string& object, const std::string& file);
   /// Whether `object` is such a link to `file`.
   [[nodiscard]] bool is_in(const std::string& object, const std::string& file) const;
-  /// Text, and lists of texts: fixed-length UTF-8, padded with NUL. Of variable-length text, a
-  /// damaged file makes HDF5 itself crash; it is neither written nor read.
+  /// Text, and lists of texts: UTF-8 of fixed length, padded with NUL. Text of variable length is
+  /// neither written nor read, as HDF5 itself crashes on it in a damaged file.
   void write_text(const std::string& dataset, const std::string& value);
   void write_texts(const std::string& dataset, const std::vector<std::string>& values);
 

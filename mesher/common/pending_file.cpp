@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Waits until the disk has it. A file system that cannot (EINVAL) is not a failure.
+/// Waits until the file or folder is on the disk. It is no failure when the file system cannot do
+/// this (EINVAL).
 void synchronise(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw FileError(path + ": cannot be opened: " + std::strerror(errno));

@@ -1,8 +1,8 @@
 #pragma once
 
-/// A file under construction: written under a temporary name in the folder of its final one, which
-/// it takes only when complete. An interrupted program leaves no half-written file that looks
-/// whole. What is no file, such as a terminal or a pipe, gets the contents when they are complete.
+/// A file under construction. It is written under a temporary name in its final folder, and renamed
+/// only when complete: an interrupted program leaves no incomplete file that looks complete.
+/// A terminal or a pipe gets the contents when they are complete.
 
 #include <filesystem>
 #include <string>

@@ -6,8 +6,8 @@
 
 namespace suffuse {
 
-/// To read. Not opened where there is anything but a file: to read a folder throws, of a pipe one
-/// could wait for ever.
+/// Opens a file to read. Anything other than a regular file stays unopened: reading a folder
+/// throws, and a pipe may keep the program waiting for ever.
 inline std::ifstream open_regular_file(const std::string& path) {
   std::error_code ignored;
   std::ifstream in;

@@ -42,7 +42,7 @@ std::array<double, Dim + 1> barycentric(const Mesh<Dim>& mesh, int element, cons
   gradients.row(0) = -gradients.template bottomRows<Dim>().colwise().sum();
   std::array<double, Dim + 1> result;
   for (int k = 0; k <= Dim; ++k) {
-    // The vertex after this one has the coordinate 0.
+    // Coordinate k is 0 at the vertex after k.
     const Vector<Dim>& foot = mesh.nodes[mesh.elements[element][(k + 1) % (Dim + 1)]];
     result[k] = gradients.row(k).dot(x - foot);
   }
@@ -80,7 +80,7 @@ double smallest_angle(const Mesh<3>& mesh) {
   for (const auto& corners : mesh.elements) {
     for (int a = 0; a < 4; ++a) {
       for (int b = 0; b < a; ++b) {
-        // Between the faces at the edge from a to b, seen along the edge.
+        // Finds the angle between the two faces at the edge from a to b.
         const Vector<3>& start = mesh.nodes[corners[a]];
         const Vector<3> along = (mesh.nodes[corners[b]] - start).normalized();
         std::array<Vector<3>, 2> aside;

@@ -52,7 +52,7 @@ class Slitting {
       sides.name = set.name;
       for (const Face& face : set.faces) {
         const std::vector<int>& owners = owners_.at(face_key<Dim>(face));
-        if (owners.size() != 2) continue;  // a mesh that is wrong otherwise
+        if (owners.size() != 2) continue;  // the mesh is wrong in another way
         const Face first = renamed(face, owners[0]);
         const Face second = renamed(face, owners[1]);
         if (first == second) {
@@ -108,7 +108,7 @@ class Slitting {
 
   Mesh<Dim>& mesh_;
   const std::vector<BoundarySet<Dim>>& cuts_;
-  std::vector<std::array<int, Dim + 1>> elements_;  ///< with doubled nodes; the mesh's have not
+  std::vector<std::array<int, Dim + 1>> elements_;  ///< with doubled nodes; `mesh_` has single ones
   std::set<Face> cut_;
   std::map<int, std::vector<int>> around_;   ///< elements around each node of the cuts
   std::map<Face, std::vector<int>> owners_;  ///< elements with each of their faces

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Cuts a mesh open along faces inside it, so that a wall without thickness or a well becomes a
-/// pair of outer faces: no later stage knows anything of walls and wells but named boundaries.
+/// pair of outer faces: later stages know walls and wells as named boundaries only.
 
 #include <array>
 #include <string>
@@ -14,7 +14,7 @@ namespace suffuse {
 /// A face that could not be opened: all its nodes are tips of the cuts, which stay single.
 template <int Dim>
 struct JoinedFace {
-  std::string name;  ///< of the set that has it
+  std::string name;  ///< name of its set
   std::array<int, Dim> nodes;
 };
 

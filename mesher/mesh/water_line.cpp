@@ -9,7 +9,7 @@ namespace {
 
 /// Error of coordinates relative to the largest one: products with `geometry.scale`, rotations and
 /// points that Gmsh places along curves differ from the numbers in the scene by some units in the
-/// last digit. A height of this share presses with 1e-6 Pa in a model of 100 m.
+/// last digit. Water of this height has a pressure of 1e-6 Pa in a model of 100 m.
 constexpr double coordinate_error = 1e-12;
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace suffuse {
 
-/// A face counts as one piece: under water where its centre is below the level, and where it is
-/// level ground that the water just reaches.
+/// A whole face is under water where its centre is below the level, and where it is horizontal
+/// ground that the water just reaches.
 template <int Dim>
 class WaterLine {
  public:
@@ -25,7 +25,7 @@ class WaterLine {
  private:
   const Mesh<Dim>& mesh_;
   std::array<double, 3> gravity_;
-  double round_off_ = 0.0;  ///< of heights, m
+  double round_off_ = 0.0;  ///< error of heights, m
 };
 
 }  // namespace suffuse

@@ -8,7 +8,7 @@
 namespace suffuse {
 namespace {
 
-/// Sizes of grains, mm: beyond is a slip.
+/// Range of the sizes of grains, mm: a size outside is a mistake.
 constexpr double smallest_grain = 1e-6;
 constexpr double largest_grain = 1e6;
 /// Percentages that differ by less are equal.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The gradation of a soil: how much of its grains, by mass, is finer than which size.
+/// The gradation of a soil: the share of its grains, by mass, that is finer than each size.
 
 #include <optional>
 #include <string>
@@ -14,8 +14,8 @@ struct GradationPoint {
   double finer = 0.0;  ///< F, per cent by mass
 };
 
-/// Linear between points, in per cent over log d. Nothing is known below the first point, unless
-/// that is at 0 %.
+/// The curve is linear between points, in per cent over log d. It is unknown below the first point,
+/// unless that is at 0 %.
 class Gradation {
  public:
   Gradation() = default;
@@ -25,16 +25,17 @@ class Gradation {
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] const std::vector<GradationPoint>& points() const { return points_; }
 
-  /// Of the first point, mm and per cent.
+  /// Size, mm, and percentage of the first point.
   [[nodiscard]] double smallest_size() const { return points_.front().size; }
   [[nodiscard]] double smallest_finer() const { return points_.front().finer; }
 
-  /// Which end of the sizes that have the same per cent: a gap in the grading is a level stretch.
+  /// Which of the sizes with one percentage is meant: a gap in the grading is a level stretch of
+  /// the curve, with a fine and a coarse end.
   enum class End { fine, coarse };
 
   /// F at a size, per cent: 100 beyond the last point. The size must not be below the first.
   [[nodiscard]] double finer(double size) const;
-  /// d of a percentage, mm. The percentage must not be below the first.
+  /// d at a percentage, mm. The percentage must not be below the first.
   [[nodiscard]] double size(double finer, End end = End::fine) const;
 
  private:
@@ -43,7 +44,7 @@ class Gradation {
   std::vector<GradationPoint> points_;
 };
 
-/// What is wrong with a table [[d, F], ...] as a gradation, where one entry of it is: `F = 60 % at
+/// The fault of a table [[d, F], ...] as a gradation, where one entry is wrong: `F = 60 % at
 /// d = 4 mm after F = 70 %`. Empty where it is right.
 std::string gradation_fault(const std::vector<std::vector<double>>& rows);
 

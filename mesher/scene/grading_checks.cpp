@@ -13,10 +13,9 @@ namespace {
 
 using End = Gradation::End;
 
-/// H is what lies between d and this times d.
+/// H is the mass between d and `size_ratio` d.
 constexpr double size_ratio = 4.0;
-/// Where less than this lies between d and 4 d, the curve is as level as in a gap (Kezdi), per
-/// cent.
+/// Per cent: where H is less, the curve is as level as in a gap (Kezdi).
 constexpr double level = 15.0;
 /// Percentages (absolute) and ratios (relative) that differ by less are equal.
 constexpr double equality_margin = 1e-9;
@@ -34,9 +33,9 @@ ShapePoint shape_at(const Gradation& gradation, double size) {
   return {size, finer, gradation.finer(size_ratio * size) - finer};
 }
 
-/// F and H over log d are linear between these sizes, so that H/F and H are monotone: both are
-/// smallest at one of them. Ascending, all with F > 0.
-/// \param percentages  at which to look as well
+/// Sizes between which F and H are linear over log d, so that H/F and H are monotone: both are
+/// smallest at one of these sizes. Ascending, all with F > 0.
+/// \param percentages  values of F whose sizes are added
 std::vector<ShapePoint> shape_points(const Gradation& gradation,
                                      const std::vector<double>& percentages) {
   std::vector<double> sizes;
@@ -59,8 +58,8 @@ std::vector<ShapePoint> shape_points(const Gradation& gradation,
   return all;
 }
 
-/// The last of the points with F up to `limit` at which `value` is smallest, but for round-off;
-/// nullptr when there is none.
+/// The point with F up to `limit` at which `value` is smallest, the last where several are equal to
+/// round-off; nullptr when there is none.
 template <class Value>
 const ShapePoint* smallest(const std::vector<ShapePoint>& points, double limit, Value value) {
   const ShapePoint* found = nullptr;
@@ -89,8 +88,8 @@ std::optional<SizeRatios> size_ratios(const Gradation& gradation) {
   return SizeRatios{d90 / gradation.size(60.0), d90 / gradation.size(15.0)};
 }
 
-/// The sizes of a split at u = 0.85 S: d85 of the finer part is that of u, D15 of the coarser that
-/// of S + 0.15 (100 - S) = u + 15.
+/// D15/d85 of a split at S = u/0.85: d85 of the finer part is the size at u, D15 of the coarser
+/// part the size at S + 0.15 (100 - S) = u + 15.
 double split_ratio(const Gradation& gradation, double u, End end) {
   return gradation.size(u + 15.0, end) / gradation.size(u, end);
 }
@@ -100,7 +99,7 @@ double split_ratio(const Gradation& gradation, double u, End end) {
 double search_limit(const Gradation& gradation) {
   constexpr double wide = 20.0;
   constexpr double narrow = 30.0;
-  // Of what is coarser than at F = 30 %, D60 and D10 are sizes of the whole at 72 % and 37 %.
+  // D60 and D10 of the grains coarser than at F = 30 % are sizes of the whole at 72 % and 37 %.
   const auto of_coarse = [](double finer) { return narrow + finer * (100.0 - narrow) / 100.0; };
   if (gradation.smallest_finer() > of_coarse(10.0)) return narrow;
   const double uniformity =
@@ -120,7 +119,7 @@ std::optional<FinesContent> fines_content(const Gradation& gradation) {
     const auto next = static_cast<std::size_t>(found - points.data()) + 1;
     at_limit = next < points.size() && points[next].finer > limit && falls(next - 1, next);
   }
-  // A gap beyond: H/F falls down to it and rises again, behind a stretch that may be level.
+  // At a gap beyond the limit, H/F falls and rises again, perhaps after a level stretch.
   for (std::size_t i = 1; i < points.size(); ++i) {
     const bool gap = points[i].finer > limit + equality_margin && points[i].above < level;
     if (!gap || !falls(i - 1, i)) continue;
@@ -133,7 +132,7 @@ std::optional<FinesContent> fines_content(const Gradation& gradation) {
     }
   }
   if (!found) return std::nullopt;
-  // Of the sizes of a gap the finest, which the fines have.
+  // The finest size of the gap, which is the largest size of the fines.
   return FinesContent{found->finer, gradation.size(found->finer), found->ratio(), at_limit};
 }
 
@@ -156,7 +155,7 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
   for (const double u : splits) {
     if (u < start - equality_margin || u > end + equality_margin) continue;
     for (const End side : {End::fine, End::coarse}) {
-      // Before the first split and behind the last there is none.
+      // There is no split before the first, and none behind the last.
       if (std::abs(u - (side == End::fine ? start : end)) <= equality_margin) continue;
       const double ratio = split_ratio(gradation, u, side);
       if (ratio <= largest * (1.0 + equality_margin)) continue;

@@ -22,9 +22,9 @@ struct GradingVerdict {
   std::string check;  ///< "Kenney and Lau (1986)"
   Stability stability = Stability::unknown;
   double value = unset;     ///< the number that decides, unset where unknown
-  double at_finer = unset;  ///< F (or S, of a split) where it is, per cent; unset for whole curves
-  /// Per cent finer below which the gradation gives nothing, though the check would look there; 0:
-  /// nothing is missing.
+  double at_finer = unset;  ///< F of `value`, or S of a split, per cent; unset for whole curves
+  /// F below which the gradation has no points although the check needs them, per cent; 0: none is
+  /// missing.
   double known_from = 0.0;
   std::string reason;  ///< number, limit, or what is missing
 };
@@ -40,8 +40,8 @@ struct FinesContent {
 /// Fines above this carry load, and the coarse grains float in them, per cent.
 inline constexpr double load_bearing_fines = 35.0;
 
-/// Up to which F a loose part is looked for: 20 %, or 30 % where the coarse grains are of one size,
-/// C_u = D60/D10 <= 3 of what is coarser than at F = 30 % (Kenney and Lau 1985).
+/// Largest F at which a loose part is looked for: 20 %, or 30 % where the coarse grains are of one
+/// size, C_u = D60/D10 <= 3 of what is coarser than at F = 30 % (Kenney and Lau 1985).
 double search_limit(const Gradation& gradation);
 
 /// F* at the smallest H/F, for F up to the limit of the search, and at gaps beyond: sizes with
@@ -61,12 +61,12 @@ GradingVerdict check_burenkova(const Gradation& gradation);
 /// P = 1/(1 + exp(-Z)), Z = 2.378 log h'' - 3.648 h' + 3.701; above one half is unstable.
 GradingVerdict check_wan_fell(const Gradation& gradation);
 
-/// All of them, in this order.
+/// The verdicts of all checks above, in their order.
 std::vector<GradingVerdict> check_grading(const Gradation& gradation);
 
-/// Three digits: gradations are not known better.
+/// A number in three digits: gradations are not known better.
 std::string three_digits(double value);
-/// The same of a percentage, with its sign.
+/// A percentage in three digits, with its sign.
 std::string percent_text(double value);
 
 /// `stable`, `unstable` or `cannot be told`; `stable above 5 %` where what is finer is not given.

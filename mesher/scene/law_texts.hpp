@@ -14,7 +14,7 @@
 
 namespace suffuse {
 
-/// One member of every law, in their order.
+/// One member of every law, in the order of the laws.
 template <class Law>
 std::vector<std::string> texts_of(std::span<const Law* const> laws, std::string_view Law::*member) {
   std::vector<std::string> texts;
@@ -39,7 +39,7 @@ std::string chained(const std::vector<std::string>& texts, const std::string& se
 
 /// Symbols of the rates: `alpha`, `beta`, ...
 std::vector<std::string> rate_symbols();
-/// Unit of the rate, that of the first drive with those that differ: `1/s ("flux": 1/m)`.
+/// Unit of the rate for the first drive, then the units that differ: `1/s ("flux": 1/m)`.
 std::string rate_unit();
 /// Units of the threshold: `"flux": m/s, ...`.
 std::string threshold_unit();
@@ -49,11 +49,12 @@ std::vector<ConductivityParameter> conductivity_parameters();
 /// Words of the conductivity laws that ask for this key.
 std::vector<std::string> laws_with_conductivity_parameter(std::string_view key);
 
-/// The same of the retention laws.
+/// Every parameter that some retention law asks for, and the words of the laws that ask for a key.
 std::vector<RetentionParameter> retention_parameters();
 std::vector<std::string> laws_with_retention_parameter(std::string_view key);
 
-/// The same of the laws of the skeleton.
+/// Every parameter that some law of the skeleton asks for, and the words of the laws that ask for a
+/// key.
 std::vector<SkeletonParameter> skeleton_parameters();
 std::vector<std::string> laws_with_skeleton_parameter(std::string_view key);
 

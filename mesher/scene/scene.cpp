@@ -11,7 +11,7 @@
 namespace suffuse {
 namespace {
 
-/// Bytes. What is not a file can be without end.
+/// Bytes. A device or a pipe may have no end.
 constexpr std::size_t largest_scene = 100'000'000;
 
 /// Throws FileError.

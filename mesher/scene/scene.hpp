@@ -23,8 +23,8 @@ namespace suffuse {
 enum class Formulation { single_point, double_point };
 enum class MeshStructure { regular, crossed, free };
 enum class FlowScheme { explicit_nodal, implicit_mixed };
-/// When the soil loses its equilibrium, the run ends, or follows it with the soil's inertia;
-/// `by_room`: where the mesh has room for that.
+/// What the run does when the soil loses its equilibrium: it stops, or it follows the failure with
+/// the soil's inertia; `by_room`: it follows where the mesh has room for that.
 enum class AtFailure { by_room, stop, follow };
 enum class TimeStepping { second_order, monotone };
 /// How fluidised fines are carried on the mesh; `by_count`: by the number of explicit steps.
@@ -72,12 +72,12 @@ struct MeshSettings {
 struct PointSettings {
   int solid_per_element = 3;  ///< 1, 3, 6 or 12; of tetrahedra 1, 4 or 14
   double jitter = 0.0;  ///< points moved off the Gauss positions, as a fraction of the element size
-  int seed = 1;         ///< of the jitter and of random seeding
+  int seed = 1;         ///< for the jitter and for random seeding
   int liquid_per_element = 12;  ///< double-point: in an element of the specimen at the start
-  Seeding seeding = Seeding::low_discrepancy;  ///< of liquid points
-  /// Liquid points stand for equal volumes, so their number per element goes with its liquid;
-  /// false: the same number in every element, as the paper has it.
-  /// Gauss points cannot: it does not apply to them, and a scene that was read says false.
+  Seeding seeding = Seeding::low_discrepancy;  ///< for liquid points
+  /// Liquid points have equal volumes, and their number in an element is proportional to its liquid
+  /// volume; false: equal numbers in all elements, as in the paper. Always false for Gauss points
+  /// in a scene that was read, as their volumes differ.
   bool equal_volume = true;
 };
 
@@ -112,7 +112,7 @@ struct Soil {
   Gradation gradation;                        ///< empty: not given
   double grain_density = unset;               ///< rho_s, kg/m3
   double conductivity = unset;                ///< k at the initial porosity, along bedding, m/s
-  double conductivity_across = unset;         ///< across bedding, m/s; unset: the same
+  double conductivity_across = unset;         ///< across bedding, m/s; unset: as along it
   double bedding = 0.0;                       ///< angle of bedding from the x-axis, degrees
   RetentionModel retention;                   ///< without a law: saturated at any pressure
   const ConductivityLaw* conductivity_law = conductivity_laws().front();  ///< never null
@@ -122,13 +122,13 @@ struct Soil {
   DepositionModel deposition;
   SkeletonModel skeleton;  ///< without a law: rigid
 
-  /// Air can be in the pores.
+  /// Whether air can enter the pores.
   [[nodiscard]] bool drains() const { return retention.law != nullptr; }
   /// k across over k along bedding.
   [[nodiscard]] double anisotropy() const {
     return std::isnan(conductivity_across) ? 1.0 : conductivity_across / conductivity;
   }
-  /// n_L,max = 1 - n_C
+  /// n_L,max = 1 - n_C.
   [[nodiscard]] double porosity_max() const { return 1.0 - skeleton_fraction; }
   [[nodiscard]] ErosionModel erosion_model() const {
     return {.law = erosion.law,
@@ -143,7 +143,7 @@ struct Soil {
   [[nodiscard]] ConductivityModel conductivity_model() const {
     return {conductivity_law, conductivity, skeleton_fraction, conductivity_parameters};
   }
-  /// Fines can leave this soil, or be caught in it.
+  /// Whether fines can leave this soil, or be caught in it.
   [[nodiscard]] bool exchanges() const { return erodes(erosion_model()) || deposition.deposits(); }
   /// n_0 at a position of 2 or 3 coordinates.
   template <class Position>
@@ -156,10 +156,10 @@ struct Soil {
   }
 };
 
-/// What holds on one named boundary, or at one well: at most one flow condition, and what holds or
-/// loads the soil there.
+/// The conditions on one named boundary, or at one well: at most one for the flow, and those that
+/// fix or load the soil there.
 struct BoundaryCondition {
-  std::string key;  ///< of its entry in the scene: `boundary[0]`, `well[0]`
+  std::string key;  ///< its entry in the scene: `boundary[0]`, `well[0]`
   std::string on;
   std::optional<TimeFunction> pressure;  ///< Pa
   std::optional<TimeFunction>
@@ -168,10 +168,10 @@ struct BoundaryCondition {
   /// m above the datum; without gravity the excess head.
   std::optional<TimeFunction> head;
   DryPart dry = DryPart::seepage;
-  bool seepage_face = false;  ///< air outside: lets water out at p = 0, none in
-  /// Volume flux that enters as far as the soil takes it in at p = 0, m/s.
+  bool seepage_face = false;  ///< air outside: water leaves at p = 0, none enters
+  /// Volume flux of rain, m/s: at most what the soil takes in at p = 0 enters.
   std::optional<TimeFunction> rain;
-  /// Of a well: volume of liquid per second that enters through all its faces, m3/s per m, in
+  /// Rate of a well: volume of liquid that enters through all its faces per second, m3/s per m, in
   /// three dimensions m3/s.
   std::optional<TimeFunction> rate;
   std::optional<TimeFunction> concentration;  ///< c of the liquid that enters
@@ -199,23 +199,23 @@ struct OutputProbe {
 struct TimeSettings {
   double end = unset;  ///< s
   FlowScheme scheme = FlowScheme::implicit_mixed;
-  /// s; without it: explicit, 0.9 of the stability limit; implicit, chosen by `tolerance`
+  /// Time step, s; unset: explicit, 0.9 of the stability limit; implicit, chosen by `tolerance`
   std::optional<double> step;
   double mass_scaling = 1.0;                              ///< S; explicit only
   DragIntegration drag = DragIntegration::explicit_drag;  ///< explicit only
   TimeStepping stepping = TimeStepping::second_order;     ///< implicit only
   TransportScheme transport = TransportScheme::by_count;  ///< single-point only
-  std::optional<bool> inertia;  ///< implicit only; without it decided from the scene
+  std::optional<bool> inertia;  ///< implicit only; unset: decided from the scene
   double tolerance = 1e-3;      ///< implicit only: bound of the relative local error of a step
-  AtFailure failure = AtFailure::by_room;  ///< of a skeleton that moves
+  AtFailure failure = AtFailure::by_room;  ///< for skeletons that move
 };
 
 struct FlowSettings {
-  /// false drops (v_L - v_S) . grad n_L from Eq. 2 as standard single-point codes do: loses water
+  /// false: Eq. 2 lacks (v_L - v_S) . grad n_L as in standard single-point codes, and water is lost
   /// wherever porosity varies. For comparison only.
   bool porosity_gradient_term = true;
-  /// Double-point: where pressure lives. Mixed: one per element. Material-point: at liquid points,
-  /// which then carry velocity too, as the paper has it.
+  /// Double-point: where pressures are stored. Mixed: one per element. Material-point: at liquid
+  /// points, which then carry velocity too, as in the paper.
   PressureIntegration integration = PressureIntegration::mixed;
 };
 
@@ -225,9 +225,9 @@ enum class FieldPrecision { float64, float32 };
 struct OutputSettings {
   double every = unset;           ///< s between rows of the tables and, by default, snapshots
   double snapshot_every = unset;  ///< s between snapshots
-  /// s between both while soil fails; without it as ever.
+  /// s between rows, and between snapshots, while soil fails; unset: as at other times.
   std::optional<double> failure_every;
-  int restarts = 2;  ///< newest snapshots that keep the state from which a run goes on
+  int restarts = 2;  ///< number of newest snapshots from which a run can be continued
   FieldPrecision precision = FieldPrecision::float64;
   std::vector<OutputProbe> probes;
   std::vector<OutputSection> sections;
@@ -241,12 +241,13 @@ struct Scene {
   PointSettings points;
   LiquidProperties liquid;
   std::vector<Soil> soils;
-  std::vector<BoundaryCondition> boundaries;  ///< then the wells
+  std::vector<BoundaryCondition> boundaries;  ///< boundaries, then wells
   std::vector<Wall> walls;
   std::array<double, 3> gravity{};  ///< m/s2
   InitialFlow initial_flow = InitialFlow::rest;
   std::string initial_from;  ///< results folder whose last state is the initial one; may be empty
-  /// Of the liquid at rest, m above the datum: as given, or that of the head boundaries at t = 0.
+  /// Level of the liquid at rest, m above the datum: as given, or the head of the boundaries at
+  /// t = 0.
   std::optional<double> water_level;
   /// K_0: horizontal over vertical effective stress at the start; unset: equilibrium under gravity.
   std::optional<double> earth_pressure;
@@ -254,7 +255,7 @@ struct Scene {
   TimeSettings time;
   OutputSettings output;
 
-  /// Some soil has a skeleton that moves.
+  /// Whether some soil has a skeleton that moves.
   [[nodiscard]] bool moves() const;
   [[nodiscard]] const Soil* find_soil(const std::string& region) const;
   /// Free water (n_L = 1, no solid): a region without a soil that is called inflow, outflow,
@@ -282,7 +283,8 @@ struct SceneDocument {
   /// next stage reads the same numbers, wherever it runs.
   std::map<std::string, std::string> files;
 
-  /// Where `key` was given, or else where the nearest enclosing table was, or the file's name.
+  /// Place where `key` was given; otherwise that of the nearest enclosing table, or the file's
+  /// name.
   [[nodiscard]] std::string locate(const std::string& key) const;
 };
 
@@ -290,14 +292,14 @@ struct SceneDocument {
 /// problem found otherwise.
 SceneDocument read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// The same from text already at hand, with the texts of the files that the scene names; `path` is
-/// used in messages only.
+/// Reads and checks a scene whose text and files are already in memory; `path` is used in messages
+/// only.
 SceneDocument parse_scene(const std::string& text, const std::string& path,
                           const std::vector<std::string>& overrides = {},
                           const std::map<std::string, std::string>& files = {});
 
-/// Sets what is not given and depends on the dimension of the mesh, which a scene with a file of
-/// its own does not tell.
+/// Sets the defaults that depend on the dimension of the mesh, which a scene with a geometry file
+/// does not tell.
 void complete_for_mesh(SceneDocument& document, int dimension);
 
 /// Path of a file that a scene names relative to its own folder.

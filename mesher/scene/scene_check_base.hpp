@@ -1,6 +1,6 @@
 #pragma once
 
-/// What checks across the keys of a scene share.
+/// Base of the classes that check the keys of a scene against each other.
 
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ class SceneCheckBase {
               const std::vector<std::string>& others = {}) const {
     inquiry_.report({.key = key, .found = found, .expected = expected, .others = others});
   }
-  /// Reports `key` as missing, with what its declaration says and the other key that asks for it.
+  /// Reports `key` as missing, with the values that it may have and the other key that needs it.
   void require(const std::string& key, const std::string& pattern, const std::string& why,
                const std::string& other) const {
     if (given(key)) return;

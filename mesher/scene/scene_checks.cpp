@@ -15,7 +15,7 @@
 namespace suffuse {
 namespace {
 
-/// Of each table. More is likelier a slip than intent, and would fill the disk.
+/// Largest number of rows of a table. More is probably a mistake, and would fill the disk.
 constexpr double max_rows = 1e6;
 
 class Checks : private SceneCheckBase {
@@ -88,7 +88,7 @@ class Checks : private SceneCheckBase {
     }
   }
 
-  /// The momentum that eroded grains take is found per element, without bedding or suction.
+  /// The momentum that eroded grains take is computed per element and neglects bedding and suction.
   void check_momentum(const Soil& soil, const std::string& table) const {
     const bool needs = soil.erosion_model().drive->depends_on_conductivity;
     if (!soil.erosion.momentum_transfer || !needs) return;
@@ -99,7 +99,8 @@ class Checks : private SceneCheckBase {
            "false, or another drive", {joined(table, "drive")});
   }
 
-  /// What one law asks for may be inherited by a soil with another law, but not given to it.
+  /// Whether the soil inherits: it may inherit keys that its law does not use, but not be given
+  /// them.
   [[nodiscard]] bool inherits(const Soil& soil) const { return given(table_of(soil) + ".like"); }
 
   void check_drive(const Soil& soil, const std::string& table) const {
@@ -186,7 +187,7 @@ class Checks : private SceneCheckBase {
     }
   }
 
-  /// The liquid carries one kind of grains: mixed ones could not be told apart again.
+  /// The liquid carries one kind of grains: two kinds could not be separated once they are mixed.
   void check_grains() const {
     for (const Soil& soil : scene_.soils) {
       const Soil& first = scene_.soils.front();
@@ -201,7 +202,7 @@ class Checks : private SceneCheckBase {
     }
   }
 
-  /// Gauss points are as many as their rule has, and stand for unequal volumes.
+  /// The number of Gauss points must be that of a rule, and their volumes are unequal.
   void check_seeding() const {
     if (scene_.points.seeding != Seeding::gauss) return;
     const int count = scene_.points.liquid_per_element;
@@ -246,7 +247,8 @@ class Checks : private SceneCheckBase {
     return keys;
   }
 
-  /// Without the third term of Eq. 2 no balance closes, so nothing else may be asked of the run.
+  /// Without the third term of Eq. 2 no balance closes: then soil must not erode, and no fines
+  /// enter.
   void check_third_term() const {
     const bool single_point = scene_.formulation == Formulation::single_point;
     if (scene_.flow.porosity_gradient_term || !single_point) return;
@@ -289,7 +291,7 @@ class Checks : private SceneCheckBase {
       report(other, "a key of the explicit scheme " + scheme,
              "scheme = \"explicit\", or no such key", {key});
     }
-    // In the other formulation these are wrong whatever the scheme, and reported as that.
+    // In the other formulation these keys are wrong with either scheme, and are reported elsewhere.
     const bool single_point = scene_.formulation == Formulation::single_point;
     if (single_point && !scene_.flow.porosity_gradient_term) {
       report("flow.porosity_gradient_term", "false " + scheme,
@@ -322,7 +324,7 @@ class Checks : private SceneCheckBase {
   }
 
   void check_boundaries() const {
-    std::map<std::string, std::string> first_entry;  // by the boundary's name
+    std::map<std::string, std::string> first_entry;  // by the name of the boundary
     const auto check_name = [&](const std::string& entry, const std::string& name) {
       if (name.empty()) return;
       const auto [earlier, is_new] = first_entry.emplace(name, entry);
@@ -358,7 +360,7 @@ class Checks : private SceneCheckBase {
     for (const std::string& name : all) {
       if (!given(joined(entry, name))) continue;
       if (name == "seepage_face" && !boundary.seepage_face && !refused(joined(entry, name))) {
-        continue;  // `seepage_face = false` says nothing
+        continue;  // `seepage_face = false` has no effect
       }
       conditions.push_back(name);
       keys.push_back(joined(entry, name));
@@ -388,8 +390,8 @@ class Checks : private SceneCheckBase {
     return f.is_constant() ? smallest : smallest + " to " + shown_number(f.largest());
   }
 
-  /// A concentration is that of liquid that enters: contradictory where liquid is drawn out at all
-  /// times.
+  /// A concentration belongs to liquid that enters: it is a contradiction where liquid is drawn out
+  /// at all times.
   void check_outflow(const std::optional<TimeFunction>& flow, const std::string& name,
                      const BoundaryCondition& boundary, const std::string& entry) const {
     if (!boundary.concentration || !flow || flow->largest() >= 0.0) return;

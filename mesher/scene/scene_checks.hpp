@@ -1,6 +1,6 @@
 #pragma once
 
-/// Checks across the keys of a scene, once each key is right by itself.
+/// Checks the keys of a scene against each other, once each key is right by itself.
 
 #include <functional>
 #include <string>
@@ -15,7 +15,7 @@ struct Contradiction {
   std::string key;  ///< the one to change
   std::string found;
   std::string expected;
-  std::vector<std::string> others;  ///< further keys that it is about
+  std::vector<std::string> others;  ///< the other keys involved
 };
 
 /// What the checks may ask about a scene, and how they say what is wrong.

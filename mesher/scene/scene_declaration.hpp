@@ -1,6 +1,6 @@
 #pragma once
 
-/// How a key of a scene is declared: where its value is kept, what it may be, in one expression.
+/// Declares a key of a scene in one expression: where its value is stored, and what it may be.
 /// For the lists of keys only.
 
 #include <algorithm>
@@ -57,25 +57,25 @@ auto in_skeleton(Member SkeletonModel::*member) {
   return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].skeleton.*member; };
 }
 
-/// Of a list of the scene.
+/// A member of an entry of a list of the scene.
 template <class Entry, class Member>
 auto in_list(std::vector<Entry> Scene::*list, Member Entry::*member) {
   return [=](Scene& scene, std::size_t i) -> Member& { return (scene.*list)[i].*member; };
 }
 
-/// Of a list of `[output]`.
+/// A member of an entry of a list of `[output]`.
 template <class Entry, class Member>
 auto in_output(std::vector<Entry> OutputSettings::*list, Member Entry::*member) {
   return [=](Scene& scene, std::size_t i) -> Member& { return (scene.output.*list)[i].*member; };
 }
 
-/// A boundary, or a well by its place behind the boundaries.
+/// A member of a boundary condition; the wells follow the boundaries in the list.
 template <class Member>
 auto on_boundary(Member BoundaryCondition::*member) {
   return in_list(&Scene::boundaries, member);
 }
 
-// How a value is kept: one overload per type of member, and the kind of value it calls for.
+// How a value is stored: one overload for each type of member, and the kind of value that it needs.
 
 inline void keep(double& member, const Value& value) {
   member = std::get<double>(value);
@@ -202,12 +202,12 @@ struct Declaration : SceneKey {
     unless = other;
     return set(required, true);
   }
-  /// What a table of values goes by: `of_argument("|q|", "fluxes (m/s, ascending)")`.
+  /// The argument of a table of values: `of_argument("|q|", "fluxes (m/s, ascending)")`.
   Declaration&& of_argument(std::string letter, std::string in_words) && {
     argument = std::move(letter);
     return set(arguments, std::move(in_words));
   }
-  /// Of pairs by the share of fines left.
+  /// Declares a table of values against the share of fines left.
   Declaration&& of_fines() && {
     argument_is_share = true;
     return std::move(*this).of_argument("share",

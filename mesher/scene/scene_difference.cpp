@@ -34,7 +34,7 @@ void collect(const SceneNode& node, const std::string& key, Values& values) {
   }
 }
 
-/// What `--set` gives replaces the whole value, table or list of this key.
+/// Applies a `--set`: its value replaces the whole value, table or list of the key.
 void apply(const std::string& argument, Values& values) {
   const Override change = read_override(argument, 0);
   std::string key;

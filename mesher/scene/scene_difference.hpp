@@ -16,7 +16,7 @@ std::map<std::string, std::string> written_values(const SceneDocument& document)
 
 /// One line for each key whose value differs, `--set` applied, and for each file of values with
 /// another text: `time.end: 200 there, 100 here`. Comments, spaces and the order of keys do not
-/// count. Of both documents `text`, `overrides` and `files` count, nothing else. Empty where
+/// count. Only `text`, `overrides` and `files` of the documents are compared. Empty where
 /// nothing differs.
 std::vector<std::string> scene_differences(const SceneDocument& there, const SceneDocument& here);
 

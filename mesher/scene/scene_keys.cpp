@@ -8,18 +8,18 @@ namespace {
 
 using namespace declaration;
 
-/// Of the liquid's viscosity.
+/// A member of the liquid's viscosity model.
 template <class Member>
 auto in_viscosity(Member ViscosityModel::*member) {
   return at(&Scene::liquid, &LiquidProperties::viscosity_model, member);
 }
 
-/// A number of rows of elements beside the specimen.
+/// A number of rows of elements next to the specimen.
 auto rows(int LayerSettings::*member) {
   return at(&Scene::geometry, &GeometrySettings::layers, member);
 }
 
-/// The laws that there are, as meanings of their words.
+/// All laws, as the meanings of their words.
 template <class Law>
 std::vector<std::pair<std::string, const Law*>> by_word(std::span<const Law* const> laws) {
   std::vector<std::pair<std::string, const Law*>> meanings;
@@ -60,7 +60,7 @@ Declaration retention_parameter(const RetentionParameter& parameter) {
       .otherwise_as("required by its model");
 }
 
-/// The laws, and the word for none of them, which a soil may need that is `like` another.
+/// The laws, and the word for no law, which a soil may need that is `like` another.
 std::vector<std::pair<std::string, const RetentionLaw*>> retention_meanings() {
   auto meanings = by_word(retention_laws());
   meanings.insert(meanings.begin(), {"none", nullptr});
@@ -91,7 +91,7 @@ std::vector<std::pair<std::string, const SkeletonLaw*>> skeleton_meanings() {
   return meanings;
 }
 
-/// `"gravity"`, or K_0.
+/// Declares the initial stress: `"gravity"`, or K_0.
 Declaration initial_stress() {
   Declaration d = key("initial.stress", at(&Scene::earth_pressure),
                       "Effective stress at the start: equilibrium under gravity, from which "
@@ -106,7 +106,7 @@ Declaration initial_stress() {
   return d;
 }
 
-/// One number in all directions, or one along and one across bedding.
+/// Declares the conductivity: one number in all directions, or one along and one across bedding.
 Declaration conductivity() {
   Declaration d = key("soil.*.conductivity", in_soil(&Soil::conductivity),
                       "Hydraulic conductivity at the initial porosity, for g = 9.81 m/s2: the same "
@@ -125,7 +125,7 @@ Declaration layer(const char* pattern, int LayerSettings::*member, const char* s
   return key(pattern, rows(member), sentence).at_least(0).at_most(1000).otherwise(0);
 }
 
-/// A key the reader itself acts on; the scene keeps nothing of it.
+/// A key that only the reader uses; the scene does not store it.
 Declaration instruction(const char* pattern, const char* sentence) {
   Declaration d;
   d.pattern = pattern;

@@ -21,10 +21,10 @@ namespace {
 using Form = SceneNode::Form;
 
 constexpr const char* like = "like";
-/// Of soils, each like the next.
+/// Largest number of soils in a chain in which each is `like` the next.
 constexpr std::size_t longest_chain = 100;
 
-/// The pattern of what is called `name` in a table, or nothing when there is no such key or table.
+/// The pattern of the key or table `name` in a table; nothing when there is none.
 std::optional<std::string> pattern_below(const std::string& table, const std::string& name) {
   for (const std::string& child : scene_children(table)) {
     if (child == "*" || (child == name && child != "[]")) return joined(table, child);
@@ -52,7 +52,7 @@ class SceneReader {
     check_table(root_, "", "");
     inherit();
     collect_places(root_, "");
-    // Before the keys are bound: a misspelt structure must not be judged as the default of a shape.
+    // Set before the keys are bound: a misspelt structure must not be judged as a shape's default.
     if (places_.contains("geometry.file")) scene_.mesh.structure = MeshStructure::crossed;
     bind();
     read_tables();
@@ -82,7 +82,7 @@ class SceneReader {
   /// list.
   struct Instance {
     const SceneNode* table;
-    std::string key;  ///< of the table
+    std::string key;  ///< key of the table
     std::size_t index;
   };
 
@@ -96,13 +96,13 @@ class SceneReader {
                           .suggestion = suggestion}});
   }
 
-  /// Reports a key where its table is.
+  /// Reports a missing key at the place of its table.
   void report_missing(const std::string& key, const std::string& expected) {
     report(place_of(key), key, "nothing", expected);
   }
 
-  /// Reports a contradiction at its key, or at the last `--set` that has to do with it. A key whose
-  /// table is not there either is reported where the first of the others is.
+  /// Reports a contradiction at its key, or at the last `--set` of one of the keys involved. Where
+  /// the key and its table are missing, the place is that of the first of the other keys.
   void report(const Contradiction& contradiction) {
     Place place = place_of(contradiction.key);
     for (const std::string& key : contradiction.others) {
@@ -148,7 +148,7 @@ class SceneReader {
       if (!next || step.index.has_value() != is_list(pattern)) {
         return report_unknown(key, pattern, step.shown(), step.name, change.node);
       }
-      // A value where a table belongs is reported as what it is.
+      // A value in the place of a table is reported when the tables are checked.
       if (node->form != (is_list(pattern) ? Form::list : Form::table)) return;
       node = step.index ? entry_at(*node, key, *step.index, change.node)
                         : child_at(*node, step.name, *next, change.node);
@@ -228,7 +228,7 @@ class SceneReader {
         expected.starts_with("a number")) {
       expected.replace(0, 1, "a finite");
     }
-    // With a single word, what is expected says it all.
+    // The expected value names the only word, so that a suggestion would repeat it.
     const auto* text = node.value ? std::get_if<std::string>(&*node.value) : nullptr;
     std::string suggestion;
     if (text && declared.words.size() > 1) suggestion = closest_name(*text, declared.words);
@@ -267,7 +267,7 @@ class SceneReader {
     for (SceneNode& soil : soils->children) inherit(soil, *soils, visiting);
   }
 
-  /// Fills in what `soil` takes from another; false when there is no telling.
+  /// Fills in what `soil` inherits from another; false when that is unknown.
   // NOLINTNEXTLINE(misc-no-recursion): ends at a soil without `like`, or one that is being visited
   bool inherit(SceneNode& soil, SceneNode& soils, std::set<std::string>& visiting) {
     if (without_inheritance_.contains(soil.name)) return false;
@@ -414,8 +414,8 @@ class SceneReader {
     }
   }
 
-  /// A soil that lacks much beside one that lacks nothing is most likely a misspelt name, which is
-  /// one problem and not one for each key.
+  /// A soil that lacks many keys, in a scene with a soil that lacks none, most likely has a
+  /// misspelt name: that is one problem and not one for each key.
   void report_incomplete_soils(const std::vector<Instance>& soils) {
     std::vector<std::string> complete;
     for (const Instance& soil : soils) {
@@ -440,7 +440,7 @@ class SceneReader {
     }
   }
 
-  /// Heads that stand in files of their own.
+  /// Reads the heads that are given in files.
   void read_tables() {
     for (const Instance& boundary : members_of("boundary")) {
       const SceneNode* file = boundary.table->find("file");
@@ -465,10 +465,10 @@ class SceneReader {
 
   std::string path_;
   const FileLoader& load_;
-  std::map<std::string, std::string> files_;  ///< what was read, by name
+  std::map<std::string, std::string> files_;  ///< texts of the files read, by name
   std::vector<Problem> problems_;
   SceneNode root_;
-  std::set<std::string> without_inheritance_;  ///< soils whose `like` leads nowhere
+  std::set<std::string> without_inheritance_;  ///< soils whose `like` cannot be followed
   /// By soil: required keys that it lacks, and what is expected of each.
   std::map<std::string, std::vector<std::pair<std::string, std::string>>> missing_;
   std::set<std::string> refused_;  ///< keys whose value is not allowed

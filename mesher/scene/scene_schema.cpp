@@ -21,7 +21,7 @@ bool within(const SceneKey& key, double x) {
   return std::isfinite(x);
 }
 
-/// How messages and the reference call a value of this key.
+/// The name of a value of this key in messages and in the reference.
 std::string quantity_of(const SceneKey& key) {
   // A list of symbols would not read as one quantity between bounds.
   const bool one_symbol = !key.symbol.empty() && key.symbol.find(',') == std::string::npos;
@@ -328,7 +328,7 @@ std::string shown_value(const Value& value) {
 std::string out_of_order(const std::string& argument, double value, double earlier) {
   const std::string found = argument + " = " + shown_number(value);
   if (value != earlier) return found + " after " + argument + " = " + shown_number(earlier);
-  // A little later, in few digits.
+  // An argument that is a little larger, in few digits.
   const double later =
       std::stod(short_number(value + 1e-4 * (value == 0.0 ? 1.0 : std::abs(value))));
   return found + " twice (for a jump give " + shown_number(value) + " and " + shown_number(later) +

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Every key of a scene, declared once: what it may be, what it means and where it is kept.
+/// Every key of a scene, declared once: its values, its meaning and where it is stored.
 /// The declarations are in `scene_keys.cpp`. Checking, `--set`, suggestions and
 /// docs/scene-reference.md all follow these declarations.
 
@@ -18,8 +18,7 @@ namespace suffuse {
 /// Arrays of numbers: a table of values against time has two in each.
 using Rows = std::vector<std::vector<double>>;
 
-/// A value as TOML has it; an array counts only when it holds nothing but numbers, or nothing but
-/// arrays of numbers.
+/// A value of TOML. Only arrays of numbers, and arrays of such arrays, are allowed as arrays.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, Rows>;
 
 enum class ValueKind {
@@ -50,27 +49,27 @@ struct SceneKey {
   std::string unit;
   std::optional<Bound> lower;
   std::optional<Bound> upper;
-  bool infinite_allowed = false;  ///< of a number: inf is within the bounds
-  /// What the pairs of a function go by: its symbol, and it in words.
+  bool infinite_allowed = false;  ///< for numbers: inf is within the bounds
+  /// The argument of a function given by pairs: its symbol, and what it is in words.
   std::string argument = "t";
   std::string arguments = "times (s, ascending)";
   bool argument_is_share = false;      ///< between 0 and 1; pairs may descend too
-  std::vector<std::string> words;      ///< all there are, for ValueKind::word
-  std::vector<std::int64_t> integers;  ///< all there are, or empty for any within the bounds
+  std::vector<std::string> words;      ///< all allowed words, for ValueKind::word
+  std::vector<std::int64_t> integers;  ///< all allowed ones; empty: any within the bounds
   bool required = false;
   std::string unless;  ///< the other key of its table that stands in for a required one
   std::optional<Value> default_value;
-  std::string default_note;  ///< what holds without the key, where that is no plain value
-  /// Keeps an accepted value in the soil or boundary of this index, or in the scene itself.
+  std::string default_note;  ///< the default in words, where it is no plain value
+  /// Stores an accepted value in the soil or boundary of this index, or in the scene itself.
   std::function<void(Scene&, std::size_t, const Value&)> store;
 
   [[nodiscard]] std::string leaf() const;    ///< `porosity`
   [[nodiscard]] std::string bounds() const;  ///< `0 < n_0 < 1`, or empty
   [[nodiscard]] std::string expected() const;
-  /// The value as `store` wants it, or nothing when it is not allowed here.
+  /// The value as `store` needs it, or nothing when it is not allowed here.
   [[nodiscard]] std::optional<Value> accept(const Value& value) const;
-  /// What is wrong with the pairs of a function or a gradation, where one of them is: `t = 3 after
-  /// t = 5`. Empty where the value as a whole is to be quoted.
+  /// The fault of the pairs of a function or a gradation, where one pair is wrong: `t = 3 after
+  /// t = 5`. Empty where the message has to quote the whole value.
   [[nodiscard]] std::string fault(const Value& value) const;
 
  private:
@@ -98,17 +97,17 @@ std::vector<std::string> scene_children(const std::string& pattern);
 /// `parent.child`, `parent[]`, or `child` at the top level.
 std::string joined(const std::string& parent, const std::string& child);
 
-/// A name as it stands in a dotted key: quoted where TOML wants it.
+/// A name as written in a dotted key: in quotes where TOML needs them.
 std::string shown_name(const std::string& name);
 
-/// A number as short as reads back exactly, `2e7`.
+/// The shortest text that reads back as exactly this number, `2e7`.
 std::string shown_number(double value);
 
 /// A value as one would write it in a scene.
 std::string shown_value(const Value& value);
 
-/// What is wrong with a time, or another argument, that does not lie above the one before it; at a
-/// jump, where the two are the same, how to give one.
+/// The fault of a time, or of another argument, that is not larger than the one before it. Where
+/// the two are equal, the text says how to give a jump.
 std::string out_of_order(const std::string& argument, double value, double earlier);
 
 /// `a, b or c`

@@ -117,12 +117,13 @@ SceneNode read_node(const toml::node& node, std::string name, const Place& place
       InputProblem{.where = where, .key = sentence, .found = {}, .expected = {}, .suggestion = {}});
 }
 
-/// How deep tables lie in each other at most, by dotted keys, headings and braces. Tables are
-/// handled by functions that call themselves, as many times as they are deep.
+/// Largest depth of nested tables, by dotted keys, headings and braces. Recursive functions handle
+/// the tables, with one call for each level.
 constexpr int deepest_table = 64;
 
-/// The number of the first line whose tables lie too deep, or 0. Goes by dots, brackets and braces
-/// outside of texts and comments; TOML that is wrong in other ways is for the parser to refuse.
+/// Finds the number of the first line whose tables are nested too deeply, or 0. Counts dots,
+/// brackets and braces outside of texts and comments; the parser refuses TOML that is wrong in
+/// other ways.
 class DepthScan {
  public:
   explicit DepthScan(std::string_view text) : text_(text) {}
@@ -184,7 +185,7 @@ class DepthScan {
     dots_ = 0;
   }
 
-  /// To the quote that ends the text which begins here.
+  /// Moves to the quote that ends the text which begins here.
   void skip_text(char quote) {
     const std::string three(3, quote);
     const bool is_long = text_.substr(at_, 3) == three;
@@ -207,10 +208,10 @@ class DepthScan {
   std::size_t line_ = 1;
   bool begins_line_ = true;
   bool is_heading_ = false;
-  int heading_ = 0;              // dots of the heading above
-  int dots_ = 0;                 // of the key at hand
-  int within_ = 0;               // of the keys of all tables in braces around it
-  std::vector<int> outer_dots_;  // of each of those
+  int heading_ = 0;              // dots in the heading above
+  int dots_ = 0;                 // dots in the key at hand
+  int within_ = 0;               // dots in the keys of all tables in braces around it
+  std::vector<int> outer_dots_;  // dots in each of those keys
 };
 
 /// \param place_of  a line

@@ -1,7 +1,7 @@
 #pragma once
 
 /// A scene as written: the tree of tables, lists of tables and values of a TOML file, each with the
-/// place it was given at. Nothing is checked here but TOML itself.
+/// place it was given at. Only the syntax of TOML is checked here.
 
 #include <map>
 #include <optional>

@@ -62,7 +62,7 @@ class SeepageChecks : private SceneCheckBase {
     }
   }
 
-  /// The explicit scheme keeps kinds of faces as they are, and drags alike in all directions.
+  /// In the explicit scheme the kind of a face does not change, and the drag is isotropic.
   void check_explicit_seepage() const {
     const auto refuse = [&](const std::string& key, const std::string& found,
                             const std::string& instead = "no such key") {
@@ -72,7 +72,7 @@ class SeepageChecks : private SceneCheckBase {
     for (const BoundaryCondition& boundary : scene_.boundaries) {
       if (boundary.seepage_face) refuse(joined(boundary.key, "seepage_face"), "a seepage face");
       if (boundary.rain) refuse(joined(boundary.key, "rain"), "rain");
-      // A velocity at the tip of a well, one for both of its sides, cannot point to both.
+      // The tip of a well has one velocity for both sides, which cannot point into both.
       if (boundary.rate) refuse(joined(boundary.key, "rate"), "a rate", "a head");
     }
     for (const Soil& soil : scene_.soils) {
@@ -129,7 +129,8 @@ class SeepageChecks : private SceneCheckBase {
     }
   }
 
-  /// Liquid at rest under gravity has a level, which must be known: p = 0 everywhere is no rest.
+  /// Liquid at rest under gravity has a level, which must be known: with p = 0 everywhere it would
+  /// not be at rest.
   void check_start() const {
     if (given("initial.from")) {
       for (const std::string other : {"initial.flow", "initial.water_level", "initial.stress"}) {

@@ -1,12 +1,12 @@
 #pragma once
 
-/// Checks across the keys that are about seepage: water levels, retention, anisotropy, walls.
+/// Checks the keys of seepage against each other: water levels, retention, anisotropy, walls.
 
 #include "scene/scene_checks.hpp"
 
 namespace suffuse {
 
-/// What `check_scene` asks of these keys.
+/// Checks these keys for `check_scene`.
 void check_seepage(const Scene& scene, const SceneInquiry& inquiry);
 
 }  // namespace suffuse

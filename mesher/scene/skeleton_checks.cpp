@@ -51,7 +51,7 @@ class SkeletonChecks : private SceneCheckBase {
     check_dilation(soil.skeleton, table);
   }
 
-  /// Soil that dilates more than it rubs would give work away.
+  /// Soil whose angle of dilation exceeds its angle of friction would produce energy.
   void check_dilation(const SkeletonModel& skeleton, const std::string& table) const {
     const std::string key = table + ".dilation";
     const std::string other = table + ".friction";
@@ -71,7 +71,7 @@ class SkeletonChecks : private SceneCheckBase {
     refuse_of_rigid({fix, traction});
   }
 
-  /// What says nothing where all skeletons are rigid.
+  /// Refuses keys that have no effect where all skeletons are rigid.
   void refuse_of_rigid(const std::vector<std::string>& keys) const {
     const bool unknown = std::ranges::any_of(scene_.soils, [&](const Soil& soil) {
       const std::string table = table_of(soil) + ".skeleton";
@@ -113,7 +113,7 @@ class SkeletonChecks : private SceneCheckBase {
     }
   }
 
-  /// Flow is relative to the soil: where that starts or stops at once, so would the flow.
+  /// Flow is relative to the soil: where the soil suddenly starts or stops, so would the flow.
   void check_inertia() const {
     if (!scene_.time.inertia.value_or(false)) return;
     report("time.inertia", "true beside a skeleton that moves",

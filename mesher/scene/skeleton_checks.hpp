@@ -1,6 +1,7 @@
 #pragma once
 
-/// Checks across the keys of skeletons that move, and of what holds or loads them.
+/// Checks the keys of skeletons that move, and of the conditions that fix or load them, against
+/// each other.
 
 #include "scene/scene_checks.hpp"
 

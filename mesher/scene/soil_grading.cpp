@@ -8,7 +8,7 @@
 namespace suffuse {
 namespace {
 
-// What the warnings say of a soil that `law` erodes.
+// Texts of the warnings about a soil that `law` erodes.
 
 std::string stable(const GradingVerdict& verdict, const std::string& law) {
   return "is " + stability_text(verdict) + " by " + verdict.check + ", but erosion.law = " + law +

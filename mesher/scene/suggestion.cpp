@@ -14,8 +14,8 @@ std::size_t nearness_limit(const std::string& word) {
   return std::max<std::size_t>(1, word.size() / 3);
 }
 
-/// The table or key a pattern stands for, seen from `table`: in its own soil or boundary where that
-/// is what they share.
+/// The table or key that a pattern stands for: in the soil or boundary of `table` where the pattern
+/// has such a part too.
 std::string concrete(std::string pattern, const std::string& table,
                      const std::string& table_pattern, const std::string& soil) {
   for (const std::string group :

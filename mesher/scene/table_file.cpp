@@ -27,7 +27,7 @@ std::optional<double> read_number(std::string_view text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// `t,head` without blanks, to be compared.
+/// A line such as `t,head` without blanks, for comparison.
 std::string without_blanks(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -36,7 +36,7 @@ std::string without_blanks(std::string_view text) {
   return result;
 }
 
-/// As a message quotes it.
+/// A line as a message quotes it.
 std::string shown_line(std::string_view line) {
   constexpr std::size_t longest = 60;
   if (line.empty()) return "an empty line";

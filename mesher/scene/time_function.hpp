@@ -10,7 +10,7 @@ namespace suffuse {
 
 /// Linear between its knots, constant before the first and after the last.
 struct TimeFunction {
-  /// The same at all times. Implicit: a plain number is the usual boundary value.
+  /// A constant. Implicit: a plain number is the usual boundary value.
   TimeFunction(double value) : knots{{0.0, value}} {}  // NOLINT(google-explicit-constructor)
   /// \param pairs  of time (s) and value: at least one, times strictly ascending
   explicit TimeFunction(std::vector<std::pair<double, double>> pairs) : knots(std::move(pairs)) {}

@@ -11,15 +11,15 @@
 namespace suffuse {
 namespace {
 
-/// Of a line that is longer no sentence of our own is worth the search.
+/// Longest line that is searched for the fault; for a longer one the message is the parser's.
 constexpr std::size_t longest_line = 1000;
 
 struct FaultyLine {
-  std::string table;  ///< that the line stands in, as `soil.sand`
+  std::string table;  ///< table of the line, such as `soil.sand`
   std::string text;
 };
 
-/// What stands in the brackets of `[soil.sand]` or `[[boundary]]`; empty where a line is no such
+/// The name in the brackets of `[soil.sand]` or `[[boundary]]`; empty where a line is no such
 /// heading.
 std::string heading_of(const std::string& line) {
   const std::size_t begin = line.find_first_not_of(" \t");
@@ -32,7 +32,7 @@ std::string heading_of(const std::string& line) {
 
 FaultyLine line_of(const std::string& text, std::size_t number) {
   FaultyLine result;
-  std::map<std::string, std::size_t> entries;  // of each list
+  std::map<std::string, std::size_t> entries;  // number so far, by the name of the list
   std::istringstream lines(text);
   for (std::size_t i = 1; i <= number && std::getline(lines, result.text); ++i) {
     const std::string heading = heading_of(result.text);
@@ -44,7 +44,7 @@ FaultyLine line_of(const std::string& text, std::size_t number) {
   return result;
 }
 
-/// `key = value` at the begin of a line or in braces.
+/// `key = value` at the beginning of a line or in braces.
 const std::string key_pattern = R"((?:^|[{,])\s*([A-Za-z0-9_.-]+)\s*=\s*)";
 
 std::optional<InputProblem> decimal_comma(const std::string& line) {

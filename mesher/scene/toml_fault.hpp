@@ -9,7 +9,8 @@
 namespace suffuse {
 
 /// A number with a decimal comma and a word without quotes are named with their key and what is
-/// expected; else there is what the parser says. \param where  of the line, for the message
+/// expected; other faults are told in the words of the parser. \param where  place of the line, for
+/// the message
 InputProblem toml_fault(const std::string& text, std::size_t line, const std::string& where,
                         const std::string& parser_says);
 

@@ -56,7 +56,7 @@ std::vector<ResultsReader> open_all(const std::vector<std::string>& folders);
 void refuse_inside(const ResultsReader& results, const std::string& option,
                    const std::string& path);
 
-/// Where a table goes, and in what unit its times are.
+/// The output of a table, and the unit of its times.
 struct TableOutput {
   std::string path;  ///< "-": standard output; empty: nowhere
   std::string time_unit = "s";

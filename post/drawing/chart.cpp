@@ -265,7 +265,7 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& path) {
   const float height = static_cast<float>(lines) * cell_height;
   const ChartTable& table = charts.front().table;
   const float legend_width = std::max(ChartLegend::width(rows), table_width(table));
-  // Without a legend nothing stands beside the charts.
+  // Without a legend there is nothing next to the charts.
   const float charts_width = static_cast<float>(columns) * cell_width;
   const float width =
       rows.empty() && table.empty()

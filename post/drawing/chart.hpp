@@ -19,12 +19,12 @@ struct Curve {
   std::string label;  ///< in the legend; empty leaves it out
   std::vector<double> x;
   std::vector<double> y;
-  std::vector<double> low{};  ///< lower end of a band whose upper end is y; else empty
+  std::vector<double> low{};  ///< lower end of a band whose upper end is y; empty: no band
   bool markers = false;
   bool joined = false;              ///< draw a line through the markers too
   std::vector<std::size_t> marked;  ///< rows that get a marker; empty: all rows
   Dash dash = Dash::solid;
-  float width = 2.0F;  ///< of the line, pixels
+  float width = 2.0F;  ///< line width, pixels
   Marker marker = Marker::circle;
   bool hollow = false;  ///< white inside; a target gets a smaller dot
   Color color{0.0, 0.0, 0.0};
@@ -36,19 +36,19 @@ struct Curve {
 /// Rows of cells, the first row being the heading.
 using ChartTable = std::vector<std::vector<std::string>>;
 
-/// One chart: what its axes say and the curves in it.
+/// One chart: the texts of its axes and its curves.
 struct Chart {
   std::string title;
   std::string x_label;
   std::string y_label;
   std::vector<Curve> curves;      ///< later ones cover earlier ones
-  std::vector<double> extra_x{};  ///< values that the axis covers too, beside those of the curves
+  std::vector<double> extra_x{};  ///< values that the axis covers in addition to the curves
   std::vector<double> extra_y{};
   bool logarithmic_x = false;  ///< values that are not positive are left out; likewise y
   bool logarithmic_y = false;
-  std::optional<std::array<double, 2>> x_range{};  ///< ends of the axis; else those of the values
+  std::optional<std::array<double, 2>> x_range{};  ///< ends of the axis; unset: those of the values
   std::optional<std::array<double, 2>> y_range{};
-  ChartTable table{};  ///< beneath the legend; of several charts that of the first
+  ChartTable table{};  ///< below the legend; with several charts the table of the first
 };
 
 /// Draws two charts side by side, three or more in rows of two, with one legend for all. The suffix

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The legend beside a chart: a row for each label, with its line or marker. VTK's own legend draws
-/// lines of 25 pixels, too short to tell dashes apart.
+/// The legend next to a chart: a row for each label, with its line or marker. VTK's own legend
+/// draws lines of 25 pixels, too short to tell dashes apart.
 
 #include <vtkContextItem.h>
 #include <vtkSmartPointer.h>
@@ -15,9 +15,9 @@ int vtk_line_type(Dash dash);
 
 /// One of the shapes painted over one another that make a marker.
 struct MarkerLayer {
-  int shape;   ///< of vtkMarkerUtilities
+  int shape;   ///< style of vtkMarkerUtilities
   float size;  ///< pixels
-  bool white;  ///< else the colour of the curve
+  bool white;  ///< otherwise in the colour of the curve
 };
 /// The shapes of a curve's marker, the lowest first.
 std::vector<MarkerLayer> marker_layers(const Curve& curve);

@@ -15,10 +15,10 @@ namespace suffuse {
 /// Paints a line whose places are in metres; `width` in pixels.
 void paint_polyline(vtkContext2D& painter, const ModelView& view, const Polyline& line,
                     const Color& color, float width);
-/// The same of several.
+/// Paints several lines of one colour and width.
 void paint_polylines(vtkContext2D& painter, const ModelView& view,
                      const std::vector<Polyline>& lines, const Color& color, float width);
-/// Of lines on a coloured map: with an edge of another colour, 1 pixel wide.
+/// Paints lines on a coloured map, with an edge of another colour, 1 pixel wide.
 void paint_edged_polylines(vtkContext2D& painter, const ModelView& view,
                            const std::vector<Polyline>& lines, const Color& color,
                            const Color& edge, float width);
@@ -33,7 +33,7 @@ class LineLabels {
   void paint(vtkContext2D& painter, const std::vector<Polyline>& lines, const std::string& text);
 
  private:
-  /// A rectangle that is taken, pixels.
+  /// A rectangle that is occupied, pixels.
   struct Box {
     Vector<2> middle;
     Vector<2> half;

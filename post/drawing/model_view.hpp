@@ -17,14 +17,14 @@ namespace suffuse {
 
 /// Layout of a picture of the model with a colour bar to its right, pixels.
 struct PictureLayout {
-  static constexpr float max_width = 1000.0F;  ///< of the model
+  static constexpr float max_width = 1000.0F;  ///< largest size of the model
   static constexpr float max_height = 800.0F;
   static constexpr float gap = 40.0F;  ///< between the model and the bar
   static constexpr float bar_width = 30.0F;
   static constexpr float min_bar_height = 340.0F;
   static constexpr int title_size = 24;
 
-  /// Of a picture that holds the title with room beside it.
+  /// Width of a picture that holds the title with room at both sides, pixels.
   static float title_width(const std::string& title) {
     constexpr float letter = 14.0F;
     return letter * static_cast<float>(title.size()) + 2.0F * gap;
@@ -41,7 +41,7 @@ class ModelView {
   /// Fits the mesh into a box with lower left corner (left, bottom) and the given largest size; the
   /// mesh touches the left and bottom sides. All in pixels.
   ModelView(const Mesh<2>& mesh, float left, float bottom, float max_width, float max_height);
-  /// The same with the corners of what is fitted, m.
+  /// Fits the rectangle with corners `low` and `high`, m, into such a box.
   ModelView(const Vector<2>& low, const Vector<2>& high, float left, float bottom, float max_width,
             float max_height);
 

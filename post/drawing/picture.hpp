@@ -27,7 +27,7 @@ class PaintedItem : public vtkContextItem {
 /// Adds an item that paints with `paint`, over the items added before.
 void add_painted(vtkContextScene& scene, std::function<void(vtkContext2D&)> paint);
 
-/// Which end of a text is at the given position.
+/// The end of a text that is at the given position.
 enum class Anchor { left, center, right };
 
 /// Paints black text, centred vertically on y; `size` in pixels, `angle` in degrees.
@@ -37,8 +37,8 @@ void paint_text(vtkContext2D& painter, const std::string& text, int size, float 
 class SpaceDrawing;
 
 /// Writes a white picture of `width` by `height` pixels with the items that `fill` adds. Pixels
-/// count from the bottom left; `title` goes into the metadata. What is in space, PNG alone, lies
-/// beneath. Throws InputError for an unknown suffix, FileError.
+/// count from the bottom left; `title` goes into the metadata. Models in space, for PNG only, are
+/// drawn below the items. Throws InputError for an unknown suffix, FileError.
 void draw_picture(int width, int height, const std::string& title, const std::string& path,
                   const std::function<void(vtkContextScene&)>& fill,
                   const SpaceDrawing* space = nullptr);

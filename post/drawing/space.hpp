@@ -22,7 +22,7 @@ struct SpaceView {
     return {right.dot(x), up.dot(x), toward.dot(x)};
   }
 };
-/// One in which `upward`, an axis of the model, points upwards. x goes to the right.
+/// The projection in which `upward`, an axis of the model, points upwards. x goes to the right.
 SpaceView space_view(const Vector<3>& upward);
 
 /// The box around a model, whose edges carry the axes.

@@ -10,7 +10,7 @@
 
 namespace suffuse {
 
-/// Collects VTK's messages as long as the object lives.
+/// Collects VTK's messages during its lifetime.
 class VtkMessages {
  public:
   VtkMessages();

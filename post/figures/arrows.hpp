@@ -33,7 +33,7 @@ class Arrows {
 
   std::vector<Arrow> arrows_;
   double longest_ = 0.0;  ///< arrow, pixels
-  double largest_ = 0.0;  ///< of a vector that is not cut
+  double largest_ = 0.0;  ///< largest vector that is not cut
   double reference_ = 0.0;
 };
 

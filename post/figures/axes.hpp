@@ -1,6 +1,6 @@
 #pragma once
 
-/// Axes of charts as a user wants them.
+/// The user's options for the axes of charts.
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace suffuse {
 /// The label of an axis of times in seconds.
 inline const std::string seconds_label = "time (s)";
 
-/// Applies them to a chart. Throws InputError, naming `command`.
+/// Applies the options to a chart. Throws InputError, naming `command`.
 void set_axes(const AxisOptions& options, const std::string& command, Chart& chart);
 
 /// Two numbers, `a:b` with a < b. Throws InputError, naming `command` and `option`.

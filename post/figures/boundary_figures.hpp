@@ -1,6 +1,6 @@
 #pragma once
 
-/// Charts of what crosses each boundary of the scene, against time.
+/// Charts of the liquid and the grains that cross each boundary of the scene, against time.
 
 #include "drawing/chart.hpp"
 #include "results/reader.hpp"

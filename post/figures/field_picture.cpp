@@ -25,7 +25,7 @@ constexpr Color mesh_color{0.55, 0.55, 0.55};
 constexpr Color stream_color{0.75, 0.0, 0.1};
 constexpr Color region_color{0.25, 0.25, 0.25};
 constexpr float room_above_picture = 70.0F;
-/// For the head beside a level that touches the top of the view.
+/// Room for the text of a head next to a water level at the top of the view, pixels.
 constexpr float level_room = 30.0F;
 constexpr float bar_room = 215.0F;
 constexpr float contour_width = 1.2F;
@@ -264,7 +264,7 @@ SpaceDrawing space_drawing(const Paper& sheet) {
 
 /// Edges where two triangles of a projected surface meet at an angle, or that have one alone.
 Edges bent_edges(const Mesh<2>& mesh, const std::vector<double>& depth) {
-  constexpr double cosine = 0.94;  // of 20 degrees
+  constexpr double cosine = 0.94;  // cosine of 20 degrees
   const auto normal = [&](int triangle) {
     std::array<Vector<3>, 3> x;
     for (int a = 0; a < 3; ++a) {

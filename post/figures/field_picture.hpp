@@ -26,18 +26,18 @@ struct PictureModel {
   Edges outer_edges;
   std::optional<ViewBox> box;        ///< unset: all of the model is shown
   std::vector<char> visible;         ///< per element: whether it reaches into the box
-  std::ptrdiff_t visible_count = 0;  ///< of elements
+  std::ptrdiff_t visible_count = 0;  ///< number of visible elements
   std::array<std::string, 2> axes{"x (m)", "y (m)"};
   std::optional<SpaceBox> space{};  ///< unset: a plane model
-  std::vector<double> depth{};      ///< of the nodes of one in space, towards the viewer, m
+  std::vector<double> depth{};      ///< per node of a model in space, towards the viewer, m
 
-  /// A node of one in space.
+  /// Position of a node of a model in space.
   [[nodiscard]] Vector<3> projected(int node) const {
     return {mesh.nodes[node][0], mesh.nodes[node][1], depth[node]};
   }
 };
 PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box);
-/// Its outer edges are those at which the surface bends.
+/// The outer edges of the result are those at which the surface bends.
 PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector<3>& upward);
 
 /// A triangle within a model in space, projected, m, and its colour.
@@ -55,22 +55,22 @@ struct SpaceLine {
 /// The content of one picture.
 struct FieldPicture {
   std::string title;
-  std::string label;                 ///< of the colours, with the unit
+  std::string label;                 ///< label of the colour bar, with the unit
   std::string where;                 ///< "cell", "node", "element_vertex", "solid" or "liquid"
-  std::vector<double> values;        ///< of elements, nodes, vertices of elements or points
-  std::vector<Vector<2>> positions;  ///< of points; empty for fields of elements and nodes
+  std::vector<double> values;        ///< at elements, nodes, vertices of elements or points
+  std::vector<Vector<2>> positions;  ///< places of points; empty for fields of elements and nodes
   FieldScale scale;
   std::vector<OutsideWater> water;
-  std::vector<OutsideWater> room;      ///< the water of all pictures that show the model alike
-  bool mesh_edges = true;              ///< where elements are large
-  bool contours = false;               ///< of the field, at the round values of the bar
-  std::vector<double> arrows;          ///< two components per element, m/s; empty: none
+  std::vector<OutsideWater> room;  ///< water of all pictures of the run, for a common view
+  bool mesh_edges = true;          ///< draw the edges of elements, where these are large
+  bool contours = false;           ///< draw lines of equal values at the round values of the bar
+  std::vector<double> arrows;      ///< two components per element, m/s; empty: none
   std::vector<double> streamfunction;  ///< at nodes, m2/s; empty: no streamlines
-  double tube = 0.0;    ///< discharge between two streamlines, m2/s; in space of each one, m3/s
-  double misfit = 0.0;  ///< of the stream function
-  bool hollow = false;  ///< of a model in space the edges alone, not the surface
-  std::vector<SpaceTriangle> inside;  ///< what is seen then ...
-  std::vector<SpaceLine> paths;       ///< ... and streamlines
+  double tube = 0.0;    ///< discharge between two streamlines, m2/s; in space of each, m3/s
+  double misfit = 0.0;  ///< misfit of the stream function
+  bool hollow = false;  ///< draw the edges of a model in space, not its surface
+  std::vector<SpaceTriangle> inside;  ///< triangles inside a hollow model
+  std::vector<SpaceLine> paths;       ///< streamlines of a model in space
 
   [[nodiscard]] bool of_points() const { return where == "solid" || where == "liquid"; }
 };

@@ -17,7 +17,7 @@ namespace {
 
 using Layout = PictureLayout;
 constexpr int bar_bands = 256;
-/// Of the larger of both ends: values that lie closer agree.
+/// Values agree that differ by less than this share of the larger end of the range.
 constexpr double agreement = 1e-9;
 constexpr double percentile = 0.01;
 

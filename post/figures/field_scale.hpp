@@ -19,22 +19,22 @@ struct FieldScale {
   bool logarithmic = false;
   bool uniform = false;            ///< all values agree up to round-off: both ends of the range
   bool exceeds_low = false;        ///< some values are below the range
-  bool exceeds_high = false;       ///< above it
-  std::vector<std::string> notes;  ///< on what the range leaves out
+  bool exceeds_high = false;       ///< some values are above the range
+  std::vector<std::string> notes;  ///< notes on values outside the range
   std::vector<Category> kinds;
 
   [[nodiscard]] Color color(double value) const;
-  /// Where a value is in the range: 0 to 1 within.
+  /// Position of a value in the range: 0 to 1 for values within it.
   [[nodiscard]] double fraction(double value) const;
   /// Round values within the range, ascending.
   [[nodiscard]] std::vector<double> levels() const;
   [[nodiscard]] std::string level_text(double level) const;
 };
 
-/// Grey: of what is not a number, or cannot be on a logarithmic scale.
+/// Grey, for values that are not numbers, or not positive on a logarithmic scale.
 inline constexpr Color no_value{0.75, 0.75, 0.75};
 
-/// A value with the area that has it, or 1 for each point.
+/// A value with the area that it holds for, or with 1 for a point.
 struct WeightedValue {
   double value;
   double weight;
@@ -44,7 +44,7 @@ struct ScaleRequest {
   std::optional<std::array<double, 2>> range{};  ///< unset: that of the values
   bool logarithmic = false;
   double round_off = 0.0;       ///< values of this size are zero, in the unit of the field
-  std::string shares = "area";  ///< what weights are shares of
+  std::string shares = "area";  ///< name of the quantity that the weights are shares of
 };
 
 /// A range over values. Without one in the request it reaches from the least to the largest of
@@ -54,7 +54,7 @@ struct ScaleRequest {
 /// positive values.
 FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& request);
 
-/// The bar with its ticks and the label beside it; notes beneath. Pixels.
+/// The bar with its ticks, the label next to it, and notes below. Pixels.
 void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string& label, float left,
                float bottom, float height);
 /// The legend of kinds and its width.

@@ -9,7 +9,7 @@
 namespace suffuse {
 
 struct FilmRequest {
-  RenderRequest picture;  ///< what to draw, but for time and file
+  RenderRequest picture;  ///< what to draw; its time and file are not used
   int rate = 10;          ///< pictures per second
   /// NAME.mp4: MP4 by ffmpeg, or NAME.png where there is no ffmpeg; NAME.png: animated PNG;
   /// FOLDER/: a picture per snapshot.

@@ -155,7 +155,7 @@ SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes) {
   SquareNet best{least, drops_of(least)};
   double worst = HUGE_VAL;
   for (int count = least; count <= most; ++count) {
-    // Of two counts with fields as square, the usual one.
+    // The second term prefers the usual count between counts whose fields are equally square.
     const double off = std::abs(std::log(drops_of(count) / (count * drops_per_tube))) +
                        0.01 * std::abs(std::log(count / usual));
     if (off >= worst) continue;

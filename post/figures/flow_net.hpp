@@ -13,7 +13,7 @@ namespace suffuse {
 
 struct FlowNet {
   SeepageMap map;         ///< heads, phreatic line, water outside
-  StreamFunction stream;  ///< of the snapshot
+  StreamFunction stream;  ///< stream function of the snapshot
   int tubes = 0;          ///< N_f: each carries the discharge over N_f
   int drops = 0;          ///< N_d: each takes the whole fall of the head over N_d
   std::vector<std::string> caption;
@@ -25,14 +25,14 @@ struct SquareNet {
   int drops;
 };
 
-/// `drops_per_tube` is k H / q. Of some forty fields, as many tubes as make the number of drops the
-/// nearest to a whole one; `tubes`, where it is given, are kept.
+/// `drops_per_tube` is k H / q. The net has some forty fields, with the number of tubes for which
+/// the number of drops is nearest to a whole one; `tubes` is kept where it is given.
 SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes);
 
-/// Of the snapshot nearest to a time, s, or of the last. Throws InputError for a time outside the
-/// snapshots, tubes that are not 1 to 100, liquid at rest and a flow that has no stream function;
-/// FileError.
-/// Where soils conduct differently there are no squares, and the net has 6 tubes and 12 drops.
+/// The flow net of the snapshot nearest to a time, s, or of the last. Throws InputError for a time
+/// outside the snapshots, tubes that are not 1 to 100, liquid at rest and a flow that has no stream
+/// function; FileError. Where soils conduct differently there are no squares, and the net has 6
+/// tubes and 12 drops.
 FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
                  const std::optional<int>& tubes);
 

@@ -17,7 +17,7 @@ constexpr Color water_blue{0.0, 0.27, 0.53};
 constexpr Color water_tint{0.91, 0.96, 1.0};
 constexpr float phreatic_width = 3.5F;
 constexpr float level_width = 2.5F;
-/// Of water beside an upright boundary, as a share of the model's larger extent.
+/// Width of the water next to an upright boundary, as a share of the model's larger extent.
 constexpr double water_breadth = 0.08;
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace suffuse {
 inline constexpr Color black{0.0, 0.0, 0.0};
 inline constexpr Color white{1.0, 1.0, 1.0};
 
-/// At the time of the snapshot `index`, as broad as it is drawn. `axes`: of the model, along the
-/// coordinates of the mesh.
+/// The water outside at the time of the snapshot `index`, as wide as it is drawn. `axes`: axes of
+/// the model along the coordinates of the mesh.
 std::vector<OutsideWater> water_outside(const ResultsReader& results, std::size_t index,
                                         const Mesh<2>& mesh,
                                         const std::array<int, 2>& axes = {0, 1});
@@ -26,18 +26,18 @@ std::vector<OutsideWater> water_outside(const ResultsReader& results, std::size_
 ModelView view_with_water(const Mesh<2>& mesh, const std::vector<OutsideWater>& waters,
                           float bottom);
 
-/// Water and its level with the sign of one, its head beside it.
+/// Paints the water, its level with the triangle of a water level, and the head next to it.
 void paint_outside_water(vtkContext2D& painter, const ModelView& view,
                          const std::vector<OutsideWater>& waters);
 
-/// Where p = 0, of pressures at nodes.
+/// The lines p = 0 of pressures at nodes.
 std::vector<Polyline> phreatic_lines(const Mesh<2>& mesh, const std::vector<double>& pressure);
 void paint_phreatic_lines(vtkContext2D& painter, const ModelView& view,
                           const std::vector<Polyline>& lines);
 
 /// A line of a legend.
 Curve legend_line(const std::string& label, const Color& color, float width);
-/// Adds the lines of the water that there is.
+/// Adds the lines for the water that the map shows.
 void add_water_legend(std::vector<Curve>& rows, bool has_phreatic_line, bool has_outside_water);
 
 }  // namespace suffuse

@@ -12,29 +12,29 @@
 
 namespace suffuse {
 
-/// What to draw. Of a field that lives in several places, the first of elements, nodes, solid
-/// points and liquid points is drawn.
+/// What to draw. A field that exists in several places is drawn at the first of elements, nodes,
+/// solid points and liquid points.
 struct RenderRequest {
   std::string field;
   std::string on;                        ///< "cell", "node", "solid", "liquid" or empty
   std::optional<double> time;            ///< s; the nearest snapshot is drawn; unset: the last
   bool all = false;                      ///< every snapshot, all with the same colours
-  std::vector<std::size_t> snapshots{};  ///< these alone, likewise; empty: as said above
-  bool change = false;  ///< what changed since the start, instead of the field itself
-  bool mesh = true;     ///< edges of elements, where these are large
-  std::optional<std::array<double, 2>> range;  ///< of the colours; unset: that of the values
-  bool logarithmic = false;                    ///< of the colours
+  std::vector<std::size_t> snapshots{};  ///< only these, in the same colours; empty: as above
+  bool change = false;                   ///< the change since the start, not the field itself
+  bool mesh = true;                      ///< edges of elements, where these are large
+  std::optional<std::array<double, 2>> range;  ///< range of the colours; unset: that of the values
+  bool logarithmic = false;                    ///< logarithmic scale of the colours
   bool contours = false;                       ///< lines of equal values
   bool vectors = false;                        ///< arrows of the flux
-  /// A plane model has ten, with the same discharge between two. A model in space has sixty, with
-  /// the same discharge each, in the colours of the field.
+  /// A plane model gets ten, with equal discharges between neighbours. A model in space gets sixty,
+  /// each with an equal discharge, in the colours of the field.
   bool streamlines = false;
   std::optional<ViewBox> view;  ///< unset: all of the model
-  /// Of a model in space: the plane to show, or surfaces of equal values; without either its
-  /// surface from outside.
+  /// What is shown of a model in space: the plane `cut`, or the surfaces on which the field has
+  /// these `levels`; without either its surface from outside.
   std::optional<CutPlane> cut{};
   std::vector<double> levels{};
-  std::string output;  ///< NAME.png, .svg or .pdf; of several NAME_0000.png and so on
+  std::string output;  ///< NAME.png, .svg or .pdf; for several pictures NAME_0000.png and so on
 };
 
 /// Reads `LO:HI`, or `LO,HI`, with LO < HI. Throws InputError.

@@ -22,7 +22,7 @@ struct RunStyle {
 /// circles or squares, double-point runs warm colours and diamonds or targets.
 std::vector<RunStyle> run_styles(const std::vector<ResultsReader>& runs);
 
-/// The style of a curve that stands for something else than a run, by its number.
+/// The style of a curve that does not belong to a run, by its number.
 RunStyle curve_style(std::size_t number);
 
 /// "exact, constant law, 0.001 1/s"
@@ -55,7 +55,7 @@ class RunCurves {
   /// after the label; a further curve of the same law is grey. Equal curves are drawn once.
   void add_exact(std::size_t run, const std::vector<double>& x, const std::vector<double>& y,
                  const std::string& more = "");
-  /// The same without a row in the legend.
+  /// Adds an exact curve of a run without a row in the legend.
   void add_unlabelled_exact(std::size_t run, const std::vector<double>& x,
                             const std::vector<double>& y);
   /// Adds a line with its own style and label, under the curves of the runs.

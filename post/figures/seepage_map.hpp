@@ -16,22 +16,22 @@ namespace suffuse {
 /// What a map shows.
 struct SeepageMap {
   std::string title;
-  std::string label;  ///< of the colours, with the unit
+  std::string label;  ///< label of the colour bar, with the unit
   Mesh<2> mesh;
   std::vector<double> head;  ///< per node, m; coloured, with equipotentials
-  /// Per element: it holds air alone, of which no head is drawn; empty where none does.
+  /// Per element: whether it holds air alone, where no head is drawn; empty where none does.
   std::vector<bool> air{};
-  std::vector<double> saturation;  ///< per element; coloured in the place of heads; or empty
+  std::vector<double> saturation;  ///< per element; coloured instead of heads; or empty
   std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
   std::vector<OutsideWater> water;
-  /// Of maps that are aligned: the colours are for these heads too, m.
+  /// For aligned maps: range of heads that the colours cover too, m.
   std::optional<std::array<double, 2>> covered_heads{};
-  std::vector<OutsideWater> room{};  ///< likewise: there is room for this water
+  std::vector<OutsideWater> room{};  ///< for aligned maps: there is room for this water too
 };
 
-/// Of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes' pressures;
-/// without gravity there is no phreatic line. Throws InputError, naming `command`, for a time
-/// outside the snapshots, and where every soil is saturated and the saturation is wanted;
+/// Maps of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes'
+/// pressures; without gravity there is no phreatic line. Throws InputError, naming `command`, for a
+/// time outside the snapshots, and where every soil is saturated and the saturation is wanted;
 /// FileError.
 SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time,
                     const std::string& command = "suffuse-post figure head");

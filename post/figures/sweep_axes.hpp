@@ -1,6 +1,6 @@
 #pragma once
 
-/// What axes say of columns of tables and of keys of scenes.
+/// Labels of axes for columns of tables and for keys of scenes.
 
 #include <string>
 

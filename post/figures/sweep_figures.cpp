@@ -19,7 +19,8 @@ namespace {
 constexpr double low_share = 0.1;
 constexpr double high_share = 0.9;
 constexpr std::size_t most_groups = 10;
-/// Of sampled x: enough for a 10 % quantile that is not the least value alone.
+/// Least number of runs in a group of sampled x: the 10 % quantile then depends on more than the
+/// least value.
 constexpr std::size_t least_runs_of_a_group = 5;
 constexpr std::size_t least_groups = 4;
 constexpr double logarithmic_range = 30.0;
@@ -28,7 +29,7 @@ constexpr int time_intervals = 200;
 /// Light, middle and dark: they differ in grey too.
 constexpr Color band_color{0.80, 0.87, 0.95};
 constexpr Color run_color{0.45, 0.55, 0.65};
-/// Of lines so many that they would cover the band.
+/// Colour of the curves of single runs: many lines in a darker colour would hide the band.
 constexpr Color thin_color{0.62, 0.70, 0.78};
 constexpr Color median_color{0.70, 0.20, 0.0};
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Charts of a sweep: what came out of its runs, over a key or in time, with bands.
+/// Charts of a sweep: results of its runs, over a key or in time, with bands.
 
 #include <string>
 #include <vector>
@@ -20,8 +20,8 @@ double quantile(const std::vector<double>& sorted, double share);
 std::vector<std::vector<std::size_t>> groups_of(const std::vector<double>& x);
 
 /// A chart for each of the columns `y`: all runs over the column `x`, their median and the band
-/// from 10 to 90 %. Of too few runs for a band, the runs joined. `scene`, that of a run, says what
-/// the unit of x depends on. The x axis is logarithmic where values cover a factor of 30.
+/// from 10 to 90 %. With too few runs for a band, a line joins the runs. `scene` is that of a run;
+/// the unit of x may depend on it. The x axis is logarithmic where values cover a factor of 30.
 std::vector<Chart> over_key_charts(const SweepTable& sweep, const std::string& x,
                                    const std::vector<std::string>& y, const Scene* scene = nullptr);
 

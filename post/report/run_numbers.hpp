@@ -1,6 +1,6 @@
 #pragma once
 
-/// The numbers of a run that decide, for the top of a report.
+/// The most important numbers of a run, for the top of a report.
 
 #include <optional>
 #include <string>
@@ -13,15 +13,16 @@
 
 namespace suffuse {
 
-/// What a run does not have yet, or in results of an earlier version, is unset or empty.
+/// Numbers that a run does not have yet, or that results of an earlier version lack, are unset or
+/// empty.
 struct RunNumbers {
   RunRecord record;
-  double end = 0.0;                     ///< of the tables, s
-  std::size_t rows = 0;                 ///< of the tables
+  double end = 0.0;                     ///< last time in the tables, s
+  std::size_t rows = 0;                 ///< number of rows in the tables
   std::optional<double> fines_out;      ///< kg (per metre of thickness in 2D)
-  std::optional<double> fines_percent;  ///< of the fines at the start
+  std::optional<double> fines_percent;  ///< `fines_out` in per cent of the fines at the start
   std::vector<Balance> balances;
-  std::optional<Balance> worst;    ///< that with the largest residual
+  std::optional<Balance> worst;    ///< the balance with the largest residual
   std::vector<PartSafety> safety;  ///< all soil first
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What crossed each boundary of the scene until now.
+/// Liquid and grains that have crossed each boundary of the scene.
 
 #include <string>
 

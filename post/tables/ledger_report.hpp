@@ -16,9 +16,9 @@ struct Balance {
   double in = 0.0;
   double out = 0.0;
   double stored = 0.0;
-  double eroded = 0.0;          ///< grains only
-  double deposited = 0.0;       ///< likewise
-  double carried = 0.0;         ///< likewise; came with soil that moved, minus what left with it
+  double eroded = 0.0;     ///< grains only
+  double deposited = 0.0;  ///< grains only
+  double carried = 0.0;  ///< grains only; came with soil that moved, minus those that left with it
   double worst_residual = 0.0;  ///< largest |residual| of any row, relative to `initial`
   double worst_time = 0.0;      ///< time of that row, s
 };

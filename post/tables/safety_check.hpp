@@ -17,15 +17,15 @@ struct LeastSafety {
   double safety = 0.0;
   double gradient = 0.0;           ///< i
   double critical_gradient = 0.0;  ///< i_cr = (1 - n) (rho_s / rho_w - 1)
-  double time = 0.0;               ///< s, of the snapshot
+  double time = 0.0;               ///< time of the snapshot, s
   std::vector<double> place{};     ///< coordinates, m
 };
 
 /// A boundary of the scene, or all soil.
 struct PartSafety {
   std::string name;
-  /// At a boundary: over its faces through which water leaves, with the gradient in the element at
-  /// the face. Nothing where water rises nowhere.
+  /// Least safety; of a boundary over its faces through which water leaves, with the gradient in
+  /// the element at the face. Nothing where water does not rise anywhere.
   std::optional<LeastSafety> least;
   /// Liquid that leaves through a boundary minus what enters, at the last row of boundaries.csv,
   /// m3/s (per metre of thickness in 2D).
@@ -35,10 +35,10 @@ struct PartSafety {
 /// All soil first, then the boundaries of the scene. Throws FileError.
 std::vector<PartSafety> safety_of(const ResultsReader& results);
 
-/// As "(1.5, 0.25)", m.
+/// A place as text, m: "(1.5, 0.25)".
 std::string place_text(const std::vector<double>& place);
 
-/// As an aligned table, with what it means.
+/// The safeties as an aligned table, with an explanation.
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts);
 
 /// Throws NumericalError, naming part, place and time, where a safety is below `least`.

@@ -11,13 +11,13 @@ namespace suffuse {
 struct SweepTable {
   std::string path;
   std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;  ///< of the runs that are done
+  std::vector<std::vector<std::string>> rows;  ///< rows of the runs that are done
 
   /// The numbers of a column; NaN where a cell is empty. Throws InputError for a column that there
   /// is not, naming `option`, and for a column of words.
   [[nodiscard]] std::vector<double> numbers(const std::string& column,
                                             const std::string& option) const;
-  /// The results folders, beside the table: RUN/RUN.results.
+  /// The results folders, next to the table: RUN/RUN.results.
   [[nodiscard]] std::vector<std::string> results() const;
 };
 

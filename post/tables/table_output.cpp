@@ -20,7 +20,7 @@ void add_units(const Columns& columns, std::map<std::string, std::string>& units
   for (const auto& [name, member, unit] : columns) units.emplace(name, unit);
 }
 
-/// The same name has the same unit in all tables.
+/// Units by the name of the column: columns with equal names have equal units in all tables.
 const std::map<std::string, std::string>& column_units() {
   static const auto all = [] {
     std::map<std::string, std::string> units{{"probe", "1"}, {"section", "1"}, {"region", "1"}};

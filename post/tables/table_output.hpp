@@ -18,8 +18,8 @@ std::string time_unit_words();
 /// Unit of a column of the results' tables: "kg/m" where a mass is per metre of thickness, "-" for
 /// a number without one; empty for a name that they do not have.
 std::string column_unit(const std::string& name, int dimension);
-/// What a column was most likely meant by a name that no table has: the name of today of a column
-/// of an earlier version, or the closest of `known`; empty where none is near.
+/// The column that is most likely meant by a name that no table has: for a name of an earlier
+/// version the present name, otherwise the closest of `known`; empty where none is close.
 std::string closest_column(const std::string& name, const std::vector<std::string>& known);
 /// "kg/m" from "kg" in 2D, "-" from "1".
 std::string shown_unit(const std::string& unit, int dimension);

@@ -15,7 +15,7 @@ constexpr int intervals = 2000;
 /// One end of the column as the scene prescribes it.
 struct End {
   const BoundaryCondition* condition = nullptr;
-  double porosity = unset;  ///< of what lies behind it; unset where it erodes
+  double porosity = unset;  ///< of the region at this end; unset where it erodes
 };
 
 struct Ends {
@@ -27,7 +27,7 @@ bool has_flow(const BoundaryCondition& b) {
   return b.pressure || b.velocity || b.darcy_flux;
 }
 
-/// 1 below the column, 2 above it, 0 anywhere else.
+/// 1 for the lower end of the column, 2 for the upper end, 0 for other boundaries.
 int end_of(const Mesh<2>& mesh, const BoundarySet<2>& boundary, double low, double high) {
   const double slack = 1e-9 * (high - low);
   bool at_low = true;
@@ -57,7 +57,7 @@ double porosity_behind(const Scene& scene, const Mesh<2>& mesh, const BoundarySe
   return unset;
 }
 
-/// The conditions of both ends, or nothing when the flow enters or leaves anywhere else too.
+/// The conditions of both ends, or nothing when the flow enters or leaves at other places too.
 std::optional<Ends> find_ends(const Scene& scene, const Mesh<2>& mesh) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;

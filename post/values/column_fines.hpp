@@ -16,7 +16,7 @@ namespace suffuse {
 struct ColumnFlow {
   Soil soil;                ///< with a law whose porosity is known exactly at a constant flux
   double porosity = unset;  ///< n_0
-  double length = unset;    ///< of the specimen along the flow, m
+  double length = unset;    ///< length of the specimen along the flow, m
   double width = unset;     ///< m
   double flux = unset;      ///< q > 0, m/s
 };
@@ -33,7 +33,7 @@ class ColumnFines {
   /// `end`: the latest time that will be asked for, s.
   ColumnFines(const ColumnFlow& flow, double end);
 
-  /// c at distance `x` (m) from the inlet of the specimen; at `length`, of what leaves it.
+  /// c at distance `x` (m) from the inlet of the specimen; at `length`, c of the outflow.
   [[nodiscard]] double concentration(double x, double t) const;
   /// Fluidised grains in the specimen, kg (per metre of thickness).
   [[nodiscard]] double fines(double t) const;
@@ -46,7 +46,7 @@ class ColumnFines {
   [[nodiscard]] double path_between(double from, double to) const;
   /// Path of the liquid since erosion started; negative before that.
   [[nodiscard]] double path(double t) const;
-  /// When the liquid entered that is at `x` at time `t`.
+  /// Time at which the liquid entered that is at `x` at time `t`.
   [[nodiscard]] double entry(double x, double t) const;
 
   ColumnFlow flow_;

@@ -10,7 +10,7 @@
 namespace suffuse {
 
 /// Names of all fields of the snapshot `index` on `where`: "cell", "node", "element_vertex",
-/// "solid" or "liquid". Beside those stored:
+/// "solid" or "liquid". In addition to those stored:
 /// - "head", m, of cells at their centroids and of nodes: h = p / (rho_w g) + z, above the datum of
 ///   the scene; without gravity p / (rho_w 9.81 m/s2)
 /// - "saturation" of cells, where every soil is saturated: 1
@@ -20,7 +20,7 @@ namespace suffuse {
 std::vector<std::string> all_field_names(const ResultsReader& results, std::size_t index,
                                          const std::string& where);
 
-/// Any of these. Throws FileError when there is no such field.
+/// Any of these fields. Throws FileError when there is no such field.
 Field any_field(const ResultsReader& results, std::size_t index, const std::string& where,
                 const std::string& name);
 
@@ -28,12 +28,12 @@ Field any_field(const ResultsReader& results, std::size_t index, const std::stri
 /// i_cr = (1 - n) (rho_s / rho_w - 1). Not a number in free water.
 std::vector<double> critical_gradient(const ResultsReader& results, std::size_t index);
 
-/// The component of the hydraulic gradient against gravity, without it along `upward`, per cell; 0
-/// where the soil is not saturated. The safety is the critical gradient over it, infinite where it
-/// is not positive.
+/// The component of the hydraulic gradient against gravity, without gravity along `upward`, per
+/// cell; 0 where the soil is not saturated. The safety is the critical gradient over it, infinite
+/// where it is not positive.
 std::vector<double> upward_gradient(const ResultsReader& results, std::size_t index);
 
-/// Against gravity; without it along y, in three dimensions along z.
+/// The direction against gravity; without gravity y, in three dimensions z.
 template <int Dim>
 Vector<Dim> upward(const Scene& scene);
 

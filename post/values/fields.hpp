@@ -10,16 +10,17 @@
 
 namespace suffuse {
 
-/// A field and where it lives: "cell", "element_vertex", "node", "solid" or "liquid".
+/// A field and the places that have its values: "cell", "element_vertex", "node", "solid" or
+/// "liquid".
 struct FieldPlace {
   std::string name;
   std::string where;
-  bool change = false;  ///< minus the field of the first snapshot
+  bool change = false;  ///< subtract the field of the first snapshot
 };
 
 /// Finds a field of the snapshot `index` on `on`: "cell", "node" (elements' own linear fields
 /// included), "solid" or "liquid"; empty: the first of these that has it. Throws InputError, naming
-/// `command`, with all fields and where they live.
+/// `command`, with all fields and their places.
 FieldPlace find_field(const ResultsReader& results, std::size_t index, const std::string& name,
                       const std::string& on, const std::string& command);
 

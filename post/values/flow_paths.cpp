@@ -89,7 +89,7 @@ FlowPath Tracer::path_from(int element, const Vector<3>& place) const {
   for (int e = element; e != none && was_in[e] == 0;) {
     was_in[e] = 1;
     const Vector<3> flux = flux_of(e);
-    // Of the faces through which the flux leaves, the one that is reached first.
+    // The path leaves by the first face that it reaches among those through which the flux leaves.
     double time = std::numeric_limits<double>::infinity();
     int leaves_by = none;
     for (int corner = 0; corner < 4; ++corner) {

@@ -8,7 +8,7 @@
 
 namespace suffuse {
 
-/// The way of the liquid from the surface of a model through its elements.
+/// The path of the liquid from the surface of a model through its elements.
 struct FlowPath {
   std::vector<Vector<3>> places;  ///< m; one more than elements
   std::vector<int> elements;      ///< between two places each
@@ -16,7 +16,7 @@ struct FlowPath {
 
 struct FlowPaths {
   std::vector<FlowPath> paths;
-  double discharge = 0.0;  ///< that enters through the surface, m3/s; shared by the paths
+  double discharge = 0.0;  ///< inflow through the surface, m3/s; the paths have equal shares
 };
 
 /// `count` paths, which begin at the surface where liquid enters. In each element they follow the

@@ -10,7 +10,8 @@
 namespace suffuse {
 namespace {
 
-/// An edge leans so little, over its length, that the water beside it is drawn as beside a wall.
+/// Largest lean of an upright edge, relative to its length: the water next to it is drawn as next
+/// to a wall.
 constexpr double upright = 0.05;
 
 /// Directions against gravity and across it.
@@ -73,7 +74,7 @@ std::vector<OutsideWater> outside_water(const Mesh<2>& mesh, const Scene& scene,
   const Vector<2> up = -gravity.normalized();
   const Axes axes{up, Vector<2>(up[1], -up[0])};
   const auto opposite = opposite_nodes(mesh);
-  double middle = 0.0;  // of the model
+  double middle = 0.0;  // middle of the model across gravity, m
   for (const Vector<2>& x : mesh.nodes) {
     middle += x.dot(axes.across) / static_cast<double>(mesh.nodes.size());
   }

@@ -13,14 +13,14 @@ namespace suffuse {
 /// The water at one boundary.
 struct OutsideWater {
   std::string boundary;
-  double head = 0.0;                           ///< of its level, m
+  double head = 0.0;                           ///< head of its level, m
   std::vector<std::array<Vector<2>, 4>> body;  ///< quadrilaterals between boundary and level
   std::array<Vector<2>, 2> level;              ///< the ends of its surface
 };
 
-/// At `time`, s, for every boundary under gravity whose head is above some of it; wells are within
-/// the model and have none. Over edges that rise or lie the water reaches up to the level; beside
-/// upright ones it is `breadth` m wide.
+/// The water at `time`, s, at every boundary whose head is above a part of it, under gravity; wells
+/// are within the model and have none. Over sloping or horizontal edges the water reaches up to the
+/// level; next to upright edges it is `breadth` m wide.
 std::vector<OutsideWater> outside_water(const Mesh<2>& mesh, const Scene& scene, double time,
                                         double breadth);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How commands refuse what they were given.
+/// Errors of commands about wrong options.
 
 #include <string>
 

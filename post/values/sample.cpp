@@ -41,7 +41,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Of "x,y" or "x,y,z".
+/// The place that "x,y" or "x,y,z" gives; nothing for other texts.
 std::optional<Position> place_of(const std::string& text) {
   const auto coordinates = split(text, ',');
   if (coordinates.size() < 2 || coordinates.size() > 3) return std::nullopt;
@@ -117,7 +117,7 @@ SnapshotPair find_snapshots(const ResultsReader& results, double time,
   return {after - 1, after, (time - times[after - 1]) / (times[after] - times[after - 1])};
 }
 
-/// A field at one time, and the kind of place it lives on.
+/// A field at one time, and the kind of place that it has values on.
 struct SampledField {
   Field values;
   std::string where;
@@ -126,7 +126,7 @@ struct SampledField {
   [[nodiscard]] int width() const { return where == "element_vertex" ? 1 : values.components; }
 };
 
-/// Throws InputError when the field lives on points: it has no values between them.
+/// Throws InputError for a field of points: it has no values between them.
 void refuse_point_field(const ResultsReader& results, std::size_t index, const std::string& name,
                         const SampleNames& input_names) {
   std::vector<std::string> kinds{"solid"};
@@ -148,7 +148,7 @@ double between(double before, double after, double weight) {
   return weight < 0.5 ? before : after;
 }
 
-/// Where a field lives. Throws InputError.
+/// The kind of place that a field has values on. Throws InputError.
 FieldPlace find_place_of(const ResultsReader& results, std::size_t index, const std::string& name,
                          const SampleNames& input_names) {
   std::vector<std::string> known;

@@ -29,7 +29,7 @@ Position parse_place(const std::string& text);
 /// Reads `a,b,c`. Throws InputError on an empty name.
 std::vector<std::string> parse_field_names(const std::string& text);
 
-/// Times of all snapshots for `all`, else those of `t1,t2,...`. Throws InputError.
+/// Times of all snapshots for `all`, otherwise those of `t1,t2,...`. Throws InputError.
 std::vector<double> parse_times(const ResultsReader& results, const std::string& text);
 
 /// `count` >= 2 places, evenly spaced from end to end of the line. Throws InputError.
@@ -37,9 +37,9 @@ std::vector<Position> places_on(const SampleLine& line, int count);
 
 struct SampleRequest {
   std::vector<double> times;        ///< s
-  std::vector<Position> positions;  ///< of the model's dimension
+  std::vector<Position> positions;  ///< places, with as many coordinates as the model
   std::vector<std::string> fields;
-  bool change = false;  ///< since the start, instead of the fields themselves
+  bool change = false;  ///< sample changes since the start, not the fields themselves
 };
 
 /// Names of the command and its inputs in messages.
@@ -58,7 +58,7 @@ struct SampleNames {
 /// elements of soil there, over those of free water where there is no soil. Between two snapshots
 /// values are linear in time.
 ///
-/// Throws InputError for an unknown field, a field that lives on points only, a time outside the
+/// Throws InputError for an unknown field, a field of points only, a time outside the
 /// snapshots, a point outside the model or of another dimension.
 Table sample(const ResultsReader& results, const SampleRequest& request,
              const SampleNames& input_names = {});

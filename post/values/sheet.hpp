@@ -11,10 +11,10 @@
 
 namespace suffuse {
 
-/// A place on an edge of a mesh, or at one of its nodes: then both nodes are the same.
+/// A place on an edge of a mesh, or at a node, which is then given twice.
 struct EdgePlace {
   std::array<int, 2> nodes;
-  double share = 0.0;  ///< of the way from the first node to the second
+  double share = 0.0;  ///< share of the way from the first node to the second
 };
 
 /// Triangles, each within one tetrahedron or on its side. Neighbours share nodes.
@@ -26,11 +26,11 @@ struct Sheet {
 
 Vector<3> position(const Mesh<3>& mesh, const EdgePlace& place);
 
-/// The outer faces, seen from outside they turn to the left.
+/// The outer faces; their nodes are in counterclockwise order as seen from outside.
 Sheet outer_sheet(const Mesh<3>& mesh);
 
-/// Where a field that is linear between the nodes has the value `level`. Elements with a value that
-/// is not finite are left out.
+/// The surface on which a field that is linear between the nodes has the value `level`. Elements
+/// with a value that is not finite are left out.
 Sheet level_sheet(const Mesh<3>& mesh, const std::vector<double>& at_nodes, double level);
 
 /// Values of a field of "cell", "node" or "element_vertex" on a sheet: one per triangle, per node,
@@ -59,7 +59,7 @@ struct PlaneCut {
   std::array<int, 2> axes{0, 2};
   Mesh<2> mesh;
 };
-/// Throws InputError, naming `command`, for a plane beside the model.
+/// Throws InputError, naming `command`, for a plane that misses the model.
 PlaneCut plane_cut(const Mesh<3>& mesh, const CutPlane& plane, const std::string& command);
 
 }  // namespace suffuse

@@ -24,13 +24,13 @@ struct Specimen {
   std::vector<int> regions;  ///< numbers as in regions.csv
   std::vector<Portion> portions;
   double volume = 0.0;       ///< m3 (per metre of thickness in 2D)
-  bool has_all_soil = true;  ///< false when there is soil that does not erode beside it
+  bool has_all_soil = true;  ///< false when some other soil does not erode
 };
 
 /// The specimen of a run. Throws FileError.
 Specimen specimen(const ResultsReader& run);
 
-/// How titles name the specimen: "the soil" when it has all soil, else "the soil that erodes".
+/// How titles name the specimen: "the soil" when it has all soil, otherwise "the soil that erodes".
 std::string specimen_name(bool has_all_soil);
 
 /// Integral over the specimen of `density`, a function of (soil, initial porosity, exact porosity
@@ -38,15 +38,15 @@ std::string specimen_name(bool has_all_soil);
 double integrate(const Specimen& specimen, double t,
                  const std::function<double(const Soil&, double, double)>& density);
 
-/// Whether every soil of the specimen has an exact porosity that does not depend on the flow. Where
-/// not, the exact quantities below are NaN.
+/// Whether every soil of the specimen has an exact porosity that does not depend on the flow.
+/// Otherwise the exact quantities below are NaN.
 bool has_exact_porosity(const Specimen& specimen);
 
 /// Volume mean of the exact porosity.
 double exact_mean_porosity(const Specimen& specimen, double t);
 
-/// When the last portion has lost all its erodible grains, s; infinity for laws that never reach
-/// that.
+/// Time at which the last portion has lost all its erodible grains, s; infinity for laws that never
+/// reach that.
 double exact_exhaustion(const Specimen& specimen);
 
 /// Masses of the specimen at one time, kg (per metre of thickness in 2D).

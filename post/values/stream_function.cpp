@@ -21,7 +21,7 @@ constexpr double round_off = 1e-6;
 /// Sums along edges that contradict one another by less than this share of psi need no least
 /// squares.
 constexpr double contradiction = 1e-10;
-/// Of the liquid at rest: gradients of the head that round-off makes.
+/// Liquid is at rest where the gradient of the head is smaller: round-off makes such gradients.
 constexpr double rest = 1e-10;
 
 /// Sets of numbers that grow together.

@@ -14,7 +14,7 @@ struct StreamFunction {
   /// psi at nodes, m2/s (m3/s per metre of thickness), 0 at the least: from one place to another it
   /// grows by the discharge that crosses any line between them from its left side to its right.
   std::vector<double> at_nodes;
-  double discharge = 0.0;  ///< what enters through the outer edges, m3/s per metre of thickness
+  double discharge = 0.0;  ///< inflow through the outer edges, m3/s per metre of thickness
   /// Distance of the flux of psi from the given one, relative, both as root mean square over the
   /// area: round-off in a flow without sources, as of incompressible liquid.
   double misfit = 0.0;
