@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
+#include "gmsh_groups.hpp"
 #include "gmsh_session.hpp"
 #include "gmsh_types.hpp"
 
@@ -23,11 +24,6 @@ constexpr std::array<std::array<int, 3>, 7> palette{{{230, 159, 0},
                                                      {0, 114, 178},
                                                      {213, 94, 0},
                                                      {204, 121, 167}}};
-
-void name_group(int dimension, int entity, const std::string& name) {
-  const int group = gmsh::model::addPhysicalGroup(dimension, {entity}, entity);
-  gmsh::model::setPhysicalName(dimension, group, name);
-}
 
 /// Gmsh counts from one. Nodes hang on an entity: the first region has them all.
 template <int Dim>
@@ -56,7 +52,7 @@ void add_regions(const Mesh<Dim>& mesh) {
   for (int r = 0; r < count; ++r) {
     gmsh::model::mesh::addElementsByType(
         r + 1, Dim == 2 ? gmsh_type::triangle : gmsh_type::tetrahedron, tags[r], nodes[r]);
-    name_group(Dim, r + 1, mesh.region_names[r]);
+    name_group(Dim, {r + 1}, mesh.region_names[r], r + 1);
   }
 }
 
@@ -74,7 +70,7 @@ void add_boundaries(const Mesh<Dim>& mesh) {
     }
     gmsh::model::mesh::addElementsByType(entity, Dim == 2 ? gmsh_type::line : gmsh_type::triangle,
                                          tags, nodes);
-    name_group(Dim - 1, entity, set.name);
+    name_group(Dim - 1, {entity}, set.name, entity);
   }
 }
 

@@ -30,7 +30,8 @@ struct ExtractedMesh {
   std::vector<NamedNode> points;
   /// The faults of the mesh: `found` and `expected` only, as the caller knows where it came from.
   std::vector<InputProblem> problems;
-  /// Without physical curves (surfaces): those that could be physical, as the end of a message.
+  /// End of a message for a geometry that names no curve (surface): it lists those that can get a
+  /// name.
   std::optional<std::string> curves_to_name;
   /// Clockwise triangles, or tetrahedra inside out, that were turned round.
   int turned = 0;

@@ -99,7 +99,8 @@ double split_ratio(const Gradation& gradation, double u, End end) {
 double search_limit(const Gradation& gradation) {
   constexpr double wide = 20.0;
   constexpr double narrow = 30.0;
-  // D60 and D10 of the grains coarser than at F = 30 % are sizes of the whole at 72 % and 37 %.
+  // The coarse part starts at F = 30 % of the whole. A share of the coarse part is therefore this
+  // share of the whole: 60 % become 72 %, and 10 % become 37 %.
   const auto of_coarse = [](double finer) { return narrow + finer * (100.0 - narrow) / 100.0; };
   if (gradation.smallest_finer() > of_coarse(10.0)) return narrow;
   const double uniformity =

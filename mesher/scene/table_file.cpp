@@ -57,11 +57,8 @@ TableReading read_head_table(const std::string& text, const std::string& path) {
   std::istringstream lines(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
   std::size_t number = 0;
   const auto fail = [&](const std::string& found, const std::string& expected) {
-    result.problem = InputProblem{.where = path + ':' + std::to_string(number),
-                                  .key = {},
-                                  .found = found,
-                                  .expected = expected,
-                                  .suggestion = {}};
+    result.problem = InputProblem{
+        .where = path + ':' + std::to_string(number), .found = found, .expected = expected};
     return result;
   };
   for (std::string raw; std::getline(lines, raw);) {

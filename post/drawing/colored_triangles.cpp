@@ -9,7 +9,6 @@
 #include <map>
 
 namespace suffuse {
-namespace {}  // namespace
 
 ColoredTriangles::ColoredTriangles() {
   colors_->SetNumberOfComponents(4);

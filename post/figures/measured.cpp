@@ -27,18 +27,21 @@ void check_measured(const Table& table, const std::string& path) {
   for (std::size_t k = 0; k < table.names.size(); ++k) {
     for (const double value : table.columns[k]) {
       if (!std::isfinite(value)) {
-        refuse("suffuse-post figure", "--measured " + (path + ": " + table.names[k]),
-               number_text(value), "a number");
+        refuse_measured(path + ": " + table.names[k], number_text(value), "a number");
       }
     }
     if (const std::string now = renamed_column(table.names[k]); !now.empty()) {
-      refuse("suffuse-post figure", "--measured " + path, "a column " + table.names[k],
-             now + ", the name of today");
+      refuse_measured(path, "a column " + table.names[k], now + ", the name of today");
     }
   }
 }
 
 }  // namespace
+
+void refuse_measured(const std::string& where, const std::string& found,
+                     const std::string& expected) {
+  refuse("suffuse-post figure", "--measured " + where, found, expected);
+}
 
 MeasuredPoints read_measured(const std::string& path) {
   MeasuredPoints measured{path, {}};
@@ -60,8 +63,7 @@ void add_measured(const MeasuredPoints& measured, const std::string& x, const st
     if (!points.table.has(x) || !points.table.has(column)) continue;
     const auto run = std::ranges::find(labels, points.name);
     if (!points.name.empty() && run == labels.end()) {
-      refuse("suffuse-post figure", "--measured " + measured.path, '"' + points.name + '"',
-             quoted_list(labels));
+      refuse_measured(measured.path, '"' + points.name + '"', quoted_list(labels));
     }
     const RunStyle style = curve_style(points.name.empty() ? 0 : run - labels.begin());
     Curve curve;

@@ -16,6 +16,11 @@ struct MeasuredPoints {
   std::vector<NamedTable> runs;  ///< by the label of the run; one without a name if it has none
 };
 
+/// Throws InputError for what is in the file of measured points or missing in it; `where` begins
+/// with its path.
+[[noreturn]] void refuse_measured(const std::string& where, const std::string& found,
+                                  const std::string& expected);
+
 /// Reads a table of numbers, with times in seconds. A column `run` says which run points belong to.
 /// Throws InputError for an unknown unit of time, FileError.
 MeasuredPoints read_measured(const std::string& path);

@@ -8,7 +8,6 @@
 #include "common/errors.hpp"
 #include "figures/run_curves.hpp"
 #include "results/number_text.hpp"
-#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
@@ -64,14 +63,11 @@ Curve conductance_of(const ResultsReader& run, Curve curve) {
 
 MeasuredPoints read_measured_points(const std::string& path) {
   MeasuredPoints measured = read_measured(path);
-  if (measured.runs.empty())
-    refuse("suffuse-post figure", "--measured " + path, "no row", "at least one");
+  if (measured.runs.empty()) refuse_measured(path, "no row", "at least one");
   const Table& first = measured.runs.front().table;
-  if (!first.has("hours"))
-    refuse("suffuse-post figure", "--measured " + path, "no column \"hours\"", "times in hours");
+  if (!first.has("hours")) refuse_measured(path, "no column \"hours\"", "times in hours");
   if (std::ranges::none_of(measured_columns, [&](const auto& name) { return first.has(name); })) {
-    refuse("suffuse-post figure", "--measured " + path, "no column of values",
-           quoted_list(measured_columns));
+    refuse_measured(path, "no column of values", quoted_list(measured_columns));
   }
   return measured;
 }

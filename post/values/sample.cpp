@@ -10,6 +10,7 @@
 #include "results/number_text.hpp"
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
@@ -22,12 +23,6 @@ constexpr int max_points = 1'000'000;
 
 /// Where a field is looked for, in the order of preference.
 constexpr std::array<const char*, 3> kinds_of_place{"element_vertex", "node", "cell"};
-
-InputError wrong(const std::string& option, const std::string& found, const std::string& expected,
-                 const std::string& suggestion = {},
-                 const std::string& command = SampleNames{}.command) {
-  return InputError(InputProblem{command, option, found, expected, suggestion});
-}
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
@@ -72,9 +67,8 @@ template <int Dim>
 std::vector<Place<Dim>> locate(const ResultsReader& results, const Mesh<Dim>& mesh,
                                const Position& x, const SampleNames& input_names) {
   if (x.size() != Dim) {
-    throw wrong(input_names.places, "the point " + position_text(x),
-                Dim == 3 ? "x,y,z: the model has three dimensions" : "x,y: the model is plane", "",
-                input_names.command);
+    refuse(input_names.command, input_names.places, "the point " + position_text(x),
+           Dim == 3 ? "x,y,z: the model has three dimensions" : "x,y: the model is plane");
   }
   std::vector<Place<Dim>> everywhere;
   std::vector<Place<Dim>> in_soil;
@@ -86,8 +80,8 @@ std::vector<Place<Dim>> locate(const ResultsReader& results, const Mesh<Dim>& me
     if (results.scene().scene.find_soil(region) != nullptr) in_soil.push_back({e, b});
   }
   if (everywhere.empty()) {
-    throw wrong(input_names.places, "the point " + position_text(x), "points inside the model", "",
-                input_names.command);
+    refuse(input_names.command, input_names.places, "the point " + position_text(x),
+           "points inside the model");
   }
   return in_soil.empty() ? everywhere : in_soil;
 }
@@ -105,10 +99,9 @@ SnapshotPair find_snapshots(const ResultsReader& results, double time,
   if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
   const double slack = 1e-12 * std::max(std::abs(times.front()), std::abs(times.back()));
   if (!(time >= times.front() - slack && time <= times.back() + slack)) {
-    throw wrong(input_names.time, number_text(time),
-                "a time from " + number_text(times.front()) + " to " + number_text(times.back()) +
-                    " s, the first and last snapshot",
-                "", input_names.command);
+    refuse(input_names.command, input_names.time, number_text(time),
+           "a time from " + number_text(times.front()) + " to " + number_text(times.back()) +
+               " s, the first and last snapshot");
   }
   const auto later = std::lower_bound(times.begin(), times.end(), time);
   if (later == times.begin()) return {0, 0, 0.0};
@@ -138,7 +131,7 @@ void refuse_point_field(const ResultsReader& results, std::size_t index, const s
     found += kind + " points";
     std::string expected = "a field " + fields_and_places(results, index, {"cell", "node"});
     expected += " (suffuse-post render --on " + kind + " shows it)";
-    throw wrong(input_names.fields, found, expected, "", input_names.command);
+    refuse(input_names.command, input_names.fields, found, expected);
   }
 }
 
@@ -160,8 +153,8 @@ FieldPlace find_place_of(const ResultsReader& results, std::size_t index, const 
   refuse_point_field(results, index, name, input_names);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
-  throw wrong(input_names.fields, "\"" + name + "\"", quoted_list(known), closest_name(name, known),
-              input_names.command);
+  refuse(input_names.command, input_names.fields, "\"" + name + "\"", quoted_list(known),
+         closest_name(name, known));
 }
 
 SampledField read_sampled(const ResultsReader& results, const SnapshotPair& pair,
@@ -248,7 +241,7 @@ Table sample_in(const ResultsReader& results, const Mesh<Dim>& mesh, const Sampl
 
 Position parse_place(const std::string& text) {
   const auto place = place_of(text);
-  if (!place) throw wrong("--at", "\"" + text + "\"", "x,y or x,y,z in metres");
+  if (!place) refuse(SampleNames{}.command, "--at", "\"" + text + "\"", "x,y or x,y,z in metres");
   return *place;
 }
 
@@ -258,8 +251,7 @@ SampleLine parse_line(const std::string& text, const std::string& command,
   const auto from = place_of(ends.front());
   const auto to = place_of(ends.back());
   if (ends.size() != 2 || !from || !to || from->size() != to->size()) {
-    throw wrong(option, "\"" + text + "\"", "x0,y0:x1,y1 or x0,y0,z0:x1,y1,z1 in metres", "",
-                command);
+    refuse(command, option, "\"" + text + "\"", "x0,y0:x1,y1 or x0,y0,z0:x1,y1,z1 in metres");
   }
   return {*from, *to};
 }
@@ -267,7 +259,8 @@ SampleLine parse_line(const std::string& text, const std::string& command,
 std::vector<std::string> parse_field_names(const std::string& text) {
   auto names = split(text, ',');
   if (std::find(names.begin(), names.end(), "") != names.end()) {
-    throw wrong("--fields", "\"" + text + "\"", "names of fields with commas between");
+    refuse(SampleNames{}.command, "--fields", "\"" + text + "\"",
+           "names of fields with commas between");
   }
   return names;
 }
@@ -277,16 +270,21 @@ std::vector<double> parse_times(const ResultsReader& results, const std::string&
   std::vector<double> times;
   for (const std::string& part : split(text, ',')) {
     const auto time = parse_number(part);
-    if (!time) throw wrong("--times", "\"" + text + "\"", "all, or times in s with commas between");
+    if (!time)
+      refuse(SampleNames{}.command, "--times", "\"" + text + "\"",
+             "all, or times in s with commas between");
     times.push_back(*time);
   }
   return times;
 }
 
 std::vector<Position> places_on(const SampleLine& line, int count) {
-  if (count < 2) throw wrong("--count", std::to_string(count), "at least 2, the ends of the line");
+  if (count < 2)
+    refuse(SampleNames{}.command, "--count", std::to_string(count),
+           "at least 2, the ends of the line");
   if (count > max_points) {
-    throw wrong("--count", std::to_string(count), "at most " + std::to_string(max_points));
+    refuse(SampleNames{}.command, "--count", std::to_string(count),
+           "at most " + std::to_string(max_points));
   }
   std::vector<Position> positions;
   for (int i = 0; i < count; ++i) {

@@ -70,7 +70,7 @@ void Pilot<Dim>::look_ahead(double seconds, double each, TrialCourse& course) {
   double to_travel = share_of_pilot * seconds;
   if (to_travel > worth_control * each) {
     const double tolerance = std::min(loosest, looser * scene.time.tolerance);
-    travel(std::max(tolerance, scene.time.tolerance), 0.0, share_of_control * to_travel);
+    travel(std::max(tolerance, scene.time.tolerance), std::nullopt, share_of_control * to_travel);
     smooth_steps_ = steps_.size();
   }
   if (!has_arrived()) {
@@ -96,7 +96,7 @@ void Pilot<Dim>::look_ahead(double seconds, double each, TrialCourse& course) {
 }
 
 template <int Dim>
-void Pilot<Dim>::travel(double tolerance, double count, double seconds) {
+void Pilot<Dim>::travel(double tolerance, std::optional<double> count, double seconds) {
   const Deadline deadline(seconds);
   Case<Dim> changed = case_;
   Scene& scene = changed.document.scene;
@@ -105,14 +105,18 @@ void Pilot<Dim>::travel(double tolerance, double count, double seconds) {
   try {
     const auto model = make_model(changed, options_);
     restore(*model, state_);
-    const double longest = (scene.time.end - time_) / count;
-    double growth =
-        std::clamp(std::pow(longest / model->last_step(), 2.0 / count), least_growth, most_growth);
+    double longest = 0.0;
+    double growth = 0.0;
+    if (count) {
+      longest = (scene.time.end - time_) / *count;
+      growth = std::clamp(std::pow(longest / model->last_step(), 2.0 / *count), least_growth,
+                          most_growth);
+    }
     const std::vector<double>& kinks = model->flow().boundary_values().breakpoints();
     while (!has_arrived() && !interrupted()) {
       const double start = time_;
       double latest = scene.time.end;
-      if (count > 0.0) {
+      if (count) {
         const auto next = std::ranges::upper_bound(kinks, start);
         const double from = next == kinks.begin() ? 0.0 : *std::prev(next);
         const double to = next == kinks.end() ? latest : *next;
@@ -126,7 +130,7 @@ void Pilot<Dim>::travel(double tolerance, double count, double seconds) {
       } catch (const NumericalError&) {
         // So long a step has no result. A shorter one may have.
         growth = std::sqrt(growth);
-        if (count == 0.0 || growth < hardly_growing) return;
+        if (!count || growth < hardly_growing) return;
         restore(*model, state_);
         continue;
       }

@@ -5,6 +5,7 @@
 /// of the run's own steps are tried, which tells what they cost.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "driver/trial_course.hpp"
@@ -37,9 +38,10 @@ class Pilot {
     double seconds = 0.0;  ///< of wall time per step; 0 while it has not been tried
   };
 
-  /// Goes on to the end with steps of an error below `tolerance`: as long as that allows, or, where
-  /// `count` is not 0, about so many.
-  void travel(double tolerance, double count, double seconds);
+  /// Goes on towards the end, for at most so many seconds of wall time. The error of each step is
+  /// below `tolerance`. `count`: about how many steps; nothing for steps as long as the tolerance
+  /// allows.
+  void travel(double tolerance, std::optional<double> count, double seconds);
   void note_step(TwoPhaseModel<Dim>& model, double start);
   [[nodiscard]] bool has_arrived() const { return time_ >= case_.document.scene.time.end; }
   /// Tries steps at the places for so many seconds, in the order of what they tell.

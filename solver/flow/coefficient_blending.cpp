@@ -6,7 +6,6 @@
 #include "flow/implicit_thresholds.hpp"
 
 namespace suffuse {
-namespace {}  // namespace
 
 template <int Dim>
 void CoefficientBlending<Dim>::blend(double elapsed, const FlowCoefficients<Dim>& now,

@@ -184,14 +184,11 @@ auto ExplicitFlow<Dim>::plan_steps(const FlowInterval<Dim>& interval) -> Steps {
 template <int Dim>
 FlowProgress ExplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
   const Steps steps = plan_steps(interval);
-  if (carrier_ != nullptr) carrier_->before_steps(interval, steps.end);
-  for (long s = 0; s < steps.count; ++s) {
-    const double start = steps.start_of(s);
-    if (carrier_ != nullptr) carrier_->before_step();
-    step(start, steps.dt);
-    if (carrier_ == nullptr) continue;
-    this->update_boundary_values(start, start + steps.dt);
-    carrier_->after_step(steps.dt);
+  if (carrier_ != nullptr) {
+    take_carried_steps(interval, steps);
+  } else {
+    const PassTimer timer(timing_);
+    for (long s = 0; s < steps.count; ++s) step(steps.start_of(s), steps.dt);
   }
   timing_.calls += steps.count;
   this->update_boundary_values(steps.start, steps.end);
@@ -199,8 +196,22 @@ FlowProgress ExplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
 }
 
 template <int Dim>
+void ExplicitFlow<Dim>::take_carried_steps(const FlowInterval<Dim>& interval, const Steps& steps) {
+  carrier_->before_steps(interval, steps.end);
+  for (long s = 0; s < steps.count; ++s) {
+    const double start = steps.start_of(s);
+    carrier_->before_step();
+    {
+      const PassTimer timer(timing_);
+      step(start, steps.dt);
+    }
+    this->update_boundary_values(start, start + steps.dt);
+    carrier_->after_step(steps.dt);
+  }
+}
+
+template <int Dim>
 void ExplicitFlow<Dim>::step(double start, double dt) {
-  const PassTimer timer(timing_);
   if (this->boundary_values().vary()) {
     operator_.set_boundary_values(this->boundary_values(), start, start + 0.5 * dt);
   }

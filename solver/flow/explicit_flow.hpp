@@ -79,6 +79,8 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] Steps plan_steps(const FlowInterval<Dim>& interval);
   /// One of them, under the boundary values of its time.
   void step(double start, double dt);
+  /// All of them, with the carrier's part in each.
+  void take_carried_steps(const FlowInterval<Dim>& interval, const Steps& steps);
   void check_step(double time);
   void warn_of_locking(const VectorField<Dim>& steady_velocity);
 

@@ -12,7 +12,6 @@
 #include "results/pass_timer.hpp"
 
 namespace suffuse {
-namespace {}  // namespace
 
 template <int Dim>
 ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skeleton<Dim>& solid,

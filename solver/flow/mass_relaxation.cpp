@@ -7,7 +7,6 @@
 #include "flow/implicit_thresholds.hpp"
 
 namespace suffuse {
-namespace {}  // namespace
 
 void MassRelaxation::observe(std::vector<double> mismatch, const std::vector<double>& volume) {
   const std::size_t elements = mismatch.size();

@@ -7,7 +7,6 @@
 #include "flow/implicit_thresholds.hpp"
 
 namespace suffuse {
-namespace {}  // namespace
 
 template <int Dim>
 bool boundary_values_rest(const BoundaryValues<Dim>& values,

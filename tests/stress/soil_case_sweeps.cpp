@@ -16,7 +16,6 @@ namespace {
 constexpr unsigned runs = 30;
 
 // --- Factors of safety
-// -------------------------------------------------------------------------------
 
 /// A levee 1 m high on 0.5 m of ground, with a drain in its toe, in crossed triangles.
 struct Levee {
@@ -118,7 +117,6 @@ Sweep strength_sweep() {
 }
 
 // --- Soil pressed to its grains
-// ----------------------------------------------------------------------
 
 /// A column whose soil loses its stiffness with its fines, or catches fines, under a load.
 Sweep to_the_grains_sweep() {
@@ -176,7 +174,6 @@ Sweep to_the_grains_sweep() {
 }
 
 // --- Rigid soil beside soil that moves
-// ---------------------------------------------------------------
 
 constexpr double settlement_error = 5e-3;  // relative
 
@@ -293,7 +290,6 @@ Sweep rigid_beside_sweep() {
 }
 
 // --- Sand without an equilibrium at the start
-// --------------------------------------------------------
 
 /// No faster than a free fall, and not at rest.
 Complaints falls(const ResultsReader& results, double height) {

@@ -28,7 +28,6 @@ double largest(const std::vector<double>& values) {
 }
 
 // --- Dry soil under a rising flood
-// -------------------------------------------------------------------
 
 /// A levee of one soil.
 struct Bank {
@@ -153,7 +152,6 @@ Sweep dry_crest_sweep() {
 }
 
 // --- Decades, jumps and far ends
-// ---------------------------------------------------------------------
 
 /// Times and values of a pressure that jumps within next to no time, as `pairs`.
 struct Jumps {
@@ -245,7 +243,6 @@ Sweep decades_sweep() {
 }
 
 // --- Heads at the height of the ground
-// ---------------------------------------------------------------
 
 /// Ground in two levels, `up` on the left and `down` on the right of a steep bank.
 struct Terrace {
@@ -401,7 +398,6 @@ Sweep ground_level_sweep() {
 }
 
 // --- Bedding
-// -----------------------------------------------------------------------------------------
 
 /// The discharge of a column lies between that of flow straight up and that of level heads.
 struct Bounds {
@@ -479,7 +475,6 @@ Sweep bedding_sweep() {
 }
 
 // --- Slivers and coarse meshes
-// -----------------------------------------------------------------------
 
 /// Columns with straight sides, of which one row is `thin` times as high as the others and its
 /// upper nodes stand above the middle of the edges below, or of one or two cells in all.
@@ -584,7 +579,6 @@ Sweep flat_cells_sweep() {
 }
 
 // --- Steady flow in unsaturated space
-// ----------------------------------------------------------------
 
 /// What enters leaves, and nothing changes.
 Complaints stays_steady(const ResultsReader& results) {
