@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "common/command_line.hpp"
-#include "driver/element_test.hpp"
-#include "driver/estimate.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/run.hpp"
 #include "driver/source_run.hpp"
-#include "driver/strength_table.hpp"
+#include "tools/element_test.hpp"
+#include "tools/estimate.hpp"
+#include "tools/strength_table.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "commands/command.hpp"
 #include "common/errors.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "tables/boundary_text.hpp"
 #include "tables/ledger_report.hpp"
 #include "tables/safety_check.hpp"

@@ -7,7 +7,7 @@
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
 #include "figures/run_curves.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 
 namespace suffuse {
 namespace {

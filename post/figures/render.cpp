@@ -11,7 +11,7 @@
 #include "drawing/picture.hpp"
 #include "figures/categories.hpp"
 #include "figures/map_water.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 #include "values/flow_paths.hpp"

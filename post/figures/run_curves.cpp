@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "values/scene_words.hpp"
 
 namespace suffuse {

@@ -9,7 +9,7 @@
 #include "common/errors.hpp"
 #include "figures/axes.hpp"
 #include "figures/sweep_axes.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "results/reader.hpp"
 #include "tables/table_output.hpp"
 

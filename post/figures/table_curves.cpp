@@ -8,7 +8,7 @@
 #include "figures/axes.hpp"
 #include "figures/measured.hpp"
 #include "figures/run_curves.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "tables/table_output.hpp"
 #include "values/refusal.hpp"
 

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "common/errors.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 
 namespace suffuse::html {
 namespace {

@@ -4,12 +4,12 @@
 
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
+#include "files/number_text.hpp"
 #include "report/html.hpp"
 #include "report/page_files.hpp"  // generated: page_style, page_script
 #include "report/report_pictures.hpp"
 #include "report/run_numbers.hpp"
 #include "report/run_section.hpp"
-#include "results/number_text.hpp"
 #include "results/versions.hpp"
 #include "values/run_names.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "files/number_text.hpp"
 #include "report/report_pictures.hpp"
-#include "results/number_text.hpp"
 #include "values/derived_fields.hpp"
 #include "values/scene_words.hpp"
 

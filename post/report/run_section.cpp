@@ -4,9 +4,9 @@
 #include <cctype>
 #include <filesystem>
 
+#include "files/number_text.hpp"
 #include "report/html.hpp"
 #include "report/report_pictures.hpp"
-#include "results/number_text.hpp"
 #include "values/run_names.hpp"
 
 namespace suffuse {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "common/errors.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 
 namespace suffuse {
 namespace {

@@ -11,7 +11,7 @@
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
 #include "drawing/vtk_messages.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 
 namespace suffuse {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "common/errors.hpp"
-#include "results/number_text.hpp"
-#include "results/tables.hpp"
+#include "files/number_text.hpp"
+#include "files/tables.hpp"
 #include "tables/table_output.hpp"
 
 namespace suffuse {

@@ -9,7 +9,7 @@
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "tables/table_output.hpp"
 #include "values/refusal.hpp"
 #include "values/sample.hpp"

@@ -10,8 +10,8 @@
 
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
-#include "results/layout.hpp"
-#include "results/number_text.hpp"
+#include "files/layout.hpp"
+#include "files/number_text.hpp"
 #include "values/column_fines.hpp"
 #include "values/run_names.hpp"
 #include "values/scene_words.hpp"

@@ -6,9 +6,9 @@
 #include <map>
 
 #include "common/errors.hpp"
+#include "files/number_text.hpp"
+#include "files/table_files.hpp"
 #include "mesh/faces.hpp"
-#include "results/number_text.hpp"
-#include "results/table_files.hpp"
 #include "tables/table_output.hpp"
 #include "values/derived_fields.hpp"
 

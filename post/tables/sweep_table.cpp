@@ -7,8 +7,8 @@
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
 #include "common/regular_file.hpp"
-#include "results/number_text.hpp"
-#include "results/table_files.hpp"
+#include "files/number_text.hpp"
+#include "files/table_files.hpp"
 #include "tables/table_output.hpp"
 #include "values/refusal.hpp"
 

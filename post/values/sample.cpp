@@ -7,7 +7,7 @@
 
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 #include "values/refusal.hpp"

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "common/errors.hpp"
+#include "files/number_text.hpp"
 #include "mesh/faces.hpp"
-#include "results/number_text.hpp"
 
 namespace suffuse {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/errors.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "values/fields.hpp"
 
 namespace suffuse {

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "common/errors.hpp"
+#include "files/number_text.hpp"
 #include "mesh/faces.hpp"
-#include "results/number_text.hpp"
 
 namespace suffuse {
 namespace {

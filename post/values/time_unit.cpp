@@ -1,6 +1,6 @@
 #include "values/time_unit.hpp"
 
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 
 namespace suffuse {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "flow/flow_values.hpp"
+#include "mixed/flow_values.hpp"
 #include "scene/scene.hpp"
 
 namespace suffuse {

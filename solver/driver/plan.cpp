@@ -8,15 +8,15 @@
 #include "case/plausibility.hpp"
 #include "common/errors.hpp"
 #include "driver/exchange_sentences.hpp"
+#include "explicit/nodal_operator.hpp"
+#include "files/number_text.hpp"
 #include "flow/flow_scales.hpp"
 #include "flow/implicit_settings.hpp"
-#include "flow/nodal_operator.hpp"
 #include "formulation/point_checks.hpp"
 #include "formulation/single_point.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
 #include "physics/liquid.hpp"
-#include "results/number_text.hpp"
 #include "scene/scene_schema.hpp"
 
 namespace suffuse {

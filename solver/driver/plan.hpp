@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
-#include "flow/stability_limit.hpp"
+#include "explicit/stability_limit.hpp"
 #include "formulation/two_phase_model.hpp"
 
 namespace suffuse {

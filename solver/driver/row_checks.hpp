@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "files/tables.hpp"
 #include "results/state_archive.hpp"
-#include "results/tables.hpp"
 #include "scene/scene.hpp"
 
 namespace suffuse {

@@ -7,7 +7,7 @@
 #include "driver/plan.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/run_notes.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "results/reader.hpp"
 #include "scene/law_texts.hpp"
 #include "scene/scene_difference.hpp"
@@ -16,7 +16,7 @@
 namespace suffuse {
 namespace {
 
-constexpr const char* key = "initial.from";
+constexpr const char* source_key = "initial.from";
 
 /// Compares what must be the same in both scenes. Problems name the key of the later one.
 class Comparison {
@@ -93,7 +93,7 @@ class Comparison {
 
 [[noreturn]] void refuse_source(const SceneDocument& document, const std::string& found,
                                 const std::string& expected) {
-  throw InputError(InputProblem{document.locate(key), key, found, expected});
+  throw InputError(InputProblem{document.locate(source_key), source_key, found, expected});
 }
 
 /// Puts a model of that case into the state of its last snapshot.

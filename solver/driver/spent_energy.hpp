@@ -2,8 +2,8 @@
 
 /// The energy that water has spent on the soil, from the power in the rows of the history.
 
+#include "files/tables.hpp"
 #include "results/state_archive.hpp"
-#include "results/tables.hpp"
 
 namespace suffuse {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "results/writer.hpp"
 #include "scene/scene_schema.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "case/case_file.hpp"
 #include "driver/plan.hpp"
-#include "results/folder_lock.hpp"
+#include "files/folder_lock.hpp"
 #include "results/restart_point.hpp"
 
 namespace suffuse {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 
 namespace suffuse {
 namespace {

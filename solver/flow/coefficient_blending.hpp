@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "flow/flow.hpp"
+#include "mixed/flow.hpp"
 
 namespace suffuse {
 

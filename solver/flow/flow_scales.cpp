@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "common/errors.hpp"
-#include "flow/flow_values.hpp"
 #include "flow/implicit_thresholds.hpp"
+#include "mixed/flow_values.hpp"
 #include "physics/drag.hpp"
 
 namespace suffuse {

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "flow/face_conditions.hpp"
-#include "flow/flow.hpp"
-#include "flow/implicit_mixed.hpp"
+#include "boundary/face_conditions.hpp"
 #include "grid/grid.hpp"
+#include "mixed/flow.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "scene/scene.hpp"
 
 namespace suffuse {

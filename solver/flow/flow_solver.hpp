@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "flow/face_conditions.hpp"
-#include "flow/flow.hpp"
-#include "flow/flow_values.hpp"
+#include "boundary/face_conditions.hpp"
+#include "files/tables.hpp"
 #include "grid/element_field.hpp"
 #include "grid/face_flux.hpp"
+#include "mixed/flow.hpp"
+#include "mixed/flow_values.hpp"
 #include "results/pass_timer.hpp"
 #include "results/state_archive.hpp"
-#include "results/tables.hpp"
 #include "solid/pores.hpp"
 
 namespace suffuse {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "common/errors.hpp"
+#include "coupling/moved_air.hpp"
 #include "flow/implicit_settings.hpp"
 #include "flow/implicit_thresholds.hpp"
-#include "flow/moved_air.hpp"
 #include "grid/face_flux.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"

@@ -8,15 +8,15 @@
 #include <optional>
 #include <vector>
 
+#include "coupling/solid_coupling.hpp"
 #include "flow/coefficient_blending.hpp"
 #include "flow/flow_scales.hpp"
 #include "flow/flow_solver.hpp"
-#include "flow/implicit_mixed.hpp"
 #include "flow/mass_relaxation.hpp"
-#include "flow/mixed_flow.hpp"
-#include "flow/solid_coupling.hpp"
 #include "flow/steady_reuse.hpp"
 #include "flow/step_control.hpp"
+#include "mixed/implicit_mixed.hpp"
+#include "mixed/mixed_flow.hpp"
 
 namespace suffuse {
 

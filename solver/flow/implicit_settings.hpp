@@ -4,11 +4,11 @@
 
 #include <vector>
 
+#include "boundary/face_conditions.hpp"
 #include "flow/coefficient_blending.hpp"
-#include "flow/face_conditions.hpp"
 #include "flow/flow_solver.hpp"
-#include "flow/implicit_mixed.hpp"
 #include "flow/step_control.hpp"
+#include "mixed/implicit_mixed.hpp"
 
 namespace suffuse {
 

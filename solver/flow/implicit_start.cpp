@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/moved_air.hpp"
 #include "flow/implicit_flow.hpp"
 #include "flow/implicit_thresholds.hpp"
-#include "flow/moved_air.hpp"
 #include "grid/face_flux.hpp"
 
 namespace suffuse {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/flow_values.hpp"
 #include "flow/implicit_thresholds.hpp"
+#include "mixed/flow_values.hpp"
 
 namespace suffuse {
 

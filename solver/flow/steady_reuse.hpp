@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "flow/face_conditions.hpp"
-#include "flow/flow.hpp"
+#include "boundary/face_conditions.hpp"
+#include "mixed/flow.hpp"
 
 namespace suffuse {
 

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "common/errors.hpp"
-#include "flow/flow_values.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "grid/parallel.hpp"
+#include "mixed/flow_values.hpp"
 
 namespace suffuse {
 namespace {

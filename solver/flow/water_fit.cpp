@@ -6,12 +6,12 @@
 #include <sstream>
 
 #include "common/errors.hpp"
+#include "files/tables.hpp"
 #include "flow/implicit_flow.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "grid/face_flux.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"
-#include "results/tables.hpp"
 
 namespace suffuse {
 namespace {

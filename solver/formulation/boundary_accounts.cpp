@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "flow/face_conditions.hpp"
-#include "results/table_files.hpp"
+#include "boundary/face_conditions.hpp"
+#include "files/table_files.hpp"
 
 namespace suffuse {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "files/tables.hpp"
 #include "grid/compensated_sum.hpp"
 #include "grid/grid.hpp"
-#include "results/tables.hpp"
 
 namespace suffuse {
 

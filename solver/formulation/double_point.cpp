@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "explicit/points_carrying_flow.hpp"
 #include "formulation/felt_concentration.hpp"
 #include "physics/head.hpp"
-#include "transport/points_along_faces.hpp"
-#include "transport/points_carrying_flow.hpp"
+#include "points/points_along_faces.hpp"
 
 namespace suffuse {
 

@@ -5,7 +5,7 @@
 /// (`PointTransport`).
 
 #include "formulation/two_phase_model.hpp"
-#include "transport/point_transport.hpp"
+#include "points/point_transport.hpp"
 
 namespace suffuse {
 

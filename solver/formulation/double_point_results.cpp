@@ -6,7 +6,7 @@
 #include "formulation/double_point.hpp"
 #include "formulation/element_snapshot.hpp"
 #include "grid/face_flux.hpp"
-#include "transport/concentration_fit.hpp"
+#include "points/concentration_fit.hpp"
 
 namespace suffuse {
 namespace {

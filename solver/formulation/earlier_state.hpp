@@ -2,10 +2,10 @@
 
 /// The last state of a run, from which another one starts on the same mesh and points.
 
+#include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"
+#include "points/point_transport.hpp"
 #include "solid/skeleton.hpp"
-#include "transport/eulerian.hpp"
-#include "transport/point_transport.hpp"
 
 namespace suffuse {
 

@@ -3,10 +3,10 @@
 /// Fields of a snapshot at elements, nodes and solid points: the part of a snapshot that both
 /// formulations share.
 
+#include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"
 #include "results/writer.hpp"
 #include "solid/skeleton.hpp"
-#include "transport/eulerian.hpp"
 
 namespace suffuse {
 

@@ -7,11 +7,11 @@
 #include <array>
 #include <vector>
 
+#include "files/tables.hpp"
 #include "formulation/boundary_accounts.hpp"
 #include "grid/compensated_sum.hpp"
 #include "grid/grid.hpp"
-#include "results/tables.hpp"
-#include "transport/point_transport.hpp"
+#include "points/point_transport.hpp"
 
 namespace suffuse {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"
 #include "grid/compensated_sum.hpp"
 #include "grid/section_line.hpp"
-#include "transport/eulerian.hpp"
 
 namespace suffuse {
 

@@ -3,8 +3,8 @@
 /// The single-point formulation: every material point stands for soil and liquid at once. Fluidised
 /// fines are a field on the mesh, and each element's mass of water is state.
 
+#include "field/field_transport.hpp"
 #include "formulation/two_phase_model.hpp"
-#include "transport/field_transport.hpp"
 
 namespace suffuse {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "flow/leaky_walls.hpp"
+#include "boundary/leaky_walls.hpp"
 #include "formulation/seepage_measures.hpp"
 #include "grid/face_flux.hpp"
 

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "field/solid_exchange.hpp"
+#include "field/transport.hpp"
 #include "flow/flow_solver.hpp"
 #include "formulation/earlier_state.hpp"
 #include "formulation/masses.hpp"
 #include "formulation/observations.hpp"
 #include "results/writer.hpp"
 #include "solid/pores.hpp"
-#include "transport/solid_exchange.hpp"
-#include "transport/transport.hpp"
 
 namespace suffuse {
 

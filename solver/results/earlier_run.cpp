@@ -8,7 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/regular_file.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "results/restart_point.hpp"
 #include "scene/scene_difference.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
-#include "results/folder_lock.hpp"
+#include "files/folder_lock.hpp"
 
 namespace suffuse {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/hdf5_io.hpp"
+#include "files/tables.hpp"
 #include "mesh/mesh.hpp"
-#include "results/tables.hpp"
 #include "results/writer.hpp"
 #include "scene/scene.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "common/errors.hpp"
 #include "common/regular_file.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "scene/scene_difference.hpp"
 
 namespace suffuse {

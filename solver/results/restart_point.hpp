@@ -11,7 +11,7 @@
 
 #include "case/case_file.hpp"
 #include "common/hdf5_io.hpp"
-#include "results/table_files.hpp"
+#include "files/table_files.hpp"
 
 namespace suffuse {
 

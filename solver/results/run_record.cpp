@@ -4,7 +4,7 @@
 
 #include "common/errors.hpp"
 #include "common/regular_file.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 
 namespace suffuse {
 namespace {

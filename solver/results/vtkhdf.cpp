@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "common/errors.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 
 namespace suffuse {
 namespace {

@@ -14,7 +14,7 @@
 #include "common/errors.hpp"
 #include "common/hdf5_io.hpp"
 #include "common/regular_file.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "results/versions.hpp"
 #include "results/vtkhdf.hpp"
 

@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "files/folder_lock.hpp"
+#include "files/table_files.hpp"
 #include "results/earlier_run.hpp"
-#include "results/folder_lock.hpp"
 #include "results/pass_timer.hpp"
 #include "results/restart_point.hpp"
-#include "results/table_files.hpp"
 
 namespace suffuse {
 

@@ -191,7 +191,7 @@ class Skeleton {
 };
 
 /// The skeleton that the scene asks for, which moves the points of `soils` if it moves. Exchange
-/// happens within `span` alone. (deformation/make_skeleton.cpp)
+/// happens within `span` alone. (motion/make_skeleton.cpp)
 template <int Dim>
 std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils,
                                              const TimeSpan& span, int threads);

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "bench/bench.hpp"
-#include "flow/explicit_nodal.hpp"
-#include "flow/stability_limit.hpp"
+#include "explicit/explicit_nodal.hpp"
+#include "explicit/stability_limit.hpp"
 #include "solver/nodal_reference.hpp"
 #include "verification/free_mesh.hpp"
 

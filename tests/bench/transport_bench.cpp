@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "bench/bench.hpp"
-#include "flow/implicit_mixed.hpp"
+#include "field/eulerian.hpp"
+#include "field/swept_field.hpp"
 #include "linear/cholesky_factor.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "solid/pores.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
-#include "transport/eulerian.hpp"
-#include "transport/swept_field.hpp"
 
 namespace suffuse::bench {
 namespace {

@@ -2,8 +2,8 @@
 #include <cstddef>
 
 #include "edited_files.hpp"
+#include "files/layout.hpp"
 #include "refusal.hpp"
-#include "results/layout.hpp"
 #include "results/reader.hpp"
 #include "results/restart_point.hpp"
 #include "results/writer.hpp"

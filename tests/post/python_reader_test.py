@@ -19,7 +19,7 @@ except ImportError as error:
     sys.exit(77)
 
 PROGRAMS, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-TABLES = SOURCE / "solver/results/tables.hpp"
+TABLES = SOURCE / "solver/files/tables.hpp"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SOURCE / "post/python"))
 import suffuse  # noqa: E402

@@ -8,11 +8,11 @@
 #include <regex>
 
 #include "common/errors.hpp"
+#include "files/number_text.hpp"
 #include "post/synthetic_results.hpp"
 #include "report/html.hpp"
 #include "report/report_pictures.hpp"
 #include "report/run_section.hpp"
-#include "results/number_text.hpp"
 
 namespace suffuse {
 namespace report_test {

@@ -6,12 +6,12 @@
 #include <map>
 
 #include "driver/plan.hpp"
-#include "flow/explicit_flow.hpp"
+#include "explicit/carried_points.hpp"
+#include "explicit/explicit_flow.hpp"
 #include "grid/compensated_sum.hpp"
+#include "points/point_injection.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/double_point_case.hpp"
-#include "transport/carried_points.hpp"
-#include "transport/point_injection.hpp"
 
 namespace suffuse::model {
 

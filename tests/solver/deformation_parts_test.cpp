@@ -7,10 +7,10 @@
 #include <random>
 
 #include "box_mesh.hpp"
-#include "deformation/crossing_forces.hpp"
-#include "deformation/held_by_inertia.hpp"
-#include "deformation/point_motion.hpp"
-#include "deformation/soil_inertia.hpp"
+#include "equilibrium/crossing_forces.hpp"
+#include "motion/held_by_inertia.hpp"
+#include "motion/point_motion.hpp"
+#include "motion/soil_inertia.hpp"
 #include "results/state_archive.hpp"
 #include "solver/solid_model.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "results/layout.hpp"
-#include "results/number_text.hpp"
+#include "files/layout.hpp"
+#include "files/number_text.hpp"
 #include "results/reader.hpp"
 #include "solver/solver_process.hpp"
 

@@ -1,4 +1,4 @@
-#include "driver/element_test.hpp"
+#include "tools/element_test.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "driver/estimate.hpp"
+#include "tools/estimate.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -10,8 +10,8 @@
 #include "case/case_file.hpp"
 #include "driver/output_schedule.hpp"
 #include "driver/run.hpp"
+#include "files/number_text.hpp"
 #include "mesher/temporary_folder.hpp"
-#include "results/number_text.hpp"
 #include "solver/double_point_case.hpp"
 #include "test_paths.hpp"
 

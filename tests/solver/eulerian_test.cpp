@@ -1,4 +1,4 @@
-#include "transport/eulerian.hpp"
+#include "field/eulerian.hpp"
 
 #include <gtest/gtest.h>
 

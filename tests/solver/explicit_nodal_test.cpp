@@ -1,13 +1,13 @@
 /// The explicit scheme's loops against another way to write them (nodal_reference.hpp).
 
-#include "flow/explicit_nodal.hpp"
+#include "explicit/explicit_nodal.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "flow/stability_limit.hpp"
+#include "explicit/stability_limit.hpp"
 #include "physics/drag.hpp"
 #include "solver/flow_model.hpp"
 #include "solver/nodal_reference.hpp"

@@ -1,4 +1,4 @@
-#include "flow/face_conditions.hpp"
+#include "boundary/face_conditions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 
 #include "common/errors.hpp"
 #include "common/hdf5_io.hpp"
-#include "results/folder_lock.hpp"
-#include "results/layout.hpp"
+#include "files/folder_lock.hpp"
+#include "files/layout.hpp"
 #include "results/reader.hpp"
 #include "solver/own_mounts.hpp"
 #include "solver/solver_process.hpp"

@@ -1,4 +1,4 @@
-#include "transport/fines_transfer.hpp"
+#include "points/fines_transfer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "flow/implicit_mixed.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse::model {

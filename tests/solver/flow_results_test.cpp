@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "boundary/face_conditions.hpp"
 #include "common/errors.hpp"
-#include "flow/face_conditions.hpp"
 #include "formulation/observations.hpp"
 #include "results/state_archive.hpp"
 #include "verification/model_run.hpp"

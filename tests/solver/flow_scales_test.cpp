@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "flow/mixed_flow.hpp"
+#include "mixed/mixed_flow.hpp"
 #include "solver/flow_model.hpp"
 
 namespace suffuse {

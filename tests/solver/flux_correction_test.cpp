@@ -1,4 +1,4 @@
-#include "flow/flux_correction.hpp"
+#include "mixed/flux_correction.hpp"
 
 #include <gtest/gtest.h>
 

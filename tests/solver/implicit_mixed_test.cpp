@@ -1,7 +1,7 @@
 /// What the implicit mixed flow must keep on any mesh and with any contrast: volumes, bounds,
 /// energy, rest.
 
-#include "flow/implicit_mixed.hpp"
+#include "mixed/implicit_mixed.hpp"
 
 #include <gtest/gtest.h>
 

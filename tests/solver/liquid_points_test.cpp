@@ -1,12 +1,12 @@
-#include "transport/liquid_points.hpp"
+#include "points/liquid_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
+#include "points/concentration_fit.hpp"
 #include "solver/model_case.hpp"
-#include "transport/concentration_fit.hpp"
 
 namespace suffuse {
 namespace liquid_points_test {

@@ -1,8 +1,8 @@
-#include "flow/locking.hpp"
+#include "explicit/locking.hpp"
 
 #include <gtest/gtest.h>
 
-#include "flow/steady_nodal.hpp"
+#include "explicit/steady_nodal.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/hdf5_io.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "results/reader.hpp"
 #include "solver/solver_process.hpp"
 

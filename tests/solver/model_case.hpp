@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "case/case_file.hpp"
-#include "flow/flow.hpp"
 #include "grid/grid.hpp"
+#include "mixed/flow.hpp"
 #include "physics/drag.hpp"
 #include "physics/liquid.hpp"
 #include "physics/retention/retention_law.hpp"

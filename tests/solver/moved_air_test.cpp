@@ -1,13 +1,13 @@
 /// Water and air that soil takes along as it moves.
 
-#include "flow/moved_air.hpp"
+#include "coupling/moved_air.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <random>
 
-#include "flow/flow_soils.hpp"
+#include "mixed/flow_soils.hpp"
 #include "model_case.hpp"
 
 namespace suffuse {

@@ -1,7 +1,7 @@
 /// The skeleton that moves, driven with given pore pressures: equilibrium, fluxes of soil and
 /// solid, points that change their element, erosion, the stress at the start.
 
-#include "deformation/moving_skeleton.hpp"
+#include "motion/moving_skeleton.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <random>
 
 #include "box_mesh.hpp"
-#include "deformation/element_gains.hpp"
+#include "motion/element_gains.hpp"
 #include "reference_table.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/solid_model.hpp"

@@ -1,4 +1,4 @@
-#include "flow/nodal_operator.hpp"
+#include "explicit/nodal_operator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/errors.hpp"
-#include "flow/steady_nodal.hpp"
+#include "explicit/steady_nodal.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {

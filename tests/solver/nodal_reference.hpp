@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "flow/explicit_nodal.hpp"
+#include "explicit/explicit_nodal.hpp"
 
 namespace suffuse::model {
 

@@ -7,9 +7,9 @@
 #include <iostream>
 #include <numeric>
 
+#include "points/points_along_faces.hpp"
 #include "solver/counting_skeleton.hpp"
 #include "solver/double_point_case.hpp"
-#include "transport/points_along_faces.hpp"
 #include "verification/exact_fines.hpp"
 
 namespace suffuse {

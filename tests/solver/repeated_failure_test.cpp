@@ -1,6 +1,6 @@
 /// Soil that loses its equilibrium again and again, and goes nowhere.
 
-#include "deformation/repeated_failure.hpp"
+#include "motion/repeated_failure.hpp"
 
 #include <gtest/gtest.h>
 

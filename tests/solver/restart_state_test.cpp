@@ -7,8 +7,8 @@
 
 #include <limits>
 
+#include "files/layout.hpp"
 #include "mesher/temporary_folder.hpp"
-#include "results/layout.hpp"
 #include "results/state_archive.hpp"
 #include "results/writer.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/hdf5_io.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "results/reader.hpp"
 #include "solver/solver_process.hpp"
 #include "test_paths.hpp"

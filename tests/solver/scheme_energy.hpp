@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/explicit_nodal.hpp"
-#include "flow/implicit_mixed.hpp"
-#include "flow/stability_limit.hpp"
+#include "explicit/explicit_nodal.hpp"
+#include "explicit/stability_limit.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "solver/flow_model.hpp"
 
 namespace suffuse::model {

@@ -7,10 +7,10 @@
 #include <memory>
 #include <stdexcept>
 
-#include "deformation/loads.hpp"
-#include "deformation/newton.hpp"
-#include "deformation/point_motion.hpp"
+#include "equilibrium/loads.hpp"
+#include "equilibrium/newton.hpp"
 #include "grid/element_field.hpp"
+#include "motion/point_motion.hpp"
 #include "seeding.hpp"
 #include "solver/model_case.hpp"
 

@@ -14,7 +14,7 @@
 
 #include "common/errors.hpp"
 #include "common/hdf5_io.hpp"
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "results/reader.hpp"
 #include "test_paths.hpp"
 

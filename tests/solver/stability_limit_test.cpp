@@ -1,4 +1,4 @@
-#include "flow/stability_limit.hpp"
+#include "explicit/stability_limit.hpp"
 
 #include <gtest/gtest.h>
 

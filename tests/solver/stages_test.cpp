@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "results/layout.hpp"
+#include "files/layout.hpp"
 #include "results/reader.hpp"
 #include "solver/solver_process.hpp"
 #include "test_paths.hpp"

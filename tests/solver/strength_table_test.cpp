@@ -1,6 +1,6 @@
 /// suffuse-solver --strength-reduction: slopes as scenes, through mesher, solver and its table.
 
-#include "driver/strength_table.hpp"
+#include "tools/strength_table.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "common/hdf5_io.hpp"
+#include "files/number_text.hpp"
 #include "mesher/temporary_folder.hpp"
-#include "results/number_text.hpp"
 #include "results/vtkhdf.hpp"
 #include "solver/csv_columns.hpp"
 #include "test_paths.hpp"

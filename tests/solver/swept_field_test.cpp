@@ -1,14 +1,14 @@
-#include "transport/swept_field.hpp"
+#include "field/swept_field.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "flow/flow_values.hpp"
+#include "field/field_transport.hpp"
+#include "mixed/flow_values.hpp"
 #include "solid/pores.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
-#include "transport/field_transport.hpp"
 
 namespace suffuse {
 namespace swept_field_test {

@@ -8,9 +8,9 @@
 #include <numeric>
 
 #include "box_mesh.hpp"
+#include "points/points_along_faces.hpp"
 #include "solver/counting_skeleton.hpp"
 #include "solver/model_case.hpp"
-#include "transport/points_along_faces.hpp"
 #include "verification/exact_fines.hpp"
 
 namespace suffuse {

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "box_mesh.hpp"
+#include "field/eulerian.hpp"
+#include "points/face_placement.hpp"
+#include "points/point_injection.hpp"
 #include "solver/flow_model.hpp"
-#include "transport/eulerian.hpp"
-#include "transport/face_placement.hpp"
-#include "transport/point_injection.hpp"
 
 namespace suffuse {
 namespace tetrahedra_transport_test {

@@ -1,4 +1,4 @@
-#include "driver/trial_course.hpp"
+#include "tools/trial_course.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "solver/solid_model.hpp"
 #include "stress/scenario.hpp"
 #include "stress/stress_mesh.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 
 namespace suffuse::stress {
 namespace {

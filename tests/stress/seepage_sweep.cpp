@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "solver/model_case.hpp"
 #include "stress/scenario.hpp"
 #include "stress/stress_mesh.hpp"

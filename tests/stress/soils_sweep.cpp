@@ -1,7 +1,7 @@
 /// Exchange of fines: random laws, drives, deposition, conductivities, viscosities and floods that
 /// turn back. Rates are such that a run takes from a few of its fines to all.
 
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "stress/random_soil.hpp"
 #include "stress/scenario.hpp"
 #include "stress/stress_mesh.hpp"

@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "box_mesh.hpp"
+#include "files/number_text.hpp"
 #include "geometry.hpp"
 #include "grid/grid.hpp"
 #include "mesh/slit.hpp"
-#include "results/number_text.hpp"
 #include "stress/random_soil.hpp"
 #include "stress/stress_case.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "stress/random_soil.hpp"
 #include "stress/scenario.hpp"
 #include "stress/space_mesh.hpp"

@@ -6,7 +6,7 @@
 
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
-#include "results/number_text.hpp"
+#include "files/number_text.hpp"
 #include "studies/text_table.hpp"
 
 namespace suffuse {

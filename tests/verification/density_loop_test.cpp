@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "driver/row_checks.hpp"
-#include "flow/implicit_mixed.hpp"
 #include "grid/face_flux.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "physics/liquid.hpp"
 #include "solver/flow_model.hpp"
 #include "verification/model_run.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "deformation/newton.hpp"
-#include "deformation/point_motion.hpp"
-#include "deformation/point_velocities.hpp"
+#include "equilibrium/newton.hpp"
+#include "equilibrium/point_velocities.hpp"
+#include "motion/point_motion.hpp"
 
 namespace suffuse::model {
 

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <numbers>
 
-#include "flow/explicit_nodal.hpp"
-#include "flow/stability_limit.hpp"
+#include "explicit/explicit_nodal.hpp"
+#include "explicit/stability_limit.hpp"
 #include "reference_table.hpp"
 #include "solver/model_case.hpp"
 

@@ -7,9 +7,9 @@
 #include <iostream>
 #include <numbers>
 
-#include "flow/implicit_mixed.hpp"
 #include "free_mesh.hpp"
 #include "grid/face_flux.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "solver/flow_model.hpp"
 
 namespace suffuse {

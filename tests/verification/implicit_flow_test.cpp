@@ -7,7 +7,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "flow/implicit_mixed.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "reference_table.hpp"
 #include "solver/flow_model.hpp"
 

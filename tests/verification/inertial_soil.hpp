@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "deformation/soil_inertia.hpp"
 #include "dry_motion.hpp"
+#include "motion/soil_inertia.hpp"
 #include "solver/solid_model.hpp"
 
 namespace suffuse::model {

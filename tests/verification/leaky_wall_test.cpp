@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "boundary/leaky_walls.hpp"
 #include "box_mesh.hpp"
-#include "flow/leaky_walls.hpp"
 #include "mesh/slit.hpp"
 #include "model_run.hpp"
 #include "solver/flow_model.hpp"

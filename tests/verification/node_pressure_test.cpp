@@ -10,8 +10,8 @@
 #include <iostream>
 #include <numbers>
 
-#include "flow/mixed_flow.hpp"
 #include "geometry.hpp"
+#include "mixed/mixed_flow.hpp"
 #include "seeding.hpp"
 #include "solver/flow_model.hpp"
 #include "verification/model_run.hpp"

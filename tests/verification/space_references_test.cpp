@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "flow/implicit_mixed.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "reference_table.hpp"
 #include "scene_run.hpp"
 #include "solver/flow_model.hpp"

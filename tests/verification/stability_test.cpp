@@ -6,7 +6,7 @@
 #include <random>
 
 #include "common/errors.hpp"
-#include "flow/explicit_nodal.hpp"
+#include "explicit/explicit_nodal.hpp"
 #include "free_mesh.hpp"
 #include "model_run.hpp"
 

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <numbers>
 
-#include "deformation/strength_reduction.hpp"
 #include "solver/solid_model.hpp"
+#include "tools/strength_reduction.hpp"
 
 namespace suffuse {
 namespace strength_reduction_long_test {

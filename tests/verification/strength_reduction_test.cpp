@@ -1,6 +1,6 @@
 /// Factors of safety of slopes by reduction of strength, against exact and published ones.
 
-#include "deformation/strength_reduction.hpp"
+#include "tools/strength_reduction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "deformation/pseudo_time.hpp"
+#include "equilibrium/pseudo_time.hpp"
 #include "solver/solid_model.hpp"
 
 namespace suffuse {

@@ -10,9 +10,9 @@
 #include "common/errors.hpp"
 #include "driver/plan.hpp"
 #include "exact_fines.hpp"
-#include "flow/implicit_mixed.hpp"
 #include "formulation/single_point.hpp"
 #include "grid/face_flux.hpp"
+#include "mixed/implicit_mixed.hpp"
 #include "reference_table.hpp"
 #include "solver/flow_model.hpp"
 

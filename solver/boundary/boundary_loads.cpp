@@ -1,0 +1,119 @@
+#include "boundary/boundary_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/head.hpp"
+
+namespace suffuse {
+namespace {
+
+template <int Dim>
+std::vector<int> faces_of(const Grid<Dim>& grid, const std::string& boundary) {
+  std::vector<int> faces;
+  for (const BoundarySet<Dim>& set : grid.mesh.boundaries) {
+    if (set.name != boundary) continue;
+    for (const auto& nodes : set.faces) faces.push_back(grid.find_face(nodes));
+  }
+  std::ranges::sort(faces);
+  return faces;
+}
+
+/// Pressure of the water outside at a place, Pa; 0 above its level.
+template <int Dim>
+double outside_pressure(const Scene& scene, double head, const Vector<Dim>& x) {
+  const double above = has_gravity(scene.gravity) ? head - height(x, scene.gravity) : head;
+  return std::max(0.0, above) * unit_weight(scene.liquid.density, scene.gravity);
+}
+
+}  // namespace
+
+template <int Dim>
+Supports<Dim> scene_supports(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
+  std::vector<Support> on_face(grid.face_count(), Support::none);
+  for (const BoundaryCondition& boundary : soils.scene().boundaries) {
+    if (boundary.fix == Fixing::none) continue;
+    const Support how = boundary.fix == Fixing::both ? Support::both : Support::normal;
+    for (const int f : faces_of(grid, boundary.on)) on_face[f] = how;
+  }
+  Supports<Dim> supports(grid, on_face);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (!soils.is_soil(e) || soils.soil_of_element(e).skeleton.moves()) continue;
+    supports.hold_element(grid.mesh, e);
+  }
+  return supports;
+}
+
+template <int Dim>
+BoundaryLoads<Dim>::BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                                  const PointsByElement& sorted)
+    : grid_(grid), scene_(soils.scene()) {
+  for (int b = 0; b < static_cast<int>(scene_.boundaries.size()); ++b) {
+    const BoundaryCondition& boundary = scene_.boundaries[b];
+    if (!boundary.traction && !boundary.head) continue;
+    std::vector<int> faces = faces_of(grid, boundary.on);
+    std::erase_if(faces, [&](int f) { return sorted.is_empty(grid.face_left[f]); });
+    if (faces.empty()) continue;
+    boundary_.push_back(b);
+    surfaces_.emplace_back(grid, sorted, faces);
+  }
+}
+
+template <int Dim>
+void BoundaryLoads<Dim>::add(const PointsByElement& sorted, double time,
+                             NodeVectors<Dim>& loads) const {
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    const BoundaryCondition& boundary = scene_.boundaries[boundary_[k]];
+    if (boundary.traction) {
+      const VectorFunction::Components all = boundary.traction->value(time);
+      const Vector<Dim> traction = Eigen::Map<const Vector<Dim>>(all.data());
+      surfaces_[k].add_traction(grid_, sorted, traction, loads);
+      continue;
+    }
+    const double head = boundary.head->value(time);
+    const auto pressure = [&](const Vector<Dim>& x) {
+      return outside_pressure<Dim>(scene_, head, x);
+    };
+    surfaces_[k].add_pressures(grid_, sorted, pressure, loads);
+  }
+}
+
+template <int Dim>
+void BoundaryLoads<Dim>::move(const PointsByElement& sorted, const NodeVectors<Dim>& displacement) {
+  std::vector<LoadedSurface<Dim>> moved = surfaces_;
+  for (LoadedSurface<Dim>& surface : moved) surface.move(grid_, sorted, displacement);
+  surfaces_ = std::move(moved);
+}
+
+template <int Dim>
+std::vector<double> BoundaryLoads<Dim>::breakpoints() const {
+  std::vector<double> times;
+  for (const int b : boundary_) {
+    const BoundaryCondition& boundary = scene_.boundaries[b];
+    if (!boundary.traction) continue;
+    const std::vector<double> more = boundary.traction->breakpoints();
+    times.insert(times.end(), more.begin(), more.end());
+  }
+  return times;
+}
+
+template <int Dim>
+double BoundaryLoads<Dim>::largest_change() const {
+  double largest = 0.0;
+  for (const int b : boundary_) {
+    if (!scene_.boundaries[b].traction) continue;
+    const VectorFunction& traction = *scene_.boundaries[b].traction;
+    const VectorFunction::Components start = traction.value(0.0);
+    for (const auto& [time, value] : traction.knots) {
+      for (int d = 0; d < Dim; ++d) largest = std::max(largest, std::abs(value[d] - start[d]));
+    }
+  }
+  return largest;
+}
+
+template Supports<2> scene_supports(const Grid<2>&, const SoilMap<2>&);
+template Supports<3> scene_supports(const Grid<3>&, const SoilMap<3>&);
+template class BoundaryLoads<2>;
+template class BoundaryLoads<3>;
+
+}  // namespace suffuse

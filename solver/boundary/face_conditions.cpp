@@ -1,0 +1,227 @@
+#include "boundary/face_conditions.hpp"
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+#include "mesh/water_line.hpp"
+#include "physics/head.hpp"
+
+namespace suffuse {
+namespace {
+
+/// A head of the water outside: its pressure below the water level, what the scene says above it.
+void prescribe_head(double head, DryPart dry, const FaceSurroundings& around,
+                    FaceCondition& result) {
+  const bool wet = !around.gravity || head > around.wet_above || dry == DryPart::suction;
+  if (wet) {
+    result.kind = FaceKind::pressure;
+    result.value = around.unit_weight * (around.gravity ? head - around.height : head);
+  } else {
+    result.kind = dry == DryPart::seepage ? FaceKind::seepage : FaceKind::wall;
+    result.value = 0.0;
+  }
+}
+
+/// What a boundary prescribes at a time, the same for all its faces: of a head H itself, of a rate
+/// its whole.
+FaceCondition condition_of(const BoundaryCondition& boundary, int index, double time) {
+  FaceCondition condition;
+  condition.kind = FaceKind::wall;
+  condition.boundary = index;
+  const auto prescribe = [&](FaceKind kind, double value) {
+    condition.kind = kind;
+    condition.value = value;
+  };
+  if (boundary.pressure) {
+    prescribe(FaceKind::pressure, boundary.pressure->value(time));
+  } else if (boundary.velocity) {
+    prescribe(FaceKind::velocity, boundary.velocity->value(time));
+  } else if (boundary.darcy_flux) {
+    prescribe(FaceKind::flux, boundary.darcy_flux->value(time));
+  } else if (boundary.head) {
+    prescribe(FaceKind::pressure, boundary.head->value(time));
+  } else if (boundary.rate) {
+    prescribe(FaceKind::flux, boundary.rate->value(time));
+  } else if (boundary.rain) {
+    prescribe(FaceKind::seepage, boundary.rain->value(time));
+  } else if (boundary.seepage_face) {
+    prescribe(FaceKind::seepage, 0.0);
+  }
+  if (boundary.concentration) condition.concentration = boundary.concentration->value(time);
+  return condition;
+}
+
+/// The condition of one face, from that of its boundary.
+FaceCondition at_face(const BoundaryCondition& boundary, FaceCondition condition,
+                      const FaceSurroundings& around) {
+  if (boundary.head) prescribe_head(condition.value, boundary.dry, around, condition);
+  if (boundary.rate) condition.value /= around.area;
+  return condition;
+}
+
+/// Whether the kind of a face, or what is unknown there, changes at some time of the run.
+bool may_switch(const BoundaryCondition& boundary, const FaceSurroundings& around, double end) {
+  if (boundary.seepage_face || boundary.rain) return true;
+  if (!boundary.head || !around.gravity || boundary.dry == DryPart::suction) return false;
+  const auto [lowest, highest] = boundary.head->range(0.0, end);
+  // An impervious part stays impervious where the water never comes.
+  return lowest <= around.wet_above &&
+         (boundary.dry == DryPart::seepage || highest > around.wet_above);
+}
+
+/// The values of a boundary that change in time.
+std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
+  std::vector<TimeFunction> varying;
+  for (const auto& value : {boundary.pressure, boundary.velocity, boundary.darcy_flux,
+                            boundary.head, boundary.rain, boundary.rate, boundary.concentration}) {
+    if (value && !value->is_constant()) varying.push_back(*value);
+  }
+  return varying;
+}
+
+/// Heights of the faces of a case against gravity, and areas of its boundaries.
+template <int Dim>
+class Outside {
+ public:
+  Outside(const Scene& scene, const Grid<Dim>& grid)
+      : grid_(grid),
+        gravity_(scene.gravity),
+        water_line_(grid.mesh, scene.gravity),
+        unit_weight_(unit_weight(scene.liquid.density, scene.gravity)) {}
+  [[nodiscard]] FaceSurroundings of(int face, double boundary_area) const {
+    return {.unit_weight = unit_weight_,
+            .gravity = has_gravity(gravity_),
+            .height = height(grid_.face_centre(face), gravity_),
+            .wet_above = water_line_.wet_above(grid_.face_nodes[face]),
+            .area = boundary_area};
+  }
+  [[nodiscard]] double area_of(const std::vector<int>& faces) const {
+    double sum = 0.0;
+    for (const int f : faces) sum += grid_.face_normal[f].norm();
+    return sum;
+  }
+
+ private:
+  const Grid<Dim>& grid_;
+  std::array<double, 3> gravity_;
+  WaterLine<Dim> water_line_;
+  double unit_weight_;
+};
+
+/// Faces of the grid per boundary entry of the scene. Throws InputError.
+template <int Dim>
+std::vector<std::vector<int>> faces_of_boundaries(const Case<Dim>& c, const Grid<Dim>& grid) {
+  std::vector<InputProblem> problems;
+  const auto& entries = c.document.scene.boundaries;
+  std::vector<std::vector<int>> result(entries.size());
+  std::vector<int> owner(grid.face_count(), -1);
+  for (int b = 0; b < static_cast<int>(entries.size()); ++b) {
+    const std::string key = entries[b].key + ".on";
+    const auto report = [&](const std::string& expected) {
+      problems.push_back({c.document.locate(key), key, "\"" + entries[b].on + "\"", expected, ""});
+    };
+    const auto set =
+        std::find_if(c.mesh.boundaries.begin(), c.mesh.boundaries.end(),
+                     [&](const auto& candidate) { return candidate.name == entries[b].on; });
+    if (set == c.mesh.boundaries.end()) {
+      report("the name of a boundary of the mesh");
+      continue;
+    }
+    for (const auto& nodes : set->faces) {
+      const int f = grid.find_face(nodes);
+      if (owner[f] >= 0) {
+        report("a boundary that shares no face with \"" + entries[owner[f]].on +
+               "\", which has its own condition");
+        break;
+      }
+      owner[f] = b;
+      result[b].push_back(f);
+    }
+    std::ranges::sort(result[b]);  // sums over them have the same bits wherever they are made
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& grid) {
+  const Scene& scene = c.document.scene;
+  std::vector<FaceCondition> result(grid.face_count());
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (grid.is_outer(f)) result[f].kind = FaceKind::wall;
+  }
+  const Outside<Dim> outside(scene, grid);
+  const auto faces = faces_of_boundaries(c, grid);
+  for (int b = 0; b < static_cast<int>(faces.size()); ++b) {
+    const double area = outside.area_of(faces[b]);
+    const FaceCondition start = condition_of(scene.boundaries[b], b, 0.0);
+    for (const int f : faces[b]) {
+      const FaceSurroundings around = outside.of(f, area);
+      result[f] = at_face(scene.boundaries[b], start, around);
+      result[f].switches = may_switch(scene.boundaries[b], around, scene.time.end);
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
+    : initial_(face_conditions(c, grid)) {
+  const Scene& scene = c.document.scene;
+  const Outside<Dim> outside(scene, grid);
+  for (int b = 0; b < static_cast<int>(scene.boundaries.size()); ++b) {
+    const std::vector<TimeFunction> values = varying_values(scene.boundaries[b]);
+    if (values.empty()) continue;
+    Varying& varying = varying_.emplace_back(Varying{scene.boundaries[b], b, {}, {}});
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (initial_[f].boundary == b) varying.faces.push_back(f);
+    }
+    const double area = outside.area_of(varying.faces);
+    for (const int f : varying.faces) varying.around.push_back(outside.of(f, area));
+    for (const TimeFunction& value : values) {
+      for (const double time : value.breakpoints()) {
+        if (time > 0.0 && time < scene.time.end) breakpoints_.push_back(time);
+      }
+    }
+  }
+  std::ranges::sort(breakpoints_);
+  breakpoints_.erase(std::unique(breakpoints_.begin(), breakpoints_.end()), breakpoints_.end());
+}
+
+template <int Dim>
+std::vector<FaceCondition> BoundaryValues<Dim>::at(double time) const {
+  std::vector<FaceCondition> conditions = initial_;
+  update(time, conditions);
+  return conditions;
+}
+
+template <int Dim>
+void BoundaryValues<Dim>::update(double time, std::vector<FaceCondition>& conditions) const {
+  for (const Varying& varying : varying_) {
+    const FaceCondition now = condition_of(varying.boundary, varying.index, time);
+    for (std::size_t i = 0; i < varying.faces.size(); ++i) {
+      const int f = varying.faces[i];
+      conditions[f] = at_face(varying.boundary, now, varying.around[i]);
+      conditions[f].switches = initial_[f].switches;
+    }
+  }
+}
+
+template <int Dim>
+void BoundaryValues<Dim>::update_concentrations(double time,
+                                                std::vector<FaceCondition>& conditions) const {
+  for (const Varying& varying : varying_) {
+    if (!varying.boundary.concentration) continue;
+    const double now = varying.boundary.concentration->value(time);
+    for (const int f : varying.faces) conditions[f].concentration = now;
+  }
+}
+
+template std::vector<FaceCondition> face_conditions(const Case<2>&, const Grid<2>&);
+template std::vector<FaceCondition> face_conditions(const Case<3>&, const Grid<3>&);
+template class BoundaryValues<2>;
+template class BoundaryValues<3>;
+
+}  // namespace suffuse

@@ -1,0 +1,138 @@
+#include "coupling/moved_air.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suffuse {
+namespace {
+
+/// Adds `missing`, m3, to the air at the sides of an element, in equal parts but for what a side
+/// has no room for, or no air to give: that goes to the others.
+template <int Dim>
+void share_out(double missing, double room, ElementValues<Dim>& air) {
+  ElementValues<Dim> space;  // of each side
+  for (int k = 0; k <= Dim; ++k) space[k] = std::max(0.0, missing > 0.0 ? room - air[k] : air[k]);
+  const double sign = missing > 0.0 ? 1.0 : -1.0;
+  double left = std::abs(missing);
+  for (int round = 0; round <= Dim; ++round) {
+    const auto open = std::ranges::count_if(space, [](double s) { return s > 0.0; });
+    if (open == 0) break;
+    const double part = left / static_cast<double>(open);
+    for (int k = 0; k <= Dim; ++k) {
+      const double taken = std::min(part, space[k]);
+      air[k] += sign * taken;
+      space[k] -= taken;
+      left -= taken;
+    }
+  }
+  for (double& side : air) side += sign * left / (Dim + 1);
+}
+
+/// Sets the volume of air from the balance, exactly: at sides with water, air fills the room that
+/// water and solid leave; at sides with air, it leaves the room that they need. `before`: at the
+/// start of the step; `liquid` has crossed the faces, m3.
+template <int Dim>
+void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
+                const std::vector<double>& porosity, const std::vector<double>& liquid,
+                const std::vector<double>& solid_gain, ElementField<Dim>& air) {
+  for (std::size_t e = 0; e < air.size(); ++e) {
+    double left = element_sum<Dim>(before[e]) - solid_gain[e];
+    for (int k = 0; k <= Dim; ++k) {
+      left += grid.element_face_sign[e][k] * liquid[grid.element_face[e][k]];
+    }
+    const double room = porosity[e] * grid.volume[e] / (Dim + 1);
+    share_out<Dim>(left - element_sum<Dim>(air[e]), room, air[e]);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air,
+                        const std::vector<double>& porosity, const std::vector<double>& face_volume)
+    : grid_(grid), solid_(face_volume.size(), 0.0), water_(solid_) {
+  const std::vector<double> saturation = saturation_of(grid, air, porosity);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    // Where soil leaves the outer boundary of the mesh, air takes its place.
+    if (grid.is_outer(f)) continue;
+    // From the element that takes in what goes against the soil.
+    const double pores = taken_in(f, -face_volume[f], porosity);
+    solid_[f] = (1.0 - pores) * face_volume[f];
+    water_[f] = pores * taken_in(f, -face_volume[f], saturation) * face_volume[f];
+  }
+}
+
+template <int Dim>
+double MovedAir<Dim>::taken_in(int face, double volume,
+                               const std::vector<double>& of_element) const {
+  return of_element[volume > 0.0 ? grid_.face_right[face] : grid_.face_left[face]];
+}
+
+template <int Dim>
+double MovedAir<Dim>::pores_gained(int e) const {
+  double sum = 0.0;
+  for (int k = 0; k <= Dim; ++k) {
+    sum += grid_.element_face_sign[e][k] * solid_[grid_.element_face[e][k]];
+  }
+  return sum;
+}
+
+template <int Dim>
+double MovedAir<Dim>::water(int face, double solid, const std::vector<double>& saturation) const {
+  if (grid_.is_outer(face)) return 0.0;
+  const double beyond = solid - solid_[face];
+  return water_[face] - taken_in(face, beyond, saturation) * beyond;
+}
+
+template <int Dim>
+std::vector<double> saturation_of(const Grid<Dim>& grid, const ElementField<Dim>& air,
+                                  const std::vector<double>& porosity) {
+  std::vector<double> result(air.size());
+  for (std::size_t e = 0; e < air.size(); ++e) {
+    result[e] = 1.0 - element_sum<Dim>(air[e]) / (porosity[e] * grid.volume[e]);
+  }
+  return result;
+}
+
+template <int Dim>
+void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const ElementField<Dim>& air,
+                 std::vector<double> porosity, MixedStep<Dim>& step) {
+  if (air.empty()) {
+    for (int f = 0; f < grid.face_count(); ++f) {
+      step.face_volume[f] += motion.face_volume[f] - motion.solid_face_volume[f];
+    }
+    return;
+  }
+  const MovedAir<Dim> moved(grid, air, porosity, motion.face_volume);
+  for (std::size_t e = 0; e < air.size(); ++e) {
+    porosity[e] += moved.pores_gained(static_cast<int>(e)) / grid.volume[e];
+  }
+  const std::vector<double> saturation = saturation_of(grid, step.end.air, porosity);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    step.face_volume[f] += moved.water(f, motion.solid_face_volume[f], saturation);
+  }
+  take_place(grid, air, porosity, step.face_volume, motion.solid_gain, step.end.air);
+}
+
+template <int Dim>
+void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahead) {
+  for (std::size_t e = 0; e < porosity.size(); ++e) {
+    ahead.drag[e] *= porosity[e] / ahead.porosity[e];
+    ahead.porosity[e] = porosity[e];
+  }
+}
+
+template class MovedAir<2>;
+template class MovedAir<3>;
+template void move_liquid(const Grid<2>&, const SolidMotion&, const ElementField<2>&,
+                          std::vector<double>, MixedStep<2>&);
+template void move_liquid(const Grid<3>&, const SolidMotion&, const ElementField<3>&,
+                          std::vector<double>, MixedStep<3>&);
+template void keep_pores(const std::vector<double>&, FlowCoefficients<2>&);
+template void keep_pores(const std::vector<double>&, FlowCoefficients<3>&);
+template std::vector<double> saturation_of(const Grid<2>&, const ElementField<2>&,
+                                           const std::vector<double>&);
+template std::vector<double> saturation_of(const Grid<3>&, const ElementField<3>&,
+                                           const std::vector<double>&);
+
+}  // namespace suffuse

@@ -1,0 +1,319 @@
+#include "coupling/solid_coupling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "coupling/moved_air.hpp"
+#include "grid/parallel.hpp"
+#include "linear/anderson_mixing.hpp"
+#include "mixed/mixed_flow.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Fixed-stress storage, over the compressibility of soil that cannot move sideways: with less, the
+/// iteration of undrained soil does not always end; with more it is slower (docs/theory.md, "Flow
+/// and motion").
+constexpr double held_storage = 1.5;
+/// Share of that storage that stays where the mobility of soil with inertia replaces it: holds the
+/// level of the pressure.
+constexpr double beside_mobility = 1e-3;
+/// Air whose suction acts on the soil by no more than this share does not take part.
+constexpr double least_suction_share = 1e-3;
+constexpr int max_coupling_iterations = 40;
+/// Stiffness of water that hardly leaves, over that of soil that cannot move sideways.
+constexpr double undrained_stiffness = 300.0;
+constexpr int memory = 20;
+/// The last step says how pressures change in the next, but for one that is so much longer.
+constexpr double longest_growth = 10.0;
+/// Pressures agree when they differ by this share of the largest change in the step ...
+constexpr double accuracy = 1e-7;
+/// ... or by this share of the largest pressure, or by the stress of the stiffest soil at such a
+/// strain: to that the solid is in equilibrium (`NewtonLimits`, `Equilibrium::least_strain`).
+constexpr double accuracy_of_pressure = 1e-7;
+constexpr double round_off_strain = 1e-12;
+/// Accuracy with inertia, relative to the largest change plus the largest pressure: pressures of
+/// soil that fails swing by more with each step.
+constexpr double accuracy_in_motion = 1e-4;
+/// Shortest step in equilibrium, over the time in which soil falls through an element.
+constexpr double short_step = 1e-2;
+
+double largest(const Eigen::VectorXd& values) {
+  return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;
+}
+
+/// Largest absolute pressure of the elements that act on the motion, Pa.
+double largest_of_soil(const std::vector<double>& pressure, const std::vector<double>& storage) {
+  double result = 0.0;
+  for (std::size_t e = 0; e < pressure.size(); ++e) {
+    if (storage[e] != 0.0) result = std::max(result, std::abs(pressure[e]));
+  }
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedState<Dim>& start,
+                                        const std::vector<double>& pressure,
+                                        std::vector<double> porosity, double end, double dt,
+                                        FlowForcing<Dim> forcing) {
+  const FlowSoils<Dim>& soils = scheme.soils();
+  const std::vector<double> own = forcing.source;
+  const FlowCoefficients<Dim> at_start = forcing.coefficients;
+  const double floor = round_off_strain * solid_.stiffness();
+  if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
+  forcing.mean_storage = held_by_soil(soils, start.air, forcing, pressure, dt);
+  MotionForcing motion_forcing{
+      end, dt, {}, liquid_mass(grid_, at_start, start.air), std::move(porosity)};
+  const auto on_solid = [&](const Eigen::VectorXd& rise) {
+    std::vector<double> result = pressure;
+    for (std::size_t e = 0; e < result.size(); ++e) result[e] += rise[e];
+    return pressure_on_solid(grid_, soils, std::move(result), at_start.porosity, start.air);
+  };
+  AndersonMixing mixing(memory);
+  Eigen::VectorXd rise = expected_rise(dt);
+  const double scale =
+      largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
+  int failed = 0;
+  int worst_node = -1;
+  int worst_element = 0;
+  for (int iteration = 1; iteration <= max_coupling_iterations; ++iteration) {
+    ++iterations_;
+    const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
+    motion_forcing.pressure = on_solid(of_elements);
+    const SolidMotion& motion = solid_.try_motion(motion_forcing);
+    if (!motion.converged) {
+      ++failed;
+      worst_node = motion.worst_node;
+      const bool guessed = iteration == 1 && rise.squaredNorm() > 0.0;
+      rise = guessed ? Eigen::VectorXd::Zero(rise.size())
+                     : at_faces(undrained_rise(motion_forcing, of_elements), forcing.mean_storage);
+      mixing = AndersonMixing(memory);
+      continue;
+    }
+    const std::vector<double> moved =
+        !soils.air_moves() ? motion.face_volume : without_air(motion, start.air, at_start, forcing);
+    forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
+    forcing.expected_rise.assign(rise.data(), rise.data() + rise.size());
+    MixedStep<Dim> step = scheme.step(start, dt, {&forcing});
+    const Eigen::VectorXd found =
+        rise_at_soil(start.face_pressure, step.end.face_pressure, forcing.mean_storage);
+    const Eigen::VectorXd new_of_elements = at_elements(found, forcing.mean_storage);
+    if (largest(new_of_elements - of_elements) <= allowed(largest(new_of_elements), scale, floor)) {
+      rise_rate_.assign(found.data(), found.data() + found.size());
+      for (double& rate : rise_rate_) rate /= dt;
+      rise_time_ = dt;
+      return step;
+    }
+    if (iteration == max_coupling_iterations) {
+      (new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
+    }
+    rise = mixing.next(rise, found);
+  }
+  const std::string count = std::to_string(max_coupling_iterations) + " iterations";
+  if (failed > 0) throw NoEquilibrium("the soil has found no equilibrium in " + count, worst_node);
+  throw NotConverged("flow and motion of the soil do not agree in " + count + ", least in " +
+                     element_text(grid_, worst_element));
+}
+
+template <int Dim>
+std::vector<double> SolidCoupling<Dim>::held_by_soil(const FlowSoils<Dim>& soils,
+                                                     const ElementField<Dim>& air,
+                                                     const FlowForcing<Dim>& forcing,
+                                                     const std::vector<double>& pressure,
+                                                     double dt) const {
+  std::vector<double> result = solid_.compressibility(dt);
+  for (double& storage : result) storage *= held_storage;
+  for (std::size_t e = 0; e < forcing.mean_mobility.size(); ++e) {
+    if (forcing.mean_mobility[e] > 0.0) result[e] *= beside_mobility;
+  }
+  const std::vector<double> saturation = saturation_of(grid_, air, forcing.coefficients.porosity);
+  for (std::size_t e = 0; e < saturation.size(); ++e) {
+    // Suction acts on the soil, and the soil on the water, as far as pores are filled.
+    if (pressure[e] >= 0.0 || !soils.air_moves()) continue;
+    const double filled = soils.suction_share(static_cast<int>(e), saturation[e]);
+    result[e] *= filled < least_suction_share ? 0.0 : filled * filled;
+  }
+  return result;
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::expected_rise(double dt) const {
+  if (rise_rate_.empty() || dt > longest_growth * rise_time_) {
+    return Eigen::VectorXd::Zero(grid_.face_count());
+  }
+  return dt * Eigen::Map<const Eigen::VectorXd>(rise_rate_.data(), grid_.face_count());
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::at_elements(const Eigen::VectorXd& of_faces,
+                                                const std::vector<double>& storage) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.mesh.element_count());
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    if (storage[e] == 0.0) return;
+    for (const int f : grid_.element_face[e]) result[e] += of_faces[f] / (Dim + 1);
+  });
+  return result;
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::at_faces(const Eigen::VectorXd& of_elements,
+                                             const std::vector<double>& storage) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.face_count());
+  for_each_index(grid_.face_count(), threads_, [&](int f) {
+    int around = 0;
+    for (const int e : {grid_.face_left[f], grid_.face_right[f]}) {
+      if (e < 0 || storage[e] == 0.0) continue;
+      result[f] += of_elements[e];
+      ++around;
+    }
+    if (around > 0) result[f] /= around;
+  });
+  return result;
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::rise_at_soil(const std::vector<double>& before,
+                                                 const std::vector<double>& after,
+                                                 const std::vector<double>& storage) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.face_count());
+  for_each_index(grid_.face_count(), threads_, [&](int f) {
+    const int right = grid_.face_right[f];
+    const bool at_soil =
+        storage[grid_.face_left[f]] != 0.0 || (right >= 0 && storage[right] != 0.0);
+    if (at_soil) result[f] = after[f] - before[f];
+  });
+  return result;
+}
+
+template <int Dim>
+double SolidCoupling<Dim>::allowed(double rise, double pressure, double floor) const {
+  if (solid_.has_inertia()) return accuracy_in_motion * (rise + pressure);
+  return accuracy * rise + accuracy_of_pressure * pressure + floor;
+}
+
+template <int Dim>
+void SolidCoupling<Dim>::watch_steps(double time, double next_step) {
+  const bool is_short = next_step < short_step * solid_.time_of_fall();
+  if (long_steps_ && (is_short || solid_.slides()) && solid_.let_fail(time)) {
+    long_steps_ = false;
+  } else if (!is_short) {
+    long_steps_ = true;
+  }
+}
+
+template <int Dim>
+void SolidCoupling<Dim>::refuse_unsolved(double time, const NotConverged& error) const {
+  if (!solid_.moves()) throw NumericalError(error.what());
+  const auto* lost = dynamic_cast<const NoEquilibrium*>(&error);
+  std::ostringstream message;
+  message << "t = " << time << " s: ";
+  if (solid_.has_inertia()) {
+    message << error.what() << ": the motion of the soil that fails has no solution";
+  } else if (lost != nullptr) {
+    message << "the soil has lost its equilibrium: it cannot carry its weight, its loads and the "
+               "pressure of the water any longer"
+            << (lost->worst_node < 0 ? "" : ", least " + node_text(grid_, lost->worst_node))
+            << " (to follow it: time.failure = \"follow\")";
+  } else {
+    message << error.what()
+            << ", however short the step is: soil that yields is about to lose its equilibrium";
+  }
+  throw EquilibriumLost(message.str());
+}
+
+template <int Dim>
+Eigen::VectorXd SolidCoupling<Dim>::undrained_rise(MotionForcing forcing,
+                                                   Eigen::VectorXd rise) const {
+  const std::vector<double> compressibility = solid_.compressibility(forcing.duration);
+  forcing.stiffness.resize(compressibility.size());
+  for (std::size_t e = 0; e < compressibility.size(); ++e) {
+    if (compressibility[e] == 0.0) continue;
+    forcing.stiffness[e] = undrained_stiffness * grid_.volume[e] / compressibility[e];
+  }
+  const SolidMotion& motion = solid_.try_motion(forcing);
+  if (!motion.converged) {
+    throw NoEquilibrium("the soil has found no equilibrium", motion.worst_node);
+  }
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    double growth = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      growth += grid_.element_face_sign[e][k] * motion.face_volume[grid_.element_face[e][k]];
+    }
+    rise[e] -= forcing.stiffness[e] * growth / grid_.volume[e];
+  }
+  return rise;
+}
+
+template <int Dim>
+std::vector<double> SolidCoupling<Dim>::without_air(const SolidMotion& motion,
+                                                    const ElementField<Dim>& air,
+                                                    const FlowCoefficients<Dim>& start,
+                                                    FlowForcing<Dim>& forcing) const {
+  const MovedAir<Dim> moved(grid_, air, start.porosity, motion.face_volume);
+  std::vector<double> result(grid_.face_count());
+  for (int f = 0; f < grid_.face_count(); ++f) result[f] = moved.without_air(f);
+  FlowCoefficients<Dim>& c = forcing.coefficients;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    c.porosity[e] = start.porosity[e] + moved.pores_gained(e) / grid_.volume[e];
+    c.drag[e] = start.drag[e] * c.porosity[e] / start.porosity[e];  // the conductivity stays
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> SolidCoupling<Dim>::source_of(const std::vector<double>& moved,
+                                                  const std::vector<double>& own,
+                                                  const std::vector<double>& storage,
+                                                  const Eigen::VectorXd& rise, double dt) const {
+  std::vector<double> source(grid_.mesh.element_count());
+  for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+    // The fixed-stress storage acts only on the change from the pressure tried last.
+    source[e] = (own.empty() ? 0.0 : own[e]) + storage[e] * rise[e] / dt;
+    // Pores that open with the soil take liquid in.
+    for (int k = 0; k <= Dim; ++k) {
+      source[e] -= grid_.element_face_sign[e][k] * moved[grid_.element_face[e][k]] / dt;
+    }
+  });
+  return source;
+}
+
+template <int Dim>
+std::vector<double> liquid_mass(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                                const ElementField<Dim>& air) {
+  std::vector<double> result(grid.mesh.elements.size());
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    const double empty = air.empty() ? 0.0 : element_sum<Dim>(air[e]) / grid.volume[e];
+    result[e] = (coefficients.porosity[e] - empty) * coefficients.mixture_density[e];
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> pressure_on_solid(const Grid<Dim>& grid, const FlowSoils<Dim>& soils,
+                                      std::vector<double> pressure,
+                                      const std::vector<double>& porosity,
+                                      const ElementField<Dim>& air) {
+  const std::vector<double> saturation = saturation_of(grid, air, porosity);
+  for (std::size_t e = 0; e < air.size(); ++e) {
+    if (pressure[e] < 0.0) pressure[e] *= soils.suction_share(static_cast<int>(e), saturation[e]);
+  }
+  return pressure;
+}
+
+template class SolidCoupling<2>;
+template class SolidCoupling<3>;
+template std::vector<double> liquid_mass(const Grid<2>&, const FlowCoefficients<2>&,
+                                         const ElementField<2>&);
+template std::vector<double> liquid_mass(const Grid<3>&, const FlowCoefficients<3>&,
+                                         const ElementField<3>&);
+template std::vector<double> pressure_on_solid(const Grid<2>&, const FlowSoils<2>&,
+                                               std::vector<double>, const std::vector<double>&,
+                                               const ElementField<2>&);
+template std::vector<double> pressure_on_solid(const Grid<3>&, const FlowSoils<3>&,
+                                               std::vector<double>, const std::vector<double>&,
+                                               const ElementField<3>&);
+
+}  // namespace suffuse

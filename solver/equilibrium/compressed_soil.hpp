@@ -1,0 +1,33 @@
+#pragma once
+
+/// Soil that is compressed until its grains leave no pores between them. No law of the skeleton
+/// stiffens then, so the step in which it happens is refused.
+
+#include <vector>
+
+#include "equilibrium/solid_points.hpp"
+#include "equilibrium/supports.hpp"
+#include "solid/soil_map.hpp"
+
+namespace suffuse {
+
+/// A step of the soil, before its points have moved.
+template <int Dim>
+struct SoilStep {
+  const SolidPoints<Dim>& points;
+  std::vector<double> solid_volume;             ///< per point, m3
+  const std::vector<double>& initial_porosity;  ///< per point
+  const NodeVectors<Dim>& displacement;         ///< over the step, m
+  double end;                                   ///< s
+};
+
+/// Throws EquilibriumLost where the step leaves a point less than 1 % of its pores at the start.
+template <int Dim>
+void refuse_compressed(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const SoilStep<Dim>& step);
+
+/// Throws NumericalError where the solid fills an element at `time`, s. `solid_volume`: per
+/// element, m3.
+template <int Dim>
+void refuse_filled(const Grid<Dim>& grid, const std::vector<double>& solid_volume, double time);
+
+}  // namespace suffuse

@@ -1,0 +1,38 @@
+#include "equilibrium/crossing_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace suffuse {
+
+template <int Dim>
+void CrossingForces<Dim>::find(const Grid<Dim>& grid, const PointsByElement& sorted,
+                               const Equilibrium<Dim>& moved, const NodeVectors<Dim>& loads,
+                               const std::vector<double>& diffusivity) {
+  force_ = moved.forces();
+  for (std::size_t i = 0; i < force_.size(); ++i) force_[i] -= loads[i];
+  // The slowest element around a node decides.
+  fading_.assign(force_.size(), std::numeric_limits<double>::infinity());
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (sorted.is_empty(e)) continue;
+    double steepest = 0.0;  // one over the height
+    for (const Vector<Dim>& gradient : grid.shape_gradient[e]) {
+      steepest = std::max(steepest, gradient.norm());
+    }
+    const double rate = diffusivity[e] * steepest * steepest / drainage_times;
+    for (const int i : grid.mesh.elements[e]) fading_[i] = std::min(fading_[i], rate);
+  }
+}
+
+template <int Dim>
+void CrossingForces<Dim>::add(double duration, NodeVectors<Dim>& loads) const {
+  for (std::size_t i = 0; i < force_.size(); ++i) {
+    loads[i] += std::exp(-duration * fading_[i]) * force_[i];
+  }
+}
+
+template class CrossingForces<2>;
+template class CrossingForces<3>;
+
+}  // namespace suffuse

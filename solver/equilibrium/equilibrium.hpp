@@ -1,0 +1,157 @@
+#pragma once
+
+/// Forces of the solid on the nodes and their tangent, as functions of the displacement over a
+/// step.
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <vector>
+
+#include "equilibrium/element_classes.hpp"
+#include "equilibrium/supports.hpp"
+#include "physics/skeleton/skeleton_response.hpp"
+
+namespace suffuse {
+
+/// Law and numbers of the skeleton at a point, as of now.
+struct PointSkeleton {
+  const SkeletonLaw* law;
+  SkeletonParameters parameters;
+};
+
+/// Those of a soil where this share of its erodible fines is left. Soil of a rigid skeleton is held
+/// at its nodes: its law is never asked for more than no stress.
+PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left);
+
+/// Share of the stiffness of full elements that acts in partial ones on the displacement of each
+/// step. Without it a piece of soil that hangs by one node can turn freely, and Newton's method
+/// stalls; it does not act on what went before, so it does not carry the soil.
+inline constexpr double soft_share = 0.01;
+
+/// The solid at the start of a step. Refers to what the caller keeps.
+template <int Dim>
+struct SolidBody {
+  const Grid<Dim>& grid;
+  const SolidPoints<Dim>& points;
+  const PointsByElement& sorted;
+  const std::vector<PointSkeleton>& skeleton;  ///< per point
+  const ElementClasses& classes;
+  double soft = soft_share;
+};
+
+/// Equilibrium over one step in the places at its start (updated Lagrangian), linear displacements,
+/// F = I + grad du:
+///
+///     R_u = sum_e [scale sum_p V_0 tau F^-T + soft E V_e grad du - p V_e J F^-T] grad N - loads
+///           + M (du - dt v*)/dt^2 where inertia counts (backward Euler)
+///
+/// with the Kirchhoff stress tau of each point of the element, the law's, J = det F and the pore
+/// pressure p of the element (docs/theory.md, "Equilibrium of the solid"). Everything is per
+/// element first and added up in the order of the elements: the same bits on any number of threads.
+template <int Dim>
+class Equilibrium {
+ public:
+  using Gradient = Eigen::Matrix<double, Dim, Dim>;
+
+  /// Keeps references to the body and the supports.
+  Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& supports, int threads);
+
+  [[nodiscard]] const DisplacementUnknowns<Dim>& unknowns() const { return unknowns_; }
+  /// Pore pressure per element, Pa; empty: none.
+  /// \param stiffness  the pressure falls by this times J - 1, per element, Pa; empty: it does not
+  void set_pressure(std::vector<double> pressure, std::vector<double> stiffness = {}) {
+    pressure_ = std::move(pressure);
+    stiffness_ = std::move(stiffness);
+  }
+
+  /// Inertia over a step of `dt`, s: the mass of each node, kg, and its velocity at the start, m/s.
+  void set_inertia(const std::vector<double>& mass, const NodeVectors<Dim>& velocity, double dt);
+
+  /// Whether a displacement leaves each element with soil more than `min_ratio` of its volume.
+  [[nodiscard]] bool is_possible(const NodeVectors<Dim>& displacement) const;
+  /// Takes this displacement over the step, m, which must be possible. Tangents cost more than
+  /// forces, and `assemble` needs them.
+  void displace(const NodeVectors<Dim>& displacement, bool with_tangents);
+
+  /// Forces of the solid and its pore water on the nodes, N.
+  [[nodiscard]] NodeVectors<Dim> forces() const;
+  /// Norm of the forces of inertia, N.
+  [[nodiscard]] double inertia_norm() const;
+  /// Norm of the forces of all elements, whether they balance or not, and of those at a strain of
+  /// `least_strain`, N: what residuals are relative to, without stress too.
+  [[nodiscard]] double force_scale() const;
+  /// Sets the derivative of the forces by the unknowns, N/m, in the pattern of `pattern()`.
+  void assemble(Eigen::SparseMatrix<double>& tangent) const;
+  /// The derivative times a displacement, N.
+  [[nodiscard]] NodeVectors<Dim> tangent_times(const NodeVectors<Dim>& displacement) const;
+  /// The stiffness of a body without stress that has the elastic numbers of this one: symmetric
+  /// and, where the soil is held, positive definite, so that its factor serves as a preconditioner.
+  void assemble_elastic(Eigen::SparseMatrix<double>& stiffness) const;
+  /// A matrix of the unknowns with places for both; its values are zero.
+  [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
+
+  /// Mean effective stress sigma' of an element with soil, after the displacement, Pa; tension is
+  /// positive. Its part in the plane, in two dimensions.
+  [[nodiscard]] Gradient mean_stress(int element) const {
+    return effective_[element] / (soil_volume_[element] * ratio_[element]);
+  }
+  /// Mean elastic numbers of an element with soil: Lame's first parameter and the shear modulus,
+  /// Pa.
+  struct Moduli {
+    double lame = 0.0;
+    double shear = 0.0;
+  };
+  [[nodiscard]] Moduli mean_moduli(int element) const;
+  /// Volume of an element that counts as soil at the start of the step, m3: all of a full one.
+  [[nodiscard]] double soil_volume(int element) const { return soil_volume_[element]; }
+
+  /// J = det F of an element.
+  [[nodiscard]] double volume_ratio(int element) const { return ratio_[element]; }
+  /// Derivative of V_e J by the displacement of the element's nodes, m2; minus this is the
+  /// derivative of the forces by the element's pressure.
+  [[nodiscard]] std::array<Vector<Dim>, Dim + 1> volume_gradient(int element) const;
+
+  /// Least det F that a step may lead to.
+  static constexpr double min_ratio = 0.1;
+  static constexpr double least_strain = 1e-4;
+
+ private:
+  static constexpr int size = Dim * (Dim + 1);
+  using Tangent = DeformationTangent<Dim>;
+  using ElementMatrix = Eigen::Matrix<double, size, size>;
+
+  [[nodiscard]] Gradient displacement_gradient(const NodeVectors<Dim>& displacement, int e) const;
+  [[nodiscard]] Tangent elastic_tangent(int element) const;
+  void displace_element(const NodeVectors<Dim>& displacement, bool with_tangents, int element);
+  void add_pressure(int element, bool with_tangents);
+  [[nodiscard]] ElementMatrix element_matrix(int element, const Tangent& tangent) const;
+  [[nodiscard]] Vector<Dim> inertia_force(int node) const {
+    return inertia_[node] * (displacement_[node] - coasting_[node]);
+  }
+  void add_inertia(Eigen::SparseMatrix<double>& matrix) const;
+  void make_pattern();
+  void scatter(const auto& tangent_of, Eigen::SparseMatrix<double>& matrix) const;
+
+  SolidBody<Dim> body_;
+  int threads_;
+  std::vector<int> elements_;  ///< those with points
+  DisplacementUnknowns<Dim> unknowns_;
+  std::vector<double> pressure_;
+  std::vector<double> stiffness_;
+  std::vector<double> inertia_;      ///< M/dt^2 per node, N/m; empty: none
+  NodeVectors<Dim> coasting_;        ///< dt v* per node, m
+  NodeVectors<Dim> displacement_;    ///< the last one, m
+  double least_force_ = 0.0;         ///< of `force_scale`, N
+  std::vector<double> soft_;         ///< per element: stiffness against grad du, Pa m3
+  std::vector<Gradient> inverse_;    ///< F^-1 per element
+  std::vector<double> ratio_;        ///< det F per element
+  std::vector<Gradient> stress_;     ///< V_e P per element, Pa m3
+  std::vector<Gradient> effective_;  ///< V_e J sigma' per element, Pa m3
+  std::vector<double> soil_volume_;  ///< per element, m3
+  std::vector<Tangent> tangent_;     ///< its derivative by F
+  Eigen::SparseMatrix<double> pattern_;
+  /// Per element with points: place of each entry of its matrix, or -1.
+  std::vector<std::array<int, ElementMatrix::SizeAtCompileTime>> slots_;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,46 @@
+#include "equilibrium/free_water.hpp"
+
+#include <algorithm>
+
+namespace suffuse {
+
+template <int Dim>
+bool has_free_water(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
+  return std::ranges::any_of(grid.mesh.region_names, [&](const std::string& region) {
+    return soils.scene().is_free_water(region);
+  });
+}
+
+template <int Dim>
+void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
+                    const std::vector<double>& soil_volume, const std::vector<double>& pressure,
+                    const std::vector<double>& liquid_mass, const std::array<double, 3>& gravity,
+                    NodeVectors<Dim>& loads) {
+  const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(gravity.data());
+  std::vector<char> of_soil(grid.mesh.node_count(), 0);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (sorted.is_empty(e)) continue;
+    for (const int i : grid.mesh.elements[e]) of_soil[i] = 1;
+  }
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double volume = grid.volume[e] - soil_volume[e];
+    const Vector<Dim> weight = liquid_mass[e] * volume / (Dim + 1) * g;
+    for (int a = 0; a <= Dim; ++a) {
+      const int i = grid.mesh.elements[e][a];
+      if (of_soil[i] == 0) continue;
+      loads[i] += weight;
+      if (sorted.is_empty(e)) loads[i] += pressure[e] * grid.volume[e] * grid.shape_gradient[e][a];
+    }
+  }
+}
+
+template bool has_free_water(const Grid<2>&, const SoilMap<2>&);
+template bool has_free_water(const Grid<3>&, const SoilMap<3>&);
+template void add_free_water(const Grid<2>&, const PointsByElement&, const std::vector<double>&,
+                             const std::vector<double>&, const std::vector<double>&,
+                             const std::array<double, 3>&, NodeVectors<2>&);
+template void add_free_water(const Grid<3>&, const PointsByElement&, const std::vector<double>&,
+                             const std::vector<double>&, const std::vector<double>&,
+                             const std::array<double, 3>&, NodeVectors<3>&);
+
+}  // namespace suffuse

@@ -1,0 +1,180 @@
+#include "equilibrium/loads.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "physics/head.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Barycentric coordinates of a place above the mesh may be so far below zero.
+constexpr double allowed_above = 0.5;
+
+/// Places on a face, in barycentric coordinates, which share its area equally: the Gauss points of
+/// degree 3 (two nodes) or 2 (three nodes).
+template <int Dim>
+std::array<std::array<double, Dim>, Dim> places_on_face() {
+  const double near = Dim == 2 ? 0.5 + std::sqrt(1.0 / 12.0) : 2.0 / 3.0;
+  std::array<std::array<double, Dim>, Dim> result;
+  for (int j = 0; j < Dim; ++j) {
+    result[j].fill((1.0 - near) / (Dim - 1));
+    result[j][j] = near;
+  }
+  return result;
+}
+
+/// Adds the force at a place; the functions of its element may be continued beyond it.
+template <int Dim>
+void add_force_at(const Grid<Dim>& grid, const PointPlace<Dim>& place, const Vector<Dim>& force,
+                  NodeVectors<Dim>& loads) {
+  for (int a = 0; a <= Dim; ++a) {
+    loads[grid.mesh.elements[place.element][a]] += place.barycentric[a] * force;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void add_point_forces(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                      const std::vector<Vector<Dim>>& force, NodeVectors<Dim>& loads) {
+  for (int p = 0; p < points.size(); ++p) {
+    const int e = points.element[p];
+    add_force_at<Dim>(grid, {e, barycentric(grid.mesh, e, points.position[p])}, force[p], loads);
+  }
+}
+
+template <int Dim>
+void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                const PointsByElement& sorted, const ElementClasses& classes, const SoilMass& mass,
+                const std::array<double, 3>& gravity, NodeVectors<Dim>& loads) {
+  const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(gravity.data());
+  std::vector<Vector<Dim>> weight(points.size());
+  for (int p = 0; p < points.size(); ++p) weight[p] = mass.solid[p] * g;
+  add_point_forces(grid, points, weight, loads);
+  if (mass.liquid.empty()) return;
+  const std::vector<double> volume = soil_volumes(points, sorted, classes);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const Vector<Dim> of_node = mass.liquid[e] * volume[e] / (Dim + 1) * g;
+    for (const int i : grid.mesh.elements[e]) loads[i] += of_node;
+  }
+}
+
+template <int Dim>
+Vector<Dim> downwards(const std::array<double, 3>& gravity) {
+  if (!has_gravity(gravity)) return -Vector<Dim>::UnitY();
+  return Eigen::Map<const Vector<Dim>>(gravity.data()).normalized();
+}
+
+template <int Dim>
+LoadedSurface<Dim>::LoadedSurface(const Grid<Dim>& grid, const PointsByElement& sorted,
+                                  const std::vector<int>& faces) {
+  for (const int f : faces) {
+    const bool left = !sorted.is_empty(grid.face_left[f]);
+    const int e = left || grid.is_outer(f) ? grid.face_left[f] : grid.face_right[f];
+    const Vector<Dim> normal = e == grid.face_left[f] ? grid.face_normal[f] : -grid.face_normal[f];
+    for (const std::array<double, Dim>& share : places_on_face<Dim>()) {
+      Vector<Dim> x = Vector<Dim>::Zero();
+      for (int k = 0; k < Dim; ++k) x += share[k] * grid.mesh.nodes[grid.face_nodes[f][k]];
+      position_.push_back(x);
+      element_.push_back(e);
+      area_.push_back(normal.norm() / Dim);
+      normal_.push_back(normal / Dim);
+    }
+  }
+}
+
+/// Goes from an element without soil through the faces that look most against the surface's normal.
+template <int Dim>
+PointPlace<Dim> LoadedSurface<Dim>::carrier(const Grid<Dim>& grid, const PointsByElement& sorted,
+                                            int place) const {
+  constexpr int farthest = 4;  // a surface is never further from its soil
+  int e = element_[place];
+  for (int step = 0; step < farthest && sorted.is_empty(e); ++step) {
+    int next = -1;
+    double lowest = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      const Vector<Dim> out = grid.outward_normal(e, k);
+      const double along = out.dot(normal_[place]) / (out.norm() * normal_[place].norm());
+      if (grid.across(e, k) < 0 || along >= lowest) continue;
+      lowest = along;
+      next = grid.across(e, k);
+    }
+    if (next < 0) break;
+    e = next;
+  }
+  if (sorted.is_empty(e)) {
+    std::ostringstream message;
+    message << "the loaded surface at (" << position_[place].transpose()
+            << ") has lost its soil: there is none within " << farthest << " elements below";
+    throw NumericalError(message.str());
+  }
+  return {e, barycentric(grid.mesh, e, position_[place])};
+}
+
+template <int Dim>
+void LoadedSurface<Dim>::add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
+                                   const Vector<Dim>& force, NodeVectors<Dim>& loads) const {
+  add_force_at<Dim>(grid, carrier(grid, sorted, place), force, loads);
+}
+
+template <int Dim>
+void LoadedSurface<Dim>::add_traction(const Grid<Dim>& grid, const PointsByElement& sorted,
+                                      const Vector<Dim>& traction, NodeVectors<Dim>& loads) const {
+  for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
+    add_force(grid, sorted, i, area_[i] * traction, loads);
+  }
+}
+
+template <int Dim>
+void LoadedSurface<Dim>::add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted,
+                                      double pressure, NodeVectors<Dim>& loads) const {
+  add_pressures(
+      grid, sorted, [&](const Vector<Dim>&) { return pressure; }, loads);
+}
+
+template <int Dim>
+void LoadedSurface<Dim>::move(const Grid<Dim>& grid, const PointsByElement& sorted,
+                              const NodeVectors<Dim>& displacement) {
+  for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
+    const PointPlace<Dim> place = carrier(grid, sorted, i);
+    Eigen::Matrix<double, Dim, Dim> f = Eigen::Matrix<double, Dim, Dim>::Identity();
+    for (int a = 0; a <= Dim; ++a) {
+      f += displacement[grid.mesh.elements[place.element][a]] *
+           grid.shape_gradient[place.element][a].transpose();
+    }
+    position_[i] += interpolate(grid, place, displacement);
+    normal_[i] = f.determinant() * (f.inverse().transpose() * normal_[i]);
+    const int e = element_at(grid, place.element, position_[i]);
+    const auto above = barycentric(grid.mesh, place.element, position_[i]);
+    if (e < 0 && *std::ranges::min_element(above) > -allowed_above) {
+      element_[i] = place.element;
+      continue;
+    }
+    if (e < 0) {
+      std::ostringstream message;
+      message << "the loaded surface moves to (" << position_[i].transpose()
+              << "), which is far outside the mesh; make the mesh larger";
+      throw NumericalError(message.str());
+    }
+    element_[i] = e;
+  }
+}
+
+template void add_point_forces(const Grid<2>&, const SolidPoints<2>&, const std::vector<Vector<2>>&,
+                               NodeVectors<2>&);
+template void add_point_forces(const Grid<3>&, const SolidPoints<3>&, const std::vector<Vector<3>>&,
+                               NodeVectors<3>&);
+template Vector<2> downwards<2>(const std::array<double, 3>&);
+template Vector<3> downwards<3>(const std::array<double, 3>&);
+template void add_weight(const Grid<2>&, const SolidPoints<2>&, const PointsByElement&,
+                         const ElementClasses&, const SoilMass&, const std::array<double, 3>&,
+                         NodeVectors<2>&);
+template void add_weight(const Grid<3>&, const SolidPoints<3>&, const PointsByElement&,
+                         const ElementClasses&, const SoilMass&, const std::array<double, 3>&,
+                         NodeVectors<3>&);
+template class LoadedSurface<2>;
+template class LoadedSurface<3>;
+
+}  // namespace suffuse

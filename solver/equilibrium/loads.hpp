@@ -1,0 +1,85 @@
+#pragma once
+
+/// Loads on the solid, as forces on the nodes.
+
+#include <array>
+#include <vector>
+
+#include "equilibrium/element_classes.hpp"
+#include "equilibrium/supports.hpp"
+
+namespace suffuse {
+
+/// Adds forces at solid points, N per point (a weight, say), to those on the nodes.
+template <int Dim>
+void add_point_forces(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                      const std::vector<Vector<Dim>>& force, NodeVectors<Dim>& loads);
+
+/// What the soil weighs.
+struct SoilMass {
+  std::vector<double> solid;   ///< per point, kg
+  std::vector<double> liquid;  ///< per volume of soil and element, kg/m3; empty: none
+};
+
+/// Adds the weight of the solid at its points and of the liquid in its pores, N.
+/// \param gravity  m/s2
+template <int Dim>
+void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                const PointsByElement& sorted, const ElementClasses& classes, const SoilMass& mass,
+                const std::array<double, 3>& gravity, NodeVectors<Dim>& loads);
+
+/// A surface of the soil that carries a load. It starts on faces of the mesh, and moves with the
+/// soil from there, so that it may come to lie inside elements: places on it carry shares of its
+/// area. (To load the topmost solid points instead puts the load below the surface, by the
+/// distance from the points to it.)
+template <int Dim>
+class LoadedSurface {
+ public:
+  LoadedSurface() = default;
+  /// \param faces  of the grid, at its border or between an element with soil and one without
+  LoadedSurface(const Grid<Dim>& grid, const PointsByElement& sorted,
+                const std::vector<int>& faces);
+
+  /// Adds a traction, Pa, on the area that the surface had at the start: a dead load. Where no soil
+  /// is left in the element of a place, the nearest element with soil below takes the load, as if
+  /// its linear functions went on to the place: the sum of forces and their moments stay.
+  void add_traction(const Grid<Dim>& grid, const PointsByElement& sorted,
+                    const Vector<Dim>& traction, NodeVectors<Dim>& loads) const;
+  /// Adds a pressure, Pa, on the surface as it is now: it stays normal to it.
+  void add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted, double pressure,
+                    NodeVectors<Dim>& loads) const;
+
+  /// Adds a pressure that varies in space, Pa, `pressure(x)`, on the surface as it is now.
+  template <class Pressure>
+  void add_pressures(const Grid<Dim>& grid, const PointsByElement& sorted, const Pressure& pressure,
+                     NodeVectors<Dim>& loads) const {
+    for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
+      add_force(grid, sorted, i, -pressure(position_[i]) * normal_[i], loads);
+    }
+  }
+
+  /// Moves with the soil. A place may rise a little above the mesh, and loads the last element
+  /// then. Throws NumericalError where it would rise by more than half an element.
+  void move(const Grid<Dim>& grid, const PointsByElement& sorted,
+            const NodeVectors<Dim>& displacement);
+
+  [[nodiscard]] const std::vector<Vector<Dim>>& places() const { return position_; }
+  void archive(auto& archive) { archive(position_, element_, area_, normal_); }
+
+ private:
+  [[nodiscard]] PointPlace<Dim> carrier(const Grid<Dim>& grid, const PointsByElement& sorted,
+                                        int place) const;
+  void add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
+                 const Vector<Dim>& force, NodeVectors<Dim>& loads) const;
+
+  std::vector<Vector<Dim>> position_;  ///< m
+  std::vector<int> element_;           ///< of the soil below
+  std::vector<double> area_;           ///< at the start, m2
+  std::vector<Vector<Dim>> normal_;    ///< out of the soil, times the area of today
+};
+
+/// The direction of gravity, or against y without it.
+template <int Dim>
+Vector<Dim> downwards(const std::array<double, 3>& gravity);
+
+}  // namespace suffuse

@@ -1,0 +1,157 @@
+#include "equilibrium/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suffuse {
+namespace {
+
+/// So often Newton's step is halved before the iterations are given up.
+constexpr int max_halvings = 10;
+/// The residual must fall by this share of what the linear model promises (Armijo's rule).
+constexpr double enough = 1e-4;
+/// Smallest accuracy asked of a linear solution, relative to its right-hand side.
+constexpr double best_accuracy = 1e-9;
+
+/// How well the linear system is solved, relative to its right-hand side: as the residual will fall
+/// by Newton's method anyhow, and no better than the tolerance needs.
+double accuracy_at(double residual, double tolerance) {
+  return std::clamp(std::max(0.1 * tolerance / residual, 0.01 * residual), best_accuracy, 1e-3);
+}
+
+}  // namespace
+
+template <int Dim>
+NewtonSolution<Dim> EquilibriumSolver<Dim>::solve(const NodeVectors<Dim>& loads,
+                                                  NodeVectors<Dim> start,
+                                                  const NewtonLimits& limits) {
+  NewtonSolution<Dim> result;
+  result.displacement = std::move(start);
+  equilibrium_.displace(result.displacement, true);
+  iterate(loads, limits, result);
+  if (!result.converged) result.worst_node = unknowns().longest(unbalanced(loads));
+  return result;
+}
+
+template <int Dim>
+NewtonSolution<Dim> EquilibriumSolver<Dim>::solve_prescribed(const NodeVectors<Dim>& loads,
+                                                             const NodeVectors<Dim>& prescribed,
+                                                             const NewtonLimits& limits) {
+  NewtonSolution<Dim> result;
+  result.displacement.assign(loads.size(), Vector<Dim>::Zero());
+  equilibrium_.displace(result.displacement, true);
+  if (!prescribed.empty() && !prescribe(loads, prescribed, result.displacement)) return result;
+  iterate(loads, limits, result);
+  return result;
+}
+
+template <int Dim>
+void EquilibriumSolver<Dim>::iterate(const NodeVectors<Dim>& loads, const NewtonLimits& limits,
+                                     NewtonSolution<Dim>& result) {
+  const double goal = std::min(limits.goal, limits.tolerance);
+  for (;;) {
+    const Eigen::VectorXd force = unbalanced(loads);
+    const double residual = force.norm() / (equilibrium_.force_scale() + norm<Dim>(loads));
+    result.residuals.push_back(residual);
+    result.converged = residual <= limits.tolerance;
+    if (residual <= goal || result.iterations() == limits.max_iterations) return;
+    const double accuracy = accuracy_at(residual, goal);
+    const int halvings = result.converged ? 0 : max_halvings;
+    if (!improve(loads, force, accuracy, halvings, result.displacement)) return;
+  }
+}
+
+/// The forces that balance, along free directions: what the loads leave to be carried.
+template <int Dim>
+Eigen::VectorXd EquilibriumSolver<Dim>::unbalanced(const NodeVectors<Dim>& loads) const {
+  return unknowns().components(loads) - unknowns().components(equilibrium_.forces());
+}
+
+/// Once, for the first system: a step in which nothing changes needs none.
+template <int Dim>
+void EquilibriumSolver<Dim>::factorise() {
+  if (factorised_) return;
+  equilibrium_.assemble_elastic(matrix_);
+  try {
+    system_.factorise(matrix_);
+  } catch (const NumericalError&) {
+    throw NumericalError(
+        "the displacements could not be solved for: nothing holds the soil, or a piece of it; fix "
+        "a boundary that it lies on");
+  }
+  factorised_ = true;
+}
+
+/// Newton's step for these forces; false where the tangent is singular: what the soil can carry has
+/// been reached.
+template <int Dim>
+bool EquilibriumSolver<Dim>::find_step(const Eigen::VectorXd& force, double accuracy,
+                                       Eigen::VectorXd& step) {
+  step = Eigen::VectorXd::Zero(force.size());
+  if (force.size() == 0) return true;
+  factorise();
+  equilibrium_.assemble(matrix_);
+  try {
+    system_.solve(matrix_, force, step, accuracy);
+  } catch (const NumericalError&) {
+    return false;
+  }
+  return true;
+}
+
+/// Goes where the linear model at the start has the nodes that are held, and the others with them:
+/// to move the held ones alone would turn their elements inside out. Returns false where an element
+/// would lose its volume.
+template <int Dim>
+bool EquilibriumSolver<Dim>::prescribe(const NodeVectors<Dim>& loads,
+                                       const NodeVectors<Dim>& prescribed,
+                                       NodeVectors<Dim>& displacement) {
+  displacement = prescribed;
+  unknowns().add(unknowns().components(prescribed), -1.0, displacement);
+  const Eigen::VectorXd force =
+      unbalanced(loads) - unknowns().components(equilibrium_.tangent_times(displacement));
+  Eigen::VectorXd step;
+  if (!find_step(force, best_accuracy, step)) return false;
+  unknowns().add(step, 1.0, displacement);
+  if (!equilibrium_.is_possible(displacement)) return false;
+  equilibrium_.displace(displacement, true);
+  return true;
+}
+
+/// One iteration. Returns false where no part of the step makes the residual smaller.
+template <int Dim>
+bool EquilibriumSolver<Dim>::improve(const NodeVectors<Dim>& loads, const Eigen::VectorXd& force,
+                                     double accuracy, int halvings,
+                                     NodeVectors<Dim>& displacement) {
+  Eigen::VectorXd step;
+  if (!find_step(force, accuracy, step)) return false;
+  const double before = force.norm();
+  double share = 1.0;
+  for (int halving = 0; halving <= halvings; ++halving, share *= 0.5) {
+    NodeVectors<Dim> trial = displacement;
+    unknowns().add(step, share, trial);
+    if (!equilibrium_.is_possible(trial)) continue;
+    equilibrium_.displace(trial, true);
+    if (!(unbalanced(loads).norm() <= (1.0 - enough * share) * before)) continue;
+    displacement = std::move(trial);
+    return true;
+  }
+  equilibrium_.displace(displacement, true);
+  return false;
+}
+
+template <int Dim>
+NewtonSolution<Dim> solve_equilibrium(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads,
+                                      const NodeVectors<Dim>& prescribed,
+                                      const NewtonLimits& limits) {
+  return EquilibriumSolver<Dim>(equilibrium).solve_prescribed(loads, prescribed, limits);
+}
+
+template class EquilibriumSolver<2>;
+template class EquilibriumSolver<3>;
+template NewtonSolution<2> solve_equilibrium(Equilibrium<2>&, const NodeVectors<2>&,
+                                             const NodeVectors<2>&, const NewtonLimits&);
+template NewtonSolution<3> solve_equilibrium(Equilibrium<3>&, const NodeVectors<3>&,
+                                             const NodeVectors<3>&, const NewtonLimits&);
+
+}  // namespace suffuse

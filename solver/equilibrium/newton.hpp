@@ -1,0 +1,86 @@
+#pragma once
+
+/// Newton's method for the equilibrium of the solid over one step.
+
+#include <limits>
+#include <vector>
+
+#include "equilibrium/equilibrium.hpp"
+#include "linear/newton_system.hpp"
+
+namespace suffuse {
+
+struct NewtonLimits {
+  int max_iterations = 12;
+  /// Largest residual over the forces of the elements and the loads together.
+  double tolerance = 1e-10;
+  /// A residual smaller than the tolerance, which iterations try to reach: they stop at the first
+  /// that does not come nearer. For soft soil beside stiff soil: the tolerance refers to the forces
+  /// of the stiff soil, which are much larger than those of the soft soil.
+  double goal = std::numeric_limits<double>::infinity();
+};
+
+template <int Dim>
+struct NewtonSolution {
+  NodeVectors<Dim> displacement;  ///< over the step, m
+  /// Whether the residual fell below the tolerance. Else the caller takes a shorter step.
+  bool converged = false;
+  /// Norm of the forces out of balance before each iteration and at the end, relative as above.
+  std::vector<double> residuals;
+  /// Where it did not: the node at which forces are out of balance most.
+  int worst_node = -1;
+
+  [[nodiscard]] int iterations() const { return static_cast<int>(residuals.size()) - 1; }
+};
+
+/// Finds the displacement over a step at which the forces of the solid equal the loads. Each
+/// iteration takes as much of Newton's step, by halves, as leaves every element a volume and the
+/// residual smaller. The linear systems are solved by iterations with the factor of the elastic
+/// stiffness, which is made once, if at all: to solve again, for other loads or pore pressures of
+/// the same step, costs little.
+template <int Dim>
+class EquilibriumSolver {
+ public:
+  /// Keeps a reference.
+  explicit EquilibriumSolver(Equilibrium<Dim>& equilibrium) : equilibrium_(equilibrium) {}
+
+  /// Leaves the equilibrium displaced by the solution. Throws NumericalError when nothing holds the
+  /// soil.
+  /// \param loads       per node, N
+  /// \param start       displacement to start from, m, which must be possible
+  NewtonSolution<Dim> solve(const NodeVectors<Dim>& loads, NodeVectors<Dim> start,
+                            const NewtonLimits& limits = {});
+  /// Solves from rest with prescribed displacements.
+  /// \param prescribed  displacement over the step in directions that are held, m; empty: none.
+  ///                    What it says about free directions is not used.
+  NewtonSolution<Dim> solve_prescribed(const NodeVectors<Dim>& loads,
+                                       const NodeVectors<Dim>& prescribed,
+                                       const NewtonLimits& limits = {});
+
+ private:
+  [[nodiscard]] const DisplacementUnknowns<Dim>& unknowns() const {
+    return equilibrium_.unknowns();
+  }
+  [[nodiscard]] Eigen::VectorXd unbalanced(const NodeVectors<Dim>& loads) const;
+  void iterate(const NodeVectors<Dim>& loads, const NewtonLimits& limits,
+               NewtonSolution<Dim>& result);
+  void factorise();
+  bool find_step(const Eigen::VectorXd& force, double accuracy, Eigen::VectorXd& step);
+  bool prescribe(const NodeVectors<Dim>& loads, const NodeVectors<Dim>& prescribed,
+                 NodeVectors<Dim>& displacement);
+  bool improve(const NodeVectors<Dim>& loads, const Eigen::VectorXd& force, double accuracy,
+               int halvings, NodeVectors<Dim>& displacement);
+
+  Equilibrium<Dim>& equilibrium_;
+  NewtonSystem system_;
+  Eigen::SparseMatrix<double> matrix_;
+  bool factorised_ = false;
+};
+
+/// One solution from rest, as `EquilibriumSolver::solve_prescribed`.
+template <int Dim>
+NewtonSolution<Dim> solve_equilibrium(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads,
+                                      const NodeVectors<Dim>& prescribed,
+                                      const NewtonLimits& limits = {});
+
+}  // namespace suffuse

@@ -1,0 +1,160 @@
+#include "equilibrium/pseudo_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suffuse {
+namespace {
+
+/// Length of the first step: soil that stays elastic comes half the way to rest in it.
+constexpr double first_length = 1.0;
+/// Steps shorter than this, which elastic soil would not notice, are given up.
+constexpr double least_length = 1e-4;
+/// The defect of a step, over the forces out of balance at its start.
+constexpr double step_accuracy = 0.03;
+/// Accuracy of linear solutions, relative to their right-hand side.
+constexpr double linear_accuracy = 3e-3;
+constexpr int max_step_iterations = 8;
+/// Steps become as long as takes about so many iterations: that is least work in all.
+constexpr double good_iterations = 4.0;
+/// Lengths of consecutive steps differ by this factor at most.
+constexpr double growth = 4.0;
+/// Newton's step is halved so often; a shorter part of it is worth less than a shorter step.
+constexpr int max_step_halvings = 6;
+/// The defect must fall by this share of what the linear model promises (Armijo's rule).
+constexpr double least_fall = 1e-4;
+
+}  // namespace
+
+template <int Dim>
+PseudoTime<Dim>::PseudoTime(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads)
+    : equilibrium_(equilibrium), loads_(loads) {
+  equilibrium_.assemble_elastic(elastic_);
+  system_.factorise(elastic_);
+}
+
+template <int Dim>
+SettledSoil<Dim> PseudoTime<Dim>::settle(NodeVectors<Dim> start, const SettlingLimits& limits) {
+  soil_ = {};
+  soil_.displacement = std::move(start);
+  soil_.motion.assign(loads_.size(), Vector<Dim>::Zero());
+  length_ = first_length;
+  last_length_ = 0.0;
+  equilibrium_.displace(soil_.displacement, true);
+  judge(limits);
+  while (soil_.end == Settling::undecided && length_ >= least_length &&
+         soil_.iterations < limits.max_iterations) {
+    if (step(limits.max_iterations - soil_.iterations)) {
+      judge(limits);
+      length_ *= std::min(good_iterations / std::max(step_iterations_, 1), growth);
+    } else {
+      equilibrium_.displace(soil_.displacement, true);
+      length_ *= 0.5;
+    }
+  }
+  return soil_;
+}
+
+template <int Dim>
+Eigen::VectorXd PseudoTime<Dim>::unbalanced() const {
+  const DisplacementUnknowns<Dim>& unknowns = equilibrium_.unknowns();
+  return unknowns.components(loads_) - unknowns.components(equilibrium_.forces());
+}
+
+/// Displacement beyond that at the start of the step, along the unknowns.
+template <int Dim>
+Eigen::VectorXd PseudoTime<Dim>::moved_by(const NodeVectors<Dim>& displacement) const {
+  const DisplacementUnknowns<Dim>& unknowns = equilibrium_.unknowns();
+  return unknowns.components(displacement) - unknowns.components(soil_.displacement);
+}
+
+/// Soil that fails moves at a constant speed.
+template <int Dim>
+NodeVectors<Dim> PseudoTime<Dim>::predicted() const {
+  NodeVectors<Dim> result = soil_.displacement;
+  const double share = last_length_ > 0.0 ? length_ / last_length_ : 0.0;
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] += share * soil_.motion[i];
+  return result;
+}
+
+/// Sets the defect of backward Euler at a displacement; false where that is not possible.
+template <int Dim>
+bool PseudoTime<Dim>::take(const NodeVectors<Dim>& displacement, Eigen::VectorXd& defect) {
+  if (!equilibrium_.is_possible(displacement)) return false;
+  equilibrium_.displace(displacement, true);
+  defect = unbalanced() - elastic_ * moved_by(displacement) / length_;
+  return true;
+}
+
+/// One step, to the end of which the soil goes; false where it is too long.
+template <int Dim>
+bool PseudoTime<Dim>::step(int max_iterations) {
+  step_iterations_ = 0;
+  trial_ = predicted();
+  Eigen::VectorXd defect;
+  if (!take(trial_, defect) || !(defect.norm() < unbalanced_.norm())) {
+    trial_ = soil_.displacement;
+    take(trial_, defect);
+  }
+  const int most = std::min(max_step_iterations, max_iterations);
+  while (!(defect.norm() <= step_accuracy * unbalanced_.norm())) {
+    if (step_iterations_ == most) return false;
+    ++step_iterations_;
+    ++soil_.iterations;
+    if (!improve(defect)) return false;
+  }
+  for (std::size_t i = 0; i < trial_.size(); ++i) {
+    soil_.motion[i] = trial_[i] - soil_.displacement[i];
+  }
+  soil_.displacement = trial_;
+  last_length_ = length_;
+  return true;
+}
+
+/// One iteration of Newton's method. Returns false where no part of its step makes the defect
+/// smaller.
+template <int Dim>
+bool PseudoTime<Dim>::improve(Eigen::VectorXd& defect) {
+  equilibrium_.assemble(matrix_);
+  const auto values = [](Eigen::SparseMatrix<double>& of) {
+    return Eigen::Map<Eigen::VectorXd>(of.valuePtr(), of.nonZeros());
+  };
+  values(matrix_) += values(elastic_) / length_;
+  Eigen::VectorXd step;
+  try {
+    system_.solve(matrix_, defect, step, linear_accuracy);
+  } catch (const NumericalError&) {
+    return false;
+  }
+  const double before = defect.norm();
+  double share = 1.0;
+  for (int halving = 0; halving <= max_step_halvings; ++halving, share *= 0.5) {
+    NodeVectors<Dim> shorter = trial_;
+    equilibrium_.unknowns().add(step, share, shorter);
+    if (!take(shorter, defect)) continue;
+    if (!(defect.norm() <= (1.0 - least_fall * share) * before)) continue;
+    trial_ = std::move(shorter);
+    return true;
+  }
+  return false;
+}
+
+/// Whether it has come to an end, at the displacement that the equilibrium has.
+template <int Dim>
+void PseudoTime<Dim>::judge(const SettlingLimits& limits) {
+  unbalanced_ = unbalanced();
+  soil_.residual = unbalanced_.norm() / (equilibrium_.force_scale() + norm<Dim>(loads_));
+  double furthest = 0.0;
+  for (const Vector<Dim>& u : soil_.displacement) furthest = std::max(furthest, u.norm());
+  if (furthest > limits.far) {
+    soil_.end = Settling::runs_away;
+  } else if (soil_.residual <= limits.tolerance) {
+    soil_.end = Settling::rests;
+  }
+  soil_.worst_node = equilibrium_.unknowns().longest(unbalanced_);
+}
+
+template class PseudoTime<2>;
+template class PseudoTime<3>;
+
+}  // namespace suffuse

@@ -1,0 +1,79 @@
+#pragma once
+
+/// What becomes of soil under loads that stay: it comes to rest, or it fails.
+
+#include "equilibrium/equilibrium.hpp"
+#include "linear/newton_system.hpp"
+
+namespace suffuse {
+
+enum class Settling {
+  rests,      ///< forces balance
+  runs_away,  ///< displacements have passed any bound
+  undecided   ///< neither, when steps or iterations ran out
+};
+
+struct SettlingLimits {
+  /// Largest residual of soil at rest, over the forces of the elements and the loads together.
+  double tolerance = 1e-9;
+  /// Displacement that runs away, m.
+  double far = 0.0;
+  /// Iterations of Newton's method, in all steps.
+  int max_iterations = 400;
+};
+
+template <int Dim>
+struct SettledSoil {
+  Settling end = Settling::undecided;
+  NodeVectors<Dim> displacement;  ///< m
+  NodeVectors<Dim> motion;        ///< displacement in the last step of pseudo-time, m
+  double residual = 0.0;          ///< as in `SettlingLimits::tolerance`
+  int iterations = 0;             ///< of Newton's method
+  int worst_node = -1;            ///< where forces are out of balance most
+};
+
+/// Follows the soil through a pseudo-time t in which its elastic stiffness K acts as viscosity too,
+///
+///     K du/dt = loads - forces(u),
+///
+/// by backward Euler in steps that grow as long as Newton's method converges in few iterations
+/// (pseudo-transient continuation: Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508; its use
+/// for soil: Griffiths and Lane, Geotechnique 49 (1999) 387, with viscoplastic strains). For a
+/// perfectly plastic body of associated flow the path is that of steepest descent of a convex
+/// energy: it ends at an equilibrium where there is one; otherwise the forces that no stress can
+/// balance make displacements grow in proportion to t. Soil that does not dilate as it rubs has no
+/// such energy, but the same two ends.
+template <int Dim>
+class PseudoTime {
+ public:
+  /// Keeps references. Throws NumericalError when nothing holds the soil.
+  /// \param loads  per node, N
+  PseudoTime(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads);
+
+  /// Leaves the equilibrium displaced by what is returned.
+  /// \param start  displacement to start from, m, which must be possible
+  SettledSoil<Dim> settle(NodeVectors<Dim> start, const SettlingLimits& limits);
+
+ private:
+  [[nodiscard]] Eigen::VectorXd unbalanced() const;
+  [[nodiscard]] Eigen::VectorXd moved_by(const NodeVectors<Dim>& displacement) const;
+  [[nodiscard]] NodeVectors<Dim> predicted() const;
+  bool take(const NodeVectors<Dim>& displacement, Eigen::VectorXd& defect);
+  bool step(int max_iterations);
+  bool improve(Eigen::VectorXd& defect);
+  void judge(const SettlingLimits& limits);
+
+  Equilibrium<Dim>& equilibrium_;
+  const NodeVectors<Dim>& loads_;
+  NewtonSystem system_;
+  Eigen::SparseMatrix<double> elastic_;
+  Eigen::SparseMatrix<double> matrix_;
+  SettledSoil<Dim> soil_;       ///< at the end of the last step
+  NodeVectors<Dim> trial_;      ///< displacement in the iterations of a step, m
+  Eigen::VectorXd unbalanced_;  ///< forces at the start of the step
+  double length_ = 1.0;         ///< of the step, in pseudo-time
+  double last_length_ = 0.0;    ///< of the last step; 0: none
+  int step_iterations_ = 0;     ///< of the step
+};
+
+}  // namespace suffuse

@@ -1,0 +1,151 @@
+#include "equilibrium/start_stress.hpp"
+
+#include <algorithm>
+
+#include "grid/parallel.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Each pass takes the displacement of the one before back, and errs by its strain squared.
+constexpr int max_passes = 60;
+/// The loads come in so many parts where soil yields too much for all at once.
+constexpr int load_parts = 20;
+/// A displacement by this share of the size of the model is a failure, and so is soil that does not
+/// rest within so many iterations in all.
+constexpr double far_share = 0.1;
+constexpr int max_iterations = 100;
+/// Elastic soil must have a volume to lose.
+constexpr double max_poisson = 0.45;
+
+template <int Dim>
+void take_stress(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step, SolidPoints<Dim>& points,
+                 int threads) {
+  using Gradient = Eigen::Matrix<double, Dim, Dim>;
+  for_each_index(points.size(), threads, [&](int p) {
+    const int e = points.element[p];
+    Gradient f = Gradient::Identity();
+    for (int a = 0; a <= Dim; ++a) {
+      f += step.displacement()[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
+    }
+    const auto& [law, parameters] = step.skeleton()[p];
+    points.elastic_b[p] =
+        skeleton_response<Dim>(*law, parameters, points.elastic_b[p], f).elastic_b;
+  });
+}
+
+/// Shares of the loads, one after the other, each until the points carry it where they are.
+template <int Dim>
+bool settle(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+            const Supports<Dim>& supports, const StartLoads<Dim>& loads, int parts,
+            SolidPoints<Dim>& points, int threads) {
+  StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);
+  for (int part = 1; part <= parts; ++part) {
+    const double share = static_cast<double>(part) / parts;
+    NodeVectors<Dim> forces = loads.forces;
+    for (Vector<Dim>& force : forces) force *= share;
+    std::vector<double> pressure = loads.pressure;
+    for (double& p : pressure) p *= share;
+    for (int pass = 0;; ++pass) {
+      if (pass == max_passes || !step.solve(forces, pressure)) return false;
+      if (step.iterations() == 0) break;
+      take_stress(grid, step, points, threads);
+      step.restart();
+    }
+  }
+  return true;
+}
+
+/// All loads at once, from the stress that points have, which Newton's method need not find.
+template <int Dim>
+StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+                          const Supports<Dim>& supports, const StartLoads<Dim>& loads,
+                          SolidPoints<Dim>& points, int threads) {
+  SettlingLimits limits{.tolerance = NewtonLimits().tolerance,
+                        .far = far_share * extent(grid.mesh).norm(),
+                        .max_iterations = max_iterations};
+  StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);
+  while (limits.max_iterations > 0) {
+    if (!step.solve(loads.forces, loads.pressure)) {
+      if (!step.settle(loads.forces, loads.pressure, limits)) break;
+    }
+    if (step.iterations() == 0) return {.stands = true};
+    limits.max_iterations -= step.iterations();
+    take_stress(grid, step, points, threads);
+    step.restart();
+  }
+  return {.worst_node = step.worst_node()};
+}
+
+/// The stress whose vertical part is that of the points, and whose horizontal one is K_0 times it.
+template <int Dim>
+void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
+                        const std::vector<PointSkeleton>& skeleton, const StartLoads<Dim>& loads,
+                        SolidPoints<Dim>& points) {
+  const Eigen::Vector3d up = Eigen::Vector3d(loads.gravity.data()).normalized();
+  const double ratio = *loads.earth_pressure;
+  for (int p = 0; p < points.size(); ++p) {
+    const auto& [law, parameters] = elastic[p];
+    const Eigen::Matrix3d stress =
+        skeleton_response<Dim>(*law, parameters, points.elastic_b[p],
+                               Eigen::Matrix<double, Dim, Dim>::Identity())
+            .stress;
+    const double vertical = up.dot(stress * up);
+    points.elastic_b[p] = elastic_b_under(
+        skeleton[p].parameters,
+        vertical * (ratio * Eigen::Matrix3d::Identity() + (1.0 - ratio) * up * up.transpose()));
+  }
+}
+
+/// Points yield where they are, as far as they have to.
+template <int Dim>
+void yield(const std::vector<PointSkeleton>& skeleton, SolidPoints<Dim>& points, int threads) {
+  for_each_index(points.size(), threads, [&](int p) {
+    const auto& [law, parameters] = skeleton[p];
+    points.elastic_b[p] = skeleton_response<Dim>(*law, parameters, points.elastic_b[p],
+                                                 Eigen::Matrix<double, Dim, Dim>::Identity())
+                              .elastic_b;
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+StartStress find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
+                              const Supports<Dim>& supports, const StartLoads<Dim>& loads,
+                              SolidPoints<Dim>& points, int threads) {
+  std::vector<PointSkeleton> elastic = skeleton;
+  for (PointSkeleton& of_point : elastic) {
+    of_point.law = skeleton_law("elastic");
+    if (!loads.earth_pressure) continue;
+    const double ratio = *loads.earth_pressure;
+    of_point.parameters.poisson = std::min(max_poisson, ratio / (1.0 + ratio));
+  }
+  const auto from_rest = [&](const std::vector<PointSkeleton>& soil, int parts) {
+    std::ranges::fill(points.elastic_b, Eigen::Matrix3d::Identity());
+    return settle(grid, soil, supports, loads, parts, points, threads);
+  };
+  const auto elastic_stress = [&] {
+    const bool found = from_rest(elastic, 1) || from_rest(elastic, load_parts);
+    if (found && loads.earth_pressure) set_earth_pressure(elastic, skeleton, loads, points);
+    return found;
+  };
+  const bool found =
+      elastic_stress() && settle(grid, skeleton, supports, loads, 1, points, threads);
+  if (found || from_rest(skeleton, load_parts)) return {.stands = true};
+  if (!elastic_stress()) std::ranges::fill(points.elastic_b, Eigen::Matrix3d::Identity());
+  yield(skeleton, points, threads);
+  const std::vector<Eigen::Matrix3d> yielded = points.elastic_b;
+  const StartStress slow = settle_slowly(grid, skeleton, supports, loads, points, threads);
+  if (!slow.stands) points.elastic_b = yielded;
+  return slow;
+}
+
+template StartStress find_start_stress(const Grid<2>&, const std::vector<PointSkeleton>&,
+                                       const Supports<2>&, const StartLoads<2>&, SolidPoints<2>&,
+                                       int);
+template StartStress find_start_stress(const Grid<3>&, const std::vector<PointSkeleton>&,
+                                       const Supports<3>&, const StartLoads<3>&, SolidPoints<3>&,
+                                       int);
+
+}  // namespace suffuse

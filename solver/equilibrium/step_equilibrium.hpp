@@ -1,0 +1,68 @@
+#pragma once
+
+/// The equilibrium of one step, to be asked again and again for other loads and pore pressures.
+
+#include "equilibrium/newton.hpp"
+#include "equilibrium/point_velocities.hpp"
+#include "equilibrium/pseudo_time.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class StepEquilibrium {
+ public:
+  /// Keeps references to grid, points and supports.
+  /// \param skeleton  per point
+  /// \param soft      see SolidBody
+  /// Throws NumericalError when nothing holds the soil.
+  StepEquilibrium(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                  std::vector<PointSkeleton> skeleton, const Supports<Dim>& supports, int threads,
+                  const NewtonLimits& limits = {}, double soft = soft_share);
+  StepEquilibrium(const StepEquilibrium&) = delete;
+  StepEquilibrium& operator=(const StepEquilibrium&) = delete;
+
+  /// Finds the displacement over the step, from the last one that was found. Returns false where
+  /// there is none.
+  /// \param loads     per node, N
+  /// \param pressure  of the pores, per element, Pa; empty: none
+  bool solve(const NodeVectors<Dim>& loads, std::vector<double> pressure,
+             std::vector<double> stiffness = {});
+  /// Finds the displacement slowly, through a pseudo-time, where Newton's method alone does not
+  /// find it: in sand without cohesion.
+  bool settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
+              const SettlingLimits& limits);
+  /// Inertia over a step of `duration`, s; nodes go on as they go, to start from.
+  void set_inertia(const NodalMotion<Dim>& nodes, double duration);
+  /// Goes back to the start of the step: the stress of the points has changed.
+  void restart();
+
+  /// Displacement of the last solution, m.
+  [[nodiscard]] const NodeVectors<Dim>& displacement() const { return displacement_; }
+  /// Iterations of Newton's method that it took.
+  [[nodiscard]] int iterations() const { return iterations_; }
+  /// Node at which forces are out of balance most, where the last solution failed.
+  [[nodiscard]] int worst_node() const { return worst_node_; }
+  [[nodiscard]] const PointsByElement& sorted() const { return sorted_; }
+  [[nodiscard]] const ElementClasses& classes() const { return classes_; }
+  [[nodiscard]] const std::vector<PointSkeleton>& skeleton() const { return skeleton_; }
+  [[nodiscard]] const Equilibrium<Dim>& equilibrium() const { return equilibrium_; }
+  /// Mean effective stress of each element at the start of the step, Pa.
+  [[nodiscard]] const std::vector<Eigen::Matrix<double, Dim, Dim>>& start_stress() const {
+    return start_stress_;
+  }
+
+ private:
+  const Grid<Dim>& grid_;
+  PointsByElement sorted_;
+  std::vector<PointSkeleton> skeleton_;
+  ElementClasses classes_;
+  Equilibrium<Dim> equilibrium_;
+  EquilibriumSolver<Dim> solver_;
+  NewtonLimits limits_;
+  std::vector<Eigen::Matrix<double, Dim, Dim>> start_stress_;
+  NodeVectors<Dim> displacement_;
+  int iterations_ = 0;
+  int worst_node_ = -1;
+};
+
+}  // namespace suffuse

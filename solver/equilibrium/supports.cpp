@@ -1,0 +1,127 @@
+#include "equilibrium/supports.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suffuse {
+namespace {
+
+/// Faces of a boundary whose normals turn by less than this (30 degrees) make a curve, which holds
+/// a node along their mean normal; by more, a corner, which holds it along both.
+const double cosine_of_corner = std::sqrt(0.75);
+
+/// Adds the normal, times its area, of one more face to those of a node.
+template <int Dim>
+void add_normal(std::vector<Vector<Dim>>& normals, const Vector<Dim>& normal) {
+  for (Vector<Dim>& known : normals) {
+    if (known.dot(normal) > cosine_of_corner * known.norm() * normal.norm()) {
+      known += normal;
+      return;
+    }
+  }
+  normals.push_back(normal);
+}
+
+/// Direction of the part of `v` that is normal to `count` orthonormal vectors; zero where that part
+/// is small. Used to choose among the axes: enough of them have a large such part, whatever the
+/// vectors.
+template <int Dim>
+Vector<Dim> direction_across(const Eigen::Matrix<double, Dim, Dim>& directions, int from, int count,
+                             Vector<Dim> v) {
+  const double length = v.norm();
+  for (int k = from; k < from + count; ++k) v -= directions.col(k).dot(v) * directions.col(k);
+  if (v.norm() < 0.1 * length) return Vector<Dim>::Zero();
+  return v.normalized();
+}
+
+}  // namespace
+
+template <int Dim>
+Supports<Dim>::Supports(const Grid<Dim>& grid, const std::vector<Support>& face_support)
+    : free_count_(grid.mesh.node_count(), Dim),
+      directions_(grid.mesh.node_count(), Eigen::Matrix<double, Dim, Dim>::Identity()) {
+  std::vector<std::vector<Vector<Dim>>> normals(grid.mesh.node_count());
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (face_support[f] == Support::none) continue;
+    for (const int i : grid.face_nodes[f]) {
+      if (face_support[f] == Support::both) free_count_[i] = 0;
+      add_normal<Dim>(normals[i], grid.face_normal[f]);
+    }
+  }
+  for (int i = 0; i < grid.mesh.node_count(); ++i) {
+    if (normals[i].empty() || free_count_[i] == 0) continue;
+    auto& directions = directions_[i];
+    int held = 0;  // in the last columns
+    for (const Vector<Dim>& normal : normals[i]) {
+      if (held == Dim) break;
+      const Vector<Dim> next = direction_across<Dim>(directions, Dim - held, held, normal);
+      if (next.isZero(0.0)) continue;
+      directions.col(Dim - ++held) = next;
+    }
+    free_count_[i] = Dim - held;
+    // The axes, as far as they lie across what is held and the free directions so far.
+    for (int axis = 0, found = 0; axis < Dim && found < Dim - held; ++axis) {
+      Vector<Dim> next =
+          direction_across<Dim>(directions, Dim - held, held, Vector<Dim>::Unit(axis));
+      if (!next.isZero(0.0)) next = direction_across<Dim>(directions, 0, found, next);
+      if (!next.isZero(0.0)) directions.col(found++) = next;
+    }
+  }
+}
+
+template <int Dim>
+void Supports<Dim>::hold_element(const Mesh<Dim>& mesh, int element) {
+  rigid_.resize(mesh.element_count(), 0);
+  rigid_[element] = 1;
+  for (const int i : mesh.elements[element]) hold(i);
+}
+
+template <int Dim>
+DisplacementUnknowns<Dim>::DisplacementUnknowns(const Supports<Dim>& supports,
+                                                const std::vector<char>& used)
+    : supports_(supports), first_(used.size(), -1), count_of_(used.size(), 0) {
+  for (int i = 0; i < static_cast<int>(used.size()); ++i) {
+    if (!used[i]) continue;
+    first_[i] = count_;
+    count_of_[i] = supports.free_count(i);
+    count_ += count_of_[i];
+  }
+}
+
+template <int Dim>
+Eigen::VectorXd DisplacementUnknowns<Dim>::components(const NodeVectors<Dim>& vectors) const {
+  Eigen::VectorXd result(count_);
+  for (int i = 0; i < static_cast<int>(first_.size()); ++i) {
+    for (int k = 0; k < count_of_[i]; ++k) {
+      result[first_[i] + k] = supports_.directions(i).col(k).dot(vectors[i]);
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+void DisplacementUnknowns<Dim>::add(const Eigen::VectorXd& components, double share,
+                                    NodeVectors<Dim>& vectors) const {
+  for (int i = 0; i < static_cast<int>(first_.size()); ++i) {
+    for (int k = 0; k < count_of_[i]; ++k) {
+      vectors[i] += share * components[first_[i] + k] * supports_.directions(i).col(k);
+    }
+  }
+}
+
+template class Supports<2>;
+template class Supports<3>;
+template <int Dim>
+int DisplacementUnknowns<Dim>::longest(const Eigen::VectorXd& components) const {
+  NodeVectors<Dim> vectors(first_.size(), Vector<Dim>::Zero());
+  add(components, 1.0, vectors);
+  const auto shorter = [](const Vector<Dim>& a, const Vector<Dim>& b) {
+    return a.squaredNorm() < b.squaredNorm();
+  };
+  return static_cast<int>(std::ranges::max_element(vectors, shorter) - vectors.begin());
+}
+
+template class DisplacementUnknowns<2>;
+template class DisplacementUnknowns<3>;
+
+}  // namespace suffuse

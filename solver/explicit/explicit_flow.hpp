@@ -1,0 +1,101 @@
+#pragma once
+
+/// The explicit flow of a scene (`scheme = "explicit"`): the nodal scheme with its step, checked
+/// against the stability limit as the run goes.
+
+#include <vector>
+
+#include "explicit/explicit_nodal.hpp"
+#include "explicit/stability_limit.hpp"
+#include "flow/flow_solver.hpp"
+
+namespace suffuse {
+
+/// What carries the flow from one of its steps to the next (material-point integration).
+template <int Dim>
+class FlowCarrier {
+ public:
+  virtual ~FlowCarrier() = default;
+  /// Steps up to `end`, s, make up the interval.
+  virtual void before_steps(const FlowInterval<Dim>& interval, double end) = 0;
+  /// Sets the state that a step starts from.
+  virtual void before_step() = 0;
+  /// Takes what a step of `dt` seconds has changed.
+  virtual void after_step(double dt) = 0;
+};
+
+template <int Dim>
+class ExplicitFlow final : public FlowSolver<Dim> {
+ public:
+  ExplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+               const FlowOptions& options);
+
+  [[nodiscard]] ExplicitNodal<Dim>& scheme() { return scheme_; }
+  /// Fluxes of the last step: of each node, m/s, and through a face along its normal, m3/s.
+  void node_flux(VectorField<Dim>& flux) const;
+  [[nodiscard]] double flux_through(int face) const {
+    return operator_.face_flux(face, scheme_.velocity());
+  }
+
+  void update(double time, const PoreState& pores,
+              const std::vector<double>& face_concentration) override;
+  void start() override;
+  void start_from(const EarlierFlow<Dim>& earlier) override;
+  [[nodiscard]] typename FlowSolver<Dim>::CouplingLimits coupling_limits() const override {
+    return {.one_transport_step = true, .follows_pores = false};
+  }
+
+  /// From now on the carrier, which outlives the last step, has its part in each step.
+  void set_carrier(FlowCarrier<Dim>& carrier) { carrier_ = &carrier; }
+  FlowProgress advance(const FlowInterval<Dim>& interval) override;
+
+  [[nodiscard]] const std::vector<double>& pressure() const override { return scheme_.pressure(); }
+  void match_masses(double time, const std::vector<double>& water_mass) override;
+
+  void archive(StateArchive& archive) override;
+
+  [[nodiscard]] FlowState<Dim> state(double time) const override;
+  [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
+
+  /// Stability limit with the coefficients and speeds of this moment: element by element, and in
+  /// double-point scenes, where `step` is above that, of the assembled scheme.
+  [[nodiscard]] StabilityLimit current_limit(double step) const;
+
+ private:
+  /// Steps of one length for an interval.
+  struct Steps {
+    double start;  ///< s
+    long count;
+    double dt;   ///< s
+    double end;  ///< s
+
+    [[nodiscard]] double start_of(long step) const {
+      return start + static_cast<double>(step) * dt;
+    }
+  };
+  /// As many as the interval allows; what is left up to its latest end is divided evenly. Shortens
+  /// the step when the stability limit falls below it, or throws NumericalError when the scene gave
+  /// it.
+  [[nodiscard]] Steps plan_steps(const FlowInterval<Dim>& interval);
+  /// One of them, under the boundary values of its time.
+  void step(double start, double dt);
+  /// All of them, with the carrier's part in each.
+  void take_carried_steps(const FlowInterval<Dim>& interval, const Steps& steps);
+  void check_step(double time);
+  void warn_of_locking(const VectorField<Dim>& steady_velocity);
+
+  NodalOperator<Dim> operator_;
+  ExplicitNodal<Dim> scheme_;
+  double step_;
+  bool step_given_;
+  FlowCarrier<Dim>* carrier_ = nullptr;  ///< nothing where the flow itself keeps its state
+  long last_steps_ = 1;                  ///< of the last interval
+  double last_dt_ = 0.0;                 ///< of its steps, s
+  PassTiming timing_{"flow", 0, 0.0};
+  /// The two limits when the assembled one was last found; it follows the other until that has
+  /// moved.
+  mutable double assembled_limit_ = unset;
+  mutable double element_limit_ = unset;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,70 @@
+#pragma once
+
+/// The exchange of fines between the solid and the liquid in its pores, as transport asks for it in
+/// the steps of an interval.
+
+#include <functional>
+#include <vector>
+
+#include "field/transport.hpp"
+#include "results/pass_timer.hpp"
+#include "solid/skeleton.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class SolidExchange {
+ public:
+  /// Finds concentration and saturation of the liquid at the solid points, as it lies now.
+  using FindLiquid = std::function<void(PointFlows& flows)>;
+
+  /// `solid` outlives this. `find_liquid` is called where some exchange depends on the liquid.
+  SolidExchange(Skeleton<Dim>& solid, FindLiquid find_liquid)
+      : solid_(solid), find_liquid_(std::move(find_liquid)) {}
+
+  /// Starts an interval with this flow at the solid points.
+  void start_interval(PointFlows flows) { flows_ = std::move(flows); }
+  [[nodiscard]] const Skeleton<Dim>& solid() const { return solid_; }
+  /// The flow at the solid points in the interval.
+  [[nodiscard]] const PointFlows& flows() const { return flows_; }
+  /// The flow at the solid points with the liquid as it lies now.
+  const PointFlows& find_flows() {
+    if (depends_on_concentration()) find_liquid_(flows_);
+    return flows_;
+  }
+  [[nodiscard]] bool depends_on_concentration() const {
+    return solid_.soils().exchange_depends_on().concentration;
+  }
+
+  /// When solid and liquid exchange fines around a step of transport. Where the exchange depends on
+  /// the fines in the liquid, half of it comes before the liquid moves and half after (Strang),
+  /// which is of second order; otherwise all of it comes while the liquid moves.
+  struct Times {
+    TimeSpan before = TimeSpan::never();
+    TimeSpan during = TimeSpan::never();
+    TimeSpan after = TimeSpan::never();
+  };
+  [[nodiscard]] Times times(const TransportStep& step) const;
+
+  /// Exchanges fines over a time. Returns what goes into the liquid, m3 per solid point; empty
+  /// where none can be exchanged. The solid does not change in elements of `waiting` (may be
+  /// empty).
+  const std::vector<double>& over(const TimeSpan& time, const std::vector<char>& waiting = {});
+  /// The solid takes an exchange that is known: per solid point and volume of soil. Returns as
+  /// `over`.
+  const std::vector<double>& take(const std::vector<Exchange>& change);
+  /// The solid takes what the liquid has left, m3 per solid point.
+  void deposit(const std::vector<double>& volume) { solid_.deposit(volume); }
+
+  [[nodiscard]] const PassTiming& timing() const { return timing_; }
+  void archive(auto& archive) { archive(timing_); }
+
+ private:
+  Skeleton<Dim>& solid_;
+  FindLiquid find_liquid_;
+  PointFlows flows_;
+  std::vector<double> volume_;  ///< exchanged last, m3 per solid point
+  PassTiming timing_{"erosion", 0, 0.0};
+};
+
+}  // namespace suffuse

@@ -1,0 +1,88 @@
+#pragma once
+
+/// What the soils are to the flow while they stay where they are: retention and bedding, per
+/// element.
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "mixed/directional_factor.hpp"
+#include "mixed/flow.hpp"
+#include "physics/retention/retention_law.hpp"
+#include "solid/skeleton.hpp"
+#include "solid/soil_map.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+struct FlowSoils {
+  std::vector<RetentionModel> retention;  ///< per element; empty: saturated at any pressure
+  /// Share of an element's pores that is soil's, per element; the rest is free space. Empty: all is
+  /// soil's, and air stays where it is.
+  std::vector<double> soil_share;
+  RetentionModel free_space;
+  double head_per_pressure = 0.0;  ///< 1 / (rho_w 9.81 m/s2), m/Pa
+  /// Per element: conductivity over that along the bedding. Empty where every soil conducts alike
+  /// in all directions.
+  std::vector<DirectionalFactor<Dim>> bedding;
+
+  [[nodiscard]] bool saturated() const { return retention.empty(); }
+  /// Conductivity of an element's soil in its best direction over that along the bedding.
+  [[nodiscard]] double best_over_along(int e) const {
+    return bedding.empty() ? 1.0 : std::max(1.0, bedding[e].along_direction());
+  }
+  /// Whether the air in pores moves with soil that moves.
+  [[nodiscard]] bool air_moves() const { return !soil_share.empty(); }
+  /// S and k_r of an element's soil at a pressure in Pa, and dS/dp, 1/Pa.
+  [[nodiscard]] double saturation(int e, double pressure) const {
+    const double psi = pressure * head_per_pressure;
+    return mixed(e, retention[e].saturation(psi), [&] { return free_space.saturation(psi); });
+  }
+  [[nodiscard]] double capacity(int e, double pressure) const {
+    const double psi = pressure * head_per_pressure;
+    return head_per_pressure *
+           mixed(e, retention[e].capacity(psi), [&] { return free_space.capacity(psi); });
+  }
+  /// Pressures at which dS/dp of the soil and of free space in the element is largest, Pa; 0 where
+  /// there is no such soil, or it stays saturated.
+  [[nodiscard]] std::array<double, 2> steepest(int e) const {
+    const auto of = [this](const RetentionModel& model) {
+      return model.law ? model.law->steepest(model.parameters) / head_per_pressure : 0.0;
+    };
+    const bool is_mixed = air_moves() && soil_share[e] < 1.0;
+    return {of(retention[e]), is_mixed ? of(free_space) : 0.0};
+  }
+  /// Not zero however dry the soil is: pressures are those of a linear system.
+  [[nodiscard]] double relative_conductivity(int e, double pressure) const {
+    constexpr double driest = 1e-20;
+    // Where air conducts less, pressures in it have no bound, and their iteration no end.
+    constexpr double film = 1e-6;
+    const double psi = pressure * head_per_pressure;
+    return std::max(driest, mixed(e, retention[e].relative_conductivity(psi), [&] {
+                      return std::max(film, free_space.relative_conductivity(psi));
+                    }));
+  }
+  /// Share of the suction of an element that acts on the soil: S_e = (S - S_r) / (1 - S_r), no less
+  /// than 0 (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515), where there is soil.
+  [[nodiscard]] double suction_share(int e, double saturation) const {
+    const double residual =
+        mixed(e, retention[e].residual_saturation, [&] { return free_space.residual_saturation; });
+    const double effective = std::max(0.0, (saturation - residual) / (1.0 - residual));
+    return air_moves() ? soil_share[e] * effective : effective;
+  }
+
+ private:
+  [[nodiscard]] double mixed(int e, double of_soil, const auto& of_free_space) const {
+    if (!air_moves() || soil_share[e] == 1.0) return of_soil;
+    return soil_share[e] * of_soil + (1.0 - soil_share[e]) * of_free_space();
+  }
+};
+
+/// Elements that soil has left have the retention of free space.
+/// \param filling  per element; empty: soil fills all elements that it is in
+template <int Dim>
+FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,
+                          const std::vector<SoilFilling>& filling);
+
+}  // namespace suffuse

@@ -1,0 +1,78 @@
+#pragma once
+
+/// Pressures and fluxes of the mixed elements at one time, and what transport and results need of
+/// them.
+
+#include <vector>
+
+#include "grid/grid.hpp"
+#include "mixed/flow.hpp"
+#include "mixed/implicit_mixed.hpp"
+
+namespace suffuse {
+
+/// The flow at one moment.
+template <int Dim>
+struct MixedFlow {
+  MixedState<Dim> state;
+  std::vector<double> face_flux;     ///< along each face's normal, m3/s
+  std::vector<double> flux_through;  ///< see MixedStep: errors and scales are of this
+
+  void archive(auto& archive) { archive(state, face_flux, flux_through); }
+};
+
+/// The flow at the end of a step.
+template <int Dim>
+MixedFlow<Dim> end_of(MixedStep<Dim> step) {
+  return {std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
+}
+
+/// Water at rest under these pressures, per face, and those prescribed at faces, Pa.
+template <int Dim>
+MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                            const std::vector<double>& pressure);
+
+/// Adds the volume of air that has left each element between two states, m3, to `room`, which may
+/// be empty, and stays so where there is no air.
+template <std::size_t Sides>
+void add_displaced_air(const std::vector<std::array<double, Sides>>& before,
+                       const std::vector<std::array<double, Sides>>& after,
+                       std::vector<double>& room) {
+  if (room.empty()) room.resize(before.size(), 0.0);
+  for (std::size_t e = 0; e < before.size(); ++e) {
+    for (std::size_t k = 0; k < Sides; ++k) room[e] += before[e][k] - after[e][k];
+  }
+}
+
+/// Mean pressure of each element, Pa, of the pressures at its faces.
+template <int Dim>
+std::vector<double> element_pressure(const Grid<Dim>& grid,
+                                     const std::vector<double>& face_pressure, int threads);
+
+/// What crossed the faces in a step that started with the pressures `start_face` and, per element,
+/// `start_element`, Pa; `bulk_modulus` in Pa, may be infinite. The density of what crosses a face
+/// is that at the pressure of the element it comes from, mean over the step; of what enters from
+/// outside, that at the face.
+template <int Dim>
+FaceVolumes face_volumes(const Grid<Dim>& grid, const std::vector<double>& start_face,
+                         const std::vector<double>& start_element, const MixedStep<Dim>& step,
+                         double bulk_modulus, int threads);
+
+/// Pressure and velocity at the nodes.
+template <int Dim>
+struct NodalFields {
+  std::vector<double> pressure;  ///< Pa
+  VectorField<Dim> velocity;     ///< intrinsic, m/s
+};
+
+/// At each node the mean of what the linear fields of the elements around have there, weighted with
+/// their volumes. What an element's field has at a vertex lies beyond the pressures at its faces:
+/// where the mean leaves the range of the pressures at the faces and in the elements around the
+/// node, it is that range's end. Pressures are compared after the weight of water, `weight` = rho g
+/// in Pa/m, has been taken to the node: water at rest has equal ones. `porosity` per element.
+template <int Dim>
+NodalFields<Dim> nodal_fields(const Grid<Dim>& grid, const MixedFlow<Dim>& flow,
+                              const std::vector<double>& element_pressure,
+                              const std::vector<double>& porosity, const Vector<Dim>& weight);
+
+}  // namespace suffuse

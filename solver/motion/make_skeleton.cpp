@@ -1,0 +1,20 @@
+#include "motion/moving_skeleton.hpp"
+#include "solid/rigid_skeleton.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils,
+                                             const TimeSpan& span, int threads) {
+  if (soils.scene().moves()) {
+    return std::make_unique<MovingSkeleton<Dim>>(grid, soils, span, threads);
+  }
+  return std::make_unique<RigidSkeleton<Dim>>(grid, soils, span, threads);
+}
+
+template std::unique_ptr<Skeleton<2>> make_skeleton(const Grid<2>&, SoilMap<2>&, const TimeSpan&,
+                                                    int);
+template std::unique_ptr<Skeleton<3>> make_skeleton(const Grid<3>&, SoilMap<3>&, const TimeSpan&,
+                                                    int);
+
+}  // namespace suffuse

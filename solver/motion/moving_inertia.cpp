@@ -1,0 +1,126 @@
+/// What a skeleton that moves has to do with inertia: masses, how it loses its equilibrium and
+/// comes to rest.
+
+#include <cmath>
+#include <numeric>
+
+#include "motion/held_by_inertia.hpp"
+#include "motion/moving_skeleton.hpp"
+#include "physics/head.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::node_masses() const {
+  std::vector<double> of_point = solid_volumes();
+  for (int p = 0; p < points_.size(); ++p) {
+    const double liquid = points_.volume[p] - of_point[p];
+    of_point[p] = of_point[p] * this->soils().soil_of_point(p).grain_density +
+                  liquid * this->soils().scene().liquid.density;
+  }
+  return PointVelocities<Dim>(points_.size()).to_nodes(this->grid_, points_, of_point).mass;
+}
+
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::compressibility(double duration) const {
+  std::vector<double> result = drained_compressibility();
+  if (!inertia_.acts()) return result;
+  return held_compressibility(this->grid_, std::move(result), node_masses(), duration);
+}
+
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::inertial_mobility(double duration) const {
+  if (!inertia_.acts()) return {};
+  return held_mobility(this->grid_, drained_compressibility(), node_masses(), duration);
+}
+
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::moved_masses(const MotionForcing& forcing) const {
+  std::vector<double> mass = solid_masses();
+  for (int p = 0; p < points_.size(); ++p) {
+    mass[p] += forcing.liquid_mass[points_.element[p]] * points_.volume[p];
+    if (supports_.is_rigid(points_.element[p])) mass[p] = 0.0;
+  }
+  return mass;
+}
+
+template <int Dim>
+bool MovingSkeleton<Dim>::watches_failure() const {
+  return !inertia_.acts() && this->soils().scene().follows_failure(this->grid_.mesh.region_names);
+}
+
+template <int Dim>
+bool MovingSkeleton<Dim>::let_fail(double time) {
+  if (!watches_failure()) return false;
+  inertia_.begin(points_.size());
+  repeated_failure_.fails(time, points_.position, mean_size());
+  failure_time_ = time;
+  step_.reset();
+  return true;
+}
+
+template <int Dim>
+double MovingSkeleton<Dim>::mean_size() const {
+  const std::vector<double>& volume = this->grid_.volume;
+  const double mean =
+      std::accumulate(volume.begin(), volume.end(), 0.0) / this->grid_.mesh.element_count();
+  return std::pow(mean, 1.0 / Dim);
+}
+
+template <int Dim>
+double MovingSkeleton<Dim>::time_of_fall() const {
+  const double g = acceleration(this->soils().scene().gravity);
+  return g > 0.0 ? std::sqrt(2.0 * mean_size() / g) : 0.0;
+}
+
+template <int Dim>
+SoilExtent MovingSkeleton<Dim>::extent(const std::vector<double>& mass) const {
+  const Scene& scene = this->soils().scene();
+  SoilExtent extent;
+  for (const double m : mass) extent.mass += m;
+  extent.load = acceleration(scene.gravity) * extent.mass;
+  if (!has_gravity(scene.gravity)) {
+    for (const Vector<Dim>& force : forces_) extent.load += force.norm();
+  }
+  const Vector<Dim> down = downwards<Dim>(scene.gravity);
+  int low = -1;
+  int high = -1;
+  for (int p = 0; p < points_.size(); ++p) {
+    if (supports_.is_rigid(points_.element[p])) continue;
+    const double depth = points_.position[p].dot(down);
+    if (low < 0 || depth < points_.position[low].dot(down)) low = p;
+    if (high < 0 || depth >= points_.position[high].dot(down)) high = p;
+  }
+  if (low >= 0) extent.height = (points_.position[high] - points_.position[low]).dot(down);
+  return extent;
+}
+
+template <int Dim>
+bool MovingSkeleton<Dim>::has_slid(const std::vector<Vector<Dim>>& before) const {
+  const std::vector<double> mass = moved_masses(tried_);
+  double sum = 0.0;
+  for (int p = 0; p < points_.size(); ++p) {
+    sum += mass[p] * (points_.position[p] - before[p]).squaredNorm();
+  }
+  return is_sliding(0.5 * sum / (tried_.duration * tried_.duration), extent(mass));
+}
+
+template <int Dim>
+void MovingSkeleton<Dim>::take_velocities() {
+  const Scene& scene = this->soils().scene();
+  double loads = norm<Dim>(forces_);
+  if (has_gravity(scene.gravity)) {
+    double squared = 0.0;
+    for (const double mass : inertia_.nodes().mass) squared += mass * mass;
+    loads = acceleration(scene.gravity) * std::sqrt(squared);
+  }
+  const SoilExtent soil = extent(moved_masses(tried_));
+  inertia_.finish_step(this->grid_, points_, step_->displacement(), tried_.duration, motion_.travel,
+                       step_->equilibrium().inertia_norm() / loads, soil);
+  if (!inertia_.acts()) repeated_failure_.rests(tried_.end, soil.time_of_fall());
+}
+
+template class MovingSkeleton<2>;
+template class MovingSkeleton<3>;
+
+}  // namespace suffuse

@@ -1,0 +1,94 @@
+#pragma once
+
+/// Liquid points that enter the model: through a face where liquid flows in, a point is injected
+/// whenever as much liquid has come in as one point stands for.
+
+#include <vector>
+
+#include "boundary/face_conditions.hpp"
+#include "mixed/flow.hpp"
+#include "points/liquid_points.hpp"
+
+namespace suffuse {
+
+/// Liquid at the outer boundary, between volumes that flow and points that are whole.
+struct InflowAccount {
+  /// Per face: what flowed in, minus the points injected, plus the points that left, m3. Once it is
+  /// a point's volume and the flow is inward, a point is injected.
+  std::vector<double> volume;
+  std::vector<long> injected;  ///< points so far, per face
+  long next_id = 0;
+
+  void archive(auto& archive) { archive(volume, injected, next_id); }
+};
+
+/// A point that enters the model.
+template <int Dim>
+struct InjectedPoint {
+  PointPlace<Dim> place;
+  int face;
+  long number;   ///< among the points of its face
+  double share;  ///< of the step that had passed
+};
+
+/// How large injected points are, and how they are spread over the liquid that flows in.
+struct InjectionSettings {
+  std::vector<double> point_volume;  ///< per face: liquid volume of one point, m3
+  /// Per face: points that fill the element behind it.
+  std::vector<int> points_per_element;
+  /// Points of one element's volume of inflow come at random times in it; otherwise evenly.
+  bool random = false;
+  int seed = 1;
+};
+
+/// Points as large as those that fill the element behind each face at the start, spread as the
+/// scene's `points.seeding` says.
+template <int Dim>
+InjectionSettings injection_settings(const Case<Dim>& c, const Grid<Dim>& grid);
+
+template <int Dim>
+class PointInjection {
+ public:
+  PointInjection(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                 InjectionSettings settings, LiquidDensities densities, double bulk_modulus);
+
+  /// The account at the start. Faces differ in what is missing to their first point, so that they
+  /// inject in turn.
+  [[nodiscard]] InflowAccount initial_account(long next_id) const;
+
+  /// Outer faces that are not impervious, ascending: where points come in and leave.
+  [[nodiscard]] const std::vector<int>& open_faces() const { return open_faces_; }
+  /// Per face.
+  [[nodiscard]] const std::vector<unsigned char>& is_open() const { return is_open_; }
+
+  /// Appends to `points` each point whose volume has flowed in completely during a step, in the
+  /// order of completion. `volume`: of liquid per face in the step, along its normal, m3.
+  /// `node_flux`: m/s, spreads them along a face; empty: evenly. Throws NumericalError when a face
+  /// would take more points than any flow brings.
+  void inject(InflowAccount& account, const std::vector<double>& volume,
+              const VectorField<Dim>& node_flux, std::vector<InjectedPoint<Dim>>& points) const;
+
+  /// Masses of an injected point, from the concentration of its boundary and the density of water
+  /// at the pressure of its element, Pa.
+  struct Content {
+    double water_mass;  ///< kg
+    double fines_mass;  ///< kg
+  };
+  [[nodiscard]] Content content(const InjectedPoint<Dim>& point, double element_pressure) const;
+
+ private:
+  /// How many points' volumes must have flowed in through a face for its point `number`.
+  [[nodiscard]] double volumes_at_injection(int face, long number) const;
+  [[nodiscard]] PointPlace<Dim> place_on_face(int face, long number,
+                                              const VectorField<Dim>& node_flux) const;
+
+  const Grid<Dim>& grid_;
+  const std::vector<FaceCondition>& conditions_;
+  InjectionSettings settings_;
+  std::vector<unsigned char> is_open_;
+  std::vector<int> open_faces_;
+  LiquidDensities densities_;
+  double bulk_modulus_;
+};
+
+}  // namespace suffuse

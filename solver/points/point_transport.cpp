@@ -1,0 +1,128 @@
+#include "points/point_transport.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "common/errors.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+PointTransport<Dim>::PointTransport(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                                    const std::vector<FaceCondition>& conditions,
+                                    InjectionSettings injection, LiquidDensities densities,
+                                    double bulk_modulus, int threads)
+    : grid_(grid),
+      solid_(solid),
+      densities_(densities),
+      bulk_modulus_(bulk_modulus),
+      threads_(threads),
+      injection_(grid, conditions, std::move(injection), densities, bulk_modulus),
+      transfer_(grid, solid.soils(), densities.grain),
+      deposition_(grid, solid, densities.grain),
+      pending_(grid.mesh.node_count(), 0.0) {}
+
+template <int Dim>
+const RegionCrossings& PointTransport<Dim>::move(double start, const FlowProgress& flow,
+                                                 const std::vector<double>& pressure,
+                                                 SolidExchange<Dim>& exchange,
+                                                 std::optional<double> steps) {
+  start_interval(flow);
+  if (!steps) steps = steps_needed(start, flow);
+  for (const TransportStep& step : equal_steps(start, flow.end, *steps)) {
+    const std::vector<double>& eroded = exchange.over({step.start, step.end}, dry_elements());
+    if (exchange.depends_on_concentration()) concentration_before_ = element_concentration();
+    advance(step, flow.volumes, eroded, pressure);
+    if (deposition_.deposited().empty()) continue;
+    exchange.deposit(deposition_.deposited());
+    follow_deposits();
+  }
+  return crossings_;
+}
+
+template <int Dim>
+std::vector<double> PointTransport<Dim>::element_concentration() const {
+  const LiquidContent content = this->content();
+  std::vector<double> result(content.liquid.size());
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    result[e] = content.liquid[e] > 0.0 ? content.fines[e] / content.liquid[e] : 0.0;
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> PointTransport<Dim>::concentration_ahead(double most) const {
+  std::vector<double> concentration = element_concentration();
+  for (std::size_t e = 0; e < concentration_before_.size(); ++e) {
+    const double now = concentration[e];
+    const double ahead = now + 0.5 * (now - concentration_before_[e]);
+    concentration[e] = std::clamp(ahead, 0.0, std::max(now, 0.5 * (now + most)));
+  }
+  return concentration;
+}
+
+template <int Dim>
+std::vector<char> PointTransport<Dim>::dry_elements() const {
+  std::vector<char> result;
+  const SoilMap<Dim>& soils = solid_.soils();
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (soils.soil_of_element(e).erosion.empty_elements != EmptyElements::dry || has_points(e)) {
+      continue;
+    }
+    result.resize(grid_.mesh.elements.size(), 0);
+    result[e] = 1;
+  }
+  return result;
+}
+
+template <int Dim>
+bool PointTransport<Dim>::has_pending() const {
+  return std::ranges::any_of(pending_, [](double volume) { return volume != 0.0; });
+}
+
+template <int Dim>
+int PointTransport<Dim>::empty_elements() const {
+  int empty = 0;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (solid_.soils().is_soil(e) && !has_points(e)) ++empty;
+  }
+  return empty;
+}
+
+template <int Dim>
+void PointTransport<Dim>::start_crossings() {
+  crossings_.points.clear();
+  crossings_.fines_out.assign(grid_.mesh.region_names.size(), 0.0);
+}
+
+template <int Dim>
+void PointTransport<Dim>::book(const typename FinesTransfer<Dim>::Result& transferred) {
+  for (std::size_t r = 0; r < transferred.eroded.size(); ++r) {
+    crossings_.fines_out[r] += transferred.eroded[r] - transferred.received[r];
+  }
+}
+
+template <int Dim>
+void PointTransport<Dim>::book_deposition() {
+  for (std::size_t r = 0; r < crossings_.fines_out.size(); ++r) {
+    crossings_.fines_out[r] += deposition_.lost_by_region()[r] - deposition_.by_region()[r];
+  }
+}
+
+double checked_step_count(double allowed, double start, double duration) {
+  // Liquid that needs more steps goes nowhere sensible.
+  constexpr double max_steps = 1e4;
+  const double count = step_count(allowed);
+  if (!(count <= max_steps)) {
+    std::ostringstream message;
+    message << "the flow has run away: at t = " << start
+            << " s liquid would cross thousands of elements in " << duration << " s";
+    throw NumericalError(message.str());
+  }
+  return count;
+}
+
+template class PointTransport<2>;
+template class PointTransport<3>;
+
+}  // namespace suffuse

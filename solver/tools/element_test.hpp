@@ -1,0 +1,31 @@
+#pragma once
+
+/// The element test: a soil of a scene is put through a table of strains and stresses at one point.
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "tools/element_table.hpp"
+
+namespace suffuse {
+
+struct ElementTestOptions {
+  std::string table;                   ///< CSV, as `read_element_table` wants it
+  std::string scene;                   ///< TOML
+  std::vector<std::string> overrides;  ///< `--set`
+  std::string soil;    ///< of the scene; may be empty where there is one whose skeleton moves
+  std::string output;  ///< CSV; `-`: standard output
+  int steps = 1;       ///< rows of the output for each row of the table behind the first
+};
+
+/// The table of a test, with a header line: step or t, stress and strain by components,
+/// `mean_stress`, `deviator_stress`, `volumetric_strain`, `plastic_strain`, `fines_left`. Throws
+/// InputError, naming the row, where the soil cannot carry the stresses.
+std::string element_test(const Soil& soil, const ElementTable& table, int steps);
+
+/// Reads the scene and the table, tests the soil, and writes the answer whole or not at all. Throws
+/// InputError, FileError.
+void run_element_test(const ElementTestOptions& options);
+
+}  // namespace suffuse

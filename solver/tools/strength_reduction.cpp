@@ -1,0 +1,212 @@
+#include "tools/strength_reduction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+
+#include "equilibrium/pseudo_time.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Largest displacement of the elastic body in trials, over the size of the smallest element.
+constexpr double elastic_displacement = 1e-5;
+
+/// In the place of `soft_share`: a trial takes all loads in one step, in which partial elements
+/// must not carry what the soil cannot.
+constexpr double soft_in_trials = 1e-6;
+
+template <int Dim>
+double largest_length(const NodeVectors<Dim>& vectors) {
+  double result = 0.0;
+  for (const Vector<Dim>& v : vectors) result = std::max(result, v.norm());
+  return result;
+}
+
+/// Size of the smallest element, m.
+template <int Dim>
+double element_size(const Grid<Dim>& grid) {
+  return std::pow(std::ranges::min(grid.volume), 1.0 / Dim);
+}
+
+template <int Dim>
+std::vector<double> components(const NodeVectors<Dim>& vectors) {
+  std::vector<double> result;
+  for (const Vector<Dim>& v : vectors) result.insert(result.end(), v.begin(), v.end());
+  return result;
+}
+
+template <int Dim>
+class StrengthReduction {
+ public:
+  StrengthReduction(const SolidBody<Dim>& body, const Supports<Dim>& supports,
+                    const NodeVectors<Dim>& loads, const std::vector<double>& pressure, int threads,
+                    const StrengthReductionLimits& limits)
+      : body_(body),
+        supports_(supports),
+        loads_(loads),
+        pressure_(pressure),
+        threads_(threads),
+        limits_(limits),
+        points_(body.points),
+        skeleton_(body.skeleton),
+        held_(loads.size(), Vector<Dim>::Zero()) {
+    for (Eigen::Matrix3d& b : points_.elastic_b) b.setIdentity();
+    find_stiffness();
+  }
+
+  SafetyFactor find() {
+    result_.fails = std::numeric_limits<double>::infinity();
+    double factor = 1.0;
+    while (factor >= limits_.least && factor <= limits_.largest &&
+           result_.fails > (1.0 + limits_.tolerance) * result_.holds) {
+      attempt(factor);
+      if (static_cast<int>(undecided_.size()) == limits_.most_undecided) return result_;
+      factor = next_factor();
+    }
+    result_.undecided_node = -1;
+    result_.factor = result_.holds == 0.0 ? 0.0 : std::sqrt(result_.holds * result_.fails);
+    return result_;
+  }
+
+ private:
+  [[nodiscard]] double next_factor() const {
+    // Those between what holds and what fails.
+    const auto first = undecided_.upper_bound(result_.holds);
+    const auto last = undecided_.lower_bound(result_.fails);
+    const double below = first == last ? result_.fails : *first;
+    const double above = first == last ? result_.holds : *std::prev(last);
+    if (std::isinf(result_.fails)) return 2.0 * above;
+    if (result_.holds == 0.0) return 0.5 * below;
+    const bool upper = result_.fails * result_.holds > below * above;
+    return upper ? std::sqrt(above * result_.fails) : std::sqrt(result_.holds * below);
+  }
+
+  /// One trial, from the equilibrium of the largest factor that holds.
+  void attempt(double factor) {
+    set_strength(factor);
+    Equilibrium<Dim> equilibrium(body(), supports_, threads_);
+    equilibrium.set_pressure(pressure_);
+    NewtonSolution<Dim> solution =
+        EquilibriumSolver<Dim>(equilibrium).solve(loads_, held_, limits_.newton);
+    SettledSoil<Dim> soil;
+    soil.residual = solution.residuals.back();
+    soil.iterations = solution.iterations();
+    const double far = limits_.runaway * elastic_max_;
+    if (!solution.converged) {
+      soil = PseudoTime<Dim>(equilibrium, loads_)
+                 .settle(held_, {.tolerance = limits_.newton.tolerance,
+                                 .far = far,
+                                 .max_iterations = limits_.settling_iterations});
+      soil.iterations += solution.iterations();
+    } else {
+      soil.end =
+          largest_length<Dim>(solution.displacement) > far ? Settling::runs_away : Settling::rests;
+      soil.motion = solution.displacement;
+      for (std::size_t i = 0; i < elastic_.size(); ++i) soil.motion[i] -= elastic_[i];
+      soil.displacement = std::move(solution.displacement);
+    }
+    note(factor, std::move(soil));
+  }
+
+  void note(double factor, SettledSoil<Dim> soil) {
+    StrengthTrial trial{.factor = factor,
+                        .displacement_max = largest_length<Dim>(soil.displacement) * stiffness_,
+                        .residual = soil.residual,
+                        .iterations = soil.iterations};
+    if (soil.end == Settling::rests) {
+      trial.end = TrialEnd::holds;
+      result_.holds = factor;
+      held_ = std::move(soil.displacement);
+    } else if (soil.end == Settling::runs_away) {
+      trial.end = TrialEnd::fails;
+      result_.fails = factor;
+      result_.mechanism = components(soil.motion);
+    } else {
+      result_.undecided_node = soil.worst_node;
+      undecided_.insert(factor);
+    }
+    result_.trials.push_back(trial);
+  }
+
+  /// Makes the soil so stiff that the elastic body keeps its shape.
+  void find_stiffness() {
+    const SkeletonLaw* const elastic = skeleton_law("elastic");
+    double young = 0.0;
+    for (const PointSkeleton& point : body_.skeleton) {
+      young = std::max(young, point.parameters.young);
+    }
+    double force = 0.0;
+    for (const Vector<Dim>& f : loads_) force += f.norm();
+    for (PointSkeleton& point : skeleton_) point.law = elastic;
+    // First so much that the sum of all forces would hardly move one element.
+    const double size = element_size(body_.grid);
+    stiffness_ = 1e6 * std::max(force / std::pow(size, Dim - 1), 1.0) / young;
+    elastic_max_ = elastic_displacement * size;
+    set_strength(1.0);
+    Equilibrium<Dim> equilibrium(body(), supports_, threads_);
+    equilibrium.set_pressure(pressure_);
+    elastic_ =
+        EquilibriumSolver<Dim>(equilibrium).solve(loads_, held_, limits_.newton).displacement;
+    const double first = largest_length<Dim>(elastic_);
+    if (first > 0.0) {
+      stiffness_ *= first / elastic_max_;
+      for (Vector<Dim>& u : elastic_) u *= elastic_max_ / first;
+    }
+    for (std::size_t p = 0; p < skeleton_.size(); ++p) skeleton_[p].law = body_.skeleton[p].law;
+  }
+
+  void set_strength(double factor) {
+    for (std::size_t p = 0; p < skeleton_.size(); ++p) {
+      skeleton_[p].parameters = reduced_strength(body_.skeleton[p].parameters, factor);
+      skeleton_[p].parameters.young *= stiffness_;
+    }
+  }
+
+  [[nodiscard]] SolidBody<Dim> body() const {
+    return {body_.grid, points_, body_.sorted, skeleton_, body_.classes, soft_in_trials};
+  }
+
+  const SolidBody<Dim>& body_;
+  const Supports<Dim>& supports_;
+  const NodeVectors<Dim>& loads_;
+  const std::vector<double>& pressure_;
+  int threads_;
+  const StrengthReductionLimits& limits_;
+  SolidPoints<Dim> points_;  ///< without stress
+  std::vector<PointSkeleton> skeleton_;
+  NodeVectors<Dim> held_;     ///< displacement in the trial of the largest factor that holds
+  double stiffness_ = 1.0;    ///< of trials over that of the soil
+  NodeVectors<Dim> elastic_;  ///< displacement of the elastic body in trials, m
+  SafetyFactor result_;
+  std::set<double> undecided_;
+  double elastic_max_ = 0.0;  ///< largest displacement of the elastic body in trials, m
+};
+
+}  // namespace
+
+SkeletonParameters reduced_strength(const SkeletonParameters& parameters, double factor) {
+  SkeletonParameters result = parameters;
+  result.cohesion /= factor;
+  result.friction = std::atan(std::tan(parameters.friction) / factor);
+  result.dilation = std::min(parameters.dilation, result.friction);
+  return result;
+}
+
+template <int Dim>
+SafetyFactor find_safety_factor(const SolidBody<Dim>& body, const Supports<Dim>& supports,
+                                const NodeVectors<Dim>& loads, const std::vector<double>& pressure,
+                                int threads, const StrengthReductionLimits& limits) {
+  return StrengthReduction<Dim>(body, supports, loads, pressure, threads, limits).find();
+}
+
+template SafetyFactor find_safety_factor(const SolidBody<2>&, const Supports<2>&,
+                                         const NodeVectors<2>&, const std::vector<double>&, int,
+                                         const StrengthReductionLimits&);
+template SafetyFactor find_safety_factor(const SolidBody<3>&, const Supports<3>&,
+                                         const NodeVectors<3>&, const std::vector<double>&, int,
+                                         const StrengthReductionLimits&);
+
+}  // namespace suffuse

@@ -1,0 +1,375 @@
+#include "tools/strength_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <set>
+
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
+#include "driver/plan.hpp"
+#include "driver/run_loop.hpp"
+#include "driver/source_run.hpp"
+#include "driver/text_output.hpp"
+#include "files/layout.hpp"
+#include "files/number_text.hpp"
+#include "physics/skeleton/skeleton_law.hpp"
+#include "results/reader.hpp"
+#include "results/vtkhdf.hpp"
+#include "scene/law_texts.hpp"
+#include "scene/scene_schema.hpp"
+#include "tools/soil_state.hpp"
+
+namespace suffuse {
+namespace {
+
+/// More suction in soil that has no retention law than this, Pa, is worth a warning.
+constexpr double notable_suction = 1e3;
+
+bool has_strength(const Soil& soil) {
+  return soil.skeleton.moves() && soil.skeleton.law->yields();
+}
+
+void refuse_without_strength(const SceneDocument& document) {
+  if (std::ranges::any_of(document.scene.soils, has_strength)) return;
+  std::vector<std::string> laws;
+  for (const SkeletonLaw* law : skeleton_laws()) {
+    if (law->yields()) laws.push_back(shown_value(std::string(law->word)));
+  }
+  throw InputError(document.path +
+                   ": --strength-reduction: got no soil with a strength; expected law = " +
+                   listed(laws) + " under [soil.NAME.skeleton]");
+}
+
+/// Water and solid at t = 0, before anything moves. The soil need not be able to carry its loads:
+/// it is rigid, or, where some regions are free water because soil moves, elastic.
+template <int Dim>
+Snapshot start_snapshot(const Case<Dim>& c, int threads) {
+  Case<Dim> strong = c;
+  Scene& scene = strong.document.scene;
+  for (Soil& soil : scene.soils) soil.skeleton = {};
+  const auto has_no_soil = [&](const std::string& region) {
+    return c.document.scene.is_free_water(region) && !scene.is_free_water(region);
+  };
+  if (std::ranges::any_of(c.mesh.region_names, has_no_soil)) {
+    scene.soils = c.document.scene.soils;
+    for (Soil& soil : scene.soils) {
+      if (soil.skeleton.moves()) soil.skeleton.law = skeleton_law("elastic");
+    }
+  }
+  const std::optional<SourceRun<Dim>> earlier = read_source_run(strong, threads);
+  const RunLoop<Dim> loop(strong, make_plan(strong, {.threads = threads}),
+                          earlier ? &earlier->state : nullptr);
+  return loop.model().snapshot(loop.model().flow_state());
+}
+
+/// The fields of a snapshot that `soil_state` reads.
+Snapshot read_snapshot(const ResultsReader& results, std::size_t index) {
+  const bool moves = results.scene().scene.moves();
+  Snapshot snapshot;
+  snapshot.time = results.times()[index];
+  SoilFields names = soil_fields(moves);
+  const std::vector<std::string> cell = results.field_names(index, "cell");
+  if (std::ranges::count(cell, "saturation") > 0) names.cell.push_back("saturation");
+  for (const char* name : names.cell) snapshot.cell.push_back(results.field(index, "cell", name));
+  for (const char* name : names.solid) {
+    snapshot.solid.push_back(results.field(index, "solid", name));
+  }
+  if (!moves) return snapshot;
+  for (const Vector<2>& x : results.point_positions(index, "solid")) {
+    snapshot.solid_positions.insert(snapshot.solid_positions.end(), {x[0], x[1], 0.0});
+  }
+  return snapshot;
+}
+
+[[noreturn]] void refuse_option(const std::string& option, const std::string& found,
+                                const std::string& expected) {
+  throw InputError(InputProblem{"", option, found, expected});
+}
+
+/// `0, 10, 20 s`; of many the first, the last, and how many there are.
+std::string shown_times(const std::vector<double>& times) {
+  constexpr std::size_t most = 10;
+  std::vector<std::string> texts;
+  texts.reserve(times.size());
+  for (const double t : times) texts.push_back(shown_number(t));
+  if (times.size() <= most) return listed(texts) + " s";
+  return std::to_string(times.size()) + " times from " + texts.front() + " to " + texts.back() +
+         " s: " + texts[0] + ", " + texts[1] + ", " + texts[2] + " ...";
+}
+
+/// The snapshots that are asked for.
+std::vector<std::size_t> chosen_snapshots(const ResultsReader& results, const std::string& time) {
+  const std::vector<double>& times = results.times();
+  if (times.empty()) {
+    refuse_option("--state", shown_value(results.folder()) + ", which has no snapshot",
+                  "results with one at least");
+  }
+  if (time.empty()) return {times.size() - 1};
+  std::vector<std::size_t> chosen;
+  const std::optional<double> asked = parse_number(time);
+  if (!asked && time != "all") {
+    refuse_option("--time", shown_value(time), "a time in s, or all");
+  }
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (!asked || std::abs(times[k] - *asked) <= 1e-9 * times.back()) chosen.push_back(k);
+  }
+  if (chosen.empty()) {
+    refuse_option("--time",
+                  shown_number(*asked) + ", at which " + results.folder() + " has no snapshot",
+                  shown_times(times));
+  }
+  return chosen;
+}
+
+/// States are of the same points, and their porosities mean the same shares of fines.
+template <int Dim>
+void refuse_other_soil(const Case<Dim>& c, const ResultsReader& results) {
+  const Case<Dim> other = read_case<Dim>(layout::in_folder(results.folder(), layout::case_copy));
+  if (!have_same_points(c, other)) {
+    refuse_option("--state", shown_value(results.folder()) + ", whose mesh or solid points differ",
+                  "a run on those of " + c.document.path +
+                      ": the keys of [geometry], [mesh] and points.solid_per_element as there");
+  }
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  for (const Soil& soil : c.document.scene.soils) {
+    const Soil* there = other.document.scene.find_soil(soil.region);
+    if (there && same(there->skeleton_fraction, soil.skeleton_fraction) &&
+        same(there->porosity, soil.porosity) &&
+        there->porosity_gradient == soil.porosity_gradient &&
+        there->porosity_origin == soil.porosity_origin) {
+      continue;
+    }
+    refuse_option("--state",
+                  shown_value(results.folder()) + ", whose soil " + shown_value(soil.region) +
+                      " had another porosity or skeleton fraction at the start",
+                  "a run of soils with those of " + c.document.path);
+  }
+}
+
+template <int Dim>
+class StrengthTable {
+ public:
+  StrengthTable(const Case<Dim>& c, const StrengthReductionOptions& options)
+      : options_(options), grid_(c.mesh), soils_(c) {}
+
+  /// Adds a row, if there is a factor. Returns why there is none, or nothing.
+  /// \param where  for the sentences
+  std::string add(const Snapshot& snapshot, const std::string& where) {
+    const SoilState<Dim> state = soil_state(grid_, soils_, snapshot);
+    warn_of_suction(state, where);
+    SafetyFactor found = find_safety_factor(grid_, soils_, state, options_.threads);
+    mechanism_ = std::move(found.mechanism);
+    if (found.undecided_node >= 0) return where + ": " + undecided(found, state);
+    if (found.holds == 0.0) {
+      return where + ": there is no factor of safety: the soil fails, even with " +
+             shown_number(1.0 / found.fails) + " times its strength; " + moving_body(state) +
+             "; expected is soil that bears its loads with some strength: cohesion where water "
+             "pulls at soil or flows out of it, supports where it hangs";
+    }
+    add_row(found, state);
+    if (!options_.quiet) std::fprintf(stderr, "%s\n", sentence(found, state, where).c_str());
+    return {};
+  }
+  /// That of the last row.
+  void write_mechanism(const std::string& path) const {
+    double largest = 0.0;
+    for (int i = 0; i < grid_.mesh.node_count() && !mechanism_.empty(); ++i) {
+      largest = std::max(largest, displacement(i).norm());
+    }
+    if (largest == 0.0) {
+      std::fprintf(stderr, "suffuse-solver: warning: %s: not written, as no soil failed\n",
+                   path.c_str());
+      return;
+    }
+    Field motion{"mechanism", "1", Dim, mechanism_};
+    for (double& v : motion.values) v /= largest;
+    Field shear{"mechanism_shear", "1/m", 1, {}};
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      shear.values.push_back(shear_strain(e) / largest);
+    }
+    PendingFile pending(path);
+    {
+      Hdf5File file(pending.temporary_path(), Hdf5File::Mode::create);
+      write_vtkhdf(file, vtk_grid(grid_.mesh), {.cell = {shear}, .point = {motion}});
+    }
+    pending.commit();
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] bool has_rows() const { return std::ranges::count(text_, '\n') > 1; }
+
+ private:
+  void add_row(const SafetyFactor& found, const SoilState<Dim>& state) {
+    long iterations = 0;
+    double displacement = 0.0;
+    for (const StrengthTrial& trial : found.trials) {
+      iterations += trial.iterations;
+      if (trial.factor == found.holds) displacement = trial.displacement_max;
+    }
+    text_ += number_text(state.time);
+    for (const double value :
+         {found.factor, found.holds, found.fails, static_cast<double>(found.trials.size()),
+          static_cast<double>(iterations), mean_fines_left(state), displacement}) {
+      text_ += ',' + number_text(value);
+    }
+    text_ += '\n';
+  }
+
+  [[nodiscard]] Vector<Dim> displacement(int node) const {
+    return Eigen::Map<const Vector<Dim>>(&mechanism_[static_cast<std::size_t>(Dim) * node]);
+  }
+
+  /// sqrt(2 e : e) of the deviator e of the strain: the shear gamma where the soil shears.
+  [[nodiscard]] double shear_strain(int element) const {
+    using Matrix = Eigen::Matrix3d;
+    Matrix gradient = Matrix::Zero();
+    for (int a = 0; a <= Dim; ++a) {
+      gradient.template topLeftCorner<Dim, Dim>() += displacement(grid_.mesh.elements[element][a]) *
+                                                     grid_.shape_gradient[element][a].transpose();
+    }
+    const Matrix strain = 0.5 * (gradient + gradient.transpose());
+    return std::sqrt(2.0) * (strain - strain.trace() / 3.0 * Matrix::Identity()).norm();
+  }
+
+  [[nodiscard]] std::string sentence(const SafetyFactor& found, const SoilState<Dim>& state,
+                                     const std::string& where) const {
+    if (std::isinf(found.fails)) {
+      return where + ": the soil holds, even with its strength over " + shown_number(found.holds);
+    }
+    return where + ": factor of safety " + short_text(found.factor) + " (holds at " +
+           short_text(found.holds) + ", fails at " + short_text(found.fails) + "); " +
+           moving_body(state);
+  }
+
+  /// Why the last trial decides nothing.
+  [[nodiscard]] std::string undecided(const SafetyFactor& found,
+                                      const SoilState<Dim>& state) const {
+    const StrengthTrial& trial = found.trials.back();
+    const Vector<Dim>& node = grid_.mesh.nodes[found.undecided_node];
+    int nearest = 0;
+    const std::vector<Vector<Dim>>& places = state.points.position;
+    for (int p = 1; p < state.points.size(); ++p) {
+      if ((places[p] - node).squaredNorm() < (places[nearest] - node).squaredNorm()) nearest = p;
+    }
+    std::string text = "there is no factor of safety: with its strength over " +
+                       short_text(trial.factor) + " the soil neither came to rest nor failed in " +
+                       std::to_string(trial.iterations) + " iterations; " +
+                       short_text(trial.residual) + " of all forces are out of balance, most in " +
+                       soil_at(state, nearest);
+    if (found.holds > 0.0) text += "; it holds with its strength over " + short_text(found.holds);
+    if (std::isfinite(found.fails)) text += "; it fails with it over " + short_text(found.fails);
+    return text +
+           "; expected are displacements that stay or grow without bound: another mesh.size "
+           "or a dilation nearer to the friction may give them";
+  }
+
+  /// soil "fill" at (1.5, 2)
+  [[nodiscard]] std::string soil_at(const SoilState<Dim>& state, int point) const {
+    std::string text =
+        "soil " + shown_value(soils_.soil_of_point(state.id[point]).region) + " at (";
+    for (int k = 0; k < Dim; ++k) {
+      text += (k > 0 ? ", " : "") + short_text(state.points.position[point][k]);
+    }
+    return text + ')';
+  }
+
+  /// What moves as the soil fails: where most, and how much soil at half of that or more.
+  [[nodiscard]] std::string moving_body(const SoilState<Dim>& state) const {
+    std::vector<double> moved;
+    for (const int e : state.points.element) {
+      Vector<Dim> sum = Vector<Dim>::Zero();
+      for (const int i : grid_.mesh.elements[e]) sum += displacement(i);
+      moved.push_back(sum.norm());
+    }
+    const auto most = std::ranges::max_element(moved);
+    double volume = 0.0;
+    std::set<int> elements;
+    for (std::size_t p = 0; p < moved.size(); ++p) {
+      if (moved[p] < 0.5 * *most) continue;
+      volume += state.points.volume[p];
+      elements.insert(state.points.element[p]);
+    }
+    return "what fails moves most in " + soil_at(state, static_cast<int>(most - moved.begin())) +
+           ", and half as far or farther in " + short_text(volume) + " m3 (" +
+           std::to_string(elements.size()) + (elements.size() == 1 ? " element)" : " elements)");
+  }
+
+  /// Share of the erodible fines that is left in soils with a strength; 1 where there were none.
+  [[nodiscard]] double mean_fines_left(const SoilState<Dim>& state) const {
+    double left = 0.0;
+    double start = 0.0;
+    for (int p = 0; p < state.points.size(); ++p) {
+      const int id = state.id[p];
+      const Soil& soil = soils_.soil_of_point(id);
+      if (!has_strength(soil)) continue;
+      const double volume = soils_.points().volume[id];
+      const double erodible = volume * (soil.porosity_max() - soils_.initial_porosity(id));
+      start += erodible;
+      left += state.fines_left[p] * erodible;
+    }
+    return start > 0.0 ? left / start : 1.0;
+  }
+
+  void warn_of_suction(const SoilState<Dim>& state, const std::string& where) const {
+    double lowest = 0.0;
+    for (std::size_t e = 0; e < state.pressure.size(); ++e) {
+      const auto element = static_cast<int>(e);
+      if (!soils_.is_soil(element)) continue;
+      const Soil& soil = soils_.soil_of_element(element);
+      if (has_strength(soil) && !soil.drains()) {
+        lowest = std::min(lowest, state.pressure[e]);
+      }
+    }
+    if (lowest > -notable_suction) return;
+    std::fprintf(stderr,
+                 "suffuse-solver: warning: %s: suction up to %s Pa holds soil together that has no "
+                 "[soil.NAME.retention]: the factor is too large where air would enter\n",
+                 where.c_str(), short_text(-lowest).c_str());
+  }
+
+  const StrengthReductionOptions& options_;
+  Grid<Dim> grid_;
+  SoilMap<Dim> soils_;
+  std::vector<double> mechanism_;  ///< Dim values per node, m
+  std::string text_ = "t,factor,holds,fails,trials,iterations,fines_left,displacement_max\n";
+};
+
+}  // namespace
+
+template <int Dim>
+void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& options) {
+  refuse_without_strength(c.document);
+  if (!options.mechanism.empty() && options.time == "all") {
+    refuse_option("--mechanism", "a file beside --time all", "one time");
+  }
+  TextOutput output(options.output);
+  StrengthTable<Dim> table(c, options);
+  std::vector<std::string> without;
+  const auto add = [&](const Snapshot& snapshot, const std::string& where) {
+    std::string why = table.add(snapshot, where);
+    if (!why.empty()) without.push_back(std::move(why));
+  };
+  if (options.state.empty()) {
+    add(start_snapshot(c, options.threads), "at the start");
+  } else {
+    const ResultsReader results(options.state);
+    refuse_other_soil(c, results);
+    for (const std::size_t index : chosen_snapshots(results, options.time)) {
+      add(read_snapshot(results, index),
+          options.state + " at t = " + shown_number(results.times()[index]) + " s");
+    }
+  }
+  if (!options.mechanism.empty()) table.write_mechanism(options.mechanism);
+  if (without.empty() || table.has_rows()) output.write(table.text());
+  if (without.empty()) return;
+  std::string message = without.front();
+  for (std::size_t k = 1; k < without.size(); ++k) message += '\n' + without[k];
+  if (table.has_rows()) message += "\nThe table has the other states";
+  throw NumericalError(message);
+}
+
+template void run_strength_reduction(const Case<2>&, const StrengthReductionOptions&);
+
+}  // namespace suffuse
