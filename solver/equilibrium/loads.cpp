@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/near_element.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {

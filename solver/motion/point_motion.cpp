@@ -4,34 +4,12 @@
 #include <algorithm>
 #include <sstream>
 
+#include "grid/near_element.hpp"
 #include "grid/parallel.hpp"
 #include "grid/section_line.hpp"
 
 namespace suffuse {
 namespace {
-
-/// A place so little outside an element, in barycentric coordinates, belongs to it: a point on a
-/// face does not leave the mesh by round-off.
-constexpr double on_face = 1e-12;
-/// Soil may rise over the border of the mesh by this share of the height of the element there,
-/// which its points then still belong to.
-constexpr double over_border = 0.5;
-
-template <int Dim>
-double least_barycentric(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
-  return std::ranges::min(barycentric(grid.mesh, element, x));
-}
-
-/// The element with a node of this one that holds a place; -1 where there is none.
-template <int Dim>
-int neighbour_at(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
-  for (const int i : grid.mesh.elements[element]) {
-    for (int k = grid.node_element_begin[i]; k < grid.node_element_begin[i + 1]; ++k) {
-      if (least_barycentric(grid, grid.node_element[k], x) >= -on_face) return grid.node_element[k];
-    }
-  }
-  return -1;
-}
 
 template <int Dim>
 Vector<Dim> displacement_at(const Grid<Dim>& grid, const PointPlace<Dim>& place,
@@ -50,26 +28,6 @@ template <int Dim>
 }
 
 }  // namespace
-
-template <int Dim>
-int element_at(const Grid<Dim>& grid, int start, const Vector<Dim>& x) {
-  int e = start;
-  for (int crossings = 0; crossings < max_crossings; ++crossings) {
-    const std::array<double, Dim + 1> at = barycentric(grid.mesh, e, x);
-    const auto lowest = std::ranges::min_element(at);
-    if (*lowest >= -on_face) return e;
-    const int next = grid.across(e, static_cast<int>(lowest - at.begin()));
-    if (next < 0) break;  // outside, or beyond a corner of the border that points inwards
-    e = next;
-  }
-  const int neighbour = neighbour_at(grid, e, x);
-  if (neighbour >= 0) return neighbour;
-  const bool is_near = least_barycentric(grid, e, x) >= -over_border;
-  if (is_near && e == start) return e;
-  const auto place = find_place(grid, x);
-  if (place) return place->element;
-  return is_near ? e : -1;
-}
 
 template <int Dim>
 void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
@@ -122,8 +80,6 @@ double largest_travel(const Grid<Dim>& grid, const PointsByElement& sorted,
   return largest;
 }
 
-template int element_at(const Grid<2>&, int, const Vector<2>&);
-template int element_at(const Grid<3>&, int, const Vector<3>&);
 template void move_points(const Grid<2>&, const std::vector<PointSkeleton>&, const NodeVectors<2>&,
                           SolidPoints<2>&, int);
 template void move_points(const Grid<3>&, const std::vector<PointSkeleton>&, const NodeVectors<3>&,

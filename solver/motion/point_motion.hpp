@@ -16,11 +16,6 @@ template <int Dim>
 void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
                  const NodeVectors<Dim>& displacement, SolidPoints<Dim>& points, int threads);
 
-/// The element that holds a place, from an element nearby, or the one at the border that the place
-/// lies little over, with a barycentric coordinate down to -0.5; -1 farther outside the mesh.
-template <int Dim>
-int element_at(const Grid<Dim>& grid, int start, const Vector<Dim>& x);
-
 /// Largest displacement of a node over the height of the lowest element at it, of the nodes of
 /// elements with points: a step should stay below 1/4.
 template <int Dim>
