@@ -9,7 +9,7 @@ cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 # A room is a folder; it may include itself and what stands before it.
 rooms='solver/physics mesher/common mesher/mesh mesher/scene mesher/case solver/files solver/results solver/grid solver/linear '
-rooms+='solver/solid solver/equilibrium solver/boundary solver/motion solver/mixed solver/coupling solver/flow solver/field '
+rooms+='solver/solid solver/equilibrium solver/boundary solver/motion solver/mixed solver/flow solver/coupling solver/field '
 rooms+='solver/points solver/explicit solver/formulation solver/driver solver/tools solver/main.cpp '
 rooms+='post/drawing post/values post/tables post/figures post/report post/commands'
 # Programs beside the solver, and all that they may include.

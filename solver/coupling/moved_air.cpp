@@ -114,22 +114,12 @@ void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const Element
   take_place(grid, air, porosity, step.face_volume, motion.solid_gain, step.end.air);
 }
 
-template <int Dim>
-void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahead) {
-  for (std::size_t e = 0; e < porosity.size(); ++e) {
-    ahead.drag[e] *= porosity[e] / ahead.porosity[e];
-    ahead.porosity[e] = porosity[e];
-  }
-}
-
 template class MovedAir<2>;
 template class MovedAir<3>;
 template void move_liquid(const Grid<2>&, const SolidMotion&, const ElementField<2>&,
                           std::vector<double>, MixedStep<2>&);
 template void move_liquid(const Grid<3>&, const SolidMotion&, const ElementField<3>&,
                           std::vector<double>, MixedStep<3>&);
-template void keep_pores(const std::vector<double>&, FlowCoefficients<2>&);
-template void keep_pores(const std::vector<double>&, FlowCoefficients<3>&);
 template std::vector<double> saturation_of(const Grid<2>&, const ElementField<2>&,
                                            const std::vector<double>&);
 template std::vector<double> saturation_of(const Grid<3>&, const ElementField<3>&,

@@ -7,7 +7,7 @@
 
 #include "grid/grid.hpp"
 #include "mixed/implicit_mixed.hpp"
-#include "solid/skeleton.hpp"
+#include "motion/motion_step.hpp"
 
 namespace suffuse {
 
@@ -45,17 +45,12 @@ class MovedAir {
 
 /// Adds to what crossed the faces in `step`, of the flow relative to the soil, the water that moved
 /// with the soil; its air becomes that after the motion.
-/// \param motion    accepted
+/// \param motion    committed
 /// \param air       before the step, per side of each element, m3; empty where there is none
 /// \param porosity  per element, before the motion
 template <int Dim>
 void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const ElementField<Dim>& air,
                  std::vector<double> porosity, MixedStep<Dim>& step);
-
-/// Takes back the forecast of the pores at the end of a step, not that of the conductivities: next
-/// to dry soil holds less water than a forecast of its pores is off by.
-template <int Dim>
-void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahead);
 
 /// S of each element.
 template <int Dim>

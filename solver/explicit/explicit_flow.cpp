@@ -161,43 +161,46 @@ void ExplicitFlow<Dim>::check_step(double time) {
 }
 
 template <int Dim>
-auto ExplicitFlow<Dim>::plan_steps(const FlowInterval<Dim>& interval) -> Steps {
+FlowStep<Dim> ExplicitFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
   check_step(interval.start);
   const double until = this->next_breakpoint(interval.start, interval.latest);
   const double left = until - interval.start;
   const long to_the_end =
       std::max(1L, static_cast<long>(std::ceil(left / step_ * (1.0 - round_off))));
-  const double dt = left / static_cast<double>(to_the_end);
+  // What is left up to the latest end is divided evenly.
+  FlowStep<Dim> steps{
+      .start = interval.start, .dt = left / static_cast<double>(to_the_end), .until = until};
   // The flow may have grown since the last interval: no more than twice its steps.
   const long most = std::min({max_steps, 2 * last_steps_, to_the_end});
-  const double allowed = interval.longest / dt;
-  const long count =
+  const double allowed = interval.longest / steps.dt;
+  steps.count =
       allowed < static_cast<double>(most) ? std::max(1L, static_cast<long>(allowed)) : most;
-  last_steps_ = count;
-  last_dt_ = dt;
-  Steps steps{interval.start, count, dt, until};
-  if (count < to_the_end) steps.end = steps.start_of(count);
-  scheme_.reset_volumes();
+  if (steps.count < to_the_end) steps.until = steps.start_of(steps.count);
+  if (carrier_ != nullptr) {
+    steps.porosity = interval.pores.at(0.5 * (interval.start + steps.until)).porosity;
+  }
   return steps;
 }
 
 template <int Dim>
-FlowProgress ExplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
-  const Steps steps = plan_steps(interval);
+FlowProgress ExplicitFlow<Dim>::commit(FlowStep<Dim> steps) {
+  last_steps_ = steps.count;
+  last_dt_ = steps.dt;
+  scheme_.reset_volumes();
   if (carrier_ != nullptr) {
-    take_carried_steps(interval, steps);
+    take_carried_steps(steps);
   } else {
     const PassTimer timer(timing_);
     for (long s = 0; s < steps.count; ++s) step(steps.start_of(s), steps.dt);
   }
   timing_.calls += steps.count;
-  this->update_boundary_values(steps.start, steps.end);
-  return {steps.count, steps.dt, steps.end, scheme_.volumes()};
+  this->update_boundary_values(steps.start, steps.until);
+  return {steps.count, steps.dt, steps.until, scheme_.volumes()};
 }
 
 template <int Dim>
-void ExplicitFlow<Dim>::take_carried_steps(const FlowInterval<Dim>& interval, const Steps& steps) {
-  carrier_->before_steps(interval, steps.end);
+void ExplicitFlow<Dim>::take_carried_steps(const FlowStep<Dim>& steps) {
+  carrier_->before_steps(steps.porosity);
   for (long s = 0; s < steps.count; ++s) {
     const double start = steps.start_of(s);
     carrier_->before_step();

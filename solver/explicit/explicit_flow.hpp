@@ -16,8 +16,8 @@ template <int Dim>
 class FlowCarrier {
  public:
   virtual ~FlowCarrier() = default;
-  /// Steps up to `end`, s, make up the interval.
-  virtual void before_steps(const FlowInterval<Dim>& interval, double end) = 0;
+  /// The pores in the steps to come, per element.
+  virtual void before_steps(const std::vector<double>& porosity) = 0;
   /// Sets the state that a step starts from.
   virtual void before_step() = 0;
   /// Takes what a step of `dt` seconds has changed.
@@ -47,7 +47,8 @@ class ExplicitFlow final : public FlowSolver<Dim> {
 
   /// From now on the carrier, which outlives the last step, has its part in each step.
   void set_carrier(FlowCarrier<Dim>& carrier) { carrier_ = &carrier; }
-  FlowProgress advance(const FlowInterval<Dim>& interval) override;
+  FlowStep<Dim> solve(const FlowInterval<Dim>& interval) override;
+  FlowProgress commit(FlowStep<Dim> steps) override;
 
   [[nodiscard]] const std::vector<double>& pressure() const override { return scheme_.pressure(); }
   void match_masses(double time, const std::vector<double>& water_mass) override;
@@ -62,25 +63,12 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] StabilityLimit current_limit(double step) const;
 
  private:
-  /// Steps of one length for an interval.
-  struct Steps {
-    double start;  ///< s
-    long count;
-    double dt;   ///< s
-    double end;  ///< s
-
-    [[nodiscard]] double start_of(long step) const {
-      return start + static_cast<double>(step) * dt;
-    }
-  };
-  /// As many as the interval allows; what is left up to its latest end is divided evenly. Shortens
-  /// the step when the stability limit falls below it, or throws NumericalError when the scene gave
-  /// it.
-  [[nodiscard]] Steps plan_steps(const FlowInterval<Dim>& interval);
   /// One of them, under the boundary values of its time.
   void step(double start, double dt);
   /// All of them, with the carrier's part in each.
-  void take_carried_steps(const FlowInterval<Dim>& interval, const Steps& steps);
+  void take_carried_steps(const FlowStep<Dim>& steps);
+  /// Shortens the step when the stability limit falls below it, or throws NumericalError when the
+  /// scene gave it.
   void check_step(double time);
   void warn_of_locking(const VectorField<Dim>& steady_velocity);
 

@@ -58,10 +58,10 @@ void PointsCarryingFlow<Dim>::archive(StateArchive& archive) {
 }
 
 template <int Dim>
-void PointsCarryingFlow<Dim>::before_steps(const FlowInterval<Dim>& interval, double end) {
+void PointsCarryingFlow<Dim>::before_steps(const std::vector<double>& porosity) {
   this->start_crossings();
   output_points_ = {};
-  porosity_ = interval.pores.at(0.5 * (interval.start + end)).porosity;
+  porosity_ = porosity;
 }
 
 template <int Dim>

@@ -44,7 +44,7 @@ class PointsCarryingFlow final : public PointTransport<Dim>, private FlowCarrier
   }
 
  private:
-  void before_steps(const FlowInterval<Dim>& interval, double end) override;
+  void before_steps(const std::vector<double>& porosity) override;
   void before_step() override;
   void after_step(double dt) override;
 

@@ -13,6 +13,7 @@
 
 #include "boundary/face_conditions.hpp"
 #include "files/tables.hpp"
+#include "flow/flow_step.hpp"
 #include "grid/element_field.hpp"
 #include "grid/face_flux.hpp"
 #include "mixed/flow.hpp"
@@ -55,33 +56,6 @@ struct EarlierFlow {
     std::vector<double> result;
     for (const ElementValues<Dim>& sides : air) result.push_back(element_sum<Dim>(sides));
     return result;
-  }
-};
-
-/// A coupling interval: the flow advances through it alone, then erosion and transport follow.
-template <int Dim>
-struct FlowInterval {
-  double start = 0.0;              ///< s
-  double latest = 0.0;             ///< latest end: the next output or the end of the run, s
-  double longest = 0.0;            ///< longest duration that erosion and transport can follow, s
-  const PoreForecast<Dim>& pores;  ///< the pores within the interval, as erosion opens them
-};
-
-/// What the flow did in a coupling interval.
-struct FlowProgress {
-  long steps = 0;       ///< that it took
-  double dt = 0.0;      ///< length of the last one, s
-  double end = 0.0;     ///< of the interval, s: its latest end, or before where the flow chose so
-  FaceVolumes volumes;  ///< that crossed the faces since its start
-  /// Per element: volume that liquid has gained in the pores, m3: air that it has displaced, solid
-  /// that has moved out. Empty where there is neither.
-  std::vector<double> room_gained = {};
-  /// The liquid that crossed faces relative to the solid, m3; empty where the solid stays in place:
-  /// then `volumes` are that.
-  std::vector<double> relative = {};
-
-  [[nodiscard]] const std::vector<double>& relative_volumes() const {
-    return relative.empty() ? volumes.liquid : relative;
   }
 };
 
@@ -134,9 +108,12 @@ class FlowSolver {
     return {state(time), air_at_sides()};
   }
 
-  /// Takes one step or many within the interval. It ends exactly on the latest end or on a
-  /// breakpoint where it reaches one. Throws NumericalError.
-  virtual FlowProgress advance(const FlowInterval<Dim>& interval) = 0;
+  /// Finds one step or more within the interval, for a solid that stays in place. They end exactly
+  /// on the latest end or on a breakpoint where they reach one. The flow does not change; only the
+  /// choice of steps to come learns from what was tried. Throws NumericalError.
+  virtual FlowStep<Dim> solve(const FlowInterval<Dim>& interval) = 0;
+  /// Takes the steps: pressures and fluxes become those at their end.
+  virtual FlowProgress commit(FlowStep<Dim> step) = 0;
 
   // For estimates; only a scheme that chooses its steps heeds them.
   /// The length that keeps this tolerance, as the last step shows, s.
@@ -160,8 +137,6 @@ class FlowSolver {
   [[nodiscard]] virtual std::vector<double> face_flux(double time) const {
     return state(time).face_flux;
   }
-  /// Iterations between flow and motion of the solid since the start; 0 where it stays in place.
-  [[nodiscard]] virtual long coupling_iterations() const { return 0; }
   /// Calls and seconds of each pass of the scheme, for run.json.
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
 
@@ -245,10 +220,10 @@ class FlowSolver {
   std::vector<std::string> warnings_;
 };
 
-/// The flow solver of the scheme that the scene asks for. A solid that moves does so in its steps.
+/// The flow solver of the scheme that the scene asks for.
 template <int Dim>
 std::unique_ptr<FlowSolver<Dim>> make_flow(const Case<Dim>& c, const Grid<Dim>& grid,
-                                           Skeleton<Dim>& solid, const FlowOptions& options);
+                                           const Skeleton<Dim>& solid, const FlowOptions& options);
 
 /// Throws InputError where the scene's scheme does not work in this dimension.
 template <int Dim>

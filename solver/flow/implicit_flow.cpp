@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/errors.hpp"
-#include "coupling/moved_air.hpp"
 #include "flow/implicit_settings.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "grid/face_flux.hpp"
@@ -12,16 +11,28 @@
 #include "results/pass_timer.hpp"
 
 namespace suffuse {
+namespace {
+
+/// Takes back the forecast of the pores at the end of a step, not that of the conductivities: next
+/// to dry soil holds less water than a forecast of its pores is off by.
+template <int Dim>
+void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahead) {
+  for (std::size_t e = 0; e < porosity.size(); ++e) {
+    ahead.drag[e] *= porosity[e] / ahead.porosity[e];
+    ahead.porosity[e] = porosity[e];
+  }
+}
+
+}  // namespace
 
 template <int Dim>
-ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skeleton<Dim>& solid,
-                                const FlowOptions& options)
+ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
+                                const Skeleton<Dim>& solid, const FlowOptions& options)
     : FlowSolver<Dim>(c, grid, solid, options.threads),
       options_(options),
       solid_(solid),
       scheme_(grid, scheme_settings(this->scene(), options), this->gravity(),
               flow_soils(this->scene(), solid.soils(), solid.filling()), leaky_faces(c, grid)),
-      coupling_(grid, solid, options.threads),
       has_gravity_(this->gravity().norm() > 0.0),
       follows_pores_(depends_on_pores(this->scene(), this->conditions_, options) || has_gravity_),
       control_(
@@ -32,26 +43,96 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skele
               has_condition(this->conditions_, FaceKind::velocity)}) {}
 
 template <int Dim>
-FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
-  const double until = this->next_breakpoint(interval.start, interval.latest);
-  const FlowInterval<Dim> ahead{interval.start, until,
-                                std::min(interval.longest, solid_.longest_step()), interval.pores};
+FlowStep<Dim> ImplicitFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
+  FlowStep<Dim> step = propose(interval);
+  if (reuse_.active()) {
+    if (std::optional<MixedStep<Dim>> kept = steady_step(step.dt)) {
+      step.found = *std::move(kept);
+      step.is_kept = true;
+      return step;
+    }
+  }
+  const PassTimer timer(solving_);
+  for (;;) {
+    set_forcing(interval, step);
+    if (const std::optional<Unsolved> why = try_step(step)) {
+      if (is_shortest(step)) throw NumericalError(why->text);
+      reject(step);
+    } else if (accepts(interval, step)) {
+      let_out_expansion(step);
+      return step;
+    }
+  }
+}
+
+template <int Dim>
+FlowStep<Dim> ImplicitFlow<Dim>::propose(const FlowInterval<Dim>& interval) {
   follow_soils();
-  double dt = control_.propose(interval.start, until, ahead.longest);
-  std::optional<MixedStep<Dim>> kept;
-  if (reuse_.active()) kept = steady_step(dt);
-  MixedStep<Dim> step = kept ? *std::move(kept) : accepted_step(ahead, dt);
-  const double end = dt < until - interval.start ? interval.start + dt : until;
-  FlowProgress progress{1, dt, end, {}};
-  if (solid_.moves()) move_solid(step, progress);
-  add_displaced_air(now_.state.air, step.end.air, progress.room_gained);
-  progress.volumes = face_volumes(this->grid(), now_.state.face_pressure, pressure_, step,
+  const double until = this->next_breakpoint(interval.start, interval.latest);
+  FlowStep<Dim> step;
+  step.start = interval.start;
+  step.dt = control_.propose(interval.start, until, interval.longest);
+  step.until = until;
+  return step;
+}
+
+template <int Dim>
+MixedStep<Dim> ImplicitFlow<Dim>::solved(const FlowStep<Dim>& step) {
+  std::vector<const FlowForcing<Dim>*> stages;
+  for (const FlowForcing<Dim>& forcing : step.forcing) stages.push_back(&forcing);
+  return scheme_.step(now_.state, step.dt, stages);
+}
+
+template <int Dim>
+std::optional<Unsolved> ImplicitFlow<Dim>::try_step(FlowStep<Dim>& step) try {
+  ++solving_.calls;
+  step.found = solved(step);
+  return std::nullopt;
+} catch (const NotConverged& error) {
+  return Unsolved{error.what()};
+}
+
+template <int Dim>
+bool ImplicitFlow<Dim>::accepts(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) {
+  const bool given = control_.has_given_step() || solid_has_inertia_;
+  const double error = given ? 0.0 : error_of(step.found, step.start, step.dt);
+  if (!control_.accept(step.start, error, previous_.has_value(), step.dt)) return false;
+  if (scheme_.iterations() > implicit_thresholds.slow_iterations) control_.hold(step.dt);
+  if (solid_has_inertia_) control_.hold(implicit_thresholds.inertial_growth * step.dt);
+  if (follows_pores_) step.expected = coefficients_at(interval, step.start + step.dt);
+  return true;
+}
+
+template <int Dim>
+bool ImplicitFlow<Dim>::is_shortest(const FlowStep<Dim>& step) const {
+  const double share = solid_has_inertia_ ? implicit_thresholds.min_unsolved_inertial_step
+                                          : implicit_thresholds.min_unsolved_step;
+  return step.dt < share * this->scene().time.end;
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::plan_anew(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const {
+  const double planned = std::min(std::max(step.dt, control_.last_step()), interval.longest);
+  step.dt = StepControl::up_to(planned, step.until - step.start);
+}
+
+template <int Dim>
+FlowProgress ImplicitFlow<Dim>::commit(FlowStep<Dim> step) {
+  const double end = step.dt < step.until - step.start ? step.start + step.dt : step.until;
+  FlowProgress progress{1, step.dt, end, {}, std::move(step.room_gained), std::move(step.relative)};
+  add_displaced_air(now_.state.air, step.found.end.air, progress.room_gained);
+  progress.volumes = face_volumes(this->grid(), now_.state.face_pressure, pressure_, step.found,
                                   this->scene().liquid.bulk_modulus, this->threads());
-  remember(std::move(step), dt);
-  if (solid_.moves()) coupling_.watch_steps(end, control_.next_step());
-  this->update_boundary_values(interval.start, end);
-  if (contains_time(this->breakpoints(), end)) {
-    pass_breakpoint(end, dt);
+  if (!step.is_kept) {
+    const FlowForcing<Dim>& forcing = step.forcing.back();
+    if (!forcing.source.empty()) relaxation_.set_source(forcing.source);
+    blending_.record(forcing.coefficients);
+    if (step.expected) blending_.expect(*std::move(step.expected));
+  }
+  remember(std::move(step.found), step.dt);
+  this->update_boundary_values(step.start, end);
+  if (is_breakpoint(end)) {
+    pass_breakpoint(end, step.dt);
   } else if (!reuse_.active()) {
     reuse_if_steady(end);
   }
@@ -59,78 +140,16 @@ FlowProgress ImplicitFlow<Dim>::advance(const FlowInterval<Dim>& interval) {
 }
 
 template <int Dim>
-void ImplicitFlow<Dim>::move_solid(MixedStep<Dim>& step, FlowProgress& progress) {
-  const SolidMotion& motion = solid_.accept_motion();
-  progress.relative = step.face_volume;
-  const ElementField<Dim> air = scheme_.soils().air_moves() ? now_.state.air : ElementField<Dim>();
-  move_liquid(this->grid(), motion, air, forcing_.back().coefficients.porosity, step);
-  progress.room_gained.resize(motion.solid_gain.size(), 0.0);
-  for (std::size_t e = 0; e < motion.solid_gain.size(); ++e) {
-    progress.room_gained[e] -= motion.solid_gain[e];
-  }
-}
-
-template <int Dim>
-MixedStep<Dim> ImplicitFlow<Dim>::accepted_step(const FlowInterval<Dim>& interval, double& dt) {
-  const PassTimer timer(solving_);
-  for (;;) {
-    find_forcing(interval, dt);
-    std::vector<const FlowForcing<Dim>*> stages;
-    for (const FlowForcing<Dim>& forcing : forcing_) stages.push_back(&forcing);
-    ++solving_.calls;
-    std::optional<MixedStep<Dim>> tried = try_step(interval, dt, stages);
-    if (!tried) continue;
-    MixedStep<Dim>& step = *tried;
-    const bool given = control_.has_given_step() || solid_.has_inertia();
-    const double error = given ? 0.0 : error_of(step, interval.start, dt);
-    if (!control_.accept(interval.start, error, previous_.has_value(), dt)) continue;
-    if (scheme_.iterations() > implicit_thresholds.slow_iterations) control_.hold(dt);
-    if (solid_.has_inertia()) control_.hold(implicit_thresholds.inertial_growth * dt);
-    let_out_expansion(dt, stages, step);
-    if (!forcing_.back().source.empty()) relaxation_.set_source(forcing_.back().source);
-    blending_.record(forcing_.back().coefficients);
-    if (follows_pores_) blending_.expect(coefficients_at(interval, interval.start + dt));
-    return std::move(step);
-  }
-}
-
-template <int Dim>
-std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::try_step(
-    const FlowInterval<Dim>& interval, double& dt,
-    const std::vector<const FlowForcing<Dim>*>& stages) {
-  const double start = interval.start;
-  try {
-    if (solid_.moves()) {
-      return coupling_.step(scheme_, now_.state, pressure_, interval.pores.of_points_at(start + dt),
-                            start + dt, dt, *stages.back());
-    }
-    return scheme_.step(now_.state, dt, stages);
-  } catch (const NotConverged& error) {
-    const double share = solid_.has_inertia() ? implicit_thresholds.min_unsolved_inertial_step
-                                              : implicit_thresholds.min_unsolved_step;
-    if (dt >= share * this->scene().time.end) {
-      control_.reject(start, dt);
-    } else if (solid_.let_fail(start)) {
-      const double planned = std::min(std::max(dt, control_.last_step()), interval.longest);
-      dt = StepControl::up_to(planned, interval.latest - start);
-    } else {
-      coupling_.refuse_unsolved(start, error);
-    }
-    return std::nullopt;
-  }
-}
-
-template <int Dim>
-void ImplicitFlow<Dim>::find_forcing(const FlowInterval<Dim>& interval, double dt) {
+void ImplicitFlow<Dim>::set_forcing(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const {
   const std::vector<double> shares = scheme_.stages();
-  forcing_.resize(shares.size());
+  step.forcing.resize(shares.size());
   std::vector<double> source;
-  if (relaxation_.active()) source = relaxation_.next_source(dt, filling_time());
+  if (relaxation_.active()) source = relaxation_.next_source(step.dt, filling_time());
   for (std::size_t stage = 0; stage < shares.size(); ++stage) {
-    FlowForcing<Dim>& forcing = forcing_[stage];
-    const double time = interval.start + shares[stage] * dt;
+    FlowForcing<Dim>& forcing = step.forcing[stage];
+    const double time = step.start + shares[stage] * step.dt;
     forcing.coefficients = follows_pores_ ? coefficients_at(interval, time) : this->coefficients_;
-    blending_.blend(time - interval.start, this->coefficients_, forcing.coefficients);
+    blending_.blend(time - step.start, this->coefficients_, forcing.coefficients);
     if (scheme_.soils().air_moves()) {
       keep_pores(this->coefficients_.porosity, forcing.coefficients);
     }
@@ -203,7 +222,6 @@ template <int Dim>
 void ImplicitFlow<Dim>::pass_breakpoint(double time, double dt) {
   if (!reuse_.active()) previous_.reset();
   control_.pass_kink();
-  coupling_.expect_short_steps();
   if (follows_pores_) blending_.shorten(dt);
   const bool boundary_kink = contains_time(this->kinks(), time);
   if (boundary_kink) relaxation_.pass_kink();
@@ -251,7 +269,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     // Resistances were right at the start of the step: their mean error is half that at its end.
     const double error = blending_.learn(this->coefficients_, dt, weight, losses());
     // Soil that fails changes them by its motion, of which nothing is expected.
-    const bool shown = solid_.has_inertia() || scheme_.soils().air_moves();
+    const bool shown = solid_has_inertia_ || scheme_.soils().air_moves();
     if (!shown) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
@@ -317,7 +335,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   FlowSolver<Dim>::archive(archive);
   scheme_.archive(archive, this->conditions_);
-  archive(control_, blending_, relaxation_, reuse_, scales_, coupling_);
+  archive(control_, blending_, relaxation_, reuse_, scales_, solid_has_inertia_);
   archive(now_, previous_, pressure_, eos_error_, solving_, reusing_);
   if (archive.restores()) follow_soils();
 }
@@ -325,16 +343,12 @@ void ImplicitFlow<Dim>::archive(StateArchive& archive) {
 template <int Dim>
 std::vector<PassTiming> ImplicitFlow<Dim>::passes() const {
   const SolveCounts counts = scheme_.counts();
-  std::vector<PassTiming> result{solving_,
-                                 {"flow, rejected steps", control_.rejected(), 0.0},
-                                 {"flow, systems solved", counts.solves, 0.0},
-                                 {"flow, matrices factored", counts.factorisations, 0.0},
-                                 {"flow, conjugate gradients", counts.iterations, 0.0},
-                                 reusing_};
-  if (solid_.moves()) {
-    result.push_back({"flow, iterations with the solid", coupling_.iterations(), 0.0});
-  }
-  return result;
+  return {solving_,
+          {"flow, rejected steps", control_.rejected(), 0.0},
+          {"flow, systems solved", counts.solves, 0.0},
+          {"flow, matrices factored", counts.factorisations, 0.0},
+          {"flow, conjugate gradients", counts.iterations, 0.0},
+          reusing_};
 }
 
 template class ImplicitFlow<2>;

@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/solid_coupling.hpp"
 #include "flow/coefficient_blending.hpp"
 #include "flow/flow_scales.hpp"
 #include "flow/flow_solver.hpp"
@@ -20,18 +19,61 @@
 
 namespace suffuse {
 
+/// What the flow needs to know of a solid that moves, at the start.
+struct MovingSolid {
+  double load_change = 0.0;             ///< largest change of tractions in the run, Pa
+  double stiffness = 0.0;               ///< largest modulus of soil that cannot move sideways, Pa
+  std::vector<double> compressibility;  ///< per element, m3/Pa
+  double time_of_fall = 0.0;  ///< of soil that does not stand, through an element, s; otherwise 0
+};
+
 template <int Dim>
 class ImplicitFlow final : public FlowSolver<Dim> {
  public:
-  ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, Skeleton<Dim>& solid,
+  ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                const FlowOptions& options);
 
   void update(double time, const PoreState& pores,
               const std::vector<double>& face_concentration) override;
   void start() override;
   void start_from(const EarlierFlow<Dim>& earlier) override;
+  /// After `start` and its like: chooses the first step for a solid that moves too.
+  void start_steps(const MovingSolid& solid);
+
   /// One step. Throws NumericalError when no step is short enough for the tolerance.
-  FlowProgress advance(const FlowInterval<Dim>& interval) override;
+  FlowStep<Dim> solve(const FlowInterval<Dim>& interval) override;
+  FlowProgress commit(FlowStep<Dim> step) override;
+
+  // `solve` in pieces, for who solves for something else in the same step (coupling/).
+
+  /// The step to try first, without forcing and result.
+  [[nodiscard]] FlowStep<Dim> propose(const FlowInterval<Dim>& interval);
+  /// Sets coefficients, boundary values and sources at each stage of the step.
+  void set_forcing(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const;
+  /// Whether what was found for the step is accurate enough. Otherwise shortens it. Throws as
+  /// `solve` does.
+  [[nodiscard]] bool accepts(const FlowInterval<Dim>& interval, FlowStep<Dim>& step);
+  /// The step has no solution: shortens it. Throws as `solve` does.
+  void reject(FlowStep<Dim>& step) { control_.reject(step.start, step.dt); }
+  /// The step is to be tried anew, as long as the last one was or longer: the solid has inertia
+  /// now.
+  void plan_anew(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const;
+  /// Whether a step that has no solution is too short to be tried shorter still.
+  [[nodiscard]] bool is_shortest(const FlowStep<Dim>& step) const;
+  /// From now on the solid has inertia, whose motion chooses the lengths of steps; or it has none.
+  void follow_inertia(bool has_inertia) { solid_has_inertia_ = has_inertia; }
+
+  [[nodiscard]] ImplicitMixed<Dim>& scheme() { return scheme_; }
+  [[nodiscard]] const ImplicitMixed<Dim>& scheme() const { return scheme_; }
+  /// Counts what `solve` takes.
+  [[nodiscard]] PassTiming& timing() { return solving_; }
+  [[nodiscard]] const MixedState<Dim>& mixed_state() const { return now_.state; }
+  /// Length of the next step as it will be tried, s.
+  [[nodiscard]] double next_step() const { return control_.next_step(); }
+  [[nodiscard]] bool is_breakpoint(double time) const {
+    return contains_time(this->breakpoints(), time);
+  }
+
   [[nodiscard]] double step_within(double tolerance) const override {
     return control_.step_within(tolerance);
   }
@@ -52,26 +94,21 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<double> face_flux(double /*time*/) const override {
     return now_.face_flux;
   }
-  [[nodiscard]] long coupling_iterations() const override { return coupling_.iterations(); }
   [[nodiscard]] std::vector<PassTiming> passes() const override;
 
  private:
-  /// Moves the solid as the step has found, and adds what it takes along to what has crossed faces.
-  void move_solid(MixedStep<Dim>& step, FlowProgress& progress);
   /// The start from this flow, or from the steady one where water flows at once. `air`: none to
   /// take that of the pressures.
   void start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air);
-  /// Tries steps from the start of the interval, the first of `dt` seconds, until one is accurate
-  /// enough; `dt` becomes its length.
-  [[nodiscard]] MixedStep<Dim> accepted_step(const FlowInterval<Dim>& interval, double& dt);
-  /// A step, or nothing and a shorter `dt` where its iteration does not converge.
-  [[nodiscard]] std::optional<MixedStep<Dim>> try_step(
-      const FlowInterval<Dim>& interval, double& dt,
-      const std::vector<const FlowForcing<Dim>*>& stages);
+  /// Solves for a step of this length. Says why where it has no solution.
+  [[nodiscard]] std::optional<Unsolved> try_step(FlowStep<Dim>& step);
+  [[nodiscard]] MixedStep<Dim> solved(const FlowStep<Dim>& step);
   /// Water expands as it moves towards lower pressures. Where a step is so long that it would not
   /// fit its elements, solves it again with the sources that let it out.
-  void let_out_expansion(double dt, const std::vector<const FlowForcing<Dim>*>& stages,
-                         MixedStep<Dim>& step);
+  void let_out_expansion(FlowStep<Dim>& step);
+  /// Whether the flow has no start-up: of water without compressibility and inertia.
+  [[nodiscard]] bool flows_at_once() const;
+  [[nodiscard]] bool starts_at_rest() const;
   /// Volume by which an element's water grows beyond what its pores take at its pressure, m3.
   [[nodiscard]] std::vector<double> expansion_in(const MixedStep<Dim>& step) const;
   /// Volume per element, m3, that a step of `dt` would have to let out in addition. Empty where the
@@ -82,8 +119,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
       scheme_.follow(flow_soils(this->scene(), solid_.soils(), solid_.filling()));
     }
   }
-  /// Coefficients, boundary values and sources at each stage of a step of `dt`.
-  void find_forcing(const FlowInterval<Dim>& interval, double dt);
   /// Coefficients at a time within the interval, as erosion will have made them.
   [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
                                                       double time) const;
@@ -125,9 +160,9 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<double> losses() const;
 
   FlowOptions options_;
-  Skeleton<Dim>& solid_;
+  const Skeleton<Dim>& solid_;
+  bool solid_has_inertia_ = false;
   ImplicitMixed<Dim> scheme_;
-  SolidCoupling<Dim> coupling_;
   bool has_gravity_;
   bool follows_pores_;  ///< coefficients change with porosity within a step
 
@@ -137,7 +172,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   SteadyReuse<Dim> reuse_;
   FlowScales scales_;
 
-  std::vector<FlowForcing<Dim>> forcing_;  ///< per stage of the step that is tried
   MixedFlow<Dim> now_;
   /// At the start of the last step, for the prediction of the next; none after a kink.
   std::optional<MixedFlow<Dim>> previous_;

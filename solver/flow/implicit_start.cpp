@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/moved_air.hpp"
 #include "flow/implicit_flow.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "grid/face_flux.hpp"
@@ -35,41 +34,47 @@ void ImplicitFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
 }
 
 template <int Dim>
+bool ImplicitFlow<Dim>::flows_at_once() const {
+  return std::isinf(this->scene().liquid.bulk_modulus) && !options_.inertia &&
+         !scheme_.has_retention();
+}
+
+template <int Dim>
+bool ImplicitFlow<Dim>::starts_at_rest() const {
+  return this->scene().initial_flow != InitialFlow::steady && !flows_at_once();
+}
+
+template <int Dim>
 void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air) {
   const Grid<Dim>& grid = this->grid();
   const Scene& scene = this->scene();
   now_ = std::move(flow);
   const FlowForcing<Dim> forcing{this->coefficients_, this->conditions_, {}};
   scales_ = find_scales(scheme_, forcing, this->boundary_values(), scene.time.end, has_gravity_);
-  // Water without compressibility and inertia has no start-up: it flows at once.
-  const bool at_once =
-      std::isinf(scene.liquid.bulk_modulus) && !options_.inertia && !scheme_.has_retention();
-  const bool at_rest = scene.initial_flow != InitialFlow::steady && !at_once;
+  const bool at_rest = starts_at_rest();
   if (!at_rest) now_ = end_of(scheme_.steady(forcing));
   now_.state.air =
       air ? *air : scheme_.air_at(now_.state.face_pressure, this->coefficients_.porosity);
   pressure_ = element_pressure_now();
-  if (!at_once) scales_.include_in_bounds(now_.state.face_pressure);
+  if (!flows_at_once()) scales_.include_in_bounds(now_.state.face_pressure);
   scales_.include(now_.state.face_pressure, now_.face_flux);
   raise_over_round_off(scales_, grid, this->coefficients_, scene.liquid, scene.time.end);
-  if (solid_.moves()) {
-    scales_.include_loads(solid_.largest_load_change(), solid_.stiffness());
-    solid_.start_motion(
-        {.pressure = pressure_on_solid(grid, scheme_.soils(), pressure_,
-                                       this->coefficients_.porosity, now_.state.air),
-         .liquid_mass = liquid_mass(grid, this->coefficients_, now_.state.air)});
-  }
-  // Loads may come at once, and the pressures with them.
-  const bool smooth = !at_rest && !solid_.moves();
   const double of_run = implicit_thresholds.first_step * scene.time.end;
   const double of_liquid = shortest_change({});
-  // In a step of the whole run no inertia holds the soil.
-  const double shortest =
-      solid_.moves() ? shortest_change(solid_.compressibility(scene.time.end)) : of_liquid;
-  const double of_fall = solid_.has_inertia() ? first_step_of_fall * solid_.time_of_fall() : 0.0;
-  const double of_change = of_fall > 0.0 ? of_fall : at_rest ? of_liquid : shortest;
-  const double first = smooth ? of_run : std::min(of_run, of_change);
-  control_.start(first, smooth, shortest);
+  const double first = at_rest ? std::min(of_run, of_liquid) : of_run;
+  control_.start(first, !at_rest, of_liquid);
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::start_steps(const MovingSolid& solid) {
+  scales_.include_loads(solid.load_change, solid.stiffness);
+  const double of_run = implicit_thresholds.first_step * this->scene().time.end;
+  const double of_liquid = shortest_change({});
+  const double shortest = shortest_change(solid.compressibility);
+  const double of_fall = first_step_of_fall * solid.time_of_fall;
+  const double of_change = of_fall > 0.0 ? of_fall : starts_at_rest() ? of_liquid : shortest;
+  // Loads may come at once, and the pressures with them.
+  control_.start(std::min(of_run, of_change), false, shortest);
 }
 
 template <int Dim>
@@ -81,7 +86,9 @@ double ImplicitFlow<Dim>::shortest_change(const std::vector<double>& soil_storag
 
 template void ImplicitFlow<2>::start();
 template void ImplicitFlow<2>::start_from(const EarlierFlow<2>&);
+template void ImplicitFlow<2>::start_steps(const MovingSolid&);
 template void ImplicitFlow<3>::start();
 template void ImplicitFlow<3>::start_from(const EarlierFlow<3>&);
+template void ImplicitFlow<3>::start_steps(const MovingSolid&);
 
 }  // namespace suffuse

@@ -71,14 +71,12 @@ std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, dou
 }
 
 template <int Dim>
-void ImplicitFlow<Dim>::let_out_expansion(double dt,
-                                          const std::vector<const FlowForcing<Dim>*>& stages,
-                                          MixedStep<Dim>& step) {
+void ImplicitFlow<Dim>::let_out_expansion(FlowStep<Dim>& step) {
   for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats; ++repeat) {
-    const std::vector<double> excess = excess_in(step, dt);
+    const std::vector<double> excess = excess_in(step.found, step.dt);
     if (excess.empty()) return;
-    for (FlowForcing<Dim>& forcing : forcing_) let_out(excess, dt, forcing.source);
-    step = scheme_.step(now_.state, dt, stages);
+    for (FlowForcing<Dim>& forcing : step.forcing) let_out(excess, step.dt, forcing.source);
+    step.found = solved(step);
   }
 }
 
@@ -172,12 +170,10 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
   if (reuse_.active()) update_steady_flow();
 }
 
-template void ImplicitFlow<2>::let_out_expansion(double, const std::vector<const FlowForcing<2>*>&,
-                                                 MixedStep<2>&);
+template void ImplicitFlow<2>::let_out_expansion(FlowStep<2>&);
 template std::optional<MixedStep<2>> ImplicitFlow<2>::steady_step(double);
 template void ImplicitFlow<2>::match_masses(double, const std::vector<double>&);
-template void ImplicitFlow<3>::let_out_expansion(double, const std::vector<const FlowForcing<3>*>&,
-                                                 MixedStep<3>&);
+template void ImplicitFlow<3>::let_out_expansion(FlowStep<3>&);
 template std::optional<MixedStep<3>> ImplicitFlow<3>::steady_step(double);
 template void ImplicitFlow<3>::match_masses(double, const std::vector<double>&);
 

@@ -11,12 +11,14 @@ namespace suffuse {
 
 template <int Dim>
 void DoublePoint<Dim>::advance(double latest) {
-  // Flow, as far as erosion and transport can follow (momentum, Eq. 4); soil that moves, and points
-  // that carry the flow, do so in its steps.
   const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
-  const FlowProgress flow =
-      this->flow_->advance({start, latest, this->coupling_interval(), forecast});
+  // Flow (momentum, Eq. 4) and motion of the solid, together, as far as erosion and transport can
+  // follow; points that carry the flow are part of its steps. Solid that finds no equilibrium
+  // fails: it gets inertia, or the run stops.
+  CoupledStep<Dim> step =
+      this->coupled_->solve({start, latest, this->coupling_interval(), forecast});
+  const FlowProgress flow = this->coupled_->commit(std::move(step));
   this->note_flow(start, flow);
   // Erosion (Eqs. 1, 6, 7), the points that carry water and fines (Eq. 5), and what they leave.
   const RegionCrossings& crossed =
@@ -43,7 +45,7 @@ void DoublePoint<Dim>::start_liquid() {
   const double modulus = this->scene().liquid.bulk_modulus;
   const auto start_flow = [&] {
     update_flow(clean_pores());
-    this->flow_->start();
+    this->coupled_->start();
     this->start_flux_history();
   };
   // The explicit scheme is for triangles alone.
@@ -51,7 +53,7 @@ void DoublePoint<Dim>::start_liquid() {
     if (this->scene().flow.integration == PressureIntegration::material_point) {
       auto flow = std::make_unique<ExplicitFlow<Dim>>(c, this->grid_, *this->solid_, options);
       ExplicitFlow<Dim>& carried = *flow;
-      this->flow_ = std::move(flow);
+      this->set_flow(std::move(flow));
       start_flow();
       liquid_ = std::make_unique<PointsCarryingFlow<Dim>>(
           this->grid_, *this->solid_, carried, injection_settings(c, this->grid_), densities_,
@@ -59,7 +61,7 @@ void DoublePoint<Dim>::start_liquid() {
       return;
     }
   }
-  this->flow_ = make_flow(c, this->grid_, *this->solid_, options);
+  this->set_flow(make_flow(c, this->grid_, *this->solid_, options));
   start_flow();
   liquid_ = std::make_unique<PointsAlongFaces<Dim>>(
       this->grid_, *this->solid_, this->flow_->conditions(), injection_settings(c, this->grid_),
@@ -138,7 +140,7 @@ void DoublePoint<Dim>::update_flow(const PoreState& pores) {
 
 template <int Dim>
 std::vector<PassTiming> DoublePoint<Dim>::passes() const {
-  std::vector<PassTiming> result = this->flow_->passes();
+  std::vector<PassTiming> result = this->coupled_->passes();
   result.push_back(this->exchange_.timing());
   for (PassTiming& timing : liquid_->passes()) result.push_back(std::move(timing));
   result.push_back(coefficients_timing_);

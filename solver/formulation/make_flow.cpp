@@ -7,7 +7,7 @@ namespace suffuse {
 
 template <int Dim>
 std::unique_ptr<FlowSolver<Dim>> make_flow(const Case<Dim>& c, const Grid<Dim>& grid,
-                                           Skeleton<Dim>& solid, const FlowOptions& options) {
+                                           const Skeleton<Dim>& solid, const FlowOptions& options) {
   if (c.document.scene.time.scheme == FlowScheme::implicit_mixed) {
     return std::make_unique<ImplicitFlow<Dim>>(c, grid, solid, options);
   }
@@ -30,9 +30,9 @@ void check_scheme(const Case<Dim>& c) {
 template void check_scheme(const Case<2>&);
 template void check_scheme(const Case<3>&);
 
-template std::unique_ptr<FlowSolver<2>> make_flow(const Case<2>&, const Grid<2>&, Skeleton<2>&,
-                                                  const FlowOptions&);
-template std::unique_ptr<FlowSolver<3>> make_flow(const Case<3>&, const Grid<3>&, Skeleton<3>&,
-                                                  const FlowOptions&);
+template std::unique_ptr<FlowSolver<2>> make_flow(const Case<2>&, const Grid<2>&,
+                                                  const Skeleton<2>&, const FlowOptions&);
+template std::unique_ptr<FlowSolver<3>> make_flow(const Case<3>&, const Grid<3>&,
+                                                  const Skeleton<3>&, const FlowOptions&);
 
 }  // namespace suffuse

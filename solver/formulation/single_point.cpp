@@ -23,12 +23,13 @@ FieldTransportSettings field_settings(const Scene& scene, const ModelOptions& op
 
 template <int Dim>
 void SinglePoint<Dim>::advance(double latest) {
-  // Flow, as far as erosion and transport can follow (momentum, Eq. 2); soil that moves does so in
-  // the steps of the flow.
   const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
-  const FlowProgress flow =
-      this->flow_->advance({start, latest, this->coupling_interval(), forecast});
+  // Flow (momentum, Eq. 2) and motion of the solid, together, as far as erosion and transport can
+  // follow. Solid that finds no equilibrium fails: it gets inertia, or the run stops.
+  CoupledStep<Dim> step =
+      this->coupled_->solve({start, latest, this->coupling_interval(), forecast});
+  const FlowProgress flow = this->coupled_->commit(std::move(step));
   this->note_flow(start, flow);
   // Erosion (Eqs. 1, 6, 7), deposition, and transport (Eq. 3), with the volumes that crossed faces.
   std::vector<double> fines = fines_->move(start, flow, this->exchange_);
@@ -42,12 +43,12 @@ void SinglePoint<Dim>::advance(double latest) {
 template <int Dim>
 SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
     : TwoPhaseModel<Dim>(c, options) {
-  this->flow_ = make_flow(c, this->grid_, *this->solid_, options.flow);
+  this->set_flow(make_flow(c, this->grid_, *this->solid_, options.flow));
   fines_ = std::make_unique<FieldTransport<Dim>>(
       this->grid_, this->soils_, this->flow_->conditions(), this->flow_->boundary_values(),
       field_settings(this->scene(), options), options.flow.threads);
   update_flow();
-  this->flow_->start();
+  this->coupled_->start();
   if (const std::vector<double> air = this->flow_->air(); !air.empty()) {
     fines_->start(air);
     update_flow();
@@ -243,7 +244,7 @@ Snapshot SinglePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
 
 template <int Dim>
 std::vector<PassTiming> SinglePoint<Dim>::passes() const {
-  std::vector<PassTiming> result = this->flow_->passes();
+  std::vector<PassTiming> result = this->coupled_->passes();
   result.push_back(this->exchange_.timing());
   for (const PassTiming& timing : fines_->passes()) result.push_back(timing);
   result.push_back(water_timing_);

@@ -14,9 +14,10 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
       options_(options),
       grid_(grid_with_walls(c)),
       soils_(c),
-      solid_(make_skeleton(grid_, soils_,
-                           options.erosion ? options.erosion_span : TimeSpan::never(),
-                           options.flow.threads)),
+      solid_phase_(make_skeleton(grid_, soils_,
+                                 options.erosion ? options.erosion_span : TimeSpan::never(),
+                                 options.flow.threads)),
+      solid_(solid_phase_.skeleton.get()),
       masses_(c, grid_),
       observations_(c, grid_),
       grain_density_(c.document.scene.soils.front().grain_density),
@@ -27,8 +28,8 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
 
 template <int Dim>
 void TwoPhaseModel<Dim>::archive(StateArchive& archive) {
-  archive(*solid_, *flow_, masses_, observations_, time_, flux_history_, last_dt_, steps_,
-          exchange_);
+  archive(*solid_, *flow_, *coupled_, masses_, observations_, time_, flux_history_, last_dt_,
+          steps_, exchange_);
 }
 
 template <int Dim>
@@ -78,6 +79,13 @@ template <int Dim>
 PoreForecast<Dim> TwoPhaseModel<Dim>::pore_forecast() {
   const PointFlows& flows = exchange_.find_flows();
   return {grid_, *solid_, time_, pores(), flows, flux_history_, threads()};
+}
+
+template <int Dim>
+void TwoPhaseModel<Dim>::set_flow(std::unique_ptr<FlowSolver<Dim>> flow) {
+  flow_ = std::move(flow);
+  coupled_ =
+      std::make_unique<CoupledFlow<Dim>>(scene(), grid_, *flow_, solid_phase_.moving, threads());
 }
 
 template <int Dim>
@@ -153,6 +161,7 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   row.power = power.now;
   row.conductivity_ratio = power.conductivity_ratio();
   solid_->describe(row);
+  coupled_->describe(row);
   return row;
 }
 

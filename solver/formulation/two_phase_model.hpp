@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "coupling/coupled_flow.hpp"
 #include "field/solid_exchange.hpp"
 #include "field/transport.hpp"
-#include "flow/flow_solver.hpp"
 #include "formulation/earlier_state.hpp"
 #include "formulation/masses.hpp"
 #include "formulation/observations.hpp"
+#include "motion/make_skeleton.hpp"
 #include "results/writer.hpp"
 #include "solid/pores.hpp"
 
@@ -65,6 +66,7 @@ class TwoPhaseModel {
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] const Skeleton<Dim>& solid() const { return *solid_; }
   [[nodiscard]] const FlowSolver<Dim>& flow() const { return *flow_; }
+  [[nodiscard]] const CoupledFlow<Dim>& coupled_flow() const { return *coupled_; }
   [[nodiscard]] FlowState<Dim> flow_state() const { return flow_->state(time_); }
 
   // What the results hold, at this moment.
@@ -99,6 +101,8 @@ class TwoPhaseModel {
   [[nodiscard]] PoreForecast<Dim> pore_forecast();
   /// Finds concentration and saturation of the liquid at the solid points, as it lies now.
   virtual void find_liquid(PointFlows& flows) const = 0;
+  /// The flow that this formulation steps, with the solid.
+  void set_flow(std::unique_ptr<FlowSolver<Dim>> flow);
   /// Once the flow has started.
   void start_flux_history();
   /// What solid and flow take; the pores follow in between by `update`.
@@ -106,7 +110,7 @@ class TwoPhaseModel {
   void start_solid_and_flow(const EarlierState<Dim>& earlier, const Update& update) {
     solid_->start_from(earlier.solid);
     update();
-    flow_->start_from(earlier.flow);
+    coupled_->start_from(earlier.flow);
     update();
     start_flux_history();
   }
@@ -130,8 +134,11 @@ class TwoPhaseModel {
   ModelOptions options_;
   Grid<Dim> grid_;
   SoilMap<Dim> soils_;
-  std::unique_ptr<Skeleton<Dim>> solid_;
-  std::unique_ptr<FlowSolver<Dim>> flow_;  ///< made by each formulation
+  SolidPhase<Dim> solid_phase_;
+  Skeleton<Dim>* solid_;  ///< of the phase
+  // Made by each formulation.
+  std::unique_ptr<FlowSolver<Dim>> flow_;
+  std::unique_ptr<CoupledFlow<Dim>> coupled_;
   MassAccounts<Dim> masses_;
   Observations<Dim> observations_;
   double grain_density_;

@@ -1,5 +1,4 @@
-/// What a skeleton that moves has to do with inertia: masses, how it loses its equilibrium and
-/// comes to rest.
+/// What a skeleton that moves has to do with inertia: masses and velocities.
 
 #include <cmath>
 #include <numeric>
@@ -35,28 +34,13 @@ std::vector<double> MovingSkeleton<Dim>::inertial_mobility(double duration) cons
 }
 
 template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::moved_masses(const MotionForcing& forcing) const {
-  std::vector<double> mass = solid_masses();
+std::vector<double> MovingSkeleton<Dim>::moved_masses(const MotionStep<Dim>& step) const {
+  std::vector<double> mass = solid_masses(step.loss);
   for (int p = 0; p < points_.size(); ++p) {
-    mass[p] += forcing.liquid_mass[points_.element[p]] * points_.volume[p];
+    mass[p] += step.forcing.liquid_mass[points_.element[p]] * points_.volume[p];
     if (supports_.is_rigid(points_.element[p])) mass[p] = 0.0;
   }
   return mass;
-}
-
-template <int Dim>
-bool MovingSkeleton<Dim>::watches_failure() const {
-  return !inertia_.acts() && this->soils().scene().follows_failure(this->grid_.mesh.region_names);
-}
-
-template <int Dim>
-bool MovingSkeleton<Dim>::let_fail(double time) {
-  if (!watches_failure()) return false;
-  inertia_.begin(points_.size());
-  repeated_failure_.fails(time, points_.position, mean_size());
-  failure_time_ = time;
-  step_.reset();
-  return true;
 }
 
 template <int Dim>
@@ -74,13 +58,14 @@ double MovingSkeleton<Dim>::time_of_fall() const {
 }
 
 template <int Dim>
-SoilExtent MovingSkeleton<Dim>::extent(const std::vector<double>& mass) const {
+SoilExtent MovingSkeleton<Dim>::extent(const std::vector<double>& mass,
+                                       const NodeVectors<Dim>& loads) const {
   const Scene& scene = this->soils().scene();
   SoilExtent extent;
   for (const double m : mass) extent.mass += m;
   extent.load = acceleration(scene.gravity) * extent.mass;
   if (!has_gravity(scene.gravity)) {
-    for (const Vector<Dim>& force : forces_) extent.load += force.norm();
+    for (const Vector<Dim>& force : loads) extent.load += force.norm();
   }
   const Vector<Dim> down = downwards<Dim>(scene.gravity);
   int low = -1;
@@ -96,28 +81,38 @@ SoilExtent MovingSkeleton<Dim>::extent(const std::vector<double>& mass) const {
 }
 
 template <int Dim>
-bool MovingSkeleton<Dim>::has_slid(const std::vector<Vector<Dim>>& before) const {
-  const std::vector<double> mass = moved_masses(tried_);
+SoilKinetics MovingSkeleton<Dim>::kinetics(const MotionStep<Dim>& step,
+                                           const std::vector<Vector<Dim>>& before) const {
+  const std::vector<double> mass = moved_masses(step);
+  const double duration = step.forcing.duration;
   double sum = 0.0;
   for (int p = 0; p < points_.size(); ++p) {
     sum += mass[p] * (points_.position[p] - before[p]).squaredNorm();
   }
-  return is_sliding(0.5 * sum / (tried_.duration * tried_.duration), extent(mass));
+  return {.energy = 0.5 * sum / (duration * duration), .soil = extent(mass, step.loads)};
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::take_velocities() {
+SoilKinetics MovingSkeleton<Dim>::take_velocities(const MotionStep<Dim>& step) {
   const Scene& scene = this->soils().scene();
-  double loads = norm<Dim>(forces_);
+  double loads = norm<Dim>(step.loads);
   if (has_gravity(scene.gravity)) {
     double squared = 0.0;
-    for (const double mass : inertia_.nodes().mass) squared += mass * mass;
+    for (const double mass : step.nodes.mass) squared += mass * mass;
     loads = acceleration(scene.gravity) * std::sqrt(squared);
   }
-  const SoilExtent soil = extent(moved_masses(tried_));
-  inertia_.finish_step(this->grid_, points_, step_->displacement(), tried_.duration, motion_.travel,
-                       step_->equilibrium().inertia_norm() / loads, soil);
-  if (!inertia_.acts()) repeated_failure_.rests(tried_.end, soil.time_of_fall());
+  const double share = step.equilibrium->equilibrium().inertia_norm() / loads;
+  const double energy =
+      inertia_.take(this->grid_, points_, step.nodes, step.equilibrium->displacement(), step.mass,
+                    step.forcing.duration, step.motion.travel, share);
+  return {energy, share, extent(step.mass, step.loads)};
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> MovingSkeleton<Dim>::places() const {
+  std::vector<Vector<Dim>> result(points_.size());
+  for (int p = 0; p < points_.size(); ++p) result[id_[p]] = points_.position[p];
+  return result;
 }
 
 template class MovingSkeleton<2>;

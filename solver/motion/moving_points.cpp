@@ -12,15 +12,15 @@
 namespace suffuse {
 
 template <int Dim>
-void MovingSkeleton<Dim>::check_pores() const {
-  refuse_compressed<Dim>(
-      this->grid_, this->soils(),
-      {points_, solid_volumes(), this->initial_porosity_, step_->displacement(), tried_.end});
+void MovingSkeleton<Dim>::check_pores(const MotionStep<Dim>& step) const {
+  refuse_compressed<Dim>(this->grid_, this->soils(),
+                         {points_, solid_volumes(), this->initial_porosity_,
+                          step.equilibrium->displacement(), step.forcing.end});
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::sort_points() {
-  refuse_filled(this->grid_, solid_, tried_.end);
+void MovingSkeleton<Dim>::sort_points(double time) {
+  refuse_filled(this->grid_, solid_, time);
   if (!std::ranges::is_sorted(points_.element)) {
     const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
     std::vector<int> order;
@@ -34,7 +34,6 @@ void MovingSkeleton<Dim>::sort_points() {
         this->state_.erodible_volume, this->state_.deposited_volume, this->initial_porosity_, id_,
         region_, initial_erodible_);
     inertia_.reorder(order);
-    repeated_failure_.reorder(order);
   }
   show_points();
   find_filling();
@@ -84,7 +83,6 @@ void MovingSkeleton<Dim>::describe(HistoryRow& row) const {
   }
   row.solid_correction = correction_;
   row.inertia = inertia_.share();
-  row.failure_time = failure_time_;
   row.newton_iterations = static_cast<double>(newton_iterations_);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 #include "equilibrium/free_water.hpp"
 #include "equilibrium/start_stress.hpp"
@@ -65,7 +66,6 @@ std::vector<double> MovingSkeleton<Dim>::element_porosity() const {
 template <int Dim>
 void MovingSkeleton<Dim>::add_to_elements(const std::vector<double>& gain) {
   for (std::size_t p = 0; p < gain.size(); ++p) solid_[points_.element[p]] += gain[p];
-  step_.reset();  // weights and stiffness have changed
 }
 
 template <int Dim>
@@ -128,11 +128,12 @@ PointSkeleton MovingSkeleton<Dim>::skeleton_of(int point, double fines_left) con
 }
 
 template <int Dim>
-std::vector<PointSkeleton> MovingSkeleton<Dim>::skeletons() const {
+std::vector<PointSkeleton> MovingSkeleton<Dim>::skeletons(const std::vector<double>& loss) const {
   std::vector<PointSkeleton> result;
   result.reserve(points_.size());
   for (int p = 0; p < points_.size(); ++p) {
-    const double left = this->state_.erodible_volume[p] - loss_of(p);
+    const double lost = loss.empty() ? 0.0 : loss[p];
+    const double left = this->state_.erodible_volume[p] - lost;
     result.push_back(skeleton_of(p, share_left(p, left)));
   }
   return result;
@@ -186,10 +187,11 @@ double MovingSkeleton<Dim>::stiffness() const {
 }
 
 template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::solid_masses() const {
+std::vector<double> MovingSkeleton<Dim>::solid_masses(const std::vector<double>& loss) const {
   std::vector<double> mass = solid_volumes();
   for (int p = 0; p < points_.size(); ++p) {
-    mass[p] = (mass[p] - loss_of(p)) * this->soils().soil_of_point(p).grain_density;
+    const double lost = loss.empty() ? 0.0 : loss[p];
+    mass[p] = (mass[p] - lost) * this->soils().soil_of_point(p).grain_density;
   }
   return mass;
 }
@@ -197,144 +199,153 @@ std::vector<double> MovingSkeleton<Dim>::solid_masses() const {
 /// Weight of the solid at its points; of the liquid, and what loads the boundaries.
 template <int Dim>
 NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
+                                            const std::vector<double>& solid_mass,
+                                            const std::vector<double>& pressure,
                                             const PointsByElement& sorted,
                                             const ElementClasses& classes) const {
   const SoilMap<Dim>& soils = this->soils();
-  const SoilMass mass{.solid = solid_masses(), .liquid = forcing.liquid_mass};
+  const SoilMass mass{.solid = solid_mass, .liquid = forcing.liquid_mass};
   NodeVectors<Dim> result(this->grid_.mesh.node_count(), Vector<Dim>::Zero());
   add_weight(this->grid_, points_, sorted, classes, mass, soils.scene().gravity, result);
   boundary_loads_.add(sorted, forcing.end, result);
   if (has_free_water_) {
-    add_free_water(this->grid_, sorted, soil_volumes(points_, sorted, classes), forcing.pressure,
+    add_free_water(this->grid_, sorted, soil_volumes(points_, sorted, classes), pressure,
                    forcing.liquid_mass, soils.scene().gravity, result);
   }
   return result;
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::start_motion(const MotionForcing& forcing) {
+StartStress MovingSkeleton<Dim>::start_motion(const std::vector<double>& pressure,
+                                              const std::vector<double>& liquid_mass) {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
   const Scene& scene = this->soils().scene();
-  const StartStress start = find_start_stress(this->grid_, skeletons(), supports_,
-                                              {.forces = loads(forcing, sorted, classes),
-                                               .pressure = forcing.pressure,
-                                               .gravity = scene.gravity,
-                                               .earth_pressure = scene.earth_pressure},
-                                              points_, this->threads_);
-  pressure_ = forcing.pressure;
-  step_.reset();
-  if (start.stands || let_fail(0.0)) return;
-  const std::string place =
-      start.worst_node < 0 ? "" : ", least " + node_text(this->grid_, start.worst_node);
-  throw NumericalError(
-      "the soil has no equilibrium at the start: it cannot carry its weight and the loads at "
-      "t = 0 s" +
-      place +
-      "; give it more strength or stiffness, fix a boundary that it leans on, or let it move "
-      "(time.failure = \"follow\")");
+  const MotionForcing at_rest{.liquid_mass = liquid_mass};
+  pressure_ = pressure;
+  return find_start_stress(this->grid_, skeletons({}), supports_,
+                           {.forces = loads(at_rest, solid_masses({}), pressure, sorted, classes),
+                            .pressure = pressure,
+                            .gravity = scene.gravity,
+                            .earth_pressure = scene.earth_pressure},
+                           points_, this->threads_);
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::expect_losses(const std::vector<double>& porosity) {
+std::vector<double> MovingSkeleton<Dim>::losses(const std::vector<double>& porosity) const {
   std::vector<double> loss(porosity.size());
   for (std::size_t p = 0; p < loss.size(); ++p) {
     loss[p] = points_.volume[p] * (porosity[p] - this->porosity_[p]);
   }
-  if (loss == loss_) return;
-  loss_ = std::move(loss);
-  step_.reset();
+  return loss;
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::prepare_step(const MotionForcing& forcing) {
-  const bool with_inertia = inertia_.acts();
-  if (with_inertia && forcing.duration != tried_.duration) step_.reset();
-  if (step_) return;
+MotionStep<Dim> MovingSkeleton<Dim>::start_step(MotionForcing forcing,
+                                                std::optional<MotionStep<Dim>> last) const {
+  std::vector<double> loss = losses(forcing.porosity);
+  // The equilibrium of a step without inertia does not depend on its length.
+  const bool goes_on = last && last->has_inertia == inertia_.acts() && last->loss == loss &&
+                       (!last->has_inertia || last->forcing.duration == forcing.duration);
+  if (goes_on) {
+    last->forcing = std::move(forcing);
+    return *std::move(last);
+  }
+  MotionStep<Dim> step;
+  step.forcing = std::move(forcing);
+  step.loss = std::move(loss);
+  step.iterations = last ? last->iterations : 0;
+  prepare(step);
+  return step;
+}
+
+template <int Dim>
+void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
   // Pressures of water that hardly leaves magnify what is out of balance.
   constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
   constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-6, .goal = 1e-7};
+  step.has_inertia = inertia_.acts();
   // Inertia holds a piece of soil that hangs by one node.
-  step_ = std::make_unique<StepEquilibrium<Dim>>(
-      this->grid_, points_, skeletons(), supports_, this->threads_,
-      with_inertia ? in_motion : in_equilibrium, with_inertia ? 0.0 : soft_share);
-  if (!with_inertia) {
-    bubbles_ = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step_);
+  step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
+      this->grid_, points_, skeletons(step.loss), supports_, this->threads_,
+      step.has_inertia ? in_motion : in_equilibrium, step.has_inertia ? 0.0 : soft_share);
+  if (!step.has_inertia) {
+    step.bubbles = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step.equilibrium);
     return;
   }
-  std::vector<double> mass = moved_masses(forcing);
+  const double duration = step.forcing.duration;
+  step.mass = moved_masses(step);
   std::vector<double> of_element(this->grid_.mesh.element_count(), 0.0);
   for (int p = 0; p < points_.size(); ++p) {
-    of_element[points_.element[p]] += mass[p] / (forcing.duration * forcing.duration);
+    of_element[points_.element[p]] += step.mass[p] / (duration * duration);
   }
-  bubbles_ = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step_, of_element);
-  inertia_.start_step(this->grid_, points_, std::move(mass));
-  step_->set_inertia(inertia_.nodes(), forcing.duration);
+  step.bubbles = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step.equilibrium, of_element);
+  step.nodes = inertia_.nodes(this->grid_, points_, step.mass);
+  step.equilibrium->set_inertia(step.nodes, duration);
 }
 
 template <int Dim>
-const SolidMotion& MovingSkeleton<Dim>::try_motion(const MotionForcing& forcing) {
-  if (inertia_.acts()) {
-    repeated_failure_.refuse_creep(forcing.end - forcing.duration, points_.position);
-  }
-  expect_losses(forcing.porosity);
-  prepare_step(forcing);
-  tried_ = forcing;
-  motion_ = {};
-  forces_ = loads(forcing, step_->sorted(), step_->classes());
-  if (!inertia_.acts()) crossing_forces_.add(forcing.duration, forces_);
-  motion_.converged = step_->solve(forces_, forcing.pressure, forcing.stiffness);
-  if (!motion_.converged) motion_.worst_node = step_->worst_node();
-  motion_.iterations = step_->iterations();
-  step_iterations_ += motion_.iterations;
-  motion_.travel = largest_travel(this->grid_, step_->sorted(), step_->displacement());
-  const double allowed = watches_failure() ? watched_travel : max_travel;
-  motion_.converged = motion_.converged && motion_.travel <= allowed;
-  motion_.face_volume = swept_volumes(this->grid_, step_->sorted(), step_->displacement());
-  std::vector<double> change = forcing.pressure;
+const SolidMotion& MovingSkeleton<Dim>::solve(MotionStep<Dim>& step,
+                                              const std::vector<double>& pressure,
+                                              std::vector<double> stiffness) const {
+  StepEquilibrium<Dim>& equilibrium = *step.equilibrium;
+  step.pressure = pressure;
+  step.loads = loads(step.forcing, solid_masses(step.loss), pressure, equilibrium.sorted(),
+                     equilibrium.classes());
+  if (!step.has_inertia) crossing_forces_.add(step.forcing.duration, step.loads);
+  SolidMotion& motion = step.motion = {};
+  motion.converged = equilibrium.solve(step.loads, pressure, std::move(stiffness));
+  if (!motion.converged) motion.worst_node = equilibrium.worst_node();
+  motion.iterations = equilibrium.iterations();
+  step.iterations += motion.iterations;
+  motion.travel = largest_travel(this->grid_, equilibrium.sorted(), equilibrium.displacement());
+  motion.converged = motion.converged && motion.travel <= step.forcing.longest_travel;
+  motion.face_volume = swept_volumes(this->grid_, equilibrium.sorted(), equilibrium.displacement());
+  std::vector<double> change = pressure;
   for (std::size_t e = 0; e < change.size(); ++e) change[e] -= pressure_[e];
-  bubbles_->add(change, motion_.face_volume);
-  return motion_;
+  step.bubbles->add(change, motion.face_volume);
+  return motion;
 }
 
 // ----------------------------------------------------------------------------------------- motion
 
 template <int Dim>
-const SolidMotion& MovingSkeleton<Dim>::accept_motion() {
-  if (!step_ || !motion_.converged) throw std::logic_error("there is no motion to accept");
-  check_pores();
+std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim> step) {
+  if (!step.motion.converged) throw std::logic_error("there is no motion to commit");
+  const StepEquilibrium<Dim>& equilibrium = *step.equilibrium;
   const std::vector<double> before = smooth(solid_volumes());
-  boundary_loads_.move(step_->sorted(), step_->displacement());
+  boundary_loads_.move(equilibrium.sorted(), equilibrium.displacement());
   const std::vector<int> element = points_.element;
-  if (inertia_.acts()) take_velocities();
-  const bool watched = watches_failure();
-  const std::vector<Vector<Dim>> place = watched ? points_.position : std::vector<Vector<Dim>>();
-  move_points(this->grid_, step_->skeleton(), step_->displacement(), points_, this->threads_);
-  slides_ = watched && has_slid(place);
-  if (!inertia_.acts()) find_crossing_forces();
+  const std::vector<Vector<Dim>> place = points_.position;
+  move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(), points_,
+              this->threads_);
+  SoilKinetics found;
+  if (!inertia_.acts()) {
+    found = kinetics(step, place);
+    find_crossing_forces(step);
+  }
   book_regions(element);
-  carry_solid(before, motion_.travel);
-  correction_ = motion_.solid_correction;
-  newton_iterations_ += step_iterations_;
-  step_iterations_ = 0;
-  step_.reset();
-  bubbles_.reset();
-  loss_.clear();
-  pressure_ = tried_.pressure;
-  sort_points();
-  return motion_;
+  SolidMotion motion = std::move(step.motion);
+  carry_solid(before, motion);
+  correction_ = motion.solid_correction;
+  newton_iterations_ += step.iterations;
+  pressure_ = step.pressure;
+  sort_points(step.forcing.end);
+  return {std::move(motion), found};
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::find_crossing_forces() {
+void MovingSkeleton<Dim>::find_crossing_forces(const MotionStep<Dim>& step) {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
-  Equilibrium<Dim> moved({this->grid_, points_, sorted, step_->skeleton(), classes}, supports_,
-                         this->threads_);
-  moved.set_pressure(tried_.pressure);
+  Equilibrium<Dim> moved({this->grid_, points_, sorted, step.equilibrium->skeleton(), classes},
+                         supports_, this->threads_);
+  moved.set_pressure(step.pressure);
   moved.displace(NodeVectors<Dim>(this->grid_.mesh.node_count(), Vector<Dim>::Zero()), false);
-  crossing_forces_.find(this->grid_, sorted, moved, loads(tried_, sorted, classes),
-                        diffusivity(sorted));
+  crossing_forces_.find(
+      this->grid_, sorted, moved,
+      loads(step.forcing, solid_masses(step.loss), step.pressure, sorted, classes),
+      diffusivity(sorted));
 }
 
 /// c_v = k E_oed / gamma_w per element, with the least k of its points, m2/s; 0 without soil that
@@ -359,7 +370,8 @@ std::vector<double> MovingSkeleton<Dim>::diffusivity(const PointsByElement& sort
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::carry_solid(const std::vector<double>& smooth_before, double travel) {
+void MovingSkeleton<Dim>::carry_solid(const std::vector<double>& smooth_before,
+                                      SolidMotion& motion) {
   const std::vector<double> smooth_after = smooth(solid_volumes());
   std::vector<char> has_solid(solid_.size());
   for (std::size_t e = 0; e < solid_.size(); ++e) {
@@ -367,11 +379,12 @@ void MovingSkeleton<Dim>::carry_solid(const std::vector<double>& smooth_before, 
     has_solid[e] = smooth_before[e] > 0.0 || smooth_after[e] > 0.0 || solid_[e] != 0.0 ? 1 : 0;
   }
   solid_flux_.follow(has_solid);
-  motion_.solid_gain = element_gains({smooth_before, smooth_after, solid_, this->grid_.volume,
-                                      travel, solid_flux_.piece(), solid_flux_.piece_count()});
-  motion_.solid_face_volume = solid_flux_.carried(motion_.face_volume, solid_);
-  motion_.solid_correction = solid_flux_.balance(motion_.solid_gain, motion_.solid_face_volume);
-  for (std::size_t e = 0; e < solid_.size(); ++e) solid_[e] += motion_.solid_gain[e];
+  motion.solid_gain =
+      element_gains({smooth_before, smooth_after, solid_, this->grid_.volume, motion.travel,
+                     solid_flux_.piece(), solid_flux_.piece_count()});
+  motion.solid_face_volume = solid_flux_.carried(motion.face_volume, solid_);
+  motion.solid_correction = solid_flux_.balance(motion.solid_gain, motion.solid_face_volume);
+  for (std::size_t e = 0; e < solid_.size(); ++e) solid_[e] += motion.solid_gain[e];
 }
 
 template <int Dim>
@@ -397,10 +410,9 @@ template <int Dim>
 void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
-          boundary_loads_, crossing_forces_, inertia_, repeated_failure_, failure_time_, solid_,
-          region_gain_, pressure_, filling_, correction_, newton_iterations_);
+          boundary_loads_, crossing_forces_, inertia_, solid_, region_gain_, pressure_, filling_,
+          correction_, newton_iterations_);
   if (!archive.restores()) return;
-  step_.reset();
   show_points();
 }
 

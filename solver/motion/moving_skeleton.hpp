@@ -1,15 +1,17 @@
 #pragma once
 
 /// A skeleton that moves: points that carry stress, in equilibrium with weight, loads and pore
-/// pressure at the end of each step.
+/// pressure at the end of each step, or with inertia too. It knows no flow, and does not decide
+/// when soil fails (coupling/failure).
 
-#include <memory>
+#include <optional>
+#include <utility>
 
 #include "boundary/boundary_loads.hpp"
 #include "equilibrium/crossing_forces.hpp"
+#include "equilibrium/start_stress.hpp"
 #include "grid/compensated_sum.hpp"
-#include "motion/motion_flux.hpp"
-#include "motion/repeated_failure.hpp"
+#include "motion/motion_step.hpp"
 #include "motion/soil_inertia.hpp"
 #include "motion/solid_flux.hpp"
 #include "solid/eroding_skeleton.hpp"
@@ -39,22 +41,57 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void archive(StateArchive& archive) override;
 
   [[nodiscard]] bool moves() const override { return true; }
-  void start_motion(const MotionForcing& forcing) override;
-  [[nodiscard]] std::vector<double> compressibility(double duration) const override;
-  [[nodiscard]] std::vector<double> inertial_mobility(double duration) const override;
-  const SolidMotion& try_motion(const MotionForcing& forcing) override;
-  const SolidMotion& accept_motion() override;
-  bool let_fail(double time) override;
-  [[nodiscard]] bool has_inertia() const override { return inertia_.acts(); }
-  [[nodiscard]] bool slides() const override { return slides_; }
-  [[nodiscard]] double time_of_fall() const override;
-  [[nodiscard]] double longest_step() const override { return inertia_.longest_step(); }
+  /// Finds the stress at the start, under these pressures of the pores, Pa, and masses of liquid,
+  /// kg per m3 of soil; both per element.
+  StartStress start_motion(const std::vector<double>& pressure,
+                           const std::vector<double>& liquid_mass);
+
+  /// A step to be tried. `last`: one that was tried from the same state, which a step that differs
+  /// from it by little goes on from.
+  [[nodiscard]] MotionStep<Dim> start_step(MotionForcing forcing,
+                                           std::optional<MotionStep<Dim>> last = {}) const;
+  /// The motion of the step under these pressures of the pores at its end, per element, Pa, from
+  /// what was found for it last. Where `stiffness` is given, per element, Pa, pressures fall by
+  /// this times the growth of the soil.
+  const SolidMotion& solve(MotionStep<Dim>& step, const std::vector<double>& pressure,
+                           std::vector<double> stiffness = {}) const;
+  /// Throws EquilibriumLost where the step leaves soil no pores.
+  void check_pores(const MotionStep<Dim>& step) const;
+  /// Points take the velocities of the step, which has inertia; before it is committed.
+  SoilKinetics take_velocities(const MotionStep<Dim>& step);
+  /// Points move as the step has found, and solid with them. Returns its motion, and what is known
+  /// of it where soil has no inertia now.
+  std::pair<SolidMotion, SoilKinetics> commit(MotionStep<Dim> step);
+
+  /// From now on the soil, which is at rest, has inertia.
+  void start_inertia() { inertia_.begin(points_.size()); }
+  /// From now on it has none.
+  void end_inertia() { inertia_ = {}; }
+  [[nodiscard]] bool has_inertia() const { return inertia_.acts(); }
+
+  /// Volume by which each element's soil would shrink in a step of `duration`, s, per Pa of pore
+  /// pressure less, m3/Pa: about how strongly pressure and motion depend on each other. V_e / E_oed
+  /// as if it could not move sideways; inertia makes it less.
+  [[nodiscard]] std::vector<double> compressibility(double duration) const;
+  /// How easily a gradient of the pore pressure moves soil that has inertia, dt/rho per element,
+  /// m3 s/kg; 0 where its stiffness, or no pressure, decides on its motion in a step of `duration`,
+  /// s. Empty without inertia.
+  [[nodiscard]] std::vector<double> inertial_mobility(double duration) const;
+  /// Longest step with the velocities of now, s.
+  [[nodiscard]] double longest_step() const { return inertia_.longest_step(); }
+  /// Time in which soil falls through an element of mean size, s; 0 without gravity.
+  [[nodiscard]] double time_of_fall() const;
+  /// Mean size of the elements, m.
+  [[nodiscard]] double mean_size() const;
+  /// Largest modulus of soil that cannot move sideways, Pa.
+  [[nodiscard]] double stiffness() const;
+  /// Largest change of tractions in the run, from those at the start, Pa.
+  [[nodiscard]] double largest_load_change() const { return boundary_loads_.largest_change(); }
+  /// Places of the points in their order at the start, m.
+  [[nodiscard]] std::vector<Vector<Dim>> places() const;
+
   [[nodiscard]] std::vector<double> load_breakpoints() const override {
     return boundary_loads_.breakpoints();
-  }
-  [[nodiscard]] double stiffness() const override;
-  [[nodiscard]] double largest_load_change() const override {
-    return boundary_loads_.largest_change();
   }
   [[nodiscard]] std::vector<double> region_gain() const override;
   [[nodiscard]] const std::vector<SoilFilling>& filling() const override { return filling_; }
@@ -72,16 +109,9 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// Solid volume per element, m3.
   [[nodiscard]] const std::vector<double>& element_solid_volume() const { return solid_; }
 
-  /// A motion by more than this share of an element's height is refused: points would pass
-  /// elements unseen.
-  static constexpr double max_travel = 0.5;
-  /// Limit of the motion in an equilibrium that inertia is to follow, as a share of an element's
-  /// height: a slide must not pass within a long step.
-  static constexpr double watched_travel = 0.05;
-
  private:
-  /// Laws and numbers of the points with the fines that they will have at the end of the step.
-  [[nodiscard]] std::vector<PointSkeleton> skeletons() const;
+  /// Laws and numbers of the points with the fines that they will have after this loss.
+  [[nodiscard]] std::vector<PointSkeleton> skeletons(const std::vector<double>& loss) const;
   [[nodiscard]] PointSkeleton skeleton_of(int point, double fines_left) const;
   /// `erodible_volume`, m3, as a share of the erodible volume at the start.
   [[nodiscard]] double share_left(int point, double erodible_volume) const;
@@ -90,45 +120,41 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> smooth(const std::vector<double>& of_points) const {
     return smooth_volumes(this->grid_, points_, of_points, supports_.rigid_elements());
   }
-  /// Keeps what points will have lost by the end of the step.
-  void expect_losses(const std::vector<double>& porosity);
-  /// Volume that a point will have lost by the end of the step, m3.
-  [[nodiscard]] double loss_of(int point) const { return loss_.empty() ? 0.0 : loss_[point]; }
-  [[nodiscard]] NodeVectors<Dim> loads(const MotionForcing& forcing, const PointsByElement& sorted,
+  /// Volume that each point will have lost when it has this porosity, m3; empty: none.
+  [[nodiscard]] std::vector<double> losses(const std::vector<double>& porosity) const;
+  [[nodiscard]] NodeVectors<Dim> loads(const MotionForcing& forcing,
+                                       const std::vector<double>& solid_mass,
+                                       const std::vector<double>& pressure,
+                                       const PointsByElement& sorted,
                                        const ElementClasses& classes) const;
-  /// Solid of the points at the end of the step that is tried, kg.
-  [[nodiscard]] std::vector<double> solid_masses() const;
-  /// Makes the equilibrium of the step that is tried, if there is none yet.
-  void prepare_step(const MotionForcing& forcing);
-  /// What counts for inertia: solid, and the liquid in its pores, kg per point.
-  [[nodiscard]] std::vector<double> moved_masses(const MotionForcing& forcing) const;
-  /// Whether the soil is in equilibrium, and inertia is to follow when it is lost.
-  [[nodiscard]] bool watches_failure() const;
-  /// Mean size of the elements, m.
-  [[nodiscard]] double mean_size() const;
+  /// Solid of the points after this loss, kg.
+  [[nodiscard]] std::vector<double> solid_masses(const std::vector<double>& loss) const;
+  /// Makes the equilibrium of a step, with inertia where the soil has it.
+  void prepare(MotionStep<Dim>& step) const;
+  /// What counts for inertia: solid after the loss of the step, and the liquid in its pores, kg per
+  /// point.
+  [[nodiscard]] std::vector<double> moved_masses(const MotionStep<Dim>& step) const;
   /// \param mass  what counts for inertia, kg per point
-  [[nodiscard]] SoilExtent extent(const std::vector<double>& mass) const;
-  /// Whether the step that is accepted moved the soil as fast as it falls. `before`: places of the
-  /// points at its start.
-  [[nodiscard]] bool has_slid(const std::vector<Vector<Dim>>& before) const;
-  void take_velocities();
+  [[nodiscard]] SoilExtent extent(const std::vector<double>& mass,
+                                  const NodeVectors<Dim>& loads) const;
+  /// Of a step in equilibrium. `before`: places of the points at its start.
+  [[nodiscard]] SoilKinetics kinetics(const MotionStep<Dim>& step,
+                                      const std::vector<Vector<Dim>>& before) const;
   /// V_e / E_oed, m3/Pa, in free water beside soil that of the softest soil; 0 elsewhere without
   /// soil that moves.
   [[nodiscard]] std::vector<double> drained_compressibility() const;
   /// Mass of soil and the liquid in its pores, per node, kg.
   [[nodiscard]] std::vector<double> node_masses() const;
-  /// Throws EquilibriumLost where the step that is accepted leaves soil no pores.
-  void check_pores() const;
   /// Sorts what belongs to points by their elements and hands them on to the soils.
-  void sort_points();
+  void sort_points(double time);
   void show_points();
   void find_filling();
   /// Adds what the points gained, m3 per point, to their elements.
   void add_to_elements(const std::vector<double>& gain);
   /// After the points have moved and before they are sorted.
-  void find_crossing_forces();
+  void find_crossing_forces(const MotionStep<Dim>& step);
   [[nodiscard]] std::vector<double> diffusivity(const PointsByElement& sorted) const;
-  void carry_solid(const std::vector<double>& smooth_before, double travel);
+  void carry_solid(const std::vector<double>& smooth_before, SolidMotion& motion);
   /// Books the solid of points that have come into another region from `element`, per point.
   void book_regions(const std::vector<int>& element);
 
@@ -143,24 +169,13 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   BoundaryLoads<Dim> boundary_loads_;
   CrossingForces<Dim> crossing_forces_;  ///< while inertia does not act
   SoilInertia<Dim> inertia_;
-  RepeatedFailure<Dim> repeated_failure_;
-  bool slides_ = false;                      ///< see `slides`; of the last step
-  double failure_time_ = 0.0;                ///< when equilibrium was lost last, s; 0: never
   std::vector<double> solid_;                ///< per element, m3
   std::vector<CompensatedSum> region_gain_;  ///< per region of the mesh, m3
-  std::vector<double> loss_;          ///< per point, in the step that is tried, m3; empty: none
   std::vector<double> pressure_;      ///< of the pores at the last equilibrium, per element, Pa
   std::vector<SoilFilling> filling_;  ///< after the last motion
   SolidFlux<Dim> solid_flux_;
   double correction_ = 0.0;  ///< see HistoryRow::solid_correction
   long newton_iterations_ = 0;
-  long step_iterations_ = 0;  ///< of the tries since the last step
-
-  std::unique_ptr<StepEquilibrium<Dim>> step_;  ///< of the step that is tried; null between steps
-  std::unique_ptr<FaceBubbles<Dim>> bubbles_;
-  MotionForcing tried_;
-  NodeVectors<Dim> forces_;  ///< loads of the step that is tried, N
-  SolidMotion motion_;
 };
 
 }  // namespace suffuse

@@ -7,16 +7,8 @@ namespace suffuse {
 
 template <int Dim>
 void SoilInertia<Dim>::begin(int point_count) {
-  end();
+  *this = {};
   velocities_ = PointVelocities<Dim>(point_count);
-}
-
-template <int Dim>
-void SoilInertia<Dim>::end() {
-  velocities_ = {};
-  rate_ = 0.0;
-  share_ = 0.0;
-  rested_ = 0.0;
 }
 
 template <int Dim>
@@ -25,39 +17,31 @@ double SoilInertia<Dim>::longest_step() const {
 }
 
 template <int Dim>
-void SoilInertia<Dim>::start_step(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                                  std::vector<double> mass) {
-  mass_ = std::move(mass);
-  nodes_ = velocities_.to_nodes(grid, points, mass_);
-}
-
-template <int Dim>
-void SoilInertia<Dim>::finish_step(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                                   const NodeVectors<Dim>& displacement, double duration,
-                                   double travel, double share, const SoilExtent& extent) {
+double SoilInertia<Dim>::take(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                              const NodalMotion<Dim>& nodes, const NodeVectors<Dim>& displacement,
+                              const std::vector<double>& mass, double duration, double travel,
+                              double share) {
   NodeVectors<Dim> velocity = displacement;
   for (Vector<Dim>& v : velocity) v /= duration;
-  velocities_.take(grid, points, std::move(velocity), nodes_.mass);
+  velocities_.take(grid, points, std::move(velocity), nodes.mass);
   rate_ = travel / duration;
   share_ = share;
-  const bool rests = is_at_rest(share, velocities_.kinetic_energy(mass_), extent);
-  rested_ = rests ? rested_ + duration : 0.0;
-  if (rested_ > extent.time_of_fall()) end();
+  return velocities_.kinetic_energy(mass);
 }
 
 double SoilExtent::time_of_fall() const {
   return std::sqrt(2.0 * height * mass / load);
 }
 
-bool is_at_rest(double inertia_share, double kinetic_energy, const SoilExtent& extent) {
+bool SoilKinetics::is_rest() const {
   constexpr double small_share = 1e-2;
   constexpr double small_energy = 1e-6;
-  return inertia_share < small_share && kinetic_energy < small_energy * extent.load * extent.height;
+  return inertia_share < small_share && energy < small_energy * soil.load * soil.height;
 }
 
-bool is_sliding(double kinetic_energy, const SoilExtent& extent) {
+bool SoilKinetics::is_slide() const {
   constexpr double large_energy = 1e-4;
-  return kinetic_energy > large_energy * extent.load * extent.height;
+  return energy > large_energy * soil.load * soil.height;
 }
 
 template class SoilInertia<2>;

@@ -2,11 +2,8 @@
 
 /// The solid phase as an interface for the rest of the solver: soil at material points, of which a
 /// part can erode into the liquid. The skeleton that stays in place is `RigidSkeleton`, the one
-/// that moves is `MovingSkeleton` (deformation/).
+/// that moves is `MovingSkeleton` (motion/).
 
-#include <limits>
-#include <memory>
-#include <stdexcept>
 #include <vector>
 
 #include "common/errors.hpp"
@@ -35,40 +32,6 @@ struct SolidState {
 class EquilibriumLost : public NumericalError {
  public:
   using NumericalError::NumericalError;
-};
-
-/// What drives the motion of the skeleton in a step.
-struct MotionForcing {
-  double end = 0.0;                 ///< time at the end of the step, s
-  double duration = 0.0;            ///< of the step, s
-  std::vector<double> pressure;     ///< of the pores at the end, per element, Pa
-  std::vector<double> liquid_mass;  ///< water and fines in the pores, per volume of soil and
-                                    ///< element, kg/m3
-  /// n_L of each solid point at the end, with what it will have exchanged with the liquid, if it
-  /// were not deformed; empty: as now.
-  std::vector<double> porosity = {};
-  /// Pressures fall by this times the growth of the soil, per element, Pa; empty: they are given.
-  std::vector<double> stiffness = {};
-};
-
-/// How the skeleton moves in a step.
-struct SolidMotion {
-  /// Whether an equilibrium was found; otherwise the step must be shorter.
-  bool converged = true;
-  /// Where none was found: the node at which forces are out of balance most; -1: not known.
-  int worst_node = -1;
-  /// Volume of soil with its pores that crosses each face along its normal, m3 (S_f). What leaves
-  /// an element is what its soil grows by, V_e (J - 1), and what the bubbles of its faces carry
-  /// (docs/theory.md). 0 between elements without soil.
-  std::vector<double> face_volume;
-  /// Volume of the solid itself that crosses each face, m3 (s_f), and what each element gains by
-  /// it, m3. Empty until the motion is accepted.
-  std::vector<double> solid_face_volume;
-  std::vector<double> solid_gain;
-  int iterations = 0;   ///< of Newton's method, in the last try
-  double travel = 0.0;  ///< largest displacement over the height of an element there
-  /// Correction that makes s_f balance, over what the motion carries; of accepted motions.
-  double solid_correction = 0.0;
 };
 
 /// How far soil fills an element at its surface.
@@ -131,51 +94,11 @@ class Skeleton {
 
   virtual void archive(StateArchive& archive) = 0;
 
-  // Only moving skeletons use this.
+  // What others see of a motion.
 
   [[nodiscard]] virtual bool moves() const { return false; }
   /// Times at which what loads the solid has a kink, s.
   [[nodiscard]] virtual std::vector<double> load_breakpoints() const { return {}; }
-  /// Finds the stress at the start. `forcing`: without a duration. Where there is no equilibrium,
-  /// the solid has inertia from the start, or NumericalError is thrown.
-  virtual void start_motion(const MotionForcing& /*forcing*/) {}
-  /// Volume by which each element's soil would shrink in a step of `duration`, s, per Pa of pore
-  /// pressure less, m3/Pa: about how strongly pressure and motion depend on each other. V_e / E_oed
-  /// as if it could not move sideways; inertia makes it less.
-  [[nodiscard]] virtual std::vector<double> compressibility(double /*duration*/) const {
-    return {};
-  }
-  /// How easily a gradient of the pore pressure moves soil that has inertia, dt/rho per element,
-  /// m3 s/kg; 0 where its stiffness, or no pressure, decides on its motion in a step of `duration`,
-  /// s. Empty without inertia.
-  [[nodiscard]] virtual std::vector<double> inertial_mobility(double /*duration*/) const {
-    return {};
-  }
-  /// Largest modulus of soil that cannot move sideways, Pa.
-  [[nodiscard]] virtual double stiffness() const { return 0.0; }
-  /// Largest change of tractions in the run, from those at the start, Pa.
-  [[nodiscard]] virtual double largest_load_change() const { return 0.0; }
-  /// The equilibrium at the end of a step, from its start, without changing the state. To ask again
-  /// with other pressures starts from the last answer.
-  virtual const SolidMotion& try_motion(const MotionForcing& /*forcing*/) {
-    throw std::logic_error("a rigid skeleton does not move");
-  }
-  /// Takes the last motion that was tried: points move, and solid with them.
-  virtual const SolidMotion& accept_motion() {
-    throw std::logic_error("a rigid skeleton does not move");
-  }
-  /// Equilibrium is lost at this time, s: from now on the solid has inertia, until it is at rest
-  /// again. Returns false where that is no way out: it has inertia already, or the run is to stop.
-  virtual bool let_fail(double /*time*/) { return false; }
-  [[nodiscard]] virtual bool has_inertia() const { return false; }
-  /// Whether soil in equilibrium moved so fast in the last step that it would have fallen.
-  [[nodiscard]] virtual bool slides() const { return false; }
-  /// Time in which soil falls through an element of mean size, s; 0 without gravity.
-  [[nodiscard]] virtual double time_of_fall() const { return 0.0; }
-  /// Longest step from now on, s.
-  [[nodiscard]] virtual double longest_step() const {
-    return std::numeric_limits<double>::infinity();
-  }
   /// Solid that points have carried into each region of the mesh since the start, minus what they
   /// have carried out of it, m3. Empty while the solid stays in place.
   [[nodiscard]] virtual std::vector<double> region_gain() const { return {}; }
@@ -189,11 +112,5 @@ class Skeleton {
   virtual void describe(HistoryRow& /*row*/) const {}
   virtual void describe(Snapshot& /*snapshot*/) const {}
 };
-
-/// The skeleton that the scene asks for, which moves the points of `soils` if it moves. Exchange
-/// happens within `span` alone. (motion/make_skeleton.cpp)
-template <int Dim>
-std::unique_ptr<Skeleton<Dim>> make_skeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils,
-                                             const TimeSpan& span, int threads);
 
 }  // namespace suffuse

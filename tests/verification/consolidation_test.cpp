@@ -115,7 +115,7 @@ Deviation deviation_from_terzaghi(int rows, double poisson, double tolerance, in
   }
   std::cout << rows << " rows, nu " << poisson << ", tolerance " << tolerance << ": "
             << column.run().steps() << " steps, "
-            << column.run().model().flow().coupling_iterations() << " iterations, settlement "
+            << column.run().model().coupled_flow().iterations() << " iterations, settlement "
             << worst.settlement << ", pressure " << worst.pressure << "\n";
   worst.steps = column.run().steps();
   return worst;
@@ -196,7 +196,7 @@ TEST(Consolidation, UnderAStiffFoundation) {
     worst = std::max(worst, std::abs(error));
   }
   std::cout << "under a stiff foundation: pressure off by " << worst << ", " << run.steps()
-            << " steps, " << run.model().flow().coupling_iterations() << " iterations\n";
+            << " steps, " << run.model().coupled_flow().iterations() << " iterations\n";
   EXPECT_LT(worst, 1e-2);
   EXPECT_LT(run.worst_residual(), 1e-12);
 }

@@ -40,7 +40,7 @@ double iterations_per_step(int cells, double poisson, double T) {
   run.run({scene.time.end});
   // The load comes in a step of its own. None was rejected.
   EXPECT_LE(run.steps(), steps + 1);
-  return static_cast<double>(run.model().flow().coupling_iterations()) /
+  return static_cast<double>(run.model().coupled_flow().iterations()) /
          static_cast<double>(run.steps());
 }
 

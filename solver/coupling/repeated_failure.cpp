@@ -1,6 +1,8 @@
-#include "motion/repeated_failure.hpp"
+#include "coupling/repeated_failure.hpp"
 
 #include <sstream>
+
+#include "solid/skeleton.hpp"
 
 namespace suffuse {
 
@@ -37,7 +39,6 @@ void RepeatedFailure<Dim>::fails(double time, const std::vector<Vector<Dim>>& po
 template <int Dim>
 void RepeatedFailure<Dim>::refuse_creep(double time,
                                         const std::vector<Vector<Dim>>& position) const {
-  if (count_ <= most) return;
   const int p = farthest(position);
   std::ostringstream message;
   message.precision(6);

@@ -1,8 +1,7 @@
-#include "coupling/solid_coupling.hpp"
+#include "coupling/flow_and_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "coupling/moved_air.hpp"
 #include "grid/parallel.hpp"
@@ -36,8 +35,6 @@ constexpr double round_off_strain = 1e-12;
 /// Accuracy with inertia, relative to the largest change plus the largest pressure: pressures of
 /// soil that fails swing by more with each step.
 constexpr double accuracy_in_motion = 1e-4;
-/// Shortest step in equilibrium, over the time in which soil falls through an element.
-constexpr double short_step = 1e-2;
 
 double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;
@@ -55,71 +52,84 @@ double largest_of_soil(const std::vector<double>& pressure, const std::vector<do
 }  // namespace
 
 template <int Dim>
-MixedStep<Dim> SolidCoupling<Dim>::step(ImplicitMixed<Dim>& scheme, const MixedState<Dim>& start,
-                                        const std::vector<double>& pressure,
-                                        std::vector<double> porosity, double end, double dt,
-                                        FlowForcing<Dim> forcing) {
+std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
+                                                  const FlowStart<Dim>& start, MotionForcing given,
+                                                  CoupledStep<Dim>& step) const try {
+  const double dt = step.flow.dt;
+  const std::vector<double>& pressure = start.pressure;
+  const ElementField<Dim>& air = start.state.air;
   const FlowSoils<Dim>& soils = scheme.soils();
+  FlowForcing<Dim> forcing = step.flow.forcing.back();
   const std::vector<double> own = forcing.source;
   const FlowCoefficients<Dim> at_start = forcing.coefficients;
   const double floor = round_off_strain * solid_.stiffness();
   if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
-  forcing.mean_storage = held_by_soil(soils, start.air, forcing, pressure, dt);
-  MotionForcing motion_forcing{
-      end, dt, {}, liquid_mass(grid_, at_start, start.air), std::move(porosity)};
+  forcing.mean_storage = held_by_soil(soils, air, forcing, pressure, dt);
+  given.liquid_mass = liquid_mass(grid_, at_start, air);
+  step.motion = solid_.start_step(std::move(given), std::move(step.motion));
   const auto on_solid = [&](const Eigen::VectorXd& rise) {
     std::vector<double> result = pressure;
     for (std::size_t e = 0; e < result.size(); ++e) result[e] += rise[e];
-    return pressure_on_solid(grid_, soils, std::move(result), at_start.porosity, start.air);
+    return pressure_on_solid(grid_, soils, std::move(result), at_start.porosity, air);
   };
   AndersonMixing mixing(memory);
-  Eigen::VectorXd rise = expected_rise(dt);
+  Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const double scale =
       largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
   int failed = 0;
   int worst_node = -1;
   int worst_element = 0;
   for (int iteration = 1; iteration <= max_coupling_iterations; ++iteration) {
-    ++iterations_;
+    ++step.iterations;
     const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
-    motion_forcing.pressure = on_solid(of_elements);
-    const SolidMotion& motion = solid_.try_motion(motion_forcing);
+    const std::vector<double> acting = on_solid(of_elements);
+    const SolidMotion& motion = solid_.solve(*step.motion, acting);
     if (!motion.converged) {
       ++failed;
       worst_node = motion.worst_node;
       const bool guessed = iteration == 1 && rise.squaredNorm() > 0.0;
-      rise = guessed ? Eigen::VectorXd::Zero(rise.size())
-                     : at_faces(undrained_rise(motion_forcing, of_elements), forcing.mean_storage);
+      if (guessed) {
+        rise.setZero();
+      } else if (const auto undrained = undrained_rise(*step.motion, acting, of_elements)) {
+        rise = at_faces(*undrained, forcing.mean_storage);
+      } else {
+        return Unsolved{"the soil has found no equilibrium", true, motion.worst_node};
+      }
       mixing = AndersonMixing(memory);
       continue;
     }
     const std::vector<double> moved =
-        !soils.air_moves() ? motion.face_volume : without_air(motion, start.air, at_start, forcing);
+        !soils.air_moves() ? motion.face_volume : without_air(motion, air, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
     forcing.expected_rise.assign(rise.data(), rise.data() + rise.size());
-    MixedStep<Dim> step = scheme.step(start, dt, {&forcing});
-    const Eigen::VectorXd found =
-        rise_at_soil(start.face_pressure, step.end.face_pressure, forcing.mean_storage);
-    const Eigen::VectorXd new_of_elements = at_elements(found, forcing.mean_storage);
+    MixedStep<Dim> found = scheme.step(start.state, dt, {&forcing});
+    const Eigen::VectorXd rose =
+        rise_at_soil(start.state.face_pressure, found.end.face_pressure, forcing.mean_storage);
+    const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
     if (largest(new_of_elements - of_elements) <= allowed(largest(new_of_elements), scale, floor)) {
-      rise_rate_.assign(found.data(), found.data() + found.size());
-      for (double& rate : rise_rate_) rate /= dt;
-      rise_time_ = dt;
-      return step;
+      step.rise.rate.assign(rose.data(), rose.data() + rose.size());
+      for (double& rate : step.rise.rate) rate /= dt;
+      step.rise.time = dt;
+      step.flow.found = std::move(found);
+      return std::nullopt;
     }
     if (iteration == max_coupling_iterations) {
       (new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
     }
-    rise = mixing.next(rise, found);
+    rise = mixing.next(rise, rose);
   }
   const std::string count = std::to_string(max_coupling_iterations) + " iterations";
-  if (failed > 0) throw NoEquilibrium("the soil has found no equilibrium in " + count, worst_node);
-  throw NotConverged("flow and motion of the soil do not agree in " + count + ", least in " +
-                     element_text(grid_, worst_element));
+  if (failed > 0) {
+    return Unsolved{"the soil has found no equilibrium in " + count, true, worst_node};
+  }
+  return Unsolved{"flow and motion of the soil do not agree in " + count + ", least in " +
+                  element_text(grid_, worst_element)};
+} catch (const NotConverged& error) {
+  return Unsolved{error.what()};
 }
 
 template <int Dim>
-std::vector<double> SolidCoupling<Dim>::held_by_soil(const FlowSoils<Dim>& soils,
+std::vector<double> FlowAndMotion<Dim>::held_by_soil(const FlowSoils<Dim>& soils,
                                                      const ElementField<Dim>& air,
                                                      const FlowForcing<Dim>& forcing,
                                                      const std::vector<double>& pressure,
@@ -140,15 +150,15 @@ std::vector<double> SolidCoupling<Dim>::held_by_soil(const FlowSoils<Dim>& soils
 }
 
 template <int Dim>
-Eigen::VectorXd SolidCoupling<Dim>::expected_rise(double dt) const {
-  if (rise_rate_.empty() || dt > longest_growth * rise_time_) {
+Eigen::VectorXd FlowAndMotion<Dim>::expected_rise(const PressureRise& last, double dt) const {
+  if (last.rate.empty() || dt > longest_growth * last.time) {
     return Eigen::VectorXd::Zero(grid_.face_count());
   }
-  return dt * Eigen::Map<const Eigen::VectorXd>(rise_rate_.data(), grid_.face_count());
+  return dt * Eigen::Map<const Eigen::VectorXd>(last.rate.data(), grid_.face_count());
 }
 
 template <int Dim>
-Eigen::VectorXd SolidCoupling<Dim>::at_elements(const Eigen::VectorXd& of_faces,
+Eigen::VectorXd FlowAndMotion<Dim>::at_elements(const Eigen::VectorXd& of_faces,
                                                 const std::vector<double>& storage) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.mesh.element_count());
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
@@ -159,7 +169,7 @@ Eigen::VectorXd SolidCoupling<Dim>::at_elements(const Eigen::VectorXd& of_faces,
 }
 
 template <int Dim>
-Eigen::VectorXd SolidCoupling<Dim>::at_faces(const Eigen::VectorXd& of_elements,
+Eigen::VectorXd FlowAndMotion<Dim>::at_faces(const Eigen::VectorXd& of_elements,
                                              const std::vector<double>& storage) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.face_count());
   for_each_index(grid_.face_count(), threads_, [&](int f) {
@@ -175,7 +185,7 @@ Eigen::VectorXd SolidCoupling<Dim>::at_faces(const Eigen::VectorXd& of_elements,
 }
 
 template <int Dim>
-Eigen::VectorXd SolidCoupling<Dim>::rise_at_soil(const std::vector<double>& before,
+Eigen::VectorXd FlowAndMotion<Dim>::rise_at_soil(const std::vector<double>& before,
                                                  const std::vector<double>& after,
                                                  const std::vector<double>& storage) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.face_count());
@@ -189,66 +199,34 @@ Eigen::VectorXd SolidCoupling<Dim>::rise_at_soil(const std::vector<double>& befo
 }
 
 template <int Dim>
-double SolidCoupling<Dim>::allowed(double rise, double pressure, double floor) const {
+double FlowAndMotion<Dim>::allowed(double rise, double pressure, double floor) const {
   if (solid_.has_inertia()) return accuracy_in_motion * (rise + pressure);
   return accuracy * rise + accuracy_of_pressure * pressure + floor;
 }
 
 template <int Dim>
-void SolidCoupling<Dim>::watch_steps(double time, double next_step) {
-  const bool is_short = next_step < short_step * solid_.time_of_fall();
-  if (long_steps_ && (is_short || solid_.slides()) && solid_.let_fail(time)) {
-    long_steps_ = false;
-  } else if (!is_short) {
-    long_steps_ = true;
-  }
-}
-
-template <int Dim>
-void SolidCoupling<Dim>::refuse_unsolved(double time, const NotConverged& error) const {
-  if (!solid_.moves()) throw NumericalError(error.what());
-  const auto* lost = dynamic_cast<const NoEquilibrium*>(&error);
-  std::ostringstream message;
-  message << "t = " << time << " s: ";
-  if (solid_.has_inertia()) {
-    message << error.what() << ": the motion of the soil that fails has no solution";
-  } else if (lost != nullptr) {
-    message << "the soil has lost its equilibrium: it cannot carry its weight, its loads and the "
-               "pressure of the water any longer"
-            << (lost->worst_node < 0 ? "" : ", least " + node_text(grid_, lost->worst_node))
-            << " (to follow it: time.failure = \"follow\")";
-  } else {
-    message << error.what()
-            << ", however short the step is: soil that yields is about to lose its equilibrium";
-  }
-  throw EquilibriumLost(message.str());
-}
-
-template <int Dim>
-Eigen::VectorXd SolidCoupling<Dim>::undrained_rise(MotionForcing forcing,
-                                                   Eigen::VectorXd rise) const {
-  const std::vector<double> compressibility = solid_.compressibility(forcing.duration);
-  forcing.stiffness.resize(compressibility.size());
+std::optional<Eigen::VectorXd> FlowAndMotion<Dim>::undrained_rise(
+    MotionStep<Dim>& step, const std::vector<double>& pressure, Eigen::VectorXd rise) const {
+  const std::vector<double> compressibility = solid_.compressibility(step.forcing.duration);
+  std::vector<double> stiffness(compressibility.size());
   for (std::size_t e = 0; e < compressibility.size(); ++e) {
     if (compressibility[e] == 0.0) continue;
-    forcing.stiffness[e] = undrained_stiffness * grid_.volume[e] / compressibility[e];
+    stiffness[e] = undrained_stiffness * grid_.volume[e] / compressibility[e];
   }
-  const SolidMotion& motion = solid_.try_motion(forcing);
-  if (!motion.converged) {
-    throw NoEquilibrium("the soil has found no equilibrium", motion.worst_node);
-  }
+  const SolidMotion& motion = solid_.solve(step, pressure, stiffness);
+  if (!motion.converged) return std::nullopt;
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     double growth = 0.0;
     for (int k = 0; k <= Dim; ++k) {
       growth += grid_.element_face_sign[e][k] * motion.face_volume[grid_.element_face[e][k]];
     }
-    rise[e] -= forcing.stiffness[e] * growth / grid_.volume[e];
+    rise[e] -= stiffness[e] * growth / grid_.volume[e];
   }
   return rise;
 }
 
 template <int Dim>
-std::vector<double> SolidCoupling<Dim>::without_air(const SolidMotion& motion,
+std::vector<double> FlowAndMotion<Dim>::without_air(const SolidMotion& motion,
                                                     const ElementField<Dim>& air,
                                                     const FlowCoefficients<Dim>& start,
                                                     FlowForcing<Dim>& forcing) const {
@@ -264,7 +242,7 @@ std::vector<double> SolidCoupling<Dim>::without_air(const SolidMotion& motion,
 }
 
 template <int Dim>
-std::vector<double> SolidCoupling<Dim>::source_of(const std::vector<double>& moved,
+std::vector<double> FlowAndMotion<Dim>::source_of(const std::vector<double>& moved,
                                                   const std::vector<double>& own,
                                                   const std::vector<double>& storage,
                                                   const Eigen::VectorXd& rise, double dt) const {
@@ -303,8 +281,8 @@ std::vector<double> pressure_on_solid(const Grid<Dim>& grid, const FlowSoils<Dim
   return pressure;
 }
 
-template class SolidCoupling<2>;
-template class SolidCoupling<3>;
+template class FlowAndMotion<2>;
+template class FlowAndMotion<3>;
 template std::vector<double> liquid_mass(const Grid<2>&, const FlowCoefficients<2>&,
                                          const ElementField<2>&);
 template std::vector<double> liquid_mass(const Grid<3>&, const FlowCoefficients<3>&,

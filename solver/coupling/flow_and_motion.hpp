@@ -6,49 +6,50 @@
 /// (2011) 1591), the pressures of the elements mixed with those of iterations before (Anderson).
 /// Neither part knows the other.
 
+#include <optional>
 #include <vector>
 
+#include "flow/flow_step.hpp"
 #include "mixed/implicit_mixed.hpp"
-#include "solid/skeleton.hpp"
+#include "motion/moving_skeleton.hpp"
 
 namespace suffuse {
 
-/// The solid has found no equilibrium: in a shorter step it may.
-class NoEquilibrium : public NotConverged {
- public:
-  NoEquilibrium(const std::string& what, int node) : NotConverged(what), worst_node(node) {}
+/// How pressures rise in a step: where the iteration of the next one starts.
+struct PressureRise {
+  std::vector<double> rate;  ///< per face, Pa/s
+  double time = 0.0;         ///< duration of the step, s
 
-  int worst_node;  ///< at which forces are out of balance most; -1: not known
+  void archive(auto& archive) { archive(rate, time); }
+};
+
+/// A step of flow and solid that has been solved for. Neither has changed yet.
+template <int Dim>
+struct CoupledStep {
+  FlowStep<Dim> flow;
+  std::optional<MotionStep<Dim>> motion = {};  ///< none where the solid stays in place
+  PressureRise rise = {};                      ///< in the step found last, or before it
+  long iterations = 0;                         ///< of flow and motion, in all tries
+};
+
+/// The flow at the start of a step.
+template <int Dim>
+struct FlowStart {
+  const MixedState<Dim>& state;
+  const std::vector<double>& pressure;  ///< of the elements, Pa
 };
 
 template <int Dim>
-class SolidCoupling {
+class FlowAndMotion {
  public:
   /// Keeps references.
-  SolidCoupling(const Grid<Dim>& grid, Skeleton<Dim>& solid, int threads)
+  FlowAndMotion(const Grid<Dim>& grid, const MovingSkeleton<Dim>& solid, int threads)
       : grid_(grid), solid_(solid), threads_(threads) {}
 
-  /// One step of `dt`, s, of the flow that `scheme` steps, which ends at `end`, s. `pressure`: of
-  /// the elements at the start, Pa; `porosity`: see MotionForcing. The motion that belongs to it is
-  /// the last one that the solid has tried. Throws NotConverged.
-  MixedStep<Dim> step(ImplicitMixed<Dim>& scheme, const MixedState<Dim>& start,
-                      const std::vector<double>& pressure, std::vector<double> porosity, double end,
-                      double dt, FlowForcing<Dim> forcing);
-
-  /// A step has ended at `time`, s, and the next will be of `next_step`, s. If steps in equilibrium
-  /// get much shorter than the time of a fall, or soil moves as fast as it falls freely, inertia is
-  /// switched on.
-  void watch_steps(double time, double next_step);
-  /// What drives flow or motion changes at once: short steps follow for that reason.
-  void expect_short_steps() { long_steps_ = false; }
-  /// Steps have become too short for what `error` says. Throws EquilibriumLost; NumericalError
-  /// where the soil does not move.
-  [[noreturn]] void refuse_unsolved(double time, const NotConverged& error) const;
-
-  /// Iterations of all steps so far.
-  [[nodiscard]] long iterations() const { return iterations_; }
-
-  void archive(auto& archive) { archive(rise_rate_, rise_time_, iterations_, long_steps_); }
+  /// Finds flow and motion of a step, of which the forcing of the flow and the length are given,
+  /// from what was tried before. Says why where it has no solution.
+  std::optional<Unsolved> solve(ImplicitMixed<Dim>& scheme, const FlowStart<Dim>& start,
+                                MotionForcing forcing, CoupledStep<Dim>& step) const;
 
  private:
   /// Storage of the elements in the iteration in addition to their own, of the soil's
@@ -58,8 +59,8 @@ class SolidCoupling {
                                                  const FlowForcing<Dim>& forcing,
                                                  const std::vector<double>& pressure,
                                                  double dt) const;
-  /// Expected rise of the pressure at faces in a step of `dt`, s, after the steps before it, Pa.
-  [[nodiscard]] Eigen::VectorXd expected_rise(double dt) const;
+  /// Expected rise of the pressure at faces in a step of `dt`, s, after the last one, Pa.
+  [[nodiscard]] Eigen::VectorXd expected_rise(const PressureRise& last, double dt) const;
 
   // What acts on the motion: not the pressure of free water, nor of soil that cannot move. There
   // the held `storage` is 0.
@@ -77,8 +78,10 @@ class SolidCoupling {
   /// the largest pressure `pressure`, Pa; in equilibrium never below `floor`.
   [[nodiscard]] double allowed(double rise, double pressure, double floor) const;
   /// Where drained soil could not bear a load: the pressures if next to no water left, as a start.
-  /// Throws NotConverged.
-  [[nodiscard]] Eigen::VectorXd undrained_rise(MotionForcing forcing, Eigen::VectorXd rise) const;
+  /// None where it could not bear it then either. `pressure`: on the solid, per element, Pa.
+  [[nodiscard]] std::optional<Eigen::VectorXd> undrained_rise(MotionStep<Dim>& step,
+                                                              const std::vector<double>& pressure,
+                                                              Eigen::VectorXd rise) const;
   /// Volume that crosses faces with the motion, without its air. The pores of `forcing` become
   /// those of `start`, grown as solid leaves.
   [[nodiscard]] std::vector<double> without_air(const SolidMotion& motion,
@@ -92,12 +95,8 @@ class SolidCoupling {
                                               const Eigen::VectorXd& rise, double dt) const;
 
   const Grid<Dim>& grid_;
-  Skeleton<Dim>& solid_;
+  const MovingSkeleton<Dim>& solid_;
   int threads_;
-  std::vector<double> rise_rate_;  ///< of the pressure in the last step, per face, Pa/s
-  double rise_time_ = 0.0;         ///< duration of that step, s
-  long iterations_ = 0;
-  bool long_steps_ = false;  ///< there have been some since something changed at once
 };
 
 /// Mass of liquid per volume of soil and element, kg/m3.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "equilibrium/solid_points.hpp"
-#include "solid/skeleton.hpp"
 
 namespace suffuse {
 
@@ -23,14 +22,15 @@ class RepeatedFailure {
   /// The soil has come to rest with its inertia, at `time`, s. `fall`: the time in which it would
   /// fall through its height, s.
   void rests(double time, double fall) { stands_from_ = time + standing * fall; }
-  /// The soil has lost its equilibrium at `time`, s. `size`: of elements, m.
+  /// The soil has lost its equilibrium at `time`, s. `position`: of each point, in an order that
+  /// stays, m; `size`: of elements, m.
   void fails(double time, const std::vector<Vector<Dim>>& position, double size);
-  /// Throws EquilibriumLost where the soil creeps.
+  /// Throws EquilibriumLost: the soil creeps.
   /// \param time  of the last equilibrium, s
-  void refuse_creep(double time, const std::vector<Vector<Dim>>& position) const;
+  [[noreturn]] void refuse_creep(double time, const std::vector<Vector<Dim>>& position) const;
 
-  /// The points have another order: the one that was at order[k] comes to k.
-  void reorder(const std::vector<int>& order) { suffuse::reorder(order, place_); }
+  /// Whether it has lost it so often in a row that it creeps.
+  [[nodiscard]] bool is_creep() const { return count_ > most; }
   void archive(auto& archive) { archive(place_, first_, stands_from_, count_); }
 
  private:

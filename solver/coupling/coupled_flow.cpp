@@ -1,0 +1,158 @@
+#include "coupling/coupled_flow.hpp"
+
+#include <algorithm>
+
+#include "coupling/moved_air.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval) {
+  const PassTimer timer(flow_.timing());
+  const double longest = std::min(interval.longest, solid_.longest_step());
+  const FlowInterval<Dim> ahead{interval.start, interval.latest, longest, interval.pores};
+  CoupledStep<Dim> step{flow_.propose(ahead), std::nullopt, rise_};
+  for (;;) {
+    ++flow_.timing().calls;
+    failure_.refuse_creep(interval.start);
+    flow_.set_forcing(ahead, step.flow);
+    const double end = step.flow.start + step.flow.dt;
+    const std::optional<Unsolved> why =
+        both_.solve(flow_.scheme(), {flow_.mixed_state(), flow_.pressure()},
+                    {.end = end,
+                     .duration = step.flow.dt,
+                     .porosity = interval.pores.of_points_at(end),
+                     .longest_travel = failure_.longest_travel()},
+                    step);
+    if (why && !flow_.is_shortest(step.flow)) {
+      flow_.reject(step.flow);
+    } else if (why) {
+      failure_.step_unsolved(step.flow.start, *why);
+      flow_.follow_inertia(failure_.has_inertia());
+      flow_.plan_anew(ahead, step.flow);
+    } else if (flow_.accepts(ahead, step.flow)) {
+      solid_.check_pores(*step.motion);
+      return step;
+    }
+  }
+}
+
+template <int Dim>
+FlowProgress FlowOfMovingSolid<Dim>::commit(CoupledStep<Dim> step) {
+  const double duration = step.flow.dt;
+  if (failure_.has_inertia()) {
+    failure_.finish_motion(step.motion->forcing.end, duration,
+                           solid_.take_velocities(*step.motion));
+  }
+  const auto [motion, kinetics] = solid_.commit(*std::move(step.motion));
+  move_liquid_along(motion, step.flow);
+  const FlowProgress progress = flow_.commit(std::move(step.flow));
+  failure_.finish_step(progress.end, flow_.next_step(), kinetics);
+  if (flow_.is_breakpoint(progress.end)) failure_.expect_short_steps();
+  flow_.follow_inertia(failure_.has_inertia());
+  rise_ = std::move(step.rise);
+  iterations_ += step.iterations;
+  return progress;
+}
+
+template <int Dim>
+FlowOfMovingSolid<Dim>::FlowOfMovingSolid(const Scene& scene, const Grid<Dim>& grid,
+                                          ImplicitFlow<Dim>& flow, MovingSkeleton<Dim>& solid,
+                                          int threads)
+    : grid_(grid),
+      flow_(flow),
+      solid_(solid),
+      both_(grid, solid, threads),
+      failure_(grid, solid, scene.follows_failure(grid.mesh.region_names)),
+      end_(scene.time.end) {}
+
+template <int Dim>
+void FlowOfMovingSolid<Dim>::start() {
+  const MixedState<Dim>& flow = flow_.mixed_state();
+  const FlowCoefficients<Dim>& coefficients = flow_.coefficients();
+  const std::vector<double> pressure = pressure_on_solid(
+      grid_, flow_.scheme().soils(), flow_.pressure(), coefficients.porosity, flow.air);
+  failure_.start(solid_.start_motion(pressure, liquid_mass(grid_, coefficients, flow.air)));
+  flow_.follow_inertia(failure_.has_inertia());
+  // In a step of the whole run no inertia holds the soil.
+  flow_.start_steps({.load_change = solid_.largest_load_change(),
+                     .stiffness = solid_.stiffness(),
+                     .compressibility = solid_.compressibility(end_),
+                     .time_of_fall = failure_.has_inertia() ? solid_.time_of_fall() : 0.0});
+}
+
+template <int Dim>
+void FlowOfMovingSolid<Dim>::move_liquid_along(const SolidMotion& motion,
+                                               FlowStep<Dim>& flow) const {
+  flow.relative = flow.found.face_volume;
+  const bool has_air = flow_.scheme().soils().air_moves();
+  const ElementField<Dim> air = has_air ? flow_.mixed_state().air : ElementField<Dim>();
+  move_liquid(grid_, motion, air, flow.forcing.back().coefficients.porosity, flow.found);
+  for (const double gain : motion.solid_gain) flow.room_gained.push_back(0.0 - gain);
+}
+
+template <int Dim>
+CoupledFlow<Dim>::CoupledFlow(const Scene& scene, const Grid<Dim>& grid, FlowSolver<Dim>& flow,
+                              MovingSkeleton<Dim>* moving, int threads)
+    : flow_(flow) {
+  if (moving == nullptr) return;
+  moving_ = std::make_unique<FlowOfMovingSolid<Dim>>(
+      scene, grid, dynamic_cast<ImplicitFlow<Dim>&>(flow), *moving, threads);
+}
+
+template <int Dim>
+void CoupledFlow<Dim>::start() {
+  flow_.start();
+  if (moving_) moving_->start();
+}
+
+template <int Dim>
+void CoupledFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
+  flow_.start_from(earlier);
+  if (moving_) moving_->start();
+}
+
+template <int Dim>
+CoupledStep<Dim> CoupledFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
+  if (moving_) return moving_->solve(interval);
+  return {flow_.solve(interval)};
+}
+
+template <int Dim>
+FlowProgress CoupledFlow<Dim>::commit(CoupledStep<Dim> step) {
+  return moving_ ? moving_->commit(std::move(step)) : flow_.commit(std::move(step.flow));
+}
+
+template <int Dim>
+bool CoupledFlow<Dim>::has_inertia() const {
+  return moving_ && moving_->failure().has_inertia();
+}
+
+template <int Dim>
+long CoupledFlow<Dim>::iterations() const {
+  return moving_ ? moving_->iterations() : 0;
+}
+
+template <int Dim>
+std::vector<PassTiming> CoupledFlow<Dim>::passes() const {
+  std::vector<PassTiming> result = flow_.passes();
+  if (moving_) result.push_back({"flow, iterations with the solid", moving_->iterations(), 0.0});
+  return result;
+}
+
+template <int Dim>
+void CoupledFlow<Dim>::describe(HistoryRow& row) const {
+  if (moving_) row.failure_time = moving_->failure().time();
+}
+
+template <int Dim>
+void CoupledFlow<Dim>::archive(StateArchive& archive) {
+  if (moving_) archive(*moving_);
+}
+
+template class FlowOfMovingSolid<2>;
+template class FlowOfMovingSolid<3>;
+template class CoupledFlow<2>;
+template class CoupledFlow<3>;
+
+}  // namespace suffuse

@@ -1,0 +1,81 @@
+#pragma once
+
+/// A step of the flow and of a solid that may move: found together, then taken together. Solid that
+/// finds no equilibrium fails (`Failure`). Where the solid stays in place, the step is the flow's
+/// own.
+
+#include <memory>
+
+#include "coupling/failure.hpp"
+#include "coupling/flow_and_motion.hpp"
+#include "flow/implicit_flow.hpp"
+
+namespace suffuse {
+
+/// Flow and motion of a solid that moves, which needs the implicit flow.
+template <int Dim>
+class FlowOfMovingSolid {
+ public:
+  /// Keeps references.
+  FlowOfMovingSolid(const Scene& scene, const Grid<Dim>& grid, ImplicitFlow<Dim>& flow,
+                    MovingSkeleton<Dim>& solid, int threads);
+
+  /// Finds the stress of the solid at the start, and the first step. The flow has started.
+  void start();
+  CoupledStep<Dim> solve(const FlowInterval<Dim>& interval);
+  FlowProgress commit(CoupledStep<Dim> step);
+
+  [[nodiscard]] const Failure<Dim>& failure() const { return failure_; }
+  /// Iterations between flow and motion since the start.
+  [[nodiscard]] long iterations() const { return iterations_; }
+  void archive(auto& archive) { archive(failure_, rise_, iterations_); }
+
+ private:
+  /// What moves with the solid becomes part of what the step found.
+  void move_liquid_along(const SolidMotion& motion, FlowStep<Dim>& flow) const;
+
+  const Grid<Dim>& grid_;
+  ImplicitFlow<Dim>& flow_;
+  MovingSkeleton<Dim>& solid_;
+  FlowAndMotion<Dim> both_;
+  Failure<Dim> failure_;
+  PressureRise rise_;  ///< in the last step
+  double end_;         ///< of the run, s
+  long iterations_ = 0;
+};
+
+template <int Dim>
+class CoupledFlow {
+ public:
+  /// Keeps references. `moving`: the solid, if it moves; otherwise null. A solid that moves needs
+  /// the implicit flow.
+  CoupledFlow(const Scene& scene, const Grid<Dim>& grid, FlowSolver<Dim>& flow,
+              MovingSkeleton<Dim>* moving, int threads);
+
+  /// The state at the start of the run, or that another run has left. The coefficients of the flow
+  /// come first.
+  void start();
+  void start_from(const EarlierFlow<Dim>& earlier);
+
+  /// Finds a step within the interval. Flow and solid stay as they are. Throws NumericalError;
+  /// EquilibriumLost where soil fails that is not followed.
+  CoupledStep<Dim> solve(const FlowInterval<Dim>& interval);
+  /// Flow and solid become what the step has found.
+  FlowProgress commit(CoupledStep<Dim> step);
+
+  /// Whether soil moves with its inertia, as it lost its equilibrium.
+  [[nodiscard]] bool has_inertia() const;
+  /// Iterations between flow and motion since the start; 0 where the solid stays in place.
+  [[nodiscard]] long iterations() const;
+  /// Calls and seconds of each pass, for run.json.
+  [[nodiscard]] std::vector<PassTiming> passes() const;
+  /// Adds what is known of failures to a row.
+  void describe(HistoryRow& row) const;
+  void archive(StateArchive& archive);
+
+ private:
+  FlowSolver<Dim>& flow_;
+  std::unique_ptr<FlowOfMovingSolid<Dim>> moving_;  ///< null where the solid stays in place
+};
+
+}  // namespace suffuse

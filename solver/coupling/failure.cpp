@@ -1,0 +1,87 @@
+#include "coupling/failure.hpp"
+
+#include <sstream>
+
+namespace suffuse {
+namespace {
+
+/// Shortest step in equilibrium, over the time in which soil falls through an element.
+constexpr double short_step = 1e-2;
+
+}  // namespace
+
+template <int Dim>
+void Failure<Dim>::start_inertia(double time) {
+  solid_.start_inertia();
+  repeated_.fails(time, solid_.places(), solid_.mean_size());
+  time_ = time;
+  rested_ = 0.0;
+}
+
+template <int Dim>
+void Failure<Dim>::start(const StartStress& found) {
+  if (found.stands) return;
+  if (watches()) return start_inertia(0.0);
+  const std::string place =
+      found.worst_node < 0 ? "" : ", least " + node_text(grid_, found.worst_node);
+  throw NumericalError(
+      "the soil has no equilibrium at the start: it cannot carry its weight and the loads at "
+      "t = 0 s" +
+      place +
+      "; give it more strength or stiffness, fix a boundary that it leans on, or let it move "
+      "(time.failure = \"follow\")");
+}
+
+template <int Dim>
+void Failure<Dim>::step_unsolved(double time, const Unsolved& why) {
+  if (!watches()) refuse(time, why);
+  start_inertia(time);
+}
+
+template <int Dim>
+void Failure<Dim>::finish_step(double time, double next_step, const SoilKinetics& soil) {
+  const bool is_short = next_step < short_step * solid_.time_of_fall();
+  if (long_steps_ && watches() && (is_short || soil.is_slide())) {
+    start_inertia(time);
+    long_steps_ = false;
+  } else if (!is_short) {
+    long_steps_ = true;
+  }
+}
+
+template <int Dim>
+void Failure<Dim>::finish_motion(double time, double duration, const SoilKinetics& soil) {
+  rested_ = soil.is_rest() ? rested_ + duration : 0.0;
+  const double fall = soil.soil.time_of_fall();
+  if (rested_ <= fall) return;
+  solid_.end_inertia();
+  repeated_.rests(time, fall);
+}
+
+template <int Dim>
+void Failure<Dim>::refuse_creep(double time) const {
+  if (has_inertia() && repeated_.is_creep()) repeated_.refuse_creep(time, solid_.places());
+}
+
+template <int Dim>
+void Failure<Dim>::refuse(double time, const Unsolved& why) const {
+  std::ostringstream message;
+  message << "t = " << time << " s: ";
+  if (has_inertia()) {
+    message << why.text << ": the motion of the soil that fails has no solution";
+  } else if (why.no_equilibrium) {
+    message << "the soil has lost its equilibrium: it cannot carry its weight, its loads and the "
+               "pressure of the water any longer"
+            << (why.worst_node < 0 ? "" : ", least " + node_text(grid_, why.worst_node))
+            << " (to follow it: time.failure = \"follow\")";
+  } else {
+    message << why.text
+            << ", however short the step is: soil that yields is about to lose its equilibrium";
+  }
+  throw EquilibriumLost(message.str());
+}
+
+template class Failure<2>;
+template class Failure<3>;
+
+}  // namespace suffuse
