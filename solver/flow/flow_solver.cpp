@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "common/errors.hpp"
-#include "grid/compensated_sum.hpp"
 #include "grid/parallel.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
@@ -202,57 +201,6 @@ void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) con
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (faces[i] > 0) node_pressure[i] = prescribed[i] / faces[i];
   }
-}
-
-template <int Dim>
-void FlowSolver<Dim>::describe(const FlowState<Dim>& state, HistoryRow& row) const {
-  row.dt = state.dt;
-  row.eos_error = state.eos_error;
-  row.pressure_overshoot = state.pressure_overshoot;
-  row.fines_weight_share = fines_weight_share(state);
-  CompensatedSum in;
-  CompensatedSum out;
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    if (!grid_.is_border(f)) continue;
-    const double flux = state.face_flux[f];
-    if (flux < 0.0) in.add(-flux);
-    if (flux > 0.0) out.add(flux);
-  }
-  row.flux_in = in.value();
-  row.flux_out = out.value();
-  // At the nodes: pressures of single elements may have patterns that exert no force.
-  const std::vector<double>& pressure = state.node_pressure;
-  const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
-  row.pressure_min = *low;
-  row.pressure_max = *high;
-  double square = 0.0;
-  double volume = 0.0;
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    double smooth = 0.0;
-    for (const int i : grid_.mesh.elements[e]) smooth += pressure[i] / (Dim + 1);
-    const double off = state.pressure[e] - smooth;
-    square += grid_.volume[e] * off * off;
-    volume += grid_.volume[e];
-  }
-  row.pressure_scatter = std::sqrt(square / volume);
-  for (const Vector<Dim>& v : state.velocity) row.speed_max = std::max(row.speed_max, v.norm());
-}
-
-template <int Dim>
-double FlowSolver<Dim>::fines_weight_share(const FlowState<Dim>& state) const {
-  if (gravity().norm() == 0.0) return 0.0;
-  const std::vector<Vector<Dim>> flux = element_flux(grid_, state.face_flux);
-  double weight = 0.0;  // W
-  double spent = 0.0;   // W, by drag
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const double excess = coefficients_.mixture_density[e] - scene_.liquid.density;
-    double resistance = coefficients_.drag[e] / coefficients_.porosity[e];
-    if (!state.relative_conductivity.empty()) resistance /= state.relative_conductivity[e];
-    if (has_ergun()) resistance += coefficients_.quadratic_drag[e] * flux[e].norm();
-    weight += grid_.volume[e] * excess * gravity().dot(flux[e]);
-    spent += grid_.volume[e] * resistance * flux[e].squaredNorm();
-  }
-  return spent > 0.0 ? weight / spent : 0.0;
 }
 
 template <int Dim>

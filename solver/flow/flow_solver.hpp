@@ -52,11 +52,7 @@ struct EarlierFlow {
   /// Pressures at the centres of faces, Pa.
   [[nodiscard]] std::vector<double> face_pressure(const Grid<Dim>& grid) const;
   /// Per element, m3; empty as `air`.
-  [[nodiscard]] std::vector<double> air_volume() const {
-    std::vector<double> result;
-    for (const ElementValues<Dim>& sides : air) result.push_back(element_sum<Dim>(sides));
-    return result;
-  }
+  [[nodiscard]] std::vector<double> air_volume() const { return element_sums<Dim>(air); }
 };
 
 /// How the plan of a run wants the flow stepped.
@@ -142,15 +138,6 @@ class FlowSolver {
 
   /// Stores or restores everything that later steps depend on, after `start`.
   virtual void archive(StateArchive& archive);
-
-  /// Writes what a row of history.csv says of the flow: fluxes through the outer boundary, extreme
-  /// pressures and speeds, errors.
-  void describe(const FlowState<Dim>& state, HistoryRow& row) const;
-
-  /// Share of the power that drives the flow of `state`, through boundaries and by gravity, that
-  /// the weight of the fines in the liquid gives; negative where the flow lifts them. 0 of liquid
-  /// at rest.
-  [[nodiscard]] double fines_weight_share(const FlowState<Dim>& state) const;
 
   /// Adds a warning where soil without a retention is under suction, once; `time` in s. Without
   /// gravity a pressure may be negative anyway.

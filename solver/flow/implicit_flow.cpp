@@ -23,6 +23,19 @@ void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahea
   }
 }
 
+/// Power that drag takes in each element, W.
+template <int Dim>
+std::vector<double> drag_losses(const Grid<Dim>& grid, const std::vector<double>& face_flux,
+                                const FlowCoefficients<Dim>& coefficients) {
+  std::vector<double> result;
+  for (const Vector<Dim>& flux : element_flux(grid, face_flux)) {
+    const std::size_t e = result.size();
+    const double drag = coefficients.drag[e] / coefficients.porosity[e];
+    result.push_back(drag * flux.squaredNorm() * grid.volume[e]);
+  }
+  return result;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -267,24 +280,18 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
     // Resistances were right at the start of the step: their mean error is half that at its end.
-    const double error = blending_.learn(this->coefficients_, dt, weight, losses());
+    // Where the liquid's viscosity follows a front of fines, the resistance of an element that the
+    // front crosses counts by the power that it takes.
+    std::vector<double> losses;
+    if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
+      losses = drag_losses(this->grid(), now_.face_flux, this->coefficients_);
+    }
+    const double error = blending_.learn(this->coefficients_, dt, weight, losses);
     // Soil that fails changes them by its motion, of which nothing is expected.
     const bool shown = solid_has_inertia_ || scheme_.soils().air_moves();
     if (!shown) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
-}
-
-template <int Dim>
-std::vector<double> ImplicitFlow<Dim>::losses() const {
-  std::vector<double> result;
-  if (!this->scene().liquid.viscosity_model.depends_on_concentration()) return result;
-  for (const Vector<Dim>& flux : element_flux(this->grid(), now_.face_flux)) {
-    const std::size_t e = result.size();
-    const double drag = this->coefficients_.drag[e] / this->coefficients_.porosity[e];
-    result.push_back(drag * flux.squaredNorm() * this->grid().volume[e]);
-  }
-  return result;
 }
 
 template <int Dim>
@@ -298,13 +305,6 @@ double ImplicitFlow<Dim>::filling_time() const {
     }
   }
   return smallest / largest_magnitude(now_.face_flux);
-}
-
-template <int Dim>
-std::vector<double> ImplicitFlow<Dim>::air() const {
-  std::vector<double> result;
-  for (const ElementValues<Dim>& sides : now_.state.air) result.push_back(element_sum<Dim>(sides));
-  return result;
 }
 
 template <int Dim>

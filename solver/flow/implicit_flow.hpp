@@ -83,7 +83,9 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   }
 
   [[nodiscard]] const std::vector<double>& pressure() const override { return pressure_; }
-  [[nodiscard]] std::vector<double> air() const override;
+  [[nodiscard]] std::vector<double> air() const override {
+    return element_sums<Dim>(now_.state.air);
+  }
   [[nodiscard]] ElementField<Dim> air_at_sides() const override { return now_.state.air; }
   /// Where an element's water does not fit its pores at its pressure, the next steps let it out.
   void match_masses(double time, const std::vector<double>& water_mass) override;
@@ -109,8 +111,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Whether the flow has no start-up: of water without compressibility and inertia.
   [[nodiscard]] bool flows_at_once() const;
   [[nodiscard]] bool starts_at_rest() const;
-  /// Volume by which an element's water grows beyond what its pores take at its pressure, m3.
-  [[nodiscard]] std::vector<double> expansion_in(const MixedStep<Dim>& step) const;
   /// Volume per element, m3, that a step of `dt` would have to let out in addition. Empty where the
   /// step is short or lets out enough.
   [[nodiscard]] std::vector<double> excess_in(const MixedStep<Dim>& step, double dt) const;
@@ -134,8 +134,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// From here on the flow is reused, if it has become steady and nothing that drives it will
   /// change by itself.
   void reuse_if_steady(double time);
-  /// Throws NumericalError: this mass of water, kg, is not what the element's pores take.
-  [[noreturn]] void refuse_misfit(std::size_t element, double time, double water_mass) const;
   /// Solves the steady flow again where its sources have changed.
   void update_steady_flow();
   /// Solves the steady flow with this source, m3/s per element. Where that changes the flow by too
@@ -155,9 +153,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// of this length the flow is the one right after the start. Infinite where nothing delays it.
   /// `soil_storage`: see `fastest_rate`.
   [[nodiscard]] double shortest_change(const std::vector<double>& soil_storage) const;
-  /// Power that drag takes in each element, W, where the liquid's viscosity follows a front of
-  /// fines: the resistance of an element that the front crosses counts by as much. Else empty.
-  [[nodiscard]] std::vector<double> losses() const;
 
   FlowOptions options_;
   const Skeleton<Dim>& solid_;

@@ -14,6 +14,20 @@ namespace {
 /// element.
 constexpr double first_step_of_fall = 1e-2;
 
+/// The flow that another run has left.
+template <int Dim>
+MixedFlow<Dim> flow_of(const EarlierFlow<Dim>& earlier, const Grid<Dim>& grid,
+                       const std::vector<FaceCondition>& conditions,
+                       const std::vector<double>& porosity) {
+  MixedFlow<Dim> flow = flow_at_rest(grid, conditions, earlier.face_pressure(grid));
+  flow.face_flux = flow.flux_through = earlier.state.face_flux;
+  flow.state.velocity = element_flux(grid, flow.face_flux);
+  for (std::size_t e = 0; e < flow.state.velocity.size(); ++e) {
+    flow.state.velocity[e] /= porosity[e];
+  }
+  return flow;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -23,14 +37,8 @@ void ImplicitFlow<Dim>::start() {
 
 template <int Dim>
 void ImplicitFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
-  const Grid<Dim>& grid = this->grid();
-  MixedFlow<Dim> flow = flow_at_rest(grid, this->conditions_, earlier.face_pressure(grid));
-  flow.face_flux = flow.flux_through = earlier.state.face_flux;
-  flow.state.velocity = element_flux(grid, flow.face_flux);
-  for (std::size_t e = 0; e < flow.state.velocity.size(); ++e) {
-    flow.state.velocity[e] /= this->coefficients_.porosity[e];
-  }
-  start_with(std::move(flow), &earlier.air);
+  start_with(flow_of(earlier, this->grid(), this->conditions_, this->coefficients_.porosity),
+             &earlier.air);
 }
 
 template <int Dim>

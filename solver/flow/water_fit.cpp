@@ -22,33 +22,49 @@ void let_out(const std::vector<double>& volume, double dt, std::vector<double>& 
   for (std::size_t e = 0; e < volume.size(); ++e) source[e] += volume[e] / dt;
 }
 
-}  // namespace
-
+/// Volume by which an element's water grows beyond what its pores take at its pressure, in a step
+/// that starts from these pressures at faces and, per element, `pressure`, Pa; m3.
 template <int Dim>
-std::vector<double> ImplicitFlow<Dim>::expansion_in(const MixedStep<Dim>& step) const {
-  const Grid<Dim>& grid = this->grid();
-  const double bulk_modulus = this->scene().liquid.bulk_modulus;
+std::vector<double> expansion_in(const MixedStep<Dim>& step, const Grid<Dim>& grid,
+                                 const FlowCoefficients<Dim>& coefficients,
+                                 const std::vector<double>& face_pressure,
+                                 const std::vector<double>& pressure, double bulk_modulus,
+                                 int threads) {
   const FaceVolumes volumes =
-      face_volumes(grid, now_.state.face_pressure, pressure_, step, bulk_modulus, this->threads());
-  const std::vector<double> end = element_pressure(grid, step.end.face_pressure, this->threads());
+      face_volumes(grid, face_pressure, pressure, step, bulk_modulus, threads);
+  const std::vector<double> end = element_pressure(grid, step.end.face_pressure, threads);
   std::vector<double> result(grid.mesh.element_count());
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     double mass = 0.0;  // over the reference density, m3
     double fines = 0.0;
     for (int k = 0; k <= Dim; ++k) {
       const int f = grid.element_face[e][k];
-      const double c = this->coefficients_.face_concentration[f];
+      const double c = coefficients.face_concentration[f];
       const double sign = grid.element_face_sign[e][k];
       mass -= sign * (1.0 - c) * (volumes.liquid[f] + volumes.density_excess[f]);
       fines += sign * c * volumes.liquid[f];
     }
     const double last = density_ratio(end[e], bulk_modulus);
     const double pressed =
-        this->coefficients_.water_volume[e] * std::expm1((end[e] - pressure_[e]) / bulk_modulus);
+        coefficients.water_volume[e] * std::expm1((end[e] - pressure[e]) / bulk_modulus);
     result[e] = mass / last - pressed - fines;
   }
   return result;
 }
+
+/// Throws NumericalError: this mass of water, kg, is not the one that fits the element's pores.
+template <int Dim>
+[[noreturn]] void refuse_misfit(const Grid<Dim>& grid, std::size_t element, double time,
+                                double water_mass, double fits, double pressure) {
+  std::ostringstream message;
+  message << element_text(grid, static_cast<int>(element)) << " holds " << water_mass
+          << " kg of water at t = " << time << " s; its pores take " << fits << " kg at "
+          << pressure << " Pa, and up to " << max_eos_error
+          << " of what the pores hold may differ; take a smaller time.tolerance or time.step";
+  throw NumericalError(message.str());
+}
+
+}  // namespace
 
 template <int Dim>
 std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, double dt) const {
@@ -59,7 +75,9 @@ std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, dou
   // The flux of the step itself counts: a flow from rest has none at its start.
   const double passes = largest_magnitude(step.face_volume) / std::ranges::min(holds);
   if (passes < implicit_thresholds.expansion_time) return {};
-  std::vector<double> excess = expansion_in(step);
+  std::vector<double> excess =
+      expansion_in(step, this->grid(), this->coefficients_, now_.state.face_pressure, pressure_,
+                   this->scene().liquid.bulk_modulus, this->threads());
   const std::vector<double> released = relaxation_.released(dt, filling_time());
   double largest = 0.0;
   for (std::size_t e = 0; e < excess.size(); ++e) {
@@ -128,19 +146,6 @@ void ImplicitFlow<Dim>::update_steady_flow() {
 }
 
 template <int Dim>
-void ImplicitFlow<Dim>::refuse_misfit(std::size_t element, double time, double water_mass) const {
-  const LiquidProperties& liquid = this->scene().liquid;
-  const double fits = liquid.density * this->coefficients_.water_volume[element] *
-                      density_ratio(pressure_[element], liquid.bulk_modulus);
-  std::ostringstream message;
-  message << element_text(this->grid(), static_cast<int>(element)) << " holds " << water_mass
-          << " kg of water at t = " << time << " s; its pores take " << fits << " kg at "
-          << pressure_[element] << " Pa, and up to " << max_eos_error
-          << " of what the pores hold may differ; take a smaller time.tolerance or time.step";
-  throw NumericalError(message.str());
-}
-
-template <int Dim>
 void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& water_mass) {
   const LiquidProperties& liquid = this->scene().liquid;
   const std::vector<double>& volume = this->coefficients_.water_volume;
@@ -162,7 +167,11 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
     }
   }
   const bool air_fits = scheme_.soils().air_moves();
-  if (!air_fits && eos_error_ > max_eos_error) refuse_misfit(worst, time, water_mass[worst]);
+  if (!air_fits && eos_error_ > max_eos_error) {
+    const double fits =
+        liquid.density * volume[worst] * density_ratio(pressure_[worst], liquid.bulk_modulus);
+    refuse_misfit(this->grid(), worst, time, water_mass[worst], fits, pressure_[worst]);
+  }
   // Water without compressibility fits by construction; its round-off has nowhere to go.
   // Air that moves with the soil takes the place of what does not fit.
   if (std::isinf(liquid.bulk_modulus) || air_fits) return;

@@ -7,6 +7,29 @@
 namespace suffuse {
 namespace {
 
+/// Share of the power that drives the flow, through boundaries and by gravity, that the weight of
+/// the fines in the liquid gives; negative where the flow lifts them. 0 of liquid at rest.
+template <int Dim>
+double fines_weight_share(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                          const FlowState<Dim>& state, const Scene& scene) {
+  if (!has_gravity(scene.gravity)) return 0.0;
+  Vector<Dim> gravity;
+  for (int d = 0; d < Dim; ++d) gravity[d] = scene.gravity[d];
+  const std::vector<Vector<Dim>> flux = element_flux(grid, state.face_flux);
+  double weight = 0.0;  // W
+  double spent = 0.0;   // W, by drag
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double excess = coefficients.mixture_density[e] - scene.liquid.density;
+    double resistance = coefficients.drag[e] / coefficients.porosity[e];
+    if (!state.relative_conductivity.empty()) resistance /= state.relative_conductivity[e];
+    if (!coefficients.quadratic_drag.empty())
+      resistance += coefficients.quadratic_drag[e] * flux[e].norm();
+    weight += grid.volume[e] * excess * gravity.dot(flux[e]);
+    spent += grid.volume[e] * resistance * flux[e].squaredNorm();
+  }
+  return spent > 0.0 ? weight / spent : 0.0;
+}
+
 /// Pa/m
 template <int Dim>
 Vector<Dim> pressure_gradient(const Grid<Dim>& grid, const FlowState<Dim>& flow, int element) {
@@ -63,11 +86,50 @@ SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
   return {now.value(), initial.value()};
 }
 
+template <int Dim>
+void describe_flow(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                   const FlowState<Dim>& state, const Scene& scene, HistoryRow& row) {
+  row.dt = state.dt;
+  row.eos_error = state.eos_error;
+  row.pressure_overshoot = state.pressure_overshoot;
+  row.fines_weight_share = fines_weight_share(grid, coefficients, state, scene);
+  CompensatedSum in;
+  CompensatedSum out;
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (!grid.is_border(f)) continue;
+    const double flux = state.face_flux[f];
+    if (flux < 0.0) in.add(-flux);
+    if (flux > 0.0) out.add(flux);
+  }
+  row.flux_in = in.value();
+  row.flux_out = out.value();
+  // At the nodes: pressures of single elements may have patterns that exert no force.
+  const std::vector<double>& pressure = state.node_pressure;
+  const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
+  row.pressure_min = *low;
+  row.pressure_max = *high;
+  double square = 0.0;
+  double volume = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    double smooth = 0.0;
+    for (const int i : grid.mesh.elements[e]) smooth += pressure[i] / (Dim + 1);
+    const double off = state.pressure[e] - smooth;
+    square += grid.volume[e] * off * off;
+    volume += grid.volume[e];
+  }
+  row.pressure_scatter = std::sqrt(square / volume);
+  for (const Vector<Dim>& v : state.velocity) row.speed_max = std::max(row.speed_max, v.norm());
+}
+
 template VectorField<2> hydraulic_gradient(const Grid<2>&, const FlowState<2>&, const Scene&);
 template SeepagePower seepage_power(const Grid<2>&, const SoilMap<2>&, const FlowState<2>&,
                                     const Scene&);
 template VectorField<3> hydraulic_gradient(const Grid<3>&, const FlowState<3>&, const Scene&);
 template SeepagePower seepage_power(const Grid<3>&, const SoilMap<3>&, const FlowState<3>&,
                                     const Scene&);
+template void describe_flow(const Grid<2>&, const FlowCoefficients<2>&, const FlowState<2>&,
+                            const Scene&, HistoryRow&);
+template void describe_flow(const Grid<3>&, const FlowCoefficients<3>&, const FlowState<3>&,
+                            const Scene&, HistoryRow&);
 
 }  // namespace suffuse

@@ -1,7 +1,9 @@
 #pragma once
 
-/// How strongly water seeps: hydraulic gradients, and the power that it spends on the soil.
+/// What results say of the flow as a whole: fluxes and extremes, hydraulic gradients, and the power
+/// that water spends on the soil.
 
+#include "files/tables.hpp"
 #include "flow/flow_solver.hpp"
 #include "scene/scene.hpp"
 #include "solid/soil_map.hpp"
@@ -14,6 +16,12 @@ namespace suffuse {
 template <int Dim>
 VectorField<Dim> hydraulic_gradient(const Grid<Dim>& grid, const FlowState<Dim>& flow,
                                     const Scene& scene);
+
+/// Writes what a row of history.csv says of the flow: fluxes through the outer boundary, extreme
+/// pressures and speeds, errors, the share of the fines' weight in what drives it.
+template <int Dim>
+void describe_flow(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                   const FlowState<Dim>& state, const Scene& scene, HistoryRow& row);
 
 /// Power that water spends on soil, W (per metre of thickness in 2D).
 struct SeepagePower {

@@ -143,7 +143,7 @@ template <int Dim>
 HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const {
   HistoryRow row;
   row.t = time_;
-  flow_->describe(flow, row);
+  describe_flow(grid_, flow_->coefficients(), flow, scene(), row);
   // Over soils that exchange fines, or over all of them where none does.
   const MaterialPoints<Dim>& points = soils_.points();
   const bool any_changes = soils_.erodes() || soils_.deposits();

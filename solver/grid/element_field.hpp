@@ -68,4 +68,13 @@ double element_sum(const ElementValues<Dim>& values) {
   return sum;
 }
 
+/// That of each element.
+template <int Dim>
+std::vector<double> element_sums(const ElementField<Dim>& field) {
+  std::vector<double> result;
+  result.reserve(field.size());
+  for (const ElementValues<Dim>& values : field) result.push_back(element_sum<Dim>(values));
+  return result;
+}
+
 }  // namespace suffuse

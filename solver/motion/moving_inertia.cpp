@@ -8,6 +8,34 @@
 #include "physics/head.hpp"
 
 namespace suffuse {
+namespace {
+
+/// What the motion of soil is compared with.
+/// \param mass  what counts for inertia, kg per point
+template <int Dim>
+SoilExtent extent_of(const SolidPoints<Dim>& points, const Supports<Dim>& supports,
+                     const Scene& scene, const std::vector<double>& mass,
+                     const NodeVectors<Dim>& loads) {
+  SoilExtent extent;
+  for (const double m : mass) extent.mass += m;
+  extent.load = acceleration(scene.gravity) * extent.mass;
+  if (!has_gravity(scene.gravity)) {
+    for (const Vector<Dim>& force : loads) extent.load += force.norm();
+  }
+  const Vector<Dim> down = downwards<Dim>(scene.gravity);
+  int low = -1;
+  int high = -1;
+  for (int p = 0; p < points.size(); ++p) {
+    if (supports.is_rigid(points.element[p])) continue;
+    const double depth = points.position[p].dot(down);
+    if (low < 0 || depth < points.position[low].dot(down)) low = p;
+    if (high < 0 || depth >= points.position[high].dot(down)) high = p;
+  }
+  if (low >= 0) extent.height = (points.position[high] - points.position[low]).dot(down);
+  return extent;
+}
+
+}  // namespace
 
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::node_masses() const {
@@ -58,29 +86,6 @@ double MovingSkeleton<Dim>::time_of_fall() const {
 }
 
 template <int Dim>
-SoilExtent MovingSkeleton<Dim>::extent(const std::vector<double>& mass,
-                                       const NodeVectors<Dim>& loads) const {
-  const Scene& scene = this->soils().scene();
-  SoilExtent extent;
-  for (const double m : mass) extent.mass += m;
-  extent.load = acceleration(scene.gravity) * extent.mass;
-  if (!has_gravity(scene.gravity)) {
-    for (const Vector<Dim>& force : loads) extent.load += force.norm();
-  }
-  const Vector<Dim> down = downwards<Dim>(scene.gravity);
-  int low = -1;
-  int high = -1;
-  for (int p = 0; p < points_.size(); ++p) {
-    if (supports_.is_rigid(points_.element[p])) continue;
-    const double depth = points_.position[p].dot(down);
-    if (low < 0 || depth < points_.position[low].dot(down)) low = p;
-    if (high < 0 || depth >= points_.position[high].dot(down)) high = p;
-  }
-  if (low >= 0) extent.height = (points_.position[high] - points_.position[low]).dot(down);
-  return extent;
-}
-
-template <int Dim>
 SoilKinetics MovingSkeleton<Dim>::kinetics(const MotionStep<Dim>& step,
                                            const std::vector<Vector<Dim>>& before) const {
   const std::vector<double> mass = moved_masses(step);
@@ -89,7 +94,8 @@ SoilKinetics MovingSkeleton<Dim>::kinetics(const MotionStep<Dim>& step,
   for (int p = 0; p < points_.size(); ++p) {
     sum += mass[p] * (points_.position[p] - before[p]).squaredNorm();
   }
-  return {.energy = 0.5 * sum / (duration * duration), .soil = extent(mass, step.loads)};
+  return {.energy = 0.5 * sum / (duration * duration),
+          .soil = extent_of(points_, supports_, this->soils().scene(), mass, step.loads)};
 }
 
 template <int Dim>
@@ -105,7 +111,7 @@ SoilKinetics MovingSkeleton<Dim>::take_velocities(const MotionStep<Dim>& step) {
   const double energy =
       inertia_.take(this->grid_, points_, step.nodes, step.equilibrium->displacement(), step.mass,
                     step.forcing.duration, step.motion.travel, share);
-  return {energy, share, extent(step.mass, step.loads)};
+  return {energy, share, extent_of(points_, supports_, scene, step.mass, step.loads)};
 }
 
 template <int Dim>

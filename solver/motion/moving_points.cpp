@@ -7,9 +7,50 @@
 #include "equilibrium/compressed_soil.hpp"
 #include "equilibrium/loads.hpp"
 #include "grid/parallel.hpp"
+#include "motion/element_stiffness.hpp"
 #include "motion/moving_skeleton.hpp"
 
 namespace suffuse {
+namespace {
+
+/// What a snapshot shows of points, in their order.
+template <int Dim>
+struct ShownPoints {
+  const SolidPoints<Dim>& points;
+  const std::vector<Vector<Dim>>& start;  ///< m
+  const std::vector<int>& id;
+  std::vector<Eigen::Matrix3d> stress;  ///< Pa
+  std::vector<double> fines_left;
+};
+
+template <int Dim>
+void show(const ShownPoints<Dim>& shown, Snapshot& snapshot) {
+  const SolidPoints<Dim>& points = shown.points;
+  Field displacement{"displacement", "m", Dim, {}};
+  Field stress{"effective_stress", "Pa", Dim == 2 ? 4 : 6, {}};
+  Field plastic{"plastic_strain", "1", 1, points.plastic_strain};
+  Field fines{"fines_left", "1", 1, shown.fines_left};
+  Field volume{"volume", Dim == 2 ? "m3/m" : "m3", 1, points.volume};
+  Field element{"element", "1", 1, {points.element.begin(), points.element.end()}, true};
+  Field id{"id", "1", 1, {shown.id.begin(), shown.id.end()}, true};
+  const auto add = [](std::vector<double>& values, const auto& more) {
+    values.insert(values.end(), more.begin(), more.end());
+  };
+  for (int p = 0; p < points.size(); ++p) {
+    add(displacement.values, Vector<Dim>(points.position[p] - shown.start[p]));
+    const Eigen::Matrix3d& s = shown.stress[p];
+    add(stress.values, std::array{s(0, 0), s(1, 1), s(2, 2), s(0, 1)});
+    if (Dim == 3) add(stress.values, std::array{s(1, 2), s(0, 2)});
+    for (int d = 0; d < 3; ++d) {
+      snapshot.solid_positions.push_back(d < Dim ? points.position[p][d] : 0.0);
+    }
+  }
+  for (Field* field : {&displacement, &stress, &plastic, &fines, &volume, &element, &id}) {
+    snapshot.solid.push_back(std::move(*field));
+  }
+}
+
+}  // namespace
 
 template <int Dim>
 void MovingSkeleton<Dim>::check_pores(const MotionStep<Dim>& step) const {
@@ -59,15 +100,7 @@ void MovingSkeleton<Dim>::find_filling() {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
   // Carried to nodes and back: the points in an element would make the drag jump as they leave it.
-  const std::vector<double> volume = smooth(points_.volume);
-  const std::vector<double> solid = smooth(solid_volumes());
-  filling_.assign(solid_.size(), {});
-  for (std::size_t e = 0; e < solid_.size(); ++e) {
-    if (classes.full[e] == 1.0) continue;
-    const double share = std::min(1.0, volume[e] / this->grid_.volume[e]);
-    filling_[e] = {std::lerp(share, 1.0, classes.full[e]),
-                   volume[e] > 0.0 ? 1.0 - solid[e] / volume[e] : 1.0};
-  }
+  filling_ = soil_filling(this->grid_, classes, smooth(points_.volume), smooth(solid_volumes()));
 }
 
 // ---------------------------------------------------------------------------------------- results
@@ -88,29 +121,12 @@ void MovingSkeleton<Dim>::describe(HistoryRow& row) const {
 
 template <int Dim>
 void MovingSkeleton<Dim>::describe(Snapshot& snapshot) const {
-  Field displacement{"displacement", "m", Dim, {}};
-  Field stress{"effective_stress", "Pa", Dim == 2 ? 4 : 6, {}};
-  Field plastic{"plastic_strain", "1", 1, points_.plastic_strain};
-  Field fines{"fines_left", "1", 1, {}};
-  Field volume{"volume", Dim == 2 ? "m3/m" : "m3", 1, points_.volume};
-  Field element{"element", "1", 1, {points_.element.begin(), points_.element.end()}, true};
-  Field id{"id", "1", 1, {id_.begin(), id_.end()}, true};
-  const auto add = [](std::vector<double>& values, const auto& more) {
-    values.insert(values.end(), more.begin(), more.end());
-  };
+  ShownPoints<Dim> shown{points_, start_, id_, {}, {}};
   for (int p = 0; p < points_.size(); ++p) {
-    add(displacement.values, Vector<Dim>(points_.position[p] - start_[p]));
-    const Eigen::Matrix3d s = effective_stress(p);
-    add(stress.values, std::array{s(0, 0), s(1, 1), s(2, 2), s(0, 1)});
-    if (Dim == 3) add(stress.values, std::array{s(1, 2), s(0, 2)});
-    fines.values.push_back(fines_left(p));
-    for (int d = 0; d < 3; ++d) {
-      snapshot.solid_positions.push_back(d < Dim ? points_.position[p][d] : 0.0);
-    }
+    shown.stress.push_back(effective_stress(p));
+    shown.fines_left.push_back(fines_left(p));
   }
-  for (Field* field : {&displacement, &stress, &plastic, &fines, &volume, &element, &id}) {
-    snapshot.solid.push_back(std::move(*field));
-  }
+  show(shown, snapshot);
 }
 
 template class MovingSkeleton<2>;

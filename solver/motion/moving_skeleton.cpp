@@ -9,6 +9,7 @@
 #include "equilibrium/start_stress.hpp"
 #include "grid/parallel.hpp"
 #include "motion/element_gains.hpp"
+#include "motion/element_stiffness.hpp"
 #include "motion/point_motion.hpp"
 #include "physics/head.hpp"
 #include "solid/pores.hpp"
@@ -24,6 +25,14 @@ SolidPoints<Dim> points_of(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& poi
     places.push_back({points.element[p], points.barycentric[p]});
   }
   return {mesh, places, points.volume};
+}
+
+/// Volume that points lose until they have another porosity, m3; empty where that is empty.
+std::vector<double> losses(const std::vector<double>& volume, const std::vector<double>& porosity,
+                           const std::vector<double>& later) {
+  std::vector<double> loss(later.size());
+  for (std::size_t p = 0; p < loss.size(); ++p) loss[p] = volume[p] * (later[p] - porosity[p]);
+  return loss;
 }
 
 }  // namespace
@@ -149,41 +158,24 @@ Eigen::Matrix3d MovingSkeleton<Dim>::effective_stress(int point) const {
 }
 
 template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::drained_compressibility() const {
-  const Mesh<Dim>& mesh = this->grid_.mesh;
-  std::vector<double> stiffness(solid_.size(), 0.0);
-  std::vector<double> volume(solid_.size(), 0.0);
-  std::vector<char> at_soil(mesh.node_count(), 0);
-  double softest = std::numeric_limits<double>::infinity();
+std::vector<double> MovingSkeleton<Dim>::moduli() const {
+  std::vector<double> result(points_.size(), 0.0);
   for (int p = 0; p < points_.size(); ++p) {
     if (!this->soils().soil_of_point(p).skeleton.moves()) continue;
-    const int e = points_.element[p];
-    const double modulus = skeleton_of(p, fines_left(p)).parameters.oedometer_modulus();
-    softest = std::min(softest, modulus);
-    stiffness[e] += points_.volume[p] * modulus;
-    volume[e] += points_.volume[p];
-    for (const int i : mesh.elements[e]) at_soil[i] = 1;
-  }
-  std::vector<double> result(solid_.size(), 0.0);
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    if (volume[e] > 0.0) {
-      result[e] = this->grid_.volume[e] * volume[e] / stiffness[e];
-    } else if (has_free_water_ &&
-               std::ranges::any_of(mesh.elements[e], [&](int i) { return at_soil[i] != 0; })) {
-      result[e] = this->grid_.volume[e] / softest;
-    }
+    result[p] = skeleton_of(p, fines_left(p)).parameters.oedometer_modulus();
   }
   return result;
 }
 
 template <int Dim>
 double MovingSkeleton<Dim>::stiffness() const {
-  double largest = 0.0;
-  for (int p = 0; p < points_.size(); ++p) {
-    if (!this->soils().soil_of_point(p).skeleton.moves()) continue;
-    largest = std::max(largest, skeleton_of(p, fines_left(p)).parameters.oedometer_modulus());
-  }
-  return largest;
+  const std::vector<double> modulus = moduli();
+  return modulus.empty() ? 0.0 : std::ranges::max(modulus);
+}
+
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::drained_compressibility() const {
+  return suffuse::drained_compressibility(this->grid_, points_, moduli(), has_free_water_);
 }
 
 template <int Dim>
@@ -232,18 +224,9 @@ StartStress MovingSkeleton<Dim>::start_motion(const std::vector<double>& pressur
 }
 
 template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::losses(const std::vector<double>& porosity) const {
-  std::vector<double> loss(porosity.size());
-  for (std::size_t p = 0; p < loss.size(); ++p) {
-    loss[p] = points_.volume[p] * (porosity[p] - this->porosity_[p]);
-  }
-  return loss;
-}
-
-template <int Dim>
 MotionStep<Dim> MovingSkeleton<Dim>::start_step(MotionForcing forcing,
                                                 std::optional<MotionStep<Dim>> last) const {
-  std::vector<double> loss = losses(forcing.porosity);
+  std::vector<double> loss = losses(points_.volume, this->porosity_, forcing.porosity);
   // The equilibrium of a step without inertia does not depend on its length.
   const bool goes_on = last && last->has_inertia == inertia_.acts() && last->loss == loss &&
                        (!last->has_inertia || last->forcing.duration == forcing.duration);
@@ -340,33 +323,15 @@ void MovingSkeleton<Dim>::find_crossing_forces(const MotionStep<Dim>& step) {
   const ElementClasses classes(this->grid_, points_, sorted);
   Equilibrium<Dim> moved({this->grid_, points_, sorted, step.equilibrium->skeleton(), classes},
                          supports_, this->threads_);
+  std::vector<double> porosity = solid_volumes();
+  for (int p = 0; p < points_.size(); ++p) porosity[p] = 1.0 - porosity[p] / points_.volume[p];
   moved.set_pressure(step.pressure);
   moved.displace(NodeVectors<Dim>(this->grid_.mesh.node_count(), Vector<Dim>::Zero()), false);
   crossing_forces_.find(
       this->grid_, sorted, moved,
       loads(step.forcing, solid_masses(step.loss), step.pressure, sorted, classes),
-      diffusivity(sorted));
-}
-
-/// c_v = k E_oed / gamma_w per element, with the least k of its points, m2/s; 0 without soil that
-/// moves.
-template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::diffusivity(const PointsByElement& sorted) const {
-  const Scene& scene = this->soils().scene();
-  std::vector<double> result = drained_compressibility();
-  for (int e = 0; e < this->grid_.mesh.element_count(); ++e) {
-    if (result[e] == 0.0) continue;
-    const double modulus = this->grid_.volume[e] / result[e];
-    double conductivity = std::numeric_limits<double>::infinity();
-    for (const int p : sorted.of(e)) {
-      const Soil& soil = this->soils().soil_of_point(p);
-      const double porosity = 1.0 - this->state_.solid_volume(p) / points_.volume[p];
-      const double along = soil.conductivity_model().at(this->initial_porosity_[p], porosity);
-      conductivity = std::min({conductivity, along, along * soil.anisotropy()});
-    }
-    result[e] = conductivity * modulus / unit_weight(scene.liquid.density, scene.gravity);
-  }
-  return result;
+      diffusivity(this->grid_, this->soils(), sorted, drained_compressibility(),
+                  this->initial_porosity_, porosity));
 }
 
 template <int Dim>

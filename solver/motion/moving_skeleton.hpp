@@ -120,8 +120,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> smooth(const std::vector<double>& of_points) const {
     return smooth_volumes(this->grid_, points_, of_points, supports_.rigid_elements());
   }
-  /// Volume that each point will have lost when it has this porosity, m3; empty: none.
-  [[nodiscard]] std::vector<double> losses(const std::vector<double>& porosity) const;
   [[nodiscard]] NodeVectors<Dim> loads(const MotionForcing& forcing,
                                        const std::vector<double>& solid_mass,
                                        const std::vector<double>& pressure,
@@ -134,14 +132,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// What counts for inertia: solid after the loss of the step, and the liquid in its pores, kg per
   /// point.
   [[nodiscard]] std::vector<double> moved_masses(const MotionStep<Dim>& step) const;
-  /// \param mass  what counts for inertia, kg per point
-  [[nodiscard]] SoilExtent extent(const std::vector<double>& mass,
-                                  const NodeVectors<Dim>& loads) const;
   /// Of a step in equilibrium. `before`: places of the points at its start.
   [[nodiscard]] SoilKinetics kinetics(const MotionStep<Dim>& step,
                                       const std::vector<Vector<Dim>>& before) const;
-  /// V_e / E_oed, m3/Pa, in free water beside soil that of the softest soil; 0 elsewhere without
-  /// soil that moves.
+  /// E_oed per point, Pa; 0 where soil does not move.
+  [[nodiscard]] std::vector<double> moduli() const;
   [[nodiscard]] std::vector<double> drained_compressibility() const;
   /// Mass of soil and the liquid in its pores, per node, kg.
   [[nodiscard]] std::vector<double> node_masses() const;
@@ -153,7 +148,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void add_to_elements(const std::vector<double>& gain);
   /// After the points have moved and before they are sorted.
   void find_crossing_forces(const MotionStep<Dim>& step);
-  [[nodiscard]] std::vector<double> diffusivity(const PointsByElement& sorted) const;
   void carry_solid(const std::vector<double>& smooth_before, SolidMotion& motion);
   /// Books the solid of points that have come into another region from `element`, per point.
   void book_regions(const std::vector<int>& element);

@@ -8,6 +8,7 @@
 
 #include "box_mesh.hpp"
 #include "equilibrium/crossing_forces.hpp"
+#include "grid/near_element.hpp"
 #include "motion/held_by_inertia.hpp"
 #include "motion/point_motion.hpp"
 #include "motion/soil_inertia.hpp"
@@ -271,41 +272,6 @@ TEST(CrossingForces, KeepTheBalanceAndFadeWhileWaterLeavesTheElements) {
       EXPECT_NEAR((carried[i] - (loads[i] + left * (forces[i] - loads[i]))).norm(), 0.0, 1e-9);
     }
   }
-}
-
-/// Soil without motion rests after sqrt(2 H/g), the time of a fall through its height.
-TEST(SoilInertia, EndsWhenTheSoilHasRestedForAFallThroughItsHeight) {
-  const StressedBody<2> body(model::column_mesh(4, 2), "elastic");
-  const SoilExtent extent{.mass = 100.0, .load = 981.0, .height = 2.0};
-  const double fall = std::sqrt(2.0 * 2.0 / 9.81);
-  const std::vector<double> mass(body.points.size(), 100.0 / body.points.size());
-  const NodeVectors<2> still(body.mesh.node_count(), Vector<2>::Zero());
-  SoilInertia<2> inertia;
-  EXPECT_FALSE(inertia.acts());
-  inertia.begin(body.points.size());
-  constexpr double dt = 0.01;
-  const auto step = [&](const NodeVectors<2>& displacement, double share) {
-    inertia.start_step(body.grid, body.points, mass);
-    const double travel = largest_travel(body.grid, body.sorted, displacement);
-    inertia.finish_step(body.grid, body.points, displacement, dt, travel, share, extent);
-  };
-  step(still, 0.5);  // about to move
-  double rested = 0.0;
-  while (inertia.acts()) {
-    step(still, 1e-3);
-    rested += dt;
-    ASSERT_LT(rested, 2.0 * fall);
-    if (rested > 0.1 && rested < 0.1 + dt) {
-      // It moves once more, by a tenth of an element: what it had rested does not count.
-      const NodeVectors<2> jump(body.mesh.node_count(), Vector<2>(0.1 / std::sqrt(20.0), 0.0));
-      step(jump, 1e-3);
-      EXPECT_NEAR(inertia.longest_step(), 2.5 * dt, 1e-12);
-      rested = 0.1 + dt;
-      step(still, 0.5);
-    }
-  }
-  EXPECT_NEAR(rested, 0.1 + dt + fall, 2.0 * dt);
-  EXPECT_EQ(inertia.share(), 0.0);
 }
 
 template <int Dim>

@@ -163,7 +163,7 @@ TEST(WeakeningBank, FailsRunsOutAndStandsAgain) {
     if (failed_at < 0.0) failed_at = 0.05 * part;
     for (bool rests = false; !rests && m.time < 20.0; ++inertial) {
       const InertialStep step = m.move(0.01);
-      rests = m.time > 0.1 && is_at_rest(step.inertia_share, m.energy(), m.extent(1.0));
+      rests = m.time > 0.1 && SoilKinetics{m.energy(), step.inertia_share, m.extent(1.0)}.is_rest();
     }
   }
   std::cout << quasi_static << " steps in equilibrium, failure with " << failed_at

@@ -108,7 +108,8 @@ inline CollapseResult collapse(const Collapse& c) {
     result.iterations += step.iterations;
     result.tries += step.tries;
     // At the very start nothing has moved yet.
-    result.rests = m.time > 0.5 && is_at_rest(step.inertia_share, m.energy(), m.extent(c.aspect));
+    result.rests =
+        m.time > 0.5 && SoilKinetics{m.energy(), step.inertia_share, m.extent(c.aspect)}.is_rest();
   }
   result.iterations /= result.steps;
   result.time = m.time;

@@ -1,0 +1,153 @@
+/// How soil goes from equilibrium to inertia and back: each transition of the table in
+/// docs/theory.md, "When soil fails".
+
+#include "coupling/failure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/solid_model.hpp"
+
+namespace suffuse {
+namespace failure_test {
+
+constexpr double g = 9.81;
+
+/// Heavy soil in a box of 1 m.
+Scene heavy_scene() {
+  Scene scene = model::paper_scene();
+  scene.gravity = {0.0, -g, 0.0};
+  scene.soils[0].skeleton = model::elastic_soil(1e6, 0.3);
+  return scene;
+}
+
+struct Soil {
+  explicit Soil(bool follows)
+      : input(model::make_case(model::column_mesh(4, 4), heavy_scene())),
+        grid(input.mesh),
+        soils(input),
+        solid(grid, soils, soils.exchange_span(false), 1),
+        failure(grid, solid, follows) {}
+
+  Case<2> input;
+  Grid<2> grid;
+  SoilMap<2> soils;
+  MovingSkeleton<2> solid;
+  Failure<2> failure;
+};
+
+/// Soil of 100 kg and 2 m: of so much kinetic energy over its weight times its height.
+SoilKinetics moving(double energy, double inertia_share = 0.0) {
+  const SoilExtent soil{.mass = 100.0, .load = 100.0 * g, .height = 2.0};
+  return {energy * soil.load * soil.height, inertia_share, soil};
+}
+
+const Unsolved no_equilibrium{"the soil has found no equilibrium", true};
+
+/// What is said where the run ends; empty where it goes on.
+template <class Act>
+std::string end_of_run(const Act& act) {
+  try {
+    act();
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Failure, SoilThatDoesNotStandAtTheStartIsFollowedOrRefused) {
+  Soil followed(true);
+  followed.failure.start({.stands = true});
+  EXPECT_FALSE(followed.failure.has_inertia());
+  followed.failure.start({.stands = false});
+  EXPECT_TRUE(followed.failure.has_inertia());
+  EXPECT_EQ(followed.failure.time(), 0.0);
+  Soil refused(false);
+  EXPECT_EQ(end_of_run([&] { refused.failure.start({.stands = false}); }).substr(0, 42),
+            "the soil has no equilibrium at the start: ");
+  EXPECT_FALSE(refused.failure.has_inertia());
+}
+
+TEST(Failure, AShortestStepWithoutASolutionStartsInertiaOrEndsTheRun) {
+  Soil followed(true);
+  EXPECT_EQ(followed.failure.longest_travel(), Failure<2>::watched_travel);
+  followed.failure.step_unsolved(3.0, no_equilibrium);
+  EXPECT_TRUE(followed.failure.has_inertia());
+  EXPECT_EQ(followed.failure.time(), 3.0);
+  EXPECT_EQ(followed.failure.longest_travel(), max_travel);
+  EXPECT_NE(end_of_run([&] {
+              followed.failure.step_unsolved(4.0, no_equilibrium);
+            }).find("the motion of the soil that fails has no solution"),
+            std::string::npos);
+  Soil stopped(false);
+  EXPECT_EQ(stopped.failure.longest_travel(), max_travel);
+  EXPECT_THROW(stopped.failure.step_unsolved(3.0, no_equilibrium), EquilibriumLost);
+  EXPECT_FALSE(stopped.failure.has_inertia());
+}
+
+/// After a step that is long against the time in which soil falls through an element, and not
+/// where something has changed at once.
+TEST(Failure, ShortStepsOrASlideStartInertiaAfterLongOnes) {
+  for (const bool slides : {false, true}) {
+    Soil soil(true);
+    const double fall = soil.solid.time_of_fall();
+    EXPECT_NEAR(fall, std::sqrt(2.0 * soil.solid.mean_size() / g), 1e-15);
+    const auto fails = [&](double time) {
+      soil.failure.finish_step(time, (slides ? 1.0 : 0.9e-2) * fall, moving(slides ? 1.1e-4 : 0.0));
+      return soil.failure.has_inertia();
+    };
+    EXPECT_FALSE(fails(1.0));
+    soil.failure.finish_step(2.0, 1.1e-2 * fall, moving(0.9e-4));
+    EXPECT_FALSE(soil.failure.has_inertia());
+    soil.failure.expect_short_steps();
+    EXPECT_FALSE(fails(3.0));
+    soil.failure.finish_step(4.0, 1.1e-2 * fall, moving(0.0));
+    EXPECT_TRUE(fails(5.0));
+    EXPECT_EQ(soil.failure.time(), 5.0);
+  }
+  Soil stopped(false);
+  stopped.failure.finish_step(1.0, 1.0, moving(0.0));
+  stopped.failure.finish_step(2.0, 1e-9, moving(1.0));
+  EXPECT_FALSE(stopped.failure.has_inertia());
+}
+
+/// Soil without motion rests after sqrt(2 H/g), the time of a fall through its height.
+TEST(Failure, SoilThatHasRestedForAFallHasNoInertiaAnyMore) {
+  const double fall = std::sqrt(2.0 * 2.0 / g);
+  Soil soil(true);
+  soil.failure.step_unsolved(0.0, no_equilibrium);
+  constexpr double dt = 0.01;
+  double time = 0.0;
+  const auto step = [&](const SoilKinetics& kinetics) {
+    time += dt;
+    soil.failure.finish_motion(time, dt, kinetics);
+  };
+  step(moving(0.0, 0.5));  // about to move
+  for (int k = 0; k < 20; ++k) step(moving(1e-7, 1e-3));
+  step(moving(2e-6, 1e-3));  // moves once more: what it had rested does not count
+  const double from = time;
+  while (soil.failure.has_inertia() && time < 10.0) step(moving(1e-7, 1e-3));
+  EXPECT_NEAR(time - from, fall, 2.0 * dt);
+}
+
+TEST(Failure, SoilThatLosesItsEquilibriumAgainAndAgainInPlaceCreeps) {
+  Soil soil(true);
+  int failures = 0;
+  double time = 0.0;
+  std::string said;
+  while (said.empty() && failures < 100) {
+    soil.failure.step_unsolved(time, no_equilibrium);
+    ++failures;
+    said = end_of_run([&] { soil.failure.refuse_creep(time); });
+    while (said.empty() && soil.failure.has_inertia()) {
+      time += 0.1;
+      soil.failure.finish_motion(time, 0.1, moving(0.0));
+    }
+  }
+  EXPECT_EQ(failures, RepeatedFailure<2>::most + 1);
+  EXPECT_NE(said.find("the soil creeps"), std::string::npos);
+}
+
+}  // namespace failure_test
+}  // namespace suffuse
