@@ -9,7 +9,7 @@ namespace {
 /// Adds `missing`, m3, to the air at the sides of an element, in equal parts but for what a side
 /// has no room for, or no air to give: that goes to the others.
 template <int Dim>
-void share_out(double missing, double room, ElementValues<Dim>& air) {
+void distribute(double missing, double room, ElementValues<Dim>& air) {
   ElementValues<Dim> space;  // of each side
   for (int k = 0; k <= Dim; ++k) space[k] = std::max(0.0, missing > 0.0 ? room - air[k] : air[k]);
   const double sign = missing > 0.0 ? 1.0 : -1.0;
@@ -41,7 +41,7 @@ void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
       left += grid.element_face_sign[e][k] * liquid[grid.element_face[e][k]];
     }
     const double room = porosity[e] * grid.volume[e] / (Dim + 1);
-    share_out<Dim>(left - element_sum<Dim>(air[e]), room, air[e]);
+    distribute<Dim>(left - element_sum<Dim>(air[e]), room, air[e]);
   }
 }
 

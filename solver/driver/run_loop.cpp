@@ -16,8 +16,8 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
         "has come to rest");
   }
   if (at_the_start) output(sink);
-  bool goes_on = true;
-  while (goes_on && !schedule_.finished() && !interrupted()) {
+  bool is_running = true;
+  while (is_running && !schedule_.finished() && !interrupted()) {
     schedule_.follow_failure(model_->time(), model_->coupled_flow().has_inertia(),
                              model_->last_step());
     warn_of_outputs(sink);
@@ -25,7 +25,7 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
     for (const std::string& warning : model_->take_warnings()) sink.warn(warning);
     warn_of_points(sink);
     output(sink);
-    goes_on = sink.continue_after_interval();
+    is_running = sink.continue_after_interval();
   }
 }
 

@@ -11,12 +11,12 @@ auto SolidExchange<Dim>::times(const TransportStep& step) const -> Times {
 
 template <int Dim>
 const std::vector<double>& SolidExchange<Dim>::over(const TimeSpan& time,
-                                                    const std::vector<char>& waiting) {
+                                                    const std::vector<char>& excluded) {
   volume_.clear();
   if (time.start >= time.end || !solid_.exchanges_within(time.start, time.end)) return volume_;
   const PassTimer timer(timing_);
   ++timing_.calls;
-  solid_.exchange(time.start, time.end, find_flows(), waiting, volume_);
+  solid_.exchange(time.start, time.end, find_flows(), excluded, volume_);
   return volume_;
 }
 

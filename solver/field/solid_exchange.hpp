@@ -47,9 +47,9 @@ class SolidExchange {
   [[nodiscard]] Times times(const TransportStep& step) const;
 
   /// Exchanges fines over a time. Returns what goes into the liquid, m3 per solid point; empty
-  /// where none can be exchanged. The solid does not change in elements of `waiting` (may be
+  /// where none can be exchanged. The solid does not change in elements of `excluded` (may be
   /// empty).
-  const std::vector<double>& over(const TimeSpan& time, const std::vector<char>& waiting = {});
+  const std::vector<double>& over(const TimeSpan& time, const std::vector<char>& excluded = {});
   /// The solid takes an exchange that is known: per solid point and volume of soil. Returns as
   /// `over`.
   const std::vector<double>& take(const std::vector<Exchange>& change);

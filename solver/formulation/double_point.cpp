@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "explicit/points_carrying_flow.hpp"
-#include "formulation/felt_concentration.hpp"
+#include "formulation/smoothed_concentration.hpp"
 #include "physics/head.hpp"
 #include "points/points_along_faces.hpp"
 
@@ -125,7 +125,7 @@ PoreState DoublePoint<Dim>::pores() const {
   if (has_gravity(this->scene().gravity) &&
       this->scene().time.scheme == FlowScheme::implicit_mixed) {
     result.concentration =
-        felt_concentration(this->grid_, this->soils_, result.concentration, content.liquid);
+        smoothed_concentration(this->grid_, this->soils_, result.concentration, content.liquid);
   }
   return result;
 }

@@ -79,9 +79,9 @@ void MovingSkeleton<Dim>::add_to_elements(const std::vector<double>& gain) {
 
 template <int Dim>
 void MovingSkeleton<Dim>::exchange(double from, double to, const PointFlows& flows,
-                                   const std::vector<char>& waiting,
+                                   const std::vector<char>& excluded,
                                    std::vector<double>& exchange) {
-  ErodingSkeleton<Dim>::exchange(from, to, flows, waiting, exchange);
+  ErodingSkeleton<Dim>::exchange(from, to, flows, excluded, exchange);
   std::vector<double> gain = exchange;
   for (double& v : gain) v = -v;
   add_to_elements(gain);
@@ -228,9 +228,9 @@ MotionStep<Dim> MovingSkeleton<Dim>::start_step(MotionForcing forcing,
                                                 std::optional<MotionStep<Dim>> last) const {
   std::vector<double> loss = losses(points_.volume, this->porosity_, forcing.porosity);
   // The equilibrium of a step without inertia does not depend on its length.
-  const bool goes_on = last && last->has_inertia == inertia_.acts() && last->loss == loss &&
-                       (!last->has_inertia || last->forcing.duration == forcing.duration);
-  if (goes_on) {
+  const bool continues = last && last->has_inertia == inertia_.acts() && last->loss == loss &&
+                         (!last->has_inertia || last->forcing.duration == forcing.duration);
+  if (continues) {
     last->forcing = std::move(forcing);
     return *std::move(last);
   }

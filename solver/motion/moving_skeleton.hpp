@@ -33,7 +33,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   }
   [[nodiscard]] std::vector<double> element_porosity() const override;
 
-  void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& waiting,
+  void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& excluded,
                 std::vector<double>& exchange) override;
   void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) override;
   void deposit(const std::vector<double>& volume) override;
@@ -100,14 +100,12 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
 
   /// The points, sorted by element, in the order of `soils().points()`.
   [[nodiscard]] const SolidPoints<Dim>& points() const { return points_; }
-  /// Number of each point at the start.
-  [[nodiscard]] const std::vector<int>& id() const { return id_; }
+  [[nodiscard]] const std::vector<int>& id() const { return id_; }  ///< numbers at the start
   /// Share of the erodible fines of the start that a point has left; above 1 with deposits.
   [[nodiscard]] double fines_left(int point) const;
   /// Effective stress sigma' of a point, Pa; tension is positive.
   [[nodiscard]] Eigen::Matrix3d effective_stress(int point) const;
-  /// Solid volume per element, m3.
-  [[nodiscard]] const std::vector<double>& element_solid_volume() const { return solid_; }
+  [[nodiscard]] const std::vector<double>& element_solid_volume() const { return solid_; }  ///< m3
 
  private:
   /// Laws and numbers of the points with the fines that they will have after this loss.

@@ -79,11 +79,11 @@ std::vector<double> ErodingSkeleton<Dim>::porosity_after(double from, double to,
 
 template <int Dim>
 void ErodingSkeleton<Dim>::exchange(double from, double to, const PointFlows& flows,
-                                    const std::vector<char>& waiting,
+                                    const std::vector<char>& excluded,
                                     std::vector<double>& exchange) {
   exchange.assign(porosity_.size(), 0.0);
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
-    if (!waiting.empty() && waiting[e] != 0) return;
+    if (!excluded.empty() && excluded[e] != 0) return;
     exchange_in(e, from, to, flows,
                 [&](int p, const Exchange& change) { exchange[p] = take(p, change); });
   });

@@ -27,7 +27,7 @@ class ErodingSkeleton : public Skeleton<Dim> {
   }
   [[nodiscard]] std::vector<double> porosity_after(double from, double to,
                                                    const PointFlows& flows) const override;
-  void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& waiting,
+  void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& excluded,
                 std::vector<double>& exchange) override;
   [[nodiscard]] Exchange exchange_at(int point, double porosity, double concentration, double from,
                                      double to, const PointFlows& flows) const override;

@@ -68,10 +68,10 @@ class Skeleton {
   [[nodiscard]] virtual std::vector<double> porosity_after(double from, double to,
                                                            const PointFlows& flows) const = 0;
   /// Exchanges fines with the liquid from `from` to `to`. `exchange` becomes the volume per solid
-  /// point that went into the liquid, m3 (negative: that came from it). Elements of `waiting` (per
+  /// point that went into the liquid, m3 (negative: that came from it). Elements of `excluded` (per
   /// element, may be empty) stay as they are.
   virtual void exchange(double from, double to, const PointFlows& flows,
-                        const std::vector<char>& waiting, std::vector<double>& exchange) = 0;
+                        const std::vector<char>& excluded, std::vector<double>& exchange) = 0;
   /// What a solid point exchanges from now (`from`) to `to` with liquid of concentration
   /// `concentration`, which flows on, if its porosity is `porosity` at `from`.
   [[nodiscard]] virtual Exchange exchange_at(int point, double porosity, double concentration,

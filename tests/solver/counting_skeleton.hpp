@@ -11,9 +11,9 @@ template <int Dim>
 class CountingSkeleton final : public RigidSkeleton<Dim> {
  public:
   using RigidSkeleton<Dim>::RigidSkeleton;
-  void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& waiting,
+  void exchange(double from, double to, const PointFlows& flows, const std::vector<char>& excluded,
                 std::vector<double>& exchange) override {
-    RigidSkeleton<Dim>::exchange(from, to, flows, waiting, exchange);
+    RigidSkeleton<Dim>::exchange(from, to, flows, excluded, exchange);
     for (const double volume : exchange) given_.add(volume);
   }
   /// Volume that all points gave to the liquid since the start, m3.

@@ -88,10 +88,10 @@ TEST(RigidSkeleton, ExhaustionLeavesTheCoarseGrains) {
 
 TEST(RigidSkeleton, ElementsThatWaitStayAsTheyAre) {
   SolidCase c(1e-3);
-  std::vector<char> waiting(c.input.mesh.elements.size(), 0);
-  waiting[3] = 1;
+  std::vector<char> excluded(c.input.mesh.elements.size(), 0);
+  excluded[3] = 1;
   std::vector<double> exchange;
-  c.solid.exchange(0.0, 10.0, {}, waiting, exchange);
+  c.solid.exchange(0.0, 10.0, {}, excluded, exchange);
   for (int p = 0; p < c.soils.points().size(); ++p) {
     const bool waits = c.soils.points().element[p] == 3;
     EXPECT_NEAR(exchange[p], waits ? 0.0 : 0.01 * c.soils.points().volume[p], 1e-17);

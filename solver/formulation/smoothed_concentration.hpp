@@ -14,8 +14,8 @@ namespace suffuse {
 /// eddies. So concentrations in soil are smoothed over the elements around, and free water counts
 /// as well mixed.
 template <int Dim>
-std::vector<double> felt_concentration(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                       std::vector<double> concentration,
-                                       const std::vector<double>& volume);
+std::vector<double> smoothed_concentration(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                                           std::vector<double> concentration,
+                                           const std::vector<double>& volume);
 
 }  // namespace suffuse

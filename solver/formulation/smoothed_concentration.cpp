@@ -1,11 +1,11 @@
-#include "formulation/felt_concentration.hpp"
+#include "formulation/smoothed_concentration.hpp"
 
 namespace suffuse {
 
 template <int Dim>
-std::vector<double> felt_concentration(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                       std::vector<double> concentration,
-                                       const std::vector<double>& volume) {
+std::vector<double> smoothed_concentration(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                                           std::vector<double> concentration,
+                                           const std::vector<double>& volume) {
   constexpr int rounds = 4;
   const auto& region = grid.mesh.element_region;
   std::vector<double> fines_of_region(grid.mesh.region_names.size(), 0.0);
@@ -40,9 +40,11 @@ std::vector<double> felt_concentration(const Grid<Dim>& grid, const SoilMap<Dim>
   return concentration;
 }
 
-template std::vector<double> felt_concentration(const Grid<2>&, const SoilMap<2>&,
-                                                std::vector<double>, const std::vector<double>&);
-template std::vector<double> felt_concentration(const Grid<3>&, const SoilMap<3>&,
-                                                std::vector<double>, const std::vector<double>&);
+template std::vector<double> smoothed_concentration(const Grid<2>&, const SoilMap<2>&,
+                                                    std::vector<double>,
+                                                    const std::vector<double>&);
+template std::vector<double> smoothed_concentration(const Grid<3>&, const SoilMap<3>&,
+                                                    std::vector<double>,
+                                                    const std::vector<double>&);
 
 }  // namespace suffuse
