@@ -85,7 +85,7 @@ double oedometer_error(int rows, int steps_between) {
     EXPECT_NEAR(missing_fines(ledger, first.erodible), 0.0, 1e-12 * first.erodible);
   }
   std::cout << rows << " rows: " << worst << ", " << run.steps() << " steps, "
-            << run.model().flow().coupling_iterations() << " iterations, correction "
+            << run.model().coupled_flow().iterations() << " iterations, correction "
             << run.state().history.solid_correction << "\n";
   EXPECT_LT(run.worst_residual(), 1e-12);
   return worst;

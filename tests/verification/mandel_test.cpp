@@ -94,7 +94,7 @@ TEST_P(Mandel, PressureInTheMiddleFirstRises) {
   }
   std::cout << "nu " << poisson << ": peak " << highest << " (" << peak << "), worst " << worst
             << ", " << quarter.run().steps() << " steps, "
-            << quarter.run().model().flow().coupling_iterations() << " iterations\n";
+            << quarter.run().model().coupled_flow().iterations() << " iterations\n";
   EXPECT_NEAR(highest, peak, 0.01 * peak);
   EXPECT_LT(worst, 0.01);
   EXPECT_LT(quarter.run().worst_residual(), 1e-12);
