@@ -13,7 +13,7 @@ from pathlib import Path
 
 MOST_OF_ROOM = 2500
 MOST_OF_CLASS = 600
-LARGER = {'mixed/': 2644, 'flow/': 2550, 'physics/': 2502, 'ImplicitMixed': 1338}
+LARGER = {'flow/': 2550, 'physics/': 2502}
 SLACK = 0.9
 
 

@@ -10,22 +10,6 @@
 namespace suffuse {
 
 template <int Dim>
-MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
-                            const std::vector<double>& pressure) {
-  MixedFlow<Dim> flow;
-  flow.state.face_pressure = pressure;
-  flow.state.velocity.assign(grid.mesh.element_count(), Vector<Dim>::Zero());
-  flow.face_flux.assign(grid.face_count(), 0.0);
-  flow.flux_through = flow.face_flux;
-  for (int f = 0; f < grid.face_count(); ++f) {
-    if (conditions[f].kind == FaceKind::pressure) {
-      flow.state.face_pressure[f] = conditions[f].value;
-    }
-  }
-  return flow;
-}
-
-template <int Dim>
 std::vector<double> element_pressure(const Grid<Dim>& grid,
                                      const std::vector<double>& face_pressure, int threads) {
   std::vector<double> result(grid.mesh.element_count(), 0.0);
@@ -102,16 +86,12 @@ NodalFields<Dim> nodal_fields(const Grid<Dim>& grid, const MixedFlow<Dim>& flow,
   return result;
 }
 
-template MixedFlow<2> flow_at_rest(const Grid<2>&, const std::vector<FaceCondition>&,
-                                   const std::vector<double>&);
 template std::vector<double> element_pressure(const Grid<2>&, const std::vector<double>&, int);
 template FaceVolumes face_volumes(const Grid<2>&, const std::vector<double>&,
                                   const std::vector<double>&, const MixedStep<2>&, double, int);
 template NodalFields<2> nodal_fields(const Grid<2>&, const MixedFlow<2>&,
                                      const std::vector<double>&, const std::vector<double>&,
                                      const Vector<2>&);
-template MixedFlow<3> flow_at_rest(const Grid<3>&, const std::vector<FaceCondition>&,
-                                   const std::vector<double>&);
 template std::vector<double> element_pressure(const Grid<3>&, const std::vector<double>&, int);
 template FaceVolumes face_volumes(const Grid<3>&, const std::vector<double>&,
                                   const std::vector<double>&, const MixedStep<3>&, double, int);

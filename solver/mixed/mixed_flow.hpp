@@ -30,7 +30,19 @@ MixedFlow<Dim> end_of(MixedStep<Dim> step) {
 /// Water at rest under these pressures, per face, and those prescribed at faces, Pa.
 template <int Dim>
 MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
-                            const std::vector<double>& pressure);
+                            const std::vector<double>& pressure) {
+  MixedFlow<Dim> flow;
+  flow.state.face_pressure = pressure;
+  flow.state.velocity.assign(grid.mesh.element_count(), Vector<Dim>::Zero());
+  flow.face_flux.assign(grid.face_count(), 0.0);
+  flow.flux_through = flow.face_flux;
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (conditions[f].kind == FaceKind::pressure) {
+      flow.state.face_pressure[f] = conditions[f].value;
+    }
+  }
+  return flow;
+}
 
 /// Adds the volume of air that has left each element between two states, m3, to `room`, which may
 /// be empty, and stays so where there is no air.

@@ -5,6 +5,7 @@
 /// diagonal. The two sides of a wall that lets liquid through are coupled by its conductance.
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "boundary/leaky_walls.hpp"
 #include "grid/element_field.hpp"
 #include "grid/grid.hpp"
+#include "grid/parallel.hpp"
 #include "mixed/directional_factor.hpp"
 #include "mixed/flow.hpp"
 
@@ -33,10 +35,30 @@ struct MomentumLaw {
 template <int Dim>
 class MixedMatrix {
  public:
-  MixedMatrix(const Grid<Dim>& grid, int threads);
+  /// `kinds`: per face, for the whole run.
+  MixedMatrix(const Grid<Dim>& grid, const std::vector<FaceKind>& kinds, int threads)
+      : grid_(grid), threads_(threads), products_(grid.mesh.elements.size()) {
+    lay_out(kinds);
+    for (int e = 0; e < grid.mesh.element_count(); ++e) {
+      // Rows add up to zero, as pressure alone moves nothing: better so than by round-off.
+      auto& products = products_[e];
+      for (int a = 0; a <= Dim; ++a) {
+        products[a][a] = 0.0;
+        for (int b = 0; b < a; ++b) {
+          products[a][b] = products[b][a] =
+              grid.outward_normal(e, a).dot(grid.outward_normal(e, b)) / grid.volume[e];
+        }
+      }
+      for (int a = 0; a <= Dim; ++a) {
+        double others = 0.0;
+        for (int b = 0; b <= Dim; ++b) {
+          if (b != a) others += products[a][b];
+        }
+        products[a][a] = -others;
+      }
+    }
+  }
 
-  /// Numbers the unknowns and lays out the pattern. `kinds`: per face, for the whole run.
-  void lay_out(const std::vector<FaceKind>& kinds);
   [[nodiscard]] int unknowns() const { return unknowns_; }
   /// Number of a face's unknown; -1 where its pressure is prescribed throughout.
   [[nodiscard]] int unknown(int face) const { return unknown_[face]; }
@@ -46,35 +68,148 @@ class MixedMatrix {
   /// with the mean pressure of an element (both may be empty).
   void assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage,
                 const ElementField<Dim>& side_storage = {},
-                const std::vector<double>& mean_storage = {});
+                const std::vector<double>& mean_storage = {}) {
+    constexpr double share = 1.0 / ((Dim + 1) * (Dim + 1));
+    const auto in_mean = [&](int e) {
+      return mean_storage.empty() ? 0.0 : share * mean_storage[e];
+    };
+    // An entry beside the diagonal belongs to the one element that has both faces; to those on the
+    // diagonal both neighbours of the face add.
+    double* values = values_.valuePtr();
+    for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
+      for (int a = 0; a <= Dim; ++a) {
+        for (int b = 0; b <= Dim; ++b) {
+          if (a == b || position_[e][a][b] < 0) continue;
+          values[position_[e][a][b]] = entry(law, e, a, b) + in_mean(e);
+        }
+      }
+    });
+    for_each_index(grid_.face_count(), threads_, [&](int f) {
+      if (unknown_[f] < 0) return;
+      const auto diagonal = [&](int e) {
+        const int k = grid_.side_of(e, f);
+        const double stored = side_storage.empty() ? storage[e] : storage[e] + side_storage[e][k];
+        return entry(law, e, k, k) + stored + in_mean(e);
+      };
+      const int left = grid_.face_left[f];
+      const int k = grid_.side_of(left, f);
+      values[position_[left][k][k]] =
+          grid_.is_outer(f) ? diagonal(left) : diagonal(left) + diagonal(grid_.face_right[f]);
+    });
+  }
   /// Couples the faces of a wall, after `assemble`: conductance times the difference of their
   /// pressures flows between them.
-  void couple(const LeakyFace& wall);
+  void couple(const LeakyFace& wall) {
+    double* values = values_.valuePtr();
+    const int row = unknown_[wall.face];
+    const int column = unknown_[wall.partner];
+    values[position(row, row)] += wall.conductance;
+    values[position(column, column)] += wall.conductance;
+    values[position(row, column)] = values[position(column, row)] = -wall.conductance;
+  }
   /// Makes the unknown of a face one of its own, uncoupled from the others, whose value the right
   /// side decides.
-  void uncouple(int face);
+  void uncouple(int face) {
+    double* values = values_.valuePtr();
+    for (const int e : {grid_.face_left[face], grid_.face_right[face]}) {
+      if (e < 0) continue;
+      const int k = grid_.side_of(e, face);
+      for (int b = 0; b <= Dim; ++b) {
+        if (b == k || position_[e][k][b] < 0) continue;
+        values[position_[e][k][b]] = values[position_[e][b][k]] = 0.0;
+      }
+    }
+  }
   /// The values, with what the conductivity of an element gains as the pressure at its sides rises:
   /// `flux` out of it by each side, m3/s, grows by the share `gain` per pressure, 1/Pa. What that
   /// adds to the diagonal, where liquid enters, was assembled already. Faces that are `held` keep
   /// their uncoupled rows. No longer symmetric.
   [[nodiscard]] Eigen::SparseMatrix<double> with_gain(const ElementField<Dim>& flux,
                                                       const ElementField<Dim>& gain,
-                                                      const std::vector<char>& held) const;
+                                                      const std::vector<char>& held) const {
+    Eigen::SparseMatrix<double> result = values_;
+    double* values = result.valuePtr();
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      const auto& faces = grid_.element_face[e];
+      for (int a = 0; a <= Dim; ++a) {
+        for (int b = 0; b <= Dim; ++b) {
+          if (position_[e][a][b] < 0 || held[faces[a]] != 0 || held[faces[b]] != 0) continue;
+          const double grows = flux[e][a] * gain[e][b];
+          values[position_[e][a][b]] -= a == b ? std::max(0.0, grows) : grows;
+        }
+      }
+    }
+    return result;
+  }
   /// Doubles the diagonal at the first face of an element, where nothing else holds the level of
   /// the pressure: its rise is then zero, as the rest of the system adds up to zero.
   void hold_level(int element) { values_.valuePtr()[position_[element][0][0]] *= 2.0; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& values() const { return values_; }
 
   /// Largest N . N / V of an element, 1/m2 times m2.
-  [[nodiscard]] double largest_product(int element) const;
+  [[nodiscard]] double largest_product(int element) const {
+    double largest = 0.0;
+    for (int k = 0; k <= Dim; ++k) largest = std::max(largest, products_[element][k][k]);
+    return largest;
+  }
 
  private:
   template <class Value>
   using PerEntry = std::vector<std::array<std::array<Value, Dim + 1>, Dim + 1>>;
 
+  /// Numbers the unknowns and lays out the pattern.
+  void lay_out(const std::vector<FaceKind>& kinds) {
+    const int elements = grid_.mesh.element_count();
+    unknown_.assign(kinds.size(), -1);
+    for (std::size_t f = 0; f < kinds.size(); ++f) {
+      if (kinds[f] != FaceKind::pressure) unknown_[f] = unknowns_++;
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const auto& faces : grid_.element_face) {
+      for (const int f : faces) {
+        for (const int g : faces) {
+          if (unknown_[f] >= 0 && unknown_[g] >= 0) {
+            entries.emplace_back(unknown_[f], unknown_[g], 1.0);
+          }
+        }
+      }
+    }
+    for (std::size_t f = 0; f < kinds.size(); ++f) {
+      const int partner = grid_.face_partner[f];
+      if (partner >= 0) entries.emplace_back(unknown_[f], unknown_[partner], 1.0);
+    }
+    values_.resize(unknowns_, unknowns_);
+    values_.setFromTriplets(entries.begin(), entries.end());
+    values_.makeCompressed();
+
+    position_.resize(elements);
+    for (int e = 0; e < elements; ++e) {
+      for (int a = 0; a <= Dim; ++a) {
+        for (int b = 0; b <= Dim; ++b) {
+          const int row = unknown_[grid_.element_face[e][a]];
+          const int column = unknown_[grid_.element_face[e][b]];
+          position_[e][a][b] = row >= 0 && column >= 0 ? position(row, column) : -1;
+        }
+      }
+    }
+  }
   /// Where an entry is among the values.
-  [[nodiscard]] int position(int row, int column) const;
-  [[nodiscard]] double entry(const MomentumLaw<Dim>& law, int e, int a, int b) const;
+  [[nodiscard]] int position(int row, int column) const {
+    const int* inner = values_.innerIndexPtr();
+    const int* first = inner + values_.outerIndexPtr()[column];
+    const int* last = inner + values_.outerIndexPtr()[column + 1];
+    return static_cast<int>(std::lower_bound(first, last, row) - inner);
+  }
+  /// It is not inlined, so that the product is rounded before anything is added to it.
+  [[nodiscard, gnu::noinline]] double entry(const MomentumLaw<Dim>& law, int e, int a,
+                                            int b) const {
+    double product = products_[e][a][b];
+    if (!law.factor.empty()) {
+      product += law.factor[e].excess(grid_.outward_normal(e, a), grid_.outward_normal(e, b)) /
+                 grid_.volume[e];
+    }
+    return product * law.mobility[e];
+  }
 
   const Grid<Dim>& grid_;
   int threads_;

@@ -1,0 +1,234 @@
+#pragma once
+
+/// One implicit stage of the mixed elements: its equations, and the pressures and fluxes that its
+/// solution has reached.
+
+#include <sstream>
+
+#include "grid/parallel.hpp"
+#include "mixed/mixed_matrix.hpp"
+#include "mixed/stage_faces.hpp"
+#include "physics/numbers.hpp"
+
+namespace suffuse {
+
+/// Pressures at face centres as a sum, base + offset + rise, so that small changes of large
+/// pressures have all their digits; offset = reference - base.
+struct FacePressure {
+  std::vector<double> reference;
+  std::vector<double> offset;
+  std::vector<double> rise;
+
+  /// Makes the reference what the pressure is, as nearly as it can hold it.
+  void move_reference(const std::vector<double>& base) {
+    for (std::size_t f = 0; f < rise.size(); ++f) {
+      const double old = reference[f];
+      reference[f] += rise[f];
+      rise[f] -= reference[f] - old;
+      offset[f] = reference[f] - base[f];
+    }
+  }
+};
+
+/// Where iterations start; it changes no result beyond round-off.
+struct StageGuess {
+  std::vector<double> rise_rate;  ///< of the last stage, per face, Pa/s
+  double flux_scale = 0.0;        ///< largest flux through a face then, m3/s
+};
+
+/// A stage goes from `base` over `duration` seconds, which are infinite for a steady state.
+template <int Dim>
+struct MixedStage {
+  /// Refers to what it is given. The pressures are a guess, the law is that of saturated soil
+  /// without quadratic drag, and there are no fluxes yet. Throws NumericalError where the liquid
+  /// meets no resistance.
+  /// \param saturated  every soil is, at any pressure
+  MixedStage(const MixedModel<Dim>& in, const MixedMatrix<Dim>& with, StageFaces<Dim>& at,
+             const MixedState<Dim>& from, double seconds, const FlowForcing<Dim>& driven_by,
+             const StageGuess& guess, bool saturated)
+      : model(in),
+        matrix(with),
+        faces(at),
+        base(from),
+        duration(seconds),
+        forcing(driven_by),
+        coefficients(forcing.coefficients),
+        flux_scale(guess.flux_scale),
+        retains(!saturated && model.has_retention()),
+        resistance(model.grid.volume.size()),
+        drive(resistance.size()),
+        storage(resistance.size()),
+        mean_storage(forcing.mean_storage),
+        net_source(forcing.source),
+        expected_gradient(forcing.mean_mobility.size()),
+        walls(model.walls),
+        displaced(retains ? resistance.size() : 0) {
+    faces.start(forcing.conditions);
+    net_source.resize(resistance.size(), 0.0);
+    for (double& stored : mean_storage) stored /= duration;
+    find_resistance();
+    bound_walls();
+    guess_pressure(guess.rise_rate);
+    law.mobility.resize(resistance.size());
+    law.factor = model.soils.bedding;
+    law.drive = drive;
+    for_each_element([&](int e) { set_mobility(e, 1.0 / resistance[e]); });
+  }
+
+  void for_each_element(const auto& body) const {
+    for_each_index(model.grid.mesh.element_count(), model.settings.threads, body);
+  }
+  void for_each_face(const auto& body) const {
+    for_each_index(model.grid.face_count(), model.settings.threads, body);
+  }
+  /// The largest value of elements or faces; 0 where none is larger.
+  [[nodiscard]] double largest_of_elements(const auto& value) const {
+    return largest_of(model.grid.mesh.element_count(), model.settings.threads, 0.0, value);
+  }
+  [[nodiscard]] double largest_of_faces(const auto& value) const {
+    return largest_of(model.grid.face_count(), model.settings.threads, 0.0, value);
+  }
+  /// Whether the equations depend on the pressure itself, by retention or seepage faces.
+  [[nodiscard]] bool is_nonlinear() const { return retains || !faces.switching().empty(); }
+  [[nodiscard]] bool is_steady() const { return !std::isfinite(duration); }
+  /// Whether an element stores liquid as its pressure rises.
+  [[nodiscard]] bool stores(int e) const {
+    return storage[e] > 0.0 || (!mean_storage.empty() && mean_storage[e] > 0.0);
+  }
+  /// What an element stores with its mean pressure, m3/s, as it rises by these.
+  [[nodiscard]] double stored_in_mean(int e, const auto& rise_of_face) const {
+    if (mean_storage.empty()) return 0.0;
+    double sum = 0.0;
+    for (const int f : model.grid.element_face[e]) sum += rise_of_face(f);
+    return mean_storage[e] * sum / (Dim + 1);
+  }
+  /// What the share of a side stores as its pressure rises by this, m3/s.
+  [[nodiscard]] double stored(int e, int k, double rise) const {
+    const auto risen = [&](int f) { return pressure.offset[f] + pressure.rise[f]; };
+    const double compressed = storage[e] * rise + stored_in_mean(e, risen) / (Dim + 1);
+    return displaced.empty() ? compressed : compressed + displaced[e][k];
+  }
+  /// Flux out of an element through a side whose pressure rises by this, m3/s.
+  [[nodiscard]] double flux_out(int e, int k, double rise) const {
+    return flux[e].dot(model.grid.outward_normal(e, k)) - stored(e, k, rise) +
+           net_source[e] / (Dim + 1);
+  }
+  /// Rate at which liquid takes the place of air in the share of a side, m3/s.
+  [[nodiscard]] double displacement_rate(int e, int k, double p) const {
+    if (is_steady()) return 0.0;
+    const double share = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
+    const double air = share * (1.0 - model.soils.saturation(e, p));
+    return (base.air[e][k] - air) / duration;
+  }
+  [[nodiscard]] double inflow(int f) const { return faces.inflow(f, coefficients.porosity); }
+  /// Flux per pressure, m3/(s Pa), of the element's largest face.
+  [[nodiscard]] double conductance_of(int e) const {
+    return law.mobility[e] * model.soils.best_over_along(e) * matrix.largest_product(e);
+  }
+  /// Largest round-off of what flows through a wall at these pressures, m3/s.
+  [[nodiscard]] double wall_round_off() const {
+    double largest = 0.0;
+    for (const LeakyFace& wall : walls) {
+      for (const int f : {wall.face, wall.partner}) {
+        largest = std::max(largest, epsilon * wall.conductance * std::abs(pressure.rise[f]));
+      }
+    }
+    return largest;
+  }
+  /// Gives an element the mobility of this Darcy's, m3 s/kg, and the drive that belongs to it.
+  void set_mobility(int e, double of_darcy) {
+    law.mobility[e] = of_darcy;
+    if (expected_gradient.empty()) return;
+    const double additional = forcing.mean_mobility[e];
+    law.mobility[e] += additional;
+    law.drive[e] = (of_darcy * drive[e] + additional * expected_gradient[e]) / law.mobility[e];
+  }
+  /// Rise of the pressures over the base, per face, Pa.
+  [[nodiscard]] std::vector<double> rise() const {
+    std::vector<double> result(pressure.rise.size());
+    for_each_face([&](int f) { result[f] = pressure.offset[f] + pressure.rise[f]; });
+    return result;
+  }
+  /// Flux of each element at the pressures found.
+  [[nodiscard]] VectorField<Dim> found_flux() const {
+    VectorField<Dim> found(resistance.size());
+    for_each_element([&](int e) {
+      const Vector<Dim> gradient = model.pressure_gradient(e, pressure.reference, pressure.rise);
+      found[e] = law.mobility[e] * law.directed(e, law.drive[e] - gradient);
+    });
+    return found;
+  }
+
+  const MixedModel<Dim>& model;
+  const MixedMatrix<Dim>& matrix;
+  StageFaces<Dim>& faces;
+  const MixedState<Dim>& base;
+  const double duration;
+  const FlowForcing<Dim>& forcing;
+  const FlowCoefficients<Dim>& coefficients;
+  const double flux_scale;  ///< largest flux through a face in the last stage, m3/s
+  const bool retains;       ///< some soil holds liquid under suction
+
+  std::vector<double> resistance;      ///< linear, per flux, kg/(m3 s)
+  VectorField<Dim> drive;              ///< without pressure, Pa/m
+  std::vector<double> storage;         ///< per face of the element, m3/(s Pa)
+  std::vector<double> mean_storage;    ///< per element, m3/(s Pa); may be empty
+  std::vector<double> net_source;      ///< outflow asked for, m3/s
+  VectorField<Dim> expected_gradient;  ///< with the additional mobility, Pa/m; may be empty
+  std::vector<LeakyFace> walls;        ///< conductance as the stage has it
+
+  FacePressure pressure;
+  MomentumLaw<Dim> law;
+  VectorField<Dim> flux;  ///< per element, m/s
+  /// Rate at which liquid takes the place of air at each side, m3/s; empty where all soil is
+  /// saturated.
+  ElementField<Dim> displaced;
+
+ private:
+  /// Linear resistance, drive and storage of each element.
+  void find_resistance() {
+    const FlowCoefficients<Dim>& c = coefficients;
+    for_each_element([&](int e) {
+      const double inertia = model.settings.inertia ? c.mixture_density[e] / duration : 0.0;
+      resistance[e] = (inertia + c.drag[e]) / c.porosity[e];
+      drive[e] = c.mixture_density[e] * model.gravity;
+      if (inertia > 0.0) drive[e] += inertia * base.velocity[e];
+      storage[e] = c.water_volume[e] / (model.settings.bulk_modulus * (Dim + 1) * duration);
+      if (expected_gradient.empty()) return;
+      expected_gradient[e] = model.pressure_gradient(e, base.face_pressure, forcing.expected_rise);
+    });
+    for (std::size_t e = 0; e < resistance.size(); ++e) {
+      if (resistance[e] > 0.0 && std::isfinite(resistance[e])) continue;
+      std::ostringstream text;
+      text << "the liquid must meet resistance everywhere; "
+           << element_text(model.grid, static_cast<int>(e)) << " has " << resistance[e]
+           << " kg/(m3 s) per flux";
+      throw NumericalError(text.str());
+    }
+  }
+  /// A wall that conducts so much better than the elements beside it hinders nothing, while its
+  /// conductance would hide theirs in the matrix.
+  void bound_walls() {
+    constexpr double most_of_elements = 1e6;
+    for (LeakyFace& wall : walls) {
+      double beside = 0.0;
+      for (const int f : {wall.face, wall.partner}) {
+        const int e = model.grid.face_left[f];
+        beside = std::max(beside, matrix.largest_product(e) / resistance[e]);
+      }
+      wall.conductance = std::min(wall.conductance, most_of_elements * beside);
+    }
+  }
+  void guess_pressure(const std::vector<double>& rise_rate) {
+    const bool follows = !is_steady() && !retains;
+    pressure.reference = base.face_pressure;
+    pressure.offset.assign(base.face_pressure.size(), 0.0);
+    pressure.rise.resize(base.face_pressure.size());
+    for_each_face([&](int f) {
+      pressure.rise[f] = follows ? rise_rate[f] * duration : 0.0;
+      if (faces.is_held(f)) pressure.rise[f] = faces.condition(f).value - base.face_pressure[f];
+    });
+  }
+};
+
+}  // namespace suffuse

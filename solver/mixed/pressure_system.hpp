@@ -1,0 +1,133 @@
+#pragma once
+
+/// The linear systems for the pressures of a stage.
+
+#include "linear/lagged_preconditioner.hpp"
+#include "linear/newton_system.hpp"
+#include "mixed/mixed_stage.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class PressureSystem {
+ public:
+  PressureSystem(const MixedModel<Dim>& model, const std::vector<FaceKind>& kinds)
+      : matrix_(model.grid, kinds, model.settings.threads),
+        solver_(model.settings.threads, LagLimits{}, flow_factor(Dim, model.grid.face_count())),
+        newton_(newton_factor(Dim, model.grid.face_count())),
+        face_push_(model.grid.volume.size()),
+        round_off_(model.grid.volume.size()),
+        known_rise_(kinds.size()),
+        load_(matrix_.unknowns()),
+        guess_(matrix_.unknowns()),
+        tolerance_(matrix_.unknowns()) {}
+
+  [[nodiscard]] MixedMatrix<Dim>& matrix() { return matrix_; }
+  /// Solves the systems of Newton's method.
+  [[nodiscard]] NewtonSystem& newton() { return newton_; }
+  [[nodiscard]] SolveCounts counts() const {
+    SolveCounts result = solver_.counts();
+    return result += newton_.counts();
+  }
+  /// Values of the matrix for the law that the stage has.
+  void assemble(const MixedStage<Dim>& stage, const ElementField<Dim>& side_storage) {
+    matrix_.assemble(stage.law, stage.storage, side_storage, stage.mean_storage);
+    for (const LeakyFace& wall : stage.walls) matrix_.couple(wall);
+  }
+  /// Finds the rises of the pressures that are not prescribed, with the law that the stage has.
+  void solve(MixedStage<Dim>& stage) {
+    assemble(stage, {});
+    find_load(stage);
+    for (const int e : stage.faces.correction().sealed_root()) {
+      if (!stage.stores(e)) matrix_.hold_level(e);
+    }
+    const Eigen::VectorXd solution = solver_.solve({matrix_.values(), load_, guess_, tolerance_});
+    stage.for_each_face([&](int f) {
+      if (!stage.faces.is_held(f)) stage.pressure.rise[f] = solution[matrix_.unknown(f)];
+    });
+  }
+  /// Finds pressures and fluxes of a stage whose law does not depend on them.
+  void solve_linear(MixedStage<Dim>& stage) {
+    const MixedModel<Dim>& model = stage.model;
+    solve(stage);
+    stage.flux = stage.found_flux();
+    // Pressures that rise a lot leave the round-off of the rise times the largest conductance,
+    // which may be more than what flows through a tight soil: a second solution is rid of it.
+    const double through = stage.largest_of_elements(
+        [&](int e) { return stage.flux[e].norm() * model.largest_at_faces(e, model.face_area); });
+    const double round_off = stage.largest_of_elements([&](int e) {
+      return epsilon * stage.conductance_of(e) * model.largest_at_faces(e, stage.pressure.rise);
+    });
+    if (std::max(round_off, stage.wall_round_off()) <= 1e-12 * through) return;
+    stage.pressure.move_reference(stage.base.face_pressure);
+    solve(stage);
+    stage.flux = stage.found_flux();
+  }
+  /// What is missing of the balance at each unknown, m3/s, at the reference of the pressures; zero
+  /// at seepage faces that are held.
+  const Eigen::VectorXd& find_load(const MixedStage<Dim>& stage) {
+    const MixedModel<Dim>& model = stage.model;
+    const FacePressure& pressure = stage.pressure;
+    const MomentumLaw<Dim>& law = stage.law;
+    stage.for_each_face(
+        [&](int f) { known_rise_[f] = stage.faces.is_held(f) ? pressure.rise[f] : 0.0; });
+    stage.for_each_element([&](int e) {
+      const Vector<Dim> gradient = model.pressure_gradient(e, pressure.reference, known_rise_);
+      face_push_[e] = law.mobility[e] * law.directed(e, law.drive[e] - gradient);
+      round_off_[e] = 2.0 * epsilon * law.mobility[e] * model.soils.best_over_along(e) *
+                      (law.drive[e].norm() + gradient.norm());
+    });
+    const auto known = [&](int f) { return pressure.offset[f] + known_rise_[f]; };
+    stage.for_each_face([&](int f) {
+      const int row = matrix_.unknown(f);
+      if (row < 0) return;
+      guess_[row] = pressure.rise[f];
+      load_[row] = model.grid.is_outer(f) ? stage.inflow(f) : 0.0;
+      // Residuals need be no smaller than the round-off of the load, nor than this share of the
+      // flux.
+      tolerance_[row] = 1e-13 * stage.flux_scale;
+      for (const int e : {model.grid.face_left[f], model.grid.face_right[f]}) {
+        if (e < 0) continue;
+        const int k = model.grid.side_of(e, f);
+        load_[row] += face_push_[e].dot(model.grid.outward_normal(e, k)) +
+                      stage.net_source[e] / (Dim + 1) - stage.storage[e] * pressure.offset[f] -
+                      stage.stored_in_mean(e, known) / (Dim + 1);
+        if (!stage.displaced.empty()) load_[row] -= stage.displaced[e][k];
+        tolerance_[row] += round_off_[e] * model.face_area[f];
+      }
+    });
+    for (const LeakyFace& wall : stage.walls) {
+      const double flux =
+          wall.conductance * (pressure.reference[wall.face] - pressure.reference[wall.partner]);
+      load_[matrix_.unknown(wall.face)] -= flux;
+      load_[matrix_.unknown(wall.partner)] += flux;
+      for (const int f : {wall.face, wall.partner}) {
+        tolerance_[matrix_.unknown(f)] += 2.0 * epsilon * std::abs(flux);
+      }
+    }
+    for (const int f : stage.faces.switching()) {
+      if (stage.faces.is_held(f)) load_[matrix_.unknown(f)] = 0.0;
+    }
+    return load_;
+  }
+  [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }
+
+  void archive(auto& archive) {
+    solver_.archive(archive, matrix_.values());
+    newton_.archive(archive, matrix_.values());
+  }
+
+ private:
+  MixedMatrix<Dim> matrix_;
+  LaggedPreconditioner solver_;
+  NewtonSystem newton_;
+  // Kept, so that stages do not allocate them.
+  VectorField<Dim> face_push_;     ///< what an element drives without the unknown rises, m/s
+  std::vector<double> round_off_;  ///< of it, m/s
+  std::vector<double> known_rise_;
+  Eigen::VectorXd load_;
+  Eigen::VectorXd guess_;
+  Eigen::VectorXd tolerance_;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,309 @@
+#pragma once
+
+/// Newton's method of a stage for what depends on the pressure itself: how much liquid soil under
+/// suction holds (in the mixed form of Celia, Bouloutas and Zarba, Water Resour. Res. 26 (1990)
+/// 1483), how well it conducts, and which seepage faces let water out.
+
+#include "mixed/pressure_system.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+class RetentionNewton {
+ public:
+  RetentionNewton(MixedStage<Dim>& stage, PressureSystem<Dim>& system)
+      : stage_(stage),
+        system_(system),
+        model_(stage.model),
+        faces_(stage.faces),
+        round_off_(balance_round_off()),
+        side_storage_(stage.displaced.size()),
+        gain_(stage.displaced.size()) {}
+
+  /// Finds pressures, fluxes and the set of seepage faces that let water out. Returns the number of
+  /// solutions. Throws NotConverged.
+  int solve() {
+    double share = 1.0;
+    double first_norm = 0.0;
+    double last_norm = infinity;
+    std::vector<double> from;
+    for (int iteration = 0;; ++iteration) {
+      double norm = evaluate();
+      // The first pressures have none to go back to.
+      while (iteration > 0 && !(norm < last_norm) && share > min_share) {
+        // Back, and a shorter step.
+        share *= 0.5;
+        stage_.pressure.reference = from;
+        take_step(share);
+        norm = evaluate();
+      }
+      if (iteration == 0) first_norm = norm;
+      const double scale = largest_flux();
+      const Eigen::VectorXd& load = system_.load();
+      const double left = load.size() > 0 ? load.template lpNorm<Eigen::Infinity>() : 0.0;
+      const double allowed =
+          flux_accuracy * scale + round_off_ + round_off_units * stage_.wall_round_off();
+      // Where water stands still, or an element is next to flat: pressures have no more digits.
+      const bool stays = norm > 0.5 * last_norm && is_round_off_left();
+      const bool solved = left <= allowed || stays;
+      const bool switched = (solved || left <= near_solution * scale + allowed) &&
+                            switch_faces(stays ? std::max(left, allowed) : allowed);
+      if (!switched && solved) return iteration;
+      // A shorter step starts nearer to its end.
+      const bool wanders =
+          !stage_.is_steady() && iteration >= patient_iterations && norm > first_norm;
+      if (!std::isfinite(left) || wanders || iteration == max_newton_iterations) {
+        refuse_unsettled(iteration, left, scale, switched);
+      }
+      share = 1.0;
+      last_norm = switched ? infinity : norm;
+      if (switched) evaluate();
+      from = stage_.pressure.reference;
+      find_step();
+      take_step(share);
+    }
+  }
+
+ private:
+  static constexpr int max_newton_iterations = 60;
+  /// From here on the iteration of a step has to be nearer to the balance than at its start.
+  static constexpr int patient_iterations = 20;
+  /// The balance at a face may be missed by this share of the largest flux, in addition to
+  /// round-off of what gravity drives and of the contents of the elements.
+  static constexpr double flux_accuracy = 1e-8;
+  static constexpr double round_off_units = 64.0;
+  /// Looser tolerance when the iteration stagnates: in units of round-off of what the pressures of
+  /// an element drive.
+  static constexpr double many_round_off_units = 512.0;
+  /// From here on seepage faces open and close.
+  static constexpr double near_solution = 0.1;
+  /// Smallest share of a step of Newton's method that is taken.
+  static constexpr double min_share = 1.0 / 16.0;
+  /// In an iteration, suction grows by this factor of itself and a metre at most.
+  static constexpr double max_suction_growth = 10.0;
+
+  [[noreturn]] static void refuse_unsettled(int iterations, double left, double scale,
+                                            bool switched) {
+    std::ostringstream text;
+    text << "the iteration of the flow did not converge in " << iterations << " solutions: " << left
+         << " m3/s are missing at a face, of " << scale << " m3/s"
+         << (switched ? "; seepage faces keep opening and closing" : "");
+    throw NotConverged(text.str());
+  }
+
+  /// Conductivities, contents, fluxes and what is missing of the balance at the pressures reached.
+  /// Returns the norm of what is missing, m3/s.
+  double evaluate() {
+    FacePressure& pressure = stage_.pressure;
+    level_elements_.clear();
+    faces_.follow_held();
+    for (const int f : faces_.switching()) {
+      if (faces_.is_held(f)) pressure.rise[f] = faces_.condition(f).value - pressure.reference[f];
+    }
+    pressure.move_reference(stage_.base.face_pressure);
+    if (stage_.retains) linearise_retention();
+    if (hold_levels()) return evaluate();
+    stage_.flux = stage_.found_flux();
+    return system_.find_load(stage_).norm();
+  }
+
+  /// Mobility, what air gives way, and their slopes at the pressures of the reference.
+  void linearise_retention() {
+    const FlowSoils<Dim>& soils = model_.soils;
+    stage_.for_each_element([&](int e) {
+      const auto pressure = [&](int k) {
+        return stage_.pressure.reference[model_.grid.element_face[e][k]];
+      };
+      double conducts = 0.0;
+      const double share = stage_.coefficients.porosity[e] * model_.grid.volume[e] / (Dim + 1);
+      for (int k = 0; k <= Dim; ++k) {
+        const double p = pressure(k);
+        conducts += soils.relative_conductivity(e, p) / (Dim + 1);
+        stage_.displaced[e][k] = stage_.displacement_rate(e, k, p);
+        side_storage_[e][k] =
+            stage_.is_steady() ? 0.0 : share * soils.capacity(e, p) / stage_.duration;
+      }
+      const double of_darcy = conducts / stage_.resistance[e];
+      stage_.set_mobility(e, of_darcy);
+      for (int k = 0; k <= Dim; ++k) {
+        // The slope is a difference over a little of the suction: at saturation it may be infinite.
+        const double p = pressure(k);
+        const double near = 1.0 + 1e-3 * std::abs(p);  // Pa
+        const double rise =
+            soils.relative_conductivity(e, p + near) - soils.relative_conductivity(e, p - near);
+        gain_[e][k] = rise / (2.0 * near) / (Dim + 1) / conducts;
+        if (!stage_.expected_gradient.empty()) gain_[e][k] *= of_darcy / stage_.law.mobility[e];
+      }
+    });
+  }
+
+  /// Finds the step of Newton's method. Throws NotConverged.
+  void find_step() try {
+    MixedMatrix<Dim>& matrix = system_.matrix();
+    // A wetter element conducts better. Where water enters, that adds to the diagonal; the
+    // symmetric matrix with this alone is factored, the whole one is solved with it.
+    ElementField<Dim> flux(side_storage_.size());
+    ElementField<Dim> on_diagonal = side_storage_;
+    for_each_index(static_cast<int>(flux.size()), model_.settings.threads, [&](int e) {
+      for (int k = 0; k <= Dim; ++k) {
+        flux[e][k] = stage_.flux[e].dot(model_.grid.outward_normal(e, k));
+        on_diagonal[e][k] += std::max(0.0, -flux[e][k] * gain_[e][k]);
+      }
+    });
+    system_.assemble(stage_, on_diagonal);
+    for (const int e : level_elements_) matrix.hold_level(e);
+    for (const int f : faces_.switching()) {
+      if (faces_.is_held(f)) matrix.uncouple(f);
+    }
+    system_.newton().factorise(matrix.values());
+    if (flux.empty()) {
+      system_.newton().solve(matrix.values(), system_.load(), step_);
+    } else {
+      system_.newton().solve_tangent(matrix.with_gain(flux, gain_, faces_.held()), system_.load(),
+                                     step_);
+    }
+  } catch (const NumericalError& error) {
+    throw NotConverged(error.what());
+  }
+
+  /// Takes this share of the step.
+  void take_step(double share) {
+    stage_.for_each_face([&](int f) {
+      stage_.pressure.rise[f] =
+          faces_.is_held(f) ? 0.0 : share * step_[system_.matrix().unknown(f)];
+    });
+    if (stage_.retains) limit_change();
+  }
+
+  /// A pressure that would pass the one at which its soil's content changes fastest stops there:
+  /// from there Newton's method meets a content that is convex or concave, and finds its way; from
+  /// saturated or dry soil, whose content hardly changes, it would go any distance. Suction grows
+  /// by a factor at most.
+  void limit_change() {
+    FacePressure& pressure = stage_.pressure;
+    stage_.for_each_face([&](int f) {
+      const bool stays_wet =
+          pressure.reference[f] >= 0.0 && pressure.reference[f] + pressure.rise[f] >= 0.0;
+      if (faces_.is_held(f) || stays_wet) return;
+      for (const int e : {model_.grid.face_left[f], model_.grid.face_right[f]}) {
+        if (e < 0) continue;
+        for (const double steepest : model_.soils.steepest(e)) {
+          const double way = steepest - pressure.reference[f];
+          const bool passes = steepest < 0.0 && way != 0.0 &&
+                              (way > 0.0) == (pressure.rise[f] > 0.0) &&
+                              std::abs(pressure.rise[f]) > std::abs(way);
+          if (passes) pressure.rise[f] = way;
+        }
+      }
+      const double suction = std::abs(pressure.reference[f]) + 1.0 / model_.soils.head_per_pressure;
+      pressure.rise[f] = std::max(pressure.rise[f], -max_suction_growth * suction);
+    });
+  }
+
+  /// Opens and closes seepage faces. Returns whether any changed.
+  bool switch_faces(double flux_tolerance) {
+    const FacePressure& pressure = stage_.pressure;
+    const double pressure_tolerance = pressure_accuracy();
+    bool switched = false;
+    for (const int f : faces_.switching()) {
+      if (!faces_.is_seepage(f)) continue;
+      const int e = model_.grid.face_left[f];
+      const double rise = pressure.offset[f] + pressure.rise[f];
+      const bool takes_in_more =
+          faces_.is_open(f) && -stage_.flux_out(e, model_.grid.side_of(e, f), rise) >
+                                   faces_.most_inflow(f) + flux_tolerance;
+      const bool presses =
+          !faces_.is_open(f) && pressure.reference[f] + pressure.rise[f] > pressure_tolerance;
+      if (!takes_in_more && !presses) continue;
+      faces_.set_open(f, presses);
+      switched = true;
+    }
+    return switched;
+  }
+
+  /// Whether storage holds the level of the pressure in a sealed piece.
+  [[nodiscard]] bool is_level_held(int piece) const {
+    for (int e = 0; e < model_.grid.mesh.element_count(); ++e) {
+      if (faces_.correction().sealed_piece()[e] != piece) continue;
+      if (stage_.stores(e)) return true;
+      if (side_storage_.empty()) continue;
+      if (std::ranges::any_of(side_storage_[e], [](double s) { return s > 0.0; })) return true;
+    }
+    return false;
+  }
+  /// Where nothing holds the level of the pressure, its highest seepage face opens. Returns whether
+  /// any did.
+  bool hold_levels() {
+    const std::vector<double>& pressure = stage_.pressure.reference;
+    const FluxCorrection<Dim>& correction = faces_.correction();
+    bool opened = false;
+    for (int p = 0; p < correction.sealed_piece_count(); ++p) {
+      if (is_level_held(p)) continue;
+      int highest = -1;
+      for (const int f : faces_.switching()) {
+        if (!faces_.is_seepage(f)) continue;
+        if (correction.sealed_piece()[model_.grid.face_left[f]] != p) continue;
+        if (highest < 0 || pressure[f] > pressure[highest]) highest = f;
+      }
+      if (highest < 0) {
+        level_elements_.push_back(correction.sealed_root()[p]);
+        continue;
+      }
+      faces_.set_open(highest, true);
+      opened = true;
+    }
+    return opened;
+  }
+  /// Round-off of what gravity drives and of the contents of the elements, m3/s.
+  [[nodiscard]] double balance_round_off() const {
+    return round_off_units * epsilon * stage_.largest_of_elements([&](int e) {
+      const double pores = stage_.coefficients.porosity[e] * model_.grid.volume[e];
+      return model_.gravity_flux(e, stage_.coefficients) + pores / stage_.duration;
+    });
+  }
+  /// Whether what is missing at each face is round-off of the terms that it is a sum of:
+  /// conductances of the elements beside it times their pressures.
+  [[nodiscard]] bool is_round_off_left() const {
+    const double units = stage_.largest_of_faces([&](int f) {
+      const double missing =
+          faces_.is_held(f) ? 0.0 : std::abs(system_.load()[system_.matrix().unknown(f)]);
+      double sum = 0.0;
+      for (const int e : {model_.grid.face_left[f], model_.grid.face_right[f]}) {
+        if (e < 0) continue;
+        const double pressure = model_.largest_at_faces(e, stage_.pressure.reference);
+        sum += model_.gravity_flux(e, stage_.coefficients) + stage_.conductance_of(e) * pressure;
+      }
+      return missing > 0.0 ? missing / (epsilon * sum) : 0.0;
+    });
+    return units <= many_round_off_units;
+  }
+  /// Largest flux through a side of an element, m3/s.
+  [[nodiscard]] double largest_flux() const {
+    return stage_.largest_of_elements([&](int e) {
+      double largest = 0.0;
+      for (int k = 0; k <= Dim; ++k) {
+        largest = std::max(largest, std::abs(stage_.flux[e].dot(model_.grid.outward_normal(e, k))));
+      }
+      return largest;
+    });
+  }
+  /// Pressures below this are zero to a seepage face: 1e-9 of the largest pressure, Pa.
+  [[nodiscard]] double pressure_accuracy() const {
+    const FacePressure& pressure = stage_.pressure;
+    return 1e-9 * stage_.largest_of_faces([&](int f) {
+      return std::abs(pressure.reference[f]) + std::abs(pressure.rise[f]);
+    });
+  }
+
+  MixedStage<Dim>& stage_;
+  PressureSystem<Dim>& system_;
+  const MixedModel<Dim>& model_;
+  StageFaces<Dim>& faces_;
+  double round_off_;                 ///< of the balance, m3/s
+  ElementField<Dim> side_storage_;   ///< slope of the rate of displacement, m3/(s Pa)
+  ElementField<Dim> gain_;           ///< dk_r/dp at a side over k_r of the element, 1/Pa
+  std::vector<int> level_elements_;  ///< whose first face holds the level of a sealed piece
+  Eigen::VectorXd step_;             ///< per unknown, Pa
+};
+
+}  // namespace suffuse
