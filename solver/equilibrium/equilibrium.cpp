@@ -114,7 +114,7 @@ void Equilibrium<Dim>::displace_element(const NodeVectors<Dim>& displacement, bo
     const auto& [law, parameters] = body_.skeleton[p];
     const double volume = body_.classes.scale[e] * body_.points.reference_volume[p];
     Tangent tangent;
-    kirchhoff += volume * skeleton_response<Dim>(*law, parameters, body_.points.elastic_b[p], f,
+    kirchhoff += volume * skeleton_response<Dim>(*law, parameters, body_.points.skeleton[p], f,
                                                  with_tangents ? &tangent : nullptr)
                               .stress;
     if (with_tangents) tangent_[e] += volume * tangent;

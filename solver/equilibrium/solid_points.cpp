@@ -10,12 +10,18 @@ SolidPoints<Dim>::SolidPoints(const Mesh<Dim>& mesh, const std::vector<PointPlac
                               std::vector<double> volume_in)
     : reference_volume(volume_in),
       volume(std::move(volume_in)),
-      elastic_b(places.size(), Eigen::Matrix3d::Identity()),
+      skeleton(places.size()),
       plastic_strain(places.size(), 0.0) {
   for (const PointPlace<Dim>& place : places) {
     position.push_back(place.position(mesh));
     element.push_back(place.element);
   }
+}
+
+template <int Dim>
+void SolidPoints<Dim>::reorder(const std::vector<int>& order) {
+  const auto all = [&](auto&... values) { (suffuse::reorder(order, values), ...); };
+  all(position, element, reference_volume, volume, skeleton, plastic_strain);
 }
 
 PointsByElement::PointsByElement(int element_count, const std::vector<int>& element_of_point)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid/point_place.hpp"
+#include "physics/skeleton/skeleton_response.hpp"
 
 namespace suffuse {
 
@@ -21,16 +22,17 @@ struct SolidPoints {
 
   [[nodiscard]] int size() const { return static_cast<int>(element.size()); }
   void archive(auto& archive) {
-    archive(position, element, reference_volume, volume, elastic_b, plastic_strain);
+    archive(position, element, reference_volume, volume, skeleton, plastic_strain);
   }
+  /// The points have another order: the one that was at order[k] comes to k.
+  void reorder(const std::vector<int>& order);
 
   std::vector<Vector<Dim>> position;  ///< m
   std::vector<int> element;           ///< that holds the point
   /// Volume of soil with its pores at the start, m3: Kirchhoff stress refers to it.
   std::vector<double> reference_volume;
   std::vector<double> volume;  ///< today, m3
-  /// Elastic left Cauchy-Green tensor: the stress follows from it.
-  std::vector<Eigen::Matrix3d> elastic_b;
+  std::vector<SkeletonState> skeleton;
   std::vector<double> plastic_strain;  ///< equivalent, since the start
 };
 

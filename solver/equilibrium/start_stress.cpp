@@ -29,8 +29,7 @@ void take_stress(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step, SolidP
       f += step.displacement()[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
     }
     const auto& [law, parameters] = step.skeleton()[p];
-    points.elastic_b[p] =
-        skeleton_response<Dim>(*law, parameters, points.elastic_b[p], f).elastic_b;
+    points.skeleton[p] = skeleton_response<Dim>(*law, parameters, points.skeleton[p], f).state;
   });
 }
 
@@ -87,11 +86,11 @@ void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
   for (int p = 0; p < points.size(); ++p) {
     const auto& [law, parameters] = elastic[p];
     const Eigen::Matrix3d stress =
-        skeleton_response<Dim>(*law, parameters, points.elastic_b[p],
+        skeleton_response<Dim>(*law, parameters, points.skeleton[p],
                                Eigen::Matrix<double, Dim, Dim>::Identity())
             .stress;
     const double vertical = up.dot(stress * up);
-    points.elastic_b[p] = elastic_b_under(
+    points.skeleton[p].elastic_b = elastic_b_under(
         skeleton[p].parameters,
         vertical * (ratio * Eigen::Matrix3d::Identity() + (1.0 - ratio) * up * up.transpose()));
   }
@@ -102,9 +101,9 @@ template <int Dim>
 void yield(const std::vector<PointSkeleton>& skeleton, SolidPoints<Dim>& points, int threads) {
   for_each_index(points.size(), threads, [&](int p) {
     const auto& [law, parameters] = skeleton[p];
-    points.elastic_b[p] = skeleton_response<Dim>(*law, parameters, points.elastic_b[p],
-                                                 Eigen::Matrix<double, Dim, Dim>::Identity())
-                              .elastic_b;
+    points.skeleton[p] = skeleton_response<Dim>(*law, parameters, points.skeleton[p],
+                                                Eigen::Matrix<double, Dim, Dim>::Identity())
+                             .state;
   });
 }
 
@@ -122,7 +121,7 @@ StartStress find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkel
     of_point.parameters.poisson = std::min(max_poisson, ratio / (1.0 + ratio));
   }
   const auto from_rest = [&](const std::vector<PointSkeleton>& soil, int parts) {
-    std::ranges::fill(points.elastic_b, Eigen::Matrix3d::Identity());
+    std::ranges::fill(points.skeleton, SkeletonState());
     return settle(grid, soil, supports, loads, parts, points, threads);
   };
   const auto elastic_stress = [&] {
@@ -133,11 +132,11 @@ StartStress find_start_stress(const Grid<Dim>& grid, const std::vector<PointSkel
   const bool found =
       elastic_stress() && settle(grid, skeleton, supports, loads, 1, points, threads);
   if (found || from_rest(skeleton, load_parts)) return {.stands = true};
-  if (!elastic_stress()) std::ranges::fill(points.elastic_b, Eigen::Matrix3d::Identity());
+  if (!elastic_stress()) std::ranges::fill(points.skeleton, SkeletonState());
   yield(skeleton, points, threads);
-  const std::vector<Eigen::Matrix3d> yielded = points.elastic_b;
+  const std::vector<SkeletonState> yielded = points.skeleton;
   const StartStress slow = settle_slowly(grid, skeleton, supports, loads, points, threads);
-  if (!slow.stands) points.elastic_b = yielded;
+  if (!slow.stands) points.skeleton = yielded;
   return slow;
 }
 

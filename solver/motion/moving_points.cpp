@@ -21,6 +21,7 @@ struct ShownPoints {
   const std::vector<int>& id;
   std::vector<Eigen::Matrix3d> stress;  ///< Pa
   std::vector<double> fines_left;
+  std::string_view internal;  ///< name of the laws' internal variable; empty: they have none
 };
 
 template <int Dim>
@@ -48,6 +49,10 @@ void show(const ShownPoints<Dim>& shown, Snapshot& snapshot) {
   for (Field* field : {&displacement, &stress, &plastic, &fines, &volume, &element, &id}) {
     snapshot.solid.push_back(std::move(*field));
   }
+  if (shown.internal.empty()) return;
+  Field internal{std::string(shown.internal), "1", 1, {}};
+  for (const SkeletonState& state : points.skeleton) internal.values.push_back(state.internal);
+  snapshot.solid.push_back(std::move(internal));
 }
 
 }  // namespace
@@ -70,10 +75,9 @@ void MovingSkeleton<Dim>::sort_points(double time) {
       order.insert(order.end(), sorted.of(e).begin(), sorted.of(e).end());
     }
     const auto all = [&](auto&... values) { (reorder(order, values), ...); };
-    all(start_, points_.position, points_.element, points_.reference_volume, points_.volume,
-        points_.elastic_b, points_.plastic_strain, this->state_.skeleton_volume,
-        this->state_.erodible_volume, this->state_.deposited_volume, this->initial_porosity_, id_,
-        region_, initial_erodible_);
+    points_.reorder(order);
+    all(this->state_.skeleton_volume, this->state_.erodible_volume, this->state_.deposited_volume,
+        this->initial_porosity_, start_, id_, region_, initial_erodible_);
     inertia_.reorder(order);
   }
   show_points();
@@ -121,7 +125,12 @@ void MovingSkeleton<Dim>::describe(HistoryRow& row) const {
 
 template <int Dim>
 void MovingSkeleton<Dim>::describe(Snapshot& snapshot) const {
-  ShownPoints<Dim> shown{points_, start_, id_, {}, {}};
+  ShownPoints<Dim> shown{points_, start_, id_, {}, {}, {}};
+  for (const Soil& soil : movable_soils_.scene().soils) {
+    if (soil.skeleton.moves() && !soil.skeleton.law->internal.empty()) {
+      shown.internal = soil.skeleton.law->internal;
+    }
+  }
   for (int p = 0; p < points_.size(); ++p) {
     shown.stress.push_back(effective_stress(p));
     shown.fines_left.push_back(fines_left(p));

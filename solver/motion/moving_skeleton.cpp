@@ -152,7 +152,7 @@ template <int Dim>
 Eigen::Matrix3d MovingSkeleton<Dim>::effective_stress(int point) const {
   const PointSkeleton skeleton = skeleton_of(point, fines_left(point));
   const auto response =
-      skeleton_response<Dim>(*skeleton.law, skeleton.parameters, points_.elastic_b[point],
+      skeleton_response<Dim>(*skeleton.law, skeleton.parameters, points_.skeleton[point],
                              Eigen::Matrix<double, Dim, Dim>::Identity());
   return response.stress * points_.reference_volume[point] / points_.volume[point];
 }

@@ -54,8 +54,8 @@ void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skelet
       f += displacement[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
     }
     const SkeletonResponse response =
-        skeleton_response<Dim>(*skeleton[p].law, skeleton[p].parameters, points.elastic_b[p], f);
-    points.elastic_b[p] = response.elastic_b;
+        skeleton_response<Dim>(*skeleton[p].law, skeleton[p].parameters, points.skeleton[p], f);
+    points.skeleton[p] = response.state;
     points.plastic_strain[p] += response.plastic_strain;
     points.volume[p] *= f.determinant();
   });

@@ -53,7 +53,7 @@ class StrengthReduction {
         points_(body.points),
         skeleton_(body.skeleton),
         held_(loads.size(), Vector<Dim>::Zero()) {
-    for (Eigen::Matrix3d& b : points_.elastic_b) b.setIdentity();
+    for (SkeletonState& state : points_.skeleton) state.elastic_b.setIdentity();
     find_stiffness();
   }
 

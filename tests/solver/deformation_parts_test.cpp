@@ -170,7 +170,7 @@ struct StressedBody {
     }
     SolidPoints<Dim> points(mesh, places, volume);
     for (int p = 0; p < points.size(); ++p) {
-      Eigen::Matrix3d& b = points.elastic_b[p];
+      Eigen::Matrix3d& b = points.skeleton[p].elastic_b;
       b.diagonal() << 0.96, 0.95 + 0.02 * std::sin(p), 0.97;
       b(0, 1) = b(1, 0) = 0.02 * std::cos(p);
     }
@@ -332,7 +332,7 @@ TEST(Equilibrium, ForcesOfABodyBalance) {
 
 TEST(Equilibrium, ElasticStiffnessIsTheTangentWithoutStress) {
   StressedBody<3> body(small_mesh<3>(), "elastic");
-  for (auto& b : body.points.elastic_b) b.setIdentity();
+  for (SkeletonState& state : body.points.skeleton) state.elastic_b.setIdentity();
   Equilibrium<3> equilibrium = body.equilibrium();
   equilibrium.displace(NodeVectors<3>(body.mesh.node_count(), Vector<3>::Zero()), true);
   Eigen::SparseMatrix<double> tangent;

@@ -330,7 +330,8 @@ TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
     if (id != p) ++moved;
     EXPECT_EQ(b.soils.points().element[p], points.element[id]);
     EXPECT_NEAR((b.solid.points().position[p] - points.position[id]).norm(), 0.0, 1e-9);
-    EXPECT_NEAR((b.solid.points().elastic_b[p] - points.elastic_b[id]).norm(), 0.0, 1e-8);
+    EXPECT_NEAR((b.solid.points().skeleton[p].elastic_b - points.skeleton[id].elastic_b).norm(),
+                0.0, 1e-8);
     EXPECT_NEAR(b.solid.points().volume[p], points.volume[id], 1e-9 * points.volume[id]);
     EXPECT_EQ(b.solid.state().skeleton_volume[p], start.skeleton_volume[id]);
     EXPECT_EQ(b.solid.state().erodible_volume[p], start.erodible_volume[id]);

@@ -27,7 +27,9 @@ SkeletonParameters sand(double friction = 30.0, double cohesion = 0.01, double d
           .poisson = 0.25,
           .friction = friction * degree,
           .cohesion = cohesion,
-          .dilation = dilation * degree};
+          .dilation = dilation * degree,
+          .compression = 0.05,
+          .preconsolidation = 0.5};
 }
 
 Matrix3d b_of(const Vector3d& strain, const Matrix3d& turn = Matrix3d::Identity()) {
@@ -39,7 +41,7 @@ Matrix3d b_of(const Vector3d& strain, const Matrix3d& turn = Matrix3d::Identity(
 template <int Dim>
 Gradient<Dim> first_stress(const SkeletonLaw& law, const SkeletonParameters& p, const Matrix3d& b,
                            const Gradient<Dim>& increment) {
-  const Matrix3d stress = skeleton_response<Dim>(law, p, b, increment).stress;
+  const Matrix3d stress = skeleton_response<Dim>(law, p, {b}, increment).stress;
   return stress.topLeftCorner<Dim, Dim>() * increment.inverse().transpose();
 }
 
@@ -48,7 +50,7 @@ template <int Dim>
 double tangent_error(const SkeletonLaw& law, const SkeletonParameters& p, const Matrix3d& b,
                      const Gradient<Dim>& increment, double width) {
   DeformationTangent<Dim> tangent;
-  skeleton_response<Dim>(law, p, b, increment, &tangent);
+  skeleton_response<Dim>(law, p, {b}, increment, &tangent);
   double error = 0.0;
   for (int k = 0; k < Dim * Dim; ++k) {
     Gradient<Dim> step = Gradient<Dim>::Zero();
@@ -93,7 +95,7 @@ Comparison compare_tangents(const SkeletonLaw& law, const SkeletonParameters& p,
         b_of({strain(random), strain(random), strain(random)}, random_turn(random, Dim == 2));
     const Gradient<Dim> increment = random_increment<Dim>(random, 0.1);
     const double error = tangent_error<Dim>(law, p, b, increment, 1e-6);
-    const bool yields = skeleton_response<Dim>(law, p, b, increment).plastic_strain > 0.0;
+    const bool yields = skeleton_response<Dim>(law, p, {b}, increment).plastic_strain > 0.0;
     result.plastic += yields;
     if (error > 1e-3) {
       ++result.kinks;
@@ -112,6 +114,7 @@ std::vector<SkeletonParameters> soils() {
 TEST(SkeletonLaw, tangent_is_the_derivative_of_the_stress) {
   for (const SkeletonLaw* law : skeleton_laws()) {
     for (const SkeletonParameters& p : soils()) {
+      if (law->word == "cam-clay" && p.friction == 0.0) continue;  // refused
       const Comparison plane = compare_tangents<2>(*law, p, 500);
       const Comparison space = compare_tangents<3>(*law, p, 500);
       EXPECT_LT(plane.error, 1e-7) << law->word;
@@ -142,7 +145,7 @@ TEST(SkeletonLaw, tangent_is_symmetric_where_flow_is_associated) {
     for (int k = 0; k < 200; ++k) {
       const Matrix3d b = b_of({-0.2, -0.05, -0.1}, random_turn(random, false));
       DeformationTangent<3> tangent;
-      skeleton_response<3>(law, p, b, random_increment<3>(random, 0.2), &tangent);
+      skeleton_response<3>(law, p, {b}, random_increment<3>(random, 0.2), &tangent);
       largest = std::max(largest, (tangent - tangent.transpose()).cwiseAbs().maxCoeff());
     }
     return largest / p.young;
@@ -162,16 +165,16 @@ TEST(SkeletonLaw, a_body_that_turns_carries_its_stress_along) {
       const Matrix3d turn = random_turn(random, false);
       const Matrix3d b = b_of({-0.1, -0.02, -0.05}, random_turn(random, false));
       const Matrix3d increment = random_increment<3>(random, 0.1);
-      const auto straight = skeleton_response<3>(*law, sand(), b, increment);
+      const auto straight = skeleton_response<3>(*law, sand(), {b}, increment);
       // First the increment and then the turn; and the turn of all that there is.
-      const auto turned = skeleton_response<3>(*law, sand(), b, turn * increment);
-      const auto whole = skeleton_response<3>(*law, sand(), turn * b * turn.transpose(),
+      const auto turned = skeleton_response<3>(*law, sand(), {b}, turn * increment);
+      const auto whole = skeleton_response<3>(*law, sand(), {turn * b * turn.transpose()},
                                               turn * increment * turn.transpose());
       for (const auto& other : {turned, whole}) {
         const Matrix3d stress = turn * straight.stress * turn.transpose();
-        const Matrix3d left = turn * straight.elastic_b * turn.transpose();
+        const Matrix3d left = turn * straight.state.elastic_b * turn.transpose();
         EXPECT_LT((other.stress - stress).cwiseAbs().maxCoeff(), 1e-13 * sand().young);
-        EXPECT_LT((other.elastic_b - left).cwiseAbs().maxCoeff(), 1e-13);
+        EXPECT_LT((other.state.elastic_b - left).cwiseAbs().maxCoeff(), 1e-13);
         EXPECT_NEAR(other.plastic_strain, straight.plastic_strain, 1e-13);
       }
     }
@@ -188,10 +191,10 @@ TEST(SkeletonLaw, plane_strain_is_space_without_strain_across) {
       in_space.topLeftCorner<2, 2>() = increment;
       DeformationTangent<2> tangent;
       DeformationTangent<3> tangent_in_space;
-      const auto plane = skeleton_response<2>(*law, sand(), b, increment, &tangent);
-      const auto space = skeleton_response<3>(*law, sand(), b, in_space, &tangent_in_space);
+      const auto plane = skeleton_response<2>(*law, sand(), {b}, increment, &tangent);
+      const auto space = skeleton_response<3>(*law, sand(), {b}, in_space, &tangent_in_space);
       EXPECT_LT((plane.stress - space.stress).cwiseAbs().maxCoeff(), 1e-13 * sand().young);
-      EXPECT_LT((plane.elastic_b - space.elastic_b).cwiseAbs().maxCoeff(), 1e-13);
+      EXPECT_LT((plane.state.elastic_b - space.state.elastic_b).cwiseAbs().maxCoeff(), 1e-13);
       const std::array<int, 4> of_plane{0, 1, 3, 4};
       const Eigen::Matrix4d part = tangent_in_space(of_plane, of_plane);
       EXPECT_LT((tangent - part).cwiseAbs().maxCoeff(), 1e-12 * sand().young) << law->word;
@@ -208,12 +211,14 @@ TEST(SkeletonLaw, equal_principal_strains_cost_no_accuracy) {
     for (const Vector3d& strain :
          {Vector3d(-0.01, -0.01, -0.01), Vector3d(0.0, 0.0, 0.0), Vector3d(-0.2, 0.02, 0.02),
           Vector3d(0.05, -0.1, -0.1), Vector3d(0.1, 0.1, 0.1)}) {
+      // Clay without stress lies on its surface, where the response has a kink.
+      if (law->word == "cam-clay" && strain.isZero()) continue;
       const Matrix3d increment = Matrix3d::Identity();
       DeformationTangent<3> equal;
-      skeleton_response<3>(*law, sand(), b_of(strain), increment, &equal);
+      skeleton_response<3>(*law, sand(), {b_of(strain)}, increment, &equal);
       for (const double apart : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16}) {
         DeformationTangent<3> tangent;
-        skeleton_response<3>(*law, sand(), b_of(strain) + apart * direction, increment, &tangent);
+        skeleton_response<3>(*law, sand(), {b_of(strain) + apart * direction}, increment, &tangent);
         const double difference = (tangent - equal).cwiseAbs().maxCoeff() / sand().young;
         EXPECT_LT(difference, 100.0 * apart + 1e-12) << law->word << ' ' << strain.transpose();
       }
@@ -224,17 +229,19 @@ TEST(SkeletonLaw, equal_principal_strains_cost_no_accuracy) {
 TEST(SkeletonLaw, no_strain_makes_what_is_not_a_number) {
   for (const SkeletonLaw* law : skeleton_laws()) {
     for (const SkeletonParameters& p : soils()) {
+      if (law->word == "cam-clay" && p.friction == 0.0) continue;  // refused
       for (const double stretch : {1e-6, 1e-3, 0.5, 1.0, 2.0, 1e3, 1e6}) {
         for (const double other : {1e-3, 1.0, 1e3}) {
           const Matrix3d increment = Vector3d(stretch, stretch, other).asDiagonal();
           DeformationTangent<3> tangent;
           const auto after =
-              skeleton_response<3>(*law, p, Matrix3d::Identity(), increment, &tangent);
+              skeleton_response<3>(*law, p, {Matrix3d::Identity()}, increment, &tangent);
           EXPECT_TRUE(after.stress.allFinite() && tangent.allFinite()) << law->word;
-          EXPECT_TRUE(after.elastic_b.allFinite() && after.plastic_strain >= 0.0) << law->word;
+          EXPECT_TRUE(after.state.elastic_b.allFinite() && after.plastic_strain >= 0.0)
+              << law->word;
           DeformationTangent<2> in_plane;
           const auto plane = skeleton_response<2>(
-              *law, p, Matrix3d::Identity(),
+              *law, p, {Matrix3d::Identity()},
               Matrix2d(Vector3d(stretch, other, 1.0).head<2>().asDiagonal()), &in_plane);
           EXPECT_TRUE(plane.stress.allFinite() && in_plane.allFinite()) << law->word;
         }
@@ -249,7 +256,7 @@ TEST(ElasticLaw, stress_is_linear_in_the_logarithm_of_stretches) {
   const double lame = 3.0 * 0.2 / (1.2 * 0.6);
   const Matrix3d increment = Vector3d(0.5, 2.0, 3.0).asDiagonal();
   const auto at =
-      skeleton_response<3>(*skeleton_law("elastic"), p, Matrix3d::Identity(), increment);
+      skeleton_response<3>(*skeleton_law("elastic"), p, {Matrix3d::Identity()}, increment);
   EXPECT_NEAR(at.stress(0, 0), lame * std::log(3.0) + 2.0 * shear * std::log(0.5), 1e-14);
   EXPECT_NEAR(at.stress(2, 2), (lame + 2.0 * shear) * std::log(3.0), 1e-14);
   EXPECT_EQ(at.plastic_strain, 0.0);
@@ -259,7 +266,7 @@ TEST(ElasticLaw, b_under_a_stress_gives_that_stress) {
   Matrix3d stress;
   stress << -0.3, 0.05, 0.0, 0.05, -0.5, 0.0, 0.0, 0.0, -0.2;
   const auto at = skeleton_response<2>(*skeleton_law("elastic"), sand(),
-                                       elastic_b_under(sand(), stress), Matrix2d::Identity());
+                                       {elastic_b_under(sand(), stress)}, Matrix2d::Identity());
   EXPECT_LT((at.stress - stress).cwiseAbs().maxCoeff(), 1e-14);
 }
 
@@ -268,7 +275,7 @@ TEST(VonMisesLaw, pure_shear_stops_at_the_cohesion) {
   const double strain = 0.1;
   const Matrix3d increment = Vector3d(std::exp(strain), std::exp(-strain), 1.0).asDiagonal();
   const auto at =
-      skeleton_response<3>(*skeleton_law("von-mises"), p, Matrix3d::Identity(), increment);
+      skeleton_response<3>(*skeleton_law("von-mises"), p, {Matrix3d::Identity()}, increment);
   EXPECT_NEAR(at.stress(0, 0), 0.7, 1e-13);
   EXPECT_NEAR(at.stress(1, 1), -0.7, 1e-13);
   EXPECT_NEAR(at.stress(2, 2), 0.0, 1e-13);
@@ -302,14 +309,14 @@ TEST(MohrCoulombLaw, stress_returns_to_the_limit) {
   const SkeletonLaw& law = *skeleton_law("mohr-coulomb");
   for (const SkeletonParameters& p : soils()) {
     for_trial_strains([&](const Vector3d& trial) {
-      const PrincipalResponse at = law.respond(p, trial);
+      const PrincipalResponse at = law.respond(p, trial, 0.0);
       const double excess = excess_over_strength(p, at.stress);
       EXPECT_LT(excess, 2e-12 * p.young);
       if (at.plastic_strain > 0.0) {
         EXPECT_GT(excess, -1e-12 * p.young);
       }
       // What has returned stays.
-      const PrincipalResponse again = law.respond(p, at.elastic_strain);
+      const PrincipalResponse again = law.respond(p, at.elastic_strain, 0.0);
       EXPECT_EQ(again.plastic_strain, 0.0);
       EXPECT_LT((again.stress - at.stress).cwiseAbs().maxCoeff(), 1e-13 * p.young);
     });
@@ -328,7 +335,7 @@ TEST(MohrCoulombLaw, associated_flow_takes_the_most_work) {
       if (excess_over_strength(p, stress) <= 0.0) bearable.push_back(stress);
     }
     for_trial_strains([&](const Vector3d& trial) {
-      const PrincipalResponse at = law.respond(p, trial);
+      const PrincipalResponse at = law.respond(p, trial, 0.0);
       const Vector3d plastic = trial - at.elastic_strain;
       for (const Vector3d& other : bearable) {
         EXPECT_GE(plastic.dot(at.stress - other), -1e-12);
@@ -345,7 +352,7 @@ TEST(MohrCoulombLaw, flow_dilates_as_the_angle_says) {
   const double apex = p.cohesion / std::tan(p.friction);
   int flowing = 0;
   for_trial_strains([&](const Vector3d& trial) {
-    const PrincipalResponse at = law.respond(p, trial);
+    const PrincipalResponse at = law.respond(p, trial, 0.0);
     const Vector3d plastic = trial - at.elastic_strain;
     if (at.plastic_strain == 0.0 || at.stress.maxCoeff() > apex - 1e-9) return;
     ++flowing;
@@ -363,11 +370,11 @@ TEST(MohrCoulombLaw, soil_without_cohesion_bears_no_tension) {
   const SkeletonParameters p = sand(30.0, 0.0, 0.0);
   const Matrix3d increment = Vector3d(1.1, 1.05, 1.2).asDiagonal();
   DeformationTangent<3> tangent;
-  const auto at = skeleton_response<3>(*skeleton_law("mohr-coulomb"), p, Matrix3d::Identity(),
+  const auto at = skeleton_response<3>(*skeleton_law("mohr-coulomb"), p, {Matrix3d::Identity()},
                                        increment, &tangent);
   EXPECT_EQ(at.stress.cwiseAbs().maxCoeff(), 0.0);
   EXPECT_EQ(tangent.cwiseAbs().maxCoeff(), 0.0);
-  EXPECT_LT((at.elastic_b - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((at.state.elastic_b - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-15);
 }
 
 TEST(FinesFunction, is_linear_between_pairs_in_either_order) {

@@ -168,5 +168,128 @@ TEST(SoilElement, many_steps_lead_to_the_same_state) {
   EXPECT_LT((one.state().stress - many.state().stress).cwiseAbs().maxCoeff(), 1e-4);
 }
 
+// -------------------------------------------------------------------------- modified Cam clay
+
+constexpr double clay_young = 2e7;  // Pa
+constexpr double clay_poisson = 0.25;
+constexpr double clay_bulk = clay_young / (3.0 * (1.0 - 2.0 * clay_poisson));
+constexpr double lambda = 0.04;
+constexpr double start_limit = 1e5;  // p_c0, Pa
+
+/// M
+double critical_slope() {
+  const double s = std::sin(25.0 * std::numbers::pi / 180.0);
+  return 6.0 * s / (3.0 - s);
+}
+
+SkeletonModel clay() {
+  return {.law = skeleton_law("cam-clay"),
+          .young = clay_young,
+          .poisson = clay_poisson,
+          .friction = 25.0,
+          .compression = lambda,
+          .preconsolidation = start_limit};
+}
+
+/// Of the Kirchhoff stress, J times the stress, in which the law is written, Pa.
+double kirchhoff_pressure(const SoilElementState& state) {
+  return state.mean_stress() * std::exp(state.volumetric_strain());
+}
+double kirchhoff_shear(const SoilElementState& state) {
+  return state.deviator_stress() * std::exp(state.volumetric_strain());
+}
+
+/// Virgin compression and unloading: -ln J = P/K + Lambda ln(P/p_c0), then along K.
+TEST(CamClay, CompressesAlongItsLine) {
+  const SkeletonModel model = clay();
+  SoilElement element(model, isotropic(5e4), 1.0);
+  for (const double pressure : {2e5, 4e5}) {
+    ASSERT_EQ(
+        element.advance({.value = isotropic(pressure), .is_stress = {true, true, true, false}}),
+        1.0);
+    const double p = kirchhoff_pressure(element.state());
+    EXPECT_NEAR(element.state().volumetric_strain(),
+                -(p - 5e4) / clay_bulk - lambda * std::log(p / start_limit), 1e-9);
+  }
+  const double packed = element.state().volumetric_strain();
+  const double p = kirchhoff_pressure(element.state());
+  ASSERT_EQ(element.advance({.value = isotropic(1e5), .is_stress = {true, true, true, false}}),
+            1.0);
+  EXPECT_NEAR(element.state().volumetric_strain() - packed,
+              (p - kirchhoff_pressure(element.state())) / clay_bulk, 1e-12);
+}
+
+/// On a path of constant q/p = eta shear strain grows by 2 eta/(M^2 - eta^2) of the plastic
+/// compaction, in one step as in many.
+TEST(CamClay, ShearsInProportionOnARadialPath) {
+  const double eta = 0.6;
+  const double slope = critical_slope();
+  const SkeletonModel model = clay();
+  // p on the surface at the start.
+  const double p_start = start_limit / (1.0 + eta * eta / (slope * slope));
+  const auto stress = [&](double p) {
+    const double q = eta * p;
+    return PlaneComponents(-(p - q / 3.0), -(p + 2.0 * q / 3.0), -(p - q / 3.0), 0.0);
+  };
+  SoilElement element(model, stress(p_start), 1.0);
+  ASSERT_EQ(
+      element.advance({.value = stress(3.0 * p_start), .is_stress = {true, true, true, false}}),
+      1.0);
+  const SoilElementState& state = element.state();
+  const double p = kirchhoff_pressure(state);
+  const double q = kirchhoff_shear(state);
+  EXPECT_NEAR(q / p, eta, 1e-9);
+  const double compaction = lambda * std::log(p / p_start);
+  EXPECT_NEAR(state.skeleton.internal, compaction, 1e-10);
+  EXPECT_NEAR(state.volumetric_strain(), -(p - p_start) / clay_bulk - compaction, 1e-10);
+  const double shear_modulus = clay_young / (2.0 * (1.0 + clay_poisson));
+  const double shear = 2.0 / 3.0 * (state.strain[0] - state.strain[1]);
+  EXPECT_NEAR(shear,
+              (q - eta * p_start) / (3.0 * shear_modulus) +
+                  compaction * 2.0 * eta / (slope * slope - eta * eta),
+              1e-9);
+}
+
+/// At constant volume the soil ends at the critical state: q = M p, p_c = 2 p, and what it
+/// compacts it swells by.
+TEST(CamClay, EndsAtTheCriticalStateAtConstantVolume) {
+  for (const double p_start : {1e5, 1e4}) {  // on the wet side, and on the dry side
+    const SkeletonModel model = clay();
+    SoilElement element(model, isotropic(p_start), 1.0);
+    for (int k = 1; k <= 400; ++k) {
+      const double e = 1e-3 * k;
+      ASSERT_EQ(element.advance({.value = {0.5 * e, -e, 0.5 * e, 0.0}}), 1.0);
+    }
+    // p_start - K v = p_c0 exp(v/Lambda)/2
+    double low = -0.1;
+    double high = 0.1;
+    for (int k = 0; k < 100; ++k) {
+      const double v = 0.5 * (low + high);
+      const bool above = p_start - clay_bulk * v > 0.5 * start_limit * std::exp(v / lambda);
+      (above ? low : high) = v;
+    }
+    const double p = p_start - clay_bulk * low;
+    EXPECT_NEAR(kirchhoff_pressure(element.state()), p, 1e-4 * p);
+    EXPECT_NEAR(kirchhoff_shear(element.state()), critical_slope() * p, 1e-4 * p);
+  }
+}
+
+/// Steps of backward Euler on a path that turns: the error falls with the first order.
+TEST(CamClay, DrainedShearConvergesWithOrderOne) {
+  const auto shear_stress = [](int steps) {
+    const SkeletonModel model = clay();
+    SoilElement element(model, isotropic(1e5), 1.0);
+    for (int k = 1; k <= steps; ++k) {
+      EXPECT_EQ(element.advance(triaxial(1e5, -0.05 * k / steps)), 1.0);
+    }
+    return element.state().deviator_stress();
+  };
+  const double exact = shear_stress(1600);
+  const double coarse = std::abs(shear_stress(40) - exact);
+  const double fine = std::abs(shear_stress(80) - exact);
+  EXPECT_LT(fine, 0.01 * exact);
+  EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.2);
+}
+
 }  // namespace soil_element_test
 }  // namespace suffuse

@@ -136,7 +136,7 @@ class SolidModel {
   /// sigma of a point, Pa.
   [[nodiscard]] Eigen::Matrix3d stress(int p) const {
     const auto response =
-        skeleton_response<Dim>(*skeleton[p].law, skeleton[p].parameters, points.elastic_b[p],
+        skeleton_response<Dim>(*skeleton[p].law, skeleton[p].parameters, points.skeleton[p],
                                Eigen::Matrix<double, Dim, Dim>::Identity());
     return response.stress * points.reference_volume[p] / points.volume[p];
   }

@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "large_strain.hpp"
+#include "motion/moving_skeleton.hpp"
 #include "moving_soil.hpp"
+#include "physics/skeleton/soil_element.hpp"
 #include "reference_table.hpp"
 
 namespace suffuse {
@@ -210,6 +212,57 @@ TEST(Consolidation, UndrainedLoadGoesToTheWater) {
   for (const double depth : {0.5, 0.75}) {
     EXPECT_NEAR(pressure_at(column.run(), 1.0 - depth), first, 1e-4 * load);
   }
+}
+
+/// Soft clay that consolidates under three times its preconsolidation pressure settles as a soil
+/// element does whose sides are held: another code for the same law, without a mesh or water.
+TEST(Consolidation, OfCamClaySettlesAsItsElementDoes) {
+  constexpr double load = 3e4;
+  SkeletonModel clay{.law = skeleton_law("cam-clay"),
+                     .young = 2e6,
+                     .poisson = 0.3,
+                     .friction = 25.0,
+                     .compression = 0.05,
+                     .preconsolidation = 1e4};
+  SoilElement element(clay, PlaneComponents::Zero(), 1.0);
+  constexpr int steps = 400;
+  for (int k = 1; k <= steps; ++k) {
+    ASSERT_EQ(element.advance({.value = {0.0, -load * k / steps, 0.0, 0.0},
+                               .is_stress = {false, true, false, false}}),
+              1.0);
+  }
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.tolerance = 1e-3;
+  scene.time.end = 4e5;
+  scene.soils[0].conductivity = conductivity;
+  scene.soils[0].skeleton = clay;
+  BoundaryCondition top = model::pressure_on("top", 0.0);
+  top.concentration = 0.0;
+  top.traction = VectorFunction{{{0.0, {0.0, 0.0, 0.0}}, {2e5, {0.0, -load, 0.0}}}};
+  scene.boundaries = {top, fixed_on("bottom", Fixing::both), fixed_on("left", Fixing::normal),
+                      fixed_on("right", Fixing::normal)};
+  model::ModelRun run(model::make_case(model::crossed_mesh(2, 16, 0.125, 1.0), scene));
+  const auto moments = run.run({scene.time.end});
+  EXPECT_LT(run.worst_residual(), 1e-12);
+  const auto& solid = dynamic_cast<const MovingSkeleton<2>&>(run.model().solid());
+  double worst_stress = 0.0;
+  double worst_compaction = 0.0;
+  for (int p = 0; p < solid.points().size(); ++p) {
+    worst_stress = std::max(worst_stress, std::abs(solid.effective_stress(p)(1, 1) + load) / load);
+    worst_compaction = std::max(
+        worst_compaction,
+        std::abs(solid.points().skeleton[p].internal / element.state().skeleton.internal - 1.0));
+  }
+  const double settled = 1.0 - std::exp(element.state().strain[1]);
+  const double settlement = moments.states.back().history.settlement_max;
+  std::cout << "settlement " << settlement << " of a highest point, of the element " << settled
+            << "; off: stress " << worst_stress << ", compaction " << worst_compaction << "; "
+            << run.steps() << " steps\n";
+  EXPECT_GT(settled, 0.05);
+  EXPECT_NEAR(settlement, settled, 0.03 * settled);  // it lies below the surface
+  EXPECT_LT(worst_stress, 5e-3);
+  EXPECT_LT(worst_compaction, 1e-2);
 }
 
 }  // namespace consolidation_test

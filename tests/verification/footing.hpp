@@ -52,8 +52,9 @@ struct FootingModel : PlaneModel {
     support("right", Support::normal);
     support("bottom", Support::both);
     limits = {.max_iterations = 40, .tolerance = 1e-7};
-    for (Eigen::Matrix3d& b : points.elastic_b) {
-      b = elastic_b_under(skeleton[0].parameters, -footing.surcharge * Eigen::Matrix3d::Identity());
+    for (SkeletonState& state : points.skeleton) {
+      state.elastic_b =
+          elastic_b_under(skeleton[0].parameters, -footing.surcharge * Eigen::Matrix3d::Identity());
     }
     const double edge = 1.0 + 0.1 / cells;
     for (const int f : faces_of("top")) {

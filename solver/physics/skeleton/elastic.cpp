@@ -7,6 +7,11 @@
 namespace suffuse::skeleton {
 namespace {
 
+PrincipalResponse respond(const SkeletonParameters& p, const Eigen::Vector3d& trial,
+                          double /*internal*/) {
+  return elastic_response(p, trial);
+}
+
 constexpr std::array parameters{young, poisson};
 
 }  // namespace
@@ -15,6 +20,6 @@ extern const SkeletonLaw elastic{
     .word = "elastic",
     .description = "Kirchhoff stress linear in logarithmic strain, at any strain",
     .parameters = parameters,
-    .respond = elastic_response};
+    .respond = respond};
 
 }  // namespace suffuse::skeleton

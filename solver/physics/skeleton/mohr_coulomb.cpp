@@ -101,7 +101,7 @@ double secant(const PrincipalResponse& response, const Vector3d& trial, double d
   return std::clamp((response.stress[i] - response.stress[j]) / difference, 0.0, double_shear);
 }
 
-PrincipalResponse respond(const SkeletonParameters& p, const Vector3d& trial) {
+PrincipalResponse respond(const SkeletonParameters& p, const Vector3d& trial, double /*internal*/) {
   PrincipalResponse response = elastic_response(p, trial);
   const Limit limit(p);
   const double largest = response.stress.maxCoeff();

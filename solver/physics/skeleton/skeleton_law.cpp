@@ -45,7 +45,9 @@ SkeletonParameters SkeletonModel::at(double fines_left) const {
           .poisson = poisson.value(fines_left),
           .friction = friction.value(fines_left) * radians,
           .cohesion = cohesion.value(fines_left),
-          .dilation = dilation.value(fines_left) * radians};
+          .dilation = dilation.value(fines_left) * radians,
+          .compression = compression.value(fines_left),
+          .preconsolidation = preconsolidation.value(fines_left)};
 }
 
 }  // namespace suffuse

@@ -18,6 +18,7 @@ struct PrincipalResponse {
   Eigen::Vector3d elastic_strain = Eigen::Vector3d::Zero();  ///< logarithmic, that is left
   /// Equivalent plastic strain of the increment, sqrt(2/3) |trial - elastic_strain|; 0: elastic.
   double plastic_strain = 0.0;
+  double internal_change = 0.0;                       ///< of the law's internal variable
   Eigen::Matrix3d tangent = Eigen::Matrix3d::Zero();  ///< d stress_i / d trial_j, Pa
   /// (tau_i - tau_j) / (trial_i - trial_j), entry k for the two others than k, Pa; its limit where
   /// the two strains are equal. 2 G where the law is elastic.
@@ -34,8 +35,11 @@ struct SkeletonLaw {
   std::span<const SkeletonParameter> parameters;
   /// The response to the trial strains: the elastic logarithmic strains before the increment, with
   /// all of the increment added. They come in any order. The same formula holds for any trial
-  /// strain: no NaN for finite strains.
-  PrincipalResponse (*respond)(const SkeletonParameters& parameters, const Eigen::Vector3d& trial);
+  /// strain: no NaN for finite strains. `internal`: the internal variable before the increment.
+  PrincipalResponse (*respond)(const SkeletonParameters& parameters, const Eigen::Vector3d& trial,
+                               double internal);
+  /// Name of the law's internal variable in snapshots; it is 0 at the start. Empty: it has none.
+  std::string_view internal = {};
 };
 
 /// Every law there is, in the order of the scene reference: the order in physics/CMakeLists.txt.

@@ -29,11 +29,13 @@ struct FinesFunction {
 
 /// The numbers of a law at one point and time.
 struct SkeletonParameters {
-  double young = 0.0;     ///< E, Pa
-  double poisson = 0.0;   ///< nu
-  double friction = 0.0;  ///< phi, rad
-  double cohesion = 0.0;  ///< c, Pa
-  double dilation = 0.0;  ///< psi, rad
+  double young = 0.0;             ///< E, Pa
+  double poisson = 0.0;           ///< nu
+  double friction = 0.0;          ///< phi, rad
+  double cohesion = 0.0;          ///< c, Pa
+  double dilation = 0.0;          ///< psi, rad
+  double compression = 0.0;       ///< Lambda
+  double preconsolidation = 0.0;  ///< p_c0, Pa
 
   /// G, Pa
   [[nodiscard]] double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
@@ -47,12 +49,14 @@ struct SkeletonParameters {
 
 /// One soil's law with its numbers, as the scene gives them: angles in degrees.
 struct SkeletonModel {
-  const SkeletonLaw* law = nullptr;  ///< null: rigid
-  FinesFunction young = {};          ///< E, Pa
-  FinesFunction poisson = {};        ///< nu
-  FinesFunction friction = {};       ///< phi, degrees
-  FinesFunction cohesion = {};       ///< c, Pa
-  FinesFunction dilation = {};       ///< psi, degrees
+  const SkeletonLaw* law = nullptr;     ///< null: rigid
+  FinesFunction young = {};             ///< E, Pa
+  FinesFunction poisson = {};           ///< nu
+  FinesFunction friction = {};          ///< phi, degrees
+  FinesFunction cohesion = {};          ///< c, Pa
+  FinesFunction dilation = {};          ///< psi, degrees
+  FinesFunction compression = {};       ///< Lambda
+  FinesFunction preconsolidation = {};  ///< p_c0, Pa
 
   [[nodiscard]] bool moves() const { return law != nullptr; }
   /// The numbers where this share of the erodible fines is left.

@@ -94,19 +94,20 @@ DeformationTangent<Dim> deformation_tangent(const Principal& trial,
 
 template <int Dim>
 SkeletonResponse skeleton_response(const SkeletonLaw& law, const SkeletonParameters& parameters,
-                                   const Matrix3d& elastic_b,
+                                   const SkeletonState& before,
                                    const Eigen::Matrix<double, Dim, Dim>& increment,
                                    DeformationTangent<Dim>* tangent) {
   SkeletonResponse result;
-  Matrix3d& b = result.elastic_b;
-  b = elastic_b;
+  result.state = before;
+  Matrix3d& b = result.state.elastic_b;
   const Eigen::Matrix<double, Dim, Dim> turned =
-      increment * elastic_b.topLeftCorner<Dim, Dim>() * increment.transpose();
+      increment * before.elastic_b.topLeftCorner<Dim, Dim>() * increment.transpose();
   b.topLeftCorner<Dim, Dim>() = 0.5 * (turned + turned.transpose());
   const Principal trial = principal_strains<Dim>(b);
-  const PrincipalResponse response = law.respond(parameters, trial.strain);
+  const PrincipalResponse response = law.respond(parameters, trial.strain, before.internal);
   result.stress = tensor_of(trial, response.stress);
   result.plastic_strain = response.plastic_strain;
+  result.state.internal += response.internal_change;
   if (response.plastic_strain > 0.0) {
     b = tensor_of(trial, (2.0 * response.elastic_strain.array()).exp());
   }
@@ -122,10 +123,10 @@ Matrix3d elastic_b_under(const SkeletonParameters& parameters, const Matrix3d& s
 }
 
 template SkeletonResponse skeleton_response<2>(const SkeletonLaw&, const SkeletonParameters&,
-                                               const Matrix3d&, const Eigen::Matrix2d&,
+                                               const SkeletonState&, const Eigen::Matrix2d&,
                                                DeformationTangent<2>*);
 template SkeletonResponse skeleton_response<3>(const SkeletonLaw&, const SkeletonParameters&,
-                                               const Matrix3d&, const Eigen::Matrix3d&,
+                                               const SkeletonState&, const Eigen::Matrix3d&,
                                                DeformationTangent<3>*);
 
 }  // namespace suffuse

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "physics/skeleton/skeleton_response.hpp"
-
 namespace suffuse {
 namespace {
 
@@ -69,12 +67,12 @@ SoilElementState state_at(const SkeletonModel& model, const SoilElementState& be
   const Matrix3d before_inverse = Stretch(before.strain).tensor(-1.0);
   const Matrix3d increment = stretch.tensor() * before_inverse;
   DeformationTangent<3> of_increment;
-  const SkeletonResponse response = skeleton_response<3>(
-      *model.law, model.at(fines_left), before.elastic_b, increment, &of_increment);
+  const SkeletonResponse response = skeleton_response<3>(*model.law, model.at(fines_left),
+                                                         before.skeleton, increment, &of_increment);
   const double volume = std::exp(strain.head<3>().sum());
   SoilElementState state{.strain = strain,
                          .stress = components_of(response.stress) / volume,
-                         .elastic_b = response.elastic_b,
+                         .skeleton = response.state,
                          .plastic_strain = before.plastic_strain + response.plastic_strain,
                          .fines_left = fines_left};
   const Matrix3d first_stress = response.stress * increment.inverse().transpose();
@@ -102,12 +100,12 @@ SoilElement::SoilElement(const SkeletonModel& model, const PlaneComponents& stre
                          double fines_left)
     : model_(model),
       state_{.stress = stress,
-             .elastic_b = elastic_b_under(model.at(fines_left), tensor_of(stress)),
+             .skeleton = {elastic_b_under(model.at(fines_left), tensor_of(stress))},
              .fines_left = fines_left} {}
 
 bool SoilElement::is_admissible() const {
   const SkeletonResponse response = skeleton_response<3>(*model_.law, model_.at(state_.fines_left),
-                                                         state_.elastic_b, Matrix3d::Identity());
+                                                         state_.skeleton, Matrix3d::Identity());
   return response.plastic_strain == 0.0;
 }
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "physics/skeleton/skeleton_model.hpp"
+#include "physics/skeleton/skeleton_response.hpp"
 
 namespace suffuse {
 
@@ -18,9 +18,9 @@ struct SoilElementState {
   PlaneComponents strain = PlaneComponents::Zero();  ///< logarithmic, since the start
   PlaneComponents stress =
       PlaneComponents::Zero();  ///< effective stress sigma', of today's area, Pa
-  Eigen::Matrix3d elastic_b = Eigen::Matrix3d::Identity();  ///< elastic left Cauchy-Green tensor
-  double plastic_strain = 0.0;                              ///< equivalent, sum of its increments
-  double fines_left = 1.0;                                  ///< share of the erodible fines
+  SkeletonState skeleton;
+  double plastic_strain = 0.0;  ///< equivalent, sum of its increments
+  double fines_left = 1.0;      ///< share of the erodible fines
 
   /// p' = -(xx + yy + zz)/3, Pa: positive in compression.
   [[nodiscard]] double mean_stress() const { return -stress.head<3>().sum() / 3.0; }

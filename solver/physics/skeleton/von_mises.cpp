@@ -9,7 +9,8 @@
 namespace suffuse::skeleton {
 namespace {
 
-PrincipalResponse respond(const SkeletonParameters& p, const Eigen::Vector3d& trial) {
+PrincipalResponse respond(const SkeletonParameters& p, const Eigen::Vector3d& trial,
+                          double /*internal*/) {
   PrincipalResponse response = elastic_response(p, trial);
   const double mean = trial.mean();
   const Eigen::Vector3d deviator = trial.array() - mean;
