@@ -24,6 +24,16 @@ struct ShownPoints {
   std::string_view internal;  ///< name of the laws' internal variable; empty: they have none
 };
 
+/// Name of the internal variable of the scene's laws; empty where they have none.
+std::string_view internal_of(const Scene& scene) {
+  for (const Soil& soil : scene.soils) {
+    if (soil.skeleton.moves() && !soil.skeleton.law->internal.empty()) {
+      return soil.skeleton.law->internal;
+    }
+  }
+  return {};
+}
+
 template <int Dim>
 void show(const ShownPoints<Dim>& shown, Snapshot& snapshot) {
   const SolidPoints<Dim>& points = shown.points;
@@ -125,12 +135,7 @@ void MovingSkeleton<Dim>::describe(HistoryRow& row) const {
 
 template <int Dim>
 void MovingSkeleton<Dim>::describe(Snapshot& snapshot) const {
-  ShownPoints<Dim> shown{points_, start_, id_, {}, {}, {}};
-  for (const Soil& soil : movable_soils_.scene().soils) {
-    if (soil.skeleton.moves() && !soil.skeleton.law->internal.empty()) {
-      shown.internal = soil.skeleton.law->internal;
-    }
-  }
+  ShownPoints<Dim> shown{points_, start_, id_, {}, {}, internal_of(movable_soils_.scene())};
   for (int p = 0; p < points_.size(); ++p) {
     shown.stress.push_back(effective_stress(p));
     shown.fines_left.push_back(fines_left(p));
