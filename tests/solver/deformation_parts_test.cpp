@@ -8,6 +8,7 @@
 
 #include "box_mesh.hpp"
 #include "equilibrium/crossing_forces.hpp"
+#include "grid/near_element.hpp"
 #include "motion/held_by_inertia.hpp"
 #include "motion/point_motion.hpp"
 #include "motion/soil_inertia.hpp"
