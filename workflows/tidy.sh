@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# clang-tidy on the sources: tidy.sh BUILD JOBS. BUILD has compile_commands.json.
+# clang-tidy on the sources: tidy.sh BUILD JOBS [COMMIT|new]. BUILD has compile_commands.json.
 #
-# Most of its time goes into headers, so it looks at the batches of files that are compiled as one.
+# Most of its time goes into headers, so it looks at the batches of files that are compiled as one. With COMMIT at those
+# that have changed since then; with `new` since the branch left main, and on main itself since the commit before.
 set -eu
-build=$(realpath "$1") jobs=$2
+build=$(realpath "$1") jobs=$2 since=${3:-}
 cd "$(dirname "$0")/.."
 
 look() {
@@ -15,5 +16,11 @@ look() {
 export -f look
 export build
 
-sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$build/compile_commands.json" |
-  grep -E "^($build|$PWD)/(mesher|solver|post)/" | sort -u | xargs -P "$jobs" -I{} bash -c 'look {}'
+if [ "$since" == new ]; then
+  since=''
+  for main in origin/main main; do
+    since=$(git merge-base HEAD "$main" 2> /dev/null) && break
+  done
+  [ "$since" != "$(git rev-parse HEAD 2> /dev/null)" ] || since=HEAD^
+fi
+workflows/tidy_batches.py "$build" "$since" | xargs -r -P "$jobs" -I{} bash -c 'look {}'
