@@ -13,11 +13,10 @@ namespace {
 
 /// Fines as the concentration that was solved for lies in the element, and `sum` of them
 /// altogether, m3. Where next to nothing has stayed of much that passed, the sum, a difference, may
-/// be negative by its last digit: then the element has what was solved for, and `owed` becomes what
-/// that is beyond the sum, m3. `passing`: liquid that passed, m3.
+/// be wrong by its last digit: less than nothing is nothing. `passing`: liquid that passed, m3.
 template <int Dim>
 ElementValues<Dim> fines_of(const ElementValues<Dim>& liquid, const double* at_vertices, double sum,
-                            double passing, double& owed) {
+                            double passing) {
   constexpr double round_off = 1e-13;
   double all = 0.0;
   for (int k = 0; k <= Dim; ++k) all += at_vertices[k];
@@ -27,11 +26,7 @@ ElementValues<Dim> fines_of(const ElementValues<Dim>& liquid, const double* at_v
     const double c = FieldNodes<Dim>::far_vertex * all + FieldNodes<Dim>::spread * at_vertices[j];
     solved += result[j] = liquid[j] * c;
   }
-  owed = 0.0;
-  if (sum <= 0.0 && sum >= -round_off * passing) {
-    owed = solved - sum;
-    return result;
-  }
+  if (sum <= 0.0 && sum >= -round_off * passing) return result;
   if (!(solved > 0.0)) {
     const double mean = sum / element_sum<Dim>(liquid);
     for (int j = 0; j <= Dim; ++j) result[j] = liquid[j] * mean;
@@ -53,8 +48,7 @@ SweptField<Dim>::SweptField(const Grid<Dim>& grid, const ElementSides<Dim>& side
       boundary_values_(boundary_values),
       conditions_(boundary_values.at(0.0)),
       threads_(threads),
-      balance_(soils),
-      owed_(grid.mesh.element_count(), 0.0) {}
+      balance_(soils) {}
 
 template <int Dim>
 void SweptField<Dim>::start(const std::vector<double>& face_volume, std::vector<double> gained) {
@@ -191,7 +185,7 @@ void SweptField<Dim>::finish(FinesState<Dim>& state, const ElementField<Dim>& re
     ElementValues<Dim>& liquid = state.liquid_volume[e];
     ElementValues<Dim>& fines = state.fines_volume[e];
     const std::size_t place = (Dim + 1) * static_cast<std::size_t>(e);
-    double sum = element_sum<Dim>(fines) - owed_[e];
+    double sum = element_sum<Dim>(fines);
     double passing = element_sum<Dim>(liquid);
     ElementValues<Dim> outflow = outflow_[e];
     for (double& q : outflow) {
@@ -203,7 +197,7 @@ void SweptField<Dim>::finish(FinesState<Dim>& state, const ElementField<Dim>& re
     if (!gained_.empty()) add_liquid<Dim>(liquid, share_ * gained_[e]);
     for (int j = 0; j <= Dim; ++j) liquid[j] += received[e][j];
     sum += element_sum<Dim>(received[e]) + element_sum<Dim>(moved);
-    fines = fines_of<Dim>(liquid, &last_[place], sum, passing, owed_[e]);
+    fines = fines_of<Dim>(liquid, &last_[place], sum, passing);
   });
   const auto mean = [&](int e) {
     return element_sum<Dim>(state.fines_volume[e]) / element_sum<Dim>(state.liquid_volume[e]);

@@ -34,7 +34,6 @@ class SweptField {
   void fines_crossed(std::vector<double>& result) const;
 
   [[nodiscard]] const SweepOrder& order() const { return order_; }
-  void archive(auto& archive) { archive(owed_); }
 
  private:
   /// Sets what enters at a time, s, among concentrations at vertices.
@@ -63,9 +62,6 @@ class SweptField {
   std::vector<double> first_;
   std::vector<double> last_;
   std::vector<Exchange> exchange_;
-  /// Fines that an element holds beyond its balance, which was negative by round-off, m3. They
-  /// leave its balance in the next step: over millions of steps they would add up.
-  std::vector<double> owed_;
   ElementField<Dim> fines_out_;  ///< through the sides of each element since `start`, m3
 };
 

@@ -40,7 +40,7 @@ class SweptSteps {
 
   [[nodiscard]] const SweptField<Dim>& field() const { return field_; }
   [[nodiscard]] const PassTiming& timing() const { return timing_; }
-  void archive(auto& archive) { archive(field_, next_, most_held_, exchanged_, timing_); }
+  void archive(auto& archive) { archive(next_, most_held_, exchanged_, timing_); }
 
  private:
   /// Error over the tolerance of a step of `dt`: misplaced fines over the most that the liquid has
