@@ -7,6 +7,7 @@
 #include "field/eulerian.hpp"
 #include "field/swept_field.hpp"
 #include "linear/cholesky_factor.hpp"
+#include "mixed/flux_correction.hpp"
 #include "mixed/implicit_mixed.hpp"
 #include "solid/pores.hpp"
 #include "solid/rigid_skeleton.hpp"

@@ -367,7 +367,7 @@ TEST(Equilibrium, AffineDisplacementOfTheBorderGoesThroughAnIrregularMesh) {
     EXPECT_LE((solution.displacement[i] - wanted[i]).norm(), 1e-10) << i;
   }
   const auto exact = skeleton_response<2>(*m.skeleton[0].law, m.skeleton[0].parameters,
-                                          Eigen::Matrix3d::Identity(), f);
+                                          {Eigen::Matrix3d::Identity()}, f);
   for (int p = 0; p < m.points.size(); ++p) {
     EXPECT_LE((m.stress(p) - exact.stress / f.determinant()).norm(), 1e-8 * exact.stress.norm());
     EXPECT_NEAR(m.points.volume[p] / m.points.reference_volume[p], f.determinant(), 1e-10);
