@@ -1,12 +1,12 @@
 # From the lines of measure.sh, with a header, to a table for people, and to a verdict:
 #     awk -F, -f report.awk [-v form=markdown] plan.csv
-# Exits 1 when a run with the plan differs from the one without by more than its bound, or an estimate
-# is not within a factor of two. Wall time is judged from 5 s on: below, the machine's moods decide.
+# Exits 1 when a run with the plan differs from the one without by more than its bound, or fewer than 20 scenes (all, of
+# fewer) have all their estimates within a factor of two. Wall time is judged from 5 s on: below, the machine's moods decide.
 
 function ratio(estimate, actual, judged,    r) {
-  if (estimate == "") { wrong = 1; return "none (!)" }
+  if (estimate == "") { missed = 1; return "none (!)" }
   r = estimate / actual
-  if (judged && (r > 2 || r < 0.5)) { wrong = 1; return sprintf("%.2f (!)", r) }
+  if (judged && (r > 2 || r < 0.5)) { missed = 1; return sprintf("%.2f (!)", r) }
   return judged ? sprintf("%.2f", r) : sprintf("(%.2f)", r)
 }
 
@@ -38,6 +38,7 @@ function of_skips(text) { return $at["steps_no_skip"] == "" ? "" : text }
 function speed_up(of) { return of_skips(sprintf("%.2f", $at[of "_no_skip"] / ($at[of] > 0 ? $at[of] : 1))) }
 
 {
+  missed = 0
   difference = sprintf("%.1e", $at["difference"])
   if ($at["difference"] == 0) difference = "0"
   if ($at["difference"] > $at["bound"]) { wrong = 1; difference = difference " (!)" }
@@ -48,6 +49,11 @@ function speed_up(of) { return of_skips(sprintf("%.2f", $at[of "_no_skip"] / ($a
                ratio($at["estimate_seconds"], $at["seconds"], $at["seconds"] >= 5),
                ratio($at["estimate_memory"], $at["memory"], 1),
                ratio($at["estimate_disk"], $at["disk"], 1)))
+  ++scenes
+  if (!missed) ++near
 }
 
-END { exit wrong }
+END {
+  if (near < (scenes < 20 ? scenes : 20)) wrong = 1
+  exit wrong
+}
