@@ -323,16 +323,6 @@ void Equilibrium<Dim>::assemble_elastic(Eigen::SparseMatrix<double>& stiffness) 
   scatter([&](int e) { return elastic_tangent(e); }, stiffness);
 }
 
-template <int Dim>
-std::array<Vector<Dim>, Dim + 1> Equilibrium<Dim>::volume_gradient(int e) const {
-  std::array<Vector<Dim>, Dim + 1> result;
-  for (int a = 0; a <= Dim; ++a) {
-    result[a] = body_.grid.volume[e] * ratio_[e] *
-                (inverse_[e].transpose() * body_.grid.shape_gradient[e][a]);
-  }
-  return result;
-}
-
 template class Equilibrium<2>;
 template class Equilibrium<3>;
 

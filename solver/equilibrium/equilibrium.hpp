@@ -107,9 +107,6 @@ class Equilibrium {
 
   /// J = det F of an element.
   [[nodiscard]] double volume_ratio(int element) const { return ratio_[element]; }
-  /// Derivative of V_e J by the displacement of the element's nodes, m2; minus this is the
-  /// derivative of the forces by the element's pressure.
-  [[nodiscard]] std::array<Vector<Dim>, Dim + 1> volume_gradient(int element) const;
 
   /// Least det F that a step may lead to.
   static constexpr double min_ratio = 0.1;

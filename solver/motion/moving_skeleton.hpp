@@ -130,7 +130,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// What counts for inertia: solid after the loss of the step, and the liquid in its pores, kg per
   /// point.
   [[nodiscard]] std::vector<double> moved_masses(const MotionStep<Dim>& step) const;
-  /// Of a step in equilibrium. `before`: places of the points at its start.
+  /// How the soil moved in a step in equilibrium. `before`: places of the points at its start.
   [[nodiscard]] SoilKinetics kinetics(const MotionStep<Dim>& step,
                                       const std::vector<Vector<Dim>>& before) const;
   /// E_oed per point, Pa; 0 where soil does not move.

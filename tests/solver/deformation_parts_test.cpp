@@ -275,7 +275,7 @@ TEST(CrossingForces, KeepTheBalanceAndFadeWhileWaterLeavesTheElements) {
 }
 
 template <int Dim>
-void check_volume_gradient() {
+void check_work_of_pressure() {
   const StressedBody<Dim> body(small_mesh<Dim>(), "elastic");
   Equilibrium<Dim> equilibrium = body.equilibrium();
   const NodeVectors<Dim> at = body.some_displacement(0.01, 1);
@@ -293,32 +293,24 @@ void check_volume_gradient() {
   };
   const std::vector<double> more = volumes(h);
   const std::vector<double> less = volumes(-h);
-  // The pressure's forces are minus the same derivative.
-  equilibrium.displace(at, false);
-  NodeVectors<Dim> without = equilibrium.forces();
   const std::vector<double> pressure = body.some_pressure();
-  NodeVectors<Dim> expected(body.mesh.node_count(), Vector<Dim>::Zero());
+  double work = 0.0;
   for (int e = 0; e < body.mesh.element_count(); ++e) {
-    if (body.sorted.is_empty(e)) continue;
-    double change = 0.0;
-    const auto gradient = equilibrium.volume_gradient(e);
-    for (int a = 0; a <= Dim; ++a) {
-      change += gradient[a].dot(along[body.mesh.elements[e][a]]);
-      expected[body.mesh.elements[e][a]] -= pressure[e] * gradient[a];
-    }
-    EXPECT_NEAR(change, (more[e] - less[e]) / (2.0 * h), 1e-8 * std::abs(change) + 1e-12);
+    if (!body.sorted.is_empty(e)) work -= pressure[e] * (more[e] - less[e]) / (2.0 * h);
   }
+  equilibrium.displace(at, false);
+  const NodeVectors<Dim> without = equilibrium.forces();
   equilibrium.set_pressure(pressure);
   equilibrium.displace(at, false);
   const NodeVectors<Dim> with = equilibrium.forces();
-  for (int i = 0; i < body.mesh.node_count(); ++i) {
-    EXPECT_NEAR((with[i] - without[i] - expected[i]).norm(), 0.0, 1e-8);
-  }
+  double found = 0.0;
+  for (int i = 0; i < body.mesh.node_count(); ++i) found += (with[i] - without[i]).dot(along[i]);
+  EXPECT_NEAR(found, work, 1e-8 * std::abs(work));
 }
 
 TEST(Equilibrium, PressureWorksOnTheVolumeOfElements) {
-  check_volume_gradient<2>();
-  check_volume_gradient<3>();
+  check_work_of_pressure<2>();
+  check_work_of_pressure<3>();
 }
 
 TEST(Equilibrium, ForcesOfABodyBalance) {
