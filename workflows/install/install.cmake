@@ -70,7 +70,7 @@ if(SUFFUSE_NATIVE)
 endif()
 install(TARGETS suffuse_physics suffuse_case suffuse_results EXPORT SuffuseTargets
         ARCHIVE COMPONENT development)
-foreach(folder mesher/common mesher/mesh mesher/scene mesher/case solver/physics solver/results)
+foreach(folder mesher/common mesher/mesh mesher/scene mesher/case solver/physics solver/files solver/results)
   install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/suffuse COMPONENT development
           FILES_MATCHING PATTERN *.hpp)
 endforeach()
