@@ -153,7 +153,8 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
 
 template <int Dim>
 void PointsAlongFaces<Dim>::follow_deposits() {
-  // Otherwise the next step would take them for pores that close while points pass, and take fines back.
+  // Otherwise the next step would take them for pores that close while points pass, and take fines
+  // back.
   std::vector<double> now = this->solid_.element_porosity();
   if (opening_.empty()) {
     porosity_ = std::move(now);
