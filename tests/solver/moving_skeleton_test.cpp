@@ -272,6 +272,22 @@ Scene sinking_scene() {
   return scene;
 }
 
+/// Pieces of soil that have met share what their smooth volumes differ by: gains still add up to
+/// nothing in each piece.
+TEST(SolidFlux, GainsOfAPieceAddUpToNothing) {
+  const std::vector<double> before{0.5, 0.3, 0.2, 0.4, 0.6, 0.0};
+  const std::vector<double> after{0.4, 0.45, 0.25, 0.5, 0.55, 0.0};
+  const std::vector<double> solid{0.52, 0.29, 0.21, 0.41, 0.57, 0.0};
+  const std::vector<double> volume(before.size(), 1.0);
+  const std::vector<int> piece{0, 0, 0, 1, 1, -1};
+  const std::vector<double> gain = element_gains({before, after, solid, volume, 0.1, piece, 2});
+  EXPECT_NEAR(gain[0] + gain[1] + gain[2], 0.0, 1e-16);
+  EXPECT_NEAR(gain[3] + gain[4], 0.0, 1e-16);
+  EXPECT_EQ(gain[5], 0.0);
+  EXPECT_LT(gain[0], 0.0);
+  EXPECT_GT(gain[1], 0.0);
+}
+
 TEST(SolidFlux, ClosesToRoundOffWhileASoftColumnSinksThroughElements) {
   Body b(model::column_mesh(3, 12, 0.25, 1.0), sinking_scene());
   const double solid = b.solid_of_points();
