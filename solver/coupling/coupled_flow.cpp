@@ -46,7 +46,7 @@ FlowProgress FlowOfMovingSolid<Dim>::commit(CoupledStep<Dim> step) {
   }
   const auto [motion, kinetics] = solid_.commit(*std::move(step.motion));
   move_liquid_along(motion, step.flow);
-  const FlowProgress progress = flow_.commit(std::move(step.flow));
+  FlowProgress progress = flow_.commit(std::move(step.flow));
   failure_.finish_step(progress.end, flow_.next_step(), kinetics);
   if (flow_.is_breakpoint(progress.end)) failure_.expect_short_steps();
   flow_.follow_inertia(failure_.has_inertia());

@@ -49,6 +49,21 @@ double largest_of_soil(const std::vector<double>& pressure, const std::vector<do
   return result;
 }
 
+std::vector<double> risen(std::vector<double> pressure, const Eigen::VectorXd& rise) {
+  for (std::size_t e = 0; e < pressure.size(); ++e) pressure[e] += rise[e];
+  return pressure;
+}
+
+Unsolved no_equilibrium(const std::string& where, int worst_node) {
+  return {"the soil has found no equilibrium" + where, true, worst_node};
+}
+
+PressureRise rise_of(const Eigen::VectorXd& rose, double dt) {
+  PressureRise result{{rose.data(), rose.data() + rose.size()}, dt};
+  for (double& rate : result.rate) rate /= dt;
+  return result;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -68,16 +83,13 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   given.liquid_mass = liquid_mass(grid_, at_start, air);
   step.motion = solid_.start_step(std::move(given), std::move(step.motion));
   const auto on_solid = [&](const Eigen::VectorXd& rise) {
-    std::vector<double> result = pressure;
-    for (std::size_t e = 0; e < result.size(); ++e) result[e] += rise[e];
-    return pressure_on_solid(grid_, soils, std::move(result), at_start.porosity, air);
+    return pressure_on_solid(grid_, soils, risen(pressure, rise), at_start.porosity, air);
   };
   AndersonMixing mixing(memory);
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const double scale =
       largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
-  int failed = 0;
-  int worst_node = -1;
+  std::optional<int> worst_node;  // of the last motion that was not found
   int worst_element = 0;
   for (int iteration = 1; iteration <= max_coupling_iterations; ++iteration) {
     ++step.iterations;
@@ -85,16 +97,12 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
     const std::vector<double> acting = on_solid(of_elements);
     const SolidMotion& motion = solid_.solve(*step.motion, acting);
     if (!motion.converged) {
-      ++failed;
       worst_node = motion.worst_node;
       const bool guessed = iteration == 1 && rise.squaredNorm() > 0.0;
-      if (guessed) {
-        rise.setZero();
-      } else if (const auto undrained = undrained_rise(*step.motion, acting, of_elements)) {
-        rise = at_faces(*undrained, forcing.mean_storage);
-      } else {
-        return Unsolved{"the soil has found no equilibrium", true, motion.worst_node};
-      }
+      std::optional<Eigen::VectorXd> other = Eigen::VectorXd::Zero(pressure.size());
+      if (!guessed) other = undrained_rise(*step.motion, acting, of_elements);
+      if (!other) return no_equilibrium("", step.motion->motion.worst_node);
+      rise = at_faces(*other, forcing.mean_storage);
       mixing = AndersonMixing(memory);
       continue;
     }
@@ -106,22 +114,16 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
     const Eigen::VectorXd rose =
         rise_at_soil(start.state.face_pressure, found.end.face_pressure, forcing.mean_storage);
     const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
-    if (largest(new_of_elements - of_elements) <= allowed(largest(new_of_elements), scale, floor)) {
-      step.rise.rate.assign(rose.data(), rose.data() + rose.size());
-      for (double& rate : step.rise.rate) rate /= dt;
-      step.rise.time = dt;
+    const double off = (new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
+    if (off <= allowed(largest(new_of_elements), scale, floor)) {
+      step.rise = rise_of(rose, dt);
       step.flow.found = std::move(found);
       return std::nullopt;
-    }
-    if (iteration == max_coupling_iterations) {
-      (new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
     }
     rise = mixing.next(rise, rose);
   }
   const std::string count = std::to_string(max_coupling_iterations) + " iterations";
-  if (failed > 0) {
-    return Unsolved{"the soil has found no equilibrium in " + count, true, worst_node};
-  }
+  if (worst_node) return no_equilibrium(" in " + count, *worst_node);
   return Unsolved{"flow and motion of the soil do not agree in " + count + ", least in " +
                   element_text(grid_, worst_element)};
 } catch (const NotConverged& error) {
