@@ -28,7 +28,6 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
       flow_.reject(step.flow);
     } else if (why) {
       failure_.step_unsolved(step.flow.start, *why);
-      flow_.follow_inertia(failure_.has_inertia());
       flow_.plan_anew(ahead, step.flow);
     } else if (flow_.accepts(ahead, step.flow)) {
       solid_.check_pores(*step.motion);
@@ -49,7 +48,6 @@ FlowProgress FlowOfMovingSolid<Dim>::commit(CoupledStep<Dim> step) {
   FlowProgress progress = flow_.commit(std::move(step.flow));
   failure_.finish_step(progress.end, flow_.next_step(), kinetics);
   if (flow_.is_breakpoint(progress.end)) failure_.expect_short_steps();
-  flow_.follow_inertia(failure_.has_inertia());
   rise_ = std::move(step.rise);
   iterations_ += step.iterations;
   return progress;
@@ -73,8 +71,8 @@ void FlowOfMovingSolid<Dim>::start() {
   const std::vector<double> pressure = pressure_on_solid(
       grid_, flow_.scheme().soils(), flow_.pressure(), coefficients.porosity, flow.air);
   failure_.start(solid_.start_motion(pressure, liquid_mass(grid_, coefficients, flow.air)));
-  flow_.follow_inertia(failure_.has_inertia());
-  // In a step of the whole run no inertia holds the soil.
+  // A step as long as the run: inertia then resists next to nothing, and the soil is as soft as it
+  // is when drained.
   flow_.start_steps({.load_change = solid_.largest_load_change(),
                      .stiffness = solid_.stiffness(),
                      .compressibility = solid_.compressibility(end_),
@@ -121,11 +119,6 @@ CoupledStep<Dim> CoupledFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
 template <int Dim>
 FlowProgress CoupledFlow<Dim>::commit(CoupledStep<Dim> step) {
   return moving_ ? moving_->commit(std::move(step)) : flow_.commit(std::move(step.flow));
-}
-
-template <int Dim>
-bool CoupledFlow<Dim>::has_inertia() const {
-  return moving_ && moving_->failure().has_inertia();
 }
 
 template <int Dim>

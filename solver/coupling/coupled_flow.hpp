@@ -57,14 +57,13 @@ class CoupledFlow {
   void start();
   void start_from(const EarlierFlow<Dim>& earlier);
 
-  /// Finds a step within the interval. Flow and solid stay as they are. Throws NumericalError;
-  /// EquilibriumLost where soil fails that is not followed.
+  /// Finds a step within the interval. Flow and solid stay as they are, but for soil that fails: it
+  /// gets inertia here, and the step is found with it. Throws NumericalError; EquilibriumLost where
+  /// soil fails and the scene does not let it move on.
   CoupledStep<Dim> solve(const FlowInterval<Dim>& interval);
   /// Flow and solid become what the step has found.
   FlowProgress commit(CoupledStep<Dim> step);
 
-  /// Whether soil moves with its inertia, as it lost its equilibrium.
-  [[nodiscard]] bool has_inertia() const;
   /// Iterations between flow and motion since the start; 0 where the solid stays in place.
   [[nodiscard]] long iterations() const;
   /// Calls and seconds of each pass, for run.json.

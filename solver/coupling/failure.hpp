@@ -35,7 +35,7 @@ class Failure {
   /// At the start. Throws NumericalError where the soil does not stand and is not followed.
   void start(const StartStress& found);
   /// The step from `time`, s, has no solution, and is as short as steps get. Throws EquilibriumLost
-  /// where the soil has inertia already or is not followed.
+  /// if the soil has inertia already, or if the scene does not let it move on.
   void step_unsolved(double time, const Unsolved& why);
   /// A step ended at `time`, s; the next will be of `next_step`, s. In equilibrium, steps that get
   /// much shorter than the time of a fall start inertia, and so does soil that moves as fast as it

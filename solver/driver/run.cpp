@@ -125,7 +125,7 @@ class Run final : public OutputSink<Dim> {
 
   bool continue_after_interval() override {
     progress_.report(loop_.model().time(), loop_.model().last_step(),
-                     loop_.model().coupled_flow().has_inertia());
+                     loop_.model().solid().has_inertia());
     if (run_.checkpoint_every > 0.0 && since_saved_.seconds() >= run_.checkpoint_every) {
       write_checkpoint();
     }

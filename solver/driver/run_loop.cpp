@@ -10,7 +10,7 @@ namespace suffuse {
 template <int Dim>
 void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
   const bool at_the_start = schedule_.past_rows().count == 0;
-  if (at_the_start && model_->coupled_flow().has_inertia()) {
+  if (at_the_start && model_->solid().has_inertia()) {
     sink.warn(
         "the soil has no equilibrium at t = 0 s: from there on it moves with its inertia, until it "
         "has come to rest");
@@ -18,8 +18,7 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
   if (at_the_start) output(sink);
   bool is_running = true;
   while (is_running && !schedule_.finished() && !interrupted()) {
-    schedule_.follow_failure(model_->time(), model_->coupled_flow().has_inertia(),
-                             model_->last_step());
+    schedule_.follow_failure(model_->time(), model_->solid().has_inertia(), model_->last_step());
     warn_of_outputs(sink);
     model_->advance(schedule_.next());
     for (const std::string& warning : model_->take_warnings()) sink.warn(warning);

@@ -107,19 +107,19 @@ std::optional<Unsolved> ImplicitFlow<Dim>::try_step(FlowStep<Dim>& step) try {
 
 template <int Dim>
 bool ImplicitFlow<Dim>::accepts(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) {
-  const bool given = control_.has_given_step() || solid_has_inertia_;
+  const bool given = control_.has_given_step() || solid_.has_inertia();
   const double error = given ? 0.0 : error_of(step.found, step.start, step.dt);
   if (!control_.accept(step.start, error, previous_.has_value(), step.dt)) return false;
   if (scheme_.iterations() > implicit_thresholds.slow_iterations) control_.hold(step.dt);
-  if (solid_has_inertia_) control_.hold(implicit_thresholds.inertial_growth * step.dt);
+  if (solid_.has_inertia()) control_.hold(implicit_thresholds.inertial_growth * step.dt);
   if (follows_pores_) step.expected = coefficients_at(interval, step.start + step.dt);
   return true;
 }
 
 template <int Dim>
 bool ImplicitFlow<Dim>::is_shortest(const FlowStep<Dim>& step) const {
-  const double share = solid_has_inertia_ ? implicit_thresholds.min_unsolved_inertial_step
-                                          : implicit_thresholds.min_unsolved_step;
+  const double share = solid_.has_inertia() ? implicit_thresholds.min_unsolved_inertial_step
+                                            : implicit_thresholds.min_unsolved_step;
   return step.dt < share * this->scene().time.end;
 }
 
@@ -288,7 +288,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     }
     const double error = blending_.learn(this->coefficients_, dt, weight, losses);
     // Soil that fails changes them by its motion, of which nothing is expected.
-    const bool shown = solid_has_inertia_ || scheme_.soils().air_moves();
+    const bool shown = solid_.has_inertia() || scheme_.soils().air_moves();
     if (!shown) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
@@ -335,7 +335,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   FlowSolver<Dim>::archive(archive);
   scheme_.archive(archive, this->conditions_);
-  archive(control_, blending_, relaxation_, reuse_, scales_, solid_has_inertia_);
+  archive(control_, blending_, relaxation_, reuse_, scales_);
   archive(now_, previous_, pressure_, eos_error_, solving_, reusing_);
   if (archive.restores()) follow_soils();
 }

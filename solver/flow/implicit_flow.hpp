@@ -60,8 +60,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   void plan_anew(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const;
   /// Whether a step that has no solution is too short to be tried shorter still.
   [[nodiscard]] bool is_shortest(const FlowStep<Dim>& step) const;
-  /// From now on the solid has inertia, whose motion chooses the lengths of steps; or it has none.
-  void follow_inertia(bool has_inertia) { solid_has_inertia_ = has_inertia; }
 
   [[nodiscard]] ImplicitMixed<Dim>& scheme() { return scheme_; }
   [[nodiscard]] const ImplicitMixed<Dim>& scheme() const { return scheme_; }
@@ -156,7 +154,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
 
   FlowOptions options_;
   const Skeleton<Dim>& solid_;
-  bool solid_has_inertia_ = false;
   ImplicitMixed<Dim> scheme_;
   bool has_gravity_;
   bool follows_pores_;  ///< coefficients change with porosity within a step

@@ -67,7 +67,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void start_inertia() { inertia_.begin(points_.size()); }
   /// From now on it has none.
   void end_inertia() { inertia_ = {}; }
-  [[nodiscard]] bool has_inertia() const { return inertia_.acts(); }
+  [[nodiscard]] bool has_inertia() const override { return inertia_.acts(); }
 
   /// Volume by which each element's soil would shrink in a step of `duration`, s, per Pa of pore
   /// pressure less, m3/Pa: about how strongly pressure and motion depend on each other. V_e / E_oed

@@ -97,6 +97,8 @@ class Skeleton {
   // What others see of a motion.
 
   [[nodiscard]] virtual bool moves() const { return false; }
+  /// Whether it has lost its equilibrium and moves with its inertia.
+  [[nodiscard]] virtual bool has_inertia() const { return false; }
   /// Times at which what loads the solid has a kink, s.
   [[nodiscard]] virtual std::vector<double> load_breakpoints() const { return {}; }
   /// Solid that points have carried into each region of the mesh since the start, minus what they

@@ -71,7 +71,7 @@ Shape shape_of(const Snapshot& snapshot) {
 /// mesh is coarse: of a low column only a few rows flow.
 double runout_over_that_of_sand(double aspect) {
   model::ModelRun run = sand(aspect + 0.25, 1.0 / cells, column(aspect));
-  EXPECT_TRUE(run.model().coupled_flow().has_inertia());
+  EXPECT_TRUE(run.model().solid().has_inertia());
   const double solid = run.model().ledger().solid;
   std::vector<double> times;
   for (int i = 1; i <= 20; ++i) times.push_back(0.05 * i);
@@ -110,7 +110,7 @@ TEST(DryColumn, IsRefusedWhereTheRunIsToStop) {
 TEST(DryBank, StandsWhereItIsLessSteepThanItsFriction) {
   const auto bank = [](const Vector<2>& x) { return 0.5 * x[0] + x[1] < 1.0; };
   model::ModelRun run = sand(1.25, 0.5 / cells, bank);
-  EXPECT_FALSE(run.model().coupled_flow().has_inertia());
+  EXPECT_FALSE(run.model().solid().has_inertia());
   const auto states = run.run({1.0}).states;
   EXPECT_EQ(states.back().history.failure_time, 0.0);
   EXPECT_LT(states.back().history.displacement_max, 1e-3);

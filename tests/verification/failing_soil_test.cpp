@@ -240,13 +240,13 @@ TEST(Bank, GoesOnFromWithinItsSlide) {
   one.run({within, later});
   model::ModelRun two = bank_run(scene, 2);
   two.run({within});
-  ASSERT_TRUE(two.model().coupled_flow().has_inertia());
+  ASSERT_TRUE(two.model().solid().has_inertia());
   StateArchive kept;
   two.model().archive(kept);
   model::ModelRun resumed = bank_run(scene, 2);
   StateArchive given(kept.finish());
   resumed.model().archive(given);
-  EXPECT_TRUE(resumed.model().coupled_flow().has_inertia());
+  EXPECT_TRUE(resumed.model().solid().has_inertia());
   resumed.run({later});
   const Snapshot a = one.model().snapshot(one.model().flow_state());
   const Snapshot b = resumed.model().snapshot(resumed.model().flow_state());
