@@ -167,6 +167,10 @@ struct BoundaryCondition {
   std::optional<TimeFunction> darcy_flux;  ///< volume flux, positive into the model, m/s
   /// m above the datum; without gravity the excess head.
   std::optional<TimeFunction> head;
+  /// Area of the water table of a reservoir outside, m2 (per m of thickness in 2D): `head` is its
+  /// level at the start, which then follows from what crosses the boundary. Not a number: the water
+  /// outside has no end.
+  double reservoir_area = unset;
   DryPart dry = DryPart::seepage;
   bool seepage_face = false;  ///< air outside: water leaves at p = 0, none enters
   /// Volume flux of rain, m/s: at most what the soil takes in at p = 0 enters.
@@ -178,6 +182,8 @@ struct BoundaryCondition {
   Fixing fix = Fixing::none;
   /// Force per area on the soil and the liquid in its pores, Pa, in the directions of the axes.
   std::optional<VectorFunction> traction;
+
+  [[nodiscard]] bool is_reservoir() const { return !std::isnan(reservoir_area); }
 };
 
 /// A wall without thickness on a named curve inside the mesh.

@@ -468,6 +468,14 @@ std::vector<SceneKey> declare_keys() {
                   "Table of the head in place of `head`: a CSV file, relative to the scene, with "
                   "the columns t (s) and head (m) and the header line `t,head`.")
           .otherwise_as("none"),
+      key("boundary[].reservoir_area", on_boundary(&Boundary::reservoir_area),
+          "Area of the water table of a reservoir, in 2D per m of thickness. Its level is `head` "
+          "at "
+          "the start, falls where water seeps into the soil and rises where it seeps out.")
+          .named("A")
+          .in("m2")
+          .above(0.0)
+          .otherwise_as("none: `head` holds whatever seeps"),
       choice("boundary[].dry", on_boundary(&Boundary::dry),
              {{"seepage", DryPart::seepage},
               {"impervious", DryPart::impervious},

@@ -16,7 +16,10 @@ class SeepageChecks : private SceneCheckBase {
 
   void run() const {
     for (const Soil& soil : scene_.soils) check_soil(soil, table_of(soil));
-    for (const BoundaryCondition& boundary : scene_.boundaries) check_dry(boundary.key);
+    for (const BoundaryCondition& boundary : scene_.boundaries) {
+      check_dry(boundary.key);
+      check_reservoir(boundary);
+    }
     check_start();
     check_sections();
     check_unsaturated();
@@ -74,6 +77,7 @@ class SeepageChecks : private SceneCheckBase {
       if (boundary.rain) refuse(joined(boundary.key, "rain"), "rain");
       // The tip of a well has one velocity for both sides, which cannot point into both.
       if (boundary.rate) refuse(joined(boundary.key, "rate"), "a rate", "a head");
+      if (boundary.is_reservoir()) refuse(joined(boundary.key, "reservoir_area"), "a reservoir");
     }
     for (const Soil& soil : scene_.soils) {
       const std::string table = table_of(soil);
@@ -182,6 +186,22 @@ class SeepageChecks : private SceneCheckBase {
     } else if (!has_gravity(scene_.gravity) && !refused("gravity")) {
       report(key, "a part above the water level without gravity",
              "gravity, as in gravity = [0.0, -9.81], or no such key", {"gravity"});
+    }
+  }
+  void check_reservoir(const BoundaryCondition& boundary) const {
+    const std::string key = joined(boundary.key, "reservoir_area");
+    if (!given(key)) return;
+    const std::string head = joined(boundary.key, "head");
+    if (!given(head)) {
+      report(key, "the area of a reservoir without a head",
+             "head = its level at the start, in m, or no such key");
+    } else if (boundary.head && !boundary.head->is_constant()) {
+      report(key, "a level that follows from what seeps, and a head given in time",
+             "one number as head, or no such key", {head});
+    }
+    if (scene_.moves()) {
+      report(key, "a reservoir in a scene with soil that moves",
+             "no such key, or the level as a table in time");
     }
   }
 };

@@ -63,6 +63,7 @@ FaceCondition at_face(const BoundaryCondition& boundary, FaceCondition condition
 bool may_switch(const BoundaryCondition& boundary, const FaceSurroundings& around, double end) {
   if (boundary.seepage_face || boundary.rain) return true;
   if (!boundary.head || !around.gravity || boundary.dry == DryPart::suction) return false;
+  if (boundary.is_reservoir()) return true;
   const auto [lowest, highest] = boundary.head->range(0.0, end);
   // An impervious part stays impervious where the water never comes.
   return lowest <= around.wet_above &&
@@ -173,8 +174,13 @@ BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
   const Outside<Dim> outside(scene, grid);
   for (int b = 0; b < static_cast<int>(scene.boundaries.size()); ++b) {
     const std::vector<TimeFunction> values = varying_values(scene.boundaries[b]);
-    if (values.empty()) continue;
+    const bool is_reservoir = scene.boundaries[b].is_reservoir();
+    if (values.empty() && !is_reservoir) continue;
     Varying& varying = varying_.emplace_back(Varying{scene.boundaries[b], b, {}, {}});
+    if (is_reservoir) {
+      varying.reservoir = static_cast<int>(reservoirs_.size());
+      reservoirs_.push_back({.level = varying.boundary.head->value(0.0)});
+    }
     for (int f = 0; f < grid.face_count(); ++f) {
       if (initial_[f].boundary == b) varying.faces.push_back(f);
     }
@@ -199,8 +205,18 @@ std::vector<FaceCondition> BoundaryValues<Dim>::at(double time) const {
 
 template <int Dim>
 void BoundaryValues<Dim>::update(double time, std::vector<FaceCondition>& conditions) const {
+  update(time, reservoir_rates(), conditions);
+}
+
+template <int Dim>
+void BoundaryValues<Dim>::update(double time, const std::vector<double>& reservoir_rates,
+                                 std::vector<FaceCondition>& conditions) const {
   for (const Varying& varying : varying_) {
-    const FaceCondition now = condition_of(varying.boundary, varying.index, time);
+    FaceCondition now = condition_of(varying.boundary, varying.index, time);
+    if (varying.reservoir >= 0) {
+      const ReservoirLevel& start = reservoirs_[varying.reservoir];
+      now.value = start.level + reservoir_rates[varying.reservoir] * (time - start.time);
+    }
     for (std::size_t i = 0; i < varying.faces.size(); ++i) {
       const int f = varying.faces[i];
       conditions[f] = at_face(varying.boundary, now, varying.around[i]);
@@ -217,6 +233,45 @@ void BoundaryValues<Dim>::update_concentrations(double time,
     const double now = varying.boundary.concentration->value(time);
     for (const int f : varying.faces) conditions[f].concentration = now;
   }
+}
+
+template <int Dim>
+std::vector<double> BoundaryValues<Dim>::reservoir_rates() const {
+  std::vector<double> rates;
+  for (const ReservoirLevel& reservoir : reservoirs_) rates.push_back(reservoir.rate);
+  return rates;
+}
+
+template <int Dim>
+std::vector<double> BoundaryValues<Dim>::reservoir_rates(const std::vector<double>& face_volume,
+                                                         double dt) const {
+  std::vector<double> rates(reservoirs_.size(), 0.0);
+  for (const Varying& varying : varying_) {
+    if (varying.reservoir < 0) continue;
+    double out_of_soil = 0.0;  // normals of outer faces point outwards
+    for (const int f : varying.faces) out_of_soil += face_volume[f];
+    rates[varying.reservoir] = out_of_soil / (varying.boundary.reservoir_area * dt);
+  }
+  return rates;
+}
+
+template <int Dim>
+void BoundaryValues<Dim>::raise_reservoirs(double end, const std::vector<double>& rates) {
+  for (std::size_t r = 0; r < reservoirs_.size(); ++r) {
+    ReservoirLevel& reservoir = reservoirs_[r];
+    reservoir.level += rates[r] * (end - reservoir.time);
+    reservoir.rate = rates[r];
+    reservoir.time = end;
+  }
+}
+
+template <int Dim>
+double BoundaryValues<Dim>::reservoir_level(int boundary) const {
+  for (const Varying& varying : varying_) {
+    if (varying.index != boundary || varying.reservoir < 0) continue;
+    return reservoirs_[varying.reservoir].level;
+  }
+  return unset;
 }
 
 template std::vector<FaceCondition> face_conditions(const Case<2>&, const Grid<2>&);

@@ -52,6 +52,14 @@ struct FaceSurroundings {
 template <int Dim>
 std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& grid);
 
+/// The level of a reservoir, which is linear in time within a step of the flow.
+struct ReservoirLevel {
+  static constexpr bool has_no_gaps = true;  ///< see StateArchive
+  double time = 0.0;                         ///< end of the last step, s
+  double level = 0.0;                        ///< at that time, m
+  double rate = 0.0;                         ///< dH/dt of the last step, m/s
+};
+
 /// Boundary conditions whose values change in time. The kind changes with them where the level of a
 /// head passes a face: such faces have `switches`.
 template <int Dim>
@@ -65,9 +73,26 @@ class BoundaryValues {
   /// Sets `conditions`, which `at` or `face_conditions` made of this case for any time, to those at
   /// `time`. Changes only faces of boundaries whose values change in time.
   void update(double time, std::vector<FaceCondition>& conditions) const;
+  /// Likewise, with levels of reservoirs that have risen at these rates since the last step, m/s.
+  void update(double time, const std::vector<double>& reservoir_rates,
+              std::vector<FaceCondition>& conditions) const;
   /// Sets concentrations alone to those at `time`. Liquid that enters over an interval has the
   /// concentration at its middle, which is the mean where the concentration is linear.
   void update_concentrations(double time, std::vector<FaceCondition>& conditions) const;
+
+  /// How fast the level of each reservoir rose in the last step, m/s.
+  [[nodiscard]] std::vector<double> reservoir_rates() const;
+  /// How fast it rises where these volumes, m3, cross the faces along their normals in `dt` s.
+  [[nodiscard]] std::vector<double> reservoir_rates(const std::vector<double>& face_volume,
+                                                    double dt) const;
+  /// Levels rise at these rates, m/s, until `end`, s.
+  void raise_reservoirs(double end, const std::vector<double>& rates);
+  /// Level of the reservoir of an entry of the scene's boundaries, m; without one not a number.
+  [[nodiscard]] double reservoir_level(int boundary) const;
+
+  /// What may change: the scene restores the rest.
+  void archive(auto& archive) { archive(reservoirs_); }
+
   /// Whether any value changes in time.
   [[nodiscard]] bool vary() const { return !varying_.empty(); }
   /// Times at which a value that changes may have a kink, in (0, end), s: ascending, each once.
@@ -80,10 +105,12 @@ class BoundaryValues {
     int index = -1;  ///< of the scene's boundary entry
     std::vector<int> faces;
     std::vector<FaceSurroundings> around;  ///< of each of the faces
+    int reservoir = -1;                    ///< -1: none
   };
 
   std::vector<FaceCondition> initial_;
   std::vector<Varying> varying_;
+  std::vector<ReservoirLevel> reservoirs_;
   std::vector<double> breakpoints_;
 };
 

@@ -170,8 +170,10 @@ class FlowSolver {
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;
   /// Sets the boundary values to those at the end of a step, and concentrations to the means of
-  /// what entered since its start; both in s.
-  void update_boundary_values(double start, double end) {
+  /// what entered since its start; both in s. Levels of reservoirs have risen at these rates, m/s.
+  void update_boundary_values(double start, double end,
+                              const std::vector<double>& reservoir_rates = {}) {
+    boundary_values_.raise_reservoirs(end, reservoir_rates);
     boundary_values_.update(end, conditions_);
     boundary_values_.update_concentrations(0.5 * (start + end), conditions_);
   }

@@ -34,7 +34,8 @@ struct FlowStep {
 
   std::vector<FlowForcing<Dim>> forcing = {};  ///< per stage
   MixedStep<Dim> found = {};
-  bool is_kept = false;  ///< the flow is steady and was not solved again
+  std::vector<double> reservoir_rates = {};  ///< at which levels rise in the step, m/s
+  bool is_kept = false;                      ///< the flow is steady and was not solved again
   /// At the end of the step, as erosion will have made them; none where the flow does not follow.
   std::optional<FlowCoefficients<Dim>> expected = {};
   // Where a solid moves in the step: see FlowProgress.

@@ -7,6 +7,8 @@
 #include "flow/implicit_settings.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "grid/face_flux.hpp"
+#include "linear/anderson_mixing.hpp"
+#include "physics/head.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"
 
@@ -51,7 +53,8 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
       control_(
           step_settings(this->scene(), options, follows_pores_, this->conditions_, this->kinks())),
       blending_(blending_settings(this->scene(), options, follows_pores_)),
-      reuse_({options.reuse_steady && !scheme_.has_retention() && !solid.moves(),
+      reuse_({options.reuse_steady && !scheme_.has_retention() && !solid.moves() &&
+                  this->boundary_values().reservoir_rates().empty(),
               this->scene().time.tolerance, has_gravity_,
               has_condition(this->conditions_, FaceKind::velocity)}) {}
 
@@ -67,8 +70,7 @@ FlowStep<Dim> ImplicitFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
   }
   const PassTimer timer(solving_);
   for (;;) {
-    set_forcing(interval, step);
-    if (const std::optional<Unsolved> why = try_step(step)) {
+    if (const std::optional<Unsolved> why = try_step(interval, step)) {
       if (is_shortest(step)) throw NumericalError(why->text);
       reject(step);
     } else if (accepts(interval, step)) {
@@ -86,6 +88,7 @@ FlowStep<Dim> ImplicitFlow<Dim>::propose(const FlowInterval<Dim>& interval) {
   step.start = interval.start;
   step.dt = control_.propose(interval.start, until, interval.longest);
   step.until = until;
+  step.reservoir_rates = this->boundary_values().reservoir_rates();
   return step;
 }
 
@@ -97,10 +100,25 @@ MixedStep<Dim> ImplicitFlow<Dim>::solved(const FlowStep<Dim>& step) {
 }
 
 template <int Dim>
-std::optional<Unsolved> ImplicitFlow<Dim>::try_step(FlowStep<Dim>& step) try {
+std::optional<Unsolved> ImplicitFlow<Dim>::try_step(const FlowInterval<Dim>& interval,
+                                                    FlowStep<Dim>& step) try {
   ++solving_.calls;
-  step.found = solved(step);
-  return std::nullopt;
+  AndersonMixing mixing(static_cast<int>(step.reservoir_rates.size()));
+  const double height =
+      scales_.pressure / unit_weight(this->scene().liquid.density, this->scene().gravity);
+  const double tolerance = implicit_thresholds.reservoir_level * height / step.dt;
+  for (int tries = 0; tries < implicit_thresholds.max_reservoir_tries; ++tries) {
+    set_forcing(interval, step);
+    step.found = solved(step);
+    std::vector<double>& rates = step.reservoir_rates;
+    const std::vector<double> seeped = rates_of_reservoirs(step);
+    if (largest_difference(rates, seeped) <= tolerance) return std::nullopt;
+    const Eigen::VectorXd next =
+        mixing.next(Eigen::Map<const Eigen::VectorXd>(rates.data(), std::ssize(rates)),
+                    Eigen::Map<const Eigen::VectorXd>(seeped.data(), std::ssize(seeped)));
+    rates.assign(next.begin(), next.end());
+  }
+  return Unsolved{"The levels of reservoirs and the flow from them were not found"};
 } catch (const NotConverged& error) {
   return Unsolved{error.what()};
 }
@@ -142,8 +160,8 @@ FlowProgress ImplicitFlow<Dim>::commit(FlowStep<Dim> step) {
     blending_.record(forcing.coefficients);
     if (step.expected) blending_.expect(*std::move(step.expected));
   }
+  this->update_boundary_values(step.start, end, rates_of_reservoirs(step));
   remember(std::move(step.found), step.dt);
-  this->update_boundary_values(step.start, end);
   if (is_breakpoint(end)) {
     pass_breakpoint(end, step.dt);
   } else if (!reuse_.active()) {
@@ -167,7 +185,7 @@ void ImplicitFlow<Dim>::set_forcing(const FlowInterval<Dim>& interval, FlowStep<
       keep_pores(this->coefficients_.porosity, forcing.coefficients);
     }
     if (forcing.conditions.empty()) forcing.conditions = this->conditions_;
-    this->boundary_values().update(time, forcing.conditions);
+    this->boundary_values().update(time, step.reservoir_rates, forcing.conditions);
     forcing.source = source;
   }
 }

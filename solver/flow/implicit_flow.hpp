@@ -100,8 +100,14 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// The start from this flow, or from the steady one where water flows at once. `air`: none to
   /// take that of the pressures.
   void start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air);
-  /// Solves for a step of this length. Says why where it has no solution.
-  [[nodiscard]] std::optional<Unsolved> try_step(FlowStep<Dim>& step);
+  /// Solves for a step of this length, with levels of reservoirs that fit what seeps. Says why
+  /// where it has no solution.
+  [[nodiscard]] std::optional<Unsolved> try_step(const FlowInterval<Dim>& interval,
+                                                 FlowStep<Dim>& step);
+  /// How fast levels of reservoirs rise by what seeps in the step, m/s.
+  [[nodiscard]] std::vector<double> rates_of_reservoirs(const FlowStep<Dim>& step) const {
+    return this->boundary_values().reservoir_rates(step.found.face_volume, step.dt);
+  }
   [[nodiscard]] MixedStep<Dim> solved(const FlowStep<Dim>& step);
   /// Water expands as it moves towards lower pressures. Where a step is so long that it would not
   /// fit its elements, solves it again with the sources that let it out.

@@ -152,6 +152,9 @@ std::vector<test::Mode> variants() {
            "soil.specimen.conductivity=[2e-2, 5e-3]", "soil.specimen.bedding=20.0",
            R"(boundary[0]={on = "top", rain = [[0.0, 0.0], [2.0, 3e-2]]})",
            R"(boundary[1]={on = "right", head = [[0.0, 0.3], [2.0, 0.9], [4.0, 0.1], [5.0, 0.6]]})"}),
+      test::with(single, "reservoir",
+                 {"gravity=[0.0, -9.81]", "initial.water_level=0.3",
+                  R"(boundary[0]={on = "top", head = 1.5, reservoir_area = 0.2})"}),
       test::with(single, "boundary_values_in_time", {tables}),
       // The flow is solved once and kept; what erodes does not change it.
       test::with(single, "kept_flow",
