@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary/reservoir_iteration.hpp"
 #include "common/errors.hpp"
 #include "flow/implicit_settings.hpp"
 #include "flow/implicit_thresholds.hpp"
 #include "grid/face_flux.hpp"
-#include "linear/anderson_mixing.hpp"
 #include "physics/head.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"
@@ -25,17 +25,38 @@ void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahea
   }
 }
 
-/// Power that drag takes in each element, W.
+/// Power that drag takes in each element, W. Where the liquid's viscosity follows a front of fines,
+/// the resistance of an element that the front crosses counts by this; otherwise empty.
 template <int Dim>
-std::vector<double> drag_losses(const Grid<Dim>& grid, const std::vector<double>& face_flux,
+std::vector<double> drag_losses(const Scene& scene, const Grid<Dim>& grid,
+                                const std::vector<double>& face_flux,
                                 const FlowCoefficients<Dim>& coefficients) {
   std::vector<double> result;
+  if (!scene.liquid.viscosity_model.depends_on_concentration()) return result;
   for (const Vector<Dim>& flux : element_flux(grid, face_flux)) {
     const std::size_t e = result.size();
     const double drag = coefficients.drag[e] / coefficients.porosity[e];
     result.push_back(drag * flux.squaredNorm() * grid.volume[e]);
   }
   return result;
+}
+
+/// The first step of soil that falls from the start, over the time in which it falls through an
+/// element.
+constexpr double first_step_of_fall = 1e-2;
+
+/// The flow that another run has left.
+template <int Dim>
+MixedFlow<Dim> flow_of(const EarlierFlow<Dim>& earlier, const Grid<Dim>& grid,
+                       const std::vector<FaceCondition>& conditions,
+                       const std::vector<double>& porosity) {
+  MixedFlow<Dim> flow = flow_at_rest(grid, conditions, earlier.face_pressure(grid));
+  flow.face_flux = flow.flux_through = earlier.state.face_flux;
+  flow.state.velocity = element_flux(grid, flow.face_flux);
+  for (std::size_t e = 0; e < flow.state.velocity.size(); ++e) {
+    flow.state.velocity[e] /= porosity[e];
+  }
+  return flow;
 }
 
 }  // namespace
@@ -57,6 +78,72 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
                   this->boundary_values().reservoir_rates().empty(),
               this->scene().time.tolerance, has_gravity_,
               has_condition(this->conditions_, FaceKind::velocity)}) {}
+
+// How it starts: at rest, in a steady flow, or as another run left it.
+
+template <int Dim>
+void ImplicitFlow<Dim>::start() {
+  start_with(flow_at_rest(this->grid(), this->conditions_, this->pressure_at_rest()), nullptr);
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
+  start_with(flow_of(earlier, this->grid(), this->conditions_, this->coefficients_.porosity),
+             &earlier.air);
+}
+
+template <int Dim>
+bool ImplicitFlow<Dim>::flows_at_once() const {
+  return std::isinf(this->scene().liquid.bulk_modulus) && !options_.inertia &&
+         !scheme_.has_retention();
+}
+
+template <int Dim>
+bool ImplicitFlow<Dim>::starts_at_rest() const {
+  return this->scene().initial_flow != InitialFlow::steady && !flows_at_once();
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air) {
+  const Grid<Dim>& grid = this->grid();
+  const Scene& scene = this->scene();
+  now_ = std::move(flow);
+  const FlowForcing<Dim> forcing{this->coefficients_, this->conditions_, {}};
+  scales_ = find_scales(scheme_, forcing, this->boundary_values(), scene.time.end, has_gravity_);
+  const bool at_rest = starts_at_rest();
+  if (!at_rest) now_ = end_of(scheme_.steady(forcing));
+  now_.state.air =
+      air ? *air : scheme_.air_at(now_.state.face_pressure, this->coefficients_.porosity);
+  pressure_ = element_pressure_now();
+  if (!flows_at_once()) scales_.include_in_bounds(now_.state.face_pressure);
+  scales_.include(now_.state.face_pressure, now_.face_flux);
+  raise_over_round_off(scales_, grid, this->coefficients_, scene.liquid, scene.time.end);
+  const double of_run = implicit_thresholds.first_step * scene.time.end;
+  const double of_liquid = shortest_change({});
+  const double first = at_rest ? std::min(of_run, of_liquid) : of_run;
+  control_.start(first, !at_rest, of_liquid);
+}
+
+template <int Dim>
+void ImplicitFlow<Dim>::start_steps(const MovingSolid& solid) {
+  scales_.include_loads(solid.load_change, solid.stiffness);
+  const double of_run = implicit_thresholds.first_step * this->scene().time.end;
+  const double of_liquid = shortest_change({});
+  const double shortest = shortest_change(solid.compressibility);
+  const double of_fall = first_step_of_fall * solid.time_of_fall;
+  const double of_change = of_fall > 0.0 ? of_fall : starts_at_rest() ? of_liquid : shortest;
+  // Loads may come at once, and the pressures with them.
+  control_.start(std::min(of_run, of_change), false, shortest);
+}
+
+template <int Dim>
+double ImplicitFlow<Dim>::shortest_change(const std::vector<double>& soil_storage) const {
+  return implicit_thresholds.first_step / fastest_rate(this->grid(), this->coefficients_,
+                                                       this->scene().liquid.bulk_modulus,
+                                                       options_.inertia, soil_storage);
+}
+
+// A step.
 
 template <int Dim>
 FlowStep<Dim> ImplicitFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
@@ -103,20 +190,14 @@ template <int Dim>
 std::optional<Unsolved> ImplicitFlow<Dim>::try_step(const FlowInterval<Dim>& interval,
                                                     FlowStep<Dim>& step) try {
   ++solving_.calls;
-  AndersonMixing mixing(static_cast<int>(step.reservoir_rates.size()));
   const double height =
       scales_.pressure / unit_weight(this->scene().liquid.density, this->scene().gravity);
-  const double tolerance = implicit_thresholds.reservoir_level * height / step.dt;
+  ReservoirIteration reservoirs(step.reservoir_rates.size(),
+                                implicit_thresholds.reservoir_level * height / step.dt);
   for (int tries = 0; tries < implicit_thresholds.max_reservoir_tries; ++tries) {
     set_forcing(interval, step);
     step.found = solved(step);
-    std::vector<double>& rates = step.reservoir_rates;
-    const std::vector<double> seeped = rates_of_reservoirs(step);
-    if (largest_difference(rates, seeped) <= tolerance) return std::nullopt;
-    const Eigen::VectorXd next =
-        mixing.next(Eigen::Map<const Eigen::VectorXd>(rates.data(), std::ssize(rates)),
-                    Eigen::Map<const Eigen::VectorXd>(seeped.data(), std::ssize(seeped)));
-    rates.assign(next.begin(), next.end());
+    if (reservoirs.agree(step.reservoir_rates, rates_of_reservoirs(step))) return std::nullopt;
   }
   return Unsolved{"The levels of reservoirs and the flow from them were not found"};
 } catch (const NotConverged& error) {
@@ -206,9 +287,8 @@ FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>
 
 template <int Dim>
 double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, double dt) const {
-  const MixedFlow<Dim>* previous = previous_ ? &*previous_ : nullptr;
   using Span = std::span<const double>;
-  const auto before = [&](const auto& field) { return previous ? field(*previous) : Span(); };
+  const auto before = [&](const auto& field) { return previous_ ? field(*previous_) : Span(); };
   const auto flux = [](const MixedFlow<Dim>& flow) { return Span(flow.flux_through); };
   if (scheme_.is_nonlinear()) {
     // Fronts and seepage faces are sharp: what counts is the volume that is misplaced.
@@ -298,13 +378,9 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
     // Resistances were right at the start of the step: their mean error is half that at its end.
-    // Where the liquid's viscosity follows a front of fines, the resistance of an element that the
-    // front crosses counts by the power that it takes.
-    std::vector<double> losses;
-    if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
-      losses = drag_losses(this->grid(), now_.face_flux, this->coefficients_);
-    }
-    const double error = blending_.learn(this->coefficients_, dt, weight, losses);
+    const double error = blending_.learn(
+        this->coefficients_, dt, weight,
+        drag_losses(this->scene(), this->grid(), now_.face_flux, this->coefficients_));
     // Soil that fails changes them by its motion, of which nothing is expected.
     const bool shown = solid_.has_inertia() || scheme_.soils().air_moves();
     if (!shown) control_.account_for(0.5 * error);

@@ -130,8 +130,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// The steady flow over `dt` seconds more, with the sources that let out what water expands by in
   /// that time. Nothing, and no more reuse, where these change the flow by too much.
   [[nodiscard]] std::optional<MixedStep<Dim>> steady_step(double dt);
-  /// The flow of now for `dt` seconds.
-  [[nodiscard]] MixedStep<Dim> kept_flow(double dt) const;
   void remember(MixedStep<Dim> step, double dt);
   /// A step of `dt` ended on a breakpoint at `time`: the flow may have a kink there.
   void pass_breakpoint(double time, double dt);

@@ -99,24 +99,17 @@ void ImplicitFlow<Dim>::let_out_expansion(FlowStep<Dim>& step) {
 }
 
 template <int Dim>
-MixedStep<Dim> ImplicitFlow<Dim>::kept_flow(double dt) const {
-  MixedStep<Dim> step{now_.state, now_.face_flux, now_.face_flux, now_.face_flux};
-  for (double& volume : step.face_volume) volume *= dt;
-  return step;
-}
-
-template <int Dim>
 std::optional<MixedStep<Dim>> ImplicitFlow<Dim>::steady_step(double dt) {
   const PassTimer timer(reusing_);
   ++reusing_.calls;
-  MixedStep<Dim> step = kept_flow(dt);
+  MixedStep<Dim> step = steady_step_of(now_, dt);
   for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats; ++repeat) {
     const std::vector<double> excess = excess_in(step, dt);
     if (excess.empty()) break;
     std::vector<double> source = relaxation_.source();
     let_out(excess, dt, source);
     if (!take_steady_flow(std::move(source))) return std::nullopt;
-    step = kept_flow(dt);
+    step = steady_step_of(now_, dt);
   }
   return step;
 }

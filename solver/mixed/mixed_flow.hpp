@@ -27,6 +27,14 @@ MixedFlow<Dim> end_of(MixedStep<Dim> step) {
   return {std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
 }
 
+/// This flow for `dt` seconds.
+template <int Dim>
+MixedStep<Dim> steady_step_of(const MixedFlow<Dim>& flow, double dt) {
+  MixedStep<Dim> step{flow.state, flow.face_flux, flow.face_flux, flow.face_flux};
+  for (double& volume : step.face_volume) volume *= dt;
+  return step;
+}
+
 /// Water at rest under these pressures, per face, and those prescribed at faces, Pa.
 template <int Dim>
 MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
