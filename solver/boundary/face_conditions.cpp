@@ -169,8 +169,8 @@ std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& 
 
 template <int Dim>
 BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
-    : initial_(face_conditions(c, grid)) {
-  const Scene& scene = c.document.scene;
+    : scene_(c.document.scene), initial_(face_conditions(c, grid)) {
+  const Scene& scene = scene_;
   const Outside<Dim> outside(scene, grid);
   for (int b = 0; b < static_cast<int>(scene.boundaries.size()); ++b) {
     const std::vector<TimeFunction> values = varying_values(scene.boundaries[b]);
@@ -266,12 +266,12 @@ void BoundaryValues<Dim>::raise_reservoirs(double end, const std::vector<double>
 }
 
 template <int Dim>
-double BoundaryValues<Dim>::reservoir_level(int boundary) const {
+double BoundaryValues<Dim>::level(int boundary, double time) const {
   for (const Varying& varying : varying_) {
     if (varying.index != boundary || varying.reservoir < 0) continue;
     return reservoirs_[varying.reservoir].level;
   }
-  return unset;
+  return scene_.boundaries[boundary].head->value(time);
 }
 
 template std::vector<FaceCondition> face_conditions(const Case<2>&, const Grid<2>&);

@@ -87,8 +87,8 @@ class BoundaryValues {
                                                     double dt) const;
   /// Levels rise at these rates, m/s, until `end`, s.
   void raise_reservoirs(double end, const std::vector<double>& rates);
-  /// Level of the reservoir of an entry of the scene's boundaries, m; without one not a number.
-  [[nodiscard]] double reservoir_level(int boundary) const;
+  /// Head outside an entry of the scene's boundaries that has one, m: of a reservoir its level.
+  [[nodiscard]] double level(int boundary, double time) const;
 
   /// What may change: the scene restores the rest.
   void archive(auto& archive) { archive(reservoirs_); }
@@ -108,6 +108,7 @@ class BoundaryValues {
     int reservoir = -1;                    ///< -1: none
   };
 
+  const Scene& scene_;
   std::vector<FaceCondition> initial_;
   std::vector<Varying> varying_;
   std::vector<ReservoirLevel> reservoirs_;

@@ -194,9 +194,10 @@ struct BoundaryRow {
   double liquid_in = 0.0;   ///< volume of liquid, as the flow moves it
   double liquid_out = 0.0;  ///< likewise
   double discharge = 0.0;   ///< liquid out minus in at this moment, m3/s
+  double level = 0.0;       ///< head outside, m; 0 where the scene gives none
 };
 
-inline constexpr std::array<Column<BoundaryRow>, 8> boundary_columns{{
+inline constexpr std::array<Column<BoundaryRow>, 9> boundary_columns{{
     {"t", &BoundaryRow::t, "s"},
     {"water_in", &BoundaryRow::water_in, "kg"},
     {"water_out", &BoundaryRow::water_out, "kg"},
@@ -205,6 +206,7 @@ inline constexpr std::array<Column<BoundaryRow>, 8> boundary_columns{{
     {"liquid_in", &BoundaryRow::liquid_in, "m3"},
     {"liquid_out", &BoundaryRow::liquid_out, "m3"},
     {"discharge", &BoundaryRow::discharge, "m3/s"},
+    {"level", &BoundaryRow::level, "m"},
 }};
 
 /// probes.csv: the state at a place that the scene names.

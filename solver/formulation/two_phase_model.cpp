@@ -125,7 +125,14 @@ std::vector<RegionRow> TwoPhaseModel<Dim>::region_rows() const {
 
 template <int Dim>
 std::vector<BoundaryRow> TwoPhaseModel<Dim>::boundary_rows(const FlowState<Dim>& flow) const {
-  return masses_.boundaries().rows(time_, flow.face_flux);
+  std::vector<BoundaryRow> rows = masses_.boundaries().rows(time_, flow.face_flux);
+  const std::vector<BoundaryCondition>& boundaries = soils_.scene().boundaries;
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    if (boundaries[b].head) {
+      rows[b].level = flow_->boundary_values().level(static_cast<int>(b), time_);
+    }
+  }
+  return rows;
 }
 
 template <int Dim>

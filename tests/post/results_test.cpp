@@ -105,13 +105,13 @@ TEST(Results, BoundariesReadBackByNameWhateverTheName) {
   c.document.scene.boundaries[1].on = "toe, \"left\"";
   ResultsWriter<2> writer(scratch / "run.results", c);
   const std::vector<BoundaryRow> rows{
-      {0.1, "top", 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0},
-      {0.1, "toe, \"left\"", 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, std::nextafter(0.3, 1.0)}};
+      {0.1, "top", 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 0.5},
+      {0.1, "toe, \"left\"", 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, std::nextafter(0.3, 1.0), 0.0}};
   writer.append_boundaries(rows);
   writer.append_boundaries(rows);
   EXPECT_TRUE(file_text(scratch / "run.results/boundaries.csv")
                   .starts_with("t,boundary,water_in,water_out,fines_in,fines_out,liquid_in,"
-                               "liquid_out,discharge\n0.1,top,1,2,3,4,5,6,7\n"
+                               "liquid_out,discharge,level\n0.1,top,1,2,3,4,5,6,7,0.5\n"
                                "0.1,\"toe, \"\"left\"\"\",8,9,"));
   const auto read = ResultsReader(scratch / "run.results").boundaries();
   ASSERT_EQ(read.size(), 2U);
