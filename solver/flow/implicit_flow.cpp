@@ -13,8 +13,8 @@
 namespace suffuse {
 namespace {
 
-/// Takes back the forecast of the pores at the end of a step, not that of the conductivities: next
-/// to dry soil holds less water than a forecast of its pores is off by.
+/// Replaces forecast porosities by the present ones and keeps forecast resistances: nearly dry soil
+/// holds less water than the error of a forecast of its pores.
 template <int Dim>
 void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahead) {
   for (std::size_t e = 0; e < porosity.size(); ++e) {
@@ -23,7 +23,7 @@ void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahea
   }
 }
 
-/// Power that drag takes in each element, W.
+/// Power that each element's drag dissipates, W.
 template <int Dim>
 std::vector<double> drag_losses(const Grid<Dim>& grid, const std::vector<double>& face_flux,
                                 const FlowCoefficients<Dim>& coefficients) {
@@ -179,7 +179,7 @@ FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>
   const double before = time - implicit_thresholds.end_margin * (time - interval.start);
   PoreState pores = interval.pores.at(before);
   if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
-    // Forecast fines have not moved yet: where they would lock, more liquid comes with them.
+    // The forecast leaves out transport: it may reach the limit where moving liquid does not.
     const double most = 0.999 * this->scene().liquid.viscosity_model.maximum_concentration;
     for (double& c : pores.concentration) c = std::min(c, most);
   }
@@ -193,7 +193,7 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
   const auto before = [&](const auto& field) { return previous ? field(*previous) : Span(); };
   const auto flux = [](const MixedFlow<Dim>& flow) { return Span(flow.flux_through); };
   if (scheme_.is_nonlinear()) {
-    // Fronts and seepage faces are sharp: what counts is the volume that is misplaced.
+    // Fronts and seepage faces are sharp: the error is the displaced volume.
     const auto air = [](const MixedState<Dim>& state) {
       return state.air.empty() ? Span()
                                : Span(state.air.front().data(), state.air.size() * (Dim + 1));
@@ -210,7 +210,7 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
   const auto pressure = [](const MixedFlow<Dim>& flow) { return Span(flow.state.face_pressure); };
   const ControlledField of_pressure{before(pressure), now_.state.face_pressure,
                                     step.end.face_pressure, scales_.pressure};
-  // A load that comes at once drives water out of its boundary at any rate, for no time.
+  // A sudden load drives an infinite flux out of its boundary for an instant: pressures count only.
   if (solid_.moves()) return control_.error(start, dt, {of_pressure});
   const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
   return control_.error(
@@ -246,7 +246,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::reuse_if_steady(double time) {
   const PassTimer timer(solving_);
   if (!reuse_.allowed() || !previous_) return;
-  // Sealed water is steady only while nothing disturbs it, its own round-off included.
+  // Without a prescribed pressure round-off alone would change the level of compressible water.
   const bool sealed = !has_condition(this->conditions_, FaceKind::pressure);
   if (sealed && std::isfinite(this->scene().liquid.bulk_modulus)) return;
   if (!reuse_.is_close(now_.face_flux, previous_->face_flux, scales_.flux)) return;
@@ -275,19 +275,18 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
                                const std::vector<double>& face_concentration) {
   FlowSolver<Dim>::update(time, pores, face_concentration);
   if (blending_.expects()) {
-    // Points that change elements make densities and pores scatter: a drift is what lasts.
+    // Points that change elements cause scatter of densities and pores: a drift must last.
     const bool scattered = this->scene().formulation == Formulation::double_point || solid_.moves();
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
     // Resistances were right at the start of the step: their mean error is half that at its end.
-    // Where the liquid's viscosity follows a front of fines, the resistance of an element that the
-    // front crosses counts by the power that it takes.
+    // Where viscosity follows a front of fines, an element's error is weighted with its power.
     std::vector<double> losses;
     if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
       losses = drag_losses(this->grid(), now_.face_flux, this->coefficients_);
     }
     const double error = blending_.learn(this->coefficients_, dt, weight, losses);
-    // Soil that fails changes them by its motion, of which nothing is expected.
+    // Motion of the soil changes them too, and the expectation leaves motion out.
     const bool shown = solid_.has_inertia() || scheme_.soils().air_moves();
     if (!shown) control_.account_for(0.5 * error);
   }

@@ -1,4 +1,4 @@
-/// How the implicit flow starts: at rest, in a steady flow, or as another run left it.
+/// Start of the implicit flow: at rest, steady, or from another run.
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,10 @@
 namespace suffuse {
 namespace {
 
-/// The first step of soil that falls from the start, over the time in which it falls through an
-/// element.
+/// First step of soil that falls from the start, over its time of fall through an element.
 constexpr double first_step_of_fall = 1e-2;
 
-/// The flow that another run has left.
+/// The last flow of another run.
 template <int Dim>
 MixedFlow<Dim> flow_of(const EarlierFlow<Dim>& earlier, const Grid<Dim>& grid,
                        const std::vector<FaceCondition>& conditions,
@@ -81,7 +80,7 @@ void ImplicitFlow<Dim>::start_steps(const MovingSolid& solid) {
   const double shortest = shortest_change(solid.compressibility);
   const double of_fall = first_step_of_fall * solid.time_of_fall;
   const double of_change = of_fall > 0.0 ? of_fall : starts_at_rest() ? of_liquid : shortest;
-  // Loads may come at once, and the pressures with them.
+  // Loads, and with them pressures, may change suddenly.
   control_.start(std::min(of_run, of_change), false, shortest);
 }
 
