@@ -19,7 +19,6 @@ std::vector<double> swept_volumes(const Grid<Dim>& grid, const PointsByElement& 
 /// cannot leave. So each face between two elements with soil may bulge along its normal, by a
 /// bubble d that is zero at its edges and in equilibrium with the change of total stress over the
 /// step on both sides and its own elastic stiffness a,
-/// the step on both sides and its own elastic stiffness a,
 ///
 ///     d = -(m/a) n.[d sigma' - dp I].n,    m = 2|f|/3 (2D), 9|f|/20 (3D),
 ///
