@@ -19,7 +19,7 @@ PointPlace<Dim> place_inside(const Grid<Dim>& grid, const SolidPoints<Dim>& poin
 
 /// The largest share in [0, 1] of `change` that keeps `value` plus this share within the bounds.
 double share_within(double value, double change, double low, double high) {
-  const double slack = 1e-12 * (high - low);  // values of an element's own nodes are within
+  const double slack = 1e-12 * (high - low);  // values of an element's own nodes are within bounds
   if (change > high - value + slack) return (high - value) / change;
   if (change < low - value - slack) return (low - value) / change;
   return 1.0;

@@ -50,8 +50,8 @@ inline constexpr double sure_of_assembled = 1.0 - 1e-3;
 /// velocity, the part that the points around them return: the eigenvalue of lumped^-1 consistent
 /// mass, for a mode of frequency omega. A step is then p'' - (2 - a) p' + (1 - (1 - theta) a) p = 0
 /// with a = (omega dt)^2, stable for a <= 4 / (2 - theta). On linear triangles theta is at least
-/// 1/4 (A. J. Wathen, IMA J. Numer. Anal. 7 (1987) 449) if points sample the mass well: omega
-/// counts sqrt(7/4) times.
+/// 1/4 (A. J. Wathen, IMA J. Numer. Anal. 7 (1987) 449) if points sample the mass well: omega is
+/// multiplied by sqrt(7/4).
 template <int Dim>
 double assembled_limit(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& coefficients,
                        double bulk_modulus, double mass_scaling, DragIntegration drag,

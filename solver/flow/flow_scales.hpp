@@ -34,7 +34,7 @@ struct FlowScales {
   void include_loads(double change, double stiffness);
   /// Widens the bounds to these pressures, from which the flow starts.
   void include_in_bounds(const std::vector<double>& face_pressure);
-  /// How far pressures leave their bounds, over the pressure scale; zero without bounds.
+  /// Largest excess of pressures over their bounds, over the pressure scale; zero without bounds.
   [[nodiscard]] double overshoot(const std::vector<double>& face_pressure) const;
 
   void archive(auto& archive) {

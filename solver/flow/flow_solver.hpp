@@ -111,7 +111,7 @@ class FlowSolver {
   virtual FlowProgress commit(FlowStep<Dim> step) = 0;
 
   // Used by estimates; without effect on a scheme that does not choose its steps.
-  // Length of a step that keeps this tolerance, estimated from the last step, s.
+  /// Length of a step that keeps this tolerance, estimated from the last step, s.
   [[nodiscard]] virtual double step_within(double /*tolerance*/) const { return unset; }
   /// Sets the length of the next step to try, s, whatever was planned.
   virtual void plan_step(double /*dt*/) {}
@@ -151,7 +151,7 @@ class FlowSolver {
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
   /// Breakpoints at which boundary values or loads have a kink, ascending, s.
   [[nodiscard]] const std::vector<double>& kinks() const { return kinks_; }
-  /// The first breakpoint after `start`, or `latest` where that comes first, s.
+  /// The first breakpoint after `start`, or `latest` if that comes first, s.
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; at a prescribed pressure, that pressure.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;

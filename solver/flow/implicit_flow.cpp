@@ -210,7 +210,7 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
   const auto pressure = [](const MixedFlow<Dim>& flow) { return Span(flow.state.face_pressure); };
   const ControlledField of_pressure{before(pressure), now_.state.face_pressure,
                                     step.end.face_pressure, scales_.pressure};
-  // A sudden load drives an infinite flux out of its boundary for an instant: pressures count only.
+  // A sudden load drives an infinite flux out of its boundary for an instant: only pressures count.
   if (solid_.moves()) return control_.error(start, dt, {of_pressure});
   const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
   return control_.error(
@@ -275,7 +275,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
                                const std::vector<double>& face_concentration) {
   FlowSolver<Dim>::update(time, pores, face_concentration);
   if (blending_.expects()) {
-    // Points that change elements cause scatter of densities and pores: a drift must last.
+    // Points that change elements scatter densities and pores: only a lasting change is a drift.
     const bool scattered = this->scene().formulation == Formulation::double_point || solid_.moves();
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;

@@ -146,8 +146,8 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   }
   /// Time in which the largest flux fills the pores of the smallest element, s; infinite at rest.
   [[nodiscard]] double filling_time() const;
-  /// A time that is short against all time scales of the flow, s: a step of this length ends in the
-  /// state right after the start. Infinite if nothing delays the flow. `soil_storage`: see
+  /// A time that is short compared with all time scales of the flow, s: a step of this length ends
+  /// in the state right after the start. Infinite if nothing delays the flow. `soil_storage`: see
   /// `fastest_rate`.
   [[nodiscard]] double shortest_change(const std::vector<double>& soil_storage) const;
 

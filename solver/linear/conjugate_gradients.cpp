@@ -30,8 +30,8 @@ double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b, int threads) {
 bool ConjugateGradients::solve(const SymmetricSystem& system, Factor& preconditioner,
                                Eigen::VectorXd& x) {
   iterations_ = 0;
-  // Iterations update the residual instead of computing it, and it drifts from the true one: start
-  // again from that if it has.
+  // Iterations update the residual instead of computing it. Start again from the true residual if
+  // the two have drifted apart.
   while (true) {
     residual_.compute(system, x);
     if (residual_.is_allowed()) return true;

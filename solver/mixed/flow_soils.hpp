@@ -1,7 +1,6 @@
 #pragma once
 
-/// Retention and bedding of the soils, per element, as the flow uses them while the soils do not
-/// move.
+/// Retention and bedding of the soils, per element, as the flow uses them until the soils move.
 
 #include <algorithm>
 #include <array>

@@ -13,7 +13,7 @@
 
 namespace suffuse {
 
-/// Sets of nodes that only grow together.
+/// Sets of nodes that can be joined (union-find).
 class DisjointSets {
  public:
   explicit DisjointSets(int count) : parent_(count) {
@@ -23,7 +23,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// False when they were together already.
+  /// Joins the sets of two nodes. Returns false if they are one set already.
   bool join(int a, int b) {
     a = find(a);
     b = find(b);
@@ -176,7 +176,7 @@ class FluxCorrection {
   std::vector<int> passable_;  ///< interior and pressure faces, and one side of each wall
   std::vector<int> sealed_piece_;
   std::vector<int> sealed_root_;
-  std::vector<double> followed_;  ///< conductances the tree was laid for
+  std::vector<double> followed_;  ///< conductances for which the tree was built
   std::vector<int> from_root_;    ///< elements, each after the one it drains to
   std::vector<int> drain_;        ///< per element: face towards the root, -1 at a root
 };

@@ -36,7 +36,7 @@ class ImplicitMixed {
   ImplicitMixed(const ImplicitMixed&) = delete;
   ImplicitMixed& operator=(const ImplicitMixed&) = delete;
 
-  /// Shares of the step at which `step` asks for the forcing, ascending; the last is one.
+  /// Shares of the step at which `step` needs the forcing, ascending; the last is one.
   [[nodiscard]] std::vector<double> stages() const;
 
   /// One step of `dt` seconds; forcing[i] at stages()[i]. The kind of a face's condition should not

@@ -44,8 +44,8 @@ MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceConditi
   return flow;
 }
 
-/// Adds to `room` the volume of air that has left each element between two states, m3. Without air,
-/// `room` remains empty if it is.
+/// Adds to `room` the volume of air that has left each element between two states, m3. `room` may
+/// be empty, and remains so without air.
 template <std::size_t Sides>
 void add_displaced_air(const std::vector<std::array<double, Sides>>& before,
                        const std::vector<std::array<double, Sides>>& after,
@@ -78,7 +78,7 @@ struct NodalFields {
 };
 
 /// The value at a node is the mean of the elements' linear fields there, weighted with their
-/// volumes. A linear field at a vertex lies outside the range of its face pressures, so the mean is
+/// volumes. A linear field at a vertex may exceed the range of its face pressures, so the mean is
 /// limited to the range of the pressures at the faces and in the elements around the node.
 /// Pressures are compared after subtraction of the weight of water, `weight` = rho g in Pa/m, up to
 /// the node: water at rest has equal ones. `porosity` per element.

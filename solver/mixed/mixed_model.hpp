@@ -59,7 +59,7 @@ template <int Dim>
 struct MixedStep {
   MixedState<Dim> end;
   std::vector<double> face_volume;  ///< over the step, along each face's normal, m3
-  std::vector<double> face_flux;    ///< at the end, likewise, m3/s
+  std::vector<double> face_flux;    ///< at the end, along each face's normal, m3/s
   /// `face_flux` without what faces with a prescribed pressure store in their share of an element.
   /// `face_flux` jumps where the pressure has a kink in time, `flux_through` does not.
   std::vector<double> flux_through;

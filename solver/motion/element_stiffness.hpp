@@ -11,7 +11,7 @@
 
 namespace suffuse {
 
-/// V_e / E_oed, m3/Pa; in free water next to soil, with that of the softest soil; 0 elsewhere
+/// V_e / E_oed, m3/Pa; in free water next to soil, with E_oed of the softest soil; 0 elsewhere
 /// without moving soil.
 /// \param modulus  E_oed per point, Pa; 0 if the point does not move
 template <int Dim>

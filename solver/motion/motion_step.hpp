@@ -52,7 +52,7 @@ struct SolidMotion {
 template <int Dim>
 struct MotionStep {
   MotionForcing forcing;
-  std::vector<double> loss;  ///< volume that each point loses in it, m3; may be empty
+  std::vector<double> loss;  ///< volume that each point loses in the step, m3; may be empty
   std::unique_ptr<StepEquilibrium<Dim>> equilibrium;  ///< holds the displacement found last
   std::unique_ptr<FaceBubbles<Dim>> bubbles;
   bool has_inertia = false;

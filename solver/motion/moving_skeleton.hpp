@@ -24,7 +24,7 @@ namespace suffuse {
 template <int Dim>
 class MovingSkeleton final : public ErodingSkeleton<Dim> {
  public:
-  /// Moves the points of `soils`. Throws InputError as they do.
+  /// Moves the points of `soils`. Throws InputError.
   MovingSkeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils, const TimeSpan& span, int threads);
 
   /// Fines lost, over the present volume: porosity changes with the volume of the soil too.

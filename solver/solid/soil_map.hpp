@@ -12,7 +12,7 @@
 
 namespace suffuse {
 
-/// s
+/// A span of time, s.
 struct TimeSpan {
   double start = -std::numeric_limits<double>::infinity();
   double end = std::numeric_limits<double>::infinity();
