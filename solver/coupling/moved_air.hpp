@@ -26,8 +26,8 @@ class MovedAir {
   [[nodiscard]] double without_air(int face) const { return solid_[face] + water_[face]; }
   /// Growth of an element's pores as this solid leaves it, m3.
   [[nodiscard]] double pores_gained(int e) const;
-  /// Water that crosses a face with the solid, m3. Solid beyond that assumed here changes places
-  /// with water, as much as the element that takes the solid in has in its pores.
+  /// Water that crosses a face with the solid, m3. Solid beyond that assumed here displaces water
+  /// by the saturation of the element that it enters.
   /// \param solid       s_f, m3
   /// \param saturation  per element, after the flow
   [[nodiscard]] double water(int face, double solid, const std::vector<double>& saturation) const;

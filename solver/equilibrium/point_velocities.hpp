@@ -50,7 +50,7 @@ class PointVelocities {
   void take(const Grid<Dim>& grid, const SolidPoints<Dim>& points, NodeVectors<Dim> velocity,
             const std::vector<double>& mass);
 
-  /// 1/2 sum m v^2, J (per metre of thickness in 2D).
+  /// 1/2 sum m v^2, J (per meter of thickness in 2D).
   [[nodiscard]] double kinetic_energy(const std::vector<double>& mass) const;
   [[nodiscard]] Vector<Dim> momentum(const std::vector<double>& mass) const;
 

@@ -16,7 +16,7 @@ template <int Dim>
 struct SolidPoints {
   SolidPoints() = default;
   /// Points without stress.
-  /// \param volume  of soil with its pores, per point, m3 (per metre of thickness in 2D)
+  /// \param volume  of soil with its pores, per point, m3 (per meter of thickness in 2D)
   SolidPoints(const Mesh<Dim>& mesh, const std::vector<PointPlace<Dim>>& places,
               std::vector<double> volume);
 

@@ -27,8 +27,8 @@ class CoefficientBlending {
  public:
   explicit CoefficientBlending(BlendingSettings settings) : settings_(settings) {}
 
-  /// Changes `coefficients`, which hold `elapsed` seconds after the start of a step by erosion
-  /// alone, so that they continue those of the last step. `now`: at the start.
+  /// Changes `coefficients`, those of erosion alone `elapsed` seconds after the start of a step, so
+  /// that they continue those of the last step. `now`: at the start.
   void blend(double elapsed, const FlowCoefficients<Dim>& now,
              FlowCoefficients<Dim>& coefficients) const;
 

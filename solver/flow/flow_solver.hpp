@@ -49,7 +49,7 @@ struct EarlierFlow {
   FlowState<Dim> state;
   ElementField<Dim> air;  ///< per side of each element, m3; empty if all soil is saturated
 
-  /// Pressures at the centres of faces, Pa.
+  /// Pressures at the centers of faces, Pa.
   [[nodiscard]] std::vector<double> face_pressure(const Grid<Dim>& grid) const;
   /// Per element, m3; empty as `air`.
   [[nodiscard]] std::vector<double> air_volume() const { return element_sums<Dim>(air); }
@@ -155,7 +155,7 @@ class FlowSolver {
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; at a prescribed pressure, that pressure.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
-  /// Pressure of the liquid at rest at each face's centre, Pa.
+  /// Pressure of the liquid at rest at each face's center, Pa.
   [[nodiscard]] std::vector<double> pressure_at_rest() const;
   /// Throws NumericalError: the element has no water left.
   [[noreturn]] void refuse_dry(int element, double time) const;

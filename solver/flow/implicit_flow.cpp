@@ -179,7 +179,7 @@ FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>
   const double before = time - implicit_thresholds.end_margin * (time - interval.start);
   PoreState pores = interval.pores.at(before);
   if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
-    // The forecast leaves out transport: it may reach the limit where moving liquid does not.
+    // Without transport the forecast may reach concentrations that moving liquid does not.
     const double most = 0.999 * this->scene().liquid.viscosity_model.maximum_concentration;
     for (double& c : pores.concentration) c = std::min(c, most);
   }

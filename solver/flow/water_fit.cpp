@@ -1,5 +1,5 @@
-// Keeps water fitting its pores in the implicit flow: expansion of moving water within a step, and
-// the mismatch of masses after it.
+// Keeps the volume of water equal to its room in the implicit flow: expansion of moving water
+// within a step, and the mismatch of masses after it.
 
 #include <algorithm>
 #include <cmath>

@@ -48,7 +48,7 @@ struct Grid {
 
   const Mesh<Dim>& mesh;
 
-  std::vector<double> volume;  ///< per element, m3 (per metre of thickness in 2D)
+  std::vector<double> volume;  ///< per element, m3 (per meter of thickness in 2D)
   std::vector<std::array<Vector<Dim>, Dim + 1>> shape_gradient;  ///< 1/m
   std::vector<double> node_volume;  ///< share of the elements' volume per node
 

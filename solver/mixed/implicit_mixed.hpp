@@ -1,7 +1,7 @@
 #pragma once
 
 /// Flow by mixed finite elements and implicit steps of any length. Unknowns are the pressures at
-/// face centres (Crouzeix and Raviart); each element has one mean Darcy flux, which is eliminated;
+/// face centers (Crouzeix and Raviart); each element has one mean Darcy flux, which is eliminated;
 /// the fluxes through faces are those of Raviart and Thomas (Marini, SIAM J. Numer. Anal. 22 (1985)
 /// 493). With the porosity n, intrinsic velocity v, q = n v and momentum divided by n:
 ///

@@ -25,7 +25,7 @@ struct ImplicitSettings {
 
 template <int Dim>
 struct MixedState {
-  std::vector<double> face_pressure;  ///< at face centres, Pa
+  std::vector<double> face_pressure;  ///< at face centers, Pa
   VectorField<Dim> velocity;          ///< mean of each element, intrinsic, m/s
   /// Volume of air in the share of each side of an element, m3; empty where all soil is saturated.
   ElementField<Dim> air = {};

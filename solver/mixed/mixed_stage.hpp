@@ -12,7 +12,7 @@
 
 namespace suffuse {
 
-/// Pressures at face centres as a sum, base + offset + rise, in which small changes of large
+/// Pressures at face centers as a sum, base + offset + rise, in which small changes of large
 /// pressures have all their digits; offset = reference - base.
 struct FacePressure {
   std::vector<double> reference;
@@ -95,7 +95,7 @@ struct MixedStage {
   [[nodiscard]] bool stores(int e) const {
     return storage[e] > 0.0 || (!mean_storage.empty() && mean_storage[e] > 0.0);
   }
-  /// Liquid that an element stores by its mean pressure, m3/s, at these rises of its faces.
+  /// Liquid that the mean storage of an element takes up, m3/s, at these rises at its faces.
   [[nodiscard]] double stored_in_mean(int e, const auto& rise_of_face) const {
     if (mean_storage.empty()) return 0.0;
     double sum = 0.0;
@@ -135,7 +135,7 @@ struct MixedStage {
     }
     return largest;
   }
-  /// Sets mobility, Darcy's plus the additional one, m3 s/kg, and drive of an element.
+  /// Sets an element's mobility (Darcy's plus the additional one), m3 s/kg, and its drive.
   void set_mobility(int e, double of_darcy) {
     law.mobility[e] = of_darcy;
     if (expected_gradient.empty()) return;

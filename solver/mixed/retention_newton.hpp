@@ -79,7 +79,7 @@ class RetentionNewton {
   static constexpr double near_solution = 0.1;
   /// Smallest share of a step of Newton's method that is taken.
   static constexpr double min_share = 1.0 / 16.0;
-  /// In one iteration suction grows by at most this factor times itself plus one metre.
+  /// In one iteration suction grows by at most this factor times itself plus one meter.
   static constexpr double max_suction_growth = 10.0;
 
   [[noreturn]] static void refuse_unsettled(int iterations, double left, double scale,
