@@ -71,8 +71,8 @@ void FlowOfMovingSolid<Dim>::start() {
   const std::vector<double> pressure = pressure_on_solid(
       grid_, flow_.scheme().soils(), flow_.pressure(), coefficients.porosity, flow.air);
   failure_.start(solid_.start_motion(pressure, liquid_mass(grid_, coefficients, flow.air)));
-  // A step as long as the run: inertia then resists next to nothing, and the soil is as soft as it
-  // is when drained.
+  // Compressibility for a step as long as the run: inertia is then negligible, and soil is as soft
+  // as when drained.
   flow_.start_steps({.load_change = solid_.largest_load_change(),
                      .stiffness = solid_.stiffness(),
                      .compressibility = solid_.compressibility(end_),

@@ -1,8 +1,8 @@
 #pragma once
 
-/// A step of the flow and of a solid that may move: found together, then taken together. Solid that
-/// finds no equilibrium fails (`Failure`). Where the solid stays in place, the step is the flow's
-/// own.
+/// A step of the flow and of a solid that may move: found together, then committed together. Solid
+/// without an equilibrium fails (`Failure`). If the solid does not move, the step is that of the
+/// flow.
 
 #include <memory>
 
@@ -20,7 +20,7 @@ class FlowOfMovingSolid {
   FlowOfMovingSolid(const Scene& scene, const Grid<Dim>& grid, ImplicitFlow<Dim>& flow,
                     MovingSkeleton<Dim>& solid, int threads);
 
-  /// Finds the stress of the solid at the start, and the first step. The flow has started.
+  /// Finds the initial stress of the solid and the first step. Call after the flow has started.
   void start();
   CoupledStep<Dim> solve(const FlowInterval<Dim>& interval);
   FlowProgress commit(CoupledStep<Dim> step);
@@ -31,7 +31,7 @@ class FlowOfMovingSolid {
   void archive(auto& archive) { archive(failure_, rise_, iterations_); }
 
  private:
-  /// What moves with the solid becomes part of what the step found.
+  /// Adds what moves with the solid to the step of the flow.
   void move_liquid_along(const SolidMotion& motion, FlowStep<Dim>& flow) const;
 
   const Grid<Dim>& grid_;
@@ -52,29 +52,29 @@ class CoupledFlow {
   CoupledFlow(const Scene& scene, const Grid<Dim>& grid, FlowSolver<Dim>& flow,
               MovingSkeleton<Dim>* moving, int threads);
 
-  /// The state at the start of the run, or that another run has left. The coefficients of the flow
-  /// come first.
+  /// Sets the state at the start of the run, or the last one of another run. The coefficients of
+  /// the flow must be known.
   void start();
   void start_from(const EarlierFlow<Dim>& earlier);
 
-  /// Finds a step within the interval. Flow and solid stay as they are, but for soil that fails: it
-  /// gets inertia here, and the step is found with it. Throws NumericalError; EquilibriumLost where
-  /// soil fails and the scene does not let it move on.
+  /// Finds a step within the interval. Flow and solid do not change, except soil that fails: it
+  /// gets inertia here, and the step is found with it. Throws NumericalError; EquilibriumLost if
+  /// soil fails and the scene does not follow it.
   CoupledStep<Dim> solve(const FlowInterval<Dim>& interval);
-  /// Flow and solid become what the step has found.
+  /// Sets flow and solid to what the step has found.
   FlowProgress commit(CoupledStep<Dim> step);
 
-  /// Iterations between flow and motion since the start; 0 where the solid stays in place.
+  /// Iterations between flow and motion since the start; 0 if the solid does not move.
   [[nodiscard]] long iterations() const;
   /// Calls and seconds of each pass, for run.json.
   [[nodiscard]] std::vector<PassTiming> passes() const;
-  /// Adds what is known of failures to a row.
+  /// Adds the time of the last failure to a row.
   void describe(HistoryRow& row) const;
   void archive(StateArchive& archive);
 
  private:
   FlowSolver<Dim>& flow_;
-  std::unique_ptr<FlowOfMovingSolid<Dim>> moving_;  ///< null where the solid stays in place
+  std::unique_ptr<FlowOfMovingSolid<Dim>> moving_;  ///< null if the solid does not move
 };
 
 }  // namespace suffuse

@@ -11,36 +11,36 @@
 namespace suffuse {
 namespace {
 
-/// Fixed-stress storage, over the compressibility of soil that cannot move sideways: with less, the
-/// iteration of undrained soil does not always end; with more it is slower (docs/theory.md, "Flow
-/// and motion").
+/// Fixed-stress storage over the compressibility of soil that cannot move sideways. With less, the
+/// iteration of undrained soil may not converge; with more it is slower (docs/theory.md, "Flow and
+/// motion").
 constexpr double held_storage = 1.5;
-/// Share of that storage that stays where the mobility of soil with inertia replaces it: holds the
+/// Share of this storage that remains where soil with inertia has a mobility instead: it fixes the
 /// level of the pressure.
 constexpr double beside_mobility = 1e-3;
-/// Air whose suction acts on the soil by no more than this share does not take part.
+/// Elements whose suction acts on the soil by a smaller share have no such storage.
 constexpr double least_suction_share = 1e-3;
 constexpr int max_coupling_iterations = 40;
-/// Stiffness of water that hardly leaves, over that of soil that cannot move sideways.
+/// Stiffness of confined water over the oedometer modulus of the soil.
 constexpr double undrained_stiffness = 300.0;
 constexpr int memory = 20;
-/// The last step says how pressures change in the next, but for one that is so much longer.
+/// The last step predicts the pressures of the next one, unless this is longer by this factor.
 constexpr double longest_growth = 10.0;
-/// Pressures agree when they differ by this share of the largest change in the step ...
+/// Pressures agree if they differ by less than this share of the largest change in the step ...
 constexpr double accuracy = 1e-7;
-/// ... or by this share of the largest pressure, or by the stress of the stiffest soil at such a
-/// strain: to that the solid is in equilibrium (`NewtonLimits`, `Equilibrium::least_strain`).
+/// ... plus this share of the largest pressure, plus the stress of the stiffest soil at a tiny
+/// strain: the solid is in equilibrium up to that (`NewtonLimits`, `Equilibrium::least_strain`).
 constexpr double accuracy_of_pressure = 1e-7;
 constexpr double round_off_strain = 1e-12;
 /// Accuracy with inertia, relative to the largest change plus the largest pressure: pressures of
-/// soil that fails swing by more with each step.
+/// failing soil oscillate more from step to step.
 constexpr double accuracy_in_motion = 1e-4;
 
 double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;
 }
 
-/// Largest absolute pressure of the elements that act on the motion, Pa.
+/// Largest absolute pressure in elements that act on the motion, Pa.
 double largest_of_soil(const std::vector<double>& pressure, const std::vector<double>& storage) {
   double result = 0.0;
   for (std::size_t e = 0; e < pressure.size(); ++e) {
@@ -89,7 +89,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const double scale =
       largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
-  std::optional<int> worst_node;  // of the last motion that was not found
+  std::optional<int> worst_node;  // of the last motion without an equilibrium
   int worst_element = 0;
   for (int iteration = 1; iteration <= max_coupling_iterations; ++iteration) {
     ++step.iterations;
@@ -143,7 +143,7 @@ std::vector<double> FlowAndMotion<Dim>::held_by_soil(const FlowSoils<Dim>& soils
   }
   const std::vector<double> saturation = saturation_of(grid_, air, forcing.coefficients.porosity);
   for (std::size_t e = 0; e < saturation.size(); ++e) {
-    // Suction acts on the soil, and the soil on the water, as far as pores are filled.
+    // Suction acts on the soil, and the soil on the water, by the filled share of the pores.
     if (pressure[e] >= 0.0 || !soils.air_moves()) continue;
     const double filled = soils.suction_share(static_cast<int>(e), saturation[e]);
     result[e] *= filled < least_suction_share ? 0.0 : filled * filled;
@@ -238,7 +238,7 @@ std::vector<double> FlowAndMotion<Dim>::without_air(const SolidMotion& motion,
   FlowCoefficients<Dim>& c = forcing.coefficients;
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     c.porosity[e] = start.porosity[e] + moved.pores_gained(e) / grid_.volume[e];
-    c.drag[e] = start.drag[e] * c.porosity[e] / start.porosity[e];  // the conductivity stays
+    c.drag[e] = start.drag[e] * c.porosity[e] / start.porosity[e];  // same conductivity
   }
   return result;
 }
@@ -252,7 +252,7 @@ std::vector<double> FlowAndMotion<Dim>::source_of(const std::vector<double>& mov
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
     // The fixed-stress storage acts only on the change from the pressure tried last.
     source[e] = (own.empty() ? 0.0 : own[e]) + storage[e] * rise[e] / dt;
-    // Pores that open with the soil take liquid in.
+    // Liquid enters the pores that open as the soil moves.
     for (int k = 0; k <= Dim; ++k) {
       source[e] -= grid_.element_face_sign[e][k] * moved[grid_.element_face[e][k]] / dt;
     }

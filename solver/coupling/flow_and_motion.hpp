@@ -1,10 +1,10 @@
 #pragma once
 
-/// Flow and motion of the solid in one step. Each is solved for what the other has found, until the
-/// pressures agree: the flow with the storage that the solid would have if it could not move
-/// sideways (the fixed-stress split: Kim, Tchelepi and Juanes, Comput. Methods Appl. Mech. Eng. 200
-/// (2011) 1591), the pressures of the elements mixed with those of iterations before (Anderson).
-/// Neither part knows the other.
+/// Iterates flow and motion of the solid in one step: each is solved with the result of the other
+/// until the pressures agree. The flow has the storage of soil that cannot move sideways (the
+/// fixed-stress split: Kim, Tchelepi and Juanes, Comput. Methods Appl. Mech. Eng. 200 (2011) 1591),
+/// and pressures are mixed with those of earlier iterations (Anderson). Neither part knows the
+/// other.
 
 #include <optional>
 #include <vector>
@@ -15,7 +15,7 @@
 
 namespace suffuse {
 
-/// How pressures rise in a step: where the iteration of the next one starts.
+/// Rise of pressures in a step, which predicts that of the next one.
 struct PressureRise {
   std::vector<double> rate;  ///< per face, Pa/s
   double time = 0.0;         ///< duration of the step, s
@@ -23,13 +23,13 @@ struct PressureRise {
   void archive(auto& archive) { archive(rate, time); }
 };
 
-/// A step of flow and solid that has been solved for. Neither has changed yet.
+/// The solution of a step of flow and solid. Neither has changed yet.
 template <int Dim>
 struct CoupledStep {
   FlowStep<Dim> flow;
-  std::optional<MotionStep<Dim>> motion = {};  ///< none where the solid stays in place
+  std::optional<MotionStep<Dim>> motion = {};  ///< none if the solid does not move
   PressureRise rise = {};                      ///< in the step found last, or before it
-  long iterations = 0;                         ///< of flow and motion, in all tries
+  long iterations = 0;                         ///< of flow and motion, in all attempts
 };
 
 /// The flow at the start of a step.
@@ -46,14 +46,13 @@ class FlowAndMotion {
   FlowAndMotion(const Grid<Dim>& grid, const MovingSkeleton<Dim>& solid, int threads)
       : grid_(grid), solid_(solid), threads_(threads) {}
 
-  /// Finds flow and motion of a step, of which the forcing of the flow and the length are given,
-  /// from what was tried before. Says why where it has no solution.
+  /// Finds flow and motion of a step with given length and forcing of the flow, starting from the
+  /// last attempt. Returns the reason if it has no solution.
   std::optional<Unsolved> solve(ImplicitMixed<Dim>& scheme, const FlowStart<Dim>& start,
                                 MotionForcing forcing, CoupledStep<Dim>& step) const;
 
  private:
-  /// Storage of the elements in the iteration in addition to their own, of the soil's
-  /// compressibility, m3/Pa.
+  /// Additional storage of the elements in the iteration, from the soil's compressibility, m3/Pa.
   [[nodiscard]] std::vector<double> held_by_soil(const FlowSoils<Dim>& soils,
                                                  const ElementField<Dim>& air,
                                                  const FlowForcing<Dim>& forcing,
@@ -62,28 +61,28 @@ class FlowAndMotion {
   /// Expected rise of the pressure at faces in a step of `dt`, s, after the last one, Pa.
   [[nodiscard]] Eigen::VectorXd expected_rise(const PressureRise& last, double dt) const;
 
-  // What acts on the motion: not the pressure of free water, nor of soil that cannot move. There
-  // the held `storage` is 0.
+  // Pressures act on the motion where the held `storage` is not 0: in soil that can move, and in
+  // free water next to it.
 
-  /// Means of the elements, of values at faces.
+  /// Means of the values at the faces of each element.
   [[nodiscard]] Eigen::VectorXd at_elements(const Eigen::VectorXd& of_faces,
                                             const std::vector<double>& storage) const;
-  /// Means of the elements on both sides of a face.
+  /// Means of the values of the elements on both sides of a face.
   [[nodiscard]] Eigen::VectorXd at_faces(const Eigen::VectorXd& of_elements,
                                          const std::vector<double>& storage) const;
   [[nodiscard]] Eigen::VectorXd rise_at_soil(const std::vector<double>& before,
                                              const std::vector<double>& after,
                                              const std::vector<double>& storage) const;
-  /// Largest pressure difference that counts as converged, Pa, where the largest rise is `rise` and
-  /// the largest pressure `pressure`, Pa; in equilibrium never below `floor`.
+  /// Largest pressure difference that counts as converged, Pa, for the largest rise `rise` and the
+  /// largest pressure `pressure`, Pa; in equilibrium never below `floor`.
   [[nodiscard]] double allowed(double rise, double pressure, double floor) const;
-  /// Where drained soil could not bear a load: the pressures if next to no water left, as a start.
-  /// None where it could not bear it then either. `pressure`: on the solid, per element, Pa.
+  /// Initial guess for a load that drained soil cannot bear: pressures if almost no water leaves.
+  /// None if undrained soil cannot bear it either. `pressure`: on the solid, per element, Pa.
   [[nodiscard]] std::optional<Eigen::VectorXd> undrained_rise(MotionStep<Dim>& step,
                                                               const std::vector<double>& pressure,
                                                               Eigen::VectorXd rise) const;
-  /// Volume that crosses faces with the motion, without its air. The pores of `forcing` become
-  /// those of `start`, grown as solid leaves.
+  /// Volume that crosses faces with the motion, without its air. Sets the porosity in `forcing` to
+  /// that of `start` plus the volume that solid leaves.
   [[nodiscard]] std::vector<double> without_air(const SolidMotion& motion,
                                                 const ElementField<Dim>& air,
                                                 const FlowCoefficients<Dim>& start,
@@ -104,8 +103,8 @@ template <int Dim>
 std::vector<double> liquid_mass(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                                 const ElementField<Dim>& air);
 
-/// The pressure of the pores as the skeleton feels it, per element, Pa: suction times the effective
-/// saturation (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515).
+/// The pore pressure that acts on the skeleton, per element, Pa: suction is multiplied by the
+/// effective saturation (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515).
 template <int Dim>
 std::vector<double> pressure_on_solid(const Grid<Dim>& grid, const FlowSoils<Dim>& soils,
                                       std::vector<double> pressure,

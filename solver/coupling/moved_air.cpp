@@ -6,8 +6,8 @@
 namespace suffuse {
 namespace {
 
-/// Adds `missing`, m3, to the air at the sides of an element, in equal parts but for what a side
-/// has no room for, or no air to give: that goes to the others.
+/// Adds `missing`, m3, to the air at the sides of an element in equal parts, as far as each side
+/// has room or air. If no side has any, the rest is added in equal parts nevertheless.
 template <int Dim>
 void distribute(double missing, double room, ElementValues<Dim>& air) {
   ElementValues<Dim> space;  // of each side
@@ -28,9 +28,8 @@ void distribute(double missing, double room, ElementValues<Dim>& air) {
   for (double& side : air) side += sign * left / (Dim + 1);
 }
 
-/// Sets the volume of air from the balance, exactly: at sides with water, air fills the room that
-/// water and solid leave; at sides with air, it leaves the room that they need. `before`: at the
-/// start of the step; `liquid` has crossed the faces, m3.
+/// Sets each element's volume of air from the balance, exactly: the air `before` the step, plus the
+/// volume that `liquid` (through faces, m3) and solid have left.
 template <int Dim>
 void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
                 const std::vector<double>& porosity, const std::vector<double>& liquid,
@@ -53,9 +52,9 @@ MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air,
     : grid_(grid), solid_(face_volume.size(), 0.0), water_(solid_) {
   const std::vector<double> saturation = saturation_of(grid, air, porosity);
   for (int f = 0; f < grid.face_count(); ++f) {
-    // Where soil leaves the outer boundary of the mesh, air takes its place.
+    // At the outer boundary of the mesh air, not water, takes the place of soil that leaves.
     if (grid.is_outer(f)) continue;
-    // From the element that takes in what goes against the soil.
+    // Porosity and saturation are those of the element that the soil comes from.
     const double pores = taken_in(f, -face_volume[f], porosity);
     solid_[f] = (1.0 - pores) * face_volume[f];
     water_[f] = pores * taken_in(f, -face_volume[f], saturation) * face_volume[f];

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Soil that moves takes the water and the air in its pores along (docs/theory.md, "Air beside soil
-/// that moves").
+/// Motion of water and air in the pores of moving soil (docs/theory.md, "Air beside soil that
+/// moves").
 
 #include <vector>
 
@@ -11,8 +11,8 @@
 
 namespace suffuse {
 
-/// What crosses faces with soil that moves, if it has the porosity and the saturation of the
-/// element that it comes from.
+/// Solid and water that cross faces with moving soil, with the porosity and the saturation of the
+/// element that they come from.
 template <int Dim>
 class MovedAir {
  public:
@@ -22,19 +22,19 @@ class MovedAir {
   MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air, const std::vector<double>& porosity,
            const std::vector<double>& face_volume);
 
-  /// Solid and water, m3: what is left of the soil without its air.
+  /// Solid and water, m3: the soil without its air.
   [[nodiscard]] double without_air(int face) const { return solid_[face] + water_[face]; }
-  /// Growth of the pores of an element as that solid leaves it, m3.
+  /// Growth of an element's pores as this solid leaves it, m3.
   [[nodiscard]] double pores_gained(int e) const;
-  /// Water that crosses a face as solid does, m3: with what crosses beyond the solid assumed here,
-  /// as much water goes the other way as the element that takes it in has in its pores.
+  /// Water that crosses a face with the solid, m3. Solid beyond that assumed here displaces water
+  /// by the saturation of the element that it enters.
   /// \param solid       s_f, m3
   /// \param saturation  per element, after the flow
   [[nodiscard]] double water(int face, double solid, const std::vector<double>& saturation) const;
 
  private:
-  /// Value of `of_element` in the element that takes in `volume`, m3, which crosses a face along
-  /// its normal.
+  /// Value of `of_element` in the element that `volume`, m3, enters as it crosses a face along its
+  /// normal.
   [[nodiscard]] double taken_in(int face, double volume,
                                 const std::vector<double>& of_element) const;
 
@@ -43,10 +43,10 @@ class MovedAir {
   std::vector<double> water_;  ///< per face, m3
 };
 
-/// Adds to what crossed the faces in `step`, of the flow relative to the soil, the water that moved
-/// with the soil; its air becomes that after the motion.
+/// Adds the water that moved with the soil to the volumes of `step`, which are relative to the
+/// soil. Sets the air to that after the motion.
 /// \param motion    committed
-/// \param air       before the step, per side of each element, m3; empty where there is none
+/// \param air       before the step, per side of each element, m3; empty if there is none
 /// \param porosity  per element, before the motion
 template <int Dim>
 void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const ElementField<Dim>& air,

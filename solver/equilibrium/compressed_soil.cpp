@@ -20,7 +20,7 @@ void refuse_compressed(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
     }
     const double before = 1.0 - step.solid_volume[p] / points.volume[p];
     const double after = 1.0 - step.solid_volume[p] / (points.volume[p] * f.determinant());
-    // Soil that deposits have filled is none of this.
+    // Pores closed by deposits do not count: the step does not compress them.
     if (after > hardly_any * step.initial_porosity[p] || after >= before) continue;
     const Soil& soil = soils.soil_of_point(p);
     std::ostringstream message;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Soil that is compressed until its grains leave no pores between them. No law of the skeleton
-/// stiffens then, so the step in which it happens is refused.
+/// Refuses steps that compress soil until its grains leave no pores: no law of the skeleton
+/// stiffens then.
 
 #include <vector>
 
@@ -21,12 +21,11 @@ struct SoilStep {
   double end;                                   ///< s
 };
 
-/// Throws EquilibriumLost where the step leaves a point less than 1 % of its pores at the start.
+/// Throws EquilibriumLost if the step leaves a point less than 1 % of its pores at the start.
 template <int Dim>
 void refuse_compressed(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const SoilStep<Dim>& step);
 
-/// Throws NumericalError where the solid fills an element at `time`, s. `solid_volume`: per
-/// element, m3.
+/// Throws NumericalError if solid fills an element at `time`, s. `solid_volume`: per element, m3.
 template <int Dim>
 void refuse_filled(const Grid<Dim>& grid, const std::vector<double>& solid_volume, double time);
 

@@ -12,7 +12,7 @@ void CrossingForces<Dim>::find(const Grid<Dim>& grid, const PointsByElement& sor
                                const std::vector<double>& diffusivity) {
   force_ = moved.forces();
   for (std::size_t i = 0; i < force_.size(); ++i) force_[i] -= loads[i];
-  // The slowest element around a node decides.
+  // The slowest element around a node governs.
   fading_.assign(force_.size(), std::numeric_limits<double>::infinity());
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     if (sorted.is_empty(e)) continue;

@@ -6,13 +6,13 @@
 namespace suffuse {
 namespace {
 
-/// Soil that fills at least this share of the volume around a node surrounds it ...
+/// Soil surrounds a node if it fills at least this share of the volume around it ...
 constexpr double surrounded = 0.75;
-/// ... and at most this share at a surface that is flat.
+/// ... and fills at most this share at a flat surface.
 constexpr double at_surface = 0.5;
 
-/// Per node: whether it lies at the border of the mesh, or in an element without points, or beside
-/// such a node. Far from there all soil is inside, however its points lie.
+/// Per node: whether it is at the border of the mesh, in an element without points, or next to such
+/// a node. Farther inside all elements are full, wherever their points lie.
 template <int Dim>
 std::vector<char> near_surface(const Grid<Dim>& grid, const PointsByElement& sorted) {
   std::vector<char> at(grid.mesh.node_count(), 0);

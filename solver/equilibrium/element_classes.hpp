@@ -1,6 +1,6 @@
 #pragma once
 
-/// How much of each element the soil fills, as far as its stress is concerned.
+/// The share of each element that its stress fills.
 
 #include <vector>
 
@@ -8,25 +8,25 @@
 
 namespace suffuse {
 
-/// Inside the soil an element is full: its mean stress fills it, whatever the volumes of its points
-/// are. At the surface it counts as far as its points do. Between the two it goes over without a
-/// jump, with the share of the volume around its nodes that soil fills: a jump would load the pore
-/// water at once, however short the step.
+/// An element inside the soil is full: its mean stress fills it, whatever the volumes of its
+/// points. An element at the surface counts by the volumes of its points. The transition is
+/// continuous in the share of the volume around its nodes that soil fills: a jump would load the
+/// pore water at once, however short the step.
 struct ElementClasses {
   /// \param points  sorted by the elements of the grid
   template <int Dim>
   ElementClasses(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                  const PointsByElement& sorted);
 
-  /// Per element: 1 where it is full, 0 where it counts as its points do, or has none.
+  /// Per element: 1 if it is full, 0 if it counts by its points or has none.
   std::vector<double> full;
-  /// Per element, what a volume of its points counts for in the integral of the stress: in full
-  /// elements V_e over the sum of the points' volumes, so that the mean stress fills the element; 1
-  /// where it counts as they do; 0 where there are none.
+  /// Per element: factor on the volumes of its points in the integral of the stress. In full
+  /// elements it is V_e over the sum of these volumes, so that the mean stress fills the element; 1
+  /// where an element counts by its points; 0 without points.
   std::vector<double> scale;
 };
 
-/// Volume that counts as soil, per element, m3: all of a full one.
+/// Volume that counts as soil, per element, m3: the whole volume of a full element.
 template <int Dim>
 std::vector<double> soil_volumes(const SolidPoints<Dim>& points, const PointsByElement& sorted,
                                  const ElementClasses& classes);

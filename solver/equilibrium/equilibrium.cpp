@@ -9,7 +9,7 @@
 namespace suffuse {
 namespace {
 
-/// Elements take long enough to wake threads for few of them.
+/// Threads pay off from this number of elements on.
 constexpr int worth_sharing = 256;
 
 template <int Dim>
@@ -233,11 +233,11 @@ auto Equilibrium<Dim>::elastic_tangent(int e) const -> Tangent {
 }
 
 /// The derivative of the forces along the free directions of an element's nodes by the
-/// displacements along them; entries of directions that are held mean nothing.
+/// displacements along them; entries of held directions are not used.
 template <int Dim>
 auto Equilibrium<Dim>::element_matrix(int e, const Tangent& tangent) const -> ElementMatrix {
   const auto& nodes = body_.grid.mesh.elements[e];
-  // du along a node's directions to grad du, in the order of the entries of a matrix.
+  // Maps du along the nodes' directions to grad du, in the order of a matrix's entries.
   Eigen::Matrix<double, Dim * Dim, size> gradient;
   for (int a = 0; a <= Dim; ++a) {
     const auto& directions = unknowns_.supports().directions(nodes[a]);

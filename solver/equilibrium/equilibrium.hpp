@@ -13,22 +13,22 @@
 
 namespace suffuse {
 
-/// Law and numbers of the skeleton at a point, as of now.
+/// Present law and parameters of the skeleton at a point.
 struct PointSkeleton {
   const SkeletonLaw* law;
   SkeletonParameters parameters;
 };
 
-/// Those of a soil where this share of its erodible fines is left. Soil of a rigid skeleton is held
-/// at its nodes: its law is never asked for more than no stress.
+/// Law and parameters of a soil with this share of its erodible fines left. Rigid soil is held at
+/// its nodes: its law only has to return zero stress.
 PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left);
 
-/// Share of the stiffness of full elements that acts in partial ones on the displacement of each
-/// step. Without it a piece of soil that hangs by one node can turn freely, and Newton's method
-/// stalls; it does not act on what went before, so it does not carry the soil.
+/// Share of the stiffness of full elements that acts in partial ones on the displacement of a step.
+/// Without it a piece of soil connected by one node can rotate freely, and Newton's method stalls.
+/// It does not act on earlier displacements, so it does not carry the soil.
 inline constexpr double soft_share = 0.01;
 
-/// The solid at the start of a step. Refers to what the caller keeps.
+/// The solid at the start of a step. Keeps references.
 template <int Dim>
 struct SolidBody {
   const Grid<Dim>& grid;
@@ -39,15 +39,15 @@ struct SolidBody {
   double soft = soft_share;
 };
 
-/// Equilibrium over one step in the places at its start (updated Lagrangian), linear displacements,
-/// F = I + grad du:
+/// Equilibrium over one step about the places at its start (updated Lagrangian), with linear
+/// displacements, F = I + grad du:
 ///
 ///     R_u = sum_e [scale sum_p V_0 tau F^-T + soft E V_e grad du - p V_e J F^-T] grad N - loads
 ///           + M (du - dt v*)/dt^2 where inertia counts (backward Euler)
 ///
-/// with the Kirchhoff stress tau of each point of the element, the law's, J = det F and the pore
-/// pressure p of the element (docs/theory.md, "Equilibrium of the solid"). Everything is per
-/// element first and added up in the order of the elements: the same bits on any number of threads.
+/// with the Kirchhoff stress tau of each point by its law, J = det F and the pore pressure p of the
+/// element (docs/theory.md, "Equilibrium of the solid"). Contributions of elements are added in the
+/// order of the elements: the same bits on any number of threads.
 template <int Dim>
 class Equilibrium {
  public:
@@ -58,7 +58,7 @@ class Equilibrium {
 
   [[nodiscard]] const DisplacementUnknowns<Dim>& unknowns() const { return unknowns_; }
   /// Pore pressure per element, Pa; empty: none.
-  /// \param stiffness  the pressure falls by this times J - 1, per element, Pa; empty: it does not
+  /// \param stiffness  the pressure falls by this times J - 1, per element, Pa; empty: by nothing
   void set_pressure(std::vector<double> pressure, std::vector<double> stiffness = {}) {
     pressure_ = std::move(pressure);
     stiffness_ = std::move(stiffness);
@@ -69,46 +69,46 @@ class Equilibrium {
 
   /// Whether a displacement leaves each element with soil more than `min_ratio` of its volume.
   [[nodiscard]] bool is_possible(const NodeVectors<Dim>& displacement) const;
-  /// Takes this displacement over the step, m, which must be possible. Tangents cost more than
-  /// forces, and `assemble` needs them.
+  /// Sets the displacement over the step, m, which must be possible. Tangents cost more than
+  /// forces; `assemble` needs them.
   void displace(const NodeVectors<Dim>& displacement, bool with_tangents);
 
   /// Forces of the solid and its pore water on the nodes, N.
   [[nodiscard]] NodeVectors<Dim> forces() const;
   /// Norm of the forces of inertia, N.
   [[nodiscard]] double inertia_norm() const;
-  /// Norm of the forces of all elements, whether they balance or not, and of those at a strain of
-  /// `least_strain`, N: what residuals are relative to, without stress too.
+  /// Norm of the forces of all elements, balanced or not, plus that at a strain of `least_strain`,
+  /// N. Residuals are relative to it, also without stress.
   [[nodiscard]] double force_scale() const;
   /// Sets the derivative of the forces by the unknowns, N/m, in the pattern of `pattern()`.
   void assemble(Eigen::SparseMatrix<double>& tangent) const;
   /// The derivative times a displacement, N.
   [[nodiscard]] NodeVectors<Dim> tangent_times(const NodeVectors<Dim>& displacement) const;
-  /// The stiffness of a body without stress that has the elastic numbers of this one: symmetric
-  /// and, where the soil is held, positive definite, so that its factor serves as a preconditioner.
+  /// The elastic stiffness of this body without stress. It is symmetric and, where the soil is
+  /// held, positive definite, so that its factor serves as a preconditioner.
   void assemble_elastic(Eigen::SparseMatrix<double>& stiffness) const;
-  /// A matrix of the unknowns with places for both; its values are zero.
+  /// A matrix of the unknowns with entries for both; its values are zero.
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
 
   /// Mean effective stress sigma' of an element with soil, after the displacement, Pa; tension is
-  /// positive. Its part in the plane, in two dimensions.
+  /// positive. In two dimensions, the part in the plane.
   [[nodiscard]] Gradient mean_stress(int element) const {
     return effective_[element] / (soil_volume_[element] * ratio_[element]);
   }
-  /// Mean elastic numbers of an element with soil: Lame's first parameter and the shear modulus,
+  /// Mean elastic parameters of an element with soil: Lame's first parameter and the shear modulus,
   /// Pa.
   struct Moduli {
     double lame = 0.0;
     double shear = 0.0;
   };
   [[nodiscard]] Moduli mean_moduli(int element) const;
-  /// Volume of an element that counts as soil at the start of the step, m3: all of a full one.
+  /// Volume of an element that counts as soil at the start of the step, m3.
   [[nodiscard]] double soil_volume(int element) const { return soil_volume_[element]; }
 
   /// J = det F of an element.
   [[nodiscard]] double volume_ratio(int element) const { return ratio_[element]; }
 
-  /// Least det F that a step may lead to.
+  /// Least det F after a step.
   static constexpr double min_ratio = 0.1;
   static constexpr double least_strain = 1e-4;
 
@@ -137,17 +137,17 @@ class Equilibrium {
   std::vector<double> stiffness_;
   std::vector<double> inertia_;      ///< M/dt^2 per node, N/m; empty: none
   NodeVectors<Dim> coasting_;        ///< dt v* per node, m
-  NodeVectors<Dim> displacement_;    ///< the last one, m
-  double least_force_ = 0.0;         ///< of `force_scale`, N
+  NodeVectors<Dim> displacement_;    ///< the last displacement, m
+  double least_force_ = 0.0;         ///< part of `force_scale`, N
   std::vector<double> soft_;         ///< per element: stiffness against grad du, Pa m3
   std::vector<Gradient> inverse_;    ///< F^-1 per element
   std::vector<double> ratio_;        ///< det F per element
   std::vector<Gradient> stress_;     ///< V_e P per element, Pa m3
   std::vector<Gradient> effective_;  ///< V_e J sigma' per element, Pa m3
   std::vector<double> soil_volume_;  ///< per element, m3
-  std::vector<Tangent> tangent_;     ///< its derivative by F
+  std::vector<Tangent> tangent_;     ///< derivative of `stress_` by F
   Eigen::SparseMatrix<double> pattern_;
-  /// Per element with points: place of each entry of its matrix, or -1.
+  /// Per element with points: index of each entry of its matrix in `pattern_`, or -1.
   std::vector<std::array<int, ElementMatrix::SizeAtCompileTime>> slots_;
 };
 

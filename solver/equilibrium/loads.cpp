@@ -10,10 +10,10 @@
 namespace suffuse {
 namespace {
 
-/// Barycentric coordinates of a place above the mesh may be so far below zero.
+/// Lowest barycentric coordinate of a place above the mesh, times -1.
 constexpr double allowed_above = 0.5;
 
-/// Places on a face, in barycentric coordinates, which share its area equally: the Gauss points of
+/// Places on a face with equal shares of its area, in barycentric coordinates: the Gauss points of
 /// degree 3 (two nodes) or 2 (three nodes).
 template <int Dim>
 std::array<std::array<double, Dim>, Dim> places_on_face() {
@@ -26,7 +26,7 @@ std::array<std::array<double, Dim>, Dim> places_on_face() {
   return result;
 }
 
-/// Adds the force at a place; the functions of its element may be continued beyond it.
+/// Adds a force at a place. Outside its element the shape functions are extrapolated.
 template <int Dim>
 void add_force_at(const Grid<Dim>& grid, const PointPlace<Dim>& place, const Vector<Dim>& force,
                   NodeVectors<Dim>& loads) {
@@ -86,11 +86,11 @@ LoadedSurface<Dim>::LoadedSurface(const Grid<Dim>& grid, const PointsByElement& 
   }
 }
 
-/// Goes from an element without soil through the faces that look most against the surface's normal.
+/// Goes from an element without soil through the faces most opposite to the surface's normal.
 template <int Dim>
 PointPlace<Dim> LoadedSurface<Dim>::carrier(const Grid<Dim>& grid, const PointsByElement& sorted,
                                             int place) const {
-  constexpr int farthest = 4;  // a surface is never further from its soil
+  constexpr int farthest = 4;  // most elements between a surface and its soil
   int e = element_[place];
   for (int step = 0; step < farthest && sorted.is_empty(e); ++step) {
     int next = -1;

@@ -10,12 +10,12 @@
 
 namespace suffuse {
 
-/// Adds forces at solid points, N per point (a weight, say), to those on the nodes.
+/// Adds forces at solid points, N per point, to those on the nodes.
 template <int Dim>
 void add_point_forces(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                       const std::vector<Vector<Dim>>& force, NodeVectors<Dim>& loads);
 
-/// What the soil weighs.
+/// Mass of the soil.
 struct SoilMass {
   std::vector<double> solid;   ///< per point, kg
   std::vector<double> liquid;  ///< per volume of soil and element, kg/m3; empty: none
@@ -28,10 +28,9 @@ void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                 const PointsByElement& sorted, const ElementClasses& classes, const SoilMass& mass,
                 const std::array<double, 3>& gravity, NodeVectors<Dim>& loads);
 
-/// A surface of the soil that carries a load. It starts on faces of the mesh, and moves with the
-/// soil from there, so that it may come to lie inside elements: places on it carry shares of its
-/// area. (To load the topmost solid points instead puts the load below the surface, by the
-/// distance from the points to it.)
+/// A surface of the soil that carries a load. It starts on faces of the mesh and moves with the
+/// soil, so it may come to lie inside elements: places on it represent shares of its area. (Loading
+/// the topmost solid points instead would put the load below the surface.)
 template <int Dim>
 class LoadedSurface {
  public:
@@ -40,16 +39,16 @@ class LoadedSurface {
   LoadedSurface(const Grid<Dim>& grid, const PointsByElement& sorted,
                 const std::vector<int>& faces);
 
-  /// Adds a traction, Pa, on the area that the surface had at the start: a dead load. Where no soil
-  /// is left in the element of a place, the nearest element with soil below takes the load, as if
-  /// its linear functions went on to the place: the sum of forces and their moments stay.
+  /// Adds a traction, Pa, on the area that the surface had at the start: a dead load. If the
+  /// element of a place has no soil left, the nearest element with soil below takes the load with
+  /// its linear functions extrapolated to the place: forces and moments do not change.
   void add_traction(const Grid<Dim>& grid, const PointsByElement& sorted,
                     const Vector<Dim>& traction, NodeVectors<Dim>& loads) const;
-  /// Adds a pressure, Pa, on the surface as it is now: it stays normal to it.
+  /// Adds a pressure, Pa, normal to the present surface.
   void add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted, double pressure,
                     NodeVectors<Dim>& loads) const;
 
-  /// Adds a pressure that varies in space, Pa, `pressure(x)`, on the surface as it is now.
+  /// Adds a pressure `pressure(x)`, Pa, which varies in space, on the present surface.
   template <class Pressure>
   void add_pressures(const Grid<Dim>& grid, const PointsByElement& sorted, const Pressure& pressure,
                      NodeVectors<Dim>& loads) const {
@@ -58,8 +57,8 @@ class LoadedSurface {
     }
   }
 
-  /// Moves with the soil. A place may rise a little above the mesh, and loads the last element
-  /// then. Throws NumericalError where it would rise by more than half an element.
+  /// Moves with the soil. A place slightly above the mesh loads the last element. Throws
+  /// NumericalError if it rises by more than half an element.
   void move(const Grid<Dim>& grid, const PointsByElement& sorted,
             const NodeVectors<Dim>& displacement);
 
@@ -75,10 +74,10 @@ class LoadedSurface {
   std::vector<Vector<Dim>> position_;  ///< m
   std::vector<int> element_;           ///< of the soil below
   std::vector<double> area_;           ///< at the start, m2
-  std::vector<Vector<Dim>> normal_;    ///< out of the soil, times the area of today
+  std::vector<Vector<Dim>> normal_;    ///< out of the soil, times the present area
 };
 
-/// The direction of gravity, or against y without it.
+/// Direction of gravity; without gravity, that of -y.
 template <int Dim>
 Vector<Dim> downwards(const std::array<double, 3>& gravity);
 

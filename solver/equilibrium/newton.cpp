@@ -6,15 +6,15 @@
 namespace suffuse {
 namespace {
 
-/// So often Newton's step is halved before the iterations are given up.
+/// Most halvings of Newton's step before the iterations are given up.
 constexpr int max_halvings = 10;
-/// The residual must fall by this share of what the linear model promises (Armijo's rule).
+/// The residual must fall by this share of the linear model's prediction (Armijo's rule).
 constexpr double enough = 1e-4;
-/// Smallest accuracy asked of a linear solution, relative to its right-hand side.
+/// Smallest tolerance of a linear solution, relative to its right-hand side.
 constexpr double best_accuracy = 1e-9;
 
-/// How well the linear system is solved, relative to its right-hand side: as the residual will fall
-/// by Newton's method anyhow, and no better than the tolerance needs.
+/// Tolerance of the linear solution, relative to its right-hand side: no smaller than Newton's
+/// method can use or the tolerance needs.
 double accuracy_at(double residual, double tolerance) {
   return std::clamp(std::max(0.1 * tolerance / residual, 0.01 * residual), best_accuracy, 1e-3);
 }
@@ -61,13 +61,13 @@ void EquilibriumSolver<Dim>::iterate(const NodeVectors<Dim>& loads, const Newton
   }
 }
 
-/// The forces that balance, along free directions: what the loads leave to be carried.
+/// Unbalanced forces along free directions: loads minus forces of the solid.
 template <int Dim>
 Eigen::VectorXd EquilibriumSolver<Dim>::unbalanced(const NodeVectors<Dim>& loads) const {
   return unknowns().components(loads) - unknowns().components(equilibrium_.forces());
 }
 
-/// Once, for the first system: a step in which nothing changes needs none.
+/// Factorizes once, for the first system: a step without any change needs no factor.
 template <int Dim>
 void EquilibriumSolver<Dim>::factorise() {
   if (factorised_) return;
@@ -82,8 +82,7 @@ void EquilibriumSolver<Dim>::factorise() {
   factorised_ = true;
 }
 
-/// Newton's step for these forces; false where the tangent is singular: what the soil can carry has
-/// been reached.
+/// Finds Newton's step for these forces; false if the tangent is singular, as at a limit load.
 template <int Dim>
 bool EquilibriumSolver<Dim>::find_step(const Eigen::VectorXd& force, double accuracy,
                                        Eigen::VectorXd& step) {
@@ -99,9 +98,8 @@ bool EquilibriumSolver<Dim>::find_step(const Eigen::VectorXd& force, double accu
   return true;
 }
 
-/// Goes where the linear model at the start has the nodes that are held, and the others with them:
-/// to move the held ones alone would turn their elements inside out. Returns false where an element
-/// would lose its volume.
+/// Moves the held nodes as prescribed, and the others by the linear model at the start: moving the
+/// held nodes alone would invert their elements. Returns false if an element would lose its volume.
 template <int Dim>
 bool EquilibriumSolver<Dim>::prescribe(const NodeVectors<Dim>& loads,
                                        const NodeVectors<Dim>& prescribed,
@@ -118,7 +116,7 @@ bool EquilibriumSolver<Dim>::prescribe(const NodeVectors<Dim>& loads,
   return true;
 }
 
-/// One iteration. Returns false where no part of the step makes the residual smaller.
+/// One iteration. Returns false if no part of the step reduces the residual.
 template <int Dim>
 bool EquilibriumSolver<Dim>::improve(const NodeVectors<Dim>& loads, const Eigen::VectorXd& force,
                                      double accuracy, int halvings,

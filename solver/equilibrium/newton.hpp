@@ -12,47 +12,47 @@ namespace suffuse {
 
 struct NewtonLimits {
   int max_iterations = 12;
-  /// Largest residual over the forces of the elements and the loads together.
+  /// Largest residual, relative to the forces of the elements and the loads together.
   double tolerance = 1e-10;
-  /// A residual smaller than the tolerance, which iterations try to reach: they stop at the first
-  /// that does not come nearer. For soft soil beside stiff soil: the tolerance refers to the forces
-  /// of the stiff soil, which are much larger than those of the soft soil.
+  /// Residual below the tolerance that iterations try to reach; they stop at the first one without
+  /// progress. It is for soft soil next to stiff soil: the tolerance refers to the forces of the
+  /// stiff soil, which are much larger.
   double goal = std::numeric_limits<double>::infinity();
 };
 
 template <int Dim>
 struct NewtonSolution {
   NodeVectors<Dim> displacement;  ///< over the step, m
-  /// Whether the residual fell below the tolerance. Else the caller takes a shorter step.
+  /// Whether the residual fell below the tolerance. Otherwise the caller takes a shorter step.
   bool converged = false;
-  /// Norm of the forces out of balance before each iteration and at the end, relative as above.
+  /// Norm of the unbalanced forces before each iteration and at the end, relative as above.
   std::vector<double> residuals;
-  /// Where it did not: the node at which forces are out of balance most.
+  /// Node with the largest unbalanced force if the solution did not converge.
   int worst_node = -1;
 
   [[nodiscard]] int iterations() const { return static_cast<int>(residuals.size()) - 1; }
 };
 
 /// Finds the displacement over a step at which the forces of the solid equal the loads. Each
-/// iteration takes as much of Newton's step, by halves, as leaves every element a volume and the
-/// residual smaller. The linear systems are solved by iterations with the factor of the elastic
-/// stiffness, which is made once, if at all: to solve again, for other loads or pore pressures of
-/// the same step, costs little.
+/// iteration takes the largest of 1, 1/2, 1/4 ... of Newton's step that keeps volumes positive and
+/// reduces the residual. Linear systems are solved by iterations with the factor of the elastic
+/// stiffness, which is made at most once: further solutions, for other loads or pore pressures of
+/// the same step, cost little.
 template <int Dim>
 class EquilibriumSolver {
  public:
   /// Keeps a reference.
   explicit EquilibriumSolver(Equilibrium<Dim>& equilibrium) : equilibrium_(equilibrium) {}
 
-  /// Leaves the equilibrium displaced by the solution. Throws NumericalError when nothing holds the
+  /// Leaves the equilibrium displaced by the solution. Throws NumericalError if nothing holds the
   /// soil.
   /// \param loads       per node, N
   /// \param start       displacement to start from, m, which must be possible
   NewtonSolution<Dim> solve(const NodeVectors<Dim>& loads, NodeVectors<Dim> start,
                             const NewtonLimits& limits = {});
   /// Solves from rest with prescribed displacements.
-  /// \param prescribed  displacement over the step in directions that are held, m; empty: none.
-  ///                    What it says about free directions is not used.
+  /// \param prescribed  displacement over the step in held directions, m; empty: none. Components
+  /// in free directions are not used.
   NewtonSolution<Dim> solve_prescribed(const NodeVectors<Dim>& loads,
                                        const NodeVectors<Dim>& prescribed,
                                        const NewtonLimits& limits = {});

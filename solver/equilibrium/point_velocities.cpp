@@ -5,8 +5,8 @@
 namespace suffuse {
 namespace {
 
-/// Where a point is for its element. A point on the border of the mesh, or a little over it, counts
-/// in the nearest place inside: a node must not get a negative mass.
+/// Place of a point in its element. A point on the border of the mesh, or slightly outside, is
+/// moved to the nearest place inside, so that no node gets a negative mass.
 template <int Dim>
 PointPlace<Dim> place_inside(const Grid<Dim>& grid, const SolidPoints<Dim>& points, int p) {
   const int e = points.element[p];
@@ -17,9 +17,9 @@ PointPlace<Dim> place_inside(const Grid<Dim>& grid, const SolidPoints<Dim>& poin
   return place;
 }
 
-/// The largest share in [0, 1] of `change` that keeps `value` plus it within the bounds.
+/// The largest share in [0, 1] of `change` that keeps `value` plus this share within the bounds.
 double share_within(double value, double change, double low, double high) {
-  const double slack = 1e-12 * (high - low);  // what an element's own nodes have is within
+  const double slack = 1e-12 * (high - low);  // values of an element's own nodes are within bounds
   if (change > high - value + slack) return (high - value) / change;
   if (change < low - value - slack) return (low - value) / change;
   return 1.0;

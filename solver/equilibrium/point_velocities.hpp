@@ -1,7 +1,7 @@
 #pragma once
 
-/// Velocities of solid points, and how they go to the nodes and back: affine transfer (TPIC,
-/// Nakamura, Matsumura and Mizutani, Comput. Methods Appl. Mech. Eng. 409 (2023)), limited.
+/// Velocities of solid points, and their transfer to the nodes and back: affine (TPIC, Nakamura,
+/// Matsumura and Mizutani, Comput. Methods Appl. Mech. Eng. 409 (2023)), limited.
 
 #include <vector>
 
@@ -13,14 +13,14 @@ namespace suffuse {
 /// Mass and velocity of the nodes.
 template <int Dim>
 struct NodalMotion {
-  std::vector<double> mass;   ///< kg; 0 where no point is near
+  std::vector<double> mass;   ///< kg; 0 if no point is near
   NodeVectors<Dim> velocity;  ///< m/s
 };
 
-/// Velocity at the place of a point, and its gradient. What a point extrapolates to the nodes keeps
-/// its momentum. One factor per point scales the gradient so that this stays within the velocities
-/// that the point and the nodes of its element had after the last step: a point that has come into
-/// another element would otherwise throw its surface forward.
+/// Velocity at the place of a point, and its gradient. Extrapolation to the nodes keeps the
+/// momentum of the point. One factor per point scales the gradient so that extrapolated velocities
+/// stay within those of the point and of the nodes of its element after the last step: otherwise a
+/// point that has entered another element would throw its surface forward.
 template <int Dim>
 class PointVelocities {
  public:
@@ -38,19 +38,19 @@ class PointVelocities {
   }
   [[nodiscard]] const Vector<Dim>& velocity(int point) const { return velocity_[point]; }
   [[nodiscard]] bool empty() const { return velocity_.empty(); }
-  /// The points have another order: the one that was at order[k] comes to k.
+  /// Reorders the points: point order[k] becomes point k.
   void reorder(const std::vector<int>& order);
 
   /// \param mass  per point, kg
   [[nodiscard]] NodalMotion<Dim> to_nodes(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                           const std::vector<double>& mass) const;
-  /// Takes what the nodes have at the end of a step.
+  /// Sets velocities and gradients from the nodes at the end of a step.
   /// \param points    before they move
   /// \param velocity  per node, m/s; not used where `mass`, per node, is 0
   void take(const Grid<Dim>& grid, const SolidPoints<Dim>& points, NodeVectors<Dim> velocity,
             const std::vector<double>& mass);
 
-  /// 1/2 sum m v^2, J (per metre of thickness in 2D).
+  /// 1/2 sum m v^2, J (per meter of thickness in 2D).
   [[nodiscard]] double kinetic_energy(const std::vector<double>& mass) const;
   [[nodiscard]] Vector<Dim> momentum(const std::vector<double>& mass) const;
 

@@ -6,22 +6,22 @@
 namespace suffuse {
 namespace {
 
-/// Length of the first step: soil that stays elastic comes half the way to rest in it.
+/// Length of the first step: elastic soil moves half of its way to rest in it.
 constexpr double first_length = 1.0;
-/// Steps shorter than this, which elastic soil would not notice, are given up.
+/// Shorter steps, which have no effect on elastic soil, are given up.
 constexpr double least_length = 1e-4;
-/// The defect of a step, over the forces out of balance at its start.
+/// Largest defect of a step, relative to the unbalanced forces at its start.
 constexpr double step_accuracy = 0.03;
 /// Accuracy of linear solutions, relative to their right-hand side.
 constexpr double linear_accuracy = 3e-3;
 constexpr int max_step_iterations = 8;
-/// Steps become as long as takes about so many iterations: that is least work in all.
+/// The lengths of steps aim at this number of iterations, for which the total work is least.
 constexpr double good_iterations = 4.0;
 /// Lengths of consecutive steps differ by this factor at most.
 constexpr double growth = 4.0;
-/// Newton's step is halved so often; a shorter part of it is worth less than a shorter step.
+/// Most halvings of Newton's step; beyond that a shorter step is better.
 constexpr int max_step_halvings = 6;
-/// The defect must fall by this share of what the linear model promises (Armijo's rule).
+/// The defect must fall by this share of the linear model's prediction (Armijo's rule).
 constexpr double least_fall = 1e-4;
 
 }  // namespace
@@ -61,14 +61,14 @@ Eigen::VectorXd PseudoTime<Dim>::unbalanced() const {
   return unknowns.components(loads_) - unknowns.components(equilibrium_.forces());
 }
 
-/// Displacement beyond that at the start of the step, along the unknowns.
+/// Displacement since the start of the step, along the unknowns.
 template <int Dim>
 Eigen::VectorXd PseudoTime<Dim>::moved_by(const NodeVectors<Dim>& displacement) const {
   const DisplacementUnknowns<Dim>& unknowns = equilibrium_.unknowns();
   return unknowns.components(displacement) - unknowns.components(soil_.displacement);
 }
 
-/// Soil that fails moves at a constant speed.
+/// Displacement at constant speed, as of soil that fails.
 template <int Dim>
 NodeVectors<Dim> PseudoTime<Dim>::predicted() const {
   NodeVectors<Dim> result = soil_.displacement;
@@ -77,7 +77,7 @@ NodeVectors<Dim> PseudoTime<Dim>::predicted() const {
   return result;
 }
 
-/// Sets the defect of backward Euler at a displacement; false where that is not possible.
+/// Sets the defect of backward Euler at a displacement; false if that is not possible.
 template <int Dim>
 bool PseudoTime<Dim>::take(const NodeVectors<Dim>& displacement, Eigen::VectorXd& defect) {
   if (!equilibrium_.is_possible(displacement)) return false;
@@ -86,7 +86,7 @@ bool PseudoTime<Dim>::take(const NodeVectors<Dim>& displacement, Eigen::VectorXd
   return true;
 }
 
-/// One step, to the end of which the soil goes; false where it is too long.
+/// Takes one step of the soil; false if it is too long.
 template <int Dim>
 bool PseudoTime<Dim>::step(int max_iterations) {
   step_iterations_ = 0;
@@ -111,8 +111,7 @@ bool PseudoTime<Dim>::step(int max_iterations) {
   return true;
 }
 
-/// One iteration of Newton's method. Returns false where no part of its step makes the defect
-/// smaller.
+/// One iteration of Newton's method. Returns false if no part of its step reduces the defect.
 template <int Dim>
 bool PseudoTime<Dim>::improve(Eigen::VectorXd& defect) {
   equilibrium_.assemble(matrix_);
@@ -139,7 +138,7 @@ bool PseudoTime<Dim>::improve(Eigen::VectorXd& defect) {
   return false;
 }
 
-/// Whether it has come to an end, at the displacement that the equilibrium has.
+/// Finds the residual at the present displacement, and whether the soil rests or runs away.
 template <int Dim>
 void PseudoTime<Dim>::judge(const SettlingLimits& limits) {
   unbalanced_ = unbalanced();

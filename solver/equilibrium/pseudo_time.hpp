@@ -1,6 +1,6 @@
 #pragma once
 
-/// What becomes of soil under loads that stay: it comes to rest, or it fails.
+/// Decides whether soil under constant loads comes to rest or fails.
 
 #include "equilibrium/equilibrium.hpp"
 #include "linear/newton_system.hpp"
@@ -9,14 +9,14 @@ namespace suffuse {
 
 enum class Settling {
   rests,      ///< forces balance
-  runs_away,  ///< displacements have passed any bound
+  runs_away,  ///< displacements have exceeded the limit
   undecided   ///< neither, when steps or iterations ran out
 };
 
 struct SettlingLimits {
   /// Largest residual of soil at rest, over the forces of the elements and the loads together.
   double tolerance = 1e-9;
-  /// Displacement that runs away, m.
+  /// Displacement that counts as running away, m.
   double far = 0.0;
   /// Iterations of Newton's method, in all steps.
   int max_iterations = 400;
@@ -29,20 +29,20 @@ struct SettledSoil {
   NodeVectors<Dim> motion;        ///< displacement in the last step of pseudo-time, m
   double residual = 0.0;          ///< as in `SettlingLimits::tolerance`
   int iterations = 0;             ///< of Newton's method
-  int worst_node = -1;            ///< where forces are out of balance most
+  int worst_node = -1;            ///< node with the largest unbalanced force
 };
 
-/// Follows the soil through a pseudo-time t in which its elastic stiffness K acts as viscosity too,
+/// Follows the soil in a pseudo-time t in which its elastic stiffness K also acts as viscosity,
 ///
 ///     K du/dt = loads - forces(u),
 ///
 /// by backward Euler in steps that grow as long as Newton's method converges in few iterations
 /// (pseudo-transient continuation: Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508; its use
 /// for soil: Griffiths and Lane, Geotechnique 49 (1999) 387, with viscoplastic strains). For a
-/// perfectly plastic body of associated flow the path is that of steepest descent of a convex
-/// energy: it ends at an equilibrium where there is one; otherwise the forces that no stress can
-/// balance make displacements grow in proportion to t. Soil that does not dilate as it rubs has no
-/// such energy, but the same two ends.
+/// perfectly plastic body with associated flow this is the path of steepest descent of a convex
+/// energy: it ends at an equilibrium if there is one; otherwise the forces that no stress can
+/// balance make displacements grow in proportion to t. Soil without associated flow has no such
+/// energy, but trials show the same two ends.
 template <int Dim>
 class PseudoTime {
  public:
@@ -50,7 +50,7 @@ class PseudoTime {
   /// \param loads  per node, N
   PseudoTime(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads);
 
-  /// Leaves the equilibrium displaced by what is returned.
+  /// Leaves the equilibrium displaced by the result.
   /// \param start  displacement to start from, m, which must be possible
   SettledSoil<Dim> settle(NodeVectors<Dim> start, const SettlingLimits& limits);
 

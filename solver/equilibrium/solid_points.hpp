@@ -1,6 +1,6 @@
 #pragma once
 
-/// Solid points that move: their state, and which of them lie in an element.
+/// Moving solid points: their state, and the points in each element.
 
 #include <Eigen/Core>
 #include <span>
@@ -11,12 +11,12 @@
 
 namespace suffuse {
 
-/// What a solid point carries with it. Solid volumes, which erosion changes, are in `SolidState`.
+/// State of the solid points. Solid volumes, which erosion changes, are in `SolidState`.
 template <int Dim>
 struct SolidPoints {
   SolidPoints() = default;
   /// Points without stress.
-  /// \param volume  of soil with its pores, per point, m3 (per metre of thickness in 2D)
+  /// \param volume  of soil with its pores, per point, m3 (per meter of thickness in 2D)
   SolidPoints(const Mesh<Dim>& mesh, const std::vector<PointPlace<Dim>>& places,
               std::vector<double> volume);
 
@@ -24,20 +24,20 @@ struct SolidPoints {
   void archive(auto& archive) {
     archive(position, element, reference_volume, volume, skeleton, plastic_strain);
   }
-  /// The points have another order: the one that was at order[k] comes to k.
+  /// Reorders the points: point order[k] becomes point k.
   void reorder(const std::vector<int>& order);
 
   std::vector<Vector<Dim>> position;  ///< m
   std::vector<int> element;           ///< that holds the point
   /// Volume of soil with its pores at the start, m3: Kirchhoff stress refers to it.
   std::vector<double> reference_volume;
-  std::vector<double> volume;  ///< today, m3
+  std::vector<double> volume;  ///< present, m3
   std::vector<SkeletonState> skeleton;
   std::vector<double> plastic_strain;  ///< equivalent, since the start
 };
 
-/// The points of each element, in ascending order: the order of every sum over them, which depends
-/// on neither threads nor the way by which the points came.
+/// The points of each element, in ascending order. All sums over them have this order, which
+/// depends on neither threads nor earlier places.
 class PointsByElement {
  public:
   PointsByElement() = default;
@@ -53,7 +53,7 @@ class PointsByElement {
   std::vector<int> point_;
 };
 
-/// Values of points in another order: the one that was at order[k] comes to k.
+/// Reorders values of points: value order[k] becomes value k.
 template <class Value>
 void reorder(const std::vector<int>& order, std::vector<Value>& values) {
   if (values.empty()) return;
@@ -63,9 +63,9 @@ void reorder(const std::vector<int>& order, std::vector<Value>& values) {
   values = std::move(sorted);
 }
 
-/// Per node, what the points have, m3 per point, over the volume of the mesh that belongs to the
-/// node: phi_i = sum_p N_i(x_p) V_p / V_i. Points and volumes of `rigid` elements do not count.
-/// \param rigid  per element; empty: none is
+/// Per node: sum of the points' `volume`, m3, over the volume of the mesh that belongs to the node:
+/// phi_i = sum_p N_i(x_p) V_p / V_i, without points and volumes of `rigid` elements.
+/// \param rigid  per element; empty: none is rigid
 template <int Dim>
 std::vector<double> node_shares(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                 const std::vector<double>& volume,

@@ -7,15 +7,15 @@
 namespace suffuse {
 namespace {
 
-/// Each pass takes the displacement of the one before back, and errs by its strain squared.
+/// Each pass undoes the displacement of the one before; its error is its strain squared.
 constexpr int max_passes = 60;
-/// The loads come in so many parts where soil yields too much for all at once.
+/// Number of parts of the loads if soil yields too much under all at once.
 constexpr int load_parts = 20;
-/// A displacement by this share of the size of the model is a failure, and so is soil that does not
-/// rest within so many iterations in all.
+/// Soil fails if it moves by this share of the size of the model, or does not come to rest within
+/// this number of iterations in all.
 constexpr double far_share = 0.1;
 constexpr int max_iterations = 100;
-/// Elastic soil must have a volume to lose.
+/// Largest Poisson's ratio, as elastic soil must be compressible.
 constexpr double max_poisson = 0.45;
 
 template <int Dim>
@@ -33,7 +33,7 @@ void take_stress(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step, SolidP
   });
 }
 
-/// Shares of the loads, one after the other, each until the points carry it where they are.
+/// Applies the loads in parts, each repeatedly until the points carry it without displacement.
 template <int Dim>
 bool settle(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
             const Supports<Dim>& supports, const StartLoads<Dim>& loads, int parts,
@@ -55,7 +55,7 @@ bool settle(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
   return true;
 }
 
-/// All loads at once, from the stress that points have, which Newton's method need not find.
+/// Applies all loads to the present stress, by pseudo-time where Newton's method fails.
 template <int Dim>
 StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
                           const Supports<Dim>& supports, const StartLoads<Dim>& loads,
@@ -76,7 +76,7 @@ StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton
   return {.worst_node = step.worst_node()};
 }
 
-/// The stress whose vertical part is that of the points, and whose horizontal one is K_0 times it.
+/// Keeps the vertical stress of the points and sets the horizontal stress to K_0 times it.
 template <int Dim>
 void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
                         const std::vector<PointSkeleton>& skeleton, const StartLoads<Dim>& loads,
@@ -96,7 +96,7 @@ void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
   }
 }
 
-/// Points yield where they are, as far as they have to.
+/// Points yield in place, as far as their law demands.
 template <int Dim>
 void yield(const std::vector<PointSkeleton>& skeleton, SolidPoints<Dim>& points, int threads) {
   for_each_index(points.size(), threads, [&](int p) {

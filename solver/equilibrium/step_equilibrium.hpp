@@ -1,6 +1,6 @@
 #pragma once
 
-/// The equilibrium of one step, to be asked again and again for other loads and pore pressures.
+/// The equilibrium of one step, to be solved repeatedly for different loads and pore pressures.
 
 #include "equilibrium/newton.hpp"
 #include "equilibrium/point_velocities.hpp"
@@ -14,33 +14,33 @@ class StepEquilibrium {
   /// Keeps references to grid, points and supports.
   /// \param skeleton  per point
   /// \param soft      see SolidBody
-  /// Throws NumericalError when nothing holds the soil.
+  /// Throws NumericalError if nothing holds the soil.
   StepEquilibrium(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                   std::vector<PointSkeleton> skeleton, const Supports<Dim>& supports, int threads,
                   const NewtonLimits& limits = {}, double soft = soft_share);
   StepEquilibrium(const StepEquilibrium&) = delete;
   StepEquilibrium& operator=(const StepEquilibrium&) = delete;
 
-  /// Finds the displacement over the step, from the last one that was found. Returns false where
-  /// there is none.
+  /// Finds the displacement over the step, starting from the last solution. Returns false if there
+  /// is none.
   /// \param loads     per node, N
   /// \param pressure  of the pores, per element, Pa; empty: none
   bool solve(const NodeVectors<Dim>& loads, std::vector<double> pressure,
              std::vector<double> stiffness = {});
-  /// Finds the displacement slowly, through a pseudo-time, where Newton's method alone does not
-  /// find it: in sand without cohesion.
+  /// Finds the displacement in a pseudo-time where Newton's method alone fails: in sand without
+  /// cohesion.
   bool settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
               const SettlingLimits& limits);
-  /// Inertia over a step of `duration`, s; nodes go on as they go, to start from.
+  /// Sets inertia over a step of `duration`, s; the initial guess keeps the nodes' velocities.
   void set_inertia(const NodalMotion<Dim>& nodes, double duration);
-  /// Goes back to the start of the step: the stress of the points has changed.
+  /// Returns to the start of the step after the stress of the points has changed.
   void restart();
 
   /// Displacement of the last solution, m.
   [[nodiscard]] const NodeVectors<Dim>& displacement() const { return displacement_; }
-  /// Iterations of Newton's method that it took.
+  /// Iterations of Newton's method for the last solution.
   [[nodiscard]] int iterations() const { return iterations_; }
-  /// Node at which forces are out of balance most, where the last solution failed.
+  /// Node with the largest unbalanced force if the last solution failed.
   [[nodiscard]] int worst_node() const { return worst_node_; }
   [[nodiscard]] const PointsByElement& sorted() const { return sorted_; }
   [[nodiscard]] const ElementClasses& classes() const { return classes_; }

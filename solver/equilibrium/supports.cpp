@@ -6,11 +6,11 @@
 namespace suffuse {
 namespace {
 
-/// Faces of a boundary whose normals turn by less than this (30 degrees) make a curve, which holds
-/// a node along their mean normal; by more, a corner, which holds it along both.
+/// Faces of a boundary whose normals differ by less than 30 degrees form a curve, which holds a
+/// node along their mean normal; otherwise they form a corner, which holds it along both.
 const double cosine_of_corner = std::sqrt(0.75);
 
-/// Adds the normal, times its area, of one more face to those of a node.
+/// Adds the normal of one more face, times its area, to the normals of a node.
 template <int Dim>
 void add_normal(std::vector<Vector<Dim>>& normals, const Vector<Dim>& normal) {
   for (Vector<Dim>& known : normals) {
@@ -22,9 +22,8 @@ void add_normal(std::vector<Vector<Dim>>& normals, const Vector<Dim>& normal) {
   normals.push_back(normal);
 }
 
-/// Direction of the part of `v` that is normal to `count` orthonormal vectors; zero where that part
-/// is small. Used to choose among the axes: enough of them have a large such part, whatever the
-/// vectors.
+/// Direction of the part of `v` that is normal to `count` orthonormal vectors; zero if that part is
+/// small. Whatever the vectors, enough of the axes have a large such part.
 template <int Dim>
 Vector<Dim> direction_across(const Eigen::Matrix<double, Dim, Dim>& directions, int from, int count,
                              Vector<Dim> v) {
@@ -51,7 +50,7 @@ Supports<Dim>::Supports(const Grid<Dim>& grid, const std::vector<Support>& face_
   for (int i = 0; i < grid.mesh.node_count(); ++i) {
     if (normals[i].empty() || free_count_[i] == 0) continue;
     auto& directions = directions_[i];
-    int held = 0;  // in the last columns
+    int held = 0;  // these are the last columns
     for (const Vector<Dim>& normal : normals[i]) {
       if (held == Dim) break;
       const Vector<Dim> next = direction_across<Dim>(directions, Dim - held, held, normal);
@@ -59,7 +58,7 @@ Supports<Dim>::Supports(const Grid<Dim>& grid, const std::vector<Support>& face_
       directions.col(Dim - ++held) = next;
     }
     free_count_[i] = Dim - held;
-    // The axes, as far as they lie across what is held and the free directions so far.
+    // Free directions: axes, made normal to held directions and to free ones found before.
     for (int axis = 0, found = 0; axis < Dim && found < Dim - held; ++axis) {
       Vector<Dim> next =
           direction_across<Dim>(directions, Dim - held, held, Vector<Dim>::Unit(axis));

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where the soil is held, and the unknowns that are left.
+/// Supports of the soil, and the unknown displacements.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -22,7 +22,7 @@ double norm(const NodeVectors<Dim>& vectors) {
   return std::sqrt(sum);
 }
 
-/// What faces do to the nodes on them.
+/// How a face holds its nodes.
 enum class Support : char { none, normal, both };
 
 /// Directions in which each node is held.
@@ -34,9 +34,9 @@ class Supports {
 
   /// Holds a node in all directions; its displacement may be prescribed.
   void hold(int node) { free_count_[node] = 0; }
-  /// Holds the nodes of an element whose skeleton is rigid: its faces stay in place too.
+  /// Holds the nodes of an element with a rigid skeleton; its faces do not move either.
   void hold_element(const Mesh<Dim>& mesh, int element);
-  /// Per element: whether its skeleton is rigid. Empty: none is.
+  /// Per element: whether its skeleton is rigid. Empty: none is rigid.
   [[nodiscard]] const std::vector<char>& rigid_elements() const { return rigid_; }
   [[nodiscard]] bool is_rigid(int element) const { return !rigid_.empty() && rigid_[element] != 0; }
 
@@ -53,7 +53,7 @@ class Supports {
   std::vector<char> rigid_;
 };
 
-/// Numbers the displacements that are not known: those of free directions of nodes in use.
+/// Numbers the unknown displacements: those of free directions of nodes in use.
 template <int Dim>
 class DisplacementUnknowns {
  public:
@@ -63,7 +63,7 @@ class DisplacementUnknowns {
   [[nodiscard]] int count() const { return count_; }
   /// First unknown of a node; the others of its free directions follow.
   [[nodiscard]] int first(int node) const { return first_[node]; }
-  /// How many a node has.
+  /// Number of unknowns of a node.
   [[nodiscard]] int count(int node) const { return count_of_[node]; }
   [[nodiscard]] const Supports<Dim>& supports() const { return supports_; }
 
@@ -71,7 +71,7 @@ class DisplacementUnknowns {
   [[nodiscard]] Eigen::VectorXd components(const NodeVectors<Dim>& vectors) const;
   /// Adds `share` times the vectors that have these components.
   void add(const Eigen::VectorXd& components, double share, NodeVectors<Dim>& vectors) const;
-  /// The node whose vector of these components is the longest.
+  /// Node with the longest vector of these components.
   [[nodiscard]] int longest(const Eigen::VectorXd& components) const;
 
  private:

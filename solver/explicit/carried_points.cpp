@@ -6,11 +6,11 @@
 namespace suffuse {
 namespace {
 
-/// Elements that one thread handles together.
+/// Number of elements that one thread handles together.
 constexpr int elements_together = 64;
-/// Elements between the one whose points move and the one whose points are fetched from memory.
+/// Points are fetched from memory this number of elements before they move.
 constexpr int elements_ahead = 4;
-/// Below this many elements a loop is over before other threads are awake.
+/// A loop over fewer elements ends before other threads are awake.
 constexpr int worth_threads_of_points = 512;
 
 }  // namespace
@@ -95,8 +95,8 @@ auto CarriedPoints<Dim>::element_step(int element, const FlowChange<Dim>& change
   ElementStep step;
   const auto& nodes = grid_.mesh.elements[element];
   const auto& gradient = grid_.shape_gradient[element];
-  // A point's velocity u is linear in its place, and so is the way it goes at the velocity of its
-  // midpoint, t u + t^2/2 (grad u) u.
+  // A point's velocity u is linear in space, and so is its way at the velocity of its midpoint, t u
+  // + t^2/2 (grad u) u.
   std::array<Vector<Dim>, Dim + 1> velocity;
   Eigen::Matrix<double, Dim, Dim> velocity_gradient = Eigen::Matrix<double, Dim, Dim>::Zero();
   for (int b = 0; b <= Dim; ++b) {
@@ -118,7 +118,7 @@ template <int Dim>
 void CarriedPoints<Dim>::move_points(int element, const ElementStep& step,
                                      const WalkField<Dim>& field, double duration,
                                      Departures& departures) {
-  // From the last on: a point that leaves gives its slot to one that has moved already.
+  // From the last one on: the slot of a point that leaves goes to one that has moved already.
   for (int slot = blocks_.count(element) - 1; slot >= 0; --slot) {
     CarriedPoint<Dim>& point = blocks_.of(element)[slot];
     const std::array<double, Dim + 1> before = all_coordinates<Dim>(point.at);

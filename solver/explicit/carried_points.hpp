@@ -1,9 +1,9 @@
 #pragma once
 
-/// Liquid points that carry the flow (material-point integration): what one step of the flow does
-/// with them. Nodes and elements take velocity and pressure from the points, the points take back
-/// the change of both (FLIP) and move. A point that stays in its element moves by one formula; only
-/// points that leave their element are walked from face to face.
+/// Liquid points that carry the flow (material-point integration) in one step of the flow. Nodes
+/// and elements take velocity and pressure from the points; the points take back the change of both
+/// (FLIP) and move. A point that stays in its element moves by one formula; only points that leave
+/// it are walked from face to face.
 
 #include <exception>
 #include <vector>
@@ -15,7 +15,7 @@
 
 namespace suffuse {
 
-/// What a step of the flow changed, at nodes and elements.
+/// Change of the flow in a step, at nodes and elements.
 template <int Dim>
 struct FlowChange {
   const VectorField<Dim>& velocity_before;     ///< m/s
@@ -24,13 +24,13 @@ struct FlowChange {
   const std::vector<double>& pressure;         ///< Pa
 };
 
-/// A point on its way in, and how much of the step it has left to move, s.
+/// An entering point, and its remaining time in the step, s.
 template <int Dim>
 struct ArrivingPoint {
   PointPlace<Dim> place;
   CarriedPoint<Dim> point;
   double time;
-  int face;  ///< by which it enters
+  int face;  ///< outer face by which it enters
 };
 
 template <int Dim>
@@ -40,39 +40,39 @@ class CarriedPoints {
 
   [[nodiscard]] PointBlocks<Dim>& blocks() { return blocks_; }
   [[nodiscard]] const PointBlocks<Dim>& blocks() const { return blocks_; }
-  /// How many points came into another element in the last step.
+  /// Number of points that entered another element in the last step.
   [[nodiscard]] long travelled() const;
 
-  /// Nodes take the points' velocity, weighted with mass, elements their pressure, weighted with
-  /// the volume that the point has at p = 0. Where no point is near they keep what they have.
+  /// Nodes take the points' mean velocity, weighted with mass, elements the mean pressure, weighted
+  /// with volume at p = 0. Without points near, a value does not change.
   void points_to_grid(VectorField<Dim>& velocity, std::vector<double>& pressure);
 
-  /// Points take the change and move with the flux of the step for `duration` seconds, each point
-  /// as `walk` would move it; those that arrive take nothing and move for their own time. Appends
-  /// who changed region to `crossings`, in an order that does not depend on the threads. Throws
-  /// NumericalError as `walk` does.
+  /// Applies the change to the points and moves them with the flux of the step for `duration`
+  /// seconds, as `walk` would. Arriving points take no change and move for their own time. Appends
+  /// points that changed region to `crossings`, in an order that does not depend on the threads.
+  /// Throws NumericalError as `walk` does.
   void grid_to_points(const FlowChange<Dim>& change, const WalkField<Dim>& field, double duration,
                       const std::vector<ArrivingPoint<Dim>>& arriving,
                       std::vector<PointCrossing>& crossings);
 
  private:
-  /// What the points of an element give to one of its nodes.
+  /// Sums over the points of an element for one of its nodes.
   struct Corner {
     double mass;
     Vector<Dim> momentum;
   };
-  /// A point between two elements.
+  /// A point that moves to another element.
   struct Traveller {
     int to;
     CarriedPoint<Dim> point;
   };
-  /// Points that leave the elements which one thread handles together.
+  /// Points that leave the elements that one thread handles together.
   struct Departures {
     std::vector<Traveller> travellers;
     std::vector<PointCrossing> crossings;
     std::exception_ptr failure;
   };
-  /// The step as the points of one element see it.
+  /// The step of the points in one element.
   struct ElementStep {
     std::array<Vector<Dim>, Dim + 1> gain;  ///< of velocity, at the nodes, m/s
     double pressure_gain;                   ///< Pa
@@ -84,7 +84,7 @@ class CarriedPoints {
   void points_to_corners(int element, double& pressure);
   void move_points(int element, const ElementStep& step, const WalkField<Dim>& field,
                    double duration, Departures& departures);
-  /// Where a point comes from in a step.
+  /// Where a point was before the step.
   struct Origin {
     int region;      ///< -1: outside
     int entered_by;  ///< outer face, -1 for none

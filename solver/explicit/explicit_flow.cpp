@@ -15,13 +15,12 @@
 namespace suffuse {
 namespace {
 
-/// Solving for the steady flow of more elements than this would take longer than the warning is
-/// worth.
+/// With more elements, solving for the steady flow takes too long for a warning.
 constexpr int max_elements_checked = 100000;
 
-/// Steps between two couplings.
+/// Largest number of steps between two couplings.
 constexpr long max_steps = 1000;
-/// Share of a step by which sums of steps may be off.
+/// Round-off of sums of steps, as a share of a step.
 constexpr double round_off = 1e-12;
 
 ExplicitSettings scheme_settings(const Scene& scene, int threads) {
@@ -32,7 +31,7 @@ ExplicitSettings scheme_settings(const Scene& scene, int threads) {
   settings.porosity_gradient_term = scene.flow.porosity_gradient_term;
   const bool double_point = scene.formulation == Formulation::double_point;
   // Double-point masses move with the points. In mixed integration the term would convect element
-  // pressures upwind, explicitly; under heavy mass scaling, where p nears K, that does not hold.
+  // pressures explicitly, which fails under strong mass scaling, where p is near K.
   settings.pressure_moves_with_liquid = double_point;
   settings.threads = threads;
   return settings;
@@ -102,7 +101,7 @@ void ExplicitFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
 template <int Dim>
 void ExplicitFlow<Dim>::warn_of_locking(const VectorField<Dim>& steady_velocity) {
   if (this->grid().mesh.element_count() > max_elements_checked) return;
-  // The mixed elements it is compared with know Darcy's drag alone.
+  // The mixed elements of the comparison have Darcy's drag only.
   if (!this->scene().flow.porosity_gradient_term || this->has_ergun()) return;
   const auto deviation = deviation_from_mixed_flow(operator_, this->coefficients_, steady_velocity);
   if (!deviation || *deviation < locked_deviation) return;
@@ -129,11 +128,11 @@ StabilityLimit ExplicitFlow<Dim>::current_limit(double step) const {
   StabilityLimit limit =
       stability_limit(this->grid(), this->coefficients_, operator_.node_porosity(),
                       liquid.bulk_modulus, time.mass_scaling, time.drag, speed);
-  // Where points carry the flow the bound by elements does not hold.
+  // If points carry the flow, the bound by elements does not hold.
   const PressureIntegration integration = this->scene().flow.integration;
   const bool carried = integration == PressureIntegration::material_point;
   if (!carried && (step <= limit.step || !uses_assembled_limit(this->scene()))) return limit;
-  // Not a number at first, which is far from everything.
+  // `element_limit_` is NaN at first, for which this is true.
   if (!(std::abs(limit.step - element_limit_) <= moved * limit.step)) {
     element_limit_ = limit.step;
     assembled_limit_ = assembled_limit(operator_, this->coefficients_, liquid.bulk_modulus,
@@ -167,10 +166,10 @@ FlowStep<Dim> ExplicitFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
   const double left = until - interval.start;
   const long to_the_end =
       std::max(1L, static_cast<long>(std::ceil(left / step_ * (1.0 - round_off))));
-  // What is left up to the latest end is divided evenly.
+  // The time left until the latest end is divided evenly.
   FlowStep<Dim> steps{
       .start = interval.start, .dt = left / static_cast<double>(to_the_end), .until = until};
-  // The flow may have grown since the last interval: no more than twice its steps.
+  // The flow may have grown since the last interval: take at most twice its number of steps.
   const long most = std::min({max_steps, 2 * last_steps_, to_the_end});
   const double allowed = interval.longest / steps.dt;
   steps.count =

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The explicit flow of a scene (`scheme = "explicit"`): the nodal scheme with its step, checked
-/// against the stability limit as the run goes.
+/// The explicit flow of a scene (`scheme = "explicit"`): the nodal scheme with its step, which is
+/// checked against the stability limit during the run.
 
 #include <vector>
 
@@ -11,16 +11,16 @@
 
 namespace suffuse {
 
-/// What carries the flow from one of its steps to the next (material-point integration).
+/// Carries the flow from one of its steps to the next (material-point integration).
 template <int Dim>
 class FlowCarrier {
  public:
   virtual ~FlowCarrier() = default;
-  /// The pores in the steps to come, per element.
+  /// Sets the porosity for the next steps, per element.
   virtual void before_steps(const std::vector<double>& porosity) = 0;
   /// Sets the state that a step starts from.
   virtual void before_step() = 0;
-  /// Takes what a step of `dt` seconds has changed.
+  /// Takes the change of a step of `dt` seconds.
   virtual void after_step(double dt) = 0;
 };
 
@@ -31,7 +31,7 @@ class ExplicitFlow final : public FlowSolver<Dim> {
                const FlowOptions& options);
 
   [[nodiscard]] ExplicitNodal<Dim>& scheme() { return scheme_; }
-  /// Fluxes of the last step: of each node, m/s, and through a face along its normal, m3/s.
+  /// Fluxes of the last step: at each node, m/s, and through a face along its normal, m3/s.
   void node_flux(VectorField<Dim>& flux) const;
   [[nodiscard]] double flux_through(int face) const {
     return operator_.face_flux(face, scheme_.velocity());
@@ -45,7 +45,7 @@ class ExplicitFlow final : public FlowSolver<Dim> {
     return {.one_transport_step = true, .follows_pores = false};
   }
 
-  /// From now on the carrier, which outlives the last step, has its part in each step.
+  /// Lets the carrier, which must outlive the last step, take part in each step.
   void set_carrier(FlowCarrier<Dim>& carrier) { carrier_ = &carrier; }
   FlowStep<Dim> solve(const FlowInterval<Dim>& interval) override;
   FlowProgress commit(FlowStep<Dim> steps) override;
@@ -58,17 +58,17 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] FlowState<Dim> state(double time) const override;
   [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
 
-  /// Stability limit with the coefficients and speeds of this moment: element by element, and in
-  /// double-point scenes, where `step` is above that, of the assembled scheme.
+  /// Stability limit with the present coefficients and speeds: that by elements, or in double-point
+  /// scenes, if `step` exceeds it, that of the assembled scheme.
   [[nodiscard]] StabilityLimit current_limit(double step) const;
 
  private:
-  /// One of them, under the boundary values of its time.
+  /// Takes one step under the boundary values of its time.
   void step(double start, double dt);
-  /// All of them, with the carrier's part in each.
+  /// Takes all steps with the carrier.
   void take_carried_steps(const FlowStep<Dim>& steps);
-  /// Shortens the step when the stability limit falls below it, or throws NumericalError when the
-  /// scene gave it.
+  /// Shortens the step if the stability limit falls below it; throws NumericalError if the scene
+  /// gave the step.
   void check_step(double time);
   void warn_of_locking(const VectorField<Dim>& steady_velocity);
 
@@ -76,12 +76,12 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   ExplicitNodal<Dim> scheme_;
   double step_;
   bool step_given_;
-  FlowCarrier<Dim>* carrier_ = nullptr;  ///< nothing where the flow itself keeps its state
-  long last_steps_ = 1;                  ///< of the last interval
-  double last_dt_ = 0.0;                 ///< of its steps, s
+  FlowCarrier<Dim>* carrier_ = nullptr;  ///< null if the flow itself keeps its state
+  long last_steps_ = 1;                  ///< number of steps in the last interval
+  double last_dt_ = 0.0;                 ///< their length, s
   PassTiming timing_{"flow", 0, 0.0};
-  /// The two limits when the assembled one was last found; it follows the other until that has
-  /// moved.
+  /// Both limits when the assembled one was last found; it is found again when the other has
+  /// changed.
   mutable double assembled_limit_ = unset;
   mutable double element_limit_ = unset;
 };

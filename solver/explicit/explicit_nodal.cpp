@@ -5,7 +5,7 @@
 namespace suffuse {
 namespace {
 
-/// Below this many indices a loop is shorter than waking the threads.
+/// A loop over fewer indices is shorter than waking the threads.
 constexpr int worth_threads_of_flow = 8192;
 
 /// rho_w / rho_w0 - 1 = exp(p / K) - 1 to third order, for p small against K; the exact value is
@@ -82,7 +82,7 @@ void ExplicitNodal<Dim>::accelerate(double spacing) {
   operator_.constrain(velocity_);
 }
 
-/// Pressure beyond an outer face: what enters there brings it.
+/// Pressure beyond an outer face, which entering liquid has.
 template <int Dim>
 double ExplicitNodal<Dim>::outer_pressure(int face) const {
   const FaceCondition& condition = operator_.conditions()[face];

@@ -16,29 +16,29 @@ struct ExplicitSettings {
   DragIntegration drag = DragIntegration::explicit_drag;
   /// false drops the third term of Eq. 2, for comparison: see FlowSettings.
   bool porosity_gradient_term = true;
-  /// Pressure changes with strain alone: its convection, of order p / K, is done by the points that
+  /// Pressure changes by strain only. Its convection, of order p / K, is done by the points that
   /// carry the liquid, or left out where no mass depends on it. The density of the water that
-  /// crossed a face is then not needed.
+  /// crosses a face is then not needed.
   bool pressure_moves_with_liquid = false;
   int threads = 1;
 };
 
-/// Symplectic Euler started with half a step of velocity, so that velocity lives between the times
-/// of pressure: second order without drag, first order with it (drag is evaluated at one end).
+/// Symplectic Euler started with half a step of velocity, so velocity is known between the times of
+/// pressure: second order without drag, first order with it (drag is taken at one end).
 ///
-/// A step is three loops. `accelerate` goes over nodes: each gathers its force from the faces
-/// around it. `cross_faces` goes over faces: each finds its flux from the velocity of its nodes.
-/// `compress` goes over elements: each finds its pressure from the fluxes through its faces. What a
-/// loop writes at an index belongs to that index alone, so results do not depend on threads.
+/// A step has three loops. `accelerate`: each node gathers its force from the faces around it.
+/// `cross_faces`: each face finds its flux from the velocity of its nodes. `compress`: each element
+/// finds its pressure from the fluxes through its faces. An index writes its own values only, so
+/// results do not depend on threads.
 ///
-/// Nodes, faces and elements that are close in the mesh should be close in memory: on large meshes
-/// in the order that Gmsh gives them a step takes three times as long.
+/// Nodes, faces and elements close in the mesh should be close in memory: on large meshes in the
+/// order of Gmsh a step takes three times as long.
 template <int Dim>
 class ExplicitNodal {
  public:
   ExplicitNodal(const NodalOperator<Dim>& op, ExplicitSettings settings);
 
-  /// New coefficients (the operator's update comes first). Resets volumes.
+  /// Takes new coefficients, after the operator's update. Resets volumes.
   void update(const FlowCoefficients<Dim>& coefficients);
 
   /// One step of `dt` seconds.
@@ -49,7 +49,7 @@ class ExplicitNodal {
     velocity_ = std::move(velocity);
     operator_.constrain(velocity_);
   }
-  /// Replaces velocity and pressure in place, from step to step, where points carry the flow:
+  /// Replaces velocity and pressure in place, between steps, if points carry the flow:
   /// `write(velocity, pressure)`.
   template <class Write>
   void rewrite(const Write& write) {
@@ -61,13 +61,13 @@ class ExplicitNodal {
   [[nodiscard]] const std::vector<double>& pressure() const { return pressure_; }
   /// Per node, m/s, at half a step before the time of the pressure.
   [[nodiscard]] const VectorField<Dim>& velocity() const { return velocity_; }
-  /// Velocity that the last step started with.
+  /// Velocity at the start of the last step.
   [[nodiscard]] const VectorField<Dim>& previous_velocity() const { return previous_velocity_; }
 
-  /// Between steps, with the coefficients of the moment: pressures and velocities, not volumes.
+  /// Pressures and velocities, not volumes; between steps, with the present coefficients.
   void archive(StateArchive& archive);
 
-  /// Volumes since the last `reset_volumes`. Without `density_excess` where the pressure moves with
+  /// Volumes since the last `reset_volumes`, without `density_excess` if the pressure moves with
   /// the liquid.
   [[nodiscard]] const FaceVolumes& volumes() const { return volumes_; }
   void reset_volumes();

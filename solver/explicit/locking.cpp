@@ -10,8 +10,8 @@
 namespace suffuse {
 namespace {
 
-/// Flux that the prescribed values and gravity could drive through one element: what rest is small
-/// against.
+/// Flux that prescribed values and gravity could drive through one element; at rest the flux is
+/// small compared with it.
 template <int Dim>
 double drivable_flux(const NodalOperator<Dim>& op, const FlowCoefficients<Dim>& coefficients) {
   const Grid<Dim>& grid = op.grid();

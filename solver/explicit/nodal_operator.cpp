@@ -66,8 +66,8 @@ void NodalOperator<Dim>::archive(StateArchive& archive) {
 
 template <int Dim>
 void NodalOperator<Dim>::make_constraint_normals() {
-  // Faces that meet at less than this angle are pieces of one smooth wall: the node slides along
-  // their mean plane. At a sharper corner each plane holds it.
+  // Faces at less than this angle belong to one smooth wall: the node slides along their mean
+  // plane. At a sharper corner each plane holds it.
   const double one_wall = std::cos(20.0 * std::numbers::pi / 180.0);
   for (int i = 0; i < grid_.mesh.node_count(); ++i) {
     struct Plane {

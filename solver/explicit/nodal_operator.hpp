@@ -3,7 +3,7 @@
 /// Pressure forces on nodes and fluxes through faces in the explicit scheme, with its constraints
 /// at the boundary: the discrete gradient and divergence. Nodal velocities are linear, pressure is
 /// constant per element ("mixed integration"). A face carries F = N . mean(q_i), q_i = n_i v_i, one
-/// number for both sides, so what leaves one element enters the next; the force on a node is the
+/// number for both sides: outflow of one element is inflow of the next. The force on a node is the
 /// transpose of that, so the pair exchanges energy exactly.
 
 #include <Eigen/Core>
@@ -20,51 +20,51 @@ namespace suffuse {
 template <int Dim>
 struct NodeConstraint {
   int node;
-  Eigen::Matrix<double, Dim, Dim> free;  ///< projection onto what is not prescribed
+  Eigen::Matrix<double, Dim, Dim> free;  ///< projection onto the free components
   Vector<Dim> prescribed;                ///< m/s, intrinsic
 };
 
 template <int Dim>
 class NodalOperator {
  public:
-  /// `porosity_gradient_term` = false carries n_e v_i instead of n_i v_i, as codes do that drop the
+  /// `porosity_gradient_term` = false carries n_e v_i instead of n_i v_i, like codes that drop the
   /// third term of Eq. 2: face volumes are then those of the intrinsic velocity, and the element
-  /// multiplies them with its own porosity.
+  /// multiplies them by its own porosity.
   NodalOperator(const Grid<Dim>& grid, std::vector<FaceCondition> conditions, Vector<Dim> gravity,
                 bool porosity_gradient_term = true);
 
-  /// Takes new coefficients: node porosities, masses, drag, and prescribed values.
+  /// Sets node porosities, masses, drag and prescribed values from new coefficients.
   void update(const FlowCoefficients<Dim>& coefficients);
 
-  /// Takes boundary values of other times, s: pressures, and velocities and fluxes. They live half
-  /// a step apart. Between updates, and touching nothing but the boundary.
+  /// Sets boundary pressures, and velocities and fluxes, to those at two times, s, which are half a
+  /// step apart. Call between updates; only the boundary changes.
   void set_boundary_values(const BoundaryValues<Dim>& values, double pressure_time,
                            double flux_time);
 
-  /// Boundary values that change in time; to be followed by an update where they are restored.
+  /// Boundary values that change in time; call `update` after they are restored.
   void archive(StateArchive& archive);
 
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] const std::vector<FaceCondition>& conditions() const { return conditions_; }
   [[nodiscard]] const Vector<Dim>& gravity() const { return gravity_; }
-  /// Harmonic mean of the elements around a node: what is one on both sides of a jump is the flux,
-  /// and its inertia per volume is rho / n.
+  /// Harmonic mean of the elements around a node: the flux is continuous at a jump of porosity, and
+  /// its inertia per volume is rho / n.
   [[nodiscard]] const std::vector<double>& node_porosity() const { return node_porosity_; }
-  /// What a node's velocity is multiplied with to give the flux through faces.
+  /// Factor of a node's velocity in the flux through faces.
   [[nodiscard]] const std::vector<double>& carried_porosity() const { return carried_porosity_; }
   /// Mass that accelerates per node, kg, without mass scaling.
   [[nodiscard]] const std::vector<double>& node_mass() const { return node_mass_; }
-  /// Linear drag per node, kg/s. It acts on the flux n_i v_i, which is one on both sides of a jump
-  /// of porosity or conductivity.
+  /// Linear drag per node, kg/s. It acts on the flux n_i v_i, which is continuous at a jump of
+  /// porosity or conductivity.
   [[nodiscard]] const std::vector<double>& node_drag() const { return node_drag_; }
-  /// What fast flow adds, per speed of the node, kg/m; empty without it.
+  /// Additional drag of fast flow, per speed of the node, kg/m; may be empty.
   [[nodiscard]] const std::vector<double>& node_quadratic_drag() const {
     return node_quadratic_drag_;
   }
   [[nodiscard]] const std::vector<NodeConstraint<Dim>>& constraints() const { return constraints_; }
 
   /// Force of pressure and gravity on a node, N: each face at the node pushes with the difference
-  /// of the pressures on its sides. Outside is 0: the external force has the boundary's pressure.
+  /// of the pressures on its sides. Outside is 0: boundary pressure is in the external force.
   [[nodiscard]] Vector<Dim> force(int node, const std::vector<double>& pressure) const {
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (int k = grid_.node_face_begin[node]; k < grid_.node_face_begin[node + 1]; ++k) {
@@ -110,9 +110,9 @@ class NodalOperator {
   std::vector<unsigned char>
       flux_is_fixed_;  ///< one byte per face: the hot loop reads nothing else
   std::vector<double> fixed_flux_;
-  std::vector<int> pressure_faces_;  ///< where a pressure is prescribed
-  std::vector<int> fixed_faces_;     ///< where the flux is, walls included
-  std::vector<int> pressure_nodes_;  ///< of the former, ascending, each once
+  std::vector<int> pressure_faces_;  ///< faces with a prescribed pressure
+  std::vector<int> fixed_faces_;     ///< faces with a prescribed flux, walls included
+  std::vector<int> pressure_nodes_;  ///< of `pressure_faces_`, ascending, each once
   VectorField<Dim> boundary_force_;
   VectorField<Dim> external_force_;
   std::vector<NodeConstraint<Dim>> constraints_;
@@ -127,9 +127,9 @@ class NodalOperator {
   };
   std::vector<HeldNormal> held_;  ///< ascending in node
 
-  /// How the values of a node's normals make up its prescribed velocity, as `constraints_`.
+  /// Prescribed velocity of a node, by the values of its normals; ordered as `constraints_`.
   struct Prescription {
-    int first;                                           ///< of `held_`
+    int first;                                           ///< index in `held_`
     Eigen::Matrix<double, Dim, Eigen::Dynamic> inverse;  ///< a column per normal
   };
   std::vector<Prescription> prescriptions_;

@@ -182,7 +182,7 @@ std::vector<double> PointsCarryingFlow<Dim>::point_volume(
 
 template <int Dim>
 void PointsCarryingFlow<Dim>::describe(const FlowState<Dim>& flow, HistoryRow& row) const {
-  // The pressures of the points about the smooth field of the nodes.
+  // Deviation of the points' pressures from the smooth field of the nodes.
   const LiquidPoints<Dim>& points = this->points();
   const std::vector<double> volume = point_volume(points, flow.pressure);
   double square = 0.0;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Liquid points that carry the flow (material-point integration, the paper's): in each step of the
-/// flow nodes take their velocity and elements their pressure from the points, points take back the
+/// Liquid points that carry the flow (material-point integration, as in the paper): in each step
+/// nodes take their velocity and elements their pressure from the points; points take back the
 /// change of both (FLIP) and move.
 
 #include "explicit/carried_points.hpp"
@@ -13,14 +13,14 @@ namespace suffuse {
 template <int Dim>
 class PointsCarryingFlow final : public PointTransport<Dim>, private FlowCarrier<Dim> {
  public:
-  /// Points in their places, clean, with the pressure and velocity of `flow`, which has started,
-  /// outlives this and from now on is carried by these points.
+  /// Makes clean points at these places with the pressure and velocity of `flow`, which has
+  /// started, outlives this object, and is carried by these points from now on.
   PointsCarryingFlow(const Grid<Dim>& grid, const Skeleton<Dim>& solid, ExplicitFlow<Dim>& flow,
                      InjectionSettings injection, LiquidDensities densities, double bulk_modulus,
                      int threads, const MaterialPoints<Dim>& places);
 
-  /// Pores grow by little in an interval, as an injected point takes up its part of what the whole
-  /// interval eroded.
+  /// Pores grow only a little in an interval, as an injected point takes up its part of all that
+  /// the interval eroded.
   [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
     return {.steps = 1.0, .pore_growth = 2e-4};
   }
@@ -52,10 +52,10 @@ class PointsCarryingFlow final : public PointTransport<Dim>, private FlowCarrier
   [[nodiscard]] double steps_needed(double /*start*/, const FlowProgress& /*flow*/) const override {
     return 1.0;
   }
-  /// Hands the fines to the points, which have moved already.
+  /// Gives the fines to the points, which have moved already.
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& eroded, const std::vector<double>& pressure) override;
-  /// Points that do not carry the flow take it from their elements and nodes.
+  /// Takes points. If they have no pressure and velocity, their elements and nodes give these.
   void take_points(LiquidPoints<Dim> points, const FlowState<Dim>& flow) override;
   void fill(LiquidPoints<Dim> points, const std::vector<double>& pressure,
             const VectorField<Dim>& velocity);
@@ -66,13 +66,13 @@ class PointsCarryingFlow final : public PointTransport<Dim>, private FlowCarrier
 
   ExplicitFlow<Dim>& flow_;
   CarriedPoints<Dim> points_;
-  /// Points sorted for outputs; made when asked for, empty once the points change.
+  /// Points sorted for outputs; made on demand, empty once the points change.
   mutable LiquidPoints<Dim> output_points_;
   std::vector<double> porosity_;  ///< per element, in the middle of the interval
   PassTiming exchange_timing_{"exchange of points and nodes", 0, 0.0};
 
-  // Values of one step; kept, so that steps allocate nothing.
-  std::vector<double> pressure_before_;  ///< per element, that the step started with, Pa
+  // Values of one step; members, so that steps do not allocate.
+  std::vector<double> pressure_before_;  ///< per element, at the start of the step, Pa
   VectorField<Dim> node_flux_;           ///< m/s
   std::vector<double> entered_;          ///< per open face, m3
   std::vector<InjectedPoint<Dim>> injected_;

@@ -8,8 +8,8 @@
 namespace suffuse {
 namespace {
 
-/// M^-1 A as a symmetric operator on sqrt(n_i m_i) v_i, with the directions that walls and
-/// prescribed fluxes hold taken out.
+/// M^-1 A as a symmetric operator on sqrt(n_i m_i) v_i, without the directions that walls and
+/// prescribed fluxes hold.
 template <int Dim>
 class Compression {
  public:
@@ -29,7 +29,7 @@ class Compression {
     return static_cast<Eigen::Index>(weight_.size()) * Dim;
   }
 
-  /// Takes out what is held.
+  /// Removes the held directions.
   void constrain(Eigen::VectorXd& u) const {
     for (const auto& c : op_.constraints()) {
       u.template segment<Dim>(Dim * c.node) = c.free * u.template segment<Dim>(Dim * c.node);
@@ -66,14 +66,14 @@ class Compression {
   std::vector<double> stiffness_;
 };
 
-/// An upper bound, up to what Lanczos' method can know, of the operator's largest eigenvalue.
+/// Upper bound of the operator's largest eigenvalue, by the error estimate of Lanczos' method.
 template <int Dim>
 double largest_eigenvalue(const Compression<Dim>& compression) {
   constexpr int max_rounds = 200;
   constexpr double goal = 1e-4;
   const Eigen::Index size = compression.size();
   Eigen::VectorXd now(size);
-  // Something of every mode: a fixed sequence, so that the answer is the same every time.
+  // A fixed sequence with a part of every mode: the answer is the same every time.
   for (Eigen::Index k = 0; k < size; ++k) {
     now[k] = std::sin(static_cast<double>(k + 1) * 12.9898);
   }
@@ -111,7 +111,7 @@ double largest_eigenvalue(const Compression<Dim>& compression) {
 
 double stable_step(double omega, double damping, DragIntegration drag) {
   const double root = std::sqrt(damping * damping + 4.0 * omega * omega);
-  // The explicit form as 4 / (root + a): the difference root - a cancels for strong drag.
+  // 4 / (root + a) for explicit drag: the difference root - a cancels for strong drag.
   if (drag == DragIntegration::explicit_drag) return 4.0 / (root + damping);
   return (damping + root) / (omega * omega);
 }
@@ -132,7 +132,7 @@ StabilityLimit stability_limit(const Grid<Dim>& grid, const FlowCoefficients<Dim
       sum += n * grid.shape_gradient[e][k].squaredNorm();
       double node_drag = n * coefficients.drag[e] / coefficients.porosity[e];
       if (!coefficients.quadratic_drag.empty() && !node_speed.empty()) {
-        // The slope of b |q| q is twice its secant, on which an implicit step stands.
+        // The slope of b |q| q is twice its secant, which an implicit step uses.
         node_drag +=
             (explicit_drag ? 2.0 : 1.0) * coefficients.quadratic_drag[e] * n * n * node_speed[i];
       }

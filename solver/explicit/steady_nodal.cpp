@@ -10,7 +10,7 @@
 namespace suffuse {
 namespace {
 
-/// Velocity in balance with a pressure, against a drag per node, kg/s.
+/// Velocity that balances a pressure against a drag per node, kg/s.
 template <int Dim>
 VectorField<Dim> balanced_velocity(const NodalOperator<Dim>& op, const std::vector<double>& drag,
                                    const std::vector<double>& pressure) {
@@ -86,7 +86,7 @@ NodalSteadyState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
   Eigen::SparseMatrix<double> matrix = pressure_matrix(op, drag);
   const Eigen::VectorXd diagonal = matrix.diagonal();
   for (int e = 0; e < matrix.rows(); ++e) {
-    // An element all of whose nodes are held has nothing on its own diagonal.
+    // An element with all nodes held has a zero diagonal.
     matrix.coeffRef(e, e) +=
         storage_share * (diagonal[e] > 0.0 ? diagonal[e] : diagonal.maxCoeff());
   }
@@ -94,7 +94,7 @@ NodalSteadyState<Dim> linear_steady_flow(const NodalOperator<Dim>& op,
   if (solver.info() != Eigen::Success) {
     throw NumericalError("the steady initial flow could not be solved: the factorisation failed");
   }
-  // What the largest pressure could drive through a face: at rest the fluxes are round-off of this.
+  // Flux that the largest pressure could drive through a face; at rest, fluxes are its round-off.
   const auto drivable_flux = [&](const std::vector<double>& pressure) {
     double largest = 0.0;
     for (const double p : pressure) largest = std::max(largest, std::abs(p));
@@ -127,7 +127,7 @@ NodalSteadyState<Dim> steady_flow(const NodalOperator<Dim>& op) {
   const std::vector<double>& quadratic = op.node_quadratic_drag();
   NodalSteadyState<Dim> state = linear_steady_flow(op, op.node_drag());
   if (quadratic.empty()) return state;
-  // The secant drag of the last iterate and the one before, in equal parts: alone each overshoots.
+  // Average of the last drag and the new secant, as the secant alone overshoots.
   std::vector<double> drag = op.node_drag();
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     double change = 0.0;

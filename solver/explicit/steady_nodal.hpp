@@ -13,10 +13,10 @@ struct NodalSteadyState {
   double imbalance = 0.0;        ///< largest net outflow of an element over the largest face flux
 };
 
-/// Solves for the pressure by a sparse Cholesky factorisation, regularised by a storage so small
-/// that a few repeated solves remove its trace; boundaries that prescribe fluxes alone need it, and
-/// so do meshes on which element pressures have modes without a gradient. Throws NumericalError
-/// when the factorisation fails.
+/// Solves for the pressure by a sparse Cholesky factorization, regularized by a small storage whose
+/// effect a few repeated solutions remove. It is for boundaries that prescribe fluxes only, and for
+/// meshes on which element pressures have modes without a gradient. Throws NumericalError if the
+/// factorization fails or the drag of fast flow does not converge.
 template <int Dim>
 NodalSteadyState<Dim> steady_flow(const NodalOperator<Dim>& op);
 

@@ -86,8 +86,7 @@ FlowScales find_scales(ImplicitMixed<Dim>& scheme, const FlowForcing<Dim>& at_st
       const MixedStep<Dim> steady = scheme.saturated_steady(forcing);
       scales.include(steady.end.face_pressure, steady.face_flux);
     } catch (const NumericalError&) {
-      // Boundaries that prescribe fluxes alone may have no steady flow: then the flow itself sets
-      // the scales as it goes.
+      // Boundaries that prescribe fluxes only may have no steady flow: the flow sets the scales.
     }
   }
   scales.has_bounds = low <= high && !prescribes_flux && !has_gravity;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// How large fluxes and pressures of a scene are: errors of the implicit flow are relative to these
-/// scales, which come from what the boundary conditions can drive.
+/// Magnitudes of fluxes and pressures of a scene, from its boundary conditions. Errors of the
+/// implicit flow are relative to these.
 
 #include <vector>
 
@@ -18,23 +18,23 @@ struct FlowScales {
   double pressure = 0.0;     ///< largest minus smallest at the faces, Pa
   double flux_sum = 0.0;     ///< largest sum over all faces, m3/s
   double pore_volume = 0.0;  ///< of the model, m3
-  bool flux_known = false;   ///< from the boundary conditions; else the flow sets it as it goes
-  /// Prescribed pressures alone drive the flow: pressures stay between these two, Pa.
+  bool flux_known = false;   ///< from the boundary conditions; otherwise the flow raises it
+  /// Only prescribed pressures drive the flow: pressures stay between these two, Pa.
   bool has_bounds = false;
   double min_pressure = 0.0;
   double max_pressure = 0.0;
 
   /// Raises the scales to those of a flow with these pressures and fluxes at the faces. A known
-  /// flux scale stays: a passing peak, as at a start from rest, is no measure of what follows.
+  /// flux scale stays: a short peak, as at a start from rest, does not count.
   void include(const std::vector<double>& face_pressure, const std::vector<double>& face_flux);
-  /// Loads on soil that moves drive the flow too, and pressures then have no bounds.
+  /// Includes loads on moving soil, which also drive the flow; pressures then have no bounds.
   ///
   /// \param change     largest change of a load, Pa
-  /// \param stiffness  of the soil, Pa: stresses of tiny strains count as nothing
+  /// \param stiffness  of the soil, Pa: stresses of tiny strains do not count
   void include_loads(double change, double stiffness);
   /// Widens the bounds to these pressures, from which the flow starts.
   void include_in_bounds(const std::vector<double>& face_pressure);
-  /// How far pressures leave their bounds, over the pressure scale; zero without bounds.
+  /// Largest excess of pressures over their bounds, over the pressure scale; zero without bounds.
   [[nodiscard]] double overshoot(const std::vector<double>& face_pressure) const;
 
   void archive(auto& archive) {
@@ -43,24 +43,24 @@ struct FlowScales {
   }
 };
 
-/// The scales of the steady flows that the boundary conditions drive at the start, at each kink of
-/// their values and at the end. `at_start`: coefficients and conditions. Where no steady flow
-/// exists, as with prescribed fluxes alone, the scales are zero or smaller.
+/// The scales of the steady flows under the boundary conditions at the start, at each kink of their
+/// values and at the end. `at_start`: coefficients and conditions. If no steady flow exists, as
+/// with prescribed fluxes only, the scales are zero or smaller.
 template <int Dim>
 FlowScales find_scales(ImplicitMixed<Dim>& scheme, const FlowForcing<Dim>& at_start,
                        const BoundaryValues<Dim>& values, double end, bool has_gravity);
 
-/// Raises the scales over what counts as nothing: see ImplicitThresholds::nothing. `end` of the
+/// Raises the scales above what counts as nothing: see ImplicitThresholds::nothing. `end` of the
 /// run, s.
 template <int Dim>
 void raise_over_round_off(FlowScales& scales, const Grid<Dim>& grid,
                           const FlowCoefficients<Dim>& coefficients, const LiquidProperties& liquid,
                           double end);
 
-/// How fast anything in the flow can change: relaxation of the velocity, waves and diffusion of the
-/// pressure through the smallest element, 1/s. Zero where nothing limits it. `soil_storage`: volume
-/// per pressure that soil which moves makes room for, per element, m3/Pa; then those elements alone
-/// count in which there is some.
+/// Largest rate of change in the flow, 1/s: relaxation of the velocity, waves and diffusion of the
+/// pressure through the smallest element. Zero if nothing limits it. `soil_storage`: volume per
+/// pressure that moving soil makes room for, per element, m3/Pa; if given, only elements with such
+/// storage count.
 template <int Dim>
 double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                     double bulk_modulus, bool inertia,

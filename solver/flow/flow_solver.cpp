@@ -159,7 +159,7 @@ double FlowSolver<Dim>::start_porosity(int element) const {
 template <int Dim>
 typename FlowSolver<Dim>::SurfaceSoil FlowSolver<Dim>::surface_soil(int element,
                                                                     double porosity) const {
-  /// Water without soil conducts as well as soil many times thinner than the element.
+  /// An element of water conducts like soil of this share of the element's thickness.
   constexpr double thinnest = 1e-3;
   const std::vector<SoilFilling>& filling = skeleton_.filling();
   if (filling.empty() || filling[element].share == 1.0) return {porosity, 1.0};
@@ -188,8 +188,7 @@ void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) con
   std::vector<int> faces(node_pressure.size(), 0);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (conditions_[f].kind != FaceKind::pressure) continue;
-    // Water of one head stands over the face: pressures at its nodes differ from that at its
-    // centre.
+    // Water of one head stands over the face: the pressure varies from node to node.
     const bool has_head = scene_.boundaries[conditions_[f].boundary].head.has_value();
     const double density = has_head ? scene_.liquid.density : 0.0;
     for (const int i : grid_.face_nodes[f]) {

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The flow solver of a scene, as formulations and transport use it. It turns boundary conditions
-/// and the state of the pores into pressures and into volumes of liquid through faces. The scheme,
-/// implicit or explicit, is a derived class; what both share is here.
+/// The flow solver of a scene, as formulations and transport use it. It computes pressures and
+/// volumes of liquid through faces from boundary conditions and the state of the pores. The
+/// implicit and the explicit scheme are derived classes; this class has what they share.
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +31,11 @@ struct FlowState {
   double dt = 0.0;                    ///< of the last step, or of the first before it, s
   std::vector<double> pressure;       ///< per element, Pa
   std::vector<double> node_pressure;  ///< per node, Pa
-  /// Per face, Pa: the pressure in an element is the linear field of those of its faces. Empty
-  /// where the flow has none; then node pressures count.
+  /// Per face, Pa: the pressure in an element is the linear field of those of its faces. Empty if
+  /// the flow has node pressures only.
   std::vector<double> face_pressure;
   std::vector<double> saturation;  ///< S per element; empty where every soil is saturated
-  /// k_r per element: conductivity over that of the saturated soil; empty likewise.
+  /// k_r per element: conductivity over that of the saturated soil; empty as `saturation`.
   std::vector<double> relative_conductivity;
   VectorField<Dim> velocity;        ///< per node, intrinsic, m/s
   std::vector<double> face_flux;    ///< along each face's normal, m3/s
@@ -47,21 +47,21 @@ struct FlowState {
 template <int Dim>
 struct EarlierFlow {
   FlowState<Dim> state;
-  ElementField<Dim> air;  ///< m3 in the share of each side of an element; empty where soil is full
+  ElementField<Dim> air;  ///< per side of each element, m3; empty if all soil is saturated
 
-  /// Pressures at the centres of faces, Pa.
+  /// Pressures at the centers of faces, Pa.
   [[nodiscard]] std::vector<double> face_pressure(const Grid<Dim>& grid) const;
   /// Per element, m3; empty as `air`.
   [[nodiscard]] std::vector<double> air_volume() const { return element_sums<Dim>(air); }
 };
 
-/// How the plan of a run wants the flow stepped.
+/// Choices of the run's plan for steps of the flow.
 struct FlowOptions {
   double step = unset;      ///< length of a step, s
-  bool step_given = false;  ///< the scene gives `step`; else the scheme may change it
+  bool step_given = false;  ///< the scene gives `step`; otherwise the scheme may change it
   bool inertia = false;     ///< implicit only: keep rho_L dv/dt
-  /// Implicit only: waves of shorter periods need not be followed, s. Errors of steps much shorter
-  /// than this count by the volume that is misplaced, not by the flux.
+  /// Implicit only: waves of shorter periods need not be resolved, s. The error of a much shorter
+  /// step counts by the displaced volume, not by the flux.
   double unnoticed = 0.0;
   bool reuse_steady = true;  ///< implicit only: a steady flow is not solved again
   int threads = 1;
@@ -80,11 +80,10 @@ class FlowSolver {
   [[nodiscard]] const BoundaryValues<Dim>& boundary_values() const { return boundary_values_; }
   [[nodiscard]] const FlowCoefficients<Dim>& coefficients() const { return coefficients_; }
 
-  /// What limits the length of a coupling interval in addition to erosion and transport.
+  /// Limits of a coupling interval in addition to those of erosion and transport.
   struct CouplingLimits {
     bool one_transport_step = false;  ///< an interval holds at most one step of transport
-    /// The flow uses the forecast of the pores; otherwise they may open by little within an
-    /// interval.
+    /// The flow uses the forecast of the pores; otherwise they may open only a little per interval.
     bool follows_pores = false;
   };
   [[nodiscard]] virtual CouplingLimits coupling_limits() const = 0;
@@ -94,27 +93,27 @@ class FlowSolver {
   virtual void update(double time, const PoreState& pores,
                       const std::vector<double>& face_concentration);
 
-  /// Makes the state at the start of the run: at rest or steady, as the scene says. Adds a warning
-  /// where this mesh cannot resolve the flow. `update` comes first.
+  /// Sets the state at the start of the run: at rest or steady, by the scene. Adds a warning if
+  /// this mesh cannot resolve the flow. Call `update` before.
   virtual void start() = 0;
   /// Starts with the pressures, fluxes and air of another run on this mesh.
   virtual void start_from(const EarlierFlow<Dim>& earlier) = 0;
-  /// This flow for another run.
+  /// The present flow, for another run to start from.
   [[nodiscard]] EarlierFlow<Dim> last_flow(double time) const {
     return {state(time), air_at_sides()};
   }
 
-  /// Finds one step or more within the interval, for a solid that stays in place. They end exactly
-  /// on the latest end or on a breakpoint where they reach one. The flow does not change; only the
-  /// choice of steps to come learns from what was tried. Throws NumericalError.
+  /// Finds one or more steps within the interval, for a solid that does not move. They end exactly
+  /// on a breakpoint or the latest end if they reach one. The flow does not change; only the choice
+  /// of later steps learns from the attempts. Throws NumericalError.
   virtual FlowStep<Dim> solve(const FlowInterval<Dim>& interval) = 0;
-  /// Takes the steps: pressures and fluxes become those at their end.
+  /// Takes the steps: sets pressures and fluxes to those at their end.
   virtual FlowProgress commit(FlowStep<Dim> step) = 0;
 
-  // For estimates; only a scheme that chooses its steps heeds them.
-  /// The length that keeps this tolerance, as the last step shows, s.
+  // Used by estimates; without effect on a scheme that does not choose its steps.
+  /// Length of a step that keeps this tolerance, estimated from the last step, s.
   [[nodiscard]] virtual double step_within(double /*tolerance*/) const { return unset; }
-  /// The next step to try takes `dt` seconds, whatever was planned.
+  /// Sets the length of the next step to try, s, whatever was planned.
   virtual void plan_step(double /*dt*/) {}
 
   /// Pressure per element, Pa.
@@ -123,8 +122,8 @@ class FlowSolver {
   [[nodiscard]] virtual std::vector<double> air() const { return {}; }
   /// Volume of air in the share of each side of an element, m3; empty where all soil is saturated.
   [[nodiscard]] virtual ElementField<Dim> air_at_sides() const { return {}; }
-  /// Makes pressures follow the masses of water, which are what is conserved (single-point): at
-  /// once, or over the next steps. `water_mass` per element, kg; `time` in s.
+  /// Makes pressures follow the masses of water, which are conserved (single-point): at once, or
+  /// over the next steps. `water_mass` per element, kg; `time` in s.
   virtual void match_masses(double time, const std::vector<double>& water_mass) = 0;
 
   /// The flow at `time`, s, the end of the last step.
@@ -139,8 +138,8 @@ class FlowSolver {
   /// Stores or restores everything that later steps depend on, after `start`.
   virtual void archive(StateArchive& archive);
 
-  /// Adds a warning where soil without a retention is under suction, once; `time` in s. Without
-  /// gravity a pressure may be negative anyway.
+  /// Adds a warning, once, where soil without retention is under suction; `time` in s. Not without
+  /// gravity, where pressures may be negative.
   void warn_of_suction(double time);
   /// The warnings since the last call.
   [[nodiscard]] std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
@@ -152,13 +151,13 @@ class FlowSolver {
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
   /// Breakpoints at which boundary values or loads have a kink, ascending, s.
   [[nodiscard]] const std::vector<double>& kinks() const { return kinks_; }
-  /// The first breakpoint after `start`, or `latest` where that comes first, s.
+  /// The first breakpoint after `start`, or `latest` if that comes first, s.
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; at a prescribed pressure, that pressure.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
-  /// Pressure of the liquid at rest at each face's centre, Pa.
+  /// Pressure of the liquid at rest at each face's center, Pa.
   [[nodiscard]] std::vector<double> pressure_at_rest() const;
-  /// Throws NumericalError: all water has gone from the element.
+  /// Throws NumericalError: the element has no water left.
   [[noreturn]] void refuse_dry(int element, double time) const;
   /// Throws NumericalError where the grains in the liquid lock.
   void refuse_locked(double time, const std::vector<double>& concentration) const;
@@ -169,15 +168,15 @@ class FlowSolver {
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
   [[nodiscard]] Vector<Dim> gravity() const;
-  /// Sets the boundary values to those at the end of a step, and concentrations to the means of
-  /// what entered since its start; both in s. Levels of reservoirs have risen at these rates, m/s.
+  /// Sets the boundary values to those at the end of a step, and concentrations to their means over
+  /// the step; both times in s. Levels of reservoirs have risen at these rates, m/s.
   void update_boundary_values(double start, double end,
                               const std::vector<double>& reservoir_rates = {}) {
     boundary_values_.raise_reservoirs(end, reservoir_rates);
     boundary_values_.update(end, conditions_);
     boundary_values_.update_concentrations(0.5 * (start + end), conditions_);
   }
-  /// Sets the pressure of nodes on faces with a prescribed pressure to that, Pa.
+  /// Sets the pressure of nodes on faces with a prescribed pressure, Pa.
   void prescribe_at_nodes(std::vector<double>& node_pressure) const;
 
   std::vector<FaceCondition> conditions_;  ///< per face, at the end of the last step
@@ -190,8 +189,8 @@ class FlowSolver {
   const SoilMap<Dim>& soils_;
   const Skeleton<Dim>& skeleton_;
   int threads_;
-  /// Porosity that resists the flow in an element, and how many times better it conducts than
-  /// soil that fills it, where soil has a surface in it.
+  /// Porosity that resists the flow in an element partly filled with soil, and its conductivity
+  /// over that of an element full of this soil.
   struct SurfaceSoil {
     double porosity;
     double easier;
@@ -203,7 +202,7 @@ class FlowSolver {
   std::vector<double> breakpoints_;
   std::vector<double> kinks_;
   std::vector<double> initial_porosity_;  ///< per element, at its centroid
-  std::vector<double> grain_size_;  ///< per element, of Ergun's drag; empty where no soil has it, m
+  std::vector<double> grain_size_;  ///< per element, of Ergun's drag, m; empty if no soil has it
   double grain_density_ = unset;
   bool suction_warned_ = false;
   std::vector<std::string> warnings_;

@@ -15,8 +15,8 @@
 namespace suffuse {
 namespace {
 
-/// Takes back the forecast of the pores at the end of a step, not that of the conductivities: next
-/// to dry soil holds less water than a forecast of its pores is off by.
+/// Replaces forecast porosities by the present ones and keeps forecast resistances: nearly dry soil
+/// holds less water than the error of a forecast of its pores.
 template <int Dim>
 void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahead) {
   for (std::size_t e = 0; e < porosity.size(); ++e) {
@@ -25,8 +25,8 @@ void keep_pores(const std::vector<double>& porosity, FlowCoefficients<Dim>& ahea
   }
 }
 
-/// Power that drag takes in each element, W. Where the liquid's viscosity follows a front of fines,
-/// the resistance of an element that the front crosses counts by this; otherwise empty.
+/// Power that each element's drag dissipates, W. Empty unless viscosity follows a front of fines:
+/// then an element's error is weighted with it.
 template <int Dim>
 std::vector<double> drag_losses(const Scene& scene, const Grid<Dim>& grid,
                                 const std::vector<double>& face_flux,
@@ -41,11 +41,10 @@ std::vector<double> drag_losses(const Scene& scene, const Grid<Dim>& grid,
   return result;
 }
 
-/// The first step of soil that falls from the start, over the time in which it falls through an
-/// element.
+/// First step of soil that falls from the start, over its time of fall through an element.
 constexpr double first_step_of_fall = 1e-2;
 
-/// The flow that another run has left.
+/// The last flow of another run.
 template <int Dim>
 MixedFlow<Dim> flow_of(const EarlierFlow<Dim>& earlier, const Grid<Dim>& grid,
                        const std::vector<FaceCondition>& conditions,
@@ -132,7 +131,7 @@ void ImplicitFlow<Dim>::start_steps(const MovingSolid& solid) {
   const double shortest = shortest_change(solid.compressibility);
   const double of_fall = first_step_of_fall * solid.time_of_fall;
   const double of_change = of_fall > 0.0 ? of_fall : starts_at_rest() ? of_liquid : shortest;
-  // Loads may come at once, and the pressures with them.
+  // Loads, and with them pressures, may change suddenly.
   control_.start(std::min(of_run, of_change), false, shortest);
 }
 
@@ -278,7 +277,7 @@ FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>
   const double before = time - implicit_thresholds.end_margin * (time - interval.start);
   PoreState pores = interval.pores.at(before);
   if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
-    // Forecast fines have not moved yet: where they would lock, more liquid comes with them.
+    // Without transport the forecast may reach concentrations that moving liquid does not.
     const double most = 0.999 * this->scene().liquid.viscosity_model.maximum_concentration;
     for (double& c : pores.concentration) c = std::min(c, most);
   }
@@ -291,7 +290,7 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
   const auto before = [&](const auto& field) { return previous_ ? field(*previous_) : Span(); };
   const auto flux = [](const MixedFlow<Dim>& flow) { return Span(flow.flux_through); };
   if (scheme_.is_nonlinear()) {
-    // Fronts and seepage faces are sharp: what counts is the volume that is misplaced.
+    // Fronts and seepage faces are sharp: the error is the displaced volume.
     const auto air = [](const MixedState<Dim>& state) {
       return state.air.empty() ? Span()
                                : Span(state.air.front().data(), state.air.size() * (Dim + 1));
@@ -308,7 +307,7 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
   const auto pressure = [](const MixedFlow<Dim>& flow) { return Span(flow.state.face_pressure); };
   const ControlledField of_pressure{before(pressure), now_.state.face_pressure,
                                     step.end.face_pressure, scales_.pressure};
-  // A load that comes at once drives water out of its boundary at any rate, for no time.
+  // A sudden load drives an infinite flux out of its boundary for an instant: only pressures count.
   if (solid_.moves()) return control_.error(start, dt, {of_pressure});
   const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
   return control_.error(
@@ -344,7 +343,7 @@ template <int Dim>
 void ImplicitFlow<Dim>::reuse_if_steady(double time) {
   const PassTimer timer(solving_);
   if (!reuse_.allowed() || !previous_) return;
-  // Sealed water is steady only while nothing disturbs it, its own round-off included.
+  // Without a prescribed pressure round-off alone would change the level of compressible water.
   const bool sealed = !has_condition(this->conditions_, FaceKind::pressure);
   if (sealed && std::isfinite(this->scene().liquid.bulk_modulus)) return;
   if (!reuse_.is_close(now_.face_flux, previous_->face_flux, scales_.flux)) return;
@@ -373,7 +372,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
                                const std::vector<double>& face_concentration) {
   FlowSolver<Dim>::update(time, pores, face_concentration);
   if (blending_.expects()) {
-    // Points that change elements make densities and pores scatter: a drift is what lasts.
+    // Points that change elements scatter densities and pores: only a lasting change is a drift.
     const bool scattered = this->scene().formulation == Formulation::double_point || solid_.moves();
     const double dt = control_.last_step();
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
@@ -381,7 +380,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     const double error = blending_.learn(
         this->coefficients_, dt, weight,
         drag_losses(this->scene(), this->grid(), now_.face_flux, this->coefficients_));
-    // Soil that fails changes them by its motion, of which nothing is expected.
+    // Motion of the soil changes them too, and the expectation leaves motion out.
     const bool shown = solid_.has_inertia() || scheme_.soils().air_moves();
     if (!shown) control_.account_for(0.5 * error);
   }

@@ -1,9 +1,9 @@
 #pragma once
 
-/// The implicit flow of a scene (`scheme = "implicit"`): mixed finite elements, with steps chosen
-/// by the scene's tolerance or given by it. A step is tried, judged by its error, and accepted or
-/// shortened; a flow that has become steady is reused and not solved again. The parts that decide
-/// are classes of their own.
+/// The implicit flow of a scene (`scheme = "implicit"`): mixed finite elements, with steps by the
+/// scene's tolerance or of its given length. A step is tried, judged by its error, and accepted or
+/// shortened. A steady flow is reused and not solved again. Classes of their own take these
+/// decisions.
 
 #include <optional>
 #include <vector>
@@ -19,12 +19,12 @@
 
 namespace suffuse {
 
-/// What the flow needs to know of a solid that moves, at the start.
+/// Data of a moving solid that the flow needs at the start.
 struct MovingSolid {
   double load_change = 0.0;             ///< largest change of tractions in the run, Pa
   double stiffness = 0.0;               ///< largest modulus of soil that cannot move sideways, Pa
   std::vector<double> compressibility;  ///< per element, m3/Pa
-  double time_of_fall = 0.0;  ///< of soil that does not stand, through an element, s; otherwise 0
+  double time_of_fall = 0.0;            ///< of unstable soil through an element, s; otherwise 0
 };
 
 template <int Dim>
@@ -37,36 +37,35 @@ class ImplicitFlow final : public FlowSolver<Dim> {
               const std::vector<double>& face_concentration) override;
   void start() override;
   void start_from(const EarlierFlow<Dim>& earlier) override;
-  /// After `start` and its like: chooses the first step for a solid that moves too.
+  /// Call after `start` or `start_from` if the solid moves: chooses the first step.
   void start_steps(const MovingSolid& solid);
 
   /// One step. Throws NumericalError when no step is short enough for the tolerance.
   FlowStep<Dim> solve(const FlowInterval<Dim>& interval) override;
   FlowProgress commit(FlowStep<Dim> step) override;
 
-  // `solve` in pieces, for who solves for something else in the same step (coupling/).
+  // Parts of `solve`, for a caller that solves for the solid in the same step (coupling/).
 
   /// The step to try first, without forcing and result.
   [[nodiscard]] FlowStep<Dim> propose(const FlowInterval<Dim>& interval);
   /// Sets coefficients, boundary values and sources at each stage of the step.
   void set_forcing(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const;
-  /// Whether what was found for the step is accurate enough. Otherwise shortens it. Throws as
+  /// Whether the solution of the step is accurate enough; otherwise shortens the step. Throws as
   /// `solve` does.
   [[nodiscard]] bool accepts(const FlowInterval<Dim>& interval, FlowStep<Dim>& step);
-  /// The step has no solution: shortens it. Throws as `solve` does.
+  /// Shortens a step that has no solution. Throws as `solve` does.
   void reject(FlowStep<Dim>& step) { control_.reject(step.start, step.dt); }
-  /// The step is to be tried anew, as long as the last one was or longer: the solid has inertia
-  /// now.
+  /// Plans the step again after the solid got inertia: at least as long as the last one, within the
+  /// interval.
   void plan_anew(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const;
-  /// Whether a step that has no solution is too short to be tried shorter still.
+  /// Whether a step without a solution is too short to be shortened.
   [[nodiscard]] bool is_shortest(const FlowStep<Dim>& step) const;
 
   [[nodiscard]] ImplicitMixed<Dim>& scheme() { return scheme_; }
   [[nodiscard]] const ImplicitMixed<Dim>& scheme() const { return scheme_; }
-  /// Counts what `solve` takes.
+  /// Time and calls of `solve`.
   [[nodiscard]] PassTiming& timing() { return solving_; }
   [[nodiscard]] const MixedState<Dim>& mixed_state() const { return now_.state; }
-  /// Length of the next step as it will be tried, s.
   [[nodiscard]] double next_step() const { return control_.next_step(); }
   [[nodiscard]] bool is_breakpoint(double time) const {
     return contains_time(this->breakpoints(), time);
@@ -85,7 +84,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
     return element_sums<Dim>(now_.state.air);
   }
   [[nodiscard]] ElementField<Dim> air_at_sides() const override { return now_.state.air; }
-  /// Where an element's water does not fit its pores at its pressure, the next steps let it out.
+  /// Lets water that does not fit an element's pores at its pressure out in the next steps.
   void match_masses(double time, const std::vector<double>& water_mass) override;
 
   void archive(StateArchive& archive) override;
@@ -97,11 +96,11 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<PassTiming> passes() const override;
 
  private:
-  /// The start from this flow, or from the steady one where water flows at once. `air`: none to
-  /// take that of the pressures.
+  /// Starts from this flow or, unless the run starts at rest, from the steady one. `air`: null to
+  /// derive it from the pressures.
   void start_with(MixedFlow<Dim> flow, const ElementField<Dim>* air);
-  /// Solves for a step of this length, with levels of reservoirs that fit what seeps. Says why
-  /// where it has no solution.
+  /// Solves for a step of this length and for levels of reservoirs that agree with it. Returns the
+  /// reason if there is no solution.
   [[nodiscard]] std::optional<Unsolved> try_step(const FlowInterval<Dim>& interval,
                                                  FlowStep<Dim>& step);
   /// How fast levels of reservoirs rise by what seeps in the step, m/s.
@@ -109,13 +108,13 @@ class ImplicitFlow final : public FlowSolver<Dim> {
     return this->boundary_values().reservoir_rates(step.found.face_volume, step.dt);
   }
   [[nodiscard]] MixedStep<Dim> solved(const FlowStep<Dim>& step);
-  /// Water expands as it moves towards lower pressures. Where a step is so long that it would not
-  /// fit its elements, solves it again with the sources that let it out.
+  /// Solves a long step again with sources that let out the expansion of water that moves to lower
+  /// pressures, where its elements could not hold it.
   void let_out_expansion(FlowStep<Dim>& step);
-  /// Whether the flow has no start-up: of water without compressibility and inertia.
+  /// Whether the flow follows its forcing at once: no compressibility, inertia or retention.
   [[nodiscard]] bool flows_at_once() const;
   [[nodiscard]] bool starts_at_rest() const;
-  /// Volume per element, m3, that a step of `dt` would have to let out in addition. Empty where the
+  /// Additional volume per element, m3, that a step of `dt` would have to let out. Empty if the
   /// step is short or lets out enough.
   [[nodiscard]] std::vector<double> excess_in(const MixedStep<Dim>& step, double dt) const;
   void follow_soils() {
@@ -123,25 +122,25 @@ class ImplicitFlow final : public FlowSolver<Dim> {
       scheme_.follow(flow_soils(this->scene(), solid_.soils(), solid_.filling()));
     }
   }
-  /// Coefficients at a time within the interval, as erosion will have made them.
+  /// Coefficients at a time within the interval, changed by erosion alone.
   [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
                                                       double time) const;
   [[nodiscard]] double error_of(const MixedStep<Dim>& step, double start, double dt) const;
-  /// The steady flow over `dt` seconds more, with the sources that let out what water expands by in
-  /// that time. Nothing, and no more reuse, where these change the flow by too much.
+  /// The steady flow over `dt` more seconds, with sources for the expansion of water in that time.
+  /// If these change the flow too much, ends the reuse and returns nothing.
   [[nodiscard]] std::optional<MixedStep<Dim>> steady_step(double dt);
   void remember(MixedStep<Dim> step, double dt);
-  /// A step of `dt` ended on a breakpoint at `time`: the flow may have a kink there.
+  /// Call when a step of `dt` ended on a breakpoint at `time`: the flow may have a kink there.
   void pass_breakpoint(double time, double dt);
-  /// From here on the flow is reused, if it has become steady and nothing that drives it will
-  /// change by itself.
+  /// Starts to reuse the flow if it has become steady and nothing that drives it will change by
+  /// itself.
   void reuse_if_steady(double time);
-  /// Solves the steady flow again where its sources have changed.
+  /// Solves the steady flow again if its sources have changed.
   void update_steady_flow();
-  /// Solves the steady flow with this source, m3/s per element. Where that changes the flow by too
-  /// much, leaves the flow as it is, stops to reuse it, and returns false.
+  /// Solves the steady flow with this source, m3/s per element. If that changes the flow too much,
+  /// keeps the flow, ends the reuse and returns false.
   bool take_steady_flow(std::vector<double> source);
-  /// Takes the pressures and fluxes of a steady flow; the air stays where it is.
+  /// Takes the pressures and fluxes of a steady flow; the air does not change.
   void replace_flow(MixedStep<Dim> steady) {
     steady.end.air = std::move(now_.state.air);
     now_ = end_of(std::move(steady));
@@ -151,16 +150,16 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   }
   /// Time in which the largest flux fills the pores of the smallest element, s; infinite at rest.
   [[nodiscard]] double filling_time() const;
-  /// A time that is short against everything that the flow does by itself, s: at the end of a step
-  /// of this length the flow is the one right after the start. Infinite where nothing delays it.
-  /// `soil_storage`: see `fastest_rate`.
+  /// A time that is short compared with all time scales of the flow, s: a step of this length ends
+  /// in the state right after the start. Infinite if nothing delays the flow. `soil_storage`: see
+  /// `fastest_rate`.
   [[nodiscard]] double shortest_change(const std::vector<double>& soil_storage) const;
 
   FlowOptions options_;
   const Skeleton<Dim>& solid_;
   ImplicitMixed<Dim> scheme_;
   bool has_gravity_;
-  bool follows_pores_;  ///< coefficients change with porosity within a step
+  bool follows_pores_;  ///< coefficients depend on porosity within a step
 
   StepControl control_;
   CoefficientBlending<Dim> blending_;
@@ -169,7 +168,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   FlowScales scales_;
 
   MixedFlow<Dim> now_;
-  /// At the start of the last step, for the prediction of the next; none after a kink.
+  /// Flow at the start of the last step, to predict the next one; none after a kink.
   std::optional<MixedFlow<Dim>> previous_;
   std::vector<double> pressure_;  ///< per element, Pa
   double eos_error_ = 0.0;

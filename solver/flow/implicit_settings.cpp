@@ -22,7 +22,7 @@ ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options)
   ImplicitSettings settings;
   settings.bulk_modulus = scene.liquid.bulk_modulus;
   settings.inertia = options.inertia;
-  // The motion of the solid is found at the end of a step alone.
+  // The motion of the solid is found at the end of a step only.
   settings.stepping = scene.moves() ? TimeStepping::monotone : scene.time.stepping;
   settings.threads = options.threads;
   return settings;
@@ -38,7 +38,7 @@ StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool 
   settings.unnoticed = options.unnoticed;
   settings.length_alone_changes_matrix = !follows_pores;
   settings.kinks = kinks;
-  // Where soil leaves an element or enters one, forces on its nodes jump.
+  // Forces on an element's nodes jump when soil leaves or enters it.
   settings.starts_anew_after_jumps = scene.moves();
   const bool drains = std::ranges::any_of(conditions, &FaceCondition::switches) ||
                       std::ranges::any_of(scene.soils, &Soil::drains);

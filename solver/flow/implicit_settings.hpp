@@ -12,16 +12,16 @@
 
 namespace suffuse {
 
-/// Whether a boundary has a condition of this kind.
+/// Whether any face has a condition of this kind.
 bool has_condition(const std::vector<FaceCondition>& conditions, FaceKind kind);
 
-/// Whether the coefficients of the flow change while erosion opens the pores, gravity apart.
+/// Whether the coefficients of the flow depend on pores that erosion opens, apart from gravity.
 bool depends_on_pores(const Scene& scene, const std::vector<FaceCondition>& conditions,
                       const FlowOptions& options);
 
 ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options);
 
-/// `kinks`: times at which boundary values may have one, s.
+/// \param kinks  times of possible kinks of boundary values, s
 StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool follows_pores,
                            const std::vector<FaceCondition>& conditions,
                            const std::vector<double>& kinks);
@@ -29,7 +29,7 @@ StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool 
 BlendingSettings blending_settings(const Scene& scene, const FlowOptions& options,
                                    bool follows_pores);
 
-/// Whether linear systems of the flow are solved by multigrid, on a mesh of so many faces.
+/// Whether linear systems of the flow are solved by multigrid on a mesh with this number of faces.
 bool uses_multigrid(int dimension, int faces);
 
 }  // namespace suffuse

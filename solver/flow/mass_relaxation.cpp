@@ -13,8 +13,8 @@ void MassRelaxation::observe(std::vector<double> mismatch, const std::vector<dou
   if (outflow_.empty()) outflow_.assign(elements, 0.0);
   if (source_.empty()) source_.assign(elements, 0.0);
   if (change_time_ > 0.0 && active()) {
-    // What the last step added, the next one would add again: it leaves as it comes. Over short
-    // steps round-off would be a large rate.
+    // The source also removes the growth of the mismatch, which the next step would repeat.
+    // Round-off is left out, as it would be a large rate over a short step.
     for (std::size_t e = 0; e < elements; ++e) {
       const double growth = mismatch[e] - mismatch_[e];
       const double round_off =
@@ -46,7 +46,7 @@ std::vector<double> MassRelaxation::next_source(double dt, double filling_time) 
 
 void MassRelaxation::finish(double dt, double filling_time) {
   change_time_ = std::max(dt, change_time_ - implicit_thresholds.fading * dt);
-  // By the steps: a jump of the flow that lasts for no time shortens nothing.
+  // The time falls by lengths of steps: a short peak of the flow hardly shortens it.
   const double counted = std::min(dt, implicit_thresholds.expansion_time * filling_time);
   blending_time_ = std::max(counted, blending_time_ - implicit_thresholds.fading * dt);
 }

@@ -12,7 +12,7 @@ template <int Dim>
 bool boundary_values_rest(const BoundaryValues<Dim>& values,
                           const std::vector<FaceCondition>& conditions, double time, double end) {
   if (!values.vary()) return true;
-  // Between two kinks values are linear: equal at their ends means constant.
+  // Values are linear between two kinks: constant if equal at both.
   std::vector<FaceCondition> later = conditions;
   const auto next = std::upper_bound(values.breakpoints().begin(), values.breakpoints().end(),
                                      time * (1.0 + 1e-14));

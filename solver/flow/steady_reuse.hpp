@@ -1,7 +1,7 @@
 #pragma once
 
-/// Decides when a flow is steady, so that its fluxes serve the next steps as they are and nothing
-/// is solved, and when that ends: as soon as anything that drives or resists the flow changes.
+/// Decides when a flow is steady, so that later steps reuse its fluxes without a solution, and when
+/// this ends: as soon as anything that drives or resists the flow changes.
 
 #include <optional>
 #include <vector>
@@ -15,10 +15,10 @@ struct SteadyReuseSettings {
   bool allowed = true;
   double tolerance = 0.0;            ///< of the flow's errors, relative to its scales
   bool has_gravity = false;          ///< densities drive the flow
-  bool prescribes_velocity = false;  ///< porosities drive it, at the boundary
+  bool prescribes_velocity = false;  ///< porosities drive the flow at the boundary
 };
 
-/// Whether boundary values keep their value from `time` to their next kink, or the end of the run.
+/// Whether boundary values are constant from `time` to their next kink or the end of the run.
 /// `conditions`: those at `time`, s.
 template <int Dim>
 bool boundary_values_rest(const BoundaryValues<Dim>& values,
@@ -33,17 +33,17 @@ class SteadyReuse {
   [[nodiscard]] bool active() const { return coefficients_.has_value(); }
   /// Whether reuse is allowed at all.
   [[nodiscard]] bool allowed() const { return settings_.allowed; }
-  /// The flow is steady with these coefficients.
+  /// Starts to reuse a flow that is steady with these coefficients.
   void start(FlowCoefficients<Dim> coefficients) { coefficients_ = std::move(coefficients); }
   void stop() { coefficients_.reset(); }
-  /// Stops where these coefficients resist or drive the flow otherwise than those it started with.
+  /// Stops if these coefficients resist or drive the flow differently from those at the start.
   void check(const FlowCoefficients<Dim>& coefficients);
 
-  /// Whether two fields of values per face are the same steady field; `scale`: of such values.
+  /// Whether two fields of values per face are one steady field; `scale`: of such values.
   [[nodiscard]] bool is_close(const std::vector<double>& a, const std::vector<double>& b,
                               double scale) const;
-  /// Whether sources have changed so much that the steady flow has to be solved again: what all
-  /// elements let out may come together at one face. Per element, and `flux_scale`, m3/s.
+  /// Whether sources have changed so much that the steady flow must be solved again. Their sum
+  /// counts, as it may cross one face. Sources per element and `flux_scale` in m3/s.
   [[nodiscard]] bool needs_update(const std::vector<double>& source,
                                   const std::vector<double>& new_source, double flux_scale) const;
 

@@ -12,8 +12,8 @@
 namespace suffuse {
 namespace {
 
-/// The length of a step that is short against the time from which it starts becomes the difference
-/// of the two times, as transport and the solid see it.
+/// Rounds a step that is short compared with its start to the difference of the two times, which
+/// transport and the solid use.
 double rounded(double start, double dt) {
   return dt < implicit_thresholds.rounded_step * start ? (start + dt) - start : dt;
 }
@@ -42,7 +42,7 @@ double StepControl::propose(double start, double until, double longest) {
   rejected_dt_ = 0.0;
   const double left = until - start;
   if (settings_.given_step) {
-    // The given step is the longest one: what is left is divided evenly.
+    // The given step is the longest one: the remaining time is divided evenly.
     return left / std::max(1.0, std::ceil(left / *settings_.given_step *
                                           (1.0 - implicit_thresholds.end_margin)));
   }
@@ -50,7 +50,7 @@ double StepControl::propose(double start, double until, double longest) {
   double dt = std::min(next_, longest);
   planned_ = dt;
   if (dt < left) refuse_too_short(start, dt);
-  // No short step before the end: two halves are better than nine tenths and one.
+  // Avoid a short last step: take two halves, not nine tenths and one tenth.
   if (dt < left && left < 2.0 * dt) dt = is_too_short(start, 0.5 * left) ? left : 0.5 * left;
   return up_to(rounded(start, dt), left);
 }
@@ -81,7 +81,7 @@ double StepControl::error(double start, double dt,
     }
     error = std::max(error, distance / field.scale);
   }
-  // Oscillations within a time that goes unnoticed move next to nothing.
+  // Waves shorter than `unnoticed` displace next to nothing.
   const double weight = dt / (dt + settings_.unnoticed);
   return 0.5 * weight * error / settings_.tolerance;
 }
@@ -99,13 +99,13 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
         wanted < implicit_thresholds.min_growth_for_new_matrix) {
       next = dt;
     }
-    // A step that the interval cut short says nothing against the longer one that was planned.
+    // A step cut short by its interval is no reason to shorten the longer one that was planned.
     next_ = !shortened_ && wanted >= 1.0 ? std::max(next, next_) : next;
     if (smooth_) settles_ = false;
     return true;
   }
   const bool spreads = settings_.pressure_spreads && settles_ && dt > shortest_change_;
-  // Half of the fall that a smooth field would show is too little.
+  // The error jumps if it fell by less than half of what a smooth field would show.
   const bool jumps = settings_.crosses_jumps && !spreads && rejected_dt_ > 0.0 &&
                      error > 0.5 * rejected_error_ * (1.0 + dt / rejected_dt_);
   if (jumps) {
@@ -196,7 +196,7 @@ void StepControl::account_for(double error) {
 }
 
 double StepControl::step_within(double tolerance) const {
-  // Where a step has missed the curve altogether, its error tells no more than that.
+  // An error above 1 only says that the step missed the curve altogether.
   const double error = std::min(accepted_error_ * settings_.tolerance, 1.0) / tolerance;
   const double longest = implicit_thresholds.max_growth * last_;
   return error > 0.0 ? std::min(longest, implicit_thresholds.safety * last_ / std::sqrt(error))

@@ -1,10 +1,10 @@
 #pragma once
 
 /// Chooses the lengths of time steps so that the local error of each stays within a tolerance. The
-/// error of a step is estimated as half the distance between its result and a straight line through
-/// the two states before it, which for equal steps is the local error of backward Euler
-/// (dt^2 |y''| / 2, Hairer and Wanner, Solving Ordinary Differential Equations II). Knows values at
-/// the ends of steps, and nothing of the equations behind them.
+/// error is estimated as half the distance between the result of a step and a straight line through
+/// the two states before it. For equal steps this is the local error of backward Euler (dt^2 |y''|
+/// / 2, Hairer and Wanner, Solving Ordinary Differential Equations II). This class knows values at
+/// the ends of steps, but no equations.
 
 #include <algorithm>
 #include <limits>
@@ -18,33 +18,33 @@ namespace suffuse {
 struct StepSettings {
   double tolerance = 0.0;            ///< for the local error of a step over the field's scale
   double end = 0.0;                  ///< of the run, s
-  std::optional<double> given_step;  ///< longest step, s; then errors play no part
+  std::optional<double> given_step;  ///< longest step, s; errors are ignored then
   /// Errors of steps much shorter than this count by the integral of the field over the step, not
-  /// by its value, s: waves of shorter periods need not be followed.
+  /// by its value, s: waves of shorter periods need not be resolved.
   double unnoticed = 0.0;
-  /// The matrix of a step depends on nothing but its length.
+  /// The matrix of a step depends on its length only.
   bool length_alone_changes_matrix = false;
   /// Times at which boundary values may have a kink, ascending, s. Two of them close together are a
   /// jump, which one step crosses.
   std::vector<double> kinks;
-  /// After a kink, pressure spreads from element to element: while a step is longer than that
-  /// takes, its error does not fall with its length, and this is no jump.
+  /// After a kink, pressure spreads from element to element. The error of a step longer than this
+  /// spreading does not fall with its length, but this is not a jump.
   bool pressure_spreads = false;
-  /// Fields may jump: a step whose error does not fall with its length is accepted. Seepage faces
-  /// open and close at once, and no step is short enough for that.
+  /// Fields may jump, as when seepage faces open: a step whose error does not fall with its length
+  /// is accepted, as no step is short enough.
   bool crosses_jumps = false;
-  /// After such a jump the next step has the length that was planned before it, and no error that
-  /// could be estimated: neither length nor slope of the jump predict anything.
+  /// The step after such a jump has the length planned before it, and its error is not estimated:
+  /// neither length nor slope of the jump predict anything.
   bool starts_anew_after_jumps = false;
   int threads = 1;
 };
 
-/// A field whose error decides on the length of steps, as it is at the ends of steps.
+/// A field whose error controls the length of steps, by its values at the ends of steps.
 struct ControlledField {
-  std::span<const double> previous;  ///< at the start of the last step; empty: predicts nothing
-  std::span<const double> start;     ///< at the start of this step
-  std::span<const double> end;       ///< at its end
-  double scale;                      ///< errors are relative to this; zero: it has no error
+  std::span<const double> previous;  ///< at the start of the last step; empty: no prediction
+  std::span<const double> start;     ///< of this step
+  std::span<const double> end;       ///< of this step
+  double scale;                      ///< of errors; zero: the field's error is ignored
   bool summed = false;  ///< the error is the sum of all values' errors, not the largest
 };
 
@@ -52,53 +52,52 @@ class StepControl {
  public:
   explicit StepControl(StepSettings settings) : settings_(std::move(settings)) {}
 
-  /// The first step takes `first_step` seconds, or the given one. `smooth`: the state at the start
-  /// belongs to the curve that follows; otherwise the first step has no error that could be
-  /// estimated. `shortest_change`: steps of this length follow all that the flow does by itself, s;
-  /// infinite where nothing delays it.
+  /// The first step takes `first_step` seconds, or the given one. `smooth`: the initial state
+  /// belongs to the curve that follows; otherwise the error of the first step is not estimated.
+  /// `shortest_change`: steps of this length resolve the flow's own changes, s; infinite if nothing
+  /// delays the flow.
   void start(double first_step, bool smooth,
              double shortest_change = std::numeric_limits<double>::infinity());
 
-  /// Length of the step to try from `start`, s: ends at `until` at the latest, and takes no longer
+  /// Length of the step to try from `start`, s; it ends at `until` at the latest and is no longer
   /// than `longest`. Throws as `accept` does.
   [[nodiscard]] double propose(double start, double until, double longest);
-  /// Estimated local error of a step of `dt` from `start`, over the tolerance; zero where a jump or
-  /// a start that is not smooth leaves nothing to compare with.
+  /// Estimated local error of a step of `dt` from `start`, over the tolerance; zero if a jump or a
+  /// start that is not smooth prevents an estimate.
   [[nodiscard]] double error(double start, double dt,
                              const std::vector<ControlledField>& fields) const;
-  /// Whether a step of this error is good enough. If so, finds the length of the next one; if not,
-  /// shortens `dt`. `predicted`: a state before the start was part of the estimate. Throws
-  /// NumericalError when the step would become too short to change the time, but for steps after a
-  /// kink: of these some are accepted as they are.
+  /// Whether a step of this error is accurate enough. If so, chooses the length of the next one; if
+  /// not, shortens `dt`. `predicted`: a state before the start was part of the estimate. Throws
+  /// NumericalError when the step would become too short to change the time, except after a kink,
+  /// where some such steps are accepted.
   [[nodiscard]] bool accept(double start, double error, bool predicted, double& dt);
-  /// The step of `dt` from `start` has no result: shortens it. Throws as `accept` does.
+  /// Shortens the step of `dt` from `start`, which has no result. Throws as `accept` does.
   void reject(double start, double& dt);
-  /// The next step is no longer than this one.
+  /// Bounds the length of the next step by this one.
   void hold(double dt) { next_ = std::min(next_, dt); }
-  /// A step of `dt` seconds is over.
+  /// Call at the end of a step of `dt` seconds.
   void finish(double dt);
-  /// It ended on a kink: what drives the flow may change at once from here on.
+  /// Call if the step ended on a kink: what drives the flow may change at once from here on.
   void pass_kink();
   /// `dt`, or `left` where both are the same up to a small share.
   [[nodiscard]] static double up_to(double dt, double left);
 
-  /// The next step may be as long as this one allows, whatever was planned: nothing changes.
+  /// Lets the next step grow as much as this one allows, whatever was planned.
   void grow(double dt);
-  /// What the last step took for granted was wrong by this share: shortens the next one
-  /// accordingly.
+  /// Shortens the next step for an assumption of the last one that was wrong by this share.
   void account_for(double error);
 
-  /// The length that keeps another tolerance, as far as the error of the last step tells, s: no
-  /// longer than what may follow that step.
+  /// The length that keeps another tolerance, estimated from the error of the last step, s; at most
+  /// the longest that may follow that step.
   [[nodiscard]] double step_within(double tolerance) const;
-  /// The next step to try takes `dt` seconds, whatever was planned.
+  /// Sets the length of the next step, s, whatever was planned.
   void plan(double dt) { next_ = dt; }
 
   /// Whether states so far are points of a smooth curve.
   [[nodiscard]] bool smooth() const { return smooth_; }
   [[nodiscard]] bool has_given_step() const { return settings_.given_step.has_value(); }
   [[nodiscard]] double last_step() const { return last_; }  ///< s; zero before the first
-  [[nodiscard]] double next_step() const { return next_; }  ///< as it will be tried, s
+  [[nodiscard]] double next_step() const { return next_; }  ///< length to be tried, s
   [[nodiscard]] long rejected() const { return rejected_; }
 
   void archive(auto& archive) {
@@ -107,29 +106,29 @@ class StepControl {
 
  private:
   [[nodiscard]] bool is_jump(double start, double dt) const;
-  /// Whether a step of `dt` is too short to change the time.
-  /// Steps after a kink that may be accepted for being the shortest.
+  /// Largest number of steps after a kink that may be accepted for being the shortest.
   [[nodiscard]] double max_unresolved() const;
+  /// Whether a step of `dt` is too short to change the time.
   [[nodiscard]] bool is_too_short(double start, double dt) const;
-  /// Throws NumericalError where it is.
+  /// Throws NumericalError if `dt` is too short.
   void refuse_too_short(double start, double dt) const;
-  /// Shortens `dt` after its step was rejected for its error. False where the step is the shortest
-  /// that changes the time, follows a kink, and counts as accepted for that reason.
+  /// Shortens `dt` after its step was rejected for its error. False if the step is the shortest
+  /// that changes the time, follows a kink, and is therefore accepted.
   bool shorten(double start, double factor, double& dt);
 
   StepSettings settings_;
   double last_ = 0.0;
   double next_ = 0.0;
   bool smooth_ = true;
-  bool jumped_ = false;  ///< the step that was accepted last has crossed a jump
+  bool jumped_ = false;  ///< the step accepted last has crossed a jump
   long rejected_ = 0;
   double shortest_change_ = std::numeric_limits<double>::infinity();
   bool settles_ = true;     ///< no step since the start or the last kink was judged by its error
-  int unresolved_ = 0;      ///< steps since then that were accepted for being the shortest
-  double planned_ = 0.0;    ///< length of the step at hand, before it was rejected, s
-  bool shortened_ = false;  ///< the step at hand has been rejected before
+  int unresolved_ = 0;      ///< steps since the last kink accepted for being the shortest
+  double planned_ = 0.0;    ///< length of the current step before it was rejected, s
+  bool shortened_ = false;  ///< the current step has been rejected before
   double accepted_error_ = 0.0;  ///< of the last step, over the tolerance
-  // Last rejected attempt of the step at hand.
+  // Last rejected attempt of the current step.
   double rejected_dt_ = 0.0;
   double rejected_error_ = 0.0;
 };

@@ -1,5 +1,5 @@
-// How the implicit flow keeps water fitting its pores: what moving water expands by in a step, and
-// what the masses say after it.
+// Keeps the volume of water equal to its room in the implicit flow: expansion of moving water
+// within a step, and the mismatch of masses after it.
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,14 @@
 namespace suffuse {
 namespace {
 
-/// Lets `volume` per element, m3, out over `dt` in addition.
+/// Adds sources that let out `volume` per element, m3, over `dt`.
 void let_out(const std::vector<double>& volume, double dt, std::vector<double>& source) {
   source.resize(volume.size(), 0.0);
   for (std::size_t e = 0; e < volume.size(); ++e) source[e] += volume[e] / dt;
 }
 
-/// Volume by which an element's water grows beyond what its pores take at its pressure, in a step
-/// that starts from these pressures at faces and, per element, `pressure`, Pa; m3.
+/// Growth of each element's water beyond the room in its pores at its pressure, m3, in a step that
+/// starts from these pressures at faces and, per element, `pressure`, Pa.
 template <int Dim>
 std::vector<double> expansion_in(const MixedStep<Dim>& step, const Grid<Dim>& grid,
                                  const FlowCoefficients<Dim>& coefficients,
@@ -52,7 +52,7 @@ std::vector<double> expansion_in(const MixedStep<Dim>& step, const Grid<Dim>& gr
   return result;
 }
 
-/// Throws NumericalError: this mass of water, kg, is not the one that fits the element's pores.
+/// Throws NumericalError: this mass of water, kg, does not fit the element's pores.
 template <int Dim>
 [[noreturn]] void refuse_misfit(const Grid<Dim>& grid, std::size_t element, double time,
                                 double water_mass, double fits, double pressure) {
@@ -69,10 +69,10 @@ template <int Dim>
 template <int Dim>
 std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, double dt) const {
   if (std::isinf(this->scene().liquid.bulk_modulus) || scheme_.is_nonlinear()) return {};
-  // Soil that moves has steps that are short against what a flow needs to fill an element.
+  // Steps of moving soil are short compared with the time in which the flow fills an element.
   if (solid_.moves()) return {};
   const std::vector<double>& holds = this->coefficients_.water_volume;
-  // The flux of the step itself counts: a flow from rest has none at its start.
+  // Use the flux of the step itself, as a flow from rest has none at its start.
   const double passes = largest_magnitude(step.face_volume) / std::ranges::min(holds);
   if (passes < implicit_thresholds.expansion_time) return {};
   std::vector<double> excess =
@@ -118,12 +118,12 @@ template <int Dim>
 bool ImplicitFlow<Dim>::take_steady_flow(std::vector<double> source) {
   MixedStep<Dim> steady = scheme_.steady({this->coefficients_, this->conditions_, source});
   if (!reuse_.is_close(now_.face_flux, steady.face_flux, scales_.flux)) {
-    // The flow is changing again and has to be followed.
+    // The flow changes again, so it must be solved.
     reuse_.stop();
     return false;
   }
   relaxation_.set_source(std::move(source));
-  // Element pressures follow with the next step: the mismatch is that at the present ones.
+  // Element pressures are updated with the next step, as the mismatch is that at the present ones.
   replace_flow(std::move(steady));
   return true;
 }
@@ -131,8 +131,7 @@ bool ImplicitFlow<Dim>::take_steady_flow(std::vector<double> source) {
 template <int Dim>
 void ImplicitFlow<Dim>::update_steady_flow() {
   std::vector<double> source = relaxation_.wanted_source(control_.last_step(), filling_time());
-  // Relative to the flow that there is: a source that was right for a faster one would fill or
-  // drain the elements of a slow one in time.
+  // Relative to the present flow: the sources of a faster one would fill or drain elements in time.
   if (reuse_.needs_update(relaxation_.source(), source, largest_magnitude(now_.face_flux))) {
     take_steady_flow(std::move(source));
   }
@@ -150,8 +149,8 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
         water_mass[e] / (liquid.density * density_ratio(pressure_[e], liquid.bulk_modulus));
     if (!(fills > 0.0)) this->refuse_dry(static_cast<int>(e), time);
     mismatch[e] = fills - volume[e];
-    // The error is relative to the pores: where fines leave next to no room for water, one relative
-    // to the water says nothing.
+    // Relative to the pores: where fines leave hardly any room for water, an error relative to the
+    // water has no meaning.
     const double pores = this->coefficients_.porosity[e] * this->grid().volume[e];
     const double error = std::abs(mismatch[e]) / pores;
     if (error > eos_error_) {
@@ -165,8 +164,8 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
         liquid.density * volume[worst] * density_ratio(pressure_[worst], liquid.bulk_modulus);
     refuse_misfit(this->grid(), worst, time, water_mass[worst], fits, pressure_[worst]);
   }
-  // Water without compressibility fits by construction; its round-off has nowhere to go.
-  // Air that moves with the soil takes the place of what does not fit.
+  // Incompressible water fits by construction, and its round-off cannot leave. Air that moves with
+  // the soil makes up for the mismatch.
   if (std::isinf(liquid.bulk_modulus) || air_fits) return;
   relaxation_.observe(std::move(mismatch), volume);
   if (reuse_.active()) update_steady_flow();

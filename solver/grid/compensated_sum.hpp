@@ -4,8 +4,8 @@
 
 namespace suffuse {
 
-/// Sums of many numbers whose round-off does not grow with their count (Neumaier's summation). Long
-/// balances close to 1e-12 because of it.
+/// Sum of many numbers whose round-off does not grow with their count (Neumaier's summation). It
+/// makes long balances close to 1e-12.
 class CompensatedSum {
  public:
   static constexpr bool has_no_gaps = true;  ///< see StateArchive
@@ -17,7 +17,7 @@ class CompensatedSum {
     sum_ = sum;
   }
   [[nodiscard]] double value() const { return sum_ + correction_; }
-  /// The difference of two sums, with the digits that each value alone is too long for.
+  /// The difference of two sums, with digits that each value alone cannot hold.
   [[nodiscard]] double minus(const CompensatedSum& other) const {
     return (sum_ - other.sum_) + (correction_ - other.correction_);
   }

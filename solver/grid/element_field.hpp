@@ -21,7 +21,7 @@ using ElementField = std::vector<ElementValues<Dim>>;
 
 template <int Dim>
 struct FieldNodes {
-  /// Barycentric coordinates of field node j: `near` at vertex j, `far` at the others.
+  /// Barycentric coordinates of field node j: `near_vertex` for vertex j, `far_vertex` for others.
   static constexpr double near_vertex = Dim == 2 ? 2.0 / 3.0 : 0.58541019662496845446;
   static constexpr double far_vertex = Dim == 2 ? 1.0 / 6.0 : 0.13819660112501051518;
   static constexpr double spread = near_vertex - far_vertex;
@@ -68,7 +68,7 @@ double element_sum(const ElementValues<Dim>& values) {
   return sum;
 }
 
-/// That of each element.
+/// Sum over the nodes of each element.
 template <int Dim>
 std::vector<double> element_sums(const ElementField<Dim>& field) {
   std::vector<double> result;

@@ -1,15 +1,15 @@
 #pragma once
 
-/// Fluxes through faces extrapolated from the last interval to times to come, for soils whose
-/// erosion depends on the flux.
+/// Extrapolates fluxes through faces from the last interval to later times, for soils whose erosion
+/// depends on the flux.
 
 #include <algorithm>
 #include <vector>
 
 namespace suffuse {
 
-/// Volumes through faces per second over the last interval: its mean, and at its end. Both along
-/// each face's normal, m3/s.
+/// Volumes through faces per second in the last interval, along each face's normal, m3/s: mean, and
+/// at its end.
 struct FluxHistory {
   std::vector<double> mean;
   std::vector<double> end;
@@ -17,8 +17,8 @@ struct FluxHistory {
 
   void archive(auto& archive) { archive(mean, end, duration); }
 
-  /// Mean rates over the next `ahead` seconds: linear through the interval's mean and end, for no
-  /// more than a few times its duration.
+  /// Mean rates over the next `ahead` seconds: linear through the interval's mean and end, but for
+  /// at most a few times its duration.
   [[nodiscard]] std::vector<double> extrapolated(double ahead) const {
     constexpr double max_durations = 4.0;
     const double share = std::min(ahead / duration, max_durations);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The flux at a place in an element, from the fluxes through its faces: the field of lowest order
-/// of Raviart and Thomas.
+/// The flux at a place in an element from the fluxes through its faces: the Raviart-Thomas field of
+/// lowest order.
 
 #include <vector>
 

@@ -7,7 +7,7 @@
 namespace suffuse {
 namespace {
 
-/// Circles no larger than this share of an element are as good as a point.
+/// Circles up to this share of an element count as a point.
 constexpr double small_circle = 0.01;
 
 /// log(1 + x) / x, 1 at 0.
@@ -20,8 +20,8 @@ double exp_quotient(double x) {
   return x != 0.0 ? std::expm1(x) / x : 1.0;
 }
 
-/// Porosity of an element from a share of the interval on, linear in time, and the clock
-/// tau = integral of ds/n.
+/// Porosity of an element, linear in time from a share of the interval on, and the clock tau =
+/// integral of ds/n.
 struct PorosityInTime {
   double now;
   double growth_rate;
@@ -34,7 +34,7 @@ struct PorosityInTime {
   }
 };
 
-/// What moves a point in one element, in the element's clock.
+/// Motion of a point in one element, as a function of the element's clock.
 template <int Dim>
 struct ElementFlow {
   std::array<double, Dim + 1> out;  ///< V_k / (Dim |e|)
@@ -48,18 +48,18 @@ struct ElementFlow {
     }
   }
 
-  /// When the face opposite vertex k is reached, infinity for never.
+  /// Clock at which the face opposite vertex k is reached; infinity: never.
   [[nodiscard]] double exit(int k, double coordinate) const {
     constexpr double never = std::numeric_limits<double>::infinity();
     if (!(out[k] > 0.0)) return never;
     const double straight = std::max(0.0, coordinate) / out[k];
-    // A flux that has hardly arrived may be too small to divide by.
+    // A tiny flux may be too small to divide by.
     if (!std::isfinite(straight)) return never;
     const double bent = sum * straight;
     return bent < 1.0 ? straight * log_quotient(-bent) : never;
   }
 
-  /// Length of the path from a place, m: exact where it is straight, otherwise by Gauss' rule with
+  /// Length of the path from a place, m: exact if it is straight, otherwise by Gauss' rule with
   /// three places.
   [[nodiscard]] double path_length(const Mesh<Dim>& mesh, int e,
                                    const std::array<double, Dim + 1>& from, double clock) const {
@@ -83,14 +83,14 @@ struct ElementFlow {
   }
 };
 
-/// Notices walks around a node or, in three dimensions, around an edge: where the flow turns around
-/// one, circles are crossed the faster the smaller they are, without end on it.
+/// Detects walks around a node or, in three dimensions, an edge: if the flow rotates around it,
+/// smaller circles are crossed faster, without limit.
 template <int Dim>
 class Circling {
  public:
   explicit Circling(const Grid<Dim>& grid) : grid_(grid) { common_.fill(none); }
 
-  /// `place` has come onto the face opposite its local vertex `vertex`.
+  /// Call when `place` has reached the face opposite its local vertex `vertex`.
   void crossed(const PointPlace<Dim>& place, int vertex) {
     const auto& nodes = grid_.mesh.elements[place.element];
     bool any = false;
@@ -118,7 +118,7 @@ class Circling {
  private:
   static constexpr int none = -1;
   const Grid<Dim>& grid_;
-  std::array<int, Dim> common_;  ///< nodes of every face crossed of late, in any order
+  std::array<int, Dim> common_;  ///< common to all faces crossed recently, in any order
   int crossings_ = 0;            ///< of faces with these nodes
 };
 
@@ -133,7 +133,7 @@ int walk_along_faces(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, Poi
     const int e = place.element;
     const double change = field.porosity_end[e] - field.porosity_start[e];
     const PorosityInTime porosity{field.porosity_start[e] + now * change, change};
-    // Too small a circle to follow: the point stays, and only its element's porosity goes on.
+    // The circle is too small to follow: the point stays, and only the porosity changes.
     const bool stays = crossing == max_crossings && circling.in_a_small_circle(place);
     if (crossing == max_crossings && !stays) break;
 
@@ -149,7 +149,7 @@ int walk_along_faces(const Grid<Dim>& grid, const FaceWalkField<Dim>& field, Poi
     const double shares = exit < 0 ? to - now : porosity.shares(clock);
     const auto start = place.barycentric;
     if (!stays) place.barycentric = flow.moved(start, clock);
-    // Round-off must not leave the point a hair outside.
+    // Round-off must not leave the point slightly outside.
     if (exit >= 0) put_on_face(place.barycentric, exit);
     for (int k = 0; k <= Dim; ++k) {
       if (place.barycentric[k] < 0.0) put_on_face(place.barycentric, k);

@@ -23,14 +23,14 @@ void invert(const Entities& nodes_of, int node_count, std::vector<int>& begin,
   }
 }
 
-/// Faces of which one element is known, in a list for each smallest node. A face leaves its list
-/// with its second element, so lists stay short.
+/// Faces with one known element, in a list for each smallest node. A face leaves its list with its
+/// second element, so lists stay short.
 template <int Dim>
 class OpenFaces {
  public:
   explicit OpenFaces(int node_count) : first_(node_count, -1) {}
 
-  /// Takes out the face with these nodes (ascending); -1 when there is none.
+  /// Removes and returns the face with these nodes (ascending); -1 if there is none.
   int take(const std::array<int, Dim>& nodes, const std::vector<std::array<int, Dim>>& face_nodes) {
     for (int* link = &first_[nodes[0]]; *link >= 0; link = &next_[*link]) {
       const int face = *link;
@@ -40,7 +40,7 @@ class OpenFaces {
     }
     return -1;
   }
-  /// Puts in the face that comes after those so far.
+  /// Adds the next face.
   void put(int smallest_node) {
     next_.push_back(first_[smallest_node]);
     first_[smallest_node] = static_cast<int>(next_.size()) - 1;

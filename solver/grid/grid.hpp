@@ -1,7 +1,7 @@
 #pragma once
 
-/// The mesh with its faces, volumes, gradients and neighbours, made once from the mesh. Local face
-/// k of an element lies opposite its vertex k.
+/// The mesh with its faces, volumes, gradients and neighbors. Local face k of an element is
+/// opposite its vertex k.
 
 #include <algorithm>
 #include <array>
@@ -16,19 +16,19 @@ template <int Dim>
 struct Grid {
   explicit Grid(const Mesh<Dim>& mesh);
 
-  /// Face of the grid with exactly these nodes, in any order; -1 when there is none.
+  /// Face of the grid with exactly these nodes, in any order; -1 if there is none.
   [[nodiscard]] int find_face(std::array<int, Dim> nodes) const;
   [[nodiscard]] Vector<Dim> face_centre(int face) const;
-  /// Whether a face has one element. Sides of a wall are outer faces too.
+  /// Whether a face has one element only, as the sides of a wall have.
   [[nodiscard]] bool is_outer(int face) const { return face_right[face] < 0; }
-  /// Whether nothing of the model lies beyond a face: an outer face without a partner.
+  /// Whether the model ends at a face: an outer face without a partner.
   [[nodiscard]] bool is_border(int face) const { return is_outer(face) && face_partner[face] < 0; }
   /// Element beyond a face as seen from its left one, through a wall too; -1 at the border.
   [[nodiscard]] int beyond(int face) const {
     return face_partner[face] < 0 ? face_right[face] : face_left[face_partner[face]];
   }
-  /// Makes each pair of outer faces, which lie at the same place, the two sides of a passage:
-  /// what leaves by one enters by the other.
+  /// Joins each pair of outer faces, which are at one place, as the two sides of a passage: what
+  /// leaves by one enters by the other.
   void join_faces(const std::vector<std::array<int, 2>>& pairs);
   [[nodiscard]] int face_count() const { return static_cast<int>(face_left.size()); }
   /// Normal of an element's local face `k`, times its area, pointing out of the element.
@@ -48,7 +48,7 @@ struct Grid {
 
   const Mesh<Dim>& mesh;
 
-  std::vector<double> volume;  ///< per element, m3 (per metre of thickness in 2D)
+  std::vector<double> volume;  ///< per element, m3 (per meter of thickness in 2D)
   std::vector<std::array<Vector<Dim>, Dim + 1>> shape_gradient;  ///< 1/m
   std::vector<double> node_volume;  ///< share of the elements' volume per node
 
@@ -64,7 +64,7 @@ struct Grid {
   /// Faces of node i: node_face[node_face_begin[i] .. node_face_begin[i + 1]).
   std::vector<int> node_face_begin;
   std::vector<int> node_face;
-  /// Elements of node i, likewise.
+  /// Elements of node i, in the same form.
   std::vector<int> node_element_begin;
   std::vector<int> node_element;
 };

@@ -7,11 +7,11 @@
 namespace suffuse {
 namespace {
 
-/// A place so little outside an element, in barycentric coordinates, belongs to it: a point on a
-/// face does not leave the mesh by round-off.
+/// A place outside an element by less than this, in barycentric coordinates, belongs to it, so that
+/// a point on a face does not leave the mesh by round-off.
 constexpr double on_face = 1e-12;
-/// Soil may rise over the border of the mesh by this share of the height of the element there,
-/// which its points then still belong to.
+/// Soil may rise above the border of the mesh by this share of the height of the element there, to
+/// which its points then still belong.
 constexpr double over_border = 0.5;
 
 template <int Dim>
@@ -19,7 +19,7 @@ double least_barycentric(const Grid<Dim>& grid, int element, const Vector<Dim>& 
   return std::ranges::min(barycentric(grid.mesh, element, x));
 }
 
-/// The element with a node of this one that holds a place; -1 where there is none.
+/// The element with a node of this one that holds a place; -1 if there is none.
 template <int Dim>
 int neighbour_at(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
   for (const int i : grid.mesh.elements[element]) {
@@ -40,7 +40,7 @@ int element_at(const Grid<Dim>& grid, int start, const Vector<Dim>& x) {
     const auto lowest = std::ranges::min_element(at);
     if (*lowest >= -on_face) return e;
     const int next = grid.across(e, static_cast<int>(lowest - at.begin()));
-    if (next < 0) break;  // outside, or beyond a corner of the border that points inwards
+    if (next < 0) break;  // outside, or beyond an inward corner of the border
     e = next;
   }
   const int neighbour = neighbour_at(grid, e, x);

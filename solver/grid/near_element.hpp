@@ -6,8 +6,8 @@
 
 namespace suffuse {
 
-/// The element that holds a place, from an element nearby, or the one at the border that the place
-/// lies little over, with a barycentric coordinate down to -0.5; -1 farther outside the mesh.
+/// The element that holds a place, found from an element nearby. A place outside, with a
+/// barycentric coordinate down to -0.5, belongs to the element at the border; farther outside: -1.
 template <int Dim>
 int element_at(const Grid<Dim>& grid, int start, const Vector<Dim>& x);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Loops shared among threads. The body at an index writes to that index alone, so results are
-/// the same, bit by bit, on any number of threads. For sources that compile with OpenMP.
+/// Loops shared among threads. The body at an index writes to that index only, so results have the
+/// same bits on any number of threads. For sources that compile with OpenMP.
 
 #include <omp.h>
 
@@ -14,9 +14,9 @@ namespace suffuse {
 /// A loop of fewer indices takes less time than waking the threads.
 inline constexpr int worth_threads = 4096;
 
-/// One piece of machine code for a loop, whoever runs it: compiled twice, products and sums might
-/// be fused in one copy and not in the other, and differ in their last bit. (Clang does not copy
-/// functions, and does not know the word.)
+/// One copy of the machine code of a loop, whoever runs it: in two copies the compiler might fuse
+/// products and sums differently, and the last bit would differ. (Clang does not clone functions,
+/// and does not know the attribute.)
 template <class Loop>
 #ifdef __clang__
 [[gnu::noinline]]
@@ -27,9 +27,9 @@ void run_part(const Loop& loop, int begin, int end) {
   loop(begin, end);
 }
 
-/// Calls `loop(begin, end)` for parts that together are [0, count). A loop that one thread runs
-/// does not enter OpenMP, which would call the operating system for nothing. Throws DeadlinePassed
-/// where this thread has a deadline that is over.
+/// Calls `loop(begin, end)` for parts that together are [0, count). A loop for one thread does not
+/// enter OpenMP, which would call the operating system for nothing. Throws DeadlinePassed if the
+/// deadline of this thread is over.
 template <class Loop>
 void share_among(int threads, int count, int worth, const Loop& loop) {
   if (omp_in_parallel() == 0) Deadline::check();
@@ -46,7 +46,7 @@ void share_among(int threads, int count, int worth, const Loop& loop) {
   }
 }
 
-/// Calls `body(i)` for each i in [0, count), alone where these are fewer than `worth`.
+/// Calls `body(i)` for each i in [0, count), on one thread if these are fewer than `worth`.
 template <class Body>
 void for_each_index(int count, int threads, const Body& body, int worth = worth_threads) {
   share_among(threads, count, worth, [&](int begin, int end) {
@@ -54,7 +54,7 @@ void for_each_index(int count, int threads, const Body& body, int worth = worth_
   });
 }
 
-/// The largest `value(i)`, or `least` where none is larger: the same in any order.
+/// The largest `value(i)`, or `least` if none is larger; independent of the order.
 template <class Value>
 double largest_of(int count, int threads, double least, const Value& value) {
   double largest = least;
@@ -67,7 +67,7 @@ double largest_of(int count, int threads, double least, const Value& value) {
   return largest;
 }
 
-/// The smallest `value(i)`, or `most` where none is smaller.
+/// The smallest `value(i)`, or `most` if none is smaller.
 template <class Value>
 double smallest_of(int count, int threads, double most, const Value& value) {
   return -largest_of(count, threads, -most, [&](int i) { return -value(i); });

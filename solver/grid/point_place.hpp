@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where a point is in a mesh, and how it gets from one element into the next.
+/// The place of a point in a mesh, and its passage from one element into the next.
 
 #include <algorithm>
 #include <sstream>
@@ -34,7 +34,7 @@ Value interpolate(const Grid<Dim>& grid, const PointPlace<Dim>& place,
   return value;
 }
 
-/// Onto the face opposite local vertex `vertex`, and exactly so; the coordinates add up to one.
+/// Moves a point exactly onto the face opposite local vertex `vertex`; coordinates sum to one.
 template <std::size_t Count>
 void put_on_face(std::array<double, Count>& at, int vertex) {
   at[vertex] = 0.0;
@@ -62,10 +62,10 @@ PointPlace<Dim> across(const Grid<Dim>& grid, const PointPlace<Dim>& place, int 
   return there;
 }
 
-/// A point that crosses so many faces in one step moves in a circle.
+/// A point that crosses this number of faces in one step moves in a circle.
 inline constexpr int max_crossings = 10000;
 
-/// Throws NumericalError for a point that crosses faces without end; `id`: of the point.
+/// Throws NumericalError for point `id`, which crosses faces without end.
 template <int Dim>
 [[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {
   std::ostringstream message;

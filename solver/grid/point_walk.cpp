@@ -25,12 +25,12 @@ Barycentric<Dim> rates(const Grid<Dim>& grid, int element, const Vector<Dim>& ve
   return result;
 }
 
-/// Takes away what points out through the faces that hold the point.
+/// Removes the part of a velocity that points out through the faces that hold the point.
 template <int Dim>
 Vector<Dim> along_walls(const Grid<Dim>& grid, int element, Vector<Dim> velocity,
                         const std::array<bool, Dim + 1>& held) {
   if (std::ranges::find(held, true) == held.end()) return velocity;
-  // Two faces at an acute corner push into each other: a few rounds leave what both allow.
+  // Two faces at an acute corner push into each other: a few rounds satisfy both.
   for (int round = 0; round <= 2 * Dim; ++round) {
     for (int a = 0; a <= Dim; ++a) {
       const Vector<Dim>& inward = grid.shape_gradient[element][a];
@@ -54,7 +54,7 @@ Barycentric<Dim> moved(const Barycentric<Dim>& from, const Barycentric<Dim>& rat
   return to;
 }
 
-/// A straight piece of the path: how long it takes and through which face it ends, -1 for none.
+/// A straight piece of the path: its duration, and the face at its end, -1 for none.
 template <int Dim>
 struct Piece {
   Barycentric<Dim> rate;
@@ -70,7 +70,7 @@ Piece<Dim> first_exit(const Barycentric<Dim>& from, const Barycentric<Dim>& rate
     if (held[a] || rate[a] >= 0.0) continue;
     const double exit = std::max(0.0, from[a]) / -rate[a];
     if (exit > piece.time) continue;
-    // At a vertex several faces are reached at once: the one that is left fastest.
+    // At a vertex several faces are reached at once: take the one that is left fastest.
     if (exit < piece.time || piece.face < 0 || rate[a] < rate[piece.face]) piece.face = a;
     piece.time = exit;
   }
@@ -89,7 +89,7 @@ int walk(const Grid<Dim>& grid, const WalkField<Dim>& field, PointPlace<Dim>& pl
     const auto rate_at = [&](const Barycentric<Dim>& at) {
       return rates<Dim>(grid, e, along_walls(grid, e, velocity_at(grid, field, e, at), held));
     };
-    // The velocity half-way along the piece; again once its length is known.
+    // Use the velocity half-way along the piece, again once its length is known.
     const auto start = rate_at(place.barycentric);
     auto piece = first_exit<Dim>(place.barycentric,
                                  rate_at(moved<Dim>(place.barycentric, start, 0.5 * remaining)),
@@ -99,14 +99,14 @@ int walk(const Grid<Dim>& grid, const WalkField<Dim>& field, PointPlace<Dim>& pl
                               rate_at(moved<Dim>(place.barycentric, piece.rate, 0.5 * piece.time)),
                               remaining, held);
     }
-    // Out at once by an extrapolated velocity: the one at the point itself decides, or two elements
-    // could hand the point to each other without end.
+    // If an extrapolated velocity leads out at once, use that at the point itself, as two elements
+    // could otherwise pass the point to each other without end.
     if (piece.face >= 0 && piece.time == 0.0) {
       piece = first_exit<Dim>(place.barycentric, start, remaining, held);
     }
     place.barycentric = moved<Dim>(place.barycentric, piece.rate, piece.time);
     if (piece.face < 0) {
-      // Round-off must not leave the point a hair outside.
+      // Round-off must not leave the point slightly outside.
       for (int a = 0; a <= Dim; ++a) {
         if (place.barycentric[a] < 0.0) put_on_face(place.barycentric, a);
       }

@@ -8,9 +8,8 @@
 
 namespace suffuse {
 
-/// A flux that is continuous and linear in each element, and what divides it there: points move
-/// with flux / porosity. At a jump of porosity the velocity jumps with it, on the face and nowhere
-/// else.
+/// A flux that is continuous and linear in each element, and the porosity: points move with flux /
+/// porosity. At a jump of porosity the velocity jumps on the face only.
 template <int Dim>
 struct WalkField {
   const std::vector<Vector<Dim>>& node_flux;  ///< m/s
@@ -20,15 +19,15 @@ struct WalkField {
 };
 
 /// Walks `place` for `duration` seconds. Within an element the path is straight, at the velocity of
-/// its midpoint (second order). At an impervious face the point slides along it. Returns the outer
-/// face by which it left, with the place on that face, or -1. Throws NumericalError when the point
-/// crosses faces without end; `id` is for the message.
+/// its midpoint (second order). The point slides along impervious faces. Returns the outer face by
+/// which it left, with the place on that face, or -1. Throws NumericalError if the point crosses
+/// faces without end; `id` is for the message.
 template <int Dim>
 int walk(const Grid<Dim>& grid, const WalkField<Dim>& field, PointPlace<Dim>& place,
          double duration, long id);
 
-/// Most that one barycentric coordinate in any element changes per second, 1/s: its inverse is
-/// about the time in which a point crosses the element.
+/// Largest rate of change of a barycentric coordinate in the element, 1/s: its inverse is about the
+/// time in which a point crosses the element.
 template <int Dim>
 double crossing_rate(const Grid<Dim>& grid, const WalkField<Dim>& field, int element);
 

@@ -9,7 +9,7 @@
 namespace suffuse {
 namespace {
 
-/// A place so little outside an element, in barycentric coordinates, is on its boundary.
+/// A place outside an element by less than this, in barycentric coordinates, is on its boundary.
 constexpr double on_boundary = 1e-9;
 
 /// The coordinates of both ends of a line in an element that the line may touch.
@@ -26,8 +26,8 @@ struct Candidate {
     }
     return least;
   }
-  /// Whether a piece of the line lies in the element or runs along its boundary, by the depth of
-  /// its middle. Short pieces that lead away from the boundary do neither.
+  /// Whether a piece of the line is in the element or runs along its boundary, by the depth of its
+  /// middle. Short pieces that lead away from the boundary do neither.
   [[nodiscard]] bool holds(double middle, double part) const {
     constexpr double along = 1e-3;
     double passed = 0.0;
@@ -92,7 +92,7 @@ SectionLine::SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vecto
     const double part = shares[i + 1] - shares[i];
     const double middle = 0.5 * (shares[i] + shares[i + 1]);
     if (part <= 0.0) continue;
-    // One element for each piece, though a line along faces has two at hand.
+    // Use one element for each piece; a line along faces has two.
     const auto best = std::ranges::max_element(candidates, {},
                                                [&](const Candidate& c) { return c.depth(middle); });
     if (best == candidates.end() || !best->holds(middle, part)) continue;

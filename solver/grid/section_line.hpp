@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where places and lines lie in a mesh, and the liquid that crosses a line.
+/// Places and lines in a mesh, and the liquid that crosses a line.
 
 #include <optional>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace suffuse {
 
-/// The element that holds a place; of several that share it, the first of those in which it lies
-/// deepest. Nothing where it is outside the mesh.
+/// The element that holds a place; if several do, the first of those in which it is deepest.
+/// Nothing if it is outside the mesh.
 template <int Dim>
 std::optional<PointPlace<Dim>> find_place(const Grid<Dim>& grid, const Vector<Dim>& x);
 
-/// A straight line through the mesh, as a sum over faces: the flux in an element is linear
-/// (`flux_at`), so the midpoint of each piece of the line gives exactly what crosses the piece.
-/// Where the line runs along faces, each stretch counts once; parts outside the mesh count nothing.
+/// A straight line through the mesh, as a sum over faces. The flux in an element is linear
+/// (`flux_at`), so the midpoint of each piece of the line gives its flux exactly. Where the line
+/// runs along faces, each piece counts once; parts outside the mesh do not count.
 class SectionLine {
  public:
   SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vector<2>& to);
@@ -32,7 +32,7 @@ class SectionLine {
     int face;
     double weight;
   };
-  std::vector<FaceWeight> weights_;  ///< by face
+  std::vector<FaceWeight> weights_;  ///< ascending by face
   double length_ = 0.0;
 };
 

@@ -16,8 +16,8 @@ Eigen::VectorXd AndersonMixing::next(const Eigen::VectorXd& x, const Eigen::Vect
   last_residual_ = residual;
   const auto count = static_cast<Eigen::Index>(changes_of_g_.size());
   if (count == 0) return g;
-  // Least squares of the residual by its changes, orthogonalised one after the other (modified Gram
-  // and Schmidt). Not by Eigen's QR: Gmsh brings its own copy of that, built for another processor.
+  // Least squares of the residual by its changes, by modified Gram-Schmidt. Eigen's QR is not used:
+  // Gmsh brings its own copy of that, built for another processor.
   std::vector<Eigen::VectorXd> basis;
   std::vector<Eigen::VectorXd> basis_of_g;
   Eigen::VectorXd result = g;

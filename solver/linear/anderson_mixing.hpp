@@ -1,7 +1,7 @@
 #pragma once
 
-/// Acceleration of an iteration x -> g(x) that comes to its end slowly (Anderson 1965; Walker and
-/// Ni, SIAM J. Numer. Anal. 49 (2011) 1715). Where g is linear this is GMRES.
+/// Acceleration of a slowly converging iteration x -> g(x) (Anderson 1965; Walker and Ni, SIAM J.
+/// Numer. Anal. 49 (2011) 1715). If g is linear this is GMRES.
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,10 +10,10 @@ namespace suffuse {
 
 class AndersonMixing {
  public:
-  /// Remembers so many iterations.
+  /// Uses the last `depth` iterations.
   explicit AndersonMixing(int depth) : depth_(depth) {}
 
-  /// Next place of the iteration, from x and g(x).
+  /// Next x of the iteration, from x and g(x).
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& g);
 
  private:

@@ -15,7 +15,7 @@ void CholeskyFactor::factorise(const Eigen::SparseMatrix<double>& matrix) {
 }
 
 void CholeskyFactor::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) {
-  // L without its diagonal, which is one.
+  // L without its unit diagonal.
   const Eigen::SparseMatrix<double>& lower = factor_.matrixL().nestedExpression();
   const int* first = lower.outerIndexPtr();
   const int* row = lower.innerIndexPtr();

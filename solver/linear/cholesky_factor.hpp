@@ -9,8 +9,8 @@
 namespace suffuse {
 
 /// L D L^T by Eigen, with unknowns ordered by approximate minimum degree. Substitution is written
-/// here, as plain loops over the columns of L: they take half the time of Eigen's, and substitution
-/// is most of what conjugate gradients cost (docs/architecture.md has the numbers).
+/// here as plain loops over the columns of L: they take half the time of Eigen's, and are most of
+/// the cost of conjugate gradients (docs/architecture.md has the numbers).
 class CholeskyFactor final : public Factor {
  public:
   void factorise(const Eigen::SparseMatrix<double>& matrix) override;
@@ -18,7 +18,7 @@ class CholeskyFactor final : public Factor {
 
  private:
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  bool ordered_ = false;      ///< whether the pattern is known
+  bool ordered_ = false;      ///< whether the pattern has been analyzed
   Eigen::VectorXd permuted_;  ///< unknowns in the order of the factor
 };
 

@@ -30,8 +30,8 @@ double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b, int threads) {
 bool ConjugateGradients::solve(const SymmetricSystem& system, Factor& preconditioner,
                                Eigen::VectorXd& x) {
   iterations_ = 0;
-  // Iterations update the residual rather than compute it, and the two drift apart: start again
-  // from the true one where they have.
+  // Iterations update the residual instead of computing it. Start again from the true residual if
+  // the two have drifted apart.
   while (true) {
     residual_.compute(system, x);
     if (residual_.is_allowed()) return true;
@@ -58,7 +58,7 @@ bool ConjugateGradients::iterate(const SymmetricSystem& system, Factor& precondi
     if (last_product == 0.0) {
       direction_ = preconditioned_;
     } else {
-      // What the factor makes of the earlier residual is orthogonal only where it is linear.
+      // A nonlinear factor does not keep its result orthogonal to the earlier residual.
       const double fresh = product - (flexible ? dot(earlier_, preconditioned_, threads_) : 0.0);
       const double share = fresh / last_product;
       for_each_index(rows, threads_,

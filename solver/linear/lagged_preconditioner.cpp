@@ -10,15 +10,15 @@
 namespace suffuse {
 namespace {
 
-/// Multigrid takes 15 to 60.
+/// Multigrid takes 15 to 60 iterations.
 constexpr int max_patient_iterations = 1000;
 
-/// Copies into memory that is there already.
+/// Copies without new memory if there is enough.
 void copy_values(const Eigen::SparseMatrix<double>& matrix, std::vector<double>& values) {
   values.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
 }
 
-/// Whether these are the values of the matrix; no values are those of none.
+/// Whether these are the values of the matrix; false if there are none.
 bool are_values_of(const std::vector<double>& values, const Eigen::SparseMatrix<double>& matrix) {
   return !values.empty() && std::equal(values.begin(), values.end(), matrix.valuePtr());
 }
@@ -53,7 +53,7 @@ void LaggedPreconditioner::factorise(const Matrix& matrix) {
 
 Eigen::VectorXd LaggedPreconditioner::solve_directly(const SymmetricSystem& system) {
   if (!factor_->is_exact()) {
-    // What residuals are allowed follows from the size of the solution: a first one is needed.
+    // Allowed residuals depend on the size of the solution, so a first one is needed.
     Eigen::VectorXd solution = system.guess;
     residual_.compute(system, solution);
     if (residual_.is_allowed()) return solution;
@@ -91,7 +91,7 @@ Eigen::VectorXd LaggedPreconditioner::solve(const SymmetricSystem& system) {
   const bool repeated = are_values_of(iterated_values_, matrix);
   if (!repeated) repeated_iterations_ = 0;
   const bool factored = are_values_of(factored_values_, matrix);
-  // What is not exact is made anew for the price of a few iterations.
+  // An inexact factor is made anew at the cost of a few iterations.
   if (factor_->is_exact() && !factored && !factored_values_.empty() &&
       last_iterations_ <= limits_.tiring_iterations &&
       repeated_iterations_ < limits_.repeated_iterations) {

@@ -1,7 +1,6 @@
 #pragma once
 
-/// Solves a sequence of similar symmetric positive definite systems with as few factorisations as
-/// it takes.
+/// Solves a sequence of similar symmetric positive definite systems with few factorizations.
 
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -13,7 +12,7 @@
 
 namespace suffuse {
 
-/// What the linear systems of a run took.
+/// Counts of the linear solutions of a run.
 struct SolveCounts {
   static constexpr bool has_no_gaps = true;  ///< see StateArchive
   long factorisations = 0;
@@ -38,21 +37,21 @@ std::unique_ptr<Factor> flow_factor(int dimension, int faces);
 /// The factor for systems of Newton's method on such a mesh, whose matrix changes each time.
 std::unique_ptr<Factor> newton_factor(int dimension, int faces);
 
-/// When a matrix that has changed is factored anew. A factorisation costs about ten iterations.
+/// Limits beyond which a changed matrix is factored anew. That costs about ten iterations.
 struct LagLimits {
-  /// Limits of one solution: where it would take more, or goes too slowly, the matrix is factored.
+  /// Limits of one solution: if it takes more, or is too slow, the matrix is factored.
   IterationLimits solution;
-  /// After a solution that took more than this the next changed matrix is factored at once:
-  /// matrices that drift drift on.
+  /// After a solution with more iterations than this the next changed matrix is factored at once,
+  /// as matrices that drift continue to drift.
   int tiring_iterations = 7;
-  /// A matrix that has taken this many, in solutions with one right-hand side after another, is
-  /// factored: what came so often is likely to come again.
+  /// A matrix that has taken this number of iterations, for several right-hand sides, is factored,
+  /// as it is likely to come again.
   int repeated_iterations = 10;
 };
 
-/// Keeps the factor of one matrix and the values it belongs to. A matrix with the same values is
-/// solved with it directly; one that has changed, by conjugate gradients preconditioned with it,
-/// until LagLimits say that a new factor is cheaper.
+/// Keeps the factor of one matrix and its values. A matrix with these values is solved with it
+/// directly; one that has changed, by conjugate gradients preconditioned with it, until LagLimits
+/// say that a new factor is cheaper.
 class LaggedPreconditioner {
  public:
   explicit LaggedPreconditioner(
@@ -60,15 +59,15 @@ class LaggedPreconditioner {
       std::unique_ptr<Factor> factor = std::make_unique<CholeskyFactor>());
 
   /// Solution of a system, within its tolerance or the round-off of computing a residual. A direct
-  /// solution that misses this is refined once; a factor that is not exact is iterated with. The
-  /// pattern of the matrix is the same in every call. Throws NumericalError when the matrix is not
-  /// positive definite or not finite.
+  /// solution that misses this is refined once; an inexact factor serves as preconditioner. The
+  /// pattern of the matrix is the same in every call. Throws NumericalError if the matrix is not
+  /// positive definite or not finite, or if iterations do not converge.
   Eigen::VectorXd solve(const SymmetricSystem& system);
 
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
 
-  /// Which matrix is factored decides how the next ones are solved. Its factor is made again, of
-  /// the same values and thus with the same bits; `pattern` is that of the matrices.
+  /// The factored matrix decides how later ones are solved. Its factor is made again from its
+  /// values, with the same bits; `pattern` is that of the matrices.
   void archive(auto& archive, const Eigen::SparseMatrix<double>& pattern) {
     std::vector<double> factored = factored_values_;
     archive(factored, iterated_values_);
@@ -95,10 +94,10 @@ class LaggedPreconditioner {
   LagLimits limits_;
   std::unique_ptr<Factor> factor_;
   ConjugateGradients conjugate_gradients_;
-  ConjugateGradients patient_gradients_;  ///< with a factor of the matrix itself, not exact
+  ConjugateGradients patient_gradients_;  ///< with an inexact factor of the matrix itself
   Residual residual_;
   Eigen::VectorXd correction_;
-  std::vector<double> factored_values_;  ///< empty where there is no factor
+  std::vector<double> factored_values_;  ///< empty if there is no factor
   std::vector<double> iterated_values_;  ///< of the matrix last solved by iterations
   long last_iterations_ = 0;             ///< of the last solution by iterations
   long repeated_iterations_ = 0;         ///< on the matrix of `iterated_values_`

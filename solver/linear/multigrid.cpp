@@ -10,14 +10,14 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// A level of no more unknowns is factored.
+/// A level with at most this number of unknowns is factored.
 constexpr int coarsest_size = 2000;
-/// Couplings weaker than this share of a row's strongest do not join.
+/// Couplings weaker than this share of a row's strongest one do not join unknowns.
 constexpr double strong = 0.25;
-/// One step is enough where it leaves no more than this share of the residual.
+/// A second step is left out if the first one leaves no more than this share of the residual.
 constexpr double good_step = 0.25;
 
-/// Pairs each unknown with the free one to which its coupling is the strongest.
+/// Pairs each unknown with the free one that it is coupled with most strongly.
 std::vector<int> pairs_of(const Matrix& matrix, int& count) {
   const int* first = matrix.outerIndexPtr();
   const int* column = matrix.innerIndexPtr();

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Multigrid by aggregation (Notay, Electron. Trans. Numer. Anal. 37 (2010) 123): for the large
-/// systems of three dimensions, whose direct factor takes too much time and memory.
+/// Multigrid by aggregation (Notay, Electron. Trans. Numer. Anal. 37 (2010) 123), for large systems
+/// in three dimensions, whose direct factor takes too much time and memory.
 
 #include <memory>
 #include <vector>
@@ -11,9 +11,9 @@
 namespace suffuse {
 
 /// Each level joins up to four unknowns of the one above, those with the strongest couplings; the
-/// coarsest is factored. One solution is a cycle: Gauss-Seidel down and up, and two steps of
-/// conjugate gradients on each coarse level, so that it is good for any number of levels and any
-/// contrast of conductivities. It only comes near matrix^-1 rhs.
+/// coarsest is factored. One solution is a cycle: Gauss-Seidel forward and backward, and two steps
+/// of conjugate gradients on each coarse level, so that it is efficient with any number of levels
+/// and any contrast of conductivities. It only approximates matrix^-1 rhs.
 class Multigrid final : public Factor {
  public:
   void factorise(const Eigen::SparseMatrix<double>& matrix) override;
@@ -24,14 +24,14 @@ class Multigrid final : public Factor {
   using Matrix = Eigen::SparseMatrix<double>;
   struct Level {
     Matrix matrix;
-    std::vector<int> aggregate;  ///< of each unknown, the one of the next level
+    std::vector<int> aggregate;  ///< of each unknown: its unknown in the next level
     Eigen::VectorXd diagonal;
     Eigen::VectorXd rhs, x, residual, direction, image, second, second_image;
   };
 
   void smooth(const Level& level, const Eigen::VectorXd& rhs, bool forward,
               Eigen::VectorXd& x) const;
-  /// One cycle from `number` on, into x.
+  /// One cycle from level `number` on, into x.
   void cycle(std::size_t number, const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
   /// Two steps of conjugate gradients with `levels_[number].rhs`, into its x.
   void solve_coarse(std::size_t number);

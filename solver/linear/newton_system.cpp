@@ -12,7 +12,7 @@ namespace {
 constexpr int max_iterations = 60;
 constexpr double tangent_accuracy = 1e-4;
 
-/// The factor, as Eigen's iterations call a preconditioner.
+/// The factor with the interface of Eigen's preconditioners.
 class FactorPreconditioner {
  public:
   template <class Matrix>
@@ -39,9 +39,9 @@ class FactorPreconditioner {
 
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The factor of the symmetric matrix, then Gauss-Seidel down and up with the matrix itself: where
-/// water runs into dry soil the two differ most, and there what an unknown does to its neighbours
-/// goes one way. Two stages as for flow in reservoirs (Wallis, SPE 12265 (1983)).
+/// The factor of the symmetric matrix, then Gauss-Seidel forward and backward with the matrix
+/// itself: where water enters dry soil the two matrices differ most, and couplings act in one
+/// direction. Two stages as for flow in reservoirs (Wallis, SPE 12265 (1983)).
 class TwoStagePreconditioner : public FactorPreconditioner {
  public:
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const {

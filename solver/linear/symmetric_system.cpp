@@ -43,7 +43,7 @@ void Residual::compute(const SymmetricSystem& system, const Eigen::VectorXd& x) 
 
 double Residual::excess() const {
   return largest_of(static_cast<int>(values.size()), threads_, 0.0, [&](int row) {
-    // Comparisons with what is not a number are false: infinite is as bad.
+    // Comparisons with NaN are false: NaN counts as infinite.
     if (std::isnan(values[row])) return std::numeric_limits<double>::infinity();
     return values[row] == 0.0 ? 0.0 : std::abs(values[row]) / allowed_[row];
   });

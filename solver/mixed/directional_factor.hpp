@@ -1,7 +1,7 @@
 #pragma once
 
-/// The tensor I + s d d^T, which is I but for one direction: soil with bedding conducts more or
-/// less across it, and fast flow is harder to change along itself.
+/// The tensor I + s d d^T, which differs from I in the direction d only. Soil with bedding conducts
+/// differently across the bedding; fast flow resists changes along its direction most.
 
 #include "grid/element_field.hpp"
 
@@ -24,7 +24,7 @@ struct DirectionalFactor {
   [[nodiscard]] double excess(const Vector<Dim>& a, const Vector<Dim>& b) const {
     return sign * (direction.dot(a) * direction.dot(b));
   }
-  /// The eigenvalue of d; all others are 1.
+  /// The eigenvalue along d; all others are 1.
   [[nodiscard]] double along_direction() const { return 1.0 + sign * direction.squaredNorm(); }
   [[nodiscard]] double trace() const { return Dim + sign * direction.squaredNorm(); }
 };

@@ -11,15 +11,15 @@ namespace suffuse {
 template <int Dim>
 using VectorField = std::vector<Vector<Dim>>;
 
-/// What the pores are to the flow. All per element unless noted.
+/// The pores as the flow sees them. All per element unless noted.
 template <int Dim>
 struct FlowCoefficients {
   std::vector<double> porosity;         ///< n_L
   std::vector<double> water_volume;     ///< pore volume minus fluidised fines, m3
   std::vector<double> mixture_density;  ///< rho_L, kg/m3
   std::vector<double> drag;             ///< on the liquid, divided by n_L, kg/(m3 s)
-  /// Drag of fast flow: b in the pressure gradient b |q| q, kg/m4 (Ergun). Empty where no soil has
-  /// it.
+  /// Drag of fast flow: b in the pressure gradient b |q| q, kg/m4 (Ergun). Empty if no soil has
+  /// quadratic drag.
   std::vector<double> quadratic_drag;
   std::vector<double> face_concentration;  ///< per face: c of the liquid that crosses it
 
@@ -28,11 +28,11 @@ struct FlowCoefficients {
   }
 };
 
-/// What went through the faces of the grid over an interval of time, along each face's normal.
+/// Volumes that crossed the faces of the grid over an interval of time, along each face's normal.
 struct FaceVolumes {
   std::vector<double> liquid;  ///< volume of liquid, m3
-  /// Volume of liquid weighted with rho_w / rho_w0 - 1 of the water that crossed, m3: added to
-  /// `liquid`, and times 1 - c, it gives the mass of water over rho_w0.
+  /// Volume of liquid weighted with rho_w / rho_w0 - 1 of the water that crossed, m3. The sum of
+  /// this and `liquid`, times 1 - c, is the mass of water over rho_w0.
   std::vector<double> density_excess;
 };
 

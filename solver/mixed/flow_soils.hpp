@@ -1,7 +1,6 @@
 #pragma once
 
-/// What the soils are to the flow while they stay where they are: retention and bedding, per
-/// element.
+/// Retention and bedding of the soils, per element, as the flow uses them until the soils move.
 
 #include <algorithm>
 #include <array>
@@ -18,13 +17,12 @@ namespace suffuse {
 template <int Dim>
 struct FlowSoils {
   std::vector<RetentionModel> retention;  ///< per element; empty: saturated at any pressure
-  /// Share of an element's pores that is soil's, per element; the rest is free space. Empty: all is
-  /// soil's, and air stays where it is.
+  /// Share of an element's pores that is soil's, per element; the rest is free space. Empty: all
+  /// pores are soil's, and air does not move.
   std::vector<double> soil_share;
   RetentionModel free_space;
   double head_per_pressure = 0.0;  ///< 1 / (rho_w 9.81 m/s2), m/Pa
-  /// Per element: conductivity over that along the bedding. Empty where every soil conducts alike
-  /// in all directions.
+  /// Per element: conductivity over that along the bedding. Empty if every soil is isotropic.
   std::vector<DirectionalFactor<Dim>> bedding;
 
   [[nodiscard]] bool saturated() const { return retention.empty(); }
@@ -34,7 +32,7 @@ struct FlowSoils {
   }
   /// Whether the air in pores moves with soil that moves.
   [[nodiscard]] bool air_moves() const { return !soil_share.empty(); }
-  /// S and k_r of an element's soil at a pressure in Pa, and dS/dp, 1/Pa.
+  /// S of an element at a pressure in Pa.
   [[nodiscard]] double saturation(int e, double pressure) const {
     const double psi = pressure * head_per_pressure;
     return mixed(e, retention[e].saturation(psi), [&] { return free_space.saturation(psi); });
@@ -45,7 +43,7 @@ struct FlowSoils {
            mixed(e, retention[e].capacity(psi), [&] { return free_space.capacity(psi); });
   }
   /// Pressures at which dS/dp of the soil and of free space in the element is largest, Pa; 0 where
-  /// there is no such soil, or it stays saturated.
+  /// there is none, or where it stays saturated.
   [[nodiscard]] std::array<double, 2> steepest(int e) const {
     const auto of = [this](const RetentionModel& model) {
       return model.law ? model.law->steepest(model.parameters) / head_per_pressure : 0.0;
@@ -53,18 +51,18 @@ struct FlowSoils {
     const bool is_mixed = air_moves() && soil_share[e] < 1.0;
     return {of(retention[e]), is_mixed ? of(free_space) : 0.0};
   }
-  /// Not zero however dry the soil is: pressures are those of a linear system.
+  /// k_r of an element. It stays above zero, as pressures are solved for in a linear system.
   [[nodiscard]] double relative_conductivity(int e, double pressure) const {
     constexpr double driest = 1e-20;
-    // Where air conducts less, pressures in it have no bound, and their iteration no end.
+    // With a lower k_r pressures in free space are unbounded, and the iteration does not end.
     constexpr double film = 1e-6;
     const double psi = pressure * head_per_pressure;
     return std::max(driest, mixed(e, retention[e].relative_conductivity(psi), [&] {
                       return std::max(film, free_space.relative_conductivity(psi));
                     }));
   }
-  /// Share of the suction of an element that acts on the soil: S_e = (S - S_r) / (1 - S_r), no less
-  /// than 0 (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515), where there is soil.
+  /// Share of an element's suction that acts on the soil: the soil's share of the pores times S_e =
+  /// (S - S_r) / (1 - S_r) >= 0 (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515).
   [[nodiscard]] double suction_share(int e, double saturation) const {
     const double residual =
         mixed(e, retention[e].residual_saturation, [&] { return free_space.residual_saturation; });
@@ -79,7 +77,7 @@ struct FlowSoils {
   }
 };
 
-/// Elements that soil has left have the retention of free space.
+/// Retention and bedding per element. Elements that soil has left have the retention of free space.
 /// \param filling  per element; empty: soil fills all elements that it is in
 template <int Dim>
 FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,

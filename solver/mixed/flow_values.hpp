@@ -13,7 +13,7 @@ inline bool is_same_time(double a, double b) {
   return std::abs(a - b) <= 1e-14 * std::max(std::abs(a), std::abs(b));
 }
 
-/// Whether `times` contain this one, likewise.
+/// Whether `times` contain this time up to that round-off.
 inline bool contains_time(const std::vector<double>& times, double time) {
   return std::ranges::any_of(times, [&](double other) { return is_same_time(other, time); });
 }

@@ -13,7 +13,7 @@
 
 namespace suffuse {
 
-/// Sets of nodes that only grow together.
+/// Sets of nodes that can be joined (union-find).
 class DisjointSets {
  public:
   explicit DisjointSets(int count) : parent_(count) {
@@ -23,7 +23,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// False when they were together already.
+  /// Joins the sets of two nodes. Returns false if they are one set already.
   bool join(int a, int b) {
     a = find(a);
     b = find(b);
@@ -36,11 +36,11 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
-/// Fluxes computed from pressures balance up to the round-off of the pressures times conductances:
-/// with a contrast of 1e8 between soils that is 1e-8 of the flux through the tighter one. What is
-/// missing is sent along a spanning tree of the elements, over the faces that conduct best (where
-/// that round-off comes from), to the outside. One sweep from the leaves to the root; the same
-/// order always. Prescribed fluxes are not in the tree and do not change.
+/// Fluxes computed from pressures balance up to the round-off of pressures times conductances: with
+/// a contrast of 1e8 between soils that is 1e-8 of the flux through the tighter one. The missing
+/// part is sent to the outside along a spanning tree of the elements, over the faces that conduct
+/// best (where that round-off comes from), in one sweep from the leaves to the root, always in one
+/// order. Prescribed fluxes are not in the tree and do not change.
 template <int Dim>
 class FluxCorrection {
  public:
@@ -72,9 +72,9 @@ class FluxCorrection {
     }
   }
 
-  /// Lays the tree along the best conductances. `conductance`: per element, mobility over volume,
-  /// 1/(m Pa s), or in any unit where there are no walls. A tree stays while no two elements have
-  /// changed relative to each other by more than `stale_change`: any tree is right, a good one
+  /// Builds the tree along the best conductances. `conductance`: per element, mobility over volume,
+  /// 1/(m Pa s), or in any unit if there are no walls. The tree is kept while no two elements have
+  /// changed relative to each other by more than `stale_change`: any tree is correct, a good one
   /// changes fluxes less.
   void follow(const std::vector<double>& conductance) {
     const int elements = grid_.mesh.element_count();
@@ -136,8 +136,8 @@ class FluxCorrection {
   static constexpr double stale_change = 10.0;
 
   /// Changes `face_flux` (along each face's normal) so that the net outflow of each element becomes
-  /// `net_outflow`. In a piece that no pressure face opens to the outside the sum of what is
-  /// missing stays in the piece's first element. Call `follow` before.
+  /// `net_outflow`. In a piece without a pressure face the sum of the missing flux stays in the
+  /// piece's first element. Call `follow` before.
   void correct(std::vector<double>& face_flux, const std::vector<double>& net_outflow) const {
     const int elements = grid_.mesh.element_count();
     std::vector<double> excess(elements);
@@ -160,14 +160,14 @@ class FluxCorrection {
     }
   }
 
-  /// The tree has a history.
+  /// The tree depends on earlier conductances, so it is stored.
   void archive(auto& archive) { archive(followed_, from_root_, drain_); }
 
   /// Number of connected pieces of the mesh without a pressure face.
   [[nodiscard]] int sealed_piece_count() const { return static_cast<int>(sealed_root_.size()); }
-  /// Per element: which of them it is in; -1 where a pressure face can be reached.
+  /// Per element: its piece; -1 if it is connected with a pressure face.
   [[nodiscard]] const std::vector<int>& sealed_piece() const { return sealed_piece_; }
-  /// Their first elements.
+  /// First element of each piece.
   [[nodiscard]] const std::vector<int>& sealed_root() const { return sealed_root_; }
 
  private:
@@ -176,7 +176,7 @@ class FluxCorrection {
   std::vector<int> passable_;  ///< interior and pressure faces, and one side of each wall
   std::vector<int> sealed_piece_;
   std::vector<int> sealed_root_;
-  std::vector<double> followed_;  ///< conductances the tree was laid for
+  std::vector<double> followed_;  ///< conductances for which the tree was built
   std::vector<int> from_root_;    ///< elements, each after the one it drains to
   std::vector<int> drain_;        ///< per element: face towards the root, -1 at a root
 };

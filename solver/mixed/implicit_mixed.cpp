@@ -10,10 +10,10 @@
 namespace suffuse {
 namespace {
 
-/// Alexander's gamma: both stages last gamma dt, which makes their matrices alike.
+/// Alexander's gamma: both stages last gamma dt, so their matrices are alike.
 constexpr double stage_share = 1.0 - 0.5 * std::numbers::sqrt2;
 
-/// The flux that goes with a velocity, where quadratic drag asks for a guess.
+/// Guess of the flux from a velocity; empty without quadratic drag.
 template <int Dim>
 VectorField<Dim> flux_guess(const VectorField<Dim>& velocity, const FlowCoefficients<Dim>& c) {
   VectorField<Dim> flux(c.quadratic_drag.empty() ? 0 : velocity.size());
@@ -27,7 +27,7 @@ MixedStep<Dim> step_to(StageEnd<Dim> end, std::vector<double> face_volume) {
           std::move(end.flux_through)};
 }
 
-/// Puts values back as they were, at the end of its scope.
+/// Restores the values at the end of its scope.
 struct Restored {
   explicit Restored(std::vector<char>& of) : values(of), before(of) {}
   ~Restored() { values = std::move(before); }
@@ -58,8 +58,7 @@ MixedStep<Dim> ImplicitMixed<Dim>::step(const MixedState<Dim>& start, double dt,
   set_up(forcing.front()->conditions);
   if (stages().size() == 1) return one_stage(start, dt, *forcing.back());
   if (!has_retention()) return two_stages(start, dt, *forcing.front(), *forcing.back());
-  // The second stage starts from contents ahead of the first, which may be more than full or less
-  // than dry.
+  // The second stage starts from extrapolated contents, which may exceed full or fall below dry.
   try {
     return two_stages(start, dt, *forcing.front(), *forcing.back());
   } catch (const NotConverged&) {
@@ -164,7 +163,7 @@ StageEnd<Dim> ImplicitMixed<Dim>::draining_steady(const FlowForcing<Dim>& forcin
     state = solve_stage(last_steady_, infinity, forcing, last_steady_flux_, true).state;
     state.air = suffuse::air_at(model_, state.face_pressure, c.porosity);
   }
-  // Steps of growing length, as from a saturated model that drains.
+  // Pseudo-time steps of growing length, from the saturated state.
   double pores = 0.0;
   double fastest = parts_->guess.flux_scale;
   for (int e = 0; e < model_.grid.mesh.element_count(); ++e) {
@@ -178,7 +177,7 @@ StageEnd<Dim> ImplicitMixed<Dim>::draining_steady(const FlowForcing<Dim>& forcin
     try {
       if (duration > 1e4 * filling) return solve_stage(state, infinity, forcing, last_steady_flux_);
     } catch (const NotConverged&) {
-      // A longer step brings the state nearer.
+      // Further steps bring the state nearer.
     }
     try {
       state = solve_stage(state, duration, forcing, last_steady_flux_).state;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Pressures and fluxes of the mixed elements at one time, and what transport and results need of
-/// them.
+/// Pressures and fluxes of the mixed elements at one time, and what transport and results derive
+/// from them.
 
 #include <vector>
 
@@ -16,7 +16,7 @@ template <int Dim>
 struct MixedFlow {
   MixedState<Dim> state;
   std::vector<double> face_flux;     ///< along each face's normal, m3/s
-  std::vector<double> flux_through;  ///< see MixedStep: errors and scales are of this
+  std::vector<double> flux_through;  ///< see MixedStep: errors and scales are based on it
 
   void archive(auto& archive) { archive(state, face_flux, flux_through); }
 };
@@ -27,7 +27,7 @@ MixedFlow<Dim> end_of(MixedStep<Dim> step) {
   return {std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
 }
 
-/// This flow for `dt` seconds.
+/// The flow over `dt` seconds, if it stays as it is.
 template <int Dim>
 MixedStep<Dim> steady_step_of(const MixedFlow<Dim>& flow, double dt) {
   MixedStep<Dim> step{flow.state, flow.face_flux, flow.face_flux, flow.face_flux};
@@ -35,7 +35,7 @@ MixedStep<Dim> steady_step_of(const MixedFlow<Dim>& flow, double dt) {
   return step;
 }
 
-/// Water at rest under these pressures, per face, and those prescribed at faces, Pa.
+/// Water at rest: `pressure` per face, Pa, or the prescribed one where there is one.
 template <int Dim>
 MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
                             const std::vector<double>& pressure) {
@@ -52,8 +52,8 @@ MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceConditi
   return flow;
 }
 
-/// Adds the volume of air that has left each element between two states, m3, to `room`, which may
-/// be empty, and stays so where there is no air.
+/// Adds to `room` the volume of air that has left each element between two states, m3. `room` may
+/// be empty, and remains so without air.
 template <std::size_t Sides>
 void add_displaced_air(const std::vector<std::array<double, Sides>>& before,
                        const std::vector<std::array<double, Sides>>& after,
@@ -64,15 +64,15 @@ void add_displaced_air(const std::vector<std::array<double, Sides>>& before,
   }
 }
 
-/// Mean pressure of each element, Pa, of the pressures at its faces.
+/// Mean of the pressures at the faces of each element, Pa.
 template <int Dim>
 std::vector<double> element_pressure(const Grid<Dim>& grid,
                                      const std::vector<double>& face_pressure, int threads);
 
 /// What crossed the faces in a step that started with the pressures `start_face` and, per element,
-/// `start_element`, Pa; `bulk_modulus` in Pa, may be infinite. The density of what crosses a face
-/// is that at the pressure of the element it comes from, mean over the step; of what enters from
-/// outside, that at the face.
+/// `start_element`, Pa; `bulk_modulus` in Pa, may be infinite. Liquid that crosses a face has the
+/// density at the pressure of the element it comes from, mean over the step; liquid from outside,
+/// that at the pressure of the face.
 template <int Dim>
 FaceVolumes face_volumes(const Grid<Dim>& grid, const std::vector<double>& start_face,
                          const std::vector<double>& start_element, const MixedStep<Dim>& step,
@@ -85,11 +85,11 @@ struct NodalFields {
   VectorField<Dim> velocity;     ///< intrinsic, m/s
 };
 
-/// At each node the mean of what the linear fields of the elements around have there, weighted with
-/// their volumes. What an element's field has at a vertex lies beyond the pressures at its faces:
-/// where the mean leaves the range of the pressures at the faces and in the elements around the
-/// node, it is that range's end. Pressures are compared after the weight of water, `weight` = rho g
-/// in Pa/m, has been taken to the node: water at rest has equal ones. `porosity` per element.
+/// The value at a node is the mean of the elements' linear fields there, weighted with their
+/// volumes. A linear field at a vertex may exceed the range of its face pressures, so the mean is
+/// limited to the range of the pressures at the faces and in the elements around the node.
+/// Pressures are compared after subtraction of the weight of water, `weight` = rho g in Pa/m, up to
+/// the node: water at rest has equal ones. `porosity` per element.
 template <int Dim>
 NodalFields<Dim> nodal_fields(const Grid<Dim>& grid, const MixedFlow<Dim>& flow,
                               const std::vector<double>& element_pressure,

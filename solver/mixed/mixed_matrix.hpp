@@ -1,8 +1,8 @@
 #pragma once
 
 /// The matrix of the mixed elements: symmetric, with an unknown for each face whose pressure is not
-/// prescribed throughout. Its entries are T N_a . N_b / V of each element, plus storage on the
-/// diagonal. The two sides of a wall that lets liquid through are coupled by its conductance.
+/// always prescribed. Its entries are T N_a . N_b / V of each element, plus storage on the
+/// diagonal. The two sides of a leaky wall are coupled by its conductance.
 
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -26,7 +26,7 @@ struct MomentumLaw {
   std::vector<DirectionalFactor<Dim>> factor;  ///< of bedding and fast flow; empty: I everywhere
   VectorField<Dim> drive;                      ///< Pa/m
 
-  /// The flux that a push in Pa/m makes, over the mobility.
+  /// The flux that a driving gradient in Pa/m causes, over the mobility.
   [[nodiscard]] Vector<Dim> directed(int e, const Vector<Dim>& push) const {
     return factor.empty() ? push : factor[e].times(push);
   }
@@ -40,7 +40,7 @@ class MixedMatrix {
       : grid_(grid), threads_(threads), products_(grid.mesh.elements.size()) {
     lay_out(kinds);
     for (int e = 0; e < grid.mesh.element_count(); ++e) {
-      // Rows add up to zero, as pressure alone moves nothing: better so than by round-off.
+      // A uniform pressure causes no flux: rows add up to zero exactly, not up to round-off.
       auto& products = products_[e];
       for (int a = 0; a <= Dim; ++a) {
         products[a][a] = 0.0;
@@ -60,12 +60,12 @@ class MixedMatrix {
   }
 
   [[nodiscard]] int unknowns() const { return unknowns_; }
-  /// Number of a face's unknown; -1 where its pressure is prescribed throughout.
+  /// Number of a face's unknown; -1 where its pressure is always prescribed.
   [[nodiscard]] int unknown(int face) const { return unknown_[face]; }
 
-  /// Values for a law and for the storage of each element at each of its faces, m3/(s Pa):
-  /// `storage` per element, in addition `side_storage` per side of an element, and `mean_storage`
-  /// with the mean pressure of an element (both may be empty).
+  /// Assembles a law and the storage of each element at each of its faces, m3/(s Pa): `storage` per
+  /// element, in addition `side_storage` per side of an element, and `mean_storage`, which acts on
+  /// the mean pressure of an element (both may be empty).
   void assemble(const MomentumLaw<Dim>& law, const std::vector<double>& storage,
                 const ElementField<Dim>& side_storage = {},
                 const std::vector<double>& mean_storage = {}) {
@@ -73,8 +73,8 @@ class MixedMatrix {
     const auto in_mean = [&](int e) {
       return mean_storage.empty() ? 0.0 : share * mean_storage[e];
     };
-    // An entry beside the diagonal belongs to the one element that has both faces; to those on the
-    // diagonal both neighbours of the face add.
+    // An off-diagonal entry belongs to the one element that has both faces; a diagonal one is the
+    // sum over the two neighbors of the face.
     double* values = values_.valuePtr();
     for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
       for (int a = 0; a <= Dim; ++a) {
@@ -97,8 +97,8 @@ class MixedMatrix {
           grid_.is_outer(f) ? diagonal(left) : diagonal(left) + diagonal(grid_.face_right[f]);
     });
   }
-  /// Couples the faces of a wall, after `assemble`: conductance times the difference of their
-  /// pressures flows between them.
+  /// Couples the faces of a wall; call after `assemble`. The flux between them is the conductance
+  /// times the difference of their pressures.
   void couple(const LeakyFace& wall) {
     double* values = values_.valuePtr();
     const int row = unknown_[wall.face];
@@ -107,8 +107,7 @@ class MixedMatrix {
     values[position(column, column)] += wall.conductance;
     values[position(row, column)] = values[position(column, row)] = -wall.conductance;
   }
-  /// Makes the unknown of a face one of its own, uncoupled from the others, whose value the right
-  /// side decides.
+  /// Uncouples the unknown of a face from all others.
   void uncouple(int face) {
     double* values = values_.valuePtr();
     for (const int e : {grid_.face_left[face], grid_.face_right[face]}) {
@@ -120,10 +119,10 @@ class MixedMatrix {
       }
     }
   }
-  /// The values, with what the conductivity of an element gains as the pressure at its sides rises:
-  /// `flux` out of it by each side, m3/s, grows by the share `gain` per pressure, 1/Pa. What that
-  /// adds to the diagonal, where liquid enters, was assembled already. Faces that are `held` keep
-  /// their uncoupled rows. No longer symmetric.
+  /// The values, with the derivative of each element's conductivity by the pressures at its sides:
+  /// `flux` out of it by each side, m3/s, grows by the share `gain` per pressure, 1/Pa. The part on
+  /// the diagonal where liquid enters was assembled already. Faces that are `held` keep their
+  /// uncoupled rows. Not symmetric.
   [[nodiscard]] Eigen::SparseMatrix<double> with_gain(const ElementField<Dim>& flux,
                                                       const ElementField<Dim>& gain,
                                                       const std::vector<char>& held) const {
@@ -141,12 +140,12 @@ class MixedMatrix {
     }
     return result;
   }
-  /// Doubles the diagonal at the first face of an element, where nothing else holds the level of
-  /// the pressure: its rise is then zero, as the rest of the system adds up to zero.
+  /// Doubles the diagonal at the first face of an element where nothing else fixes the level of the
+  /// pressure: its rise is then zero, as the rest of the system adds up to zero.
   void hold_level(int element) { values_.valuePtr()[position_[element][0][0]] *= 2.0; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& values() const { return values_; }
 
-  /// Largest N . N / V of an element, 1/m2 times m2.
+  /// Largest N_a . N_a / V of an element, m.
   [[nodiscard]] double largest_product(int element) const {
     double largest = 0.0;
     for (int k = 0; k <= Dim; ++k) largest = std::max(largest, products_[element][k][k]);
@@ -193,14 +192,14 @@ class MixedMatrix {
       }
     }
   }
-  /// Where an entry is among the values.
+  /// Index of an entry among the values.
   [[nodiscard]] int position(int row, int column) const {
     const int* inner = values_.innerIndexPtr();
     const int* first = inner + values_.outerIndexPtr()[column];
     const int* last = inner + values_.outerIndexPtr()[column + 1];
     return static_cast<int>(std::lower_bound(first, last, row) - inner);
   }
-  /// It is not inlined, so that the product is rounded before anything is added to it.
+  /// Not inlined, so that the product is rounded before anything is added to it.
   [[nodiscard, gnu::noinline]] double entry(const MomentumLaw<Dim>& law, int e, int a,
                                             int b) const {
     double product = products_[e][a][b];
@@ -216,7 +215,7 @@ class MixedMatrix {
   std::vector<int> unknown_;
   int unknowns_ = 0;
   Eigen::SparseMatrix<double> values_;
-  PerEntry<int> position_;     ///< where an element's entry goes among the values; -1 for none
+  PerEntry<int> position_;     ///< index of an element's entry among the values; -1 for none
   PerEntry<double> products_;  ///< N_a . N_b / V
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a flow by mixed elements is given and what it finds: its model, which all steps have in
-/// common, the forcing and the state of a step.
+/// Input and output of a flow by mixed elements: the model, common to all steps, and the forcing
+/// and the state of a step.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ struct ImplicitSettings {
 
 template <int Dim>
 struct MixedState {
-  std::vector<double> face_pressure;  ///< at face centres, Pa
+  std::vector<double> face_pressure;  ///< at face centers, Pa
   VectorField<Dim> velocity;          ///< mean of each element, intrinsic, m/s
   /// Volume of air in the share of each side of an element, m3; empty where all soil is saturated.
   ElementField<Dim> air = {};
@@ -33,23 +33,23 @@ struct MixedState {
   void archive(auto& archive) { archive(face_pressure, velocity, air); }
 };
 
-/// What drives the flow at one moment.
+/// The conditions and coefficients of the flow at one moment.
 template <int Dim>
 struct FlowForcing {
   FlowCoefficients<Dim> coefficients;
   std::vector<FaceCondition> conditions;  ///< per face
-  /// Per element: liquid that leaves it beyond what it stores, m3/s. Empty where there is none.
+  /// Per element: liquid that leaves it beyond what it stores, m3/s. Empty: none.
   std::vector<double> source;
-  /// Additional storage per element, with its mean pressure, m3/Pa. Empty where there is none.
+  /// Additional storage per element, acting on its mean pressure, m3/Pa. Empty: none.
   std::vector<double> mean_storage = {};
-  /// Additional mobility per element from the soil's inertia, m3 s/kg: it acts on the difference of
-  /// the pressure gradient from that with `expected_rise`, per face, Pa, over the start of the
-  /// step. Empty where there is none; not with quadratic drag.
+  /// Additional mobility per element from the soil's inertia, m3 s/kg. It multiplies the difference
+  /// between two pressure gradients: the one expected, after `expected_rise` (per face, Pa) from
+  /// the start of the step, and the actual one. Empty: none; not with quadratic drag.
   std::vector<double> mean_mobility = {};
   std::vector<double> expected_rise = {};
 };
 
-/// The nonlinear iteration of a step did not converge: a shorter one may.
+/// The nonlinear iteration of a step did not converge; that of a shorter step may.
 class NotConverged : public NumericalError {
  public:
   using NumericalError::NumericalError;
@@ -59,9 +59,9 @@ template <int Dim>
 struct MixedStep {
   MixedState<Dim> end;
   std::vector<double> face_volume;  ///< over the step, along each face's normal, m3
-  std::vector<double> face_flux;    ///< at the end, likewise, m3/s
-  /// `face_flux` without what faces with a prescribed pressure store in their share of an element:
-  /// that jumps where the pressure has a kink in time, this does not.
+  std::vector<double> face_flux;    ///< at the end, along each face's normal, m3/s
+  /// `face_flux` without what faces with a prescribed pressure store in their share of an element.
+  /// `face_flux` jumps where the pressure has a kink in time, `flux_through` does not.
   std::vector<double> flux_through;
 };
 
@@ -85,7 +85,7 @@ struct MixedModel {
   /// Gradient of the sum of two pressures at the faces of an element, Pa/m.
   [[nodiscard]] Vector<Dim> pressure_gradient(int e, const std::vector<double>& reference,
                                               const std::vector<double>& rise) const {
-    // Differences first: the normals add up to zero, so the level plays no part.
+    // Differences first: the normals add up to zero, so the level of the pressure cancels.
     const auto& faces = grid.element_face[e];
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (int k = 1; k <= Dim; ++k) {
@@ -95,7 +95,7 @@ struct MixedModel {
     }
     return sum / grid.volume[e];
   }
-  /// What flows through a side of a saturated element under gravity alone, m3/s.
+  /// Flux through the largest side of a saturated element under gravity alone, m3/s.
   [[nodiscard]] double gravity_flux(int e, const FlowCoefficients<Dim>& c) const {
     return c.mixture_density[e] * gravity.norm() * c.porosity[e] / c.drag[e] *
            soils.best_over_along(e) * largest_at_faces(e, face_area);

@@ -12,14 +12,14 @@
 
 namespace suffuse {
 
-/// Pressures at face centres as a sum, base + offset + rise, so that small changes of large
+/// Pressures at face centers as a sum, base + offset + rise, in which small changes of large
 /// pressures have all their digits; offset = reference - base.
 struct FacePressure {
   std::vector<double> reference;
   std::vector<double> offset;
   std::vector<double> rise;
 
-  /// Makes the reference what the pressure is, as nearly as it can hold it.
+  /// Moves the reference to the pressure, as nearly as its digits allow.
   void move_reference(const std::vector<double>& base) {
     for (std::size_t f = 0; f < rise.size(); ++f) {
       const double old = reference[f];
@@ -30,7 +30,7 @@ struct FacePressure {
   }
 };
 
-/// Where iterations start; it changes no result beyond round-off.
+/// Initial guess of the iterations; it changes no result beyond round-off.
 struct StageGuess {
   std::vector<double> rise_rate;  ///< of the last stage, per face, Pa/s
   double flux_scale = 0.0;        ///< largest flux through a face then, m3/s
@@ -39,10 +39,10 @@ struct StageGuess {
 /// A stage goes from `base` over `duration` seconds, which are infinite for a steady state.
 template <int Dim>
 struct MixedStage {
-  /// Refers to what it is given. The pressures are a guess, the law is that of saturated soil
-  /// without quadratic drag, and there are no fluxes yet. Throws NumericalError where the liquid
-  /// meets no resistance.
-  /// \param saturated  every soil is, at any pressure
+  /// Keeps references to its arguments. The pressures are a guess, the law is that of saturated
+  /// soil without quadratic drag, and there are no fluxes yet. Throws NumericalError where the
+  /// liquid meets no resistance.
+  /// \param saturated  take every soil as saturated at any pressure
   MixedStage(const MixedModel<Dim>& in, const MixedMatrix<Dim>& with, StageFaces<Dim>& at,
              const MixedState<Dim>& from, double seconds, const FlowForcing<Dim>& driven_by,
              const StageGuess& guess, bool saturated)
@@ -88,32 +88,32 @@ struct MixedStage {
   [[nodiscard]] double largest_of_faces(const auto& value) const {
     return largest_of(model.grid.face_count(), model.settings.threads, 0.0, value);
   }
-  /// Whether the equations depend on the pressure itself, by retention or seepage faces.
+  /// Whether the equations depend on the pressure itself, through retention or seepage faces.
   [[nodiscard]] bool is_nonlinear() const { return retains || !faces.switching().empty(); }
   [[nodiscard]] bool is_steady() const { return !std::isfinite(duration); }
   /// Whether an element stores liquid as its pressure rises.
   [[nodiscard]] bool stores(int e) const {
     return storage[e] > 0.0 || (!mean_storage.empty() && mean_storage[e] > 0.0);
   }
-  /// What an element stores with its mean pressure, m3/s, as it rises by these.
+  /// Liquid that the mean storage of an element takes up, m3/s, at these rises at its faces.
   [[nodiscard]] double stored_in_mean(int e, const auto& rise_of_face) const {
     if (mean_storage.empty()) return 0.0;
     double sum = 0.0;
     for (const int f : model.grid.element_face[e]) sum += rise_of_face(f);
     return mean_storage[e] * sum / (Dim + 1);
   }
-  /// What the share of a side stores as its pressure rises by this, m3/s.
+  /// Liquid that the share of a side stores as its pressure rises by `rise`, m3/s.
   [[nodiscard]] double stored(int e, int k, double rise) const {
     const auto risen = [&](int f) { return pressure.offset[f] + pressure.rise[f]; };
     const double compressed = storage[e] * rise + stored_in_mean(e, risen) / (Dim + 1);
     return displaced.empty() ? compressed : compressed + displaced[e][k];
   }
-  /// Flux out of an element through a side whose pressure rises by this, m3/s.
+  /// Flux out of an element through a side whose pressure rises by `rise`, m3/s.
   [[nodiscard]] double flux_out(int e, int k, double rise) const {
     return flux[e].dot(model.grid.outward_normal(e, k)) - stored(e, k, rise) +
            net_source[e] / (Dim + 1);
   }
-  /// Rate at which liquid takes the place of air in the share of a side, m3/s.
+  /// Rate at which liquid displaces air in the share of a side, m3/s.
   [[nodiscard]] double displacement_rate(int e, int k, double p) const {
     if (is_steady()) return 0.0;
     const double share = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
@@ -121,11 +121,11 @@ struct MixedStage {
     return (base.air[e][k] - air) / duration;
   }
   [[nodiscard]] double inflow(int f) const { return faces.inflow(f, coefficients.porosity); }
-  /// Flux per pressure, m3/(s Pa), of the element's largest face.
+  /// Flux per pressure, m3/(s Pa), through the element's largest face.
   [[nodiscard]] double conductance_of(int e) const {
     return law.mobility[e] * model.soils.best_over_along(e) * matrix.largest_product(e);
   }
-  /// Largest round-off of what flows through a wall at these pressures, m3/s.
+  /// Largest round-off of the flux through a wall at these pressures, m3/s.
   [[nodiscard]] double wall_round_off() const {
     double largest = 0.0;
     for (const LeakyFace& wall : walls) {
@@ -135,7 +135,7 @@ struct MixedStage {
     }
     return largest;
   }
-  /// Gives an element the mobility of this Darcy's, m3 s/kg, and the drive that belongs to it.
+  /// Sets an element's mobility (Darcy's plus the additional one), m3 s/kg, and its drive.
   void set_mobility(int e, double of_darcy) {
     law.mobility[e] = of_darcy;
     if (expected_gradient.empty()) return;
@@ -169,19 +169,18 @@ struct MixedStage {
   const double flux_scale;  ///< largest flux through a face in the last stage, m3/s
   const bool retains;       ///< some soil holds liquid under suction
 
-  std::vector<double> resistance;      ///< linear, per flux, kg/(m3 s)
+  std::vector<double> resistance;      ///< linear, kg/(m3 s)
   VectorField<Dim> drive;              ///< without pressure, Pa/m
   std::vector<double> storage;         ///< per face of the element, m3/(s Pa)
-  std::vector<double> mean_storage;    ///< per element, m3/(s Pa); may be empty
-  std::vector<double> net_source;      ///< outflow asked for, m3/s
-  VectorField<Dim> expected_gradient;  ///< with the additional mobility, Pa/m; may be empty
-  std::vector<LeakyFace> walls;        ///< conductance as the stage has it
+  std::vector<double> mean_storage;    ///< of mean pressures, m3/(s Pa); may be empty
+  std::vector<double> net_source;      ///< prescribed outflow, m3/s
+  VectorField<Dim> expected_gradient;  ///< that of the additional mobility, Pa/m; may be empty
+  std::vector<LeakyFace> walls;        ///< with the bounded conductance of this stage
 
   FacePressure pressure;
   MomentumLaw<Dim> law;
   VectorField<Dim> flux;  ///< per element, m/s
-  /// Rate at which liquid takes the place of air at each side, m3/s; empty where all soil is
-  /// saturated.
+  /// Rate at which liquid displaces air at each side, m3/s; empty where all soil is saturated.
   ElementField<Dim> displaced;
 
  private:
@@ -206,8 +205,8 @@ struct MixedStage {
       throw NumericalError(text.str());
     }
   }
-  /// A wall that conducts so much better than the elements beside it hinders nothing, while its
-  /// conductance would hide theirs in the matrix.
+  /// Bounds the conductance of walls by 1e6 times that of their elements: such a wall is no
+  /// obstacle, and a larger value would drown the elements' conductances in round-off.
   void bound_walls() {
     constexpr double most_of_elements = 1e6;
     for (LeakyFace& wall : walls) {

@@ -23,18 +23,17 @@ class PressureSystem {
         tolerance_(matrix_.unknowns()) {}
 
   [[nodiscard]] MixedMatrix<Dim>& matrix() { return matrix_; }
-  /// Solves the systems of Newton's method.
   [[nodiscard]] NewtonSystem& newton() { return newton_; }
   [[nodiscard]] SolveCounts counts() const {
     SolveCounts result = solver_.counts();
     return result += newton_.counts();
   }
-  /// Values of the matrix for the law that the stage has.
+  /// Assembles the matrix for the law of the stage.
   void assemble(const MixedStage<Dim>& stage, const ElementField<Dim>& side_storage) {
     matrix_.assemble(stage.law, stage.storage, side_storage, stage.mean_storage);
     for (const LeakyFace& wall : stage.walls) matrix_.couple(wall);
   }
-  /// Finds the rises of the pressures that are not prescribed, with the law that the stage has.
+  /// Finds the rises of the pressures that are not prescribed, with the law of the stage.
   void solve(MixedStage<Dim>& stage) {
     assemble(stage, {});
     find_load(stage);
@@ -51,8 +50,8 @@ class PressureSystem {
     const MixedModel<Dim>& model = stage.model;
     solve(stage);
     stage.flux = stage.found_flux();
-    // Pressures that rise a lot leave the round-off of the rise times the largest conductance,
-    // which may be more than what flows through a tight soil: a second solution is rid of it.
+    // Where pressures rise much, the round-off of the rise times the largest conductance may exceed
+    // the flux through a tight soil; a second solution removes it.
     const double through = stage.largest_of_elements(
         [&](int e) { return stage.flux[e].norm() * model.largest_at_faces(e, model.face_area); });
     const double round_off = stage.largest_of_elements([&](int e) {
@@ -63,8 +62,8 @@ class PressureSystem {
     solve(stage);
     stage.flux = stage.found_flux();
   }
-  /// What is missing of the balance at each unknown, m3/s, at the reference of the pressures; zero
-  /// at seepage faces that are held.
+  /// Residual of the balance at each unknown, m3/s, at the reference of the pressures; zero at
+  /// seepage faces that are held.
   const Eigen::VectorXd& find_load(const MixedStage<Dim>& stage) {
     const MixedModel<Dim>& model = stage.model;
     const FacePressure& pressure = stage.pressure;
@@ -83,8 +82,7 @@ class PressureSystem {
       if (row < 0) return;
       guess_[row] = pressure.rise[f];
       load_[row] = model.grid.is_outer(f) ? stage.inflow(f) : 0.0;
-      // Residuals need be no smaller than the round-off of the load, nor than this share of the
-      // flux.
+      // Residuals need not be below the round-off of the load, nor below this share of the flux.
       tolerance_[row] = 1e-13 * stage.flux_scale;
       for (const int e : {model.grid.face_left[f], model.grid.face_right[f]}) {
         if (e < 0) continue;
@@ -121,9 +119,9 @@ class PressureSystem {
   MixedMatrix<Dim> matrix_;
   LaggedPreconditioner solver_;
   NewtonSystem newton_;
-  // Kept, so that stages do not allocate them.
-  VectorField<Dim> face_push_;     ///< what an element drives without the unknown rises, m/s
-  std::vector<double> round_off_;  ///< of it, m/s
+  // Members, so that stages do not allocate them.
+  VectorField<Dim> face_push_;     ///< flux of an element without the unknown rises, m/s
+  std::vector<double> round_off_;  ///< of `face_push_`, m/s
   std::vector<double> known_rise_;
   Eigen::VectorXd load_;
   Eigen::VectorXd guess_;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Newton's method on flux and pressure together, for fast flow, whose drag grows with the square
-/// of the flux. Soil with bedding has no such drag.
+/// Newton's method on flux and pressure together for fast flow, whose drag grows with the square of
+/// the flux. Soil with bedding has no such drag.
 
 #include "mixed/flow_values.hpp"
 #include "mixed/pressure_system.hpp"
@@ -14,9 +14,9 @@ class QuadraticNewton {
   QuadraticNewton(MixedStage<Dim>& stage, PressureSystem<Dim>& system)
       : stage_(stage), system_(system), quadratic_drag_(stage.coefficients.quadratic_drag) {}
 
-  /// Finds pressures and fluxes, from these fluxes on. Throws NumericalError.
+  /// Finds pressures and fluxes, starting from `flux_guess`. Throws NumericalError.
   void solve(const VectorField<Dim>& flux_guess) {
-    // Continuity is linear, so after the first iteration only momentum is left to fulfil.
+    // Continuity is linear: after the first iteration only the momentum equation has a residual.
     constexpr int max_iterations = 100;
     stage_.flux = flux_guess;
     double last_change = infinity;
@@ -39,7 +39,7 @@ class QuadraticNewton {
              << " m/s of " << change.largest_flux << " m/s";
         throw NumericalError(text.str());
       }
-      // The first step is never shortened: it is the one that fulfils continuity.
+      // The first step is never shortened, as it satisfies continuity.
       const double share = iteration > 0 ? damp(new_flux, new_push) : 1.0;
       last_change = share == 1.0 ? change.largest : infinity;
       stage_.flux.swap(new_flux);
@@ -54,7 +54,7 @@ class QuadraticNewton {
   struct Change {
     double largest = 0.0;       ///< m/s
     double largest_flux = 0.0;  ///< m/s
-    bool is_round_off = true;   ///< in every element
+    bool is_round_off = true;   ///< true in every element
   };
 
   void linearise_about(const Field& flux) {
@@ -73,7 +73,7 @@ class QuadraticNewton {
       }
     });
   }
-  /// What pushes each element at the pressures found: its drive minus the pressure gradient, Pa/m.
+  /// Drive minus pressure gradient of each element at the pressures found, Pa/m.
   [[nodiscard]] Field push() const {
     const FacePressure& pressure = stage_.pressure;
     Field result(stage_.drive.size());
@@ -103,8 +103,8 @@ class QuadraticNewton {
     return result;
   }
   /// Shortens the step to the new flux and push until it does not raise the error of momentum.
-  /// Returns the share of the step that is left; where no share helps, the step stays whole and the
-  /// share is below 1e-3.
+  /// Returns the share of the step that is taken. If no share helps, the whole step is taken, and
+  /// the value returned is below 1e-3.
   double damp(Field& new_flux, Field& new_push) const {
     constexpr double least_share = 1e-3;
     const double error = momentum_error(stage_.flux, push_);
@@ -119,7 +119,7 @@ class QuadraticNewton {
     }
     return share;
   }
-  /// Size of the momentum that is missing at a flux and its push.
+  /// Norm of the residual of momentum at a flux and its push.
   [[nodiscard]] double momentum_error(const Field& flux, const Field& push) const {
     const std::vector<DirectionalFactor<Dim>>& bedding = stage_.model.soils.bedding;
     double sum = 0.0;
@@ -135,7 +135,7 @@ class QuadraticNewton {
   MixedStage<Dim>& stage_;
   PressureSystem<Dim>& system_;
   const std::vector<double>& quadratic_drag_;
-  Field push_;  ///< that belongs to the flux
+  Field push_;  ///< of the current flux
 };
 
 }  // namespace suffuse

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Newton's method of a stage for what depends on the pressure itself: how much liquid soil under
-/// suction holds (in the mixed form of Celia, Bouloutas and Zarba, Water Resour. Res. 26 (1990)
-/// 1483), how well it conducts, and which seepage faces let water out.
+/// Newton's method of a stage where the equations depend on the pressure itself: the liquid content
+/// and the conductivity of soil under suction (in the mixed form of Celia, Bouloutas and Zarba,
+/// Water Resour. Res. 26 (1990) 1483), and the seepage faces that are open.
 
 #include "mixed/pressure_system.hpp"
 
@@ -20,8 +20,8 @@ class RetentionNewton {
         side_storage_(stage.displaced.size()),
         gain_(stage.displaced.size()) {}
 
-  /// Finds pressures, fluxes and the set of seepage faces that let water out. Returns the number of
-  /// solutions. Throws NotConverged.
+  /// Finds pressures, fluxes and the set of open seepage faces. Returns the number of solutions.
+  /// Throws NotConverged.
   int solve() {
     double share = 1.0;
     double first_norm = 0.0;
@@ -29,9 +29,9 @@ class RetentionNewton {
     std::vector<double> from;
     for (int iteration = 0;; ++iteration) {
       double norm = evaluate();
-      // The first pressures have none to go back to.
+      // The first iteration has no earlier pressures to return to.
       while (iteration > 0 && !(norm < last_norm) && share > min_share) {
-        // Back, and a shorter step.
+        // Return to the earlier pressures and take a shorter step.
         share *= 0.5;
         stage_.pressure.reference = from;
         take_step(share);
@@ -43,13 +43,13 @@ class RetentionNewton {
       const double left = load.size() > 0 ? load.template lpNorm<Eigen::Infinity>() : 0.0;
       const double allowed =
           flux_accuracy * scale + round_off_ + round_off_units * stage_.wall_round_off();
-      // Where water stands still, or an element is next to flat: pressures have no more digits.
+      // Accept round-off where water is at rest or an element is nearly flat.
       const bool stays = norm > 0.5 * last_norm && is_round_off_left();
       const bool solved = left <= allowed || stays;
       const bool switched = (solved || left <= near_solution * scale + allowed) &&
                             switch_faces(stays ? std::max(left, allowed) : allowed);
       if (!switched && solved) return iteration;
-      // A shorter step starts nearer to its end.
+      // The iteration diverges; that of a shorter time step starts nearer to its end.
       const bool wanders =
           !stage_.is_steady() && iteration >= patient_iterations && norm > first_norm;
       if (!std::isfinite(left) || wanders || iteration == max_newton_iterations) {
@@ -66,20 +66,20 @@ class RetentionNewton {
 
  private:
   static constexpr int max_newton_iterations = 60;
-  /// From here on the iteration of a step has to be nearer to the balance than at its start.
+  /// After this many iterations of a step the residual must be smaller than at the start.
   static constexpr int patient_iterations = 20;
-  /// The balance at a face may be missed by this share of the largest flux, in addition to
-  /// round-off of what gravity drives and of the contents of the elements.
+  /// Tolerated residual at a face as a share of the largest flux, in addition to round-off of the
+  /// flux by gravity and of the contents of the elements.
   static constexpr double flux_accuracy = 1e-8;
   static constexpr double round_off_units = 64.0;
-  /// Looser tolerance when the iteration stagnates: in units of round-off of what the pressures of
-  /// an element drive.
+  /// Looser tolerance when the iteration stagnates, in units of the round-off of the fluxes that an
+  /// element's pressures cause.
   static constexpr double many_round_off_units = 512.0;
-  /// From here on seepage faces open and close.
+  /// Residual over flux below which seepage faces open and close.
   static constexpr double near_solution = 0.1;
   /// Smallest share of a step of Newton's method that is taken.
   static constexpr double min_share = 1.0 / 16.0;
-  /// In an iteration, suction grows by this factor of itself and a metre at most.
+  /// In one iteration suction grows by at most this factor times itself plus one meter.
   static constexpr double max_suction_growth = 10.0;
 
   [[noreturn]] static void refuse_unsettled(int iterations, double left, double scale,
@@ -91,8 +91,8 @@ class RetentionNewton {
     throw NotConverged(text.str());
   }
 
-  /// Conductivities, contents, fluxes and what is missing of the balance at the pressures reached.
-  /// Returns the norm of what is missing, m3/s.
+  /// Conductivities, contents, fluxes and residual at the pressures reached. Returns the norm of
+  /// the residual, m3/s.
   double evaluate() {
     FacePressure& pressure = stage_.pressure;
     level_elements_.clear();
@@ -107,7 +107,7 @@ class RetentionNewton {
     return system_.find_load(stage_).norm();
   }
 
-  /// Mobility, what air gives way, and their slopes at the pressures of the reference.
+  /// Mobility, displaced air, and their slopes, at the reference pressures.
   void linearise_retention() {
     const FlowSoils<Dim>& soils = model_.soils;
     stage_.for_each_element([&](int e) {
@@ -126,7 +126,7 @@ class RetentionNewton {
       const double of_darcy = conducts / stage_.resistance[e];
       stage_.set_mobility(e, of_darcy);
       for (int k = 0; k <= Dim; ++k) {
-        // The slope is a difference over a little of the suction: at saturation it may be infinite.
+        // The slope is a difference quotient, as the derivative may be infinite at saturation.
         const double p = pressure(k);
         const double near = 1.0 + 1e-3 * std::abs(p);  // Pa
         const double rise =
@@ -140,8 +140,8 @@ class RetentionNewton {
   /// Finds the step of Newton's method. Throws NotConverged.
   void find_step() try {
     MixedMatrix<Dim>& matrix = system_.matrix();
-    // A wetter element conducts better. Where water enters, that adds to the diagonal; the
-    // symmetric matrix with this alone is factored, the whole one is solved with it.
+    // A wetter element conducts better. Where water enters, that adds to the diagonal. The
+    // symmetric matrix with this part is factored, and is the preconditioner of the complete one.
     ElementField<Dim> flux(side_storage_.size());
     ElementField<Dim> on_diagonal = side_storage_;
     for_each_index(static_cast<int>(flux.size()), model_.settings.threads, [&](int e) {
@@ -166,7 +166,6 @@ class RetentionNewton {
     throw NotConverged(error.what());
   }
 
-  /// Takes this share of the step.
   void take_step(double share) {
     stage_.for_each_face([&](int f) {
       stage_.pressure.rise[f] =
@@ -175,10 +174,10 @@ class RetentionNewton {
     if (stage_.retains) limit_change();
   }
 
-  /// A pressure that would pass the one at which its soil's content changes fastest stops there:
-  /// from there Newton's method meets a content that is convex or concave, and finds its way; from
-  /// saturated or dry soil, whose content hardly changes, it would go any distance. Suction grows
-  /// by a factor at most.
+  /// Limits the step. A pressure that would pass the point where its soil's content changes fastest
+  /// stops there: from there on the content is convex or concave, and Newton's method converges.
+  /// From saturated or dry soil, whose content hardly changes, the step would be arbitrarily long.
+  /// Suction grows by a factor at most.
   void limit_change() {
     FacePressure& pressure = stage_.pressure;
     stage_.for_each_face([&](int f) {
@@ -221,7 +220,7 @@ class RetentionNewton {
     return switched;
   }
 
-  /// Whether storage holds the level of the pressure in a sealed piece.
+  /// Whether storage fixes the level of the pressure in a sealed piece.
   [[nodiscard]] bool is_level_held(int piece) const {
     for (int e = 0; e < model_.grid.mesh.element_count(); ++e) {
       if (faces_.correction().sealed_piece()[e] != piece) continue;
@@ -231,8 +230,8 @@ class RetentionNewton {
     }
     return false;
   }
-  /// Where nothing holds the level of the pressure, its highest seepage face opens. Returns whether
-  /// any did.
+  /// Opens the seepage face with the highest pressure where nothing fixes the level. Returns
+  /// whether any was opened.
   bool hold_levels() {
     const std::vector<double>& pressure = stage_.pressure.reference;
     const FluxCorrection<Dim>& correction = faces_.correction();
@@ -254,15 +253,15 @@ class RetentionNewton {
     }
     return opened;
   }
-  /// Round-off of what gravity drives and of the contents of the elements, m3/s.
+  /// Round-off of the flux by gravity and of the contents of the elements, m3/s.
   [[nodiscard]] double balance_round_off() const {
     return round_off_units * epsilon * stage_.largest_of_elements([&](int e) {
       const double pores = stage_.coefficients.porosity[e] * model_.grid.volume[e];
       return model_.gravity_flux(e, stage_.coefficients) + pores / stage_.duration;
     });
   }
-  /// Whether what is missing at each face is round-off of the terms that it is a sum of:
-  /// conductances of the elements beside it times their pressures.
+  /// Whether the residual at each face is round-off of its terms, the conductances of the adjacent
+  /// elements times their pressures.
   [[nodiscard]] bool is_round_off_left() const {
     const double units = stage_.largest_of_faces([&](int f) {
       const double missing =
@@ -287,7 +286,7 @@ class RetentionNewton {
       return largest;
     });
   }
-  /// Pressures below this are zero to a seepage face: 1e-9 of the largest pressure, Pa.
+  /// Tolerance of the pressure at a seepage face: 1e-9 of the largest pressure, Pa.
   [[nodiscard]] double pressure_accuracy() const {
     const FacePressure& pressure = stage_.pressure;
     return 1e-9 * stage_.largest_of_faces([&](int f) {
@@ -302,7 +301,7 @@ class RetentionNewton {
   double round_off_;                 ///< of the balance, m3/s
   ElementField<Dim> side_storage_;   ///< slope of the rate of displacement, m3/(s Pa)
   ElementField<Dim> gain_;           ///< dk_r/dp at a side over k_r of the element, 1/Pa
-  std::vector<int> level_elements_;  ///< whose first face holds the level of a sealed piece
+  std::vector<int> level_elements_;  ///< whose first face fixes the level of a sealed piece
   Eigen::VectorXd step_;             ///< per unknown, Pa
 };
 

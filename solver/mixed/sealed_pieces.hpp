@@ -1,13 +1,13 @@
 #pragma once
 
-/// The pieces of the mesh whose pressure no boundary prescribes, in saturated soil.
+/// The pieces of the mesh without a prescribed pressure, in saturated soil.
 
 #include "mixed/mixed_stage.hpp"
 
 namespace suffuse {
 
-/// Surplus of inflow and sources of each sealed piece, m3/s. Where no water is stored they must
-/// cancel: spreads what remains as round-off over the piece. Throws NumericalError when it is more.
+/// Surplus of inflow and sources of each sealed piece, m3/s. Without storage these must cancel:
+/// round-off is spread over the piece. Throws NumericalError if the surplus is larger.
 template <int Dim>
 std::vector<double> balance_sealed_pieces(MixedStage<Dim>& stage) {
   const Grid<Dim>& grid = stage.model.grid;
@@ -49,8 +49,8 @@ std::vector<double> balance_sealed_pieces(MixedStage<Dim>& stage) {
   return surplus;
 }
 
-/// The water that a sealed piece stores takes up its surplus, to the last digit where next to no
-/// storage hardly holds the level. `rise`: of the pressures, per face.
+/// Shifts the pressures of each sealed piece so that the water it stores equals its surplus
+/// exactly, even if it has next to no storage. `rise`: of the pressures, per face.
 template <int Dim>
 void level_sealed_pieces(const MixedStage<Dim>& stage, const std::vector<double>& surplus,
                          std::vector<double>& rise) {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What an implicit stage ends with: fluxes through faces that balance in every element to the last
-/// digits, and the air that they leave there.
+/// The result of an implicit stage: fluxes through faces that balance in every element to the last
+/// digits, and the air in each element that follows from them.
 
 #include "mixed/mixed_stage.hpp"
 
@@ -75,7 +75,7 @@ struct StageEnd {
     const auto out_of = [&](int e, int f) {
       return stage.flux_out(e, grid.side_of(e, f), rise[f]);
     };
-    // From the side that conducts less, where pressures give fluxes with more digits.
+    // Use the side that conducts less, where pressures give fluxes with more digits.
     stage.for_each_face([&](int f) {
       if (stage.faces.condition(f).fixes_flux()) {
         face_flux[f] = -stage.inflow(f);
@@ -107,13 +107,13 @@ struct StageEnd {
     stage.faces.correction().correct(face_flux, net_outflow);
   }
 
-  /// Stores the air that the fluxes leave in each element, to the last digit.
+  /// Sets the air in each element to what the fluxes leave there, exactly.
   void settle_air(const MixedStage<Dim>& stage) {
     const Grid<Dim>& grid = stage.model.grid;
     state.air = air_at(stage.model, state.face_pressure, stage.coefficients.porosity);
     if (stage.is_steady()) return;
     stage.for_each_element([&](int e) {
-      // What the pressures say, and what left by the fluxes: equal but for round-off, or for what
+      // Difference between the air by the pressures and the air by the fluxes: round-off, or what
       // the iteration missed in a piece without an outlet.
       double missing = -stage.net_source[e] * stage.duration;
       if (!stage.mean_storage.empty()) {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The faces of a flow: at which of them the pressure is prescribed, which seepage faces let water
-/// out, and how the pieces of the mesh hang together through them.
+/// The faces of a flow: where the pressure is prescribed, which seepage faces let water out, and
+/// which pieces of the mesh are connected through the faces.
 
 #include <algorithm>
 #include <optional>
@@ -26,7 +26,7 @@ class StageFaces {
     set_up_correction();
   }
 
-  /// Whether these are the kinds of the faces. Faces whose kind may change count as one kind, which
+  /// Whether the faces have these kinds. All faces whose kind may change count as one kind, which
   /// has an unknown.
   [[nodiscard]] bool fit(const std::vector<FaceCondition>& conditions) const {
     return std::ranges::equal(kinds_, conditions, {}, {}, lasting_kind);
@@ -35,15 +35,15 @@ class StageFaces {
   /// Faces whose kind may change, ascending.
   [[nodiscard]] const std::vector<int>& switching() const { return switching_; }
 
-  /// Takes the conditions of a stage, which outlive it, with seepage faces as the last stage left
-  /// them.
+  /// Starts a stage with these conditions, which must outlive it. Seepage faces stay as the last
+  /// stage left them.
   void start(const std::vector<FaceCondition>& conditions) {
     prescribed_ = &conditions;
     if (switching_.empty()) return;
     resolved_ = conditions;
     for (const int f : switching_) resolve(f);
   }
-  /// Condition in this stage: at a seepage face a pressure or a flux, as it is now.
+  /// Condition in this stage; at a seepage face, a pressure or a flux by its present state.
   [[nodiscard]] const FaceCondition& condition(int f) const {
     return switching_.empty() ? (*prescribed_)[f] : resolved_[f];
   }
@@ -59,7 +59,7 @@ class StageFaces {
     return inward * model_.face_area[f];
   }
 
-  /// Seepage faces have an inflow that they take in at most, m3/s, and are open or closed.
+  /// Seepage faces are open or closed and take in no more than `most_inflow`, m3/s.
   [[nodiscard]] bool is_seepage(int f) const { return (*prescribed_)[f].kind == FaceKind::seepage; }
   [[nodiscard]] double most_inflow(int f) const {
     return (*prescribed_)[f].value * model_.face_area[f];
@@ -70,10 +70,10 @@ class StageFaces {
     open_[f] = open ? 1 : 0;
     resolve(f);
   }
-  /// Per face, to be put back before a stage starts.
+  /// Per face; the caller restores it before the next stage.
   [[nodiscard]] std::vector<char>& open() { return open_; }
 
-  /// The flux correction and the sealed pieces of the faces that `follow_held` met held last.
+  /// The flux correction and the sealed pieces, for the faces held at the last `follow_held`.
   [[nodiscard]] FluxCorrection<Dim>& correction() { return *correction_; }
   [[nodiscard]] const FluxCorrection<Dim>& correction() const { return *correction_; }
   void follow_held() {
@@ -82,7 +82,7 @@ class StageFaces {
     set_up_correction();
   }
 
-  /// The flux correction archives itself.
+  /// Without the flux correction, which archives itself.
   void archive(auto& archive) {
     archive(open_, corrected_);
     if (archive.restores() && !switching_.empty()) set_up_correction();
@@ -112,11 +112,11 @@ class StageFaces {
   const MixedModel<Dim>& model_;
   std::vector<FaceKind> kinds_;
   std::vector<int> switching_;
-  const std::vector<FaceCondition>* prescribed_ = nullptr;  ///< of the stage
-  std::vector<FaceCondition> resolved_;                     ///< where kinds may change
-  std::vector<char> open_;       ///< per face: a seepage face that lets water out
-  std::vector<char> held_;       ///< per face
-  std::vector<char> corrected_;  ///< per face: held in the flux correction as it stands
+  const std::vector<FaceCondition>* prescribed_ = nullptr;
+  std::vector<FaceCondition> resolved_;  ///< empty if no kind may change
+  std::vector<char> open_;               ///< per face: an open seepage face
+  std::vector<char> held_;               ///< per face
+  std::vector<char> corrected_;          ///< per face: `held_` at the last set-up of the correction
   std::optional<FluxCorrection<Dim>> correction_;
 };
 

@@ -6,7 +6,7 @@
 namespace suffuse {
 
 std::vector<double> element_gains(const GainInput& in) {
-  /// Solid that is missing by so little of an element's volume is round-off.
+  /// A negative solid volume within this share of an element's volume is round-off.
   constexpr double round_off = 1e-12;
   const std::size_t count = in.solid.size();
   std::vector<double> kept(in.piece_count, std::max(0.0, 1.0 - in.travel));
@@ -27,7 +27,7 @@ std::vector<double> element_gains(const GainInput& in) {
     sum[in.piece[e]] += gain[e];
     solid[in.piece[e]] += in.smooth_after[e];
   }
-  // Round-off, or a difference that pieces which met have shared.
+  // Distribute the rest: round-off, or a difference between pieces that have merged.
   for (std::size_t e = 0; e < count; ++e) {
     const int piece = in.piece[e];
     if (piece >= 0 && solid[piece] > 0.0) {

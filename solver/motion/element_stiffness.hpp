@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the points in an element make of it: how stiff it is, how fast pressures spread in it, how
-/// far soil fills it.
+/// Properties of elements by the points in them: stiffness, diffusion of pressure, and the share
+/// that soil fills.
 
 #include <vector>
 
@@ -11,16 +11,16 @@
 
 namespace suffuse {
 
-/// V_e / E_oed, m3/Pa, in free water beside soil that of the softest soil; 0 elsewhere without soil
-/// that moves.
-/// \param modulus  E_oed per point, Pa; 0 where it does not move
+/// V_e / E_oed, m3/Pa; in free water next to soil, with E_oed of the softest soil; 0 elsewhere
+/// without moving soil.
+/// \param modulus  E_oed per point, Pa; 0 if the point does not move
 template <int Dim>
 std::vector<double> drained_compressibility(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                             const std::vector<double>& modulus,
                                             bool has_free_water);
 
-/// c_v = k E_oed / gamma_w per element, with the least k of its points, m2/s; 0 without soil that
-/// moves.
+/// c_v = k E_oed / gamma_w per element, with the least k of its points, m2/s; 0 without moving
+/// soil.
 /// \param compressibility  V_e / E_oed per element, m3/Pa
 /// \param porosity         per point, at the start and now
 template <int Dim>
@@ -29,7 +29,7 @@ std::vector<double> diffusivity(const Grid<Dim>& grid, const SoilMap<Dim>& soils
                                 const std::vector<double>& initial_porosity,
                                 const std::vector<double>& porosity);
 
-/// How far soil fills each element.
+/// Share of each element that soil fills, and the porosity of that soil.
 /// \param volume, solid  of the points, smoothed, m3 per element
 template <int Dim>
 std::vector<SoilFilling> soil_filling(const Grid<Dim>& grid, const ElementClasses& classes,

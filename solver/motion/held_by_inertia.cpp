@@ -3,7 +3,7 @@
 namespace suffuse {
 namespace {
 
-/// Inertia governs where it leaves less than this share of the compressibility of drained soil.
+/// Inertia governs if it leaves less than this share of the compressibility of drained soil.
 constexpr double share_of_inertia = 0.9;
 
 }  // namespace

@@ -13,8 +13,8 @@ struct SolidPhase {
   MovingSkeleton<Dim>* moving = nullptr;  ///< the skeleton, if it moves; otherwise null
 };
 
-/// The skeleton that the scene asks for, which moves the points of `soils` if it moves. Exchange
-/// happens within `span` alone.
+/// The skeleton that the scene asks for. One that moves also moves the points of `soils`. Exchange
+/// happens within `span` only.
 template <int Dim>
 SolidPhase<Dim> make_skeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils, const TimeSpan& span,
                               int threads);

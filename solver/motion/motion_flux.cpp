@@ -8,7 +8,7 @@ namespace {
 template <int Dim>
 using Corners = std::array<Vector<Dim>, Dim>;
 
-/// Normal of a face times its area, on one side or the other.
+/// Normal of a face times its area, of either sign.
 Vector<2> normal_of(const Corners<2>& x) {
   const Vector<2> along = x[1] - x[0];
   return {along[1], -along[0]};
@@ -17,8 +17,8 @@ Vector<3> normal_of(const Corners<3>& x) {
   return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
 }
 
-/// The mean of the normal while the corners move by `u`. In two dimensions it is linear on the way,
-/// in three quadratic, where Simpson's rule is exact.
+/// The mean of the normal while the corners move by `u`. The normal is linear in the motion in two
+/// dimensions, and quadratic in three, for which Simpson's rule is exact.
 template <int Dim>
 Vector<Dim> mean_normal(const Corners<Dim>& x, const Corners<Dim>& u) {
   const auto normal_at = [&](double share) {

@@ -1,4 +1,4 @@
-/// What a skeleton that moves has to do with inertia: masses and velocities.
+/// The inertia of a moving skeleton: masses and velocities.
 
 #include <cmath>
 #include <numeric>
@@ -10,8 +10,8 @@
 namespace suffuse {
 namespace {
 
-/// What the motion of soil is compared with.
-/// \param mass  what counts for inertia, kg per point
+/// Mass, load and height that the motion of soil is compared with.
+/// \param mass  that has inertia, kg per point
 template <int Dim>
 SoilExtent extent_of(const SolidPoints<Dim>& points, const Supports<Dim>& supports,
                      const Scene& scene, const std::vector<double>& mass,

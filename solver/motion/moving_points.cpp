@@ -1,4 +1,4 @@
-/// The points of a skeleton that moves: their order, and what results show of them.
+/// The points of a moving skeleton: their order, and their fields in results.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 namespace suffuse {
 namespace {
 
-/// What a snapshot shows of points, in their order.
+/// Data of points for a snapshot.
 template <int Dim>
 struct ShownPoints {
   const SolidPoints<Dim>& points;
@@ -21,10 +21,10 @@ struct ShownPoints {
   const std::vector<int>& id;
   std::vector<Eigen::Matrix3d> stress;  ///< Pa
   std::vector<double> fines_left;
-  std::string_view internal;  ///< name of the laws' internal variable; empty: they have none
+  std::string_view internal;  ///< name of the laws' internal variable; may be empty
 };
 
-/// Name of the internal variable of the scene's laws; empty where they have none.
+/// Name of the internal variable of the scene's laws; empty if they have none.
 std::string_view internal_of(const Scene& scene) {
   for (const Soil& soil : scene.soils) {
     if (soil.skeleton.moves() && !soil.skeleton.law->internal.empty()) {
@@ -113,7 +113,7 @@ template <int Dim>
 void MovingSkeleton<Dim>::find_filling() {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
-  // Carried to nodes and back: the points in an element would make the drag jump as they leave it.
+  // Smoothed by nodes, as the drag would otherwise jump when points leave an element.
   filling_ = soil_filling(this->grid_, classes, smooth(points_.volume), smooth(solid_volumes()));
 }
 

@@ -27,7 +27,7 @@ SolidPoints<Dim> points_of(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& poi
   return {mesh, places, points.volume};
 }
 
-/// Volume that points lose until they have another porosity, m3; empty where that is empty.
+/// Volume that points lose as their porosity changes to `later`, m3; empty if `later` is.
 std::vector<double> losses(const std::vector<double>& volume, const std::vector<double>& porosity,
                            const std::vector<double>& later) {
   std::vector<double> loss(later.size());
@@ -188,7 +188,7 @@ std::vector<double> MovingSkeleton<Dim>::solid_masses(const std::vector<double>&
   return mass;
 }
 
-/// Weight of the solid at its points; of the liquid, and what loads the boundaries.
+/// Weight of solid and liquid, loads of boundaries, and the pressure of free water.
 template <int Dim>
 NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
                                             const std::vector<double>& solid_mass,
@@ -244,11 +244,11 @@ MotionStep<Dim> MovingSkeleton<Dim>::start_step(MotionForcing forcing,
 
 template <int Dim>
 void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
-  // Pressures of water that hardly leaves magnify what is out of balance.
+  // Pressures of confined water magnify the residual.
   constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
   constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-6, .goal = 1e-7};
   step.has_inertia = inertia_.acts();
-  // Inertia holds a piece of soil that hangs by one node.
+  // With inertia, a piece of soil connected by one node needs no soft stiffness.
   step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
       this->grid_, points_, skeletons(step.loss), supports_, this->threads_,
       step.has_inertia ? in_motion : in_equilibrium, step.has_inertia ? 0.0 : soft_share);
@@ -340,7 +340,7 @@ void MovingSkeleton<Dim>::carry_solid(const std::vector<double>& smooth_before,
   const std::vector<double> smooth_after = smooth(solid_volumes());
   std::vector<char> has_solid(solid_.size());
   for (std::size_t e = 0; e < solid_.size(); ++e) {
-    if (supports_.is_rigid(static_cast<int>(e))) continue;  // its solid stays
+    if (supports_.is_rigid(static_cast<int>(e))) continue;  // its solid does not move
     has_solid[e] = smooth_before[e] > 0.0 || smooth_after[e] > 0.0 || solid_[e] != 0.0 ? 1 : 0;
   }
   solid_flux_.follow(has_solid);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A skeleton that moves: points that carry stress, in equilibrium with weight, loads and pore
-/// pressure at the end of each step, or with inertia too. It knows no flow, and does not decide
+/// A skeleton that moves: points that carry stress, in equilibrium with weight, loads, pore
+/// pressure and, if it acts, inertia at the end of each step. It knows no flow, and does not decide
 /// when soil fails (coupling/failure).
 
 #include <optional>
@@ -18,16 +18,16 @@
 
 namespace suffuse {
 
-/// Porosity of a point is n = 1 - V_s/V with its volume of today; that of an element 1 - V_s,e/V_e
-/// with its solid volume V_s,e, which motion carries from element to element and exchange changes
-/// where it happens.
+/// Porosity of a point is n = 1 - V_s/V with its present volume; that of an element is 1 -
+/// V_s,e/V_e with its solid volume V_s,e, which motion carries between elements and exchange
+/// changes at points.
 template <int Dim>
 class MovingSkeleton final : public ErodingSkeleton<Dim> {
  public:
-  /// Moves the points of `soils`. Throws InputError as they do.
+  /// Moves the points of `soils`. Throws InputError.
   MovingSkeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils, const TimeSpan& span, int threads);
 
-  /// Porosity changes with the volume of the soil too: what counts is what its points have left.
+  /// Fines lost, over the present volume: porosity changes with the volume of the soil too.
   [[nodiscard]] double eroded_share(int point) const override {
     return (initial_erodible_[point] - this->state_.erodible_volume[point]) / points_.volume[point];
   }
@@ -41,43 +41,43 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void archive(StateArchive& archive) override;
 
   [[nodiscard]] bool moves() const override { return true; }
-  /// Finds the stress at the start, under these pressures of the pores, Pa, and masses of liquid,
-  /// kg per m3 of soil; both per element.
+  /// Finds the stress at the start under these pore pressures, Pa, and masses of liquid, kg per m3
+  /// of soil; both per element.
   StartStress start_motion(const std::vector<double>& pressure,
                            const std::vector<double>& liquid_mass);
 
-  /// A step to be tried. `last`: one that was tried from the same state, which a step that differs
-  /// from it by little goes on from.
+  /// A step to be tried. It continues `last`, an earlier attempt from the same state, if that has
+  /// the same equilibrium for given pressures.
   [[nodiscard]] MotionStep<Dim> start_step(MotionForcing forcing,
                                            std::optional<MotionStep<Dim>> last = {}) const;
-  /// The motion of the step under these pressures of the pores at its end, per element, Pa, from
-  /// what was found for it last. Where `stiffness` is given, per element, Pa, pressures fall by
-  /// this times the growth of the soil.
+  /// Finds the motion of the step under these pore pressures at its end, per element, Pa, starting
+  /// from its last solution. With `stiffness`, per element, Pa, pressures fall by this times the
+  /// relative growth of the soil.
   const SolidMotion& solve(MotionStep<Dim>& step, const std::vector<double>& pressure,
                            std::vector<double> stiffness = {}) const;
-  /// Throws EquilibriumLost where the step leaves soil no pores.
+  /// Throws EquilibriumLost if the step leaves soil without pores.
   void check_pores(const MotionStep<Dim>& step) const;
-  /// Points take the velocities of the step, which has inertia; before it is committed.
+  /// Sets the velocities of points to those of the step, which has inertia; call before `commit`.
   SoilKinetics take_velocities(const MotionStep<Dim>& step);
-  /// Points move as the step has found, and solid with them. Returns its motion, and what is known
-  /// of it where soil has no inertia now.
+  /// Moves points, and solid with them, as the step has found. Returns the motion, and its kinetics
+  /// if the soil has no inertia now.
   std::pair<SolidMotion, SoilKinetics> commit(MotionStep<Dim> step);
 
-  /// From now on the soil, which is at rest, has inertia.
+  /// Starts the inertia of the soil, which is at rest.
   void start_inertia() { inertia_.begin(points_.size()); }
-  /// From now on it has none.
+  /// Ends the inertia of the soil.
   void end_inertia() { inertia_ = {}; }
   [[nodiscard]] bool has_inertia() const override { return inertia_.acts(); }
 
-  /// Volume by which each element's soil would shrink in a step of `duration`, s, per Pa of pore
-  /// pressure less, m3/Pa: about how strongly pressure and motion depend on each other. V_e / E_oed
-  /// as if it could not move sideways; inertia makes it less.
+  /// Volume by which each element's soil shrinks in a step of `duration`, s, per Pa of lower pore
+  /// pressure, m3/Pa: a measure of the coupling of pressure and motion. V_e / E_oed, as without
+  /// sideways motion; less with inertia.
   [[nodiscard]] std::vector<double> compressibility(double duration) const;
-  /// How easily a gradient of the pore pressure moves soil that has inertia, dt/rho per element,
-  /// m3 s/kg; 0 where its stiffness, or no pressure, decides on its motion in a step of `duration`,
-  /// s. Empty without inertia.
+  /// Mobility of soil with inertia under a gradient of the pore pressure, dt/rho per element, m3
+  /// s/kg; 0 where stiffness or no pressure governs its motion in a step of `duration`, s. Empty
+  /// without inertia.
   [[nodiscard]] std::vector<double> inertial_mobility(double duration) const;
-  /// Longest step with the velocities of now, s.
+  /// Longest step at the present velocities, s.
   [[nodiscard]] double longest_step() const { return inertia_.longest_step(); }
   /// Time in which soil falls through an element of mean size, s; 0 without gravity.
   [[nodiscard]] double time_of_fall() const;
@@ -101,20 +101,20 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// The points, sorted by element, in the order of `soils().points()`.
   [[nodiscard]] const SolidPoints<Dim>& points() const { return points_; }
   [[nodiscard]] const std::vector<int>& id() const { return id_; }  ///< numbers at the start
-  /// Share of the erodible fines of the start that a point has left; above 1 with deposits.
+  /// Share of a point's initial erodible fines that it still has; above 1 with deposits.
   [[nodiscard]] double fines_left(int point) const;
   /// Effective stress sigma' of a point, Pa; tension is positive.
   [[nodiscard]] Eigen::Matrix3d effective_stress(int point) const;
   [[nodiscard]] const std::vector<double>& element_solid_volume() const { return solid_; }  ///< m3
 
  private:
-  /// Laws and numbers of the points with the fines that they will have after this loss.
+  /// Laws and parameters of the points with the fines left after this loss.
   [[nodiscard]] std::vector<PointSkeleton> skeletons(const std::vector<double>& loss) const;
   [[nodiscard]] PointSkeleton skeleton_of(int point, double fines_left) const;
   /// `erodible_volume`, m3, as a share of the erodible volume at the start.
   [[nodiscard]] double share_left(int point, double erodible_volume) const;
   [[nodiscard]] std::vector<double> solid_volumes() const;
-  /// `smooth_volumes` of what the points have, m3.
+  /// `smooth_volumes` of the points' values, m3.
   [[nodiscard]] std::vector<double> smooth(const std::vector<double>& of_points) const {
     return smooth_volumes(this->grid_, points_, of_points, supports_.rigid_elements());
   }
@@ -123,31 +123,31 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
                                        const std::vector<double>& pressure,
                                        const PointsByElement& sorted,
                                        const ElementClasses& classes) const;
-  /// Solid of the points after this loss, kg.
+  /// Mass of the points' solid after this loss, kg.
   [[nodiscard]] std::vector<double> solid_masses(const std::vector<double>& loss) const;
-  /// Makes the equilibrium of a step, with inertia where the soil has it.
+  /// Makes the equilibrium of a step, with inertia if the soil has it.
   void prepare(MotionStep<Dim>& step) const;
-  /// What counts for inertia: solid after the loss of the step, and the liquid in its pores, kg per
+  /// Mass that has inertia: solid after the loss of the step, and the liquid in its pores, kg per
   /// point.
   [[nodiscard]] std::vector<double> moved_masses(const MotionStep<Dim>& step) const;
-  /// How the soil moved in a step in equilibrium. `before`: places of the points at its start.
+  /// Kinetics of a step in equilibrium. `before`: places of the points at its start.
   [[nodiscard]] SoilKinetics kinetics(const MotionStep<Dim>& step,
                                       const std::vector<Vector<Dim>>& before) const;
-  /// E_oed per point, Pa; 0 where soil does not move.
+  /// E_oed per point, Pa; 0 if it does not move.
   [[nodiscard]] std::vector<double> moduli() const;
   [[nodiscard]] std::vector<double> drained_compressibility() const;
-  /// Mass of soil and the liquid in its pores, per node, kg.
+  /// Mass of soil including the liquid in its pores, per node, kg.
   [[nodiscard]] std::vector<double> node_masses() const;
-  /// Sorts what belongs to points by their elements and hands them on to the soils.
+  /// Sorts the data of points by element, and passes the points on to the soils.
   void sort_points(double time);
   void show_points();
   void find_filling();
-  /// Adds what the points gained, m3 per point, to their elements.
+  /// Adds the gains of the points, m3 per point, to their elements.
   void add_to_elements(const std::vector<double>& gain);
-  /// After the points have moved and before they are sorted.
+  /// Call after the points have moved and before they are sorted.
   void find_crossing_forces(const MotionStep<Dim>& step);
   void carry_solid(const std::vector<double>& smooth_before, SolidMotion& motion);
-  /// Books the solid of points that have come into another region from `element`, per point.
+  /// Books the solid of points that have entered another region, from `element` per point.
   void book_regions(const std::vector<int>& element);
 
   SoilMap<Dim>& movable_soils_;
@@ -155,11 +155,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   SolidPoints<Dim> points_;
   std::vector<Vector<Dim>> start_;  ///< per point: its place at the start, m
   std::vector<int> id_;
-  std::vector<int> region_;               ///< per point: where it comes from
+  std::vector<int> region_;               ///< per point: region that it comes from
   std::vector<double> initial_erodible_;  ///< per point, m3
   Supports<Dim> supports_;
   BoundaryLoads<Dim> boundary_loads_;
-  CrossingForces<Dim> crossing_forces_;  ///< while inertia does not act
+  CrossingForces<Dim> crossing_forces_;  ///< without inertia
   SoilInertia<Dim> inertia_;
   std::vector<double> solid_;                ///< per element, m3
   std::vector<CompensatedSum> region_gain_;  ///< per region of the mesh, m3

@@ -1,34 +1,33 @@
 #pragma once
 
-/// Velocities of soil that has lost its equilibrium: from then on each step is an equilibrium with
-/// the forces of inertia (backward Euler), until the soil has come to rest (docs/theory.md,
-/// "Inertia of the soil").
+/// Velocities of soil that has lost its equilibrium. Until the soil comes to rest, each step is an
+/// equilibrium with the forces of inertia (backward Euler; docs/theory.md, "Inertia of the soil").
 
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/point_velocities.hpp"
 
 namespace suffuse {
 
-/// What the motion of soil is compared with.
+/// Mass, load and height that the motion of soil is compared with.
 struct SoilExtent {
   double mass = 0.0;    ///< kg
-  double load = 0.0;    ///< its weight, or the loads of all nodes where there is no gravity, N
+  double load = 0.0;    ///< its weight; without gravity, the loads of all nodes, N
   double height = 0.0;  ///< along gravity, m
 
-  /// Time in which its loads would move it by its height, s.
+  /// Time in which the load would move the soil by its height, s.
   [[nodiscard]] double time_of_fall() const;
 };
 
-/// How soil moved in a step.
+/// Kinetics of soil in a step.
 struct SoilKinetics {
   double energy = 0.0;         ///< J
-  double inertia_share = 0.0;  ///< of the forces of inertia in the loads
+  double inertia_share = 0.0;  ///< forces of inertia over the loads
   SoilExtent soil = {};
 
-  /// Whether soil moves so little that it can be in equilibrium: inertia carries less than 1 % of
-  /// the loads, and the kinetic energy is less than 1e-6 of the loads times the height.
+  /// Whether soil is slow enough for equilibrium: inertia carries less than 1 % of the loads, and
+  /// the kinetic energy is less than 1e-6 of the loads times the height.
   [[nodiscard]] bool is_rest() const;
-  /// Whether soil in equilibrium moves so fast that inertia decides how far it goes: the kinetic
+  /// Whether soil in equilibrium is so fast that inertia governs how far it moves: the kinetic
   /// energy is more than 1e-4 of the loads times the height.
   [[nodiscard]] bool is_slide() const;
 };
@@ -36,15 +35,15 @@ struct SoilKinetics {
 template <int Dim>
 class SoilInertia {
  public:
-  /// A step may take points through this share of the height of their element, at the velocity at
-  /// its start.
+  /// Longest way of a point in a step, over the height of its element, at its velocity at the
+  /// start.
   static constexpr double max_travel = 0.25;
 
-  /// Whether inertia counts now.
+  /// Whether the soil has inertia now.
   [[nodiscard]] bool acts() const { return !velocities_.empty(); }
-  /// From now on it does; the soil was at rest.
+  /// Starts inertia; the soil was at rest.
   void begin(int point_count);
-  /// Longest step from now on, s.
+  /// Longest next step, s.
   [[nodiscard]] double longest_step() const;
 
   /// Mass and velocity of the nodes.
@@ -54,7 +53,7 @@ class SoilInertia {
     return velocities_.to_nodes(grid, points, mass);
   }
 
-  /// Points take the velocities of a step that is over. Returns their kinetic energy, J.
+  /// Sets the velocities of points to those of a finished step. Returns their kinetic energy, J.
   /// \param points  before they move
   /// \param nodes   at the start of the step
   /// \param mass    per point, kg
@@ -63,16 +62,16 @@ class SoilInertia {
               const NodeVectors<Dim>& displacement, const std::vector<double>& mass,
               double duration, double travel, double share);
 
-  /// Forces of inertia over the loads in the last step; 0 where it does not act.
+  /// Forces of inertia over the loads in the last step; 0 without inertia.
   [[nodiscard]] double share() const { return share_; }
-  /// The points have another order: the one that was at order[k] comes to k.
+  /// Reorders the points: point order[k] becomes point k.
   void reorder(const std::vector<int>& order) { velocities_.reorder(order); }
 
   void archive(auto& archive) { archive(velocities_, rate_, share_); }
 
  private:
-  PointVelocities<Dim> velocities_;  ///< of no points while inertia does not act
-  double rate_ = 0.0;                ///< of travel over the heights of elements, 1/s
+  PointVelocities<Dim> velocities_;  ///< empty without inertia
+  double rate_ = 0.0;                ///< travel over the heights of elements per time, 1/s
   double share_ = 0.0;               ///< see `share`
 };
 

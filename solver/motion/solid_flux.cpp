@@ -55,7 +55,7 @@ void SolidFlux<Dim>::find_pieces() {
   }
 }
 
-/// The graph of the elements, without the roots, where the potential is zero.
+/// Factorizes the graph of the elements. The potential is zero at the roots.
 template <int Dim>
 void SolidFlux<Dim>::factorise() {
   int count = 0;
@@ -98,7 +98,7 @@ std::vector<double> SolidFlux<Dim>::carried(const std::vector<double>& face_volu
   return result;
 }
 
-/// What leaves each element beyond its loss, m3.
+/// Outflow of each element plus its gain, m3.
 template <int Dim>
 std::vector<double> SolidFlux<Dim>::excess(const std::vector<double>& gain,
                                            const std::vector<double>& face_volume) const {
@@ -132,7 +132,7 @@ double SolidFlux<Dim>::balance(const std::vector<double>& gain, std::vector<doub
       added += std::abs(more);
     }
   }
-  // The last digits go along a tree.
+  // Correct the last digits along a tree.
   std::vector<double> rest = excess(gain, face_volume);
   for (std::size_t i = from_root_.size(); i-- > 0;) {
     const int e = from_root_[i];

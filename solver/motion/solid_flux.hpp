@@ -10,18 +10,18 @@
 
 namespace suffuse {
 
-/// Solid volume per element, m3, as the points' volumes have it that are carried to the nodes and
-/// back: V_e times the mean of the nodes' shares. Its total is theirs. (To count the points in an
-/// element errs by a whole point.) It spreads over the elements next to those with points, but not
-/// between rigid soil and soil that moves: rigid elements have what their own points have.
-/// \param rigid  per element; empty: none is
+/// Smoothed solid volume per element, m3: the points' volumes go to nodes, and an element has V_e
+/// times the mean of its nodes' shares. The total is that of the points. (Counting the points in an
+/// element has an error of a whole point.) Solid spreads to elements next to those with points, but
+/// not between rigid and moving soil: rigid elements have the volume of their own points.
+/// \param rigid  per element; empty: none is rigid
 template <int Dim>
 std::vector<double> smooth_volumes(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                    const std::vector<double>& solid_volume,
                                    const std::vector<char>& rigid = {});
 
-/// Makes the flux of solid balance. Solid is in connected pieces of the mesh, and leaves none. Has
-/// no history: the factor follows from the elements of the pieces.
+/// Makes the flux of solid balance in connected pieces of the mesh, which solid does not leave.
+/// There is no history: the factor follows from the elements of the pieces.
 template <int Dim>
 class SolidFlux {
  public:
@@ -33,13 +33,13 @@ class SolidFlux {
   [[nodiscard]] const std::vector<int>& piece() const { return piece_; }
   [[nodiscard]] int piece_count() const { return static_cast<int>(roots_.size()); }
 
-  /// What the motion of the soil carries along: of the volume of soil that crosses each face the
-  /// share of solid in the element that it comes from, m3.
+  /// Solid that the motion of the soil carries, m3: the volume of soil that crosses each face,
+  /// times the share of solid in the element that it comes from.
   [[nodiscard]] std::vector<double> carried(const std::vector<double>& face_volume,
                                             const std::vector<double>& solid_volume) const;
-  /// Adds to the volumes through faces the flux of a potential, so that what enters each element is
-  /// its gain, m3, to round-off. Gains of a piece must add up to zero. Returns the sum of the sizes
-  /// of what was added over that of what was there.
+  /// Adds the flux of a potential to the volumes through faces, so that each element gains `gain`,
+  /// m3, to round-off. Gains of a piece must add up to zero. Returns the sum of magnitudes of this
+  /// flux, over that of the volumes before.
   double balance(const std::vector<double>& gain, std::vector<double>& face_volume);
 
  private:
@@ -59,7 +59,7 @@ class SolidFlux {
   std::vector<int> from_root_;       ///< elements, each after the one that it drains to
   std::vector<int> drain_;           ///< per element: face towards the root, -1 at a root
   std::vector<int> unknown_;         ///< per element; -1 at roots and outside
-  std::vector<double> conductance_;  ///< per face, m; 0 where nothing passes
+  std::vector<double> conductance_;  ///< per face, m; 0 at faces without flux
   std::unique_ptr<CholeskyFactor> factor_;
 };
 

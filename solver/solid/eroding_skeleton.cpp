@@ -37,7 +37,7 @@ const ExchangeModel& ErodingSkeleton<Dim>::model_of(int point, ExchangeModel& ch
   if (porosity_max_.empty() || !model.exchanges()) return model;
   changed = model;
   changed.erosion.porosity_max = porosity_max_[point];
-  // Soil compressed below porosity_min has no room for more; what it has caught stays.
+  // Soil compressed below porosity_min catches no more, and keeps its deposits.
   if (!model.deposition.has_room_at(porosity_[point])) changed.deposition.coefficient = 0.0;
   return changed;
 }
@@ -100,10 +100,10 @@ double ErodingSkeleton<Dim>::take(int point, const Exchange& change) {
                                             : porosity_max_[point];
   const bool all = porosity_[point] + net >= most;
   const double left = all ? 0.0 : std::max(0.0, erodible - volume * net);
-  // What the rounded state lost, so that none is lost on the way to the liquid.
+  // Difference of the rounded states, so that rounding loses no fines.
   const double into_liquid = erodible - left;
   erodible = left;
-  // Soil filled a last digit beyond its room gives that back, which is erosion.
+  // Soil filled by a last digit beyond its room returns that: erosion, not a deposit.
   if (change.deposited > 0.0) state_.deposited_volume[point] += volume * change.deposited;
   porosity_[point] = porosity_of(point);
   return into_liquid;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What skeletons share whose points erode and catch fines, whether they move or not.
+/// Erosion and deposition at points, common to rigid and moving skeletons.
 
 #include "solid/skeleton.hpp"
 
@@ -42,7 +42,7 @@ class ErodingSkeleton : public Skeleton<Dim> {
   void archive(StateArchive& archive) override;
 
  protected:
-  /// Porosity of all points from what they hold and the volumes that they stand for.
+  /// Updates the porosity of all points from their solid and total volumes.
   void update_porosity();
 
   const Grid<Dim>& grid_;
@@ -50,24 +50,24 @@ class ErodingSkeleton : public Skeleton<Dim> {
   SolidState state_;
   std::vector<double> initial_porosity_;
   std::vector<double> porosity_;
-  /// Per point: porosity once all fines are gone, today. It changes as the soil is compressed.
-  /// Empty while soils stay in place: theirs.
+  /// Per point: present porosity without fines, which changes as soil is compressed. Empty if soil
+  /// does not move: that of the soil holds then.
   std::vector<double> porosity_max_;
 
  private:
-  /// n_L of a point from what it holds.
+  /// n_L of a point by its solid volume.
   [[nodiscard]] double porosity_of(int point) const {
     return 1.0 - state_.solid_volume(point) / soils_.points().volume[point];
   }
-  /// The law of a point with its numbers of today. `changed` is where they are kept if they differ
-  /// from those of its soil.
+  /// The law of a point with its present parameters; `changed` stores them if they differ from
+  /// those of its soil.
   const ExchangeModel& model_of(int point, ExchangeModel& changed) const;
   /// Changes the state of a point; returns the volume that went into the liquid, m3.
   double take(int point, const Exchange& change);
-  /// Throws NumericalError where deposits leave hardly any pores.
+  /// Throws NumericalError if deposits leave hardly any pores.
   void refuse_full() const;
-  /// What erodes where nothing but the flux drives it: in closed form, without the rest of what
-  /// exchange may depend on.
+  /// Erosion that depends on the flux at most, in closed form: the other data of the flow are not
+  /// needed.
   static Exchange eroded_at(const ErosionModel& erosion, int point, double porosity, double from,
                             double to, const PointFlows& flows);
   /// Calls `take(point, exchange)` for every point of an element whose soil exchanges fines.

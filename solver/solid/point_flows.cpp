@@ -58,7 +58,7 @@ void find_flux_change(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const Fl
   for_each_index(points.size(), threads, [&](int p) {
     const int e = points.element[p];
     const Vector<Dim> x = points.position(grid.mesh, p);
-    // Linear through the mean, which stays what it is, and the end; nowhere less than nothing.
+    // Linear in time through the mean and the end, and never negative.
     const double mean = flows.flux[p];
     const double change = 2.0 * (flux_at(grid, history.end, e, x).norm() - mean);
     flows.flux_change[p] = std::clamp(change, -2.0 * mean, 2.0 * mean);

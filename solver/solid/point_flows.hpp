@@ -1,6 +1,6 @@
 #pragma once
 
-/// The liquid at the solid points over an interval, as far as the exchange of fines depends on it.
+/// The liquid at the solid points over an interval, as far as the exchange of fines needs it.
 
 #include <algorithm>
 #include <utility>
@@ -12,19 +12,18 @@
 
 namespace suffuse {
 
-/// Vectors may be empty where no law asks for them.
+/// Vectors may be empty if no law needs them.
 struct PointFlows {
   double start = 0.0;                 ///< of the interval, s
   double end = 0.0;                   ///< s
   std::vector<double> flux;           ///< per solid point: mean of |q|, m/s
   std::vector<double> flux_change;    ///< per solid point: of |q| over the interval, m/s
   std::vector<double> resistance;     ///< per solid point: see PlaceFlow
-  std::vector<double> concentration;  ///< per solid point: c now
+  std::vector<double> concentration;  ///< per solid point: present c
   std::vector<double> saturation;     ///< per element: liquid per pore volume
   LiquidMotion motion = LiquidMotion::stays;
 
-  /// |q| at a point at the ends of a part of the interval, m/s; may be unset where no law asks for
-  /// it.
+  /// |q| at a point at the ends of a part of the interval, m/s; may be unset if no law needs it.
   [[nodiscard]] std::pair<double, double> flux_ends(int point, double from, double to) const {
     if (flux.empty()) return {unset, unset};
     const double mean = flux[point];
@@ -38,20 +37,20 @@ struct PointFlows {
   [[nodiscard]] PlaceFlow at(int point, int element, double from, double to) const;
 };
 
-/// The flows that belong to a flux: volumes through faces per second, the mean over `duration`, s.
+/// Flows at solid points of a flux: volumes through faces per second, mean over `duration`, s.
 /// `flux_change` and `concentration` stay empty.
 template <int Dim>
 PointFlows point_flows(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                        const std::vector<double>& face_rate, double duration, int threads);
 
-/// Sets `flux_change` where some soil asks for it.
+/// Sets `flux_change` if some soil needs it.
 template <int Dim>
 void find_flux_change(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const FluxHistory& history,
                       PointFlows& flows, int threads);
 
-/// |q| in an element as far as it can act on the soil, m/s, from a mean over `duration`, s: neither
-/// the round-off of still water nor that of what the element holds is a drive. Still water in which
-/// the last digit eroded would not stay still, as fines are heavy.
+/// |q| in an element that can act on the soil, m/s, from a mean over `duration`, s: zero if it is
+/// round-off of still water or of the element's contents. Otherwise round-off would erode, and as
+/// fines are heavy, still water would begin to flow.
 template <int Dim>
 double acting_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element, double flux,
                    double duration);

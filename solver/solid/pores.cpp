@@ -66,7 +66,7 @@ PoreState PoreForecast<Dim>::at(double time) const {
     const double porosity = now_.porosity[e] + growth / grid_.volume[e];
     result.porosity[e] = porosity;
     if (liquid_.motion == LiquidMotion::flows_on) return;
-    // The water stays what it is: (1 - c) n S does not change.
+    // The volume of water (1 - c) n S does not change.
     const double air = now_.air_volume.empty() ? 0.0 : now_.air_volume[e] / grid_.volume[e];
     result.concentration[e] =
         1.0 - (1.0 - now_.concentration[e]) * (now_.porosity[e] - air) / (porosity - air);

@@ -17,20 +17,20 @@ struct PoreState {
   std::vector<double> water_volume;   ///< liquid minus fluidised fines, m3
   std::vector<double> concentration;  ///< c
   std::vector<double> air_volume;     ///< m3; empty where all soil is saturated
-  std::vector<double> flux;           ///< |q|, m/s; may be empty where no soil asks for it
+  std::vector<double> flux;           ///< |q|, m/s; may be empty if no soil needs it
 };
 
 /// Pore volume per element and field node at the start, m3.
 template <int Dim>
 ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>& soils);
 
-/// Pore volume per element and field node now, m3: with what the solid points have given since the
-/// start.
+/// Pore volume per element and field node now, m3: includes the volume that solid points have lost
+/// since the start.
 template <int Dim>
 ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid);
 
-/// Forecast of the pores: erosion up to a later time, before fines have moved. Keeps
-/// references to the skeleton and the grid; holds until the skeleton changes.
+/// Forecast of the pores: erosion up to a later time, without transport of fines. Keeps references
+/// to the skeleton and the grid; valid until the skeleton changes.
 template <int Dim>
 class PoreForecast {
  public:
@@ -47,7 +47,7 @@ class PoreForecast {
         threads_(threads) {}
 
   [[nodiscard]] PoreState at(double time) const;
-  /// n_L per solid point then, if the soil were not deformed; empty where it stays as it is.
+  /// n_L per solid point then, without deformation; empty if it does not change.
   [[nodiscard]] std::vector<double> of_points_at(double time) const;
 
  private:

@@ -16,8 +16,8 @@ RigidSkeleton<Dim>::RigidSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>& soi
 
 template <int Dim>
 std::vector<double> RigidSkeleton<Dim>::element_porosity() const {
-  // From the gain of the points: the initial porosity is a linear function that its values at a few
-  // points need not have as their mean.
+  // Use the gains of points: the initial porosity is linear in space, and its mean at a few points
+  // need not be the mean of the element.
   const SoilMap<Dim>& soils = this->soils();
   const MaterialPoints<Dim>& points = soils.points();
   const Grid<Dim>& grid = this->grid_;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A skeleton that stays in place: its points erode and do not move.
+/// A skeleton whose points erode and do not move.
 
 #include "solid/eroding_skeleton.hpp"
 

@@ -11,17 +11,17 @@
 namespace suffuse {
 namespace {
 
-/// Conductivity of free water over that of the most conductive soil: high enough to resist next to
-/// nothing, and steady flow through it is still one linear system.
+/// Conductivity of free water over that of the most conductive soil. Its resistance is negligible,
+/// and steady flow through it is still one linear system.
 constexpr double free_water_ratio = 1e4;
 
-/// Gradients below this are round-off, and so are fluxes below this share of what a gradient of one
-/// drives through the most conductive soil, which a tight neighbour passes on.
+/// Gradients below `still_gradient` are round-off. So are fluxes below `still_share` of that at a
+/// gradient of one in the most conductive soil, which a tight neighbor passes on.
 constexpr double still_gradient = 1e-12;
 constexpr double still_share = 1e-15;
 
-/// Beside soil that drains, air takes the place of water under suction: over a fringe of this share
-/// of an element. Water then runs through it as through gravel.
+/// Next to soil that drains, air replaces water under suction, over a height of this share of an
+/// element. Water then runs through it as through gravel.
 constexpr double fringe = 0.25;
 constexpr double free_air_ratio = 100.0;
 
@@ -179,7 +179,7 @@ double SoilMap<Dim>::resistance_along(int element, const Vector<Dim>& flux) cons
 
 template <int Dim>
 TimeSpan SoilMap<Dim>::exchange_span(bool fines_enter) const {
-  // Porosity that is added up over many steps reaches its end earlier or later by their round-off.
+  // Porosity summed over many steps reaches its end earlier or later by round-off.
   constexpr double round_off = 1e-6;
   constexpr double never = std::numeric_limits<double>::infinity();
   TimeSpan span{never, -never};
@@ -187,7 +187,7 @@ TimeSpan SoilMap<Dim>::exchange_span(bool fines_enter) const {
     const ErosionModel& model = exchange_of_point(p).erosion;
     if (!suffuse::erodes(model)) continue;
     span.start = std::min(span.start, model.start);
-    // Fines also last longer where soil is compressed: a rate is per volume of today.
+    // Fines also last longer in compressed soil, as a rate is per present volume.
     const bool waits = soil_of_point(p).erosion.empty_elements == EmptyElements::dry ||
                        soil_of_point(p).skeleton.moves();
     const double gone = exhaustion_time(model, initial_porosity(p)) * (1.0 + round_off);

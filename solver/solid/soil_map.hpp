@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which soil fills each element and each solid point, how it erodes, and when. Constant through a
-/// run, but for the points of a skeleton that moves.
+/// The soil of each element and each solid point, with its laws of exchange. Constant in a run,
+/// except for points that move.
 
 #include <limits>
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace suffuse {
 
-/// s
+/// A span of time, s.
 struct TimeSpan {
   double start = -std::numeric_limits<double>::infinity();
   double end = std::numeric_limits<double>::infinity();
@@ -20,7 +20,7 @@ struct TimeSpan {
   static constexpr TimeSpan never() {
     return {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   }
-  /// Whether any of the time from `from` to `to` lies within.
+  /// Whether the time from `from` to `to` overlaps this span.
   [[nodiscard]] bool meets(double from, double to) const { return to > start && from < end; }
 };
 
@@ -29,8 +29,8 @@ struct TimeSpan {
 template <int Dim>
 Vector<Dim> across_bedding(const Soil& soil);
 
-/// Free water is there as a soil of porosity 1 without solid points. An element that points have
-/// come into holds their soil.
+/// Free water is a soil of porosity 1 without solid points. An element that points have entered has
+/// their soil.
 template <int Dim>
 class SoilMap {
  public:
@@ -43,19 +43,19 @@ class SoilMap {
   [[nodiscard]] const Scene& scene() const { return scene_; }
 
   [[nodiscard]] const Mesh<Dim>& mesh() const { return mesh_; }
-  /// The solid points, sorted by element: those of the case, or where they have moved to.
+  /// The solid points, sorted by element: those of the case, or where they have moved.
   [[nodiscard]] const MaterialPoints<Dim>& points() const { return *points_; }
   /// Points of element e: from points_begin(e) to points_begin(e + 1).
   [[nodiscard]] int points_begin(int element) const { return points_begin_[element]; }
 
-  /// The region from which most points of an element come; its own while it has none.
+  /// The region that most points of an element come from; its own region without points.
   [[nodiscard]] int region_of_element(int element) const {
     return element_region_.empty() ? mesh_.element_region[element] : element_region_[element];
   }
   [[nodiscard]] bool is_soil(int element) const {
     return soil_of_region_[region_of_element(element)] != free_water_.get();
   }
-  /// Where there is no soil: water, and air where some soil drains.
+  /// Space without soil: water, and air if some soil drains.
   [[nodiscard]] const Soil& free_space() const { return *free_water_; }
   [[nodiscard]] const Soil& soil_of_element(int element) const {
     return *soil_of_region_[region_of_element(element)];
@@ -78,12 +78,12 @@ class SoilMap {
   [[nodiscard]] const ExchangeModel& exchange_of_point(int point) const {
     return exchange_of_region_[region_of_point(point)];
   }
-  /// Points that have moved take the place of those of the case.
-  /// \param points  sorted by element; where the soil is today
+  /// Replaces the points of the case by points that have moved.
+  /// \param points  sorted by element; at their present places
   /// \param region  per point: the one it comes from
   void move_points(MaterialPoints<Dim> points, std::vector<int> region);
 
-  /// |q| up to which water counts as standing still, m/s: round-off.
+  /// |q| up to which water counts as still, m/s: round-off.
   [[nodiscard]] double still_flux(int element) const {
     return still_flux_[region_of_element(element)];
   }
@@ -94,11 +94,11 @@ class SoilMap {
     return soil_of_point(point).initial_porosity(points_->position(mesh_, point));
   }
 
-  /// Some soil erodes.
+  /// Whether some soil erodes.
   [[nodiscard]] bool erodes() const;
-  /// Some soil catches fines.
+  /// Whether some soil catches fines.
   [[nodiscard]] bool deposits() const;
-  /// What some soil's exchange with the liquid depends on.
+  /// What the exchange of some soil with the liquid depends on.
   struct Dependence {
     bool flux = false;           ///< |q|
     bool flux_change = false;    ///< how |q| changes within a step, as it may cross a threshold
@@ -106,12 +106,12 @@ class SoilMap {
     bool concentration = false;  ///< the fines in the liquid
   };
   [[nodiscard]] const Dependence& exchange_depends_on() const { return dependence_; }
-  /// Times at which erosion starts or, where the law says when, ends (at the first and the last
-  /// point of a region), ascending, s.
+  /// Times at which erosion starts or, if the law tells, ends (at the first and the last point of a
+  /// region), ascending, s.
   [[nodiscard]] std::vector<double> erosion_breakpoints() const;
-  /// When porosity can change at all: from the first start on until, if only constant rates are at
-  /// work, the last soil has nothing left to erode; infinite where that cannot be told. Fines that
-  /// enter (`fines_enter`) can be caught from the start on.
+  /// Time in which porosity can change: from the first start until nothing is left to erode, if
+  /// only constant rates act; infinite if that is unknown. Fines that enter (`fines_enter`) can be
+  /// caught from the start on.
   [[nodiscard]] TimeSpan exchange_span(bool fines_enter) const;
 
  private:
@@ -122,15 +122,15 @@ class SoilMap {
   const Scene& scene_;
   const Mesh<Dim>& mesh_;
   const MaterialPoints<Dim>* points_;                 ///< of the case, or `moved_`
-  std::unique_ptr<const MaterialPoints<Dim>> moved_;  ///< null while they stay in place
-  std::vector<int> moved_region_;                     ///< per point; empty while they stay
+  std::unique_ptr<const MaterialPoints<Dim>> moved_;  ///< null if points do not move
+  std::vector<int> moved_region_;                     ///< per point; empty if they do not move
   std::vector<int> points_begin_;
-  std::vector<int> element_region_;  ///< per element; empty while points stay
+  std::vector<int> element_region_;  ///< per element; empty if they do not move
   std::shared_ptr<const Soil> free_water_;
   std::vector<const Soil*> soil_of_region_;
   std::vector<ExchangeModel> exchange_of_region_;
   Dependence dependence_;
-  std::vector<double> still_flux_;  ///< per region, of water that stands still, m/s
+  std::vector<double> still_flux_;  ///< per region: |q| of still water, m/s
 };
 
 }  // namespace suffuse
