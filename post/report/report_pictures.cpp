@@ -19,7 +19,7 @@ namespace suffuse {
 namespace {
 
 constexpr std::size_t max_snapshots = 12;
-/// Safety beyond this is nobody's concern.
+/// Upper end of the colours of safety: larger values are not of interest.
 constexpr double largest_safety = 5.0;
 
 std::string card(const std::string& images) {
@@ -143,7 +143,7 @@ CutPlane middle_plane(const Mesh<3>& mesh, const Vector<3>& upward) {
   return plane;
 }
 
-/// A film of a field; of a model in space one of its surface and one of a plane in its middle.
+/// A film of a field; for a model in space, one of its surface and one of a plane in its middle.
 std::string render_html(const ResultsReader& run, RenderRequest request, const std::string& title,
                         const ScratchFolder& folder) {
   request.output = (folder.path() / (request.field + ".png")).string();
