@@ -154,7 +154,7 @@ def lay_out(sources, fields):
     views = []
     cell = 0
     for number, field in enumerate(fields):
-        # Splitting cell i puts what was in it into 2 i + 1 and opens 2 i + 2.
+        # Splitting cell i moves its content to cell 2 i + 1 and opens cell 2 i + 2.
         views.append(new_view(layout, cell))
         show_field(sources, field, views[-1])
         add_time(source, views[-1])
