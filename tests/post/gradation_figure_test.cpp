@@ -69,7 +69,7 @@ TEST(GradationFigure, draws_points_and_marks_the_fines) {
   EXPECT_EQ(core.label, "core");
   EXPECT_FALSE(core.markers);
   EXPECT_EQ(core.x.size(), 4U);
-  // Without colours.
+  // Soils can be told apart without colours.
   EXPECT_NE(specimen.dash, core.dash);
   EXPECT_NE(specimen.dash, filter.dash);
   EXPECT_NE(core.dash, filter.dash);
