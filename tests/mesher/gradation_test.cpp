@@ -157,8 +157,8 @@ TEST(TwoLines, have_their_fines_below_the_gap) {
          {check_kezdi(g), check_kenney_lau(g), check_li_fannin(g)}) {
       EXPECT_EQ(verdict.stability, Stability::unstable) << f << verdict.check;
     }
-    // The worst split: 15 % further lies the coarse end of the gap, or the end of the fines if they
-    // are fewer.
+    // The widest ratio is that of the sizes at f - 15 % and at the coarse end of the gap; with
+    // fewer fines, that of the sizes at 0 and 15 %.
     const double u = std::max(f - 15.0, 0.0);
     const double widest = lines.c / (lines.a * std::pow(10.0, u / f));
     EXPECT_NEAR(check_kezdi(g).value, f < 15.0 ? g.size(15.0) / lines.a : widest, 1e-9 * widest);
