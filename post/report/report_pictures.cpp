@@ -136,7 +136,7 @@ CutPlane middle_plane(const Mesh<3>& mesh, const Vector<3>& upward) {
     high = high.cwiseMax(x);
   }
   Vector<3> size = high - low;
-  size += upward.cwiseAbs() * 2.0 * size.maxCoeff();  // the vertical is no choice
+  size += upward.cwiseAbs() * 2.0 * size.maxCoeff();  // never across the vertical
   CutPlane plane;
   size.minCoeff(&plane.axis);
   plane.at = 0.5 * (low + high)[plane.axis];

@@ -67,7 +67,7 @@ std::optional<Ends> find_ends(const Scene& scene, const Mesh<2>& mesh) {
   }
   Ends ends;
   for (const auto& condition : scene.boundaries) {
-    // Where these let liquid through, and how much, depends on the flow.
+    // For these conditions, the place and the amount of the inflow depend on the flow itself.
     if (condition.head || condition.seepage_face || condition.rain || condition.rate) {
       return std::nullopt;
     }

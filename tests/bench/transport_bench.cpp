@@ -176,7 +176,7 @@ void add_sizes(benchmark::internal::Benchmark* bench) {
       ->UseRealTime();
 }
 
-/// Two stages with the matrix that is factored: assembly, one solution each, fluxes.
+/// Two stages with a factored matrix: assembly, one solution each, fluxes.
 void ImplicitStep(benchmark::State& bench) {
   ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))),
                         static_cast<int>(bench.range(1)));

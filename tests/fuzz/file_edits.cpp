@@ -57,7 +57,7 @@ class Words {
   }
   std::string rest() { return std::exchange(rest_, {}); }
   std::uint64_t number() { return std::strtoull(word().c_str(), nullptr, 0); }
-  /// At least one and at most four extents.
+  /// Reads one to four extents.
   std::vector<hsize_t> extents() {
     std::vector<hsize_t> all;
     while (!rest_.empty() && all.size() < 4) all.push_back(number());

@@ -787,7 +787,7 @@ TEST(SceneReference, has_an_example_that_works) {
   EXPECT_EQ(problems_of(reference.substr(begin, reference.find("```\n", begin) - begin)), "");
 }
 
-/// Each part, put into a scene with gravity that lacks it.
+/// Adds each part to a scene with gravity that lacks it.
 TEST(SceneReference, has_parts_of_scenes_that_work) {
   const std::string soil = "porosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700\n";
   const std::string before =

@@ -118,7 +118,7 @@ class Reader(unittest.TestCase):
             self.expect_columns(table, wanted, {c: unit for c, unit in units.items() if c != "boundary"})
 
     def test_units_are_those_of_the_solver(self):
-        """Of every column, and that of suffuse-post's headers in test_tables_are_those_of_suffuse_post."""
+        """Every column has a unit; test_tables_are_those_of_suffuse_post compares them with suffuse-post's headers."""
         declared = re.findall(r'\{"(\w+)", &(\w+)::\w+, "(.+)"\}', TABLES.read_text())
         self.assertGreater(len(declared), 60)
         for column, _, unit in declared:

@@ -103,8 +103,8 @@ TEST(BrokenScenes, CompressedSoilIsRefusedWhenItsPoresAreGone) {
 }
 
 /// Deposits stay, and deposition ends without room. In the scene the room is gone within a second.
-/// Under a load that grows over 1000 s, soil catches fines until its porosity of 0.27 is full, at J
-/// = 0.7/0.73 = 0.959 under 1.35e5 ln(1/J)/J = 5.9 kPa, 590 s.
+/// Under a load that grows over 1000 s, soil catches fines until its porosity is 0.27, at J =
+/// 0.7/0.73 = 0.959 under 1.35e5 ln(1/J)/J = 5.9 kPa, 590 s.
 TEST(BrokenScenes, DepositsStayInSoilThatIsCompressed) {
   const std::vector<std::string> slowly{
       "boundary[0].traction=[[0.0, 0.0, 0.0], [1000.0, 0.0, -1e4]]",

@@ -105,7 +105,7 @@ TEST_F(Sections, ThatLeaveTheMeshAtANodeEndThere) {
   const std::vector<double> flux = fluxes_of(grid, stream_);
   const SectionLine line(grid, {4.0 / 9.0, -1.0}, {4.0 / 9.0, 2.0});
   EXPECT_NEAR(line.length(), 1.0, 1e-14);
-  // The foot of the line is 6.6e-11 of the width, over nine cells, to the left of the node.
+  // The foot of the line is 6.6e-11 m, in cells of 1/9 m, to the left of the node.
   const double foot = stream_[4] + 9.0 * 6.6e-11 * (stream_[3] - stream_[4]);
   EXPECT_NEAR(line.across(flux), stream_[7 * 10 + 4] - foot, 1e-14);
 }

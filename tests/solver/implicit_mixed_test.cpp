@@ -232,9 +232,8 @@ TEST(ImplicitMixed, EnergyDoesNotGrow) {
 }
 
 TEST(ImplicitMixed, QuadraticDragIsFulfilledInEveryElementHoweverItVaries) {
-  // Drag is up to a million times Darcy's, varies over four decades between elements, and is linear
-  // in one layer.
-  // layer without quadratic drag.
+  // Drag is up to a million times Darcy's and varies over four decades between elements; one layer
+  // has no quadratic drag.
   double worst = 0.0;
   double worst_imbalance = 0.0;
   long max_solves = 0;

@@ -107,9 +107,9 @@ Physical Curve("back") = {4};
 struct Slope {
   double mesh = 1.0;              ///< m
   double cohesion = 0.0;          ///< Pa
-  double grain_density = 2700.0;  ///< further text of the scene
+  double grain_density = 2700.0;  ///< kg/m3
   double water_level = -10.0;     ///< m
-  std::string more = "";          ///< of the scene
+  std::string more = "";          ///< further text of the scene
 };
 
 /// c/(gamma H) of a dry slope, or of one that is saturated and under water.

@@ -66,7 +66,7 @@ std::string erosion(Random& random, const Scales& s, double porosity, double ero
   if (random.chance(0.4)) {
     parts.push_back(entry("critical_concentration", random.decades(0.02, 0.6)));
   }
-  const bool anywhere = drive == "time" || drive == "flux";  // allow bedding and retention
+  const bool anywhere = drive == "time" || drive == "flux";  // both allow bedding and retention
   if (random.chance(0.2) && anywhere) parts.emplace_back("momentum_transfer = true");
   if (double_point && random.chance(0.3)) parts.push_back(word("mass_transfer", "element"));
   if (double_point && random.chance(0.3)) parts.push_back(word("empty_elements", "dry"));

@@ -78,8 +78,8 @@ Run drawn_run(unsigned seed) {
                              : SpaceShape::dam;
   const bool layers = run.shape == SpaceShape::layers;
   run.pressed = !run.is_dam() && random.chance(0.4);
-  // Across a block water would run in circles through the most pervious soil, between layers
-  // through the free water, with steps as short as the weight of each point wants them.
+  // Under gravity water would circulate, across a block through the most pervious soil and between
+  // layers through the free water, and the weight of each point would make steps very short.
   const bool circles = layers || (run.pressed && run.shape == SpaceShape::block);
   run.heavy = run.is_dam() || (!circles && random.chance(0.3));
   if (run.pressed) {

@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         ColumnCase{"SinglePoint", {}, 1e-3}, ColumnCase{"Free", {"mesh.structure=free"}, 1e-3},
         ColumnCase{"DoublePoint", {"formulation=double-point"}, 0.01},
         ColumnCase{"FreeDoublePoint", {"formulation=double-point", "mesh.structure=free"}, 0.01},
-        // With one point per element as much erodes, but fines leave sooner or later.
+        // One point per element erodes the same mass, but its fines leave earlier or later.
         ColumnCase{"OnePoint", {"formulation=double-point", "points.liquid_per_element=1"}, 0.02}),
     [](const auto& param_info) { return std::string(param_info.param.name); });
 

@@ -161,8 +161,8 @@ TEST(Consolidation, LargeStrain) {
   EXPECT_LT(fine.pressure, 0.5 * coarse.pressure);
 }
 
-/// A foundation 1e4 times as stiff as the soil under it, which drains it: forces of soft soil are
-/// small compared with those of stiff soil at a significant strain.
+/// A foundation 1e4 times as stiff as the soil under it lets its water drain: forces of soft soil
+/// are small compared with those of stiff soil at a significant strain.
 TEST(Consolidation, UnderAStiffFoundation) {
   constexpr double load = 1e3;
   constexpr double second = weight / (conductivity * young);  // of T = 1

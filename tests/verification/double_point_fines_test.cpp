@@ -258,7 +258,7 @@ class ValueAtInterface {
 TEST(DoublePointFines, FluxOfGrainsIsContinuousWherePorosityJumps) {
   constexpr double buffer_porosity = 0.3;
   constexpr double specimen_porosity = 0.4;
-  constexpr double end = 60.0;  // the water in the upper half metre below entered after the start
+  constexpr double end = 60.0;  // the water down to y = -0.5 m entered after the start
   constexpr double every = 0.25;
   Scene scene = fines_scene(12, end);
   scene.soils[0].porosity = specimen_porosity;

@@ -417,7 +417,7 @@ TEST(LeakyWall, WetsDrySoilBehindIt) {
   for (const double time : {10000.0, 20000.0, 40000.0}) {
     run.run({time});
     const auto rows = run.model().boundary_rows(run.model().flow_state());
-    // The head is 0.35 m at the pond above the sheet, and the suction below it is 1 to 2 m.
+    // The pond level is 0.35 m above the sheet, and the suction below the sheet is 1 to 2 m.
     const double passed = rows[1].liquid_in - last;
     last = rows[1].liquid_in;
     const double duration = time == 40000.0 ? 20000.0 : 10000.0;

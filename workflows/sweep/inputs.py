@@ -2,10 +2,10 @@
 """What a run is made of, in a file STEM.inputs: run.sh makes the run again when this changes.
 
     scene /path/weir.toml                     the scene
-    set soil.foundation.porosity=0.3          what is changed in it, as for the mesher's --set
+    set soil.foundation.porosity=0.3          a change of it, as for the mesher's --set
     sha256 0123... /path/weir.geo             the content of every file that has a part in it
 
-    inputs.py SCENE PROGRAMS STEM [KEY=VALUE...]     writes STEM.inputs, where its text is another
+    inputs.py SCENE PROGRAMS STEM [KEY=VALUE...]     writes STEM.inputs, if its text changes
 """
 
 import functools

@@ -4,7 +4,7 @@
     sweep.py prepare SCENE SWEEP FOLDER --programs BIN     writes FOLDER/runs.csv and what each run is made of
     sweep.py conclude FOLDER --programs BIN                writes FOLDER/sweep.csv, cost.csv and figures
 
-Exit codes: 2 for wrong input; of `conclude` 1 where a run did not come to a good end.
+Exit codes: 2 for wrong input; 1 of `conclude` if a run did not end well.
 """
 
 import argparse
