@@ -118,7 +118,7 @@ class Reader(unittest.TestCase):
             self.expect_columns(table, wanted, {c: unit for c, unit in units.items() if c != "boundary"})
 
     def test_units_are_those_of_the_solver(self):
-        """Every column has a unit; test_tables_are_those_of_suffuse_post compares them with suffuse-post's headers."""
+        """Every column has a unit; another test compares these with suffuse-post's headers."""
         declared = re.findall(r'\{"(\w+)", &(\w+)::\w+, "(.+)"\}', TABLES.read_text())
         self.assertGreater(len(declared), 60)
         for column, _, unit in declared:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables when a channel crosses the specimen of channel.toml, with the width of channels and the loss of fines then.
+"""Tables when a channel crosses the specimen of channel.toml, with its width and the loss of fines.
 
     channels.py POST RESULTS... > TABLE
 

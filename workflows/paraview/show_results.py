@@ -1,4 +1,4 @@
-"""Shows a results folder in ParaView 5.11 or newer: fields side by side, each with its colour bar, over all times.
+"""Shows results in ParaView 5.11 or newer: fields side by side, with colour bars, over all times.
 
     SUFFUSE_RESULTS=NAME.results paraview --script=show_results.py
     pvpython show_results.py NAME.results [--fields porosity,concentration] [--time T] [--save PICTURE.png]

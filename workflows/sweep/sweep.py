@@ -40,7 +40,7 @@ def read_csv(path):
 
 
 def refuse_foreign(folder, scene, sweep):
-    """Throws InputError if another sweep, whose table has the same name, made the runs of the folder."""
+    """Throws InputError if another sweep with a table of this name made the runs of the folder."""
     sources = folder / "sources.txt"
     expected = f"{scene}\n{pathlib.Path(sweep).absolute()}\n"
     if sources.is_file() and sources.read_text(encoding="utf-8") != expected:

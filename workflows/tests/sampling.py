@@ -39,7 +39,7 @@ def normal_density(mean, deviation):
 
 
 def lognormal_density(mean, deviation):
-    """Density of x > 0 with this mean and deviation, from its median and the variance of its logarithm."""
+    """Density of x > 0 with this mean and deviation, by its median and the variance of log x."""
     variance = math.log(1.0 + (deviation / mean) ** 2)
     median = mean * math.exp(-variance / 2.0)
     return lambda x: math.exp(-math.log(x / median) ** 2 / (2.0 * variance)) / (x * math.sqrt(2.0 * math.pi * variance))
