@@ -2,9 +2,10 @@
 """The batches of source files that clang-tidy is to look at: tidy_batches.py BUILD [COMMIT]
 
 BUILD has compile_commands.json; ninja knows what each batch includes. Without COMMIT all batches of
-mesher/, solver/ and post/ are printed; with it those of the sources that differ from that commit. A header that differs is seen
-through one batch that includes it. All batches are printed too where the checks themselves differ, and where git knows
-no such commit: a checkout may come without its history.
+mesher/, solver/ and post/ are printed; with it those of the sources that differ from that commit. A
+header that differs is seen through one batch that includes it. All batches are printed too where
+the checks themselves differ, and where git knows no such commit: a checkout may come without its
+history.
 """
 import json
 import os

@@ -28,7 +28,7 @@ def content(path):
 
 
 def named_files(text, folder):
-    """Files and results folders that quoted texts name, from `folder`. A chance hit does no harm."""
+    """Files and results folders that quoted texts name, from `folder`. A chance hit is harmless."""
     for groups in QUOTED.findall(text):
         path = folder / (groups[0] or groups[1])
         try:
