@@ -14,7 +14,7 @@
 
 namespace suffuse::model {
 
-/// Displaces a node; the identity where none is given.
+/// Displaces a node; without one, nodes stay.
 using NodeMove = std::function<Vector<3>(const Vector<3>&)>;
 
 /// [0, size] in cells[0] x cells[1] x cells[2] cuboids of six tetrahedra each, one for each order

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Puts what it reads between <!-- NAME: ... --> and <!-- end of NAME --> of a document: between_marks.sh NAME DOCUMENT.md
+# Puts its input between <!-- NAME: ... --> and <!-- end of NAME --> of a document: between_marks.sh
+# NAME DOCUMENT.md
 set -eu -o pipefail
 text=$(cat; echo .)  # the shell drops empty lines at the end
 TEXT=${text%.} NAME=$1 awk '

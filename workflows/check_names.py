@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Functions of one name in the unnamed namespaces of two source files of a program.
 
-Several files are compiled as one: two such functions become overloads, and a call may go to the other one without a word.
+Several files are compiled as one: two such functions become overloads, and a call may silently
+use the other one.
 check_names.py [ROOT] prints each and ends with exit code 1 if there is any. Laws (solver/physics) are compiled file by file.
 """
 

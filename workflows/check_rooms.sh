@@ -1,22 +1,22 @@
 #!/usr/bin/env bash
 # Includes between the rooms of the sources go down only (docs/architecture.md). check_rooms.sh [ROOT]
 #
-# Prints a line for each include that goes up, for each loose source file in solver/ beside main.cpp, for each
-# source file that is too long, and for too many rooms or arrows (pairs of rooms, one of which includes the
-# other) in solver/. Exit code 1 if there is any.
+# Prints a line for each include that goes up, for each loose source file in solver/ but main.cpp,
+# for each source file that is too long, and for too many rooms or arrows (pairs of rooms, one of
+# which includes the other) in solver/. Exit code 1 if there is any.
 set -eu
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
-# A room is a folder; it may include itself and what stands before it.
+# A room is a folder; it may include itself and the rooms before it.
 rooms='solver/physics mesher/common mesher/mesh mesher/scene mesher/case solver/files solver/results solver/grid solver/linear '
 rooms+='solver/solid solver/equilibrium solver/boundary solver/motion solver/mixed solver/flow solver/coupling solver/field '
 rooms+='solver/points solver/explicit solver/formulation solver/driver solver/tools solver/main.cpp '
 rooms+='post/drawing post/values post/tables post/figures post/report post/commands'
-# Programs beside the solver, and all that they may include.
+# The other programs, and all that they may include.
 below_mesher='solver/physics,mesher/common,mesher/mesh,mesher/scene,mesher/case'
 others="mesher:$below_mesher post:$below_mesher,solver/files,solver/results"
 max_rooms=18 max_arrows=88 max_lines=500
-# The schema is one list, which is read from top to bottom. The others are still to be divided.
+# The schema is one list that is read from top to bottom. The other file is still to be divided.
 long_files='mesher/scene/scene_keys.cpp mesher/common/hdf5_io.cpp'
 
 mapfile -t files < <(find solver mesher post -name '*.[ch]pp' | sort)

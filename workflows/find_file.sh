@@ -1,5 +1,5 @@
-# To be sourced. find_file VARIABLE FOLDER: the absolute path of the file that make's variable names, from FOLDER, where
-# make was called, or from here.
+# To be sourced. find_file VARIABLE FOLDER: the absolute path of the file that make's variable
+# names, relative to FOLDER, where make was called, or to this folder.
 find_file() {
   local value=${!1:-} file
   if [ -z "$value" ]; then

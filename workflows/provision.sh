@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of packages.txt that are missing. With none missing it changes nothing
-# and needs no rights.
+# Installs the missing Debian packages of packages.txt. If none is missing, it changes nothing and
+# needs no rights.
 #
 #   provision.sh           install what is missing
 #   provision.sh --check   only name what is missing; exit 1 when something is
@@ -39,7 +39,7 @@ if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null ||
     fail "packages are missing, and there is neither root nor sudo to install them. Ask for:" \
       "apt-get install --no-install-recommends ${missing[*]}"
-  # Without a terminal nobody can type a password: fail at once rather than wait.
+  # Without a terminal nobody can type a password: it fails at once instead of waiting.
   if [ -t 0 ]; then as_root=(sudo); else as_root=(sudo -n); fi
 fi
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# One scene from its mesh to its figures, in OUT_FOLDER/study/: study.sh CALLED_FROM. make calls it, with its variables
-# in the environment. A second call makes only what is missing or older than what it is made from.
+# One scene from its mesh to its figures, in OUT_FOLDER/study/: study.sh CALLED_FROM. make calls it,
+# with its variables in the environment. A second call makes only files that are missing or out of
+# date.
 set -eu -o pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 . ./find_file.sh
@@ -10,7 +11,7 @@ file=$(basename -- "$scene")
 stem=$OUT_FOLDER/study/${file%.*}
 
 "$PYTHON" sweep/inputs.py "$scene" "$programs" "$stem"
-# Whatever stopped it before may be mended.
+# The cause of an earlier failure may be mended, so its status is removed.
 if [ -e "$stem.status" ] && [ "$(head -1 "$stem.status")" != done ]; then rm "$stem.status"; fi
 PROGRESS=1 sweep/run.sh "$programs" "$stem" "$TOLERANCE"
 case $(head -1 "$stem.status") in
@@ -19,7 +20,8 @@ case $(head -1 "$stem.status") in
   *) exit 3 ;;
 esac
 
-# make_file FILE COMMAND ARGUMENT...: the command of suffuse-post that makes the file, where it must be made.
+# make_file FILE COMMAND ARGUMENT...: calls the command of suffuse-post that makes the file, if it
+# is out of date.
 make_file() {
   local file=$1
   shift

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # clang-tidy on the sources: tidy.sh BUILD JOBS [COMMIT|new]. BUILD has compile_commands.json.
 #
-# Most of its time goes into headers, so it looks at the batches of files that are compiled as one. With COMMIT at those
-# that have changed since then; with `new` since the branch left main, and on main itself since the commit before.
+# Headers take most of its time, so it checks the batches of files that are compiled as one. With
+# COMMIT it checks those that changed since then; with `new` since the branch left main, and on main
+# since the previous commit.
 set -eu
 build=$(realpath "$1") jobs=$2 since=${3:-}
 cd "$(dirname "$0")/.."

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """The batches of source files that clang-tidy is to look at: tidy_batches.py BUILD [COMMIT]
 
-BUILD has compile_commands.json, and ninja knows there what each batch includes. Without COMMIT all batches of mesher/,
-solver/ and post/ are printed; with it those of the sources that differ from that commit. A header that differs is seen
-through one batch that includes it. All batches are printed too where the checks themselves differ, and where git knows
-no such commit: a checkout may come without its history.
+BUILD has compile_commands.json; ninja knows what each batch includes. Without COMMIT all batches of
+mesher/, solver/ and post/ are printed; with it those of the sources that differ from that commit. A
+header that differs is seen through one batch that includes it. All batches are printed too where
+the checks themselves differ, and where git knows no such commit: a checkout may come without its
+history.
 """
 import json
 import os
@@ -40,7 +41,7 @@ def differing(commit):
 
 
 def includes_by_object(build):
-    """Paths, from the root of the sources, of all that an object file was made of."""
+    """Paths, relative to the root of the sources, of all inputs of an object file."""
     text = subprocess.run(['ninja', '-C', str(build), '-t', 'deps'], capture_output=True, text=True, check=True).stdout
     includes = {}
     for block in text.split('\n\n'):
@@ -52,16 +53,16 @@ def includes_by_object(build):
 
 
 def chosen(changed, batches, includes):
-    """The fewest batches, nearly, that have all changed sources."""
+    """A nearly minimal set of batches that contains all changed sources."""
     wanted = {path for path in changed if path.startswith(SOURCES) and path.endswith(('.cpp', '.hpp'))}
-    # A source file is in one batch alone, so these come first.
+    # A source file is in one batch only, so these batches come first.
     found = {name for name in batches if any(path.endswith('.cpp') for path in includes.get(name, set()) & wanted)}
     for name in found:
         wanted -= includes[name]
     while wanted:
         best = max(batches, key=lambda name: (len(includes.get(name, set()) & wanted), name))
         seen = includes.get(best, set()) & wanted
-        if not seen:  # what no batch of this build includes
+        if not seen:  # the rest is in no batch of this build
             break
         found.add(best)
         wanted -= seen

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes targets one after the other and prints the seconds of each at the end: timed_steps.sh TARGET...
-# MAKE says what make is, with its arguments. Ends at the first target that fails.
+# Makes targets one after the other and prints the seconds of each at the end: timed_steps.sh
+# TARGET... MAKE is the command of make with its arguments. Ends at the first target that fails.
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")"
 table='' total=0 status=0

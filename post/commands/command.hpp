@@ -62,7 +62,7 @@ struct TableOutput {
   std::string time_unit = "s";
 };
 
-/// The options --csv, with `what` it writes, and --time-unit.
+/// Adds the option --csv, whose help says that it writes `what`, and --time-unit.
 void add_table_options(CLI::App& command, TableOutput& output, const std::string& what);
 
 /// Writes a table with its units to a file outside the results, or to standard output. Throws

@@ -27,7 +27,7 @@ struct FieldOptions {
   std::string cut;
   std::string levels;
 
-  /// The request, with what is given as text.
+  /// The request, with the values of the options that are given as text.
   [[nodiscard]] RenderRequest read() const {
     RenderRequest result = request;
     if (!range.empty()) result.range = parse_range(range);
@@ -119,7 +119,7 @@ void animate(const AnimateOptions& o) {
 
 struct FigureCommandOptions {
   std::string name;
-  std::vector<std::string> arguments;  ///< results; of "curves" columns too
+  std::vector<std::string> arguments;  ///< results folders; for "curves", column names first
   FigureOptions figure;
   std::string output;
 };

@@ -156,7 +156,7 @@ ChartAxis y_axis(const Chart& chart) {
   return {&Curve::y, chart.extra_y, chart.logarithmic_y, chart.y_range};
 }
 
-/// Its range, or one that covers the values of all curves and the extra ones.
+/// Ticks over the axis' range if it has one, otherwise over all curves and the extra values.
 AxisTicks ticks_of(const Chart& chart, const ChartAxis& axis) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -180,8 +180,8 @@ AxisTicks ticks_of(const Chart& chart, const ChartAxis& axis) {
   return low <= high ? even_axis(low, high) : even_axis(0.0, 1.0);
 }
 
-/// A curve in the units that VTK draws in: logarithms on logarithmic axes, and only what lies
-/// between the ends of axes that have them.
+/// A curve in the units that VTK draws in: logarithms on logarithmic axes. Points outside the range
+/// of an axis are left out.
 Curve drawn_curve(const Chart& chart, const Curve& curve) {
   const auto drawn = [](const ChartAxis& axis, double& value) {
     if (!std::isfinite(value) || (axis.logarithmic && value <= 0.0)) return false;
@@ -212,8 +212,8 @@ Curve drawn_curve(const Chart& chart, const Curve& curve) {
   return result;
 }
 
-/// Adds a chart with the lower left corner of its cell at (x, y). Titles are painted apart: VTK
-/// puts its own so close that they overlap the tick labels in viewers with wider letters.
+/// Adds a chart with the lower left corner of its cell at (x, y). Titles are painted separately:
+/// VTK's own are so close that they overlap the tick labels in viewers with wider letters.
 void add_chart(vtkContextScene& scene, const Chart& chart, float x, float y) {
   vtkNew<vtkChartXY> drawn;
   drawn->SetShowLegend(false);

@@ -48,7 +48,7 @@ struct Chart {
   bool logarithmic_y = false;
   std::optional<std::array<double, 2>> x_range{};  ///< ends of the axis; unset: those of the values
   std::optional<std::array<double, 2>> y_range{};
-  ChartTable table{};  ///< below the legend; with several charts the table of the first
+  ChartTable table{};  ///< drawn below the legend; of several charts, only the first one's table
 };
 
 /// Draws two charts side by side, three or more in rows of two, with one legend for all. The suffix

@@ -6,7 +6,7 @@
 namespace suffuse {
 
 Color viridis(double fraction) {
-  // The highest power first.
+  // Coefficients, the highest power first.
   constexpr std::array<Color, 7> coefficients{
       {{-5.435455855934631, 4.645852612178535, 26.3124352495832},
        {4.776384997670288, -13.74514537774601, -65.35303263337234},

@@ -48,7 +48,7 @@ void ColoredTriangles::write_paths(vtkOpenGLGL2PSHelper& file) const {
     }
   }
   double origin[3] = {0.0, 0.0, 0.0};
-  // First their outlines: viewers smooth the edges of areas, and white would be seen between two.
+  // Outlines come first: viewers smooth the edges of areas, so white would show between two.
   constexpr float outline = 0.8F;
   constexpr float filled = 0.0F;
   for (const float stroke : {outline, filled}) {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Triangles with a colour at each corner, painted in one call of VTK. In SVG and PDF, where VTK
-/// leaves such triangles out, each has one colour, and those of a colour are one path.
+/// Triangles with a colour at each corner, painted in one call of VTK. VTK leaves them out of SVG
+/// and PDF: there each triangle has one colour, and triangles of equal colour form one path.
 
 #include <vtkCellArray.h>
 #include <vtkContext2D.h>

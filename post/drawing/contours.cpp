@@ -31,7 +31,7 @@ Crossings crossings_of(const Mesh<2>& mesh, const std::vector<double>& at_nodes,
   return crossings;
 }
 
-/// Takes the line that starts with an edge out of the crossings.
+/// Removes the line that starts with `edge` from the crossings and returns it.
 std::vector<Edge> take_line(Crossings& crossings, Edge edge) {
   std::vector<Edge> line{edge};
   for (;;) {
@@ -75,7 +75,7 @@ std::vector<Polyline> contour_lines(const Mesh<2>& mesh, const std::vector<doubl
   for (const auto& [edge, next] : crossings) {
     if (next.size() == 1) starts.push_back(edge);
   }
-  // Then the closed ones, which may start anywhere.
+  // Closed lines follow; they may start anywhere.
   for (const auto& [edge, next] : crossings) starts.push_back(edge);
   std::vector<Polyline> lines;
   for (const Edge& start : starts) {

@@ -10,8 +10,8 @@ namespace suffuse {
 
 using Polyline = std::vector<Vector<2>>;
 
-/// The lines along which the field has the value `level`, each as long as it can be; a closed one
-/// ends where it starts. They leave out elements with a value that is not finite.
+/// Lines along which the field has the value `level`, joined as far as possible; a closed line ends
+/// where it starts. Elements with a value that is not finite are left out.
 std::vector<Polyline> contour_lines(const Mesh<2>& mesh, const std::vector<double>& at_nodes,
                                     double level);
 
@@ -21,7 +21,7 @@ Polyline band_in_triangle(const std::array<Vector<2>, 3>& corners,
                           const std::array<double, 3>& values, double low, double high);
 
 double length(const Polyline& line);
-/// The place on a line behind this share of its length.
+/// The point at this share of the length of a line.
 Vector<2> place_on(const Polyline& line, double share);
 
 }  // namespace suffuse

@@ -44,7 +44,7 @@ class LineLabels {
   std::vector<Box> taken_;
 };
 
-/// What contours are drawn of.
+/// A field, and the levels at which its contours are drawn.
 struct ContourField {
   const Mesh<2>& mesh;
   const std::vector<double>& at_nodes;
@@ -55,8 +55,8 @@ struct LineStyle {
   float width;  ///< pixels
 };
 
-/// The lines of a level, shifted by a millionth of the range of the field away from its middle:
-/// boundaries often have a round value up to round-off, and no line shall run along them.
+/// Contour lines of a level, which is shifted by a millionth of the range of the field away from
+/// its middle: boundaries often have a round value up to round-off, and no line may run along them.
 std::vector<Polyline> level_lines(const ContourField& field, double level);
 
 /// Paints contours at all levels, then their values.

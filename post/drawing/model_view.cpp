@@ -39,12 +39,12 @@ std::vector<double> ticks_within(double low, double high, double scale, double m
   }
   const double spacing = inside.size() > 1 ? scale * (inside[1] - inside[0]) : min_distance;
   std::size_t every = 1;
-  // Every second, fifth or tenth: the numbers stay round.
+  // Only every second, fifth or tenth tick is kept, so that the numbers stay round.
   for (const std::size_t factor : {2, 5, 10}) {
     if (static_cast<double>(every) * spacing < min_distance) every = factor;
   }
   if (every == 1) return inside;
-  // Multiples of the wider step: zero is one of them where it is inside.
+  // Ticks are multiples of the wider step, so zero is a tick if it is in the interval.
   const double step = static_cast<double>(every) * (inside[1] - inside[0]);
   std::erase_if(inside, [&](double tick) { return std::abs(std::remainder(tick, step)) > slack; });
   return inside;

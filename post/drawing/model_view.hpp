@@ -100,7 +100,7 @@ void paint_discs(vtkContext2D& painter, const ModelView& view,
                  const std::vector<Vector<2>>& positions, const std::vector<Color>& colors,
                  float diameter);
 
-/// Discs are no smaller than this, pixels: `disc_diameter` is this where points lie too densely.
+/// Smallest diameter of a disc, pixels; `disc_diameter` returns it where points are too dense.
 constexpr float smallest_disc = 2.0F;
 
 /// A diameter in pixels at which discs do not touch when `points` of them are spread over the mesh.

@@ -72,7 +72,7 @@ std::vector<Chunk> read_chunks(const std::string& path) {
   return chunks;
 }
 
-/// What comes before the data of a frame: its number among such chunks, its size, how long it is
+/// The chunk before the data of a frame: its number among such chunks, its size, and how long it is
 /// shown.
 Chunk frame_control(std::uint32_t number, const std::string& size, int rate) {
   const std::string no_offset = bytes_of(0) + bytes_of(0);

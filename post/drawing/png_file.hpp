@@ -1,6 +1,6 @@
 #pragma once
 
-/// PNG files that belong together: of one size, as one film.
+/// PNG files of equal size, and films made of them.
 
 #include <array>
 #include <string>

@@ -26,8 +26,8 @@ namespace {
 
 /// From the model to the viewer: to the right, to the front, upwards.
 const Vector<3> viewer(0.45, 0.75, 0.48);
-/// By which lines lie in front of the triangles at their place, pixels, and as much for each
-/// pixel of their width: wide ones lie over narrow ones.
+/// Lines are moved towards the viewer, in front of triangles, by this many pixels, and by as much
+/// again for each pixel of width, so that wide lines lie over narrow ones.
 constexpr double line_lift = 2.0;
 constexpr double tick_length_in_space = 9.0;
 constexpr double label_distance = 24.0;

@@ -46,7 +46,7 @@ class SpaceDrawing {
   void add_triangle(const std::array<Vector<3>, 3>& corners, const std::array<Color, 3>& colors);
   /// A line lies a little in front of a triangle at its place.
   void add_line(const std::array<Vector<3>, 2>& ends, const Color& color, float width);
-  /// Adds it to a picture of so many pixels.
+  /// Adds the drawing to a picture of `width` by `height` pixels.
   void add_to(vtkRenderer& renderer, int width, int height) const;
 
  private:

@@ -35,7 +35,7 @@ std::string digits_text(double value, int digits) {
   char buffer[64];
   const double size = std::abs(value);
   if (size == 0.0 || (size >= 0.999e-3 && size < 1e6)) {
-    // Whole numbers have more digits rather than an exponent.
+    // Whole numbers get more digits instead of an exponent.
     const bool is_whole = size >= std::pow(10.0, digits);
     std::snprintf(buffer, sizeof buffer, is_whole ? "%.*f" : "%.*g", is_whole ? 0 : digits, value);
     return buffer;

@@ -14,8 +14,8 @@ std::vector<double> round_ticks(double low, double high);
 /// The label of a tick, six digits at most: 0.5, 3e-5.
 std::string tick_text(double tick);
 
-/// A number with at most so many digits, as written by hand: 0.5, 88681, 1.235e-5; with an exponent
-/// below 0.001 and from a million on.
+/// A number with at most `digits` digits, as written by hand: 0.5, 88681, 1.235e-5. Numbers below
+/// 0.001 and from a million on have an exponent.
 std::string digits_text(double value, int digits);
 
 /// Ends and labelled ticks of a logarithmic axis.

@@ -11,12 +11,12 @@
 namespace suffuse {
 namespace {
 
-/// Between the places of arrows, pixels; less in a low or narrow model.
+/// Largest spacing of arrows, pixels; it is smaller in a low or narrow model.
 constexpr double max_spacing = 42.0;
 constexpr double min_spacing = 24.0;
-/// The longest arrow, as a share of the spacing.
+/// Length of the longest arrow, as a share of the spacing.
 constexpr double longest = 0.9;
-/// Shorter arrows show no direction.
+/// Least length of an arrow, pixels: a shorter one shows no direction.
 constexpr double shortest = 5.0;
 constexpr double head_length = 9.0;
 
@@ -26,7 +26,8 @@ struct Shape {
   Vector<2> way;
 };
 
-/// Paints arrows in one grey, wider by a margin: few calls of VTK, each of which takes long in SVG.
+/// Paints all arrows in one grey, widened by a margin. It needs few calls of VTK, which are slow in
+/// SVG.
 void paint_layer(vtkContext2D& painter, const std::vector<Shape>& shapes, double grey,
                  double margin) {
   std::vector<float> shafts;
@@ -51,7 +52,7 @@ void paint_layer(vtkContext2D& painter, const std::vector<Shape>& shapes, double
   heads.paint(painter);
 }
 
-/// White beneath black, so that an arrow is seen on any colour.
+/// Paints white beneath black, so that an arrow is seen on any colour.
 void paint_arrows(vtkContext2D& painter, const std::vector<Shape>& shapes) {
   if (shapes.empty()) return;
   paint_layer(painter, shapes, 1.0, 1.2);

@@ -20,7 +20,7 @@ class Arrows {
   void paint(vtkContext2D& painter) const;
   /// The arrow of a legend: from (x, y) to the right.
   void paint_reference(vtkContext2D& painter, float x, float y) const;
-  /// What that arrow stands for: 1, 2 or 5 times a power of ten; 0 where all vectors are 0.
+  /// Magnitude that this arrow stands for: 1, 2 or 5 times a power of ten; 0 if all vectors are 0.
   [[nodiscard]] double reference() const { return reference_; }
 
  private:
@@ -28,7 +28,7 @@ class Arrows {
     Vector<2> middle;  ///< pixels
     Vector<2> vector;
   };
-  /// Pixels of a vector.
+  /// A vector in pixels.
   [[nodiscard]] Vector<2> length_of(const Vector<2>& vector) const;
 
   std::vector<Arrow> arrows_;

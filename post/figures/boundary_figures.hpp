@@ -8,7 +8,7 @@
 namespace suffuse {
 
 /// Discharge out of the model through each boundary, and the grains that left through it; the
-/// second only where any did. Throws FileError when a table has fewer than two times.
+/// second chart only if grains left. Throws FileError when a table has fewer than two times.
 std::vector<Chart> boundary_charts(const std::vector<ResultsReader>& runs);
 
 }  // namespace suffuse

@@ -32,13 +32,13 @@ constexpr float contour_width = 1.2F;
 constexpr float stream_width = 1.8F;
 constexpr float path_width = 2.5F;
 constexpr double noticed_misfit = 0.01;
-/// Small triangles of one picture; fewer in a picture of lines and areas, whose file has each.
+/// Largest number of small triangles of a PNG, and of an SVG or PDF, which stores each of them.
 constexpr int max_triangles = 400'000;
 constexpr int max_drawn_triangles = 10'000;
 constexpr int max_division = 16;
 
 /// Adds an element as n^2 triangles. VTK interpolates colours, not values, between the corners of a
-/// triangle; only in small triangles is the difference too small to see. `flat`: one colour each.
+/// triangle; the error is invisible only if triangles are small. `flat`: one colour each.
 template <int Dim, class Add>
 void add_divided(const Add& add_triangle, const std::array<Vector<Dim>, 3>& corners,
                  const std::array<double, 3>& values, const FieldScale& scale, int n, bool flat) {
@@ -50,7 +50,7 @@ void add_divided(const Add& add_triangle, const std::array<Vector<Dim>, 3>& corn
     const double b = static_cast<double>(i) / n;
     const double c = static_cast<double>(j) / n;
     const double value = (1.0 - b - c) * values[0] + b * values[1] + c * values[2];
-    // One value that is infinite must not become none.
+    // Interpolation between equal infinite values would give NaN.
     const bool is_one = values[0] == values[1] && values[1] == values[2];
     return Corner{(1.0 - b - c) * corners[0] + b * corners[1] + c * corners[2],
                   is_one ? values[0] : value};
@@ -98,8 +98,8 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureM
   triangles.paint(painter);
 }
 
-/// Edges of elements are drawn where these are large enough not to hide the colours, and where no
-/// lines of the field are.
+/// Edges of elements are drawn if elements are large enough for the colours to be seen, and if no
+/// lines of the field are drawn.
 bool shows_element_edges(const ModelView& view, const PictureModel& model,
                          const FieldPicture& picture) {
   const double pixels = double{view.width()} * view.height() /
@@ -108,8 +108,8 @@ bool shows_element_edges(const ModelView& view, const PictureModel& model,
   return picture.mesh_edges && pixels > 100.0 && !lines;
 }
 
-/// Pixels; less than would touch in the smaller elements in view, so that the mesh and the
-/// ground are seen between points.
+/// Diameter of discs, pixels. Discs do not touch in the smaller elements in view, so that the mesh
+/// and the background are seen between points.
 float disc_size(const ModelView& view, const PictureModel& model, std::size_t points) {
   std::vector<double> areas;
   for (int e = 0; e < model.mesh.element_count(); ++e) {
@@ -149,7 +149,7 @@ std::vector<Polyline> streamlines_of(const PictureModel& model, const FieldPictu
   return lines;
 }
 
-/// White over what reaches beyond a part of the model.
+/// Paints white over what extends beyond the view of a part of the model.
 void paint_margins(vtkContext2D& painter, const ModelView& view, int width, int height) {
   painter.GetPen()->SetLineType(vtkPen::NO_PEN);
   painter.GetBrush()->SetColorF(1.0, 1.0, 1.0);
@@ -193,7 +193,7 @@ std::vector<Curve> picture_legend_rows(const FieldPicture& picture, bool has_wat
   return rows;
 }
 
-/// One picture: where its parts are.
+/// Layout of one picture.
 struct Paper {
   const PictureModel& model;
   const FieldPicture& picture;
@@ -262,7 +262,7 @@ SpaceDrawing space_drawing(const Paper& sheet) {
   return drawing;
 }
 
-/// Edges where two triangles of a projected surface meet at an angle, or that have one alone.
+/// Edges where two triangles of a projected surface meet at an angle, and edges of one triangle.
 Edges bent_edges(const Mesh<2>& mesh, const std::vector<double>& depth) {
   constexpr double cosine = 0.94;  // cosine of 20 degrees
   const auto normal = [&](int triangle) {
@@ -383,7 +383,7 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
   const bool by_kind = !scale.kinds.empty();
   const float side = by_kind ? kinds_width(scale, picture.label) : bar_room;
   const float bar_height = std::max(view.height(), Layout::min_bar_height);
-  // Wide enough for a long title over a narrow model, and for the legend beneath.
+  // The picture is wide enough for a long title over a narrow model, and for the legend below.
   const float legend = view.left() + ChartLegend::width(rows) + Layout::gap;
   sheet.width = static_cast<int>(
       std::max({right + side, Layout::title_width(picture.title), rows.empty() ? 0.0F : legend}));

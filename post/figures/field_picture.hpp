@@ -66,7 +66,7 @@ struct FieldPicture {
   bool contours = false;           ///< draw lines of equal values at the round values of the bar
   std::vector<double> arrows;      ///< two components per element, m/s; empty: none
   std::vector<double> streamfunction;  ///< at nodes, m2/s; empty: no streamlines
-  double tube = 0.0;    ///< discharge between two streamlines, m2/s; in space of each, m3/s
+  double tube = 0.0;    ///< discharge between two streamlines, m2/s; in space of each one, m3/s
   double misfit = 0.0;  ///< misfit of the stream function
   bool hollow = false;  ///< draw the edges of a model in space, not its surface
   std::vector<SpaceTriangle> inside;  ///< triangles inside a hollow model

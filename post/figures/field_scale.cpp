@@ -17,11 +17,11 @@ namespace {
 
 using Layout = PictureLayout;
 constexpr int bar_bands = 256;
-/// Values agree that differ by less than this share of the larger end of the range.
+/// Values agree if they differ by less than this share of the larger end of the range.
 constexpr double agreement = 1e-9;
 constexpr double percentile = 0.01;
 
-/// A value on the scale on which colours are even.
+/// A value on the scale on which colours are evenly spaced.
 double even(double value, bool logarithmic) {
   return logarithmic ? std::log10(value) : value;
 }
@@ -58,7 +58,7 @@ void leave_out_extremes(FieldScale& scale, const std::vector<WeightedValue>& val
   if (scale.exceeds_high) scale.notes.push_back("largest " + digits_text(largest, 4));
 }
 
-/// The label of an end of the range: four digits; zero where the value is rounding.
+/// The label of an end of the range: four digits; zero if the value is round-off.
 std::string end_text(double value, const FieldScale& scale) {
   const double range = scale.range[1] - scale.range[0];
   if (!scale.logarithmic && std::abs(value) < agreement * range) value = 0.0;

@@ -17,7 +17,7 @@ namespace suffuse {
 struct FieldScale {
   std::array<double, 2> range{0.0, 1.0};
   bool logarithmic = false;
-  bool uniform = false;            ///< all values agree up to round-off: both ends of the range
+  bool uniform = false;            ///< all values agree up to round-off; the range is that value
   bool exceeds_low = false;        ///< some values are below the range
   bool exceeds_high = false;       ///< some values are above the range
   std::vector<std::string> notes;  ///< notes on values outside the range
@@ -47,17 +47,17 @@ struct ScaleRequest {
   std::string shares = "area";  ///< name of the quantity that the weights are shares of
 };
 
-/// A range over values. Without one in the request it reaches from the least to the largest of
-/// them; where these are far outside, only from the 1st percentile, or to the 99th, so that a few
-/// elements at a corner do not take all colours. Far is farther than half the distance between the
-/// percentiles. Values that agree up to round-off have one colour. A logarithmic range has the
+/// The scale of values. Without a range in the request it covers all values. If the least or the
+/// largest value is farther outside the 1st and 99th percentile than half the distance between
+/// these, the range ends at the percentile, so that a few elements at a corner do not take all
+/// colours. Values that agree up to round-off have one colour. A logarithmic range covers only
 /// positive values.
 FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& request);
 
 /// The bar with its ticks, the label next to it, and notes below. Pixels.
 void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string& label, float left,
                float bottom, float height);
-/// The legend of kinds and its width.
+/// Paints the legend of kinds; `kinds_width` is its width, pixels.
 void paint_kinds(vtkContext2D& painter, const FieldScale& scale, const std::string& label,
                  float left, float top);
 float kinds_width(const FieldScale& scale, const std::string& label);

@@ -49,7 +49,7 @@ std::vector<Chart> comparison(const Runs& runs) {
   return {porosity_chart(runs), eroded_and_solid_chart(runs), outflow_charts(runs).front()};
 }
 
-/// Sorted by name.
+/// All figures, sorted by name.
 const std::vector<Figure>& figures() {
   using Path = std::string;
   static const std::vector<Figure> all{
@@ -98,7 +98,7 @@ const Figure& find_figure(const std::string& name) {
                                 quoted_list(figure_names()), closest_name(name, figure_names())});
 }
 
-/// An option that only some figures have a use for.
+/// An option that only some figures use.
 struct OptionUse {
   std::string option;
   bool given;
@@ -119,7 +119,7 @@ std::vector<OptionUse> option_uses(const Options& o) {
           {"--change", o.change, {"profile"}}};
 }
 
-/// Throws InputError for an option that the figure has no use for.
+/// Throws InputError for an option that the figure does not use.
 void check_options(const Figure& figure, const Options& options) {
   const std::string command = "suffuse-post figure " + figure.name;
   for (const OptionUse& use : option_uses(options)) {

@@ -11,8 +11,8 @@
 
 namespace suffuse {
 
-/// Names of all figures, sorted. Some are no charts but pictures of one run: "model", the sketch of
-/// its model (model_sketch.hpp), "head" and "saturation" (seepage_map.hpp), "flownet"
+/// Names of all figures, sorted. Some figures are pictures of one run instead of charts: "model",
+/// the sketch of its model (model_sketch.hpp), "head" and "saturation" (seepage_map.hpp), "flownet"
 /// (flow_net.hpp).
 std::vector<std::string> figure_names();
 
@@ -21,7 +21,7 @@ std::vector<std::string> figure_names();
 /// (boundary_figures.hpp), "gradation" (gradation_figure.hpp), "fines-lost"
 /// (permeameter_figure.hpp), "curves" (table_curves.hpp), "profile" (profile.hpp), and
 /// "comparison": porosity, masses and concentration of the outflow in one picture. Throws
-/// InputError for other names, and for an option that the figure has no use for; FileError.
+/// InputError for other names, and for an option that the figure does not use; FileError.
 std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs,
                                const FigureOptions& options = {});
 

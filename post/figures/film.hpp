@@ -19,7 +19,7 @@ struct FilmRequest {
 /// Throws InputError for another output.
 void check_film_output(const std::string& output);
 
-/// Writes the film, whole or not at all, and returns where: with another suffix than that of the
+/// Writes the whole film or nothing, and returns its path, which has another suffix than the
 /// request where there is no ffmpeg. Throws as `render` does.
 std::string write_film(const ResultsReader& results, const FilmRequest& request);
 

@@ -17,8 +17,8 @@
 namespace suffuse {
 namespace {
 
-/// Runs a program of the PATH, without a shell, with nothing to read and its messages in a file.
-/// Its exit code, 128 where a signal ended it, or nothing where there is no such program.
+/// Runs a program of the PATH without a shell, with no input and with its messages in a file.
+/// Returns its exit code, 128 if a signal ended it, or nothing if there is no such program.
 std::optional<int> run_program(std::vector<std::string> arguments, const std::string& messages) {
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);

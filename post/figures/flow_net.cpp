@@ -28,11 +28,12 @@ constexpr float stream_width = 2.2F;
 constexpr float room_above_net = 100.0F;
 constexpr int max_tubes = 100;
 constexpr int max_drops = 200;
-/// Larger ones are said.
+/// The picture has a note if the misfit is larger than this.
 constexpr double noticed_misfit = 0.01;
 constexpr double noticed_weight = 0.001;
 
-/// The geometric mean of both directions, m/s: squares in a section that is stretched.
+/// Geometric mean of the conductivities of both directions, m/s: with it, fields are squares in a
+/// section that is stretched.
 double mean_conductivity(const Soil& soil) {
   return soil.conductivity * std::sqrt(soil.anisotropy());
 }
@@ -70,7 +71,7 @@ double weight_of_fines(const ResultsReader& run, std::size_t index) {
   return std::ranges::max(concentration) * (heaviest - 1.0);
 }
 
-/// Why not all fields of the net are squares; empty where they are.
+/// The reasons why some fields of the net are not squares; empty if all are.
 std::vector<std::string> imperfections(const ResultsReader& run, std::size_t index,
                                        const std::vector<const Soil*>& soils) {
   std::vector<std::string> lines;
@@ -155,7 +156,7 @@ SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes) {
   SquareNet best{least, drops_of(least)};
   double worst = HUGE_VAL;
   for (int count = least; count <= most; ++count) {
-    // The second term prefers the usual count between counts whose fields are equally square.
+    // The second term prefers the usual count among counts whose fields are equally square.
     const double off = std::abs(std::log(drops_of(count) / (count * drops_per_tube))) +
                        0.01 * std::abs(std::log(count / usual));
     if (off >= worst) continue;

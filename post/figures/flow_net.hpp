@@ -14,8 +14,8 @@ namespace suffuse {
 struct FlowNet {
   SeepageMap map;         ///< heads, phreatic line, water outside
   StreamFunction stream;  ///< stream function of the snapshot
-  int tubes = 0;          ///< N_f: each carries the discharge over N_f
-  int drops = 0;          ///< N_d: each takes the whole fall of the head over N_d
+  int tubes = 0;          ///< N_f: each tube carries 1/N_f of the discharge
+  int drops = 0;          ///< N_d: each drop takes 1/N_d of the whole fall of the head
   std::vector<std::string> caption;
 };
 
@@ -25,8 +25,8 @@ struct SquareNet {
   int drops;
 };
 
-/// `drops_per_tube` is k H / q. The net has some forty fields, with the number of tubes for which
-/// the number of drops is nearest to a whole one; `tubes` is kept where it is given.
+/// `drops_per_tube` is k H / q. The net has about forty fields. The number of tubes is `tubes` if
+/// given, otherwise the one for which the number of drops is nearest to a whole number.
 SquareNet square_net(double drops_per_tube, const std::optional<int>& tubes);
 
 /// The flow net of the snapshot nearest to a time, s, or of the last. Throws InputError for a time

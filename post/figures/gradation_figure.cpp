@@ -24,8 +24,8 @@ bool equal(const Gradation& a, const Gradation& b) {
                             });
 }
 
-/// Soils of one name and one gradation are one. Where a name stands for several gradations, the run
-/// is named too.
+/// Soils with a gradation; those of equal name and gradation are one. Where a name stands for
+/// several gradations, the run is named too.
 std::vector<GradedSoil> graded_soils(const std::vector<ResultsReader>& runs) {
   const std::vector<std::string> labels = run_labels(runs);
   std::vector<GradedSoil> soils;
@@ -55,7 +55,7 @@ Curve grading_curve(const GradedSoil& soil, std::size_t number) {
   const auto fines = fines_content(soil.gradation);
   Curve curve;
   curve.label = soil.name;
-  // To round-off: F* is often at a point of the curve.
+  // Tolerance for round-off: F* is often at a point of the curve.
   constexpr double same = 1e-9;
   for (const GradationPoint& point : soil.gradation.points()) {
     if (fines && curve.marked.empty() && fines->size <= point.size * (1.0 + same)) {
@@ -89,7 +89,7 @@ ChartTable transposed(const ChartTable& table) {
   return result;
 }
 
-/// A row for each check and a column for each soil, or the other way round where soils are more
+/// A row for each check and a column for each soil, or the other way round if there are more soils
 /// than checks.
 ChartTable verdicts_of(const std::vector<GradedSoil>& soils) {
   ChartTable by_soil{{"internal stability"}};

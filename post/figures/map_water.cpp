@@ -77,8 +77,8 @@ void paint_outside_water(vtkContext2D& painter, const ModelView& view,
 std::vector<Polyline> phreatic_lines(const Mesh<2>& mesh, const std::vector<double>& pressure) {
   if (pressure.empty()) return {};
   const auto [low, high] = std::ranges::minmax(pressure);
-  // Faces through which water seeps out have p = 0 up to round-off: a little less is taken, so that
-  // the line does not run along them.
+  // Faces through which water seeps out have p = 0 up to round-off: the contour is taken slightly
+  // below zero, so that the line does not run along them.
   return contour_lines(mesh, pressure, -1e-3 * (high - low));
 }
 

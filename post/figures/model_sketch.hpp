@@ -29,8 +29,8 @@ template <int Dim>
 std::string region_label(const Mesh<Dim>& mesh, const Scene& scene, int number);
 
 /// Draws the mesh in black, the points of the first snapshot (solid red, liquid blue), regions
-/// tinted, boundaries as thick lines; of a model in space the surface, boundaries with a condition
-/// in their colours and the others in those of the regions. Throws FileError.
+/// tinted, boundaries as thick lines. Of a model in space it draws the surface: boundaries with a
+/// condition in their colours, the others in the colours of the regions. Throws FileError.
 void draw_model_sketch(const ResultsReader& run, const std::string& path);
 
 }  // namespace suffuse

@@ -15,7 +15,7 @@ namespace {
 constexpr double hour = 3600.0;
 const std::vector<std::string> measured_columns{"fines_lost", "conductance"};
 
-/// Lines have dashes of their own, as colours may be lost.
+/// Each line has its own dashes, because colours may be lost in print.
 Curve line_of(const std::string& label, std::size_t run) {
   constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
                                        Dash::dash_dot_dot};
@@ -41,7 +41,8 @@ Curve lost_of(const ResultsReader& run, Curve curve) {
   return curve;
 }
 
-/// Empty where gravity acts, as pressures then differ without a flow, and where nothing flows.
+/// Conductance of a run. Empty where gravity acts, because pressures then differ without a flow,
+/// and where nothing flows.
 Curve conductance_of(const ResultsReader& run, Curve curve) {
   if (std::ranges::any_of(run.scene().scene.gravity, [](double g) { return g != 0.0; })) return {};
   const Table history = run.history();

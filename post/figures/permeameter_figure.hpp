@@ -15,9 +15,9 @@ namespace suffuse {
 /// InputError or FileError.
 MeasuredPoints read_measured_points(const std::string& path);
 
-/// Fines that have left, in per cent of those that were there, against hours. Where no gravity acts
-/// also the conductance: discharge over difference of pressures, over that at the start. Throws
-/// FileError for a run without fines, InputError for points of a run that is not there.
+/// Fines that have left, in per cent of the initial ones, against hours; without gravity also the
+/// conductance: discharge over difference of pressures, relative to the start. Throws FileError for
+/// a run without fines, InputError for points of a run that is missing.
 std::vector<Chart> fines_lost_charts(const std::vector<ResultsReader>& runs,
                                      const MeasuredPoints& measured = {});
 

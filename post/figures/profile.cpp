@@ -16,7 +16,7 @@ const std::string profile_command = "suffuse-post figure profile";
 constexpr std::size_t max_curves = 12;
 const std::string distance = "distance";
 
-/// Earlier curves are darker; dashes differ too, as colours may be lost.
+/// Earlier curves are darker; dashes differ too, because colours may be lost in print.
 Curve curve_at(std::size_t number, std::size_t count) {
   constexpr std::array<Dash, 5> dashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted,
                                        Dash::dash_dot_dot};

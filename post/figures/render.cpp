@@ -24,14 +24,14 @@ namespace suffuse {
 namespace {
 
 const std::string render_command = "suffuse-post render";
-/// Streamlines of one picture.
+/// Number of streamlines in a plane picture.
 constexpr double tubes = 10.0;
 constexpr int paths_in_space = 60;
-/// In a picture of lines and areas each element makes 100 to 200 bytes.
+/// Largest number of elements in SVG and PDF, where each takes 100 to 200 bytes.
 constexpr std::ptrdiff_t max_drawn_elements = 20'000;
 /// Values that stay in memory when all snapshots are drawn; more are read a second time.
 constexpr std::size_t max_kept_values = 20'000'000;
-/// Values that are nothing but round-off, in any unit, and of a flux relative to the conductivity.
+/// Values of this size are round-off, in any unit; those of a flux relative to the conductivity.
 constexpr double round_off = 1e-15;
 constexpr double flux_round_off = 1e-10;
 
@@ -83,7 +83,7 @@ struct Canvas {
   std::array<int, 2> axes{0, 1};  ///< of the model, along the coordinates of the picture
 };
 
-/// Throws InputError for what only some dimensions have.
+/// Throws InputError for options that do not apply to a model of this dimension.
 void check_dimension(const ResultsReader& results, const RenderRequest& request) {
   const bool in_space = results.dimension() == 3;
   if (!in_space && request.cut)
@@ -142,7 +142,7 @@ Color shaded(const Color& color, const std::array<Vector<3>, 3>& corners) {
   return {share * color[0], share * color[1], share * color[2]};
 }
 
-/// The values that are in view, with the area that has each.
+/// Adds the values in view, each with its area.
 void add_values(const PictureModel& model, const FieldPicture& picture,
                 std::vector<WeightedValue>& values) {
   if (picture.of_points()) {
@@ -162,7 +162,7 @@ void add_values(const PictureModel& model, const FieldPicture& picture,
   }
 }
 
-/// Values that are nothing but round-off: a flux of liquid at rest is not zero to the last digit.
+/// Size of values that are round-off: the flux of a liquid at rest is not exactly zero.
 double round_off_of(const ResultsReader& results, const std::string& unit) {
   double largest = 0.0;
   for (const Soil& soil : results.scene().scene.soils) {
@@ -178,7 +178,7 @@ FieldPlace wanted_place(const ResultsReader& results, std::size_t index,
   return place;
 }
 
-/// What every picture has but the values of its snapshot.
+/// The pictures of one request: what they share, and how each is made.
 class Frames {
  public:
   Frames(const ResultsReader& results, const RenderRequest& request)
@@ -199,11 +199,11 @@ class Frames {
   /// The picture of a snapshot without lines and arrows.
   [[nodiscard]] FieldPicture picture(std::size_t index);
   void add_flow(FieldPicture& picture, std::size_t index) const;
-  /// What is seen within the edges of a model in space.
+  /// Adds what is seen within the edges of a model in space.
   void add_inside(FieldPicture& picture, std::size_t index);
-  /// Surfaces of equal values.
+  /// Adds surfaces of equal values.
   void add_levels(FieldPicture& picture, const std::vector<double>& at_nodes) const;
-  /// Streamlines in the colours of the field.
+  /// Adds streamlines in the colours of the field.
   void add_paths(FieldPicture& picture, const std::vector<double>& at_nodes,
                  std::size_t index) const;
 

@@ -31,7 +31,7 @@ struct RenderRequest {
   bool streamlines = false;
   std::optional<ViewBox> view;  ///< unset: all of the model
   /// What is shown of a model in space: the plane `cut`, or the surfaces on which the field has
-  /// these `levels`; without either its surface from outside.
+  /// these `levels`; without either, its outer surface.
   std::optional<CutPlane> cut{};
   std::vector<double> levels{};
   std::string output;  ///< NAME.png, .svg or .pdf; for several pictures NAME_0000.png and so on
@@ -45,9 +45,9 @@ ViewBox parse_view(const std::string& text);
 std::vector<double> parse_levels(const std::string& text);
 
 /// Draws one colour per element, nodal and element-vertex fields in smooth colours, points as discs
-/// over the mesh. Of vectors the magnitude is drawn. Fields whose values stand for kinds
+/// over the mesh. Vectors are drawn by their magnitude. Fields whose values stand for kinds
 /// (saturation_state, region) get a legend of names, others a colour bar. Returns the paths
-/// written. Throws InputError, which lists the fields and where they live; FileError.
+/// written. Throws InputError, which lists the fields and where they are; FileError.
 std::vector<std::string> render(const ResultsReader& results, const RenderRequest& request);
 
 }  // namespace suffuse

@@ -31,7 +31,7 @@ constexpr float room_above_map = 100.0F;
 constexpr float bar_room = 190.0F;
 constexpr float line_width = 1.2F;
 
-/// What all of a picture is painted with.
+/// The map, its place on the picture and the levels of its colours.
 struct MapSheet {
   const SeepageMap& map;
   ModelView view;
@@ -82,7 +82,7 @@ void paint_bands(vtkContext2D& painter, const MapSheet& sheet) {
   triangles.paint(painter);
 }
 
-/// `hidden`: lines that are drawn over these, which labels keep clear of.
+/// `hidden`: lines drawn over the equipotentials; labels leave them free.
 void paint_equipotentials(vtkContext2D& painter, const MapSheet& sheet,
                           const std::vector<Polyline>& hidden) {
   if (!sheet.map.saturation.empty()) return;
@@ -117,7 +117,7 @@ void paint_bar(vtkContext2D& painter, const MapSheet& sheet, float left, float b
              bottom + height / 2.0F, Anchor::center, 90.0);
 }
 
-/// What both maps share.
+/// The common part of a head map and a saturation map.
 SeepageMap map_of(const ResultsReader& run, std::size_t index, const std::optional<double>& time) {
   const Scene& scene = run.scene().scene;
   SeepageMap map;
@@ -133,8 +133,8 @@ SeepageMap map_of(const ResultsReader& run, std::size_t index, const std::option
   return map;
 }
 
-/// Elements of regions without soil that no soil has moved into and that hold less than half of
-/// the water they could; empty where there is none.
+/// Per element: whether it is in a region without soil, no soil has moved into it, and it is less
+/// than half full of water; empty if there is no such region.
 std::vector<bool> elements_of_air(const ResultsReader& run, std::size_t index,
                                   const Mesh<2>& mesh) {
   const Scene& scene = run.scene().scene;
@@ -216,7 +216,7 @@ std::vector<double> band_levels(double low, double high) {
     finer.push_back(levels.back());
     levels = std::move(finer);
   }
-  // Bands in which no value lies.
+  // Bands without values are removed at both ends.
   const double slack = 1e-9 * (high - low);
   while (levels.size() > 2 && levels[1] <= low + slack) levels.erase(levels.begin());
   while (levels.size() > 2 && levels[levels.size() - 2] >= high - slack) levels.pop_back();

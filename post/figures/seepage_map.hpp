@@ -19,7 +19,7 @@ struct SeepageMap {
   std::string label;  ///< label of the colour bar, with the unit
   Mesh<2> mesh;
   std::vector<double> head;  ///< per node, m; coloured, with equipotentials
-  /// Per element: whether it holds air alone, where no head is drawn; empty where none does.
+  /// Per element: whether it holds only air, where no head is drawn; empty if none does.
   std::vector<bool> air{};
   std::vector<double> saturation;  ///< per element; coloured instead of heads; or empty
   std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
@@ -31,8 +31,7 @@ struct SeepageMap {
 
 /// Maps of the snapshot nearest to a time, s, or of the last. Heads are those of the nodes'
 /// pressures; without gravity there is no phreatic line. Throws InputError, naming `command`, for a
-/// time outside the snapshots, and where every soil is saturated and the saturation is wanted;
-/// FileError.
+/// time outside the snapshots, and for a saturation map if every soil is saturated; FileError.
 SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time,
                     const std::string& command = "suffuse-post figure head");
 SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>& time);

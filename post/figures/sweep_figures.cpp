@@ -53,7 +53,7 @@ Curve points(const std::string& label, std::vector<double> x, std::vector<double
   return curve;
 }
 
-/// Quantiles of what shares an x.
+/// Quantiles of values that share an x.
 struct Quantiles {
   std::vector<double> x, low, median, high;
 
@@ -78,7 +78,7 @@ struct Quantiles {
   }
 };
 
-/// The runs where both are numbers.
+/// The pairs in which both numbers are finite.
 std::pair<std::vector<double>, std::vector<double>> finite_pairs(const std::vector<double>& x,
                                                                  const std::vector<double>& y) {
   std::pair<std::vector<double>, std::vector<double>> found;
@@ -152,7 +152,7 @@ Curve in_time(const ResultsReader& run, const std::string& column) {
                                 quoted_list(known), closest_column(column, known)});
 }
 
-/// Linear between the points of a curve, whose x ascend and enclose `x`.
+/// The value at `x`, linear between the points of a curve, whose x ascend and enclose `x`.
 double value_at(const Curve& curve, double x) {
   const auto above = std::ranges::lower_bound(curve.x, x);
   const auto at = static_cast<std::size_t>(above - curve.x.begin());
@@ -162,8 +162,8 @@ double value_at(const Curve& curve, double x) {
   return curve.y[at - 1] + share * (curve.y[at] - curve.y[at - 1]);
 }
 
-/// The times of the rows, where all runs have the same; evenly spaced ones up to the first end
-/// otherwise.
+/// The times of the rows if they are the same in all runs; otherwise evenly spaced times up to the
+/// earliest end of a run.
 std::vector<double> common_times(const std::vector<Curve>& runs) {
   const auto same = [&](const Curve& run) { return run.x == runs.front().x; };
   if (std::ranges::all_of(runs, same)) return runs.front().x;

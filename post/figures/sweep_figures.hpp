@@ -15,8 +15,8 @@ namespace suffuse {
 /// of Hyndman and Fan 1996). `sorted` is ascending and not empty.
 double quantile(const std::vector<double>& sorted, double share);
 
-/// The runs in groups of like x: those that share one, or up to ten groups of equal count. No group
-/// where runs are few, or hardly any share an x.
+/// Groups of runs with similar x: runs of equal x, or up to ten groups of equal count. There is no
+/// group if there are few runs.
 std::vector<std::vector<std::size_t>> groups_of(const std::vector<double>& x);
 
 /// A chart for each of the columns `y`: all runs over the column `x`, their median and the band
@@ -29,7 +29,7 @@ std::vector<Chart> over_key_charts(const SweepTable& sweep, const std::string& x
 std::vector<Chart> distribution_charts(const SweepTable& sweep, const std::vector<std::string>& y);
 
 /// A chart for each column of history.csv or ledger.csv: all runs in time, their median and the
-/// band from 10 to 90 %, up to where the first run ends. Throws FileError where results cannot be
+/// band from 10 to 90 %, up to the earliest end of a run. Throws FileError where results cannot be
 /// read, InputError for other columns.
 std::vector<Chart> over_time_charts(const SweepTable& sweep,
                                     const std::vector<std::string>& columns);

@@ -36,7 +36,7 @@ std::vector<NamedTable> parts_of(const Table& table, const std::string& by,
   return parts;
 }
 
-/// The tables of a run by their names; one that the scene has not asked for is not there.
+/// The tables of a run by their names, without those that the scene does not ask for.
 std::vector<NamedTable> read_parts(const ResultsReader& run, const std::string& table) {
   const OutputSettings& output = run.scene().scene.output;
   if (table == "history") return {{"", run.history()}};
@@ -112,14 +112,14 @@ std::string label_of(const std::string& column, int dimension) {
   return column + (unit.empty() ? "" : " (" + unit + ")");
 }
 
-/// The run, where there are several, and the part of the table.
+/// The run, if there are several, and the part of the table.
 std::string label_of(const std::vector<std::string>& runs, std::size_t run,
                      const std::string& part) {
   if (runs.size() == 1) return part;
   return part.empty() ? runs[run] : runs[run] + ": " + part;
 }
 
-/// Without the rows in which a ratio has no value, which tables give as 0.
+/// Removes the rows in which a ratio has no value, for which tables have 0.
 void remove_missing(Curve& curve, const std::string& column) {
   if (column != "conductivity_ratio") return;
   std::size_t kept = 0;

@@ -11,11 +11,10 @@
 
 namespace suffuse {
 
-/// A chart per column, with a curve per run. A column is named COLUMN, or TABLE.COLUMN where
-/// several tables have it and the first is not the one that is wanted: history, ledger, regions,
-/// boundaries, probes, sections. Of the last four, which have rows for each of several things,
-/// there is a curve for each, or with :NAME for one: `boundaries.discharge:downstream`,
-/// `probes.head:0`. Throws InputError, FileError.
+/// A chart per column, with a curve per run. A column is named COLUMN, or TABLE.COLUMN to choose
+/// one of several tables that have it: history, ledger, regions, boundaries, probes, sections. The
+/// last four have rows for several things: each thing gets a curve, or with :NAME only the named
+/// one does: `boundaries.discharge:downstream`, `probes.head:0`. Throws InputError, FileError.
 std::vector<Chart> table_curves(const std::vector<ResultsReader>& runs,
                                 const FigureOptions& options);
 

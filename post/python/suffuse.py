@@ -74,7 +74,7 @@ def _unknown(what, got, known):
 
 
 class _Named(collections.abc.Mapping):
-    """A mapping that says what it has when it is asked for something else."""
+    """A mapping whose error for a missing name lists the names that it has."""
 
     def __init__(self, what, content):
         self._what, self._content = what, content
@@ -224,8 +224,9 @@ class Run:
         return {place: names for place, names in found.items() if names}
 
     def field(self, name, time=None, on=None):
-        """Values of a field: one per element ("cell"), node or point; a row of x and y each of a vector; of
-        "element_vertex" a row per element with the values of its own linear field at its three nodes.
+        """Values of a field: one per element ("cell"), node or point, for a vector a row of x and y
+        each; on "element_vertex" a row per element with the values of its own linear field at its
+        three nodes.
 
         `time` is that of a snapshot, s; without it the last. `on` is needed where a field is in several places.
         """

@@ -70,7 +70,7 @@ std::string contents(const std::vector<std::string>& labels) {
   return links + "</nav>\n";
 }
 
-/// The policy forbids the page to ask for anything.
+/// The content security policy forbids the page to load anything.
 constexpr const char* page_start = R"(<!DOCTYPE html>
 <html lang="en">
 <head>

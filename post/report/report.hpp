@@ -1,6 +1,7 @@
 #pragma once
 
-/// The report of one or more runs: a page that needs no other file and asks nothing of a network.
+/// The report of one or more runs: a page that needs no other file and requests nothing from a
+/// network.
 
 #include <string>
 #include <vector>

@@ -19,7 +19,7 @@ namespace suffuse {
 namespace {
 
 constexpr std::size_t max_snapshots = 12;
-/// Safety beyond this is nobody's concern.
+/// Upper end of the colours of safety: larger values are not of interest.
 constexpr double largest_safety = 5.0;
 
 std::string card(const std::string& images) {
@@ -136,14 +136,14 @@ CutPlane middle_plane(const Mesh<3>& mesh, const Vector<3>& upward) {
     high = high.cwiseMax(x);
   }
   Vector<3> size = high - low;
-  size += upward.cwiseAbs() * 2.0 * size.maxCoeff();  // the vertical is no choice
+  size += upward.cwiseAbs() * 2.0 * size.maxCoeff();  // never across the vertical
   CutPlane plane;
   size.minCoeff(&plane.axis);
   plane.at = 0.5 * (low + high)[plane.axis];
   return plane;
 }
 
-/// A film of a field; of a model in space one of its surface and one of a plane in its middle.
+/// A film of a field; for a model in space, one of its surface and one of a plane in its middle.
 std::string render_html(const ResultsReader& run, RenderRequest request, const std::string& title,
                         const ScratchFolder& folder) {
   request.output = (folder.path() / (request.field + ".png")).string();

@@ -17,11 +17,11 @@ std::vector<std::size_t> snapshots_evenly(const std::vector<double>& times, std:
 /// The sketch of a run's model. Throws FileError, as all that follow.
 std::string model_html(const ResultsReader& run);
 
-/// Charts of columns of tables, a curve per run; of those columns that all runs have.
+/// Charts of the columns of tables that all runs have, with a curve per run.
 std::string curves_html(const std::vector<ResultsReader>& runs);
 
 /// Fields of a run at up to twelve times, with a slider: head, change of porosity, concentration,
-/// safety. A field that is the same number everywhere and always is a sentence.
+/// safety. A field that is constant in space and time is described by a sentence.
 std::string fields_html(const ResultsReader& run);
 
 }  // namespace suffuse

@@ -8,11 +8,11 @@
 
 namespace suffuse {
 
-/// Model, scene, plan, warnings, tables, fields, safety, and how to make it again. `id` is the
+/// Model, scene, plan, warnings, tables, fields, safety, and how to repeat the run. `id` is the
 /// start of its anchors. Throws FileError.
 std::string run_section(const ResultsReader& run, const RunNumbers& numbers, const std::string& id);
 
-/// An argument as a shell takes it: in quotes where it has other than letters, digits and ._-/=
+/// An argument for a shell: in quotes if it has characters other than letters, digits and ._-/=
 std::string shell_argument(const std::string& text);
 
 }  // namespace suffuse

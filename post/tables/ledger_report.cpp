@@ -38,7 +38,7 @@ std::vector<double> stored_grains(const Table& table) {
   return table.has("pending") ? sum(grains, table.column("pending")) : grains;
 }
 
-/// Grains that solid points have carried in, minus out. Ledgers of earlier versions have none.
+/// Grains that solid points carried in, minus out; ledgers of earlier versions have no such column.
 std::vector<double> carried_grains(const Table& table) {
   return table.has("carried") ? table.column("carried") : std::vector<double>(table.rows());
 }
@@ -66,8 +66,8 @@ Balance balance(const Table& table, const std::string& place, const std::string&
   b.worst_time = table.column("t").front();
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double formed = std::abs(stored[row] + (out[row] - in[row]) - carried[row] - b.initial);
-    // After thousands of pore volumes the stored mass is below the rounding of `in` and `out`. Such
-    // a difference says nothing; the solver forms its residual before that rounding.
+    // After thousands of pore volumes the stored mass is below the rounding of `in` and `out`. Then
+    // the difference is meaningless; the solver forms its residual before that rounding.
     const double rounding =
         std::numeric_limits<double>::epsilon() * (stored[row] + in[row] + out[row]);
     const double significant = formed <= rounding ? 0.0 : formed;

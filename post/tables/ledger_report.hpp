@@ -36,8 +36,8 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
 /// or is not a number.
 void check_balances(const std::vector<Balance>& balances, double tolerance);
 
-/// Throws NumericalError, naming the time, where `eos_error` of history.csv is larger or is not a
-/// number: masses can balance in pores that do not hold them.
+/// Throws NumericalError, naming the time, if `eos_error` of history.csv is too large or not a
+/// number: masses can balance although the pores cannot hold the water.
 void check_stored_water(const ResultsReader& results);
 
 /// First, last, smallest and largest value of every column of the history.

@@ -43,7 +43,7 @@ class ErrorSum {
     size_sum_ += size;
     squares_ += difference * difference;
     size_squares_ += size * size;
-    // Written so that a difference of NaN makes the largest one NaN.
+    // If the difference is NaN, the largest one becomes NaN.
     if (!(difference <= largest_)) largest_ = difference;
     largest_size_ = std::max(largest_size_, size);
   }
@@ -62,7 +62,7 @@ class ErrorSum {
   double largest_size_ = 0.0;
 };
 
-/// The field that a column names: NAME for NAME, NAME_x, NAME_y and NAME_z.
+/// The field that a column names; NAME_x, NAME_y and NAME_z name components of NAME.
 std::string field_of(const std::string& quantity) {
   const bool component =
       quantity.ends_with("_x") || quantity.ends_with("_y") || quantity.ends_with("_z");
@@ -134,7 +134,8 @@ struct TimeSeries {
   std::vector<double> values;
 };
 
-/// Linear between the times of `curve`. `path` names the reference table in messages.
+/// The value at `t`, linear between the times of `curve`. `path` names the reference table in
+/// messages.
 double interpolate(const TimeSeries& curve, double t, const std::string& path) {
   const double slack = 1e-12 * std::max(std::abs(curve.t.front()), std::abs(curve.t.back()));
   if (!(t >= curve.t.front() - slack && t <= curve.t.back() + slack)) {
@@ -161,7 +162,7 @@ std::vector<double> volumes_of(const ResultsReader& run) {
 }
 
 /// Volume mean over the model of an element field, or of a component NAME_x, NAME_y or NAME_z, for
-/// every snapshot. Nothing when there is no such field.
+/// every snapshot. Returns nothing when there is no such field.
 std::optional<TimeSeries> mean_series(const ResultsReader& run, const std::string& quantity) {
   const std::string field = field_of(quantity);
   const std::vector<double> volumes = volumes_of(run);

@@ -118,7 +118,7 @@ double largest_magnitude(const Table& table, const std::string& name) {
   return largest;
 }
 
-/// What a study asks for at the end.
+/// Adds the values at the end of a run.
 void add_ends(Row& row, const Table& ledger, const Table& history) {
   const double lost = ledger.column("fines_out").back() - ledger.column("fines_in").back();
   const double erodible = ledger.column("erodible").front();

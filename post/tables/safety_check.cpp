@@ -79,7 +79,7 @@ std::vector<Boundary> boundaries_of(const ResultsReader& results, const Mesh<Dim
   return boundaries;
 }
 
-/// The state of a snapshot as far as safety asks for it.
+/// The fields of a snapshot that the safety depends on.
 struct SafetyState {
   double time;
   std::vector<double> gradient;
@@ -100,7 +100,7 @@ void include(const SafetyState& state, int element, const std::vector<double>& p
              PartSafety& part) {
   const double gradient = state.gradient[element];
   const double critical = state.critical[element];
-  // Free water has no critical gradient: it is not a number there.
+  // Free water has no critical gradient: the value there is NaN.
   if (!(gradient > 0.0) || !(critical > 0.0)) return;
   const double safety = critical / gradient;
   if (part.least && part.least->safety <= safety) return;

@@ -13,8 +13,8 @@ struct SweepTable {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;  ///< rows of the runs that are done
 
-  /// The numbers of a column; NaN where a cell is empty. Throws InputError for a column that there
-  /// is not, naming `option`, and for a column of words.
+  /// The numbers of a column; NaN where a cell is empty. Throws InputError, naming `option`, for a
+  /// column that is missing and for a column of words.
   [[nodiscard]] std::vector<double> numbers(const std::string& column,
                                             const std::string& option) const;
   /// The results folders, next to the table: RUN/RUN.results.

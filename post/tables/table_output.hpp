@@ -24,7 +24,7 @@ std::string closest_column(const std::string& name, const std::vector<std::strin
 /// "kg/m" from "kg" in 2D, "-" from "1".
 std::string shown_unit(const std::string& unit, int dimension);
 
-/// Text in a cell of that many letters: to the right, or to the left for a negative width.
+/// Text padded to `width` letters: aligned to the right, or to the left for a negative width.
 std::string padded(const std::string& text, int width);
 
 /// The table with units, and its times in the unit.

@@ -67,7 +67,7 @@ std::optional<Ends> find_ends(const Scene& scene, const Mesh<2>& mesh) {
   }
   Ends ends;
   for (const auto& condition : scene.boundaries) {
-    // Where these let liquid through, and how much, depends on the flow.
+    // For these conditions, the place and the amount of the inflow depend on the flow itself.
     if (condition.head || condition.seepage_face || condition.rain || condition.rate) {
       return std::nullopt;
     }
@@ -119,7 +119,7 @@ double upward_flux(const Scene& scene, const Mesh<2>& mesh, const Ends& ends) {
   return head / resistance(scene, mesh, scene.geometry.width);
 }
 
-/// Erosion goes at a rate that a constant flux and the solid alone decide.
+/// Whether the rate of erosion depends only on the flux, which is constant, and on the solid.
 bool lasts(const Soil& soil) {
   const ErosionModel model = soil.erosion_model();
   return !model.drive->depends_on_conductivity && !depends_on_concentration(model) &&
@@ -212,8 +212,8 @@ double ColumnFines::concentration(double x, double t) const {
   return 1.0 - porosity(entry(x, t)) / porosity(t);
 }
 
-/// The liquid behind the inlet came in at q since it entered, so the integral of n_L(t_in) along
-/// the specimen is q (t - t_in) of what leaves now.
+/// While the liquid that leaves now crossed the specimen, liquid entered at q, so the integral of
+/// n_L(t_in) along the specimen is q (t - t_in), with the t_in of the liquid that leaves now.
 double ColumnFines::fines(double t) const {
   const double volume = porosity(t) * flow_.length - flow_.flux * (t - entry(flow_.length, t));
   return flow_.soil.grain_density * flow_.width * volume;

@@ -23,14 +23,14 @@ struct ColumnFlow {
 
 /// The steady flow through the one eroding soil of a built-in column, or nothing where the scene
 /// has no exact solution: another geometry, several eroding soils, a gradient of porosity, fines
-/// that enter, conditions on the sides, or a flux that neither a boundary (`darcy_flux`, `velocity`
-/// times a porosity that lasts) nor the heads at both ends (k i, Darcy's drag, a conductivity that
-/// lasts, no gravity) give. Boundary values that change in time give none.
+/// that enter, conditions on the sides, or boundary values that change in time. The flux must
+/// follow from a boundary (`darcy_flux`, `velocity` times a constant porosity) or from the heads at
+/// both ends (k i, Darcy's drag, constant conductivity, no gravity).
 std::optional<ColumnFlow> column_flow(const ResultsReader& run);
 
 class ColumnFines {
  public:
-  /// `end`: the latest time that will be asked for, s.
+  /// `end`: the latest time of any later call, s.
   ColumnFines(const ColumnFlow& flow, double end);
 
   /// c at distance `x` (m) from the inlet of the specimen; at `length`, c of the outflow.

@@ -125,7 +125,7 @@ FlowPaths Tracer::trace(int count) const {
     passed += inlet.discharge;
     const auto face = face_opposite<3>(mesh_.elements[inlet.element], inlet.corner);
     for (; begun < count && (begun + 0.5) * result.discharge <= passed * count; ++begun) {
-      // Several paths on one face lie evenly on it.
+      // Several paths on one face are spread evenly over it.
       const double u = std::fmod(0.5 + 0.7548776662466927 * begun, 1.0);
       const double v = std::fmod(0.5 + 0.5698402909980532 * begun, 1.0);
       const double root = std::sqrt(u);

@@ -31,7 +31,7 @@ std::map<std::array<int, 2>, int> opposite_nodes(const Mesh<2>& mesh) {
   return opposite;
 }
 
-/// The part of an edge that is below the level, as a share from the first node on; nothing: none.
+/// The ends of the part of an edge that is below the level; nothing if no part is.
 std::optional<std::array<Vector<2>, 2>> wet_part(const Vector<2>& a, const Vector<2>& b,
                                                  const Vector<2>& up, double head) {
   const double za = a.dot(up);
@@ -56,7 +56,7 @@ std::optional<std::array<Vector<2>, 4>> water_over(const std::array<Vector<2>, 2
     const Vector<2> out = (soil_is_ahead ? -breadth : breadth) * axes.across;
     return std::array<Vector<2>, 4>{a, b, b + out, a + out};
   }
-  // Where the edge is met going up from the soil, water is above it.
+  // Where the soil is above the edge, the edge is an overhang, and no water is over it.
   const double slope = way.dot(axes.up) / way.dot(axes.across);
   const Vector<2> arm = inside - a;
   if (arm.dot(axes.up) >= slope * arm.dot(axes.across)) return std::nullopt;

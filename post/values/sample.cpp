@@ -135,7 +135,7 @@ void refuse_point_field(const ResultsReader& results, std::size_t index, const s
   }
 }
 
-/// Between two values; the nearer one where either is infinite.
+/// The value between two others; the nearer one if either is infinite.
 double between(double before, double after, double weight) {
   if (std::isfinite(before) && std::isfinite(after)) return before + weight * (after - before);
   return weight < 0.5 ? before : after;

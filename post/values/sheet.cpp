@@ -12,7 +12,7 @@
 namespace suffuse {
 namespace {
 
-/// Nodes this close to a plane lie in it; of the extent of the mesh.
+/// Nodes this close to a plane lie in it, relative to the extent of the mesh.
 constexpr double in_plane = 1e-9;
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
 
@@ -107,7 +107,7 @@ LevelSheet make_level_sheet(const Mesh<3>& mesh, const std::vector<double>& at_n
   return made;
 }
 
-/// Coordinates of nodes along an axis, times `sign`; those in the plane to the last digit.
+/// Distances of nodes from the plane, times `sign`; exactly 0 in the plane.
 std::vector<double> distances(const Mesh<3>& mesh, const CutPlane& plane, double sign) {
   const double slack = in_plane * extent(mesh).maxCoeff();
   std::vector<double> values;
@@ -118,8 +118,8 @@ std::vector<double> distances(const Mesh<3>& mesh, const CutPlane& plane, double
   return values;
 }
 
-/// Leaves out faces of boundaries that are no side of an element: of elements that the plane
-/// touches along an edge there are no triangles.
+/// Removes boundary faces that are not sides of an element: elements that the plane touches only
+/// along an edge have no triangles.
 void keep_sides(Mesh<2>& mesh) {
   const FaceTable<2> sides(mesh);
   for (BoundarySet<2>& boundary : mesh.boundaries) {

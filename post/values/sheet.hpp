@@ -38,8 +38,7 @@ Sheet level_sheet(const Mesh<3>& mesh, const std::vector<double>& at_nodes, doub
 std::vector<double> sheet_values(const Mesh<3>& mesh, const Sheet& sheet, const std::string& where,
                                  const std::vector<double>& values);
 
-/// Values at the nodes of the mesh, of one of these fields: means over the elements around, by
-/// volume.
+/// Values of such a field at the nodes of the mesh: means over the elements around, by volume.
 std::vector<double> node_means(const Mesh<3>& mesh, const std::string& where,
                                const std::vector<double>& values);
 

@@ -9,8 +9,8 @@
 
 namespace suffuse {
 
-/// The snapshot nearest to `time` (s), or the last. A time outside the snapshots is taken for the
-/// first or last of them up to half an interval away. Throws InputError, naming `command`, for any
+/// The snapshot nearest to `time` (s), or the last. A time up to half an interval outside the
+/// snapshots stands for the first or the last one. Throws InputError, naming `command`, for any
 /// other; FileError where there is no snapshot yet.
 std::size_t chosen_snapshot(const ResultsReader& results, const std::optional<double>& time,
                             const std::string& command);

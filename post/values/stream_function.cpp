@@ -16,15 +16,15 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-/// A share of the discharge that round-off reaches, in snapshots of single precision too.
+/// Share of the discharge that may be round-off, also in snapshots of single precision.
 constexpr double round_off = 1e-6;
 /// Sums along edges that contradict one another by less than this share of psi need no least
 /// squares.
 constexpr double contradiction = 1e-10;
-/// Liquid is at rest where the gradient of the head is smaller: round-off makes such gradients.
+/// Gradient of the head below which liquid is at rest: round-off causes such gradients.
 constexpr double rest = 1e-10;
 
-/// Sets of numbers that grow together.
+/// Disjoint sets of numbers, which can be joined.
 class Groups {
  public:
   explicit Groups(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -47,7 +47,7 @@ const BoundarySet<2>* find_set(const Mesh<2>& mesh, const std::string& name) {
   return found == mesh.boundaries.end() ? nullptr : &*found;
 }
 
-/// For each node the one that stands for it: of two on the sides of a leaky wall, the first.
+/// The representative of each node: of two nodes on the sides of a leaky wall, the first.
 std::vector<int> joined_nodes(const ElementFlow& flow) {
   const Mesh<2>& mesh = flow.mesh;
   Groups groups(mesh.node_count());
@@ -83,7 +83,7 @@ struct OuterEdge {
   double outflow;  ///< m3/s per metre of thickness
 };
 
-/// Those of the whole model; both sides of leaky walls are inside.
+/// The outer edges of the model; both sides of leaky walls are inside.
 std::vector<OuterEdge> outer_edges_of(const ElementFlow& flow) {
   const Mesh<2>& mesh = flow.mesh;
   const FaceTable<2> faces(mesh);
@@ -121,13 +121,13 @@ std::string boundary_at(const Mesh<2>& mesh, const std::vector<Edge>& edges) {
   return "";
 }
 
-/// Growth of psi along the edges at each node.
+/// A neighbour of a node along an edge, and the growth of psi on the way to it.
 struct Step {
   int to;
   double growth;
 };
 
-/// Sums along edges, from the first node of each connected part on.
+/// Values of psi: sums along edges, from the first node of each connected part on.
 std::vector<double> summed(const ElementFlow& flow, const std::vector<int>& joined,
                            std::vector<int>& starts) {
   const Mesh<2>& mesh = flow.mesh;
@@ -157,7 +157,7 @@ std::vector<double> summed(const ElementFlow& flow, const std::vector<int>& join
   return psi;
 }
 
-/// Gradients of the three linear functions of an element that are 1 at a corner.
+/// Gradients of the three linear shape functions of an element.
 std::array<Vector<2>, 3> shape_gradients(const Mesh<2>& mesh, int e) {
   std::array<Vector<2>, 3> gradients;
   const double twice = 2.0 * element_volume(mesh, e);
@@ -169,7 +169,7 @@ std::array<Vector<2>, 3> shape_gradients(const Mesh<2>& mesh, int e) {
   return gradients;
 }
 
-/// What the gradient of psi lacks in each element.
+/// Difference between the exact and the present gradient of psi in each element.
 std::vector<Vector<2>> lacks(const ElementFlow& flow, const std::vector<int>& joined,
                              const std::vector<double>& psi) {
   std::vector<Vector<2>> result;
@@ -182,7 +182,7 @@ std::vector<Vector<2>> lacks(const ElementFlow& flow, const std::vector<int>& jo
   return result;
 }
 
-/// Root mean square over the area of what psi lacks, relative to the flux.
+/// Root mean square of that difference over the area, relative to the flux.
 double misfit_of(const ElementFlow& flow, const std::vector<Vector<2>>& lack) {
   double missed = 0.0;
   double all = 0.0;
@@ -194,7 +194,7 @@ double misfit_of(const ElementFlow& flow, const std::vector<Vector<2>>& lack) {
   return all > 0.0 ? std::sqrt(missed / all) : 0.0;
 }
 
-/// Adds the least squares of what psi lacks.
+/// Adds the correction of psi that minimises the squares of that difference.
 void add_least_squares(const ElementFlow& flow, const std::vector<int>& joined,
                        const std::vector<int>& starts, const std::vector<Vector<2>>& lack,
                        std::vector<double>& psi) {
@@ -213,7 +213,7 @@ void add_least_squares(const ElementFlow& flow, const std::vector<int>& joined,
       }
     }
   }
-  // Nothing is added at the start of each part, nor where another node stands for one.
+  // The correction is 0 at the start of each part and at nodes that another node represents.
   for (const int start : starts) entries.emplace_back(start, start, 1.0);
   for (int i = 0; i < n; ++i) {
     if (joined[i] != i) entries.emplace_back(i, i, 1.0);

@@ -15,8 +15,8 @@ struct StreamFunction {
   /// grows by the discharge that crosses any line between them from its left side to its right.
   std::vector<double> at_nodes;
   double discharge = 0.0;  ///< inflow through the outer edges, m3/s per metre of thickness
-  /// Distance of the flux of psi from the given one, relative, both as root mean square over the
-  /// area: round-off in a flow without sources, as of incompressible liquid.
+  /// Relative difference between the flux of psi and the given one, both as root mean square over
+  /// the area; it is round-off in a flow without sources, such as that of an incompressible liquid.
   double misfit = 0.0;
 };
 
@@ -39,16 +39,16 @@ struct ElementFlow {
 std::vector<InnerSource> inner_sources(const ElementFlow& flow);
 
 /// The flux of a flow without sources is constant in each element (Raviart and Thomas's of lowest
-/// order), so sums along edges of elements give psi to round-off. Where that contradicts itself,
-/// psi is that of least squares over the area. Parts of a mesh that are not connected have a psi
-/// each, which is 0 at its least.
+/// order), so sums along edges of elements give psi to round-off. Where such sums contradict one
+/// another, psi is fitted by least squares over the area. Each connected part of a mesh has its own
+/// psi, whose least value is 0.
 StreamFunction stream_function(const ElementFlow& flow);
 
 /// Whether liquid flows in a snapshot: round-off does not count. Throws FileError.
 bool flows(const ResultsReader& results, std::size_t index);
 
-/// That of a snapshot. Throws InputError, naming `command`, for a place around which it has no
-/// single value, and where the liquid is at rest; FileError.
+/// The stream function of a snapshot. Throws InputError, naming `command`, for a place around which
+/// it has no single value, and where the liquid is at rest; FileError.
 StreamFunction stream_function(const ResultsReader& results, std::size_t index, const Mesh<2>& mesh,
                                const std::string& command);
 

@@ -13,7 +13,7 @@ struct TimeUnit {
   double seconds = 1.0;
 };
 
-/// All of them, ascending.
+/// All units, ascending.
 const std::vector<TimeUnit>& time_units();
 /// The unit in which times up to `end` (s) are small numbers.
 TimeUnit fitting_time_unit(double end);

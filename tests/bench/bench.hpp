@@ -1,7 +1,7 @@
 #pragma once
 
-/// What every micro-benchmark reports: time per point, bytes moved per point as its arrays say, and
-/// the share of the bandwidth that a plain triad reaches in the same program.
+/// Counters of every micro-benchmark: time per point, bytes moved per point according to the sizes
+/// of its arrays, and the share of the bandwidth that a plain triad reaches in the same program.
 
 #include <benchmark/benchmark.h>
 

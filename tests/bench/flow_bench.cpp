@@ -54,7 +54,8 @@ struct FlowSquare {
   double dt = 0.0;
 };
 
-/// Squares of two triangles, in rows; Gmsh's triangles as the mesher numbers them.
+/// `cells`: squares of two triangles, in rows; `free_mesh`: Gmsh's triangles as the mesher numbers
+/// them.
 enum MeshKind { cells, free_mesh };
 
 Mesh<2> mesh_of(long elements, MeshKind kind) {

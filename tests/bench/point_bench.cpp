@@ -11,7 +11,7 @@
 namespace suffuse::bench {
 namespace {
 
-/// A column of about so many points, kept from one benchmark to the next.
+/// A column of about `state.range(0)` points, kept from one benchmark to the next.
 model::Column& column_of(const benchmark::State& state) {
   struct Kept {
     Case<2> input;
@@ -25,13 +25,13 @@ model::Column& column_of(const benchmark::State& state) {
     const double columns = std::sqrt(static_cast<double>(key[0]) / 24.0);
     kept.input = model::fast_column(static_cast<int>(columns), static_cast<double>(key[2]) / 14.0);
     kept.column = std::make_unique<model::Column>(kept.input, static_cast<int>(key[1]));
-    // Blocks have grown to what they need.
+    // After this, blocks have the sizes that they need.
     for (int k = 0; k < 20; ++k) kept.column->move();
   }
   return *all.at(key).column;
 }
 
-/// `point_bytes` of each point and `element_bytes` of each element in one call of `loop`.
+/// Each call of `loop` moves `point_bytes` per point and `element_bytes` per element.
 template <class Loop>
 void measure(benchmark::State& state, double point_bytes, double element_bytes, const Loop& loop) {
   model::Column& column = column_of(state);
@@ -48,19 +48,19 @@ void measure(benchmark::State& state, double point_bytes, double element_bytes, 
 
 constexpr double point_bytes = sizeof(CarriedPoint<2>);
 
-/// Every point read, sums of each corner written and read.
+/// Reads every point; reads and writes sums at each corner.
 void PointsToGrid(benchmark::State& state) {
   measure(state, point_bytes, 2 * 72 + 8 + 16,
           [](model::Column& column) { column.points_to_grid(); });
 }
 
-/// Every point read and written; flux, velocities, pressures and gradients of each element read.
+/// Reads and writes every point; reads flux, velocities, pressures and gradients of each element.
 void GridToPoints(benchmark::State& state) {
   measure(state, 2.0 * point_bytes, 48 + 12 + 3 * 8 + 48,
           [](model::Column& column) { column.grid_to_points(); });
 }
 
-/// The nodes' own part.
+/// The part of a step at the nodes.
 void Flow(benchmark::State& state) {
   measure(state, 0.0, 200, [](model::Column& column) { column.step(); });
 }

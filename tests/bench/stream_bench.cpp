@@ -1,5 +1,5 @@
-/// The machine itself: bandwidth of the triad in cache and out of it, and a loop without memory,
-/// which says what a second thread can be worth at best.
+/// The machine itself: bandwidth of the triad in cache and out of it, and a loop without memory
+/// access, which shows the largest possible gain by a second thread.
 
 #include "bench/bench.hpp"
 

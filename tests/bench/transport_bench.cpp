@@ -60,12 +60,12 @@ struct Column {
   std::vector<double> volume;
 };
 
-/// Cells along a side for so many elements, about.
+/// Number of cells along a side for about `elements` elements.
 int cells_for(double elements) {
   return static_cast<int>(std::lround(std::sqrt(0.5 * elements)));
 }
 
-// Bytes: each array once per loop that reads or writes it, what neighbours share counted once.
+// Bytes are counted once per loop that reads or writes an array; shared values are counted once.
 
 void Transport(benchmark::State& bench) {
   const auto threads = static_cast<int>(bench.range(1));
@@ -88,7 +88,7 @@ BENCHMARK(Transport)
     ->UseRealTime();
 BENCHMARK(Transport)->Name("QuickTransport")->Args({3'300, 1})->UseRealTime();
 
-/// A sweep of a hundred times the explicit step, without erosion, as `Transport`.
+/// Like `Transport`, for one swept step of a hundred times the explicit step, without erosion.
 void Sweep(benchmark::State& bench) {
   Column column(cells_for(static_cast<double>(bench.range(0))), 1);
   const BoundaryValues<2> values(column.c, column.grid);
@@ -139,7 +139,7 @@ struct ImplicitColumn : Column {
     begin.face_pressure.assign(grid.face_count(), 0.0);
     begin.velocity.assign(grid.mesh.element_count(), Vector<2>::Zero());
   }
-  /// The matrix of the pressures at faces, with the pattern and the like of its values.
+  /// The matrix of the pressures at faces, with the same pattern and similar values.
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const {
     std::vector<Eigen::Triplet<double>> entries;
     for (int e = 0; e < grid.mesh.element_count(); ++e) {
@@ -159,7 +159,7 @@ struct ImplicitColumn : Column {
     result.setFromTriplets(entries.begin(), entries.end());
     return result;
   }
-  /// One step, of another length and so with another matrix if `longer` is not zero.
+  /// One step; if `longer` is not zero, its length changes and so does the matrix.
   void step(double longer) {
     benchmark::DoNotOptimize(scheme.step(begin, 1.0 + longer, {&forcing, &forcing}));
   }
@@ -176,7 +176,7 @@ void add_sizes(benchmark::internal::Benchmark* bench) {
       ->UseRealTime();
 }
 
-/// Two stages with the matrix that is factored: assembly, one solution each, fluxes.
+/// Two stages with a factored matrix: assembly, one solution each, fluxes.
 void ImplicitStep(benchmark::State& bench) {
   ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))),
                         static_cast<int>(bench.range(1)));
@@ -185,7 +185,7 @@ void ImplicitStep(benchmark::State& bench) {
 }
 BENCHMARK(ImplicitStep)->Apply(add_sizes);
 
-/// With a matrix that has changed by a thousandth or so, by conjugate gradients.
+/// A step whose matrix has changed by about a thousandth, solved by conjugate gradients.
 void ImplicitStepWithIterations(benchmark::State& bench) {
   ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))),
                         static_cast<int>(bench.range(1)));
@@ -240,7 +240,7 @@ BENCHMARK(Solve)
     ->Arg(333'000)
     ->Unit(benchmark::kMillisecond);
 
-/// The same with Eigen's substitution, which the plain loops of CholeskyFactor stand in for.
+/// Solves with Eigen's substitution, which the plain loops of CholeskyFactor replace.
 void SolveByEigen(benchmark::State& bench) {
   const ImplicitColumn column(cells_for(static_cast<double>(bench.range(0))), 1);
   const Eigen::SparseMatrix<double> matrix = column.matrix();

@@ -30,7 +30,7 @@ def read_cases():
 def run(command, folder, limit):
     """Exit code, output and processor time in s; exit code 'time' beyond the limit."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    # Wall time is bounded by a multiple: machines are shared.
+    # The limit of wall time is a multiple, because machines are shared.
     try:
         done = subprocess.run(command, cwd=folder, timeout=10 * limit + 30, text=True, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, errors="replace")

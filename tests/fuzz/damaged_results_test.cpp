@@ -24,7 +24,7 @@ std::string failure(const std::function<void()>& body) {
   return "nothing refused";
 }
 
-/// Reads all there is of the folder that a script makes.
+/// Reads everything in the folder that a script makes; returns the message of the failure.
 std::string reading_failure(const std::string& script) {
   const std::string folder = lay_out_results(script);
   std::string message = failure([&] {
@@ -44,7 +44,7 @@ std::string reading_failure(const std::string& script) {
 struct Damage {
   std::string name;
   std::string script;
-  std::string message;  // its beginning
+  std::string message;  // beginning of the message
 };
 
 void PrintTo(const Damage& damage, std::ostream* stream) {

@@ -15,7 +15,7 @@ std::string lay_out_case(const std::string& input);
 /// The results folder that `input` stands for.
 std::string lay_out_results(const std::string& input);
 
-/// Has HDF5 forget what a damaged file kept it from closing, which would follow the next input.
+/// Closes what a damaged file left open in HDF5, so that it does not affect the next input.
 void forget_files();
 
 }  // namespace suffuse::fuzz

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a dataset that an edit makes.
+/// Largest number of values of a dataset that an edit makes.
 constexpr hsize_t max_values = 4096;
 constexpr int max_edits = 64;
 
@@ -57,7 +57,7 @@ class Words {
   }
   std::string rest() { return std::exchange(rest_, {}); }
   std::uint64_t number() { return std::strtoull(word().c_str(), nullptr, 0); }
-  /// At least one and at most four extents.
+  /// Reads one to four extents.
   std::vector<hsize_t> extents() {
     std::vector<hsize_t> all;
     while (!rest_.empty() && all.size() < 4) all.push_back(number());
@@ -121,7 +121,7 @@ Id named_type(const std::string& name) {
     H5Tenum_insert(type, "one", &one);
     return type;
   }
-  // Anything else: a number as wide as its bytes say.
+  // For any other name, an integer whose width depends on the length of the name.
   Id type(H5Tcopy(H5T_STD_I64LE), H5Tclose);
   H5Tset_size(type, 1 + name.size() % 16);
   return type;
@@ -131,7 +131,7 @@ bool exists(hid_t file, const std::string& name) {
   return !name.empty() && H5Oexists_by_name(file, name.c_str(), H5P_DEFAULT) > 0;
 }
 
-/// All of a dataset as it is stored.
+/// All values of a dataset as they are stored.
 std::vector<char> stored_bytes(hid_t set, hid_t type) {
   const Id space(H5Dget_space(set), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -177,7 +177,7 @@ Id dataset_settings() {
   return creation;
 }
 
-/// All attributes of one object, to another.
+/// Copies all attributes of one object to another.
 void copy_attributes(hid_t from, hid_t to) {
   H5Aiterate2(
       from, H5_INDEX_NAME, H5_ITER_INC, nullptr,
@@ -197,7 +197,7 @@ void copy_attributes(hid_t from, hid_t to) {
       &to);
 }
 
-/// The dataset of this name, which may not exist, without its name.
+/// Removes the name of a dataset and returns the dataset; it may not exist.
 Id unlinked(hid_t file, const std::string& name) {
   if (!exists(file, name)) return {-1, H5Dclose};
   Id old(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
@@ -205,7 +205,7 @@ Id unlinked(hid_t file, const std::string& name) {
   return old;
 }
 
-/// A new dataset in the place of whatever is called `name`, filled with `bytes` again and again.
+/// Replaces the object `name`, if any, by a new dataset that repeats `bytes`.
 void make_dataset(hid_t file, const std::string& name, hid_t type, const Id& space,
                   const std::string& bytes) {
   const Id old = unlinked(file, name);
@@ -223,7 +223,7 @@ void make_dataset(hid_t file, const std::string& name, hid_t type, const Id& spa
   H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
 }
 
-/// The dataset of this name with another type, or other extents.
+/// Replaces the dataset of this name by one of another type, or of other extents.
 void remake(hid_t file, const std::string& name, const std::string& type_name,
             const std::vector<hsize_t>& extents) {
   if (!exists(file, name)) return;
@@ -280,7 +280,7 @@ void make_attribute(hid_t file, Words& words) {
   }
   const bool is_text = type_name == "text";
   const Id type = is_text ? text_type(text.size()) : named_type(type_name);
-  // "list i64" and the like would be one more word; three values come with a comma in the text.
+  // A comma in the text makes a list of three values; no further word of the edit is needed.
   const bool is_list = text.find(',') != std::string::npos && !is_text;
   const Id space = is_list ? simple_space({3}) : Id(H5Screate(H5S_SCALAR), H5Sclose);
   const Id attribute(H5Acreate_by_name(file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
@@ -300,7 +300,7 @@ void make_attribute(hid_t file, Words& words) {
   H5Awrite(attribute, type, bytes.data());
 }
 
-/// One more text in the list of `--set` arguments.
+/// Appends a text to the list of `--set` arguments.
 void add_override(hid_t file, const std::string& text) {
   const std::string name = "/scene/overrides";
   std::vector<std::string> all;
@@ -364,7 +364,7 @@ void edit_links(hid_t file, const std::string& edit, Words& words) {
   }
 }
 
-/// Whether `edit` is one to an HDF5 file, and was made.
+/// Makes `edit` if it is an edit to an HDF5 file; returns whether it is.
 bool edit_hdf5(hid_t file, const std::string& edit, Words& words) {
   static const std::vector<std::string> links{"remove", "group", "type-object", "rename",
                                               "copy",   "hard",  "soft",        "outside"};
@@ -418,7 +418,7 @@ void edit_json(const std::string& path, Words& words) {
     }
     write_bytes(path, json.dump(1, ' ', false, Json::error_handler_t::replace));
   } catch (const Json::exception&) {
-    // no such place
+    // there is no such place
   }
 }
 
@@ -434,7 +434,7 @@ void edit_line(const std::string& path, Words& words) {
   write_bytes(path, text);
 }
 
-/// An edit to the bytes of a file, made when all others are.
+/// An edit to the bytes of a file, made after all others.
 struct RawEdit {
   std::string path;
   std::string edit;
@@ -458,7 +458,7 @@ void apply(const RawEdit& raw) {
   write_bytes(raw.path, bytes);
 }
 
-/// Files of one folder and the HDF5 file among them that is open.
+/// The files of one folder, and the HDF5 file among them that is open.
 class Editor {
  public:
   Editor(std::string folder, const std::string& file) : folder_(std::move(folder)) {
@@ -474,7 +474,7 @@ class Editor {
     if (edit == "in") {
       close();
       const std::string name = words.word();
-      // Within the folder, and nowhere else.
+      // Only files within the folder are edited.
       if (name.find("..") == std::string::npos) path_ = folder_ + "/" + name;
     } else if (edit == "byte" || edit == "cut" || edit == "grow" || edit == "delete" ||
                edit == "folder") {

@@ -2,8 +2,9 @@
 
 /// Damage to files, as text: small, readable and easy to vary.
 ///
-/// A script has one edit per line; what is no edit, or does not fit the files, is passed over. NAME
-/// is an object of an HDF5 file, `/mesh/nodes`; numbers wrap round at the ends of what they index.
+/// A script has one edit per line; lines that are no edit, or do not fit the files, are ignored.
+/// NAME is an object of an HDF5 file, `/mesh/nodes`; numbers wrap round at the ends of what they
+/// index.
 ///
 ///     seed NAME                  which valid files to start from, on the first line
 ///     in FILE                    the edits that follow are to this file
@@ -28,7 +29,7 @@
 
 namespace suffuse::fuzz {
 
-/// The word behind `seed` on the first line, or the first of `known`.
+/// The word after `seed` on the first line, or the first of `known`.
 std::string seed_of(const std::string& script, const std::vector<std::string>& known);
 
 /// Applies the edits of `script` to files of `folder`, beginning with `file`.

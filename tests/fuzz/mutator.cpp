@@ -215,7 +215,7 @@ std::string changed(const std::string& input, const Draw& draw,
         std::swap(line, lines[draw(lines.size())]);
         break;
       case 2: {
-        // Another last word.
+        // Replaces the last word.
         const std::size_t space = line.find_last_of(" =");
         if (space != std::string::npos) line = line.substr(0, space + 1) + number(draw);
         break;

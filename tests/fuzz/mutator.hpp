@@ -10,10 +10,10 @@
 
 namespace suffuse::fuzz {
 
-/// A new line for an input, or another value for what stands there.
+/// A random number below `count`.
 using Draw = std::function<std::size_t(std::size_t count)>;
 
-/// One more edit of a script, about anything.
+/// One more edit of a script, on any subject.
 std::string drawn_edit(const Vocabulary& words, const Draw& draw);
 
 /// One more line of a scene.
@@ -23,11 +23,11 @@ std::string drawn_scene_line(const Vocabulary& words, const Draw& draw);
 std::string drawn_geometry_line(const Vocabulary& words, const Draw& draw);
 
 /// `input` with a few lines added, removed, repeated, swapped or changed.
-/// \param new_line  makes one
+/// \param new_line returns a new line
 std::string changed(const std::string& input, const Draw& draw,
                     const std::function<std::string()>& new_line);
 
-/// Some lines of the one, then some of the other.
+/// Some lines of `a`, then some lines of `b`.
 std::string crossed(const std::string& a, const std::string& b, const Draw& draw);
 
 }  // namespace suffuse::fuzz

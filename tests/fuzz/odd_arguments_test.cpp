@@ -1,5 +1,5 @@
-/// The programs given what is no file of theirs: each ends by itself, says why under its own name
-/// or that of what it was given, and with the exit code that the documents promise.
+/// Programs that get wrong files: each ends by itself, with the documented exit code and a message
+/// that begins with its own name or that of the file.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ struct Outcome {
   std::string text;
 };
 
-/// In `folder`, for 60 seconds at most, with nothing to read.
+/// Runs a command in `folder`, for 60 seconds at most, without input.
 Outcome run(const std::string& folder, const std::vector<std::string>& words) {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) return {};
@@ -126,7 +126,7 @@ std::vector<std::string> odd_names() {
 }
 
 TEST_F(OddArguments, AreNoScenes) {
-  // A few: Gmsh takes long to begin.
+  // Only a few files, because Gmsh takes long to start.
   for (const std::string& name :
        {std::string(), std::string("folder"), std::string("nul"), std::string("other.h5"),
         std::string("/proc/self/mem"), std::string("\xff\xfe.case.h5"), std::string(5000, 'a')}) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whether the sources refuse as they promise.
+/// Checks that the sources refuse as they promise.
 
 #include <functional>
 #include <stdexcept>
@@ -14,7 +14,7 @@ inline void require(bool holds, const std::string& what) {
   if (!holds) throw std::logic_error(what);
 }
 
-/// Runs `body`, which may throw the errors that programs report, with something to say; other
+/// Runs `body`, which may throw the errors that programs report if they have a message; other
 /// exceptions are findings. Returns whether it threw none.
 inline bool is_taken(const std::function<void()>& body) {
   try {
@@ -30,7 +30,7 @@ inline bool is_taken(const std::function<void()>& body) {
   return false;
 }
 
-/// The same where the only cause can be a file: every message names it.
+/// Like `is_taken(body)`, if only a file can be the cause: every message must name it.
 inline bool is_taken(const std::string& path, const std::function<void()>& body) {
   try {
     body();

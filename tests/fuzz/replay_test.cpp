@@ -1,5 +1,5 @@
-/// What fuzzing has found before stays dealt with, and so does all that reaches new places: every
-/// input of corpus/ and findings/, once.
+/// Runs every input of corpus/ and findings/ once: earlier findings stay fixed, and inputs that
+/// reach all parts of the code still pass.
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ void expect_to_run(const std::string& path) {
   EXPECT_GT(model->time(), 0.0);
 }
 
-/// Edits that start from files which are refused anyway would reach nothing.
+/// Edits of a seed that is refused anyway would test nothing.
 TEST(Seeds, AreValid) {
   int in_space = 0;
   for (const std::string& name : names(case_seeds())) {

@@ -38,7 +38,7 @@ Files results_files(const Write& write) {
   return contents(scratch.path() / "r");
 }
 
-/// What makes a plane scene one of a box.
+/// Changes that turn a plane scene into one of a box.
 std::vector<std::string> in_space(Formulation formulation) {
   const bool both = formulation == Formulation::double_point;
   return {std::string(R"(geometry={shape="box", width=1, depth=1, height=1)") +
@@ -75,7 +75,7 @@ Files box_files(Formulation formulation) {
   return case_files(box_case(formulation), in_space(formulation));
 }
 
-/// Values of no meaning in each kind of place.
+/// Arbitrary values on every kind of place.
 Snapshot space_snapshot(const Case<3>& c, double time, long step) {
   const auto field = [](const char* name, int components, std::size_t count) {
     return Field{name, "1", components,
@@ -97,7 +97,7 @@ Snapshot space_snapshot(const Case<3>& c, double time, long step) {
   return result;
 }
 
-/// Two snapshots and a checkpoint, each with a state to go on from.
+/// Two snapshots and a checkpoint, each with a state to resume from.
 template <int Dim, class MakeSnapshot>
 void write_stopped_run(const std::string& folder, const Case<Dim>& c, const MakeSnapshot& make) {
   constexpr double end = 10.0;

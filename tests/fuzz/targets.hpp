@@ -1,9 +1,9 @@
 #pragma once
 
-/// What is fuzzed. Each function takes one input, which may be anything, and returns when the
-/// sources dealt with it as they promise: they took it, or refused it with an error of their own
-/// that says something. Anything else is a finding: another exception, a failed check below (a
-/// std::logic_error), or what a sanitizer stops.
+/// The fuzzed functions. Each takes any input and returns if the sources dealt with it as they
+/// promise: they accepted it, or refused it with an error of their own that has a message. Anything
+/// else is a finding: another exception, a failed check below (a std::logic_error), or an error
+/// that a sanitizer stops.
 
 #include <string>
 

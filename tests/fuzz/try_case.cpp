@@ -6,7 +6,7 @@
 namespace suffuse::fuzz {
 namespace {
 
-/// What the reader takes, the writer can write again, and it stays what it was.
+/// A case that the reader accepts can be written again without change.
 template <int Dim>
 void check_round_trip(const Case<Dim>& c, const std::string& path) {
   const std::string again = path + ".again.h5";

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of all that lies in the folders which a command of a geometry would change.
+/// Names of all files in the folders that a command of a geometry would change.
 std::set<std::string> listing(const fs::path& folder) {
   std::set<std::string> names;
   for (const fs::path& place : {folder, fs::current_path()}) {
@@ -25,7 +25,7 @@ std::set<std::string> listing(const fs::path& folder) {
   return names;
 }
 
-/// The folder of the input, with what attacks are about: a canary, a file of commands, a pipe.
+/// The folder of the input, with the targets of attacks: a canary, a file of commands, a pipe.
 const fs::path& folder() {
   static const ScratchFolder scratch("suffuse-geometry");
   static const bool laid_out = [] {
@@ -38,7 +38,7 @@ const fs::path& folder() {
   return scratch.path();
 }
 
-/// The ending by which Gmsh is to read the input.
+/// A name whose suffix tells Gmsh how to read the input.
 std::string file_name(const std::string& input) {
   if (input.starts_with("$")) return "a.msh";
   return input.starts_with("ISO-") ? "a.step" : "a.geo";

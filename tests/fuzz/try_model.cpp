@@ -9,7 +9,7 @@
 namespace suffuse::fuzz {
 namespace {
 
-/// Runs that take long are no finding: they say how long beforehand (--explain).
+/// Longer runs are skipped: they are no findings, because --explain announces them.
 constexpr double max_steps = 2e4;
 constexpr double max_rows = 1e3;
 constexpr int max_intervals = 2;
@@ -22,7 +22,7 @@ bool is_long(const Scene& scene, const Plan& plan) {
          scene.time.end > max_rows * scene.output.snapshot_every;
 }
 
-/// The first intervals, with their outputs.
+/// Runs the first intervals, with their outputs.
 template <int Dim>
 void run(const Case<Dim>& c, const Plan& plan) {
   const auto model = make_model(c, plan);

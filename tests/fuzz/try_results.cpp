@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t max_snapshots = 3;
 
-/// How many cells, nodes or points there are to have values.
+/// Number of cells, nodes or points that have values.
 template <int Dim>
 std::size_t entities(const ResultsReader& results, const Mesh<Dim>& mesh, const std::string& where,
                      std::size_t index) {
@@ -60,8 +60,8 @@ void look_at(const ResultsReader& results) {
   });
 }
 
-/// What the solver does with a folder whose run it is to go on with, but for the state itself,
-/// which is nobody's who did not write its digest.
+/// Does what the solver does with a folder when it resumes a run, except reading the state itself:
+/// only a file with the right digest gets that far.
 template <int Dim>
 void go_on_in(const std::string& folder) {
   const Case<Dim> c = read_case<Dim>(layout::in_folder(folder, layout::case_copy));

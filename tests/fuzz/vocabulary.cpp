@@ -73,7 +73,7 @@ std::vector<std::string> values_of(const SceneKey& key) {
   return values;
 }
 
-/// Objects and attributes of an HDF5 file.
+/// Adds the names of objects and attributes of an HDF5 file.
 void add_names(const std::string& bytes, Vocabulary& words) {
   const ScratchFolder scratch("suffuse-words");
   const std::string path = (scratch.path() / "a.h5").string();
@@ -148,7 +148,7 @@ std::vector<std::string> scene_settings() {
       for (const std::string& value : values_of(key)) all.push_back(place + "=" + value);
     }
   }
-  // Whole entries, of which keys one by one seldom make a scene that is right.
+  // Whole entries, because single keys seldom add up to a valid scene.
   for (const std::string entry :
        {R"(boundary[0]={on="top", head=[[0, 2], [5, 0.5]]})",
         R"(boundary[1]={on="left", head=0.5, dry="suction"})",

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What edits can be about: names that occur in the valid files and in scenes.
+/// Words of edits: names that occur in the valid files and in scenes.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct Vocabulary {
   std::vector<std::string> settings;    ///< `KEY=VALUE`, all of a scene's keys with many values
 };
 
-/// Every key of a scene with values that it may have, may just have, and may not.
+/// Every key of a scene with valid values, values at the limits, and invalid values.
 std::vector<std::string> scene_settings();
 
 /// Commands of Gmsh, above all those that run programs and write or read files.

@@ -22,7 +22,7 @@ for file in share/man/man1/suffuse-post.1 share/bash-completion/completions/suff
     share/doc/suffuse/examples/levee/flood.toml share/doc/suffuse/examples/paper/sp-consistent.toml; do
   [ -s "$prefix/$file" ] || fail "$file is missing"
 done
-# No path of the machine that built it, but for what the assertions of libraries print.
+# Installed files contain no path of the machine that built them, except in assertions of libraries.
 grep -rIl -- "$source" "$prefix" && fail 'these name the folder of the sources'
 
 doc=$prefix/share/doc/suffuse

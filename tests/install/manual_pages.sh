@@ -9,7 +9,7 @@ fail() {
 }
 command -v groff > /dev/null || { echo 'skipped: groff is missing; apt-get install groff-base'; exit 77; }
 
-# What the page of $program reads like, in lines of any length.
+# The page of $program as text, in lines of any length.
 text() { groff -man -Tutf8 -P-cbou -rLL=1000n "$pages/$program.1"; }
 
 for program in suffuse-mesher suffuse-solver suffuse-post; do

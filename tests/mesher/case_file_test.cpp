@@ -43,8 +43,8 @@ Case<2> small_case() {
   return c;
 }
 
-/// The same as a double-point case: the second element is free water, and each has two liquid
-/// points.
+/// `small_case` as a double-point case: the second element is free water, and each element has two
+/// liquid points.
 Case<2> double_point_case() {
   Case<2> c = small_case();
   c.document = parse_scene(c.document.text, c.document.path, {"formulation=double-point"});
@@ -64,7 +64,7 @@ TEST(CaseFile, ReadsBackExactlyWhatWasWritten) {
   const TemporaryFolder folder;
   const Case<2> written = small_case();
   write_case(folder.file("a.case.h5"), written);
-  EXPECT_EQ(folder.count(), 1);  // no temporary left
+  EXPECT_EQ(folder.count(), 1);  // no temporary file is left
   EXPECT_EQ(read_case_dimension(folder.file("a.case.h5")), 2);
 
   const Case<2> read = read_case<2>(folder.file("a.case.h5"));
@@ -84,7 +84,7 @@ TEST(CaseFile, ReadsBackExactlyWhatWasWritten) {
   EXPECT_EQ(read.document.scene.liquid.bulk_modulus, 2.0e7);
 }
 
-/// The case may have gone elsewhere, and the file may have changed.
+/// The case may be moved and the file may change, so the case has a copy of the file.
 TEST(CaseFile, BringsTheTablesThatTheSceneNames) {
   const TemporaryFolder folder;
   Case<2> written = small_case();
@@ -226,7 +226,7 @@ TEST(CaseFile, DamagedBytesNeverCrash) {
     damaged[at] = static_cast<char>(~damaged[at]);
     const std::string file = folder.write("damaged.h5", damaged);
     try {
-      static_cast<void>(read_case<2>(file));  // some bytes are slack
+      static_cast<void>(read_case<2>(file));  // some bytes are unused
     } catch (const FileError& error) {
       EXPECT_NE(std::string(error.what()).find(file), std::string::npos);
     }
@@ -234,8 +234,7 @@ TEST(CaseFile, DamagedBytesNeverCrash) {
 }
 
 TEST(CaseFile, DamageWhereThingsAreSaidIsNoticed) {
-  // Every byte of the first 48 is the superblock; then come headers of objects, each with a
-  // checksum.
+  // The first 48 bytes are the superblock; headers of objects follow, each with a checksum.
   const TemporaryFolder folder;
   const std::string path = folder.file("a.h5");
   write_case(path, small_case());
@@ -270,7 +269,7 @@ TEST(CaseFile, ALayoutWithoutChecksumsIsRefused) {
 TEST(CaseFile, EqualCasesAreEqualFilesAtAnyTime) {
   const TemporaryFolder folder;
   write_case(folder.file("a.h5"), small_case());
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5 counts seconds
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5 stores times in seconds
   write_case(folder.file("b.h5"), small_case());
   EXPECT_EQ(read_file(folder.file("a.h5")), read_file(folder.file("b.h5")));
 }
@@ -300,14 +299,14 @@ void set_double(const std::string& path, const std::string& dataset, hsize_t ind
   overwrite(path, dataset, H5T_NATIVE_DOUBLE, index, value);
 }
 
-/// Removes an object and leaves others to put something else in its place.
+/// Removes an object, so that others can take its place.
 void remove_object(const std::string& path, const std::string& object) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   ASSERT_GE(H5Ldelete(file, object.c_str(), H5P_DEFAULT), 0);
   H5Fclose(file);
 }
 
-/// A dataset that claims `rows` x 2 doubles and holds none.
+/// Makes a dataset that claims `rows` x 2 doubles and holds none.
 void claim_rows(const std::string& path, const std::string& dataset, hsize_t rows) {
   remove_object(path, dataset);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
@@ -358,7 +357,7 @@ void create_group(const std::string& path, const std::string& group) {
   H5Fclose(file);
 }
 
-/// What is called `object` is another name for something else, or for something in another file.
+/// Makes `object` a link to another object, in this file or in another one.
 void replace_by_link(const std::string& path, const std::string& object, const std::string& target,
                      const std::string& other_file = "") {
   remove_object(path, object);
@@ -372,7 +371,7 @@ void replace_by_link(const std::string& path, const std::string& object, const s
   H5Fclose(file);
 }
 
-/// A dataset of `rows` x 2 doubles whose values are in another file.
+/// Makes a dataset of `rows` x 2 doubles whose values are in another file.
 void keep_elsewhere(const std::string& path, const std::string& dataset, hsize_t rows,
                     bool is_virtual) {
   remove_object(path, dataset);
@@ -406,7 +405,7 @@ void make_null(const std::string& path, const std::string& dataset) {
   H5Fclose(file);
 }
 
-/// Puts one dataset in the place of another.
+/// Replaces a dataset by a copy of another one.
 void replace_by_copy(const std::string& path, const std::string& dataset, const std::string& by) {
   remove_object(path, dataset);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);

@@ -122,7 +122,6 @@ TEST_F(CommandLine, ChecksGradationsAndWritesNothing) {
   EXPECT_EQ(folder_.count(), 1);
 }
 
-/// Nor does it need the geometry.
 TEST_F(CommandLine, ChecksGradationsOfASceneWithoutItsGeometry) {
   folder_.write("dam.toml", test::scene_text("geometry.file = \"dam.geo\"\n"));
   EXPECT_EQ(run("dam.toml --check").text, "dam.toml: no soil has a gradation, nothing to check\n");
@@ -184,7 +183,7 @@ TEST_F(CommandLine, WarnsWhenItMakesACaseToo) {
 }
 
 TEST_F(CommandLine, RefusesMoreLiquidPointsThanAnyoneMeans) {
-  // Elements of free water hold a thousand million times as much liquid as those of this soil.
+  // Elements of free water hold 1e9 times as much liquid as those of this soil.
   const Outcome outcome =
       run("'" SUFFUSE_TEST_DATA "/scenes/double-point.toml' --set soil.specimen.porosity=1e-8");
   EXPECT_EQ(outcome.code, 2);
@@ -329,7 +328,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"column.toml --msh nowhere/a.msh", 4, "there is no folder nowhere"}));
 
 TEST_F(CommandLine, AGeometryThatGmshCannotReadIsPlaced) {
-  // A program of its own: Gmsh's parser does not recover from an error within one.
+  // Each file needs its own process: Gmsh's parser does not recover from an error.
   folder_.write("bad.toml", test::scene_text("[geometry]\nfile = \"" SUFFUSE_TEST_DATA
                                              "/geometry/syntax_error.geo\"\n[mesh]\nsize = 0.5\n"));
   const Outcome outcome = run("bad.toml");

@@ -1,4 +1,4 @@
-/// A process that reads a stranger's file: what it may not do, how it ends, what it hands back.
+/// A process that reads an untrusted file: what it may not do, how it ends, what it returns.
 
 #include "confined_child.hpp"
 
@@ -132,7 +132,7 @@ TEST(ConfinedChild, HasNoDescriptorOfItsParent) {
   EXPECT_EQ(test::read_file(path), "old");
 }
 
-/// As a container does that forbids filters.
+/// Forbids filters, as some containers do.
 void forbid_filters() {
   const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);
   ::seccomp_rule_add(filter, SCMP_ACT_ERRNO(EPERM), SCMP_SYS(seccomp), 0);
@@ -156,7 +156,7 @@ TEST(ConfinedChild, DoesNotRunUnconfined) {
       << message();
 }
 
-// What comes back
+// What the child returns
 
 GmshReply small_reply() {
   GmshReply reply;

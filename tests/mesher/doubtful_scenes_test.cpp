@@ -1,5 +1,5 @@
-/// Scenes that say what they hardly mean: each in tests/data/scenes/doubtful raises the warnings of
-/// its .expected file, and no others.
+/// Scenes whose values are probably mistakes: each in tests/data/scenes/doubtful raises the
+/// warnings of its .expected file, and no others.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::vector<std::string> doubtful_scenes() {
   return names;
 }
 
-/// One per line.
+/// The warnings about a scene, one per line.
 std::string warnings_of(const SceneDocument& document) {
   std::string lines;
   const auto add = [&](const std::vector<std::string>& warnings) {
@@ -50,7 +50,7 @@ std::string warnings_of(const SceneDocument& document) {
 class DoubtfulScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(DoubtfulScene, raises_these_warnings) {
-  // Messages have the path of the scene.
+  // Messages contain the path of the scene, so it must be relative.
   fs::current_path(folder);
   const std::string expected = test::read_file(GetParam() + ".expected");
   ASSERT_FALSE(expected.empty());
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DoubtfulScene, testing::ValuesIn(doubtful_scene
                            return name;
                          });
 
-/// What is usual beside each of them: a warning too many is as bad as one too few.
+/// Scenes with usual values raise none: a needless warning is as bad as a missing one.
 TEST(DoubtfulScene, none_where_the_numbers_are_right) {
   fs::current_path(folder);
   const auto mended = [](const std::string& name, const std::vector<std::string>& overrides) {
@@ -101,8 +101,8 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
             "");
 }
 
-/// Scenes that are run as they are have none of these doubts. Those that are to be refused are
-/// passed over.
+/// Scenes that are run unchanged raise none of these warnings. Scenes that must be refused are
+/// skipped.
 TEST(DoubtfulScene, none_of_the_workflows_and_the_cases) {
   int scenes = 0;
   for (const char* const part : {"workflows", "tests/cases"}) {

@@ -24,8 +24,8 @@ const std::string square =
 
 struct Attack {
   std::string name;
-  std::string commands;  // behind the square; @ is the folder
-  std::string says;      // a part of the refusal
+  std::string commands;  // follow the square; @ is the folder
+  std::string says;      // part of the message
 };
 
 void PrintTo(const Attack& attack, std::ostream* stream) {
@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
         Attack{"Exit", "Exit;", "ends Gmsh before there is a mesh"}),
     [](const auto& tested) { return tested.param.name; });
 
-/// A mistake in Gmsh's language is reported with its words; a stranger's file gets no more of a
-/// secret to show than that, and to the user alone.
+/// Messages about errors in Gmsh's language quote words of the file. An untrusted geometry can show
+/// no more of a secret file than such words, and only to the user.
 TEST_F(Attacks, ShowNoMoreThanWordsOfAFile) {
   const std::string secret = "first_word second_word third_word";
   folder_.write("secret", secret);
@@ -112,7 +112,7 @@ TEST_F(Attacks, ShowNoMoreThanWordsOfAFile) {
   EXPECT_EQ(message.find(secret), std::string::npos) << message;
 }
 
-/// As many threads as a machine may have are no mistake.
+/// A number of threads that a machine may have is accepted.
 TEST_F(Attacks, AreNotWhatAFileForManyProcessorsIs) {
   EXPECT_EQ(refusal("General.NumThreads=4; Mesh.MaxNumThreads2D=4;"), "");
 }

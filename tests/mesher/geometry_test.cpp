@@ -199,7 +199,7 @@ TEST(Column, IsInTheOrderOfHilbertsCurve) {
   }
 }
 
-/// Rows of every kind, 13 with the specimen's 3.
+/// Layers of every kind, 13 rows together with the 3 of the specimen.
 const std::string all_layers =
     "{inflow=2, free_above=1, above=3, below=1, free_below=2, outflow=1}";
 
@@ -327,7 +327,7 @@ TEST(Scene, APorosityThatLeavesItsBoundsIsPlaced) {
             "n_0 <= 1 - n_C = 0.4 everywhere in the region");
   EXPECT_NE(with_gradient("[-0.3, 0.0]").find("got n_0 = 0 at (1, 0)"), std::string::npos);
   EXPECT_EQ(with_gradient("[0.0, 0.1]"), "nothing refused");
-  // Deposits have room where n_0 is above n_min alone.
+  // Deposits need n_0 above n_min.
   const auto with_deposits = [&](const std::string& least) {
     return with_gradient("[0.0, -0.1]\n[soil.specimen.deposition]\ncoefficient = 2.0\n" +
                          ("porosity_min = " + least));
@@ -367,7 +367,7 @@ class UserFile : public testing::Test {
                     folder_.file("scene.toml"), overrides));
   }
 
-  /// With the folder's name taken out.
+  /// The message of refusal without the folder's name.
   std::string refusal_of(const std::string& name) {
     std::string message = refusal([&] { build_file(name); });
     const std::string prefix = folder_.path().string() + "/";
@@ -442,7 +442,7 @@ TEST_F(UserFile, OneMisspeltNameIsOneProblem) {
             folder_.file("scene.toml") +
                 ":17: soil.Sand: got \"Sand\"; expected a region of the mesh: \"sand\" or "
                 "\"gravel\"; did you mean \"sand\"?");
-  // What has a soil already is not meant.
+  // The suggestion is never a region that has a soil.
   const std::string third = "[soil.sands]\nlike = \"sand\"\n";
   EXPECT_EQ(refusal([&] {
               build_geometry_of<2>(
@@ -627,7 +627,7 @@ struct DamagedMesh {
   std::string name;
   std::string replace;
   std::string by;
-  std::string message;  // behind `geometry.file: got `; empty: it is taken
+  std::string message;  // follows `geometry.file: got `; empty: the mesh is accepted
 };
 
 void PrintTo(const DamagedMesh& damage, std::ostream* stream) {
@@ -783,7 +783,7 @@ TEST_F(UserFile, ABinaryMeshIsReadToo) {
 
 TEST_F(UserFile, ATruncatedOrDamagedMeshIsRefusedOrWhole) {
   for (const std::string& whole : {mesh_22, mesh_41, binary_mesh()}) {
-    // The last line may be missing.
+    // The mesh is complete without the last line.
     for (std::size_t length = 15; length < whole.size() - 14; length += 41) {
       folder_.write("cut.msh", whole.substr(0, length));
       EXPECT_NE(refusal_of("cut.msh"), "nothing refused") << length;

@@ -13,7 +13,7 @@ namespace gradation_test {
 
 using End = Gradation::End;
 
-/// From 0 % at `smallest` to 100 % at `ratio` times that, straight over log d.
+/// A straight line over log d from 0 % at `smallest` to 100 % at `ratio` times that size.
 Gradation straight(double ratio, double smallest = 0.05) {
   return Gradation(
       {{smallest, 0.0}, {smallest * std::sqrt(ratio), 50.0}, {smallest * ratio, 100.0}});
@@ -58,7 +58,7 @@ TEST(Gradation, has_two_ends_of_a_gap) {
   EXPECT_EQ(g.size(100.0, End::fine), 8.0);
   EXPECT_EQ(g.size(100.0, End::coarse), 9.0);
   EXPECT_EQ(g.finer(2.0), 20.0);
-  // 0.3 + 19.7 is not 20 in every last digit.
+  // In floating point 0.3 + 19.7 is not exactly 20.
   EXPECT_EQ(g.size(20.0 + 4e-15, End::fine), 1.0);
   EXPECT_EQ(g.size(20.0 - 4e-15, End::coarse), 4.0);
 }
@@ -82,7 +82,7 @@ TEST(Gradation, says_what_is_wrong) {
   EXPECT_EQ(gradation_fault(Table{{1, 0}, {2, 50}, {3, 99}}), "F = 99 % at d = 3 mm, the last");
 }
 
-// A straight line: each check in closed form.
+// A straight line: all checks in closed form.
 
 class StraightLine : public testing::TestWithParam<double> {};
 
@@ -90,7 +90,7 @@ TEST_P(StraightLine, has_these_numbers) {
   const double ratio = GetParam();
   const Gradation g = straight(ratio);
   const double h = 100.0 * std::log(4.0) / std::log(ratio);
-  // The coarse grains' D60/D10 is over 0.6 of 70 % minus 0.1 of 70 %, of the decades of the line.
+  // The coarse 70 % have D60 and D10 at half of 70 % from each other, so D60/D10 = ratio^0.35.
   const double limit = std::pow(ratio, 0.35) > 3.0 ? 20.0 : 30.0;
   EXPECT_EQ(search_limit(g), limit);
   EXPECT_NEAR(check_kezdi(g).value, std::pow(ratio, 0.15), 1e-12 * ratio);
@@ -119,7 +119,7 @@ TEST(StraightLine, turns_unstable_by_kezdi_where_it_does_by_li_and_fannin) {
     EXPECT_EQ(check_kezdi(g).stability, expected) << factor;
     EXPECT_EQ(check_li_fannin(g).stability, expected) << factor;
   }
-  // On the limit itself round-off decides nothing.
+  // At the limit itself, the verdict does not depend on round-off.
   EXPECT_EQ(check_kezdi(straight(critical)).stability, Stability::stable);
   EXPECT_EQ(check_li_fannin(straight(critical)).stability, Stability::stable);
 }
@@ -157,16 +157,16 @@ TEST(TwoLines, have_their_fines_below_the_gap) {
          {check_kezdi(g), check_kenney_lau(g), check_li_fannin(g)}) {
       EXPECT_EQ(verdict.stability, Stability::unstable) << f << verdict.check;
     }
-    // The widest split: 15 % on, either all is fines' end to gravel, or just beyond the gap.
+    // The widest ratio is that of the sizes at f - 15 % and at the coarse end of the gap; with
+    // fewer fines, that of the sizes at 0 and 15 %.
     const double u = std::max(f - 15.0, 0.0);
     const double widest = lines.c / (lines.a * std::pow(10.0, u / f));
     EXPECT_NEAR(check_kezdi(g).value, f < 15.0 ? g.size(15.0) / lines.a : widest, 1e-9 * widest);
   }
 }
 
-/// In a gap narrower than a factor of four H/F is smallest at one of its ends, as seen from the
-/// fines: where 4 d enters it, H is what is left of the fines; where d enters it, 4 d is in the
-/// coarse grains.
+/// In a gap narrower than a factor of four, H/F is smallest at one of two sizes: where 4 d reaches
+/// the gap, H is the rest of the fines; where d reaches the gap, 4 d is in the coarse grains.
 TEST(TwoLines, have_a_shape_known_at_a_narrow_gap) {
   int first = 0;
   for (const TwoLines& lines :
@@ -188,8 +188,8 @@ TEST(TwoLines, have_a_shape_known_at_a_narrow_gap) {
   EXPECT_EQ(first, 1) << "one of each was meant";
 }
 
-/// The search ends at 20 % where the coarse grains are of many sizes; a gap beyond is one all the
-/// same.
+/// The search ends at 20 % if the coarse grains are of many sizes, but a gap beyond 20 % still
+/// separates the fines.
 TEST(TwoLines, show_a_gap_beyond_the_search) {
   const Gradation g = TwoLines{60.0, 0.05, 0.1, 1.0, 100.0}.gradation();
   EXPECT_EQ(search_limit(g), 20.0);
@@ -202,7 +202,7 @@ TEST(TwoLines, show_a_gap_beyond_the_search) {
   EXPECT_FALSE(fines->at_limit);
 }
 
-/// Not every wave of a measured curve is a gap, and its coarse end is none: H/F falls there in any
+/// A wave of a measured curve need not be a gap, and its coarse end is none: H/F falls there in any
 /// soil.
 TEST(Fines, are_not_sought_at_a_wave_of_the_curve_nor_at_its_end) {
   const Gradation g({{0.05, 0.0},
@@ -217,13 +217,14 @@ TEST(Fines, are_not_sought_at_a_wave_of_the_curve_nor_at_its_end) {
   EXPECT_LE(fines->finer, 30.0);
 }
 
-/// The limit goes by the coarse grains: sand in gravel of one size has a large D60/D10 as a whole.
+/// The limit depends on the coarse grains: sand in gravel of one size has a large D60/D10 as a
+/// whole.
 TEST(Search, ends_by_the_uniformity_of_the_coarse_grains) {
   EXPECT_EQ(search_limit(TwoLines{25.0, 0.1, 0.5, 5.0, 10.0}.gradation()), 30.0);
   EXPECT_EQ(search_limit(TwoLines{25.0, 0.1, 0.5, 5.0, 100.0}.gradation()), 20.0);
 }
 
-// Against definitions, worked out by other means.
+// Comparisons with the definitions, computed by other means.
 
 /// A split into two soils, each with a gradation of its own.
 double ratio_of_split(const Gradation& g, double split) {
@@ -277,13 +278,13 @@ TEST(Checks, agree_with_a_fine_search_of_random_curves) {
     const double tolerance = 0.02;
     EXPECT_LE(check_kenney_lau(g).value, shape * (1.0 + 1e-9)) << trial;
     EXPECT_LE(check_li_fannin(g).value, combined * (1.0 + 1e-9)) << trial;
-    // Where there is no gap, which a search steps over, they are the same numbers.
+    // Without a gap, which a step of the search may miss, both numbers agree.
     EXPECT_NEAR(check_kenney_lau(g).value, shape, tolerance * (1.0 + shape)) << trial;
     EXPECT_NEAR(check_li_fannin(g).value, combined, tolerance * (1.0 + combined)) << trial;
   }
 }
 
-/// The number of the verdict is that at the place it names.
+/// The number of the verdict is that of the place it names.
 TEST(Checks, name_the_place_of_their_number) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 100; ++trial) {
@@ -328,7 +329,7 @@ TEST(Digits, are_three) {
   EXPECT_EQ(percent_text(99.97), "100 %");
 }
 
-// What the curve does not give.
+// What the curve does not determine.
 
 TEST(FinestPoint, leaves_unsaid_what_it_does_not_tell) {
   const Gradation g({{0.5, 40.0}, {2.0, 70.0}, {10.0, 100.0}});
@@ -350,7 +351,7 @@ TEST(FinestPoint, leaves_unsaid_what_it_does_not_tell) {
 TEST(FinestPoint, takes_an_unstable_soil_as_that_wherever_the_curve_starts) {
   const Gradation g({{0.1, 5.0}, {0.2, 20.0}, {1.0, 22.0}, {4.0, 60.0}, {10.0, 100.0}});
   EXPECT_EQ(stability_text(check_kenney_lau(g)), "unstable");
-  // (22 - 20) ln 4/ln 5 of what lies between 0.2 and 0.8 mm.
+  // H is (22 - 20) ln 4/ln 5, on the line between 0.2 and 0.8 mm.
   EXPECT_NEAR(check_kenney_lau(g).value, 2.0 * std::log(4.0) / std::log(5.0) / 20.0, 1e-12);
   const Gradation dense({{0.1, 5.0}, {0.2, 20.0}, {1.0, 80.0}, {2.0, 100.0}});
   EXPECT_EQ(stability_text(check_kenney_lau(dense)), "stable above 5 %");

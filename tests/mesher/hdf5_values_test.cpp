@@ -1,4 +1,4 @@
-/// Values that are stored compressed: nothing of them is lost, and damage is seen.
+/// Compressed values: they are read back exactly, and damage is detected.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ void expect_same_bits(const std::vector<double>& got, const std::vector<double>&
 TEST(CompressedValues, KeepEveryBit) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.h5");
-  // More than one chunk, and a last one that is not full.
+  // Several chunks, the last of which is not full.
   const std::size_t many = (std::size_t{1} << 19) + 1000;
   std::vector<double> odd = noise(100);
   odd[3] = std::numeric_limits<double>::quiet_NaN();

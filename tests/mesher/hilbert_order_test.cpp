@@ -59,7 +59,7 @@ void expect_steps_of_one_cell(int finest) {
     }
     std::array<std::uint32_t, Dim> last{};
     EXPECT_EQ(cells.front(), last);
-    last[0] = (1U << level) - 1U;  // the curve ends beside its start
+    last[0] = (1U << level) - 1U;  // the curve ends next to its start
     EXPECT_EQ(cells.back(), last);
   }
 }
@@ -246,7 +246,7 @@ std::array<int, Dim> cell_of(const Mesh<Dim>& mesh, int element, int cells) {
   return cell;
 }
 
-/// From an element to the next: within a cell of the grid or into the one beside it.
+/// From an element to the next, within a cell of the grid or into the neighbouring one.
 template <int Dim>
 void expect_elements_to_follow_cells(const Mesh<Dim>& mesh, int cells) {
   for (int e = 1; e < mesh.element_count(); ++e) {
@@ -283,7 +283,7 @@ double mean_distance(const Mesh<2>& mesh) {
   return sum / static_cast<double>(pairs.size());
 }
 
-/// Faces between the parts, where each has as many consecutive elements.
+/// Number of faces between `parts` parts of equally many consecutive elements.
 int cut_faces(const Mesh<2>& mesh, int parts) {
   const auto pairs = neighbours(mesh);
   const auto part = [&](int e) {

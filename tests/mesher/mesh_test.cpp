@@ -45,7 +45,7 @@ TEST(Mesh, BarycentricCoordinatesAreSharesOfTheArea) {
     const auto at = barycentric(mesh, 0, mesh.nodes[k]);
     for (int j = 0; j < 3; ++j) EXPECT_DOUBLE_EQ(at[j], j == k ? 1.0 : 0.0);
   }
-  // The place replaces one vertex after the other.
+  // The point replaces one vertex after the other.
   for (const Vector<2>& x : {Vector<2>(2.0, 2.0), Vector<2>(4.0, 0.5), Vector<2>(-1.0, 3.0)}) {
     const auto at = barycentric(mesh, 0, x);
     for (int k = 0; k < 3; ++k) {

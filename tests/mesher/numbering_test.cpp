@@ -1,4 +1,4 @@
-/// Results of the solver do not depend on the numbers of elements and nodes, but for round-off.
+/// Results of the solver do not depend on the numbers of elements and nodes, except for round-off.
 
 #include <gtest/gtest.h>
 

@@ -52,7 +52,7 @@ SceneDocument scene(const std::vector<std::string>& overrides = {},
   return parse_scene(test::scene_text(geometry, more), "test.toml", overrides);
 }
 
-/// Of a scene on a mesh that has nothing unusual.
+/// Warnings about keys, on a mesh that has nothing unusual.
 Warnings of_keys(const std::vector<std::string>& overrides) {
   return plausibility_warnings(scene(overrides), grid(4, 4, 1.0, 1.0));
 }
@@ -193,7 +193,7 @@ TEST(Resolution, OfFreeWaterAndOfTheRowsOfAColumnIsTheScenesOwn) {
 
 // Suction.
 
-/// On a column from z = 0 to 4 m.
+/// Warnings about suction in a column from z = 0 to 4 m.
 Warnings suction(const std::string& more, const std::vector<std::string>& overrides = {}) {
   std::vector<std::string> all{"gravity=[0, -10]", "time.scheme=implicit"};
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -227,7 +227,7 @@ TEST(SuctionWarning, OfHeadsThatNoneExceeds) {
   // 40 kPa at the base are a head of 4 m.
   EXPECT_EQ(suction("[[boundary]]\non = \"bottom\"\npressure = 4e4\n", steady), Warnings{});
   EXPECT_EQ(suction("[[boundary]]\non = \"bottom\"\npressure = 3e4\n", steady).size(), 1U);
-  // Liquid that is pressed in raises heads.
+  // Injected liquid raises heads.
   EXPECT_EQ(suction(low + "[[boundary]]\non = \"top\"\ndarcy_flux = 1e-9\n", steady), Warnings{});
   EXPECT_EQ(suction(low + "[[boundary]]\non = \"top\"\ndarcy_flux = -1e-9\n", steady).size(), 1U);
 }

@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, WrongScene, testing::ValuesIn(wrong_scenes()),
                            return name;
                          });
 
-/// The least a scene can say.
+/// The shortest valid scene.
 const std::string least = R"(formulation = "single-point"
 geometry = { shape = "column", width = 1, height = 2 }
 mesh.size = 0.25
@@ -168,7 +168,7 @@ TEST(Scene, fills_in_defaults) {
   EXPECT_TRUE(scene.boundaries.empty());
 }
 
-/// The same without a scheme.
+/// The shortest scene without a scheme.
 std::string without_scheme() {
   const std::string scheme = ", scheme = \"explicit\"";
   std::string text = least;
@@ -225,7 +225,7 @@ TEST(Scene, takes_a_threshold_where_a_flow_drives) {
   const Scene scene = scene_of(least, with_threshold);
   EXPECT_EQ(scene.soils[0].erosion.threshold, 5e-3);
   EXPECT_EQ(scene.soils[0].erosion_model().threshold, 5e-3);
-  // A soil that is like another may have another law.
+  // A soil with `like` may have another law.
   with_threshold.emplace_back("soil.base={like=\"specimen\", erosion={law=\"first-order\"}}");
   EXPECT_EQ(scene_of(least, with_threshold).soils[1].erosion.law, erosion_law("first-order"));
 }
@@ -317,7 +317,7 @@ TEST(Scene, reads_every_value_of_the_double_point_scene) {
   const Soil& like_it = *scene.find_soil("buffer");
   EXPECT_EQ(like_it.porosity, specimen.porosity);
   EXPECT_EQ(like_it.drag, SoilDrag::ergun);
-  EXPECT_EQ(like_it.erosion.law, erosion_law("none"));  // its rate is inherited, and of no account
+  EXPECT_EQ(like_it.erosion.law, erosion_law("none"));  // its rate is inherited but not used
   EXPECT_EQ(like_it.erosion.rate, specimen.erosion.rate);
 
   for (const std::string water : {"inflow", "outflow", "free_above", "free_below"}) {
@@ -415,7 +415,7 @@ TEST(Gradation, stands_in_for_the_skeleton) {
   EXPECT_TRUE(scene_of(least).soils[0].gradation.empty());
 }
 
-/// With its own porosity a soil that is like another has its own skeleton.
+/// A soil with `like` and its own porosity has another skeleton.
 TEST(Gradation, is_inherited) {
   std::string text = least;
   const std::string line = "skeleton_fraction = 0.6\n";
@@ -528,7 +528,7 @@ TEST(SceneFile, that_is_not_text_is_refused) {
             std::string::npos);
 }
 
-/// A scene with gravity that says all there is to say of seepage.
+/// A scene with gravity and with all keys of seepage.
 const std::string seepage = R"(
 formulation = "single-point"
 gravity = [0.0, -9.81]
@@ -666,7 +666,7 @@ TEST(Override, changes_entries_of_the_new_lists) {
   EXPECT_EQ(scene.soils[0].retention.parameters.n, 3.0);
 }
 
-/// A scene whose head stands in `flood.csv`, with that text.
+/// The problems of a scene whose head is in `flood.csv`, which has this text.
 std::string problems_with_table(const std::string& table) {
   try {
     parse_scene(seepage, "folder/scene.toml", {"boundary[0]={on=\"upstream\", file=\"flood.csv\"}"},
@@ -747,7 +747,7 @@ TEST(ClosestName, is_at_most_a_third_of_the_letters_away) {
   EXPECT_EQ(closest_name("abcxyf", {"abcdef"}), "abcdef");
   EXPECT_EQ(closest_name("abxyzf", {"abcdef"}), "");
   EXPECT_EQ(closest_name("en", {"start", "end"}), "end");
-  EXPECT_EQ(closest_name("abcdxf", {"abxdxf", "abcdef"}), "abxdxf");  // the first of two as near
+  EXPECT_EQ(closest_name("abcdxf", {"abxdxf", "abcdef"}), "abxdxf");  // the first of equal ones
 }
 
 TEST(SceneSchema, declares_each_key_once_and_within_its_own_bounds) {
@@ -787,7 +787,7 @@ TEST(SceneReference, has_an_example_that_works) {
   EXPECT_EQ(problems_of(reference.substr(begin, reference.find("```\n", begin) - begin)), "");
 }
 
-/// Each part, put into a scene with gravity that lacks it.
+/// Adds each part to a scene with gravity that lacks it.
 TEST(SceneReference, has_parts_of_scenes_that_work) {
   const std::string soil = "porosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700\n";
   const std::string before =

@@ -292,7 +292,7 @@ TEST(Seeding, LeavesSolidPointsOutOfFreeWater) {
       points.barycentric, std::span(everywhere.barycentric).first(points.barycentric.size())));
 }
 
-/// The paper's column: twelve liquid points in each triangle of soil, and what is in proportion in
+/// The paper's column: twelve liquid points in each triangle of soil, and a proportional number in
 /// free water.
 TEST(Seeding, OfThePapersColumnHasEqualVolumes) {
   const SceneDocument document = read_scene(SUFFUSE_TEST_DATA "/scenes/double-point.toml");
@@ -336,7 +336,7 @@ TEST(Seeding, GivesEveryElementAPoint) {
   for (int e = 4; e < 8; ++e) EXPECT_EQ(counts[e], 1);
 }
 
-/// 12.5 points each, but for the last digits of the volumes.
+/// Each element has 12.5 points, up to round-off of the volumes.
 TEST(Seeding, RoundsEqualElementsToEqualNumbers) {
   for (const double size : {0.1, 0.3, 0.7, 1.1}) {
     Mesh<2> mesh;
@@ -395,7 +395,7 @@ std::vector<Sample> elements_of(Seeding seeding, int per_element, int count) {
   return elements;
 }
 
-/// The rival: Roberts' additive recurrence on the square, folded into the triangle.
+/// For comparison: Roberts' additive recurrence on the square, folded into the triangle.
 std::vector<Sample> recurrence(int per_element, int count) {
   constexpr double plastic = 1.32471795724474602596;
   std::vector<Sample> elements(static_cast<std::size_t>(count));

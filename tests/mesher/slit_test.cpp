@@ -59,12 +59,12 @@ BoundarySet<2> cut(const std::string& name, int cells,
   return set;
 }
 
-/// Nodes at a place.
+/// Number of nodes at a place.
 int nodes_at(const Mesh<2>& mesh, double x, double y) {
   return static_cast<int>(std::ranges::count(mesh.nodes, Vector<2>(x, y)));
 }
 
-/// Pieces of the mesh that no face joins.
+/// Number of pieces of the mesh that are not connected by faces.
 template <int Dim>
 int pieces(const Mesh<Dim>& mesh) {
   std::vector<int> piece(mesh.elements.size());
@@ -158,7 +158,7 @@ TEST(Slit, doubles_an_end_at_the_boundary) {
   EXPECT_EQ(nodes_at(mesh, 2, 3), 2);
   EXPECT_EQ(nodes_at(mesh, 2, 2), 1);
   EXPECT_EQ(pieces(mesh), 1);
-  // A single edge will do where one of its ends is on the boundary.
+  // A single edge is enough if one of its ends is on the boundary.
   EXPECT_EQ(nodes_at(slit_square(4, {cut("short", 4, {{2, 4}, {2, 3}})}), 2, 4), 2);
 }
 

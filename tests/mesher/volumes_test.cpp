@@ -255,7 +255,7 @@ TEST_F(Volumes, OfAStepFileNeedNames) {
       << message;
 }
 
-/// A mesh of these elements, each `type nodes...` in the one volume; nodes by their coordinates.
+/// A mesh of these elements, each `type nodes...`, all in one volume; nodes by their coordinates.
 std::string msh_of(const std::vector<std::array<double, 3>>& nodes,
                    const std::vector<std::string>& elements) {
   std::string text =
@@ -294,7 +294,7 @@ TEST_F(Volumes, AreRefusedWhereTheyMakeNoMesh) {
   EXPECT_EQ(refusal_of("bad.msh", msh_of(more({{0, 0, 0}, {-1, 0, 0}}), {"4 1 2 3 4", "4 5 6 3 4"}))
                 .find(start + "nodes 1 and 5, both at (0, 0, 0); expected one node per place"),
             0U);
-  // A corner of the second in the middle of a face, and of an edge, of the first.
+  // A corner of the second lies in the middle of a face, and of an edge, of the first.
   for (const double x : {0.25, 0.0}) {
     const std::string message =
         refusal_of("bad.msh", msh_of(more({{x, 0.25, 0}, {0, 0.3, -1}, {1, 0.3, -1}, {0.5, 1, -1}}),
@@ -304,7 +304,7 @@ TEST_F(Volumes, AreRefusedWhereTheyMakeNoMesh) {
               std::string::npos)
         << message;
   }
-  // The second pierces the first, and lies within it.
+  // The second one pierces the first, or lies within it.
   EXPECT_NE(refusal_of("bad.msh",
                        msh_of(more({{0.2, 0.2, -1}, {0.2, 0.2, 0.3}, {-3, -3, -2}, {3, -4, -2}}),
                               {"4 1 2 3 4", "4 5 6 7 8"}))
@@ -405,7 +405,7 @@ TEST(SeedingOfTetrahedra, FillsThemAtAnyPlaceInProportion) {
     const MaterialPoints<3> points = seed_liquid_points(mesh, document.scene);
     ASSERT_EQ(points.size(), per_element * mesh.element_count());
     double volume = 0.0;
-    double in_corner = 0.0;  // of the tetrahedra half as large at their first corners
+    double in_corner = 0.0;  // part in the tetrahedra half as large at their first corners
     for (int p = 0; p < points.size(); ++p) {
       double sum = 0.0;
       for (const double share : points.barycentric[p]) {
@@ -420,7 +420,7 @@ TEST(SeedingOfTetrahedra, FillsThemAtAnyPlaceInProportion) {
     EXPECT_NEAR(in_corner / volume, 0.125, seeding == "gauss" ? 0.1 : 0.003) << seeding;
     const double uneven = unevenness(points, mesh.element_count());
     std::cout << seeding << ": " << uneven << '\n';
-    // Chance: the deviation of a coordinate, sqrt(3/80), over sqrt(12).
+    // For random points, the deviation of a coordinate is sqrt(3/80), over sqrt(12).
     const double chance = std::sqrt(3.0 / 80.0 / 12.0);
     EXPECT_NEAR(uneven, chance, seeding == "random" ? 0.002 : chance) << seeding;
     EXPECT_LT(uneven, seeding == "low-discrepancy" ? 0.026 : 2.0 * chance);  // as on triangles

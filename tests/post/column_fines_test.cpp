@@ -16,7 +16,7 @@ using testing::ScratchFolder;
 
 const std::string reference = std::string(SUFFUSE_TEST_DATA) + "/reference/";
 
-/// The first word of every line, the numbers behind it.
+/// The first word of a line, and the numbers after it.
 struct Line {
   std::string law;
   std::vector<double> numbers;
@@ -119,7 +119,7 @@ TEST(ColumnFlow, ComesFromAFluxOrAVelocityInFreeWater) {
   flow = flow_of(scratch, c, "darcy_flux = 0.02", "velocity = 0.12");
   ASSERT_TRUE(flow);
   EXPECT_EQ(flow->flux, 0.12);
-  // Two metres of soil, the buffers half of them, resist the head.
+  // Two metres of soil, half of them buffers, resist the head.
   flow = flow_of(scratch, c, "darcy_flux = 0.02", "pressure = 9810.0");
   ASSERT_TRUE(flow);
   EXPECT_NEAR(flow->flux, 2e-2 / 2.0, 1e-16);
@@ -161,7 +161,7 @@ TEST(ColumnFlow, IsNotThatOfHeadsWhereConductivityGrows) {
   const std::string conductivity = "conductivity = 2.0e-2";
   const std::string grows = conductivity + "\nconductivity_law = \"kozeny-carman\"";
   EXPECT_FALSE(flow_of(scratch, testing::unit_square_case(), conductivity, grows));
-  // A flux that is prescribed does not care.
+  // A prescribed flux does not depend on the conductivity.
   EXPECT_TRUE(flow_of(scratch, testing::double_point::column(), conductivity, grows));
 }
 
@@ -172,7 +172,8 @@ TEST(ColumnFlow, IsNotThereWhereNothingIsExact) {
   EXPECT_FALSE(flow_of(scratch, c, "darcy_flux = 0.02", "darcy_flux = 0.0"));
   EXPECT_FALSE(flow_of(scratch, c, "pressure = 0.0",
                        "pressure = 0.0\n[[boundary]]\non = \"left\"\npressure = 1.0"));
-  // Points of liquid would not fit those pores.
+  // A porosity gradient has no exact solution; in a double-point column the points would not fit
+  // it.
   EXPECT_FALSE(flow_of(scratch, testing::unit_square_case(), "porosity = 0.3",
                        "porosity = 0.3\nporosity_gradient = [0, 0.01]"));
   EXPECT_FALSE(flow_of(scratch, c, "law = \"constant\"", "law = \"none\""));

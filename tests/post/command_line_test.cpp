@@ -99,7 +99,7 @@ TEST_F(PostCommand, NothingIsWrittenIntoTheResults) {
   expect_refusal("figure porosity " + run + " -o " + run + "/a.png", 2,
                  refusal("-o", run + "/a.png"));
   EXPECT_EQ(file_text(run + "/ledger.csv"), table);
-  EXPECT_EQ(post("ledger " + run + " --csv " + run + ".csv").code, 0);  // beside it
+  EXPECT_EQ(post("ledger " + run + " --csv " + run + ".csv").code, 0);  // next to the folder
   EXPECT_EQ(post("ledger " + run + " --csv " + scratch / "a.csv").code, 0);
 }
 
@@ -177,7 +177,7 @@ TEST_F(PostCommand, HistoryPrintsAndCopies) {
   EXPECT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_NE(outcome.out.find("porosity_mean"), std::string::npos);
   expect_equal(read_table(scratch / "h.csv"), read_table(run + "/history.csv"));
-  // The table alone goes to standard output, and nothing with it.
+  // Only the table is written to standard output.
   const Outcome shown = post("history " + run + " --csv - --time-unit min");
   EXPECT_EQ(shown.out.find("t [min],dt [s],porosity_mean [-],"), 0U) << shown.out;
 }
@@ -265,7 +265,7 @@ TEST_F(PostCommand, DoublePointExportHasTheLiquidPoints) {
   EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 66);
   auto* pressure = reader->GetOutput()->GetPointData()->GetArray("pressure");
   ASSERT_NE(pressure, nullptr);
-  EXPECT_EQ(pressure->GetComponent(24, 0), 27.0);  // three points of element 8 are not there
+  EXPECT_EQ(pressure->GetComponent(24, 0), 27.0);  // element 8 lacks its three points
 }
 
 TEST_F(PostCommand, RenderNamesItsPictures) {

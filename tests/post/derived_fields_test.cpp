@@ -81,7 +81,7 @@ TEST_F(DerivedFields, AreListedWithTheOthers) {
   EXPECT_EQ(find("safety", ""), "cell");
   EXPECT_EQ(find("head", "node"), "node");
   EXPECT_THROW(find("safety", "node"), InputError);
-  // Nothing on solid points is stored here.
+  // This field is not stored on solid points.
   EXPECT_THROW(find("fines_content", "solid"), InputError);
 }
 

@@ -1,5 +1,5 @@
-/// Safety at the exit beside a sheet pile of half the depth of a layer, through all programs. The
-/// gradient there is pi h / (B T) = 0.59907 h / T with B = Beta(1/4, 1/2), by the conformal map
+/// Safety at the exit next to a sheet pile of half the depth of a layer, computed by all programs.
+/// The gradient there is pi h / (B T) = 0.59907 h / T with B = Beta(1/4, 1/2), by the conformal map
 /// cosh(pi z / T).
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using testing::ScratchFolder;
 constexpr double head = 2.0;
 constexpr double conductivity = 1e-4;
 
-/// A layer 1 m deep and 12 m long; elements of `size` at the exit beside the pile.
+/// A layer 1 m deep and 12 m long; elements of `size` at the exit next to the pile.
 std::string geometry(double size) {
   std::ostringstream text;
   text << "h = " << size << ";\n"

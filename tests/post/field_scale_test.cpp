@@ -39,7 +39,7 @@ TEST(FieldScale, LeavesOutAFewValuesThatAreFarOutside) {
   scale = value_scale(values, {.shares = "points"});
   EXPECT_EQ(scale.notes,
             (std::vector<std::string>{"98 % of the points", "least -100000", "largest 100000"}));
-  // By area, not by number: the same with two in a hundred.
+  // Weights count, not numbers: with twenty in a thousand the value is kept.
   values = thousand();
   values.push_back({1e5, 20.0});
   scale = value_scale(values, {});
@@ -70,7 +70,7 @@ TEST(FieldScale, OfRoundOffIsOneColour) {
   EXPECT_TRUE(scale.uniform);
   EXPECT_EQ(scale.color(0.3), scale.color(0.3 + 1e-13));
   EXPECT_TRUE(scale.levels().empty());
-  // About zero there is nothing that it could be relative to but what counts as zero.
+  // Near zero, only the round-off of the request tells whether values agree.
   scale = value_scale({{-1e-17, 1.0}, {3e-17, 1.0}}, {.round_off = 1e-15});
   EXPECT_TRUE(scale.uniform);
   EXPECT_EQ(scale.range[0], 0.0);

@@ -31,7 +31,8 @@ TEST(Figures, PngIsDrawnWithoutADisplay) {
   const auto runs = two_runs(scratch);
   unsetenv("DISPLAY");
   for (const auto& name : figure_names()) {
-    // model_sketch_test, seepage_map_test, flow_net_test, gradation_figure_test, table_curves_test
+    // These are tested in model_sketch_test, seepage_map_test, flow_net_test, gradation_figure_test
+    // and table_curves_test.
     const std::vector<std::string> elsewhere{"model",     "head",   "flownet", "saturation",
                                              "gradation", "curves", "profile"};
     if (std::ranges::find(elsewhere, name) != elsewhere.end()) continue;
@@ -78,7 +79,7 @@ TEST(Figures, FluxLawHasNoExactCurveWithoutTheFlow) {
       }
     }
   }
-  // The outflow is exact at the steady flux of the heads, 6 kPa over 1 m: the first-order law.
+  // The outflow of the first-order law is exact at the steady flux of the heads, 6 kPa over 1 m.
   const auto charts = make_figure("outflow", runs);
   EXPECT_EQ(charts.front().curves.front().label.find("exact, flux law, 4 1/m, steady"), 0U)
       << charts.front().curves.front().label;
@@ -159,7 +160,7 @@ TEST(Figures, FormulationsDifferInMarkerAndColour) {
   EXPECT_NE(single.marker, two.marker);
   EXPECT_GT(single.color[2], single.color[0]);  // cold
   EXPECT_GT(two.color[0], two.color[2]);        // warm
-  // Whatever the order.
+  // The colours do not depend on the order of the runs.
   const Chart reversed = make_figure("porosity", {runs[1], runs[0]}).front();
   EXPECT_EQ(curve_labelled(reversed, two.label).color, two.color);
   EXPECT_EQ(curve_labelled(reversed, single.label).marker, single.marker);
@@ -168,7 +169,7 @@ TEST(Figures, FormulationsDifferInMarkerAndColour) {
   EXPECT_TRUE(curve_labelled(masses, "two-phase, double-point: solid").hollow);
 }
 
-// In the soil, pending or out: the total counts every grain.
+// Grains are in the soil, pending or out: the total counts every grain.
 TEST(Figures, PendingGrainsCountInTheTotal) {
   const ScratchFolder scratch;
   const Chart chart = make_figure("masses", both_formulations(scratch)).front();
@@ -177,7 +178,7 @@ TEST(Figures, PendingGrainsCountInTheTotal) {
   }
 }
 
-// Outflow of the specimen in closed form, though buffers lie between it and the model's boundary.
+// The outflow of the specimen is exact although buffers lie between it and the model's boundary.
 TEST(Figures, OutflowIsThatOfTheSpecimen) {
   namespace dp = testing::double_point;
   const ScratchFolder scratch;
@@ -194,7 +195,7 @@ TEST(Figures, OutflowIsThatOfTheSpecimen) {
   }
   const Curve& computed = curve_labelled(charts[0], "two-phase");
   ASSERT_GE(computed.x.size(), 20U);
-  // Means over a window: exact but for the bends at the start and where the front comes out.
+  // Means over a window are exact except at the bends at the start and where the front comes out.
   EXPECT_LT(distance_from_lines(charts[0], computed), 2e-3);
   for (std::size_t i = 0; i < computed.x.size(); ++i) {
     if (computed.x[i] < dp::front_time() + 3.0) continue;
@@ -236,7 +237,7 @@ TEST(Figures, BoundariesOfARunHaveStylesOfTheirOwn) {
   EXPECT_EQ(bottom.y.back(), 0.005);
   EXPECT_NE(top.dash, bottom.dash);
   EXPECT_NE(top.marker, bottom.marker);
-  // Through the top no grains left; those through the bottom have its style.
+  // No grains left through the top; the curve of the bottom keeps its style.
   ASSERT_EQ(charts[1].curves.size(), 1U);
   const Curve grains = curve_labelled(charts[1], "bottom");
   EXPECT_EQ(grains.dash, bottom.dash);

@@ -1,4 +1,4 @@
-/// Films: as many pictures as snapshots, of one size, in files that other programs read.
+/// Films: one picture per snapshot, all of one size, in files that other programs read.
 
 #include "figures/film.hpp"
 
@@ -61,7 +61,7 @@ class Film : public ::testing::Test {
     request.output = scratch / output;
     return write_film(ResultsReader(scratch / "run.results"), request);
   }
-  /// What is in the folder beside the results.
+  /// Files in the folder in addition to the results.
   [[nodiscard]] std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(scratch / "")) {

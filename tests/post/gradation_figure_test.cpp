@@ -59,7 +59,7 @@ TEST(GradationFigure, draws_points_and_marks_the_fines) {
   ASSERT_EQ(specimen.marked.size(), 1U);
   EXPECT_EQ(specimen.x[specimen.marked[0]], 0.6);
   EXPECT_TRUE(specimen.has_line());
-  // 30 % or 20 % of a curve that gives them is between its points.
+  // The search ends at 30 % or 20 %, which lies between points of the curve.
   const Curve& filter = chart.curves[2];
   ASSERT_EQ(filter.marked.size(), 1U);
   EXPECT_TRUE(std::ranges::is_sorted(filter.x));
@@ -69,7 +69,7 @@ TEST(GradationFigure, draws_points_and_marks_the_fines) {
   EXPECT_EQ(core.label, "core");
   EXPECT_FALSE(core.markers);
   EXPECT_EQ(core.x.size(), 4U);
-  // Without colours.
+  // Soils can be told apart without colours.
   EXPECT_NE(specimen.dash, core.dash);
   EXPECT_NE(specimen.dash, filter.dash);
   EXPECT_NE(core.dash, filter.dash);

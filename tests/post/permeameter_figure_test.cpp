@@ -14,9 +14,8 @@ namespace permeameter_figure_test {
 using testing::file_text;
 using testing::ScratchFolder;
 
-/// A test of two hours in which a share of the fines, 0.2 t/h, leaves; 0.05 t/h of as many comes
-/// in. Pressure steps from 1 to 4 kPa after one hour, conductivity grows as 1 + t/h; at rest at
-/// first.
+/// A test of two hours: fines leave at a share of 0.2 per hour and enter at 0.05 per hour. Pressure
+/// steps from 1 to 4 kPa after one hour, conductivity grows as 1 + t/h; there is no flow at first.
 ResultsReader run_of(const ScratchFolder& scratch, const std::string& name,
                      const std::vector<std::string>& changes = {}) {
   Case<2> c = testing::unit_square_case(name);

@@ -45,7 +45,7 @@ class Pixels {
   [[nodiscard]] std::array<int, 3> at(const Eigen::Vector2d& pixel) const {
     return at(static_cast<int>(std::floor(pixel[0])), static_cast<int>(std::floor(pixel[1])));
   }
-  /// How many are not white.
+  /// Number of pixels that are not white.
   [[nodiscard]] int inked() const {
     int count = 0;
     for (const auto& color : colors_) count += color == std::array<int, 3>{255, 255, 255} ? 0 : 1;
@@ -61,7 +61,7 @@ class Pixels {
   std::vector<std::array<int, 3>> colors_;
 };
 
-/// A colour of the picture against one that was meant, to rounding.
+/// Compares a colour of the picture with the intended one, up to rounding.
 inline void expect_color(const std::array<int, 3>& found, const Color& meant,
                          const std::string& where) {
   for (int k = 0; k < 3; ++k) {

@@ -118,11 +118,11 @@ class Reader(unittest.TestCase):
             self.expect_columns(table, wanted, {c: unit for c, unit in units.items() if c != "boundary"})
 
     def test_units_are_those_of_the_solver(self):
-        """Of every column, and that of suffuse-post's headers in test_tables_are_those_of_suffuse_post."""
+        """Every column has a unit; another test compares these with suffuse-post's headers."""
         declared = re.findall(r'\{"(\w+)", &(\w+)::\w+, "(.+)"\}', TABLES.read_text())
         self.assertGreater(len(declared), 60)
         for column, _, unit in declared:
-            if column not in ("probe", "section"):  # keys of suffuse.py, no columns
+            if column not in ("probe", "section"):  # keys of suffuse.py, not columns
                 self.assertEqual(suffuse.UNIT_OF_COLUMN.get(column), unit.replace("1", "-"), f"UNITS: {column}")
 
     def test_parts_of_tables(self):
@@ -131,7 +131,7 @@ class Reader(unittest.TestCase):
         self.assertEqual((run.probes[1]["x"][0], run.probes[1]["y"][0]), (0.3, 0.2))
         np.testing.assert_array_equal(run.history["t"], [0, 2, 4, 6])
         np.testing.assert_array_equal(run.sections[0]["t"], run.history["t"])
-        # Steady flow downwards: what crosses the section leaves below.
+        # The flow is steady and downwards: the discharge of the section leaves below.
         self.assertAlmostEqual(abs(run.sections[0]["discharge"][-1]), run.boundaries["bottom"]["discharge"][-1], delta=1e-9)
         np.testing.assert_allclose(sum(t["solid"] for t in run.regions.values()), run.ledger["solid"], rtol=1e-14)
 

@@ -76,7 +76,7 @@ TEST_F(ReferenceErrors, NothingWhereTheRunIsExact) {
   EXPECT_LE(errors[0].l1, 1e-15);
 }
 
-// Element 0 and 3, and the flux of an element is (0.25 e, -1).
+// The places are in elements 0 and 3; the flux of element e is (0.25 e, -1).
 TEST_F(ReferenceErrors, ComponentsOfAVectorAndSeveralColumns) {
   const auto errors = of("darcy_flux_y,t,darcy_flux_x,x,y\n-2,0,0.5,0.4,0.1\n-1,0,1,0.7,0.4\n");
   ASSERT_EQ(errors.size(), 2U);
@@ -93,7 +93,8 @@ TEST_F(ReferenceErrors, HistoryAndLedgerBetweenRows) {
   EXPECT_NEAR(of("t,water_in\n3.25,26\n")[0].max, 0.5, 1e-14);
 }
 
-// Eight equal elements with a flux of (0.25 e, -1): a mean of 0.875. Porosity at the middle.
+// Eight equal elements with a flux of (0.25 e, -1) have a mean of 0.875. Porosity is that at the
+// middle.
 TEST_F(ReferenceErrors, MeansOverTheModelBetweenSnapshots) {
   EXPECT_NEAR(of("t,mean_darcy_flux_x\n5,0.875\n")[0].l1, 0.0, 1e-14);
   EXPECT_NEAR(of("t,mean_darcy_flux_y\n5,-2\n")[0].l1, 0.5, 1e-14);

@@ -62,7 +62,7 @@ TEST(ColorMap, GetsBrighterWithoutATurn) {
   for (int k = 0; k < 200; ++k) {
     EXPECT_LT(luminance(viridis(k / 200.0)), luminance(viridis((k + 1) / 200.0))) << k;
   }
-  // Ends of the original map, to the accuracy of the fit.
+  // Ends of Viridis, within the accuracy of the fit.
   expect_color({68, 1, 84}, viridis(0.0), "low end");
   expect_color({253, 231, 37}, viridis(1.0), "high end");
   EXPECT_EQ(viridis(-1.0), viridis(0.0));
@@ -112,7 +112,7 @@ TEST_F(Render, LiquidPointsAreDiscsOfTheirColour) {
     const auto x = c.liquid_points.position(c.mesh, p);
     expect_color(pixels.at(place(x[0], x[1])), viridis(p / 71.0), "point " + std::to_string(p));
   }
-  // Element 8 has none, and white ground between its edges.
+  // Element 8 has no points: the ground between its edges is white.
   const auto dry = c.liquid_points.position(c.mesh, 24);
   expect_color(pixels.at(place(dry[0], dry[1])), {1.0, 1.0, 1.0}, "where there is no point");
 }
@@ -300,7 +300,7 @@ TEST_F(Render, AFieldOfElementsHasContoursOfItsMeans) {
   picture.where = "cell";
   for (int e = 0; e < mesh.element_count(); ++e) picture.values.push_back(e);
   const auto at_nodes = nodal_values(mesh, picture);
-  // The first node has elements 0 and 1, the one in the middle 0, 1, 3, 4, 6 and 7.
+  // The first node is in elements 0 and 1, the middle one in 0, 1, 3, 4, 6 and 7.
   EXPECT_NEAR(at_nodes[0], 0.5, 1e-14);
   EXPECT_NEAR(at_nodes[4], 3.5, 1e-14);
 }
@@ -377,7 +377,7 @@ TEST_F(Render, RefusesLinesColoursAndPartsThatCannotBe) {
       run(), r,
       "suffuse-post render: --time: got 1e+09; expected a time from 0 to 40 s, the first "
       "and last snapshot");
-  // Snapshots are at 0, 10 and 40 s: half an interval beyond the last is still taken for it.
+  // Snapshots are at 0, 10 and 40 s: the last one stands for times up to half an interval after it.
   r.time = 54.0;
   EXPECT_EQ(render(run(), r).size(), 1U);
   r.time = 56.0;

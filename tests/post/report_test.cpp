@@ -1,4 +1,5 @@
-/// The report: its numbers are those of the tables, its text is no markup, it needs no other file.
+/// The report: numbers are those of the tables, text is not read as markup, no other file is
+/// needed.
 
 #include "report/report.hpp"
 
@@ -57,14 +58,14 @@ std::string six_digits(double value) {
   return text;
 }
 
-/// The cell has the number to the last digit, and shows six of them.
+/// Expects that the cell has the exact number and shows six digits of it.
 void expect_number(const PageCell& cell, double value) {
   ASSERT_TRUE(cell.value.has_value()) << cell.text;
   EXPECT_EQ(*cell.value, value);
   EXPECT_EQ(cell.text, six_digits(value));
 }
 
-/// A run whose name is no markup, and its report.
+/// A run whose name looks like markup, and its report.
 class Report : public ::testing::Test {
  protected:
   Report() {
@@ -178,7 +179,7 @@ void Report::expect_commands() const {
   EXPECT_NE(page.find("porosity = 0.3"), std::string::npos);  // of the scene
 }
 
-// Each makes the report anew.
+// Each of these tests makes the report anew.
 TEST_F(Report, CellsAreThoseOfTheTables) {
   expect_ledger();
   expect_boundaries();

@@ -83,7 +83,7 @@ TEST(Results, TablesReadBackExactly) {
   const RegionRow region{3, 2.0 / 3.0, ledger};
   writer.append_regions(std::span(&region, 1));
 
-  // No closing, no destruction: what was appended is on the disk.
+  // Appended rows are on the disk although nothing was closed or destroyed.
   const ResultsReader reader(scratch / "run.results");
   const Table read = reader.history();
   ASSERT_EQ(read.rows(), 1U);
@@ -267,7 +267,7 @@ TEST(Results, VtkReadsTheNamesOfTheRegions) {
   }
   const Hdf5File grid(scratch / "run.results/snapshots/mesh_grid.hdf", Hdf5File::Mode::read);
   EXPECT_EQ(grid.read_texts("/Suffuse/region_names"), c.mesh.region_names);
-  // Nothing else may stand among them that VTK would follow.
+  // A link among them, which VTK would follow, is refused.
   const ResultsReader reader(scratch / "run.results");
   EXPECT_NO_THROW(static_cast<void>(reader.field_names(0, "cell")));
   Hdf5File(reader.snapshot_path("mesh", 0), Hdf5File::Mode::create)
@@ -290,7 +290,7 @@ TEST(Results, TheGridIsWrittenOnceAndReadFromAnywhere) {
     const Hdf5File file(snapshot, Hdf5File::Mode::read);
     EXPECT_TRUE(file.is_in("/VTKHDF/Points", std::string(kind) + "_grid.hdf"));
   }
-  // The folder may be moved, and be read from another one.
+  // The folder can be moved, and can be read from another one.
   fs::rename(scratch / "run.results", scratch / "moved.results");
   const fs::path here = fs::current_path();
   for (const std::string& place : {std::string("/"), scratch / "moved.results"}) {
@@ -320,7 +320,7 @@ TEST(Results, OtherLinksThanThatToTheGridAreRefused) {
               ": /VTKHDF/Points: is a link; expected the object itself, as Suffuse writes it");
     }
   }
-  // Nor is anything left to VTK that would follow them, in the grid either.
+  // VTK would follow such links, so snapshots with them are refused, and so is a grid with one.
   EXPECT_THROW(static_cast<void>(reader.field_names(1, "solid")), FileError);
   EXPECT_NO_THROW(static_cast<void>(reader.field_names(0, "solid")));
   const std::string grid = scratch / "run.results/snapshots/solid_grid.hdf";
@@ -439,7 +439,7 @@ TEST(Results, ABadNumberIsNamedWithItsLine) {
   }
 }
 
-/// A spreadsheet in a country of decimal commas writes such tables.
+/// Spreadsheets in countries with decimal commas write such tables.
 TEST(Results, OtherSeparatorsAreNamed) {
   const ScratchFolder scratch;
   const std::string path = scratch / "table.csv";

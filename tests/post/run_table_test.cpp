@@ -53,14 +53,14 @@ TEST(RunTable, DoublePointRun) {
        {"error_porosity_percent", "error_solid_percent", "error_eroded_percent"}) {
     EXPECT_LT(std::stod(row[name]), 1e-9) << name;
   }
-  // A hundredth of what eroded waits at nodes and misses in the liquid: 2.646 kg at the end, when
-  // the liquid should carry most.
+  // A hundredth of the eroded mass is pending at nodes and missing in the liquid: 2.646 kg at the
+  // end, when the liquid should carry most.
   const double eroded = 0.098 * 2700.0;
   const double most = eroded - testing::double_point::fines_out(100.0);
   EXPECT_NEAR(std::stod(row["error_fines_relative"]), 0.01 * eroded / most, 1e-6);
 }
 
-// The synthetic run keeps to Eq. 6 and loses its fines at once.
+// The synthetic run follows Eq. 6 and loses its fines at once.
 TEST(RunTable, SinglePointRun) {
   const ScratchFolder scratch;
   testing::write_synthetic_results(scratch / "slow.results", "a", 1e-3);
@@ -83,7 +83,7 @@ TEST(RunTable, SinglePointRun) {
   EXPECT_EQ(std::stod(rows[1]["error_fines_relative"]), 1.0);
 }
 
-// Without the flow nothing is exact of a law that follows it.
+// A law that depends on the flow has no exact values without the flow.
 TEST(RunTable, FluxLawRun) {
   const ScratchFolder scratch;
   const Case<2> c = testing::unit_square_case("flux", "flux", 4.0);
@@ -100,7 +100,8 @@ TEST(RunTable, FluxLawRun) {
   }
 }
 
-// A run that eroded half as fast as it should: worst when the exact one is done, at 102 s.
+// The run erodes half as fast as it should: the error is largest when the exact erosion ends, at
+// 102 s.
 TEST(RunTable, ErrorsAreSharesOfTheErodibleMass) {
   const ScratchFolder scratch;
   const Case<2> c = testing::unit_square_case("late", "constant", 1e-3);

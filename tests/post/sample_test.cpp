@@ -101,7 +101,7 @@ class DoublePointSample : public ::testing::Test {
   ScratchFolder scratch_;
 };
 
-// The soil has y / 100, free water 0.5: on the surface at y = 1.5 the soil's counts.
+// The soil has y / 100, free water 0.5: on the surface at y = 1.5 the value of the soil counts.
 TEST_F(DoublePointSample, FreeWaterCountsOnlyWhereThereIsNoSoil) {
   EXPECT_NEAR(at("0.3,1.5:0.3,1.6", "concentration").column("concentration")[0], 0.015, 1e-14);
   EXPECT_NEAR(at("0.3,1.5:0.3,1.6", "concentration").column("concentration")[1], 0.5, 1e-14);

@@ -102,7 +102,7 @@ TEST(OutsideWater, LiesOverSlopesUpToTheLevel) {
   EXPECT_NEAR(waters[0].level[1][0], 12.0, 1e-12);
   EXPECT_NEAR(waters[0].level[1][1], 6.0, 1e-12);
   EXPECT_NEAR(sum_of_areas(waters[1]), 0.5 * 1.0 * 2.0, 1e-12);
-  // Too short for the sign of a level: longer, away from the dam.
+  // The level is too short for its sign, so the water extends further from the dam.
   EXPECT_NEAR(waters[1].level[0][0], 34.0, 1e-12);
   EXPECT_NEAR(waters[1].level[1][0], 36.5, 1e-12);
 }
@@ -200,7 +200,7 @@ TEST(SeepageMap, LevelsAreRoundAndEncloseTheValues) {
   EXPECT_GT(levels[1], 1.03);
   EXPECT_GE(levels.size(), 6U);
   EXPECT_NEAR(std::remainder(levels[1], 0.5), 0.0, 1e-12);
-  // Water at rest: no lines that round-off draws.
+  // In water at rest no lines follow the round-off.
   EXPECT_EQ(band_levels(2.0, 2.0 + 1e-13).size(), 2U);
 }
 
@@ -220,7 +220,7 @@ TEST(SeepageMap, HasItsTextsLinesAndColours) {
   EXPECT_GT(svg.size(), 200000U);
   draw_seepage_map(map, scratch / "head.png");
   const Pixels pixels(scratch / "head.png");
-  // Pixels per metre; the downstream level ends 0.5 m beside the model.
+  // Pixels per metre; the downstream level ends 0.5 m outside the model.
   const double scale = 1000.0 / 36.5;
   const auto at = [&](double x, double y) {
     return pixels.at(Eigen::Vector2d{110.0 + scale * x, 90.0 + 90.0 + scale * y});
@@ -228,8 +228,8 @@ TEST(SeepageMap, HasItsTextsLinesAndColours) {
   const auto grey = [](const std::array<int, 3>& c) {
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
   };
-  // Water outside is light; within, the head falls from bright to dark, in print without colour
-  // too.
+  // Water outside is light; inside, the head falls from bright to dark, also in print without
+  // colour.
   testing::expect_color(at(2.0, 4.0), {0.91, 0.96, 1.0}, "water upstream");
   EXPECT_GT(grey(at(8.0, 1.0)), grey(at(21.0, 0.7)) + 40.0);
   EXPECT_GT(grey(at(21.0, 0.7)), grey(at(33.8, 0.3)) + 20.0);

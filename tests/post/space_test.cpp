@@ -196,7 +196,7 @@ TEST(FlowPaths, OfAUniformFluxAreStraightAndShareTheDischarge) {
     for (int i = 0; i < 3; ++i) values.push_back(flux[i]);
   }
   const FlowPaths flow = flow_paths(mesh, values, 40);
-  // Through the left side, the front and the top.
+  // Liquid enters through the left side, the front and the top.
   const Vector<3> areas(size[1] * size[2], size[0] * size[2], size[0] * size[1]);
   EXPECT_NEAR(flow.discharge, flux.cwiseAbs().dot(areas), 1e-15);
   ASSERT_EQ(flow.paths.size(), 40U);
@@ -207,7 +207,7 @@ TEST(FlowPaths, OfAUniformFluxAreStraightAndShareTheDischarge) {
     for (const Vector<3>& x : path.places) {
       EXPECT_NEAR((x - start).cross(flux).norm(), 0.0, 1e-15);
     }
-    // From the surface to the surface.
+    // Each path leads from the surface to the surface.
     const Vector<3>& end = path.places.back();
     EXPECT_NEAR(std::min({start[0], start[1], size[2] - start[2]}), 0.0, 1e-12);
     EXPECT_NEAR(std::min({size[0] - end[0], size[1] - end[1], end[2]}), 0.0, 1e-12);
@@ -360,7 +360,7 @@ TEST_F(Space, ErrorsAgainstAReferenceWithPlacesInSpace) {
                             {{10.0, 10.0}, {0.1, 0.9}, {0.2, 0.3}, {0.7, 0.1}, {1.1, 2.0}}}};
   const auto errors = reference_errors(run(), reference);
   ASSERT_EQ(errors.size(), 1U);
-  EXPECT_NEAR(errors[0].max, 0.05, 1e-14);  // 1.9 where 2 is said
+  EXPECT_NEAR(errors[0].max, 0.05, 1e-14);  // 1.9 instead of 2
 }
 
 TEST_F(Space, SafetyIsThatOfTheUpwardGradient) {
@@ -381,7 +381,7 @@ TEST_F(Space, SafetyIsThatOfTheUpwardGradient) {
 TEST_F(Space, TheSpecimenIntegratesTheGradientsOfItsPorosity) {
   const Specimen whole = specimen(run());
   EXPECT_NEAR(whole.volume, size.prod(), 1e-14);
-  // Squares too are exact: of n = 0.3 + g . x over the box.
+  // Squares are integrated exactly too: those of n = 0.3 + g . x over the box.
   const auto square = [](const Soil&, double before, double) { return before * before; };
   const Vector<3> g(0.1, 0.2, -0.1);
   const double mean = 0.3 + g.dot(size) / 2.0;

@@ -53,7 +53,7 @@ std::vector<double> random_values(std::size_t count) {
   return values;
 }
 
-/// The flux of which a linear psi between nodes is the stream function: q = (psi_y, -psi_x).
+/// The flux whose stream function is a psi that is linear between nodes: q = (psi_y, -psi_x).
 std::vector<double> flux_of(const Mesh<2>& mesh, const std::vector<double>& psi) {
   std::vector<double> flux;
   for (int e = 0; e < mesh.element_count(); ++e) {

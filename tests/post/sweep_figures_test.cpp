@@ -70,7 +70,7 @@ TEST(SweepFigures, RunsThatShareAKeyAreOneGroup) {
 
 TEST(SweepFigures, SampledKeysAreGroupedByTen) {
   const ScratchFolder scratch;
-  // Descending, so that groups follow x and not the rows.
+  // x descends, so that groups follow x and not the rows.
   const auto sweep = sweep_of(scratch, 100, [](int i) { return std::exp(0.1 * (100 - i)); });
   const Chart chart = over_key_charts(sweep, rate, {"fines_lost"}).front();
   ASSERT_EQ(chart.curves.size(), 3U);
@@ -168,8 +168,8 @@ TEST(SweepFigures, BandsAreFilledUnderTheirCurves) {
       filled += same ? 1 : 0;
     }
   }
-  // The band is a triangle from 2 s to 120 s, 1.6e-4 / s high: of axes to 120 s and from 0.3 to
-  // about 0.34.
+  // The band is a triangle from 2 s to 120 s, with a height of 1.6e-4 / s times the time; the axes
+  // end at 120 s and go from 0.3 to about 0.34.
   EXPECT_GT(filled, 40000);
   EXPECT_LT(filled, 140000);
   const std::string svg = file_text(scratch / "band.svg");

@@ -145,7 +145,7 @@ inline Snapshot linear_snapshot(const Case<2>& c, double t, long step) {
   return s;
 }
 
-/// Rows of a run that keeps to `porosity_at`, losing its fines at once through the outlet.
+/// Rows of a run with the porosity `porosity_at`, whose fines leave through the outlet at once.
 template <int Dim, class PorosityAt>
 void write_rows(ResultsWriter<Dim>& writer, double end, const PorosityAt& porosity_at) {
   for (double t = 0.0; t <= end; t += 1.0) {
@@ -205,7 +205,7 @@ inline constexpr double rate = 1e-3;
 inline constexpr double flux = 0.02;
 inline constexpr double start = 2.0;
 inline constexpr double grain_density = 2700.0;
-/// Of what eroded, the share that waits at nodes.
+/// Share of the eroded mass that is pending at nodes.
 inline constexpr double pending_share = 0.01;
 inline constexpr double end = 100.0;
 
@@ -213,12 +213,12 @@ inline double porosity(double t) {
   return 0.3 + rate * std::max(0.0, t - start);
 }
 
-/// When the liquid that entered as erosion began has passed the specimen.
+/// Time at which the liquid that entered as erosion began has crossed the specimen.
 inline double front_time() {
   return start + 0.3 * std::expm1(rate / flux) / rate;
 }
 
-/// c of what leaves: 1 - n_0 / n before the front arrives, 1 - exp(-alpha L / q) behind it.
+/// c of the outflow: 1 - n_0 / n before the front arrives, 1 - exp(-alpha L / q) behind it.
 inline double concentration_out(double t) {
   return t < front_time() ? 1.0 - 0.3 / porosity(t) : -std::expm1(-rate / flux);
 }
@@ -316,7 +316,7 @@ inline Snapshot snapshot(const Case<2>& c, double t, long step) {
     cell_concentration.values.push_back(element_centroid(c.mesh, e)[1] / 100.0);
     porosity_field.values.push_back(soil ? (r == 2 ? porosity(t) : 0.3) : 1.0);
     for (const int node : c.mesh.elements[e]) {
-      // Another number in free water: a point on the surface of the soil takes the soil's.
+      // Free water has another value: a point on the surface of the soil takes the soil's.
       vertex_concentration.values.push_back(soil ? c.mesh.nodes[node][1] / 100.0 : 0.5);
     }
   }
@@ -342,7 +342,7 @@ inline Snapshot snapshot(const Case<2>& c, double t, long step) {
   return s;
 }
 
-/// `delay`: time between leaving the specimen and leaving the place the row is about, s.
+/// `delay`: time from the end of the specimen to the end of the region of the row, s.
 inline LedgerRow ledger_at(double t, double delay) {
   LedgerRow row;
   row.t = t;
@@ -361,8 +361,8 @@ inline LedgerRow ledger_at(double t, double delay) {
   return row;
 }
 
-/// A whole run: rows to t = 100 s of the specimen's exact answer, with one in a hundred grains
-/// pending; snapshots at 0, 10 and 40 s.
+/// A whole run: rows to t = 100 s of the exact solution of the specimen, with one in a hundred
+/// grains pending; snapshots at 0, 10 and 40 s.
 inline void write_results(const std::string& folder) {
   const Case<2> c = column();
   ResultsWriter<2> writer(folder, c);

@@ -112,7 +112,7 @@ TEST_F(TableCurves, MeasuredPointsLieBesideThem) {
   EXPECT_NE(message(run(), options).find("--measured: got"), std::string::npos);
 }
 
-/// Results of earlier versions are read by the names of today, which messages give.
+/// Columns of earlier versions are found by their present names, which messages suggest.
 TEST_F(TableCurves, FinesThatLeftHaveANameOfTheirOwn) {
   const std::string path = scratch_ / "a.results/history.csv";
   std::string table = file_text(path);

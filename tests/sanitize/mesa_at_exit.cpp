@@ -1,5 +1,5 @@
-/// Linked into the sanitized programs that draw: what Mesa does that the search for leaks cannot
-/// stand, and what it should not do under sanitizers.
+/// Linked into the sanitized programs that draw: prevents actions of Mesa that break the leak
+/// search or take long under sanitizers.
 
 #include <cstdlib>
 
@@ -9,8 +9,8 @@ namespace {
 /// the search for leaks then crashes in it ("Tracer caught signal 11").
 [[maybe_unused]] const int no_shader_cache = setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
 
-/// The driver that interprets shaders: compiling them under the sanitizers takes most of a test's
-/// time.
+/// Selects the driver that interprets shaders: compiling them under the sanitizers takes most of a
+/// test's time.
 [[maybe_unused]] const int no_compiler = setenv("GALLIUM_DRIVER", "softpipe", 0);
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// Scenes of tests/cases whose soil eroded nearly dry or was compressed beyond its pores: the
-/// values that they must end with. How the programs end is said in tests/cases/cases.csv.
+/// Scenes of tests/cases whose soil eroded nearly dry or was compressed beyond its pores, and the
+/// values at their ends. tests/cases/cases.csv says how the programs end.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ struct SceneRun {
   ResultsReader results;
 };
 
-/// Every porosity that was written is one.
+/// Every porosity that was written lies between 0 and 1.
 void expect_pores(const SceneRun& run) {
   for (std::size_t i = 0; i < run.results.times().size(); ++i) {
     for (const char* kind : {"solid", "cell"}) {
@@ -53,8 +53,8 @@ void expect_pores(const SceneRun& run) {
   }
 }
 
-/// A flood rises past soil that is nearly dry. What stays dry keeps its fines: none leaves where
-/// k_r i stays far below the threshold of 0.1.
+/// A flood rises past nearly dry soil. Soil that stays dry keeps its fines: none erode where k_r i
+/// stays far below the threshold of 0.1.
 TEST(BrokenScenes, ADryCrestKeepsItsFinesUnderAFlood) {
   const SceneRun run("gradient-drive");
   ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
@@ -91,8 +91,8 @@ TEST(BrokenScenes, SoilThatIsCompressedToItsGrainsIsRefused) {
   }
 }
 
-/// Hencky's law without lateral strain (Poisson's ratio 0): a load p on the top holds E ln(1/J)/J,
-/// and drained soil has J = 0.83 and 15 % of pores at 4.5 kPa (45 s). Its pores are gone, J = 0.7,
+/// Hencky's law without lateral strain (Poisson's ratio 0): the soil carries a load p = E ln(1/J)/J
+/// on top. Drained soil has J = 0.83 and 15 % of pores at 4.5 kPa (45 s). Its pores close, J = 0.7,
 /// at 10.2 kPa, just above the whole load of 10 kPa.
 TEST(BrokenScenes, CompressedSoilIsRefusedWhenItsPoresAreGone) {
   const SceneRun run("negative-porosity-done");
@@ -102,9 +102,9 @@ TEST(BrokenScenes, CompressedSoilIsRefusedWhenItsPoresAreGone) {
   EXPECT_LT(last, 200.0);
 }
 
-/// What has been caught stays, and no more is caught without room. In the scene the room is gone
-/// within a second. With a load that grows over 1000 s soil catches fines until its porosity of
-/// 0.27, at J = 0.7/0.73 = 0.959 under 1.35e5 ln(1/J)/J = 5.9 kPa, 590 s.
+/// Deposits stay, and deposition ends without room. In the scene the room is gone within a second.
+/// Under a load that grows over 1000 s, soil catches fines until its porosity is 0.27, at J =
+/// 0.7/0.73 = 0.959 under 1.35e5 ln(1/J)/J = 5.9 kPa, 590 s.
 TEST(BrokenScenes, DepositsStayInSoilThatIsCompressed) {
   const std::vector<std::string> slowly{
       "boundary[0].traction=[[0.0, 0.0, 0.0], [1000.0, 0.0, -1e4]]",
@@ -123,7 +123,7 @@ TEST(BrokenScenes, DepositsStayInSoilThatIsCompressed) {
   }
 }
 
-/// Soil that is full gives nothing back where nothing erodes it.
+/// Full soil keeps its deposits where nothing erodes it.
 TEST(BrokenScenes, DepositsOfFullPoresBecomeNoFewer) {
   const SceneRun run("full-pores");
   ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
@@ -133,7 +133,7 @@ TEST(BrokenScenes, DepositsOfFullPoresBecomeNoFewer) {
   expect_pores(run);
 }
 
-/// Water keeps to its pores to a thousandth, where 5 % end a run.
+/// Water fits its pores within a thousandth; a misfit of 5 % ends a run.
 TEST(BrokenScenes, WaterFitsItsPoresBehindAJump) {
   for (const char* name : {"jump-to-slow-flow", "slow-flow-kept"}) {
     const SceneRun run(name);
@@ -144,7 +144,7 @@ TEST(BrokenScenes, WaterFitsItsPoresBehindAJump) {
   }
 }
 
-/// Level sand beside a rigid wall does not move.
+/// Level sand next to a rigid wall does not move.
 TEST(BrokenScenes, SandBesideRigidSoilRests) {
   const SceneRun run("sand-beside-rigid");
   ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;

@@ -15,8 +15,8 @@
 
 namespace suffuse::model {
 
-/// The paper's column with layers, nodes off their places, water of c = 0.1 entering so fast that a
-/// point crosses about a seventh of an element in a step, or of that the share `speed`.
+/// The paper's column with layers and displaced nodes. Water of c = 0.1 enters so fast that a point
+/// crosses about a seventh of an element in a step, times `speed`.
 inline Case<2> fast_column(int columns, double speed = 1.0) {
   Scene scene = double_point_scene(0.12, 5e-3);
   scene.boundaries = {flux_on("inflow", 0.12), pressure_on("outflow", 0.0)};
@@ -26,7 +26,7 @@ inline Case<2> fast_column(int columns, double speed = 1.0) {
   LayerSettings layers;
   layers.inflow = layers.outflow = layers.above = layers.below = 1;
   Mesh<2> mesh = layered_mesh(columns, layers);
-  // Nodes off their places, those at the boundary along it at most.
+  // Nodes are displaced, those at the boundary only along it.
   const double size = 1.0 / columns;
   auto jitter = jittered(0.2 * size, 3);
   const double low = -2.0 * size;
@@ -74,7 +74,7 @@ class Column {
       points.id.push_back(p);
       points.water_mass.push_back(1000.0 * seeds.volume[p]);
       points.fines_mass.push_back(p % 5 * seeds.volume[p]);
-      // What neither node nor element sees belongs to it too.
+      // Points also have parts that nodes and elements cannot represent.
       const Vector<2> velocity =
           interpolate(grid_, {seeds.element[p], seeds.barycentric[p]}, flow_.scheme().velocity());
       points.pressure.push_back(flow_.pressure()[seeds.element[p]] + 10.0 * std::sin(p));
@@ -112,7 +112,7 @@ class Column {
     grid_to_points();
   }
 
-  /// Points that the last step of the flow brings in, after `grid_to_points` or within.
+  /// Points that enter in the last step of the flow; called after `grid_to_points` or by it.
   std::vector<ArrivingPoint<2>> inject(InflowAccount& inflow) {
     for (const int f : injection_.open_faces()) entered_[f] = dt * flow_.flux_through(f);
     std::vector<InjectedPoint<2>> injected;
@@ -133,12 +133,12 @@ class Column {
     }
     return arriving;
   }
-  /// A point that left through an outer face takes its volume along.
+  /// Books the volume of a point that left through an outer face.
   static void account_for(const PointCrossing& point, InflowAccount& inflow) {
     inflow.volume[point.left_by] +=
         liquid_volume(point.water_mass, point.fines_mass, densities_, 1.0);
   }
-  /// How points move in the last step of the flow.
+  /// The field in which points move in the last step of the flow.
   [[nodiscard]] WalkField<2> walk_field() const {
     return {node_flux_, porosity_, injection_.is_open()};
   }
@@ -151,8 +151,8 @@ class Column {
 
   static constexpr LiquidDensities densities_{1000.0, 2700.0};
   double dt = 0.0;                                ///< s
-  std::map<std::pair<int, int>, double> crossed;  ///< water, by regions
-  CompensatedSum fines_in;                        ///< minus those that left, kg
+  std::map<std::pair<int, int>, double> crossed;  ///< water mass, by pairs of regions
+  CompensatedSum fines_in;                        ///< net mass of fines that entered, kg
   long count = 0;
 
  private:

@@ -1,5 +1,5 @@
-/// Liquid points that carry the flow: each step against the plain way, in which every point is
-/// walked from face to face; threads, balances, and the blocks that hold the points.
+/// Liquid points that carry the flow. Each step is compared with a plain version that walks every
+/// point from face to face; also threads, balances, and the blocks that hold the points.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace carried_points_test {
 using model::Column;
 using model::fast_column;
 
-/// The same liquid the plain way: a loop over all points for each thing, every point walked.
+/// The same liquid in a plain version: one loop over all points per task, every point is walked.
 class PlainLiquid {
  public:
   explicit PlainLiquid(const Column& column) : points(column.points()), inflow_(column.inflow()) {}
@@ -48,7 +48,7 @@ class PlainLiquid {
     }
   }
 
-  /// After `column` has moved its own points.
+  /// To be called after `column` has moved its own points.
   void grid_to_points(Column& column, const VectorField<2>& velocity_before,
                       const std::vector<double>& pressure_before) {
     const Grid<2>& grid = column.grid();
@@ -240,7 +240,7 @@ TEST(CarriedPoints, NothingIsLostAndNothingComesFromNowhere) {
   }
 }
 
-/// Points told from each other by everything that they carry.
+/// Points that differ in everything they carry.
 LiquidPoints<2> some_points(const std::vector<int>& elements) {
   LiquidPoints<2> points;
   for (const int e : elements) {

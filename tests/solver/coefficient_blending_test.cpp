@@ -1,4 +1,4 @@
-/// Blending of coefficients alone: continuous where steps meet, exact where densities drift.
+/// Blending of coefficients alone: continuous between steps, exact where densities drift.
 
 #include "flow/coefficient_blending.hpp"
 
@@ -74,7 +74,7 @@ TEST_F(CoefficientBlendingTest, ShorterStepsDoNotBlendFasterAtOnce) {
   CoefficientBlending<2> blending(all_settings);
   blending.record(before);
   blending.finish(2.0);
-  // A step of 0.4 s takes half of itself off the time of blending: 1.8 s.
+  // A step of 0.4 s shortens the time of blending by half of its length, to 1.8 s.
   blending.finish(0.4);
   EXPECT_GT(distance(blended(blending, 1.79), now), 0.0);
   EXPECT_EQ(distance(blended(blending, 1.81), now), 0.0);
@@ -124,7 +124,7 @@ TEST_F(CoefficientBlendingTest, ADensityThatKeepsRisingIsExpectedTo) {
   const FlowCoefficients<2> later = blended(blending, 5.0);
   EXPECT_NEAR(later.mixture_density[4] - now.mixture_density[4], 15.0, 1e-9);
   EXPECT_EQ(later.mixture_density[3], now.mixture_density[3]);
-  // It never leaves the range of what the mixture consists of.
+  // The density of the mixture stays between those of its constituents.
   EXPECT_EQ(blended(blending, 1e6).mixture_density[4], 2700.0);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A solid that counts what it gives.
+/// A solid that counts the volume that it gives to the liquid.
 
 #include "grid/compensated_sum.hpp"
 #include "solid/rigid_skeleton.hpp"

@@ -1,5 +1,5 @@
-/// The parts of the solid's equilibrium by themselves: classes of elements, supports, forces and
-/// their tangent, the motion of points.
+/// Single parts of the solid's equilibrium: classes of elements, supports, forces and their
+/// tangent, the motion of points.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(ElementClasses, FullWhereAllAroundHoldPoints) {
     if (y < 0.5) {
       EXPECT_EQ(m.classes->full[e], 1.0) << e;
     } else {
-      // At the sides the surface has more soil around it than a half.
+      // At the sides, more than half of the neighbours of the surface are soil.
       EXPECT_LE(m.classes->full[e], y < 0.75 ? 0.7 : 0.0) << e;
     }
     EXPECT_DOUBLE_EQ(m.classes->scale[e], y > 0.75 ? 0.0 : 1.0);
@@ -49,7 +49,7 @@ TEST(ElementClasses, FullWhereAllAroundHoldPoints) {
 }
 
 TEST(ElementClasses, GoOverFromFullToWhatThePointsFill) {
-  // Inside, however little the points fill; at the border as far as they do.
+  // Inside, any filling counts as full; at the border, the filling itself counts.
   PlaneModel m(model::column_mesh(5, 5), 4, model::elastic_soil(1e6, 0.3));
   for (double& v : m.points.volume) v *= 0.625;
   m.sort();
@@ -102,7 +102,7 @@ TEST(Supports, LeaveDirectionsAlongFlatCurvedAndCorneredBoundaries) {
   EXPECT_EQ(supports.free_count(node(1.0, 0.0)), 0);
   EXPECT_EQ(supports.free_count(node(0.0, 0.0)), 1);
   EXPECT_EQ(supports.directions(node(0.0, 0.0)).col(0), Vector<2>(0.0, 1.0));
-  // Along the chord of the bend.
+  // The support is along the chord of the bend.
   EXPECT_EQ(supports.free_count(node(0.5, 1.05)), 1);
   EXPECT_NEAR(std::abs(supports.directions(node(0.5, 1.05))(0, 0)), 1.0, 1e-15);
 }
@@ -135,7 +135,7 @@ TEST(Supports, InThreeDimensionsAreOrthonormal) {
   EXPECT_EQ(count, (std::array<int, 4>{8, 12, 6, 1}));
 }
 
-/// A body with some stress in a box of tetrahedra or a square of triangles, some of it empty.
+/// A stressed body in a box of tetrahedra or a square of triangles, part of which is empty.
 template <int Dim>
 struct StressedBody {
   Mesh<Dim> mesh;
@@ -208,7 +208,7 @@ Mesh<3> small_mesh() {
   return model::box_mesh({4, 2, 2}, Vector<3>::Ones(), model::disturbed(0.05));
 }
 
-/// Relative distance of the derivative from central differences over steps of `h`.
+/// Relative difference of the derivative from central differences with steps of `h`.
 template <int Dim>
 double tangent_error(const StressedBody<Dim>& body, double h) {
   Equilibrium<Dim> equilibrium = body.equilibrium();
@@ -254,7 +254,7 @@ TEST(CrossingForces, KeepTheBalanceAndFadeWhileWaterLeavesTheElements) {
   CrossingForces<2> crossing;
   NodeVectors<2> carried = loads;
   crossing.add(0.0, carried);
-  EXPECT_EQ(carried[7], loads[7]);  // none yet
+  EXPECT_EQ(carried[7], loads[7]);  // there are no crossing forces yet
   // Slow drainage on the left, fast on the right. The height of every element is 1/sqrt(20).
   std::vector<double> diffusivity;
   for (int e = 0; e < body.mesh.element_count(); ++e) {
@@ -334,14 +334,14 @@ TEST(Equilibrium, ElasticStiffnessIsTheTangentWithoutStress) {
   EXPECT_LE((tangent - elastic).norm(), 1e-14 * elastic.norm());
 }
 
-/// The patch test: an affine displacement of the border, at large strain and turned, is that of
-/// all nodes, and every point has its stress.
+/// Patch test: an affine displacement of the border, with large strain and rotation, becomes that
+/// of all nodes and gives every point the same stress.
 TEST(Equilibrium, AffineDisplacementOfTheBorderGoesThroughAnIrregularMesh) {
   PlaneModel m(model::column_mesh(6, 6, 1.0, 1.0, model::jittered(0.05, 5)), 3,
                model::elastic_soil(1e6, 0.3));
   Eigen::Matrix2d f;
   f << 0.7, 0.15, -0.1, 0.7;
-  // Inwards, so that no point leaves the mesh.
+  // The shift is inwards, so that no point leaves the mesh.
   const Vector<2> shift(0.05, 0.2);
   NodeVectors<2> prescribed;
   for (const Vector<2>& x : m.mesh.nodes) prescribed.emplace_back(shift + f * x - x);
@@ -351,7 +351,7 @@ TEST(Equilibrium, AffineDisplacementOfTheBorderGoesThroughAnIrregularMesh) {
     if (!m.grid.is_outer(k)) continue;
     for (const int i : m.grid.face_nodes[k]) held.push_back(i);
   }
-  // What is said about nodes that are free is not used.
+  // Prescribed values of free nodes are not used.
   prescribed[8 * 3] = Vector<2>(99.0, 99.0);
   const NewtonSolution<2> solution = m.step(m.no_loads(), prescribed, held);
   ASSERT_TRUE(solution.converged);
@@ -409,7 +409,8 @@ TEST(PointMotion, SoilMayRiseALittleOverTheBorder) {
 }
 
 TEST(PointMotion, FindsElementsAcrossAMeshAndAroundCorners) {
-  // Without its upper right quarter: from there to the upper left the straight way is outside.
+  // The mesh lacks its upper right quarter: the straight way from there to the upper left is
+  // outside.
   Mesh<2> mesh = model::column_mesh(8, 8, 1.0, 1.0, model::jittered(0.03, 4));
   std::erase_if(mesh.elements, [&](const auto& nodes) {
     Vector<2> centre = Vector<2>::Zero();
@@ -439,7 +440,7 @@ struct LoadedHalf : PlaneModel {
     }
     surface = LoadedSurface<2>(grid, sorted, top);
   }
-  /// Moves the surface, and not the soil.
+  /// Moves the surface without the soil.
   void displace_surface(const Eigen::Matrix2d& gradient, const Vector<2>& shift) {
     NodeVectors<2> displacement;
     for (const Vector<2>& x : mesh.nodes) displacement.emplace_back(gradient * x + shift);
@@ -475,7 +476,7 @@ TEST(LoadedSurface, PressureFollowsItsAreaAndNormalAndATractionDoesNot) {
   m.displace_surface(f - Eigen::Matrix2d::Identity(), Vector<2>(0.05, 0.1));
   NodeVectors<2> pressed = m.no_loads();
   m.surface.add_pressure(m.grid, m.sorted, 5.0, pressed);
-  // From (0, 0.5) to (1, 0.5) before; the normal looks to the left of this way.
+  // The surface was from (0, 0.5) to (1, 0.5); its normal is to the left of this direction.
   const Vector<2> along = f * Vector<2>(1.0, 0.0);
   EXPECT_NEAR((LoadedHalf::sum(pressed) + 5.0 * Vector<2>(-along[1], along[0])).norm(), 0.0, 1e-13);
   NodeVectors<2> pulled = m.no_loads();
@@ -507,7 +508,7 @@ TEST(LoadedSurface, RefusesToLeaveTheMeshOrItsSoil) {
             "elements below");
 }
 
-/// A block falls, settles and is sheared; the state of the points as bytes.
+/// A block falls, settles and is sheared; compares the state of the points as bytes.
 class Course {
  public:
   explicit Course(int threads)
@@ -576,8 +577,7 @@ TEST(SolidStep, GoesOnFromItsArchiveToTheLastBit) {
   EXPECT_EQ(rest.state(), all.state());
 }
 
-/// Soil of one density that nothing but inertia holds gives way as a fluid does: by dt/rho to the
-/// gradient of pressures.
+/// Soil of uniform density that only inertia holds moves like a fluid: its mobility is dt/rho.
 TEST(HeldByInertia, IsTheMobilityOfAFluidInShortSteps) {
   constexpr double density = 2000.0;
   constexpr double compressibility = 1e-6;  // 1/Pa
@@ -592,7 +592,7 @@ TEST(HeldByInertia, IsTheMobilityOfAFluidInShortSteps) {
   }
   const std::vector<double> held = held_mobility(grid, drained, mass, duration);
   for (const double mobility : held) EXPECT_NEAR(mobility, duration / density, 1e-20);
-  // In a long step stiffness holds it, with the compressibility that it has at rest.
+  // In a long step stiffness holds the soil, with its drained compressibility.
   for (const double mobility : held_mobility(grid, drained, mass, 10.0)) EXPECT_EQ(mobility, 0.0);
   const std::vector<double> in_long_step = held_compressibility(grid, drained, mass, 10.0);
   const std::vector<double> in_short_step = held_compressibility(grid, drained, mass, 1e-5);

@@ -1,4 +1,4 @@
-/// The same case gives the same files, on any number of threads; steps end on outputs.
+/// The same case gives the same files on any number of threads; steps end at outputs.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST_P(Determinism, TwiceTheSameFiles) {
   EXPECT_EQ(test::difference(solve(case_path, "twice"), once), "");
 }
 
-/// Enough elements that the loops are shared among threads (parallel.hpp), for a few steps.
+/// There are enough elements that the loops are shared among threads (parallel.hpp).
 TEST_P(Determinism, OneAndTwoThreadsGiveTheSameFiles) {
   const bool is_explicit = GetParam().name.find("implicit") == std::string::npos;
   const bool is_double = GetParam().name.starts_with("double");
@@ -54,12 +54,12 @@ TEST_P(Determinism, OneAndTwoThreadsGiveTheSameFiles) {
   EXPECT_EQ(test::difference(solve(case_path, "two", {"--threads", "2"}), one), "");
 }
 
-/// Each row is the state at the end of a step, at the time that was asked for to the last digit.
+/// Each row is the state at the end of a step, at exactly the requested time.
 TEST_P(Determinism, StepsEndOnOutputs) {
   const auto every = [&](const std::string& name, double rows) {
     const std::string output = "output={every = " + number_text(rows) + ", snapshot_every = 2.0}";
     std::vector<std::string> sets{output, "time.end=4.0"};
-    // With that of 1e-3 porosities of soil that moves differ by 1.5e-5.
+    // With a tolerance of 1e-3, porosities of moving soil would differ by 1.5e-5.
     if (GetParam().name == test::moving_mode().name) sets.emplace_back("time.tolerance=2e-4");
     return solve(place_.make_case(test::with(GetParam(), name, sets)), name);
   };
@@ -70,7 +70,7 @@ TEST_P(Determinism, StepsEndOnOutputs) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     EXPECT_EQ(times[k], 0.125 * static_cast<double>(k));
   }
-  // Other steps, the same run.
+  // The steps differ, the run is the same.
   const std::vector<double> porosity = column(often, "porosity_mean");
   const std::vector<double> same = column(seldom, "porosity_mean");
   ASSERT_EQ(same.size(), 5U);

@@ -15,7 +15,7 @@ inline Mesh<2> layered_mesh(int columns, const LayerSettings& layers, int specim
     std::string region;
     int rows;
   };
-  // Bottom to top.
+  // Blocks from bottom to top.
   const std::vector<Block> blocks{{"outflow", layers.outflow}, {"free_below", layers.free_below},
                                   {"buffer", layers.below},    {"specimen", specimen_rows},
                                   {"buffer", layers.above},    {"free_above", layers.free_above},

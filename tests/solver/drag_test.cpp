@@ -13,7 +13,7 @@ ConductivityModel model(const char* law) {
   return {conductivity_law(law), 2e-2, 0.6};
 }
 
-/// Under a head that does not change the flux goes as the conductivity.
+/// Under a constant head the flux is proportional to the conductivity.
 TEST(Conductivity, FollowsKozenyCarmanAsInTheReferenceTable) {
   const auto rows = read_reference("permeability-feedback.csv");
   ASSERT_GT(rows.size(), 20U);
@@ -24,7 +24,7 @@ TEST(Conductivity, FollowsKozenyCarmanAsInTheReferenceTable) {
     EXPECT_NEAR(k, expected, 1e-12 * expected) << row.number("n_L");
     largest = std::max(largest, k);
   }
-  EXPECT_GT(largest, 3.0);  // the table says something
+  EXPECT_GT(largest, 3.0);  // the table covers large changes
 }
 
 TEST(Conductivity, StaysWhereTheLawIsConstant) {
@@ -37,7 +37,7 @@ TEST(Conductivity, IsTheGivenOneAtTheInitialPorosity) {
   }
 }
 
-/// Ergun's linear term is Kozeny and Carman's with the same grains: kappa = d^2 KC(n) / 150.
+/// Ergun's linear term is that of Kozeny and Carman for the same grains: kappa = d^2 KC(n) / 150.
 TEST(Conductivity, AgreesWithErgunsGrains) {
   const double n_0 = 0.3;
   const double n = 0.37;

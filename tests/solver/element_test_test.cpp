@@ -60,7 +60,7 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// What a test answers, or its messages with the file's name left out.
+/// The output of an element test, or its messages without the name of the file.
 std::string answer(const std::string& table, const std::string& soil = "sand", int steps = 1) {
   const TemporaryFolder folder;
   const std::string path = folder.write("table.csv", table);
@@ -105,7 +105,7 @@ TEST(ElementTest, steps_lie_between_the_rows_of_the_table) {
 }
 
 TEST(ElementTest, other_laws_and_columns) {
-  // Undrained strength in plane strain: half the difference of the stresses is the cohesion.
+  // The undrained strength in plane strain, half the difference of the stresses, is the cohesion.
   auto columns = columns_of(
       answer("t,strain_xx,strain_yy,strain_zz,strain_xy\n0,,,,\n10,0.2,-0.2,0,0\n", "clay"));
   EXPECT_EQ(columns["t"], (std::vector{0.0, 10.0}));
@@ -162,7 +162,7 @@ TEST(ElementTest, says_what_is_wrong_in_a_table) {
             "3: stress_yy: got a value beside that of strain_yy; expected one of the two");
 }
 
-/// The program, with what it shows.
+/// The program, and its output.
 struct Program {
   TemporaryFolder folder;
   std::string path = folder.write("scene.toml", scene);

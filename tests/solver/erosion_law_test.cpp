@@ -16,7 +16,7 @@
 namespace suffuse {
 
 namespace erosion {
-extern const ErosionLaw second_order;  // not in the list: as a law that is added
+extern const ErosionLaw second_order;  // not in the list, like an added law
 }  // namespace erosion
 
 namespace erosion_law_test {
@@ -31,7 +31,7 @@ ErosionModel model(const ErosionLaw* law, double rate) {
   return result;
 }
 
-// Every law, by what holds for any.
+// Checks that hold for every law.
 
 class EveryLaw : public ::testing::TestWithParam<const ErosionLaw*> {
  protected:
@@ -46,7 +46,7 @@ class EveryLaw : public ::testing::TestWithParam<const ErosionLaw*> {
 std::vector<const ErosionLaw*> laws_to_test() {
   std::vector<const ErosionLaw*> laws(erosion_laws().begin(), erosion_laws().end());
   laws.push_back(&erosion::second_order);
-  // What depends on the fines in the liquid is in exchange_test.cpp.
+  // exchange_test.cpp covers laws that depend on the fines in the liquid.
   std::erase_if(laws, [](const ErosionLaw* law) { return law->depends_on_concentration; });
   return laws;
 }
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, ::testing::ValuesIn(laws_to_test()),
                            return name;
                          });
 
-/// Classical Runge-Kutta from the rate alone, from the start of erosion on.
+/// Classical Runge-Kutta with the rate alone, from the start of erosion on.
 double integrated(const ErosionModel& m, double duration, int steps) {
   const double h = duration / steps;
   double n = n_0;
@@ -194,7 +194,7 @@ TEST(ErosionLaws, AreFoundByTheirWords) {
   EXPECT_THROW(erosion_law("constnat"), std::invalid_argument);
 }
 
-/// The solver takes a law that no list has, and that no other source names.
+/// The solver accepts a law that is in no list and that no other source names.
 TEST(ErosionLaws, RunWithoutBeingKnown) {
   Scene scene = model::paper_scene();
   scene.soils[0].erosion.law = &erosion::second_order;
@@ -222,7 +222,7 @@ TEST(ErosionLaws, AreAddedAsTheDocumentationSays) {
   EXPECT_NE(text_of("/docs/contributing.md").find("```cpp\n" + law + "```"), std::string::npos);
 }
 
-// Single laws, by their numbers.
+// Single laws, by numbers.
 
 TEST(ErosionLaws, FollowTheReferenceTable) {
   const auto rows = read_reference("porosity.csv");
@@ -281,7 +281,7 @@ TEST(LogarithmicLaw, ApproachesItsCapWithoutPassingIt) {
   double n = n_0;
   for (double t = 10.0; t < 2000.0; t += 10.0) n = porosity_after(m, n, t - 10.0, t, unset);
   EXPECT_NEAR(n_max - n, 0.0, 1e-15);
-  // One step of a day.
+  // A single step of a day.
   EXPECT_EQ(porosity_after(m, n_0, 0.0, 86400.0, unset), n_max);
 }
 

@@ -40,7 +40,7 @@ struct Example {
 };
 
 /// Small runs of both formulations and both schemes, with flow from rest and from the steady state,
-/// and one whose flow changes to the end.
+/// and one whose flow changes until the end.
 std::vector<Example> examples() {
   std::vector<Example> result;
   for (const FlowScheme scheme : {FlowScheme::explicit_nodal, FlowScheme::implicit_mixed}) {
@@ -66,7 +66,7 @@ std::vector<Example> examples() {
   return result;
 }
 
-/// What a run that writes really took.
+/// The actual cost of a run with output.
 struct Actual {
   double steps;
   double memory;
@@ -144,8 +144,8 @@ TEST(OutputSchedule, ComesMoreOftenWhileSoilFails) {
   EXPECT_EQ(schedule.past_rows().last, 1.0);
 }
 
-/// Outputs every 1e-12 s would hold a run in its failure: 1e-12 s later is the same time to the
-/// last digits of a double.
+/// Outputs every 1e-12 s would stop the progress of a failing run: 1e-12 s later is the same time
+/// up to round-off.
 TEST(OutputSchedule, ShortensNoStepToLessThanItsOwnLength) {
   Scene scene;
   scene.time.end = 1.0;
@@ -210,7 +210,7 @@ TEST(Estimate, OfTheStartUpAloneIsNear) {
     if (input.document.scene.time.scheme != FlowScheme::implicit_mixed) continue;
     if (input.document.scene.initial_flow == InitialFlow::steady) continue;
     SCOPED_TRACE(name);
-    // The flow is not on its way for a hundredth of the time that it needs to settle.
+    // The trial covers less than a hundredth of the time in which the flow settles.
     const TrialBudget start{.seconds = 60.0, .share = 1e-4};
     const Estimate estimate = estimate_run(input, make_plan(input, {}), start);
     EXPECT_GT(estimate.pilot_steps, 0);
@@ -229,12 +229,12 @@ Case<2> case_of(const TemporaryFolder& folder, const std::string& scene, const s
   return read_case<2>(path);
 }
 
-/// A trial of a tenth of the time has met neither the end of erosion nor most breakpoints.
+/// A trial of a tenth of the time does not reach the end of erosion or most breakpoints.
 TEST(Estimate, LooksAheadInScenesOfManyKinds) {
   const std::vector<std::pair<std::string, std::string>> scenes{
       {"workflows/sweep/weir.toml", "0.25"},           // erosion below a weir
       {"workflows/levee/flood.toml", "1.5"},           // breakpoints, seepage faces, retention
-      {"workflows/levee/dam.toml", "1.5"},             // the same, with long times of rest
+      {"workflows/levee/dam.toml", "1.5"},             // as above, with long times of rest
       {"workflows/laboratory/channel.toml", "25e-3"},  // a drive that grows with the pores
       {"workflows/decades/weir.toml", "0.25"},         // a hundred years from rest
       {"workflows/stress/kill-bank.toml", "0.5"},      // soil that moves
@@ -324,7 +324,7 @@ TEST(Explain, PrintsTheEstimateAndLeavesNothingBehind) {
   EXPECT_NE(text.find("from a trial of the whole run"), std::string::npos) << text;
   EXPECT_TRUE(fs::is_empty(folder.path() / "here"));
   EXPECT_TRUE(fs::is_empty(folder.path() / "temporary"));
-  EXPECT_EQ(folder.count(), 5);  // here, temporary, run.case.h5, out, error
+  EXPECT_EQ(folder.count(), 5);  // the files here, temporary, run.case.h5, out, error
 
   EXPECT_NE(explain(folder.file("missing")).find("of unknown size"), std::string::npos);
 }

@@ -108,7 +108,7 @@ TEST(EulerianTransport, AFrontStaysWithinBoundsAndEveryGrainIsBooked) {
 }
 
 TEST(EulerianTransport, ASmoothProfileIsSecondOrder) {
-  // A bump carried down by 0.4 m; the limiter may clip its top, so the norm is L1.
+  // A bump moves down by 0.4 m; the limiter may clip its top, so the norm is L1.
   const auto bump = [](double y) {
     return y > 0.4 && y < 1.0 ? 0.3 * std::pow(std::sin((y - 0.4) / 0.6 * std::numbers::pi), 4)
                               : 0.0;
@@ -128,7 +128,7 @@ TEST(EulerianTransport, ASmoothProfileIsSecondOrder) {
         s.state.fines_volume[e][j] = s.state.liquid_volume[e][j] * bump(node_height(e, j));
       }
     }
-    // A step in which nothing flows leaves the profile limited.
+    // A step without flow limits the profile first.
     TransportScratch<2> scratch;
     s.transport.start(s.state, std::vector<double>(s.volume.size(), 0.0), scratch);
     s.transport.advance(s.state, {}, {}, scratch);

@@ -66,8 +66,8 @@ TEST(Drives, HaveTheirValues) {
   EXPECT_NEAR(rate("power"), 9810.0 * gradient * flux, 1e-12);
 }
 
-/// The gradient is that which drives the flow: with Ergun's drag, along bedding or across, under
-/// suction, and in a thick suspension.
+/// The gradient is that of the flow: with Ergun's drag, along and across bedding, under suction,
+/// and in a thick suspension.
 TEST(Drives, FollowTheGradientOfTheFlow) {
   const double flux = 0.012;
   ExchangeModel m = that_erodes("constant", "gradient", 1.0);
@@ -83,7 +83,7 @@ TEST(Drives, FollowTheGradientOfTheFlow) {
   m.viscosity = {};
   m.ergun = true;
   EXPECT_GT(gradient(flow_of(flux, 0.1)), darcy);
-  // Half the flux, half the linear part, a quarter of the other.
+  // At half the flux the linear part is half, the quadratic part a quarter.
   const double whole = gradient(flow_of(flux, 0.1));
   const double half = gradient(flow_of(0.5 * flux, 0.1));
   EXPECT_NEAR(4.0 * half - whole, darcy, 1e-13);
@@ -99,7 +99,7 @@ TEST(ScaledTime, CountsWhatIsAboveTheThreshold) {
   EXPECT_NEAR(scaled_time(m, 10.0, 20.0, 0.5, 0.5), 2.0 * 0.2 * 10.0, 1e-14);
   EXPECT_NEAR(scaled_time(m, 0.0, 20.0, 0.5, 0.5), 2.0 * 0.2 * 10.0, 1e-14);
   EXPECT_NEAR(scaled_time(m, 10.0, 20.0, 0.4, 0.6), 2.0 * 0.2 * 10.0, 1e-14);
-  // A triangle of half the time, up and down.
+  // The excess over the threshold is a triangle over half the time, rising or falling.
   EXPECT_NEAR(scaled_time(m, 10.0, 20.0, 0.1, 0.5), 2.0 * 0.1 * 5.0, 1e-14);
   EXPECT_NEAR(scaled_time(m, 10.0, 20.0, 0.5, 0.1), 2.0 * 0.1 * 5.0, 1e-14);
   EXPECT_EQ(scaled_time(m, 10.0, 20.0, 0.1, 0.2), 0.0);
@@ -122,7 +122,7 @@ TEST(Residual, StaysWhateverTheLaw) {
     ExchangeModel m = that_erodes(law, "time", 1.0);
     m.erosion.residual = {{{0.0, 0.05}}};
     EXPECT_NEAR(exchange_over(m, {n_0, n_0}, {}, 0.0, 1e4).eroded, 0.15, 1e-12) << law;
-    // What stays as the flow slows down does not come back.
+    // Erosion does not become negative if the residual grows as the flow slows down.
     EXPECT_EQ(exchange_over(m, {n_0, 0.52}, {}, 0.0, 1e4).eroded, 0.0) << law;
   }
 }
@@ -173,7 +173,7 @@ TEST(Autocatalysis, GrowsAsItsIntegralSays) {
   EXPECT_EQ(exchange_over(m, {n_0, n_0}, flow_of(1e-3, 0.0), 0.0, 1e3).eroded, 0.0);
 }
 
-/// Of the last fines, fewer than the steps of an integral tell apart: n_e = n_e0 exp(-S c).
+/// The last fines are fewer than the steps of the integral resolve: n_e = n_e0 exp(-S c).
 TEST(Autocatalysis, GivesNothingBack) {
   const double c = 0.05;
   const ExchangeModel m = that_erodes("autocatalytic", "time", 1.0);
@@ -189,8 +189,8 @@ TEST(Autocatalysis, GivesNothingBack) {
   }
 }
 
-/// Clean liquid leaves no deposits: soil that catches fines erodes as soil that does not, whose
-/// erosion is exact. A step of the integral may come to places where the law has no value.
+/// Clean liquid leaves no deposits: soil that can catch fines erodes like soil that cannot, whose
+/// erosion is exact. Steps of the integral may reach places where the law has no value.
 TEST(Exchange, OfCleanLiquidIsErosionAlone) {
   for (const char* law : {"constant", "logarithmic", "first-order"}) {
     for (double rate = 1e-4; rate < 1e4; rate *= 1.7) {
@@ -207,7 +207,8 @@ TEST(Exchange, OfCleanLiquidIsErosionAlone) {
   }
 }
 
-/// Whoever looks for the concentration that balances an element asks beyond where grains lock too.
+/// The search for the concentration that balances an element also tries values at which grains
+/// lock.
 TEST(Exchange, InLockedLiquidHasNoValue) {
   ExchangeModel m = that_erodes("logarithmic", "power", 1.0);
   m.deposition.coefficient = 2.0;
@@ -239,29 +240,28 @@ TEST(CriticalConcentration, StopsErosion) {
   EXPECT_NEAR(x.eroded / (n_0 + x.eroded), 0.1, 1e-9);
 }
 
-/// What is deposited on soil that has nothing left to erode goes at once where erosion is faster.
+/// On soil without erodible fines, new deposits erode at once if erosion is faster.
 TEST(Exchange, SlidesAlongWhatCanErode) {
   ExchangeModel m = that_erodes("constant", "time", 1e-3);
   m.deposition.coefficient = 2.0;
   const double c = 0.1;
   const Exchange x = exchange_over(m, {n_0, n_max}, flow_of(1e-3, c), 0.0, 10.0);
   EXPECT_NEAR(x.into_liquid(), 0.0, 1e-6);
-  // From a little below: up to the end of what can erode, and no further.
+  // From a little below, all erodible fines are eroded, and nothing more.
   const Exchange y = exchange_over(m, {n_0, n_max - 1e-3}, flow_of(1e-3, c), 0.0, 10.0);
   EXPECT_NEAR(y.into_liquid(), 1e-3, 1e-12);
   EXPECT_GT(y.deposited, 1.9e-3);
   EXPECT_NEAR(y.deposited, 2e-3, 1e-4);
 }
 
-/// Of both at once, with drag that opens: by many small steps of the rate alone.
-/// On bare grains a law that takes as much as comes, or more, leaves the porosity as it is; one
-/// that takes less lets it fall as c' = (S - a c)/n says with n next to constant.
+/// On bare grains a law that erodes at least the deposits leaves the porosity as it is; a slower
+/// one lets it fall as c' = (S - a c)/n with n almost constant.
 TEST(Exchange, StartsOnBareGrains) {
   ExchangeModel m = that_erodes("constant", "time", 1e-2);
   m.deposition.coefficient = 1.0;
   const double c = 0.05;
   const double flux = 1e-2;
-  // What the state has as its last digit must not matter.
+  // The last bit of the state must not matter.
   for (const double porosity : {n_max, std::nextafter(n_max, 0.0), std::nextafter(n_max, 1.0)}) {
     const Exchange x = exchange_over(m, {n_0, porosity}, flow_of(flux, c), 0.0, 10.0);
     EXPECT_NEAR(x.into_liquid(), 0.0, 1e-15);
@@ -275,7 +275,7 @@ TEST(Exchange, StartsOnBareGrains) {
   EXPECT_NEAR(less.deposited, flux * c * duration, 0.01 * flux * c * duration);
 }
 
-/// Less than what stays can erode nothing until deposits have come.
+/// With fewer fines than the residual, nothing erodes until fines have been deposited.
 TEST(Exchange, WaitsForDepositsWhereLessThanTheResidualIsLeft) {
   ExchangeModel m = that_erodes("constant", "time", 1.0);
   m.deposition.coefficient = 1.0;
@@ -283,7 +283,7 @@ TEST(Exchange, WaitsForDepositsWhereLessThanTheResidualIsLeft) {
   const double porosity = n_max - 1e-4;
   const Exchange x = exchange_over(m, {n_0, porosity}, flow_of(1e-2, 0.5), 0.0, 10.0);
   EXPECT_NEAR(x.into_liquid(), -9e-4, 1e-15);
-  // In place of the fines that went, c falls by less than 1 %, and what comes later erodes at once.
+  // As fines are deposited, c falls by less than 1 %; deposits above the residual erode at once.
   EXPECT_NEAR(x.deposited, 1e-2 * 0.5 * 10.0, 1e-4);
   EXPECT_LT(x.deposited, 1e-2 * 0.5 * 10.0);
 }

@@ -1,4 +1,4 @@
-/// The explicit scheme's loops against another way to write them (nodal_reference.hpp).
+/// The explicit scheme's loops against a plain version of them (nodal_reference.hpp).
 
 #include "explicit/explicit_nodal.hpp"
 
@@ -18,7 +18,7 @@ namespace explicit_nodal_test {
 
 constexpr double modulus = 2.0e7;
 
-/// What may be asked of the scheme beside its mesh.
+/// Options of the scheme in addition to its mesh.
 struct Options {
   std::string name;
   DragIntegration drag = DragIntegration::explicit_drag;
@@ -44,8 +44,8 @@ struct MeshCase {
   Mesh<2> mesh;
 };
 
-/// Three elements beyond a whole number of blocks in the second; walls that no coordinate axis
-/// follows, far from the origin, in the fourth.
+/// The second mesh has three elements beyond a whole number of blocks; the fourth has walls along
+/// no coordinate axis, far from the origin.
 std::vector<MeshCase> all_meshes() {
   const auto aslant = [](const Vector<2>& x) {
     return Vector<2>(1000.0 + x[0] - 0.4 * x[1], 500.0 + x[1] + 0.3 * x[0]);
@@ -56,12 +56,12 @@ std::vector<MeshCase> all_meshes() {
       {"jittered", model::column_mesh(9, 8, 1.0, 1.0, model::jittered(0.03, 8))},
       {"aslant", model::column_mesh(6, 7, 1.0, 1.0, aslant)},
       {"free", model::free_mesh(0.09)}};
-  // Triangles that a wall of the mesh does not meet, and one wall within it.
+  // Triangles that no wall of the mesh touches, and one wall within it.
   meshes[2].mesh.boundaries.push_back({"sheet", {{33, 43}, {43, 53}}});
   return meshes;
 }
 
-/// Both schemes on one mesh, with the same operator and the same things done to them.
+/// Both schemes on one mesh, with the same operator and the same changes.
 class Twins {
  public:
   Twins(Mesh<2> mesh, const Options& options, int threads = 1)
@@ -79,7 +79,7 @@ class Twins {
         ergun_(options.ergun) {
     change_coefficients();
     std::vector<double> pressure(case_.mesh.element_count());
-    // A hundredth of the modulus: what pressure convects is not lost in round-off.
+    // Pressures are a hundredth of the modulus, so that their convection is above round-off.
     for (double& p : pressure) p = 2e5 * random_();
     VectorField<2> velocity(case_.mesh.node_count());
     for (auto& v : velocity) v = {0.1 * random_(), 0.1 * random_()};
@@ -110,7 +110,7 @@ class Twins {
                                 std::vector<double>(ergun_ ? case_.mesh.node_count() : 0, 1.0));
   }
 
-  /// Steps under boundary values that change from one to the next.
+  /// Steps under boundary values that change between steps.
   void run(int steps) {
     const BoundaryValues<2> values(case_, grid_);
     for (int s = 0; s < steps; ++s, time_ += dt_) {
@@ -120,7 +120,7 @@ class Twins {
     }
   }
 
-  /// Difference of the two relative to the largest value.
+  /// Difference of the two schemes relative to the largest value.
   template <class Field>
   static double difference(const Field& a, const Field& b) {
     EXPECT_EQ(a.size(), b.size());
@@ -154,7 +154,7 @@ class Twins {
     }
     return most;
   }
-  /// What the schemes let through the walls, m3, and at the corners between walls, m/s.
+  /// Liquid that passes walls, m3, and velocities at the corners between walls, m/s.
   [[nodiscard]] double leak() const {
     const FaceVolumes volumes = fast_.volumes();
     double leak = 0.0;
@@ -183,7 +183,7 @@ class Twins {
     scene.boundaries = {top, bottom};
     return scene;
   }
-  /// The left half of the top is a velocity, the sheet a wall within the mesh.
+  /// The left half of the top has a velocity; the sheet is a wall within the mesh.
   std::vector<FaceCondition> conditions() {
     std::vector<FaceCondition> result = face_conditions(case_, grid_);
     for (const auto& set : case_.mesh.boundaries) {

@@ -10,7 +10,7 @@ namespace face_conditions_test {
 using Knots = std::vector<std::pair<double, double>>;
 
 /// A column under a pressure that rises from 0 to 6 kPa between 2 s and 10 s, with a flux at the
-/// foot that turns, grains that come with it, and a level table on the left.
+/// foot that changes its sign and carries grains, and a constant table on the left.
 struct Column {
   explicit Column(std::vector<BoundaryCondition> boundaries,
                   const std::array<double, 3>& gravity = {})
@@ -23,7 +23,7 @@ struct Column {
     scene.boundaries = std::move(boundaries);
     return model::make_case(model::column_mesh(3, 2), scene);
   }
-  /// The condition of every face of a boundary, which must be the same.
+  /// The condition of all faces of a boundary, which must be equal.
   [[nodiscard]] FaceCondition on(const std::string& name,
                                  const std::vector<FaceCondition>& conditions) const {
     const FaceCondition* found = nullptr;
@@ -146,8 +146,8 @@ TEST(BoundaryValues, TouchNoFaceThatDoesNotChange) {
   EXPECT_EQ(column.on("right", conditions).value, -77.0);
 }
 
-/// Knots inside (0, end) of what changes, ascending, each once: 2 and 10 of the pressure, 4 and 10
-/// of the flux with its grains; not 0, -1 and 30, and none of the level table.
+/// Knots inside (0, end) of values that change, ascending, each once: 2 and 10 of the pressure, 4
+/// and 10 of the flux with its grains; not 0, -1 and 30, and none of the constant table.
 TEST(BoundaryValues, HaveEventsWithinTheRun) {
   const Column column({rising_pressure(), turning_flux(), level_velocity()});
   EXPECT_EQ(column.values.breakpoints(), (std::vector{2.0, 4.0, 10.0}));
@@ -219,7 +219,7 @@ TEST(HeadBoundary, switches_the_faces_that_its_level_passes) {
     EXPECT_EQ(half[1].value, 0.0);
     column.values.update(20.0, conditions);
     const auto falling = column.all_on("left", conditions);
-    EXPECT_EQ(falling[1].kind, above);  // level with its centre
+    EXPECT_EQ(falling[1].kind, above);  // the level is at its centre
     EXPECT_TRUE(falling[1].switches);
     column.values.update(15.0, conditions);
     const auto high = column.all_on("left", conditions);
@@ -229,8 +229,8 @@ TEST(HeadBoundary, switches_the_faces_that_its_level_passes) {
   }
 }
 
-/// A face that the level crosses is dry when the level is at its centre; level ground is under
-/// water when the level is at its height.
+/// A face that the level crosses is dry if the level is at its centre; level ground is wet if the
+/// level is at its height.
 TEST(HeadBoundary, takes_level_ground_at_its_level_for_wet) {
   const Column column({head_on("left", 0.75)}, downwards);
   EXPECT_EQ(column.all_on("left", column.values.at(0.0))[1].kind, FaceKind::seepage);
@@ -258,7 +258,7 @@ TEST(HeadBoundary, opens_level_ground_while_its_level_is_there) {
   EXPECT_EQ(kind_at(18.0), FaceKind::wall);
 }
 
-/// z is the height against gravity, wherever that points: here x, and the left side is level.
+/// Heights are measured against gravity in any direction: here along x, so the left side is level.
 TEST(HeadBoundary, measures_heights_against_gravity) {
   const Column column({head_on("left", 2.0), head_on("top", 2.0)}, {-4.0, 0.0, 0.0});
   const auto left = column.all_on("left", column.values.at(0.0));
@@ -297,7 +297,7 @@ TEST(SeepageFace, lets_out_and_rain_comes_in) {
   EXPECT_TRUE(column.on("top", conditions).switches);
 }
 
-/// Faces of different lengths share a rate by their lengths: the flux is the same.
+/// Faces of different lengths share a rate in proportion to their lengths: the flux is uniform.
 TEST(Well, spreads_its_rate_over_its_faces) {
   BoundaryCondition well;
   well.on = "top";

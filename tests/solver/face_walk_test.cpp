@@ -24,7 +24,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// A mesh of the unit square with volumes through its faces, kept together; porosity 0.3.
+/// A mesh of the unit square with volumes through its faces; porosity 0.3.
 struct Field {
   explicit Field(Mesh<2> m)
       : mesh(std::move(m)),
@@ -36,13 +36,13 @@ struct Field {
   Field& operator=(const Field&) = delete;
   ~Field() = default;
 
-  /// Of a flux that is constant or linear along faces.
+  /// Sets volumes of a flux that is constant or linear along faces.
   void set_flux(const std::function<Vector<2>(const Vector<2>&)>& flux) {
     for (int f = 0; f < grid.face_count(); ++f) {
       volume[f] = grid.face_normal[f].dot(flux(grid.face_centre(f)));
     }
   }
-  /// Without divergence: differences of the stream function at the nodes.
+  /// Sets volumes without divergence: differences of the stream function at the nodes.
   void set_stream(const std::vector<double>& stream) {
     for (int f = 0; f < grid.face_count(); ++f) {
       const auto [i, j] = grid.face_nodes[f];
@@ -51,7 +51,7 @@ struct Field {
       volume[f] = (side > 0.0 ? 1.0 : -1.0) * (stream[j] - stream[i]);
     }
   }
-  /// Random at inner nodes, zero along the walls.
+  /// A stream function, random at inner nodes, zero along the walls.
   [[nodiscard]] std::vector<double> random_stream(Random& random, double size) const {
     std::vector<double> stream;
     for (const Vector<2>& x : mesh.nodes) {
@@ -82,7 +82,7 @@ Mesh<2> rough_mesh(int cells, unsigned seed) {
   return model::column_mesh(cells, cells, 1.0, 1.0, model::jittered(0.25 / cells, seed));
 }
 
-/// Inside an element, on one of its edges or on one of its nodes, each as often.
+/// A place inside an element, on one of its edges or on one of its nodes, with equal probability.
 PointPlace<2> random_place(const Mesh<2>& mesh, Random& random, int kinds = 3) {
   const auto element = static_cast<int>(random() * mesh.element_count());
   std::array<double, 3> at{random(), random(), random()};
@@ -113,7 +113,7 @@ TEST(FaceWalk, UniformFluxMovesPointsStraight) {
   int left = 0;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     Random random(seed);
-    // Some along the diagonals of the cells, which are edges of elements.
+    // Half of the fields flow along the diagonals of the cells, which are edges of elements.
     const bool along_edges = seed % 2 == 0;
     const Vector<2> flux =
         along_edges ? Vector<2>(0.3, 0.3) : Vector<2>(0.6 * random() - 0.3, 0.6 * random() - 0.3);
@@ -182,7 +182,7 @@ TEST(FaceWalk, FollowsPorosityInTime) {
       PointPlace<2> place = random_place(field.mesh, random);
       const double from = 0.5 * random();
       const double to = from + (1.0 - from) * random();
-      // Midpoint rule, fine: an integral that owes nothing to logarithms.
+      // A fine midpoint rule, which does not use logarithms.
       double path = 0.0;
       const int pieces = 2000;
       for (int k = 0; k < pieces; ++k) {
@@ -208,7 +208,8 @@ TEST(FaceWalk, FollowsPorosityInTime) {
 }
 
 TEST(FaceWalk, PassagesTellWhereAndByHowMuchPorosityGrew) {
-  // The upper half grows, the lower does not; down through both, two rows of two elements each.
+  // Porosity grows in the upper half only; the point goes down through both, two rows of two
+  // elements each.
   Field field(model::column_mesh(4, 4));
   for (int e = 0; e < field.mesh.element_count(); ++e) {
     if (element_centroid(field.mesh, e)[1] > 0.5) field.end[e] = 0.36;
@@ -224,7 +225,7 @@ TEST(FaceWalk, PassagesTellWhereAndByHowMuchPorosityGrew) {
     const Vector<2> middle =
         PointPlace<2>{passage.element, passage.barycentric}.position(field.mesh);
     const double below = 2.0 * middle[1] - height;
-    // Time to fall through the passage: 0.16 / 0.06 log(n_out / n_in) = height lost.
+    // Time to fall through a passage: 0.16 / 0.06 log(n_out / n_in) = height lost.
     const double in = 0.3 + 0.06 * share;
     const double out = in * std::exp((height - below) * 0.06 / 0.16);
     EXPECT_NEAR(passage.growth, out / in, 1e-13);
@@ -236,7 +237,7 @@ TEST(FaceWalk, PassagesTellWhereAndByHowMuchPorosityGrew) {
 }
 
 TEST(FaceWalk, FollowsALinearFluxWithDivergence) {
-  // a + b x lies in the space of Raviart and Thomas on any mesh: x + a/b = e^(b tau) (x_0 + a/b).
+  // The space of Raviart and Thomas contains a + b x on any mesh: x + a/b = e^(b tau) (x_0 + a/b).
   double worst = 0.0;
   for (const double b : {0.3, -0.3, 1e-9, -1e-14}) {
     Field field(rough_mesh(7, 9));
@@ -251,7 +252,7 @@ TEST(FaceWalk, FollowsALinearFluxWithDivergence) {
       const double clock = std::log(0.45 / 0.3) / 0.15;
       const Vector<2> expected = start + std::expm1(b * clock) / b * (a + b * start);
       if (expected.minCoeff() < 1e-9 || expected.maxCoeff() > 1.0 - 1e-9) continue;
-      if (field.walk(place) >= 0) continue;  // began on an outer face and left at once
+      if (field.walk(place) >= 0) continue;  // started on an outer face and left at once
       worst = std::max(worst, (place.position(field.mesh) - expected).norm());
       ++compared;
     }
@@ -262,7 +263,7 @@ TEST(FaceWalk, FollowsALinearFluxWithDivergence) {
 }
 
 TEST(FaceWalk, AgreesWithRungeKuttaInsideAnElement) {
-  // Random volumes, with divergence, through one element after the other; porosity in time.
+  // Random volumes with divergence, in one element after the other; porosity changes in time.
   double worst = 0.0;
   int compared = 0;
   Random random(21);
@@ -326,7 +327,7 @@ TEST(FaceWalk, TheStreamFunctionIsConstantAlongAPath) {
   EXPECT_LE(worst, 1e-12);
 }
 
-/// Where pressure has hardly arrived fluxes go down to the smallest numbers there are.
+/// At the front of a pressure, fluxes can be as small as the smallest numbers.
 TEST(FaceWalk, FluxesTooSmallToDivideByMoveNothing) {
   Field field(model::column_mesh(2, 2));
   Random random(1);
@@ -340,9 +341,9 @@ TEST(FaceWalk, FluxesTooSmallToDivideByMoveNothing) {
 }
 
 TEST(FaceWalk, NothingIsLost) {
-  // From edges, nodes and insides, in flows that turn around nodes, and with sources and sinks.
+  // Points start on edges, nodes and inside, in flows around nodes, with sources and sinks.
 #ifdef __SANITIZE_ADDRESS__
-  constexpr unsigned fields = 10;  // slow there, and what it looks for is in every one
+  constexpr unsigned fields = 10;  // slow, and few fields show all errors
 #else
   constexpr unsigned fields = 100;
 #endif
@@ -402,7 +403,7 @@ TEST(FaceWalk, ComesBackWithTheFlowReversed) {
     for (int p = 0; p < 200; ++p) {
       PointPlace<2> place = random_place(field.mesh, random, 2);
       const Vector<2> start = place.position(field.mesh);
-      // Where a path along a wall parts from it, two lead there on the way back.
+      // A path along a wall that leaves it is not unique on the way back.
       if (start.minCoeff() < 1e-12 || start.maxCoeff() > 1.0 - 1e-12) continue;
       EXPECT_EQ(field.walk(place), -1);
       EXPECT_EQ(back.walk(place), -1);
@@ -414,7 +415,7 @@ TEST(FaceWalk, ComesBackWithTheFlowReversed) {
 }
 
 TEST(FaceWalk, WallsAreNeverCrossed) {
-  // From left to right between walls, along a stream function of y alone at the walls.
+  // Flow from left to right between walls; at the walls the stream function depends only on y.
   Field field(rough_mesh(6, 4));
   std::vector<double> stream;
   for (const Vector<2>& x : field.mesh.nodes) {
@@ -453,8 +454,8 @@ TEST(FaceWalk, WithoutFlowPointsStayWhilePorosityGrows) {
 }
 
 TEST(FaceWalk, SaysWhereAWalkHasNoEnd) {
-  // Once around through a ring of elements, 20 000 times: too wide a circle to be taken for a
-  // point.
+  // The point goes around through a ring of elements 20 000 times, on a circle too wide to count as
+  // a point.
   Field field(model::column_mesh(2, 2));
   std::vector<double> stream(field.mesh.node_count(), 0.0);
   stream[4] = 3e4;
@@ -467,7 +468,7 @@ TEST(FaceWalk, SaysWhereAWalkHasNoEnd) {
     EXPECT_NE(std::string(error.what()).find("liquid point 7 at ("), std::string::npos)
         << error.what();
   }
-  // At the node itself the point stays.
+  // A point at the node itself stays.
   PointPlace<2> centre{0, {0.0, 0.0, 1.0}};
   EXPECT_EQ(field.walk(centre), -1);
   EXPECT_EQ((centre.position(field.mesh) - Vector<2>(0.5, 0.5)).norm(), 0.0);

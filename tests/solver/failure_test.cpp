@@ -37,7 +37,7 @@ struct Soil {
   Failure<2> failure;
 };
 
-/// Soil of 100 kg and 2 m: of so much kinetic energy over its weight times its height.
+/// Soil of 100 kg and 2 m, with this kinetic energy over its weight times its height.
 SoilKinetics moving(double energy, double inertia_share = 0.0) {
   const SoilExtent soil{.mass = 100.0, .load = 100.0 * g, .height = 2.0};
   return {energy * soil.load * soil.height, inertia_share, soil};
@@ -45,7 +45,7 @@ SoilKinetics moving(double energy, double inertia_share = 0.0) {
 
 const Unsolved no_equilibrium{"the soil has found no equilibrium", true};
 
-/// What is said where the run ends; empty where it goes on.
+/// The message that ends the run; empty if the run goes on.
 template <class Act>
 std::string end_of_run(const Act& act) {
   try {
@@ -86,8 +86,8 @@ TEST(Failure, AShortestStepWithoutASolutionStartsInertiaOrEndsTheRun) {
   EXPECT_FALSE(stopped.failure.has_inertia());
 }
 
-/// After a step that is long against the time in which soil falls through an element, and not
-/// where something has changed at once.
+/// A short step or a slide starts inertia if the step before was long against the time of fall
+/// through an element, unless a sudden change was announced in between.
 TEST(Failure, ShortStepsOrASlideStartInertiaAfterLongOnes) {
   for (const bool slides : {false, true}) {
     Soil soil(true);
@@ -112,7 +112,7 @@ TEST(Failure, ShortStepsOrASlideStartInertiaAfterLongOnes) {
   EXPECT_FALSE(stopped.failure.has_inertia());
 }
 
-/// Soil without motion rests after sqrt(2 H/g), the time of a fall through its height.
+/// Soil without motion has come to rest after sqrt(2 H/g), the time of a fall through its height.
 TEST(Failure, SoilThatHasRestedForAFallHasNoInertiaAnyMore) {
   const double fall = std::sqrt(2.0 * 2.0 / g);
   Soil soil(true);
@@ -125,7 +125,7 @@ TEST(Failure, SoilThatHasRestedForAFallHasNoInertiaAnyMore) {
   };
   step(moving(0.0, 0.5));  // about to move
   for (int k = 0; k < 20; ++k) step(moving(1e-7, 1e-3));
-  step(moving(2e-6, 1e-3));  // moves once more: what it had rested does not count
+  step(moving(2e-6, 1e-3));  // it moves again: the rest before does not count
   const double from = time;
   while (soil.failure.has_inertia() && time < 10.0) step(moving(1e-7, 1e-3));
   EXPECT_NEAR(time - from, fall, 2.0 * dt);

@@ -1,5 +1,5 @@
-/// What goes wrong around a run: disks, folders, files, signals, streams. What was written before
-/// stays readable, the message says what happened, and the run can go on to the same end.
+/// Faults around a run: disks, folders, files, signals, streams. Data written before stay readable,
+/// the message says what happened, and the run can be resumed to the same end.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -29,7 +29,7 @@ using test::Process;
 const std::string advice =
     "\nWhat was written before is complete. When this is mended, go on with:\n  suffuse-solver ";
 
-/// With an undisturbed run.
+/// A place with an undisturbed run.
 class Fault : public testing::Test {
  protected:
   Fault() : case_(place_.make_case(mode())), whole_(place_.path("whole")) {
@@ -60,7 +60,7 @@ class Fault : public testing::Test {
     EXPECT_EQ(test::difference(folder, whole_), "");
   }
 
-  /// A run that is stopped (SIGSTOP) somewhere in the middle; nothing where none could be caught.
+  /// A run that is stopped (SIGSTOP) in the middle; nothing if it could not be stopped in time.
   [[nodiscard]] std::unique_ptr<Process> paused(
       const std::string& folder, const std::vector<std::string>& options = {},
       const std::function<void()>& prepare = [] {}) const {
@@ -132,7 +132,7 @@ TEST_F(Fault, ADiskFullWhileInterrupting) {
 }
 
 TEST_F(Fault, AFileThatMayNotGrowFurther) {
-  // Snapshots do not fit from the start, or a table does not at some time.
+  // First a snapshot does not fit, then a table at some time.
   const std::string folder = place_.path("results");
   Outcome outcome = place_.solve(case_, folder, {}, [] { limit_files_to(20000); });
   expect_error(outcome, 4, folder);
@@ -144,7 +144,7 @@ TEST_F(Fault, AFileThatMayNotGrowFurther) {
   const std::uintmax_t history = fs::file_size(whole_ + "/history.csv");
   ASSERT_GT(history, 2 * fs::file_size(whole_ + "/snapshots/state_000001.hdf"));
   fs::remove_all(folder);
-  // Tables grow at different paces: any may be the first, within a row.
+  // Tables grow at different rates: any may reach the limit first, within a row.
   for (const std::uintmax_t limit : {history / 2, history / 2 + 50, history / 2 + 150}) {
     outcome = place_.solve(case_, folder, {"--force"}, [=] { limit_files_to(limit); });
     expect_error(outcome, 4, ".csv: cannot be written: File too large" + advice);
@@ -236,7 +236,7 @@ TEST_F(Fault, ResultsOfAnotherCaseAreReplacedByForceAlone) {
                "--resume excludes --force");
   EXPECT_TRUE(before == test::contents(whole_));
 
-  // The same case again, and other content with --force.
+  // Runs the same case again, and other cases with --force.
   EXPECT_EQ(place_.solve(case_, whole_).code, 0);
   EXPECT_EQ(place_.solve(changed, whole_, {"--force"}).code, 0);
   EXPECT_EQ(ResultsReader(whole_).scene().scene.time.end, 0.5);
@@ -252,13 +252,13 @@ TEST_F(Fault, ARunThatWasKilledNoLongerRuns) {
   process->signal(SIGKILL);
   EXPECT_EQ(process->wait().code, 128 + SIGKILL);
   EXPECT_EQ(ResultsReader(folder).status(), "stopped without notice");
-  // Its lock has the name of another host there, which may hold it all the same.
+  // A lock with the name of another host may still be held there.
   const std::string lock = layout::in_folder(folder, layout::lock);
   const std::string name = test::read_file(lock);
   std::ofstream(lock) << "process 12 on elsewhere\n";
   EXPECT_EQ(ResultsReader(folder).status(), "running");
   std::ofstream(lock) << name;
-  // A folder that was copied without the lock.
+  // The folder as a copy without the lock.
   fs::remove(lock);
   EXPECT_EQ(ResultsReader(folder).status(), "stopped without notice");
   expect_same_when_resumed(folder);
@@ -304,7 +304,7 @@ TEST_F(Fault, TwoSolversOnOneFolder) {
   expect_error(place_.solve(case_, folder, {"--resume"}), 4, message);
   EXPECT_EQ(go_on(*first).code, 0);
   EXPECT_EQ(test::difference(folder, whole_), "");
-  // The lock of one that is killed goes with it.
+  // The lock of a killed run ends with it.
   const auto killed = paused(folder);
   killed->signal(SIGKILL);
   EXPECT_EQ(killed->wait().code, 128 + SIGKILL);
@@ -329,7 +329,7 @@ TEST_F(Fault, SnapshotsReplacedByAFileDuringARun) {
   fs::rename(folder + "/snapshots", place_.path("away"));
   std::ofstream(folder + "/snapshots") << "a file";
   expect_error(go_on(*process), 4, advice);
-  // Without them there is nothing to go on from, and the rows are not thrown away.
+  // Without snapshots the run cannot be resumed, and the rows are kept.
   expect_error(place_.solve(case_, folder, {"--resume"}), 4, "cannot be resumed");
   fs::remove(folder + "/snapshots");
   fs::rename(place_.path("away"), folder + "/snapshots");
@@ -392,7 +392,7 @@ TEST_F(Fault, ACaseThatCannotBeRunLeavesTheRunBeforeIt) {
 
 TEST_F(Fault, StreamsThatAreClosed) {
   const std::string folder = place_.path("results");
-  // A message that comes when tables are open already must not end up in one.
+  // A message that comes when tables are open must not be written into a table.
   const std::string warned = place_.make_case(
       test::with(mode(), "warned",
                  {R"(boundary[0]={on = "inflow", darcy_flux = 0.012, concentration = 0.7})"}));

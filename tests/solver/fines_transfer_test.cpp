@@ -13,7 +13,7 @@ namespace fines_transfer_test {
 
 constexpr double grain_density = 2700.0;
 
-/// A square of soil with liquid points, all that a transfer needs.
+/// A square of soil with liquid points, and all that a transfer needs.
 struct TransferCase {
   TransferCase(MassTransfer way, Seeding seeding, int points_per_element, double jitter)
       : input(make(way, seeding, points_per_element, jitter)),
@@ -43,7 +43,7 @@ struct TransferCase {
         model::column_mesh(5, 5, 1.0, 1.0, model::jittered(jitter, 6)), std::move(scene));
   }
 
-  /// Drops the points of some elements.
+  /// Removes the points of some elements.
   void empty(const std::function<bool(int)>& without) {
     std::vector<unsigned char> keep;
     for (const int e : points.element) keep.push_back(without(e) ? 0 : 1);
@@ -61,7 +61,7 @@ struct TransferCase {
     }
     return result;
   }
-  /// What solid points give when their porosity grows by growth(element), m3.
+  /// Volume that solid points give if their porosity grows by growth(element), m3.
   [[nodiscard]] std::vector<double> exchange(const std::function<double(int)>& growth) const {
     std::vector<double> result = soils.points().volume;
     for (std::size_t s = 0; s < result.size(); ++s) {
@@ -69,7 +69,7 @@ struct TransferCase {
     }
     return result;
   }
-  /// Points take what the solid gives, as those do that carry the flow.
+  /// Points take the eroded fines, as points that carry the flow do.
   auto erode(const std::function<double(int)>& growth) {
     points.pressure.assign(points.size(), 0.0);
     points.velocity.assign(points.size(), Vector<2>::Zero());
@@ -101,7 +101,7 @@ TEST(FinesTransfer, LosesNothing) {
   for (const MassTransfer way : {MassTransfer::nodal, MassTransfer::element}) {
     for (const int points : {1, 3, 12}) {
       TransferCase c(way, Seeding::random, points, 0.04);
-      // Some without points, and four in a corner.
+      // Some elements have no points, among them four in a corner.
       c.empty([](int e) { return e % 7 == 3 || e < 4; });
       double eroded = 0.0;
       for (int round = 0; round < 5; ++round) {
@@ -123,7 +123,7 @@ TEST(FinesTransfer, LosesNothing) {
 
 TEST(FinesTransfer, ByElementEachPointTakesItsShareOfTheElement) {
   TransferCase c(MassTransfer::element, Seeding::random, 4, 0.04);
-  // Points of an element are of different volumes.
+  // Points of an element have different volumes.
   for (int p = 0; p < c.points.size(); ++p) c.points.water_mass[p] *= 1.0 + 0.1 * (p % 3);
   const auto growth = [](int e) { return 1e-3 * (e % 5); };
   const std::vector<double> volume = c.volumes();
@@ -140,7 +140,7 @@ TEST(FinesTransfer, ByElementEachPointTakesItsShareOfTheElement) {
 }
 
 TEST(FinesTransfer, ByNodesEvenErosionGivesEvenConcentration) {
-  // Points that stand exactly for the pores of their element: each takes phi / n of its volume.
+  // Points represent exactly the pores of their element: each takes phi / n of its volume.
   TransferCase even(MassTransfer::nodal, Seeding::gauss, 3, 0.04);
   const std::vector<double> volume = even.volumes();
   even.erode([](int) { return 1e-3; });
@@ -148,10 +148,11 @@ TEST(FinesTransfer, ByNodesEvenErosionGivesEvenConcentration) {
     EXPECT_NEAR(even.points.fines_mass[p] / (grain_density * volume[p]), 1e-3 / 0.3, 1e-15);
   }
 
-  // At random the sharing by element is uneven as the numbers of points are; by nodes much less.
+  // With random points, the transfer by element is as uneven as the numbers of points; by nodes it
+  // is much more even.
   const auto spread = [](MassTransfer way) {
     TransferCase c(way, Seeding::random, 12, 0.04);
-    // A third of the points, uneven from element to element.
+    // Keeps a third of the points, unevenly.
     std::vector<unsigned char> keep;
     keep.reserve(c.points.size());
     for (int p = 0; p < c.points.size(); ++p) keep.push_back((p * p + p / 7) % 3 == 0 ? 1 : 0);
@@ -182,7 +183,7 @@ TEST(FinesTransfer, WaitsForLiquidWhereThereIsNone) {
     c.erode([](int) { return 1e-3; });
     EXPECT_NEAR(c.pending_mass(), grain_density * 1e-3, 1e-13);
     for (const double volume : c.pending) EXPECT_GT(volume, 0.0);
-    // It goes out as liquid comes, without further erosion.
+    // Pending fines go to liquid that arrives, without further erosion.
     c.points = all;
     const auto result = c.erode([](int) { return 0.0; });
     EXPECT_NEAR(c.fines(), grain_density * 1e-3, 1e-13);
@@ -203,7 +204,7 @@ TEST(FinesTransfer, AnEmptyElementGivesToItsNeighbours) {
   }
 }
 
-/// Takes of points that stayed where they are.
+/// Uptakes of points that did not move.
 std::vector<FinesUptake<2>> takes_in_place(const TransferCase& c, double growth) {
   std::vector<FinesUptake<2>> takes;
   const std::vector<double> volume = c.volumes();
@@ -215,7 +216,7 @@ std::vector<FinesUptake<2>> takes_in_place(const TransferCase& c, double growth)
 }
 
 TEST(FinesTransfer, AlongPathsEachUptakeGetsItsOwnTimesACommonFactor) {
-  // Takes that add up to half of what eroded, evenly: twice each.
+  // Uptakes add up to half of the eroded fines, evenly, so each is doubled.
   TransferCase c(MassTransfer::nodal, Seeding::gauss, 3, 0.04);
   auto takes = takes_in_place(c, 0.5 * 1e-3 / 0.3);
   const std::vector<double> exchange = c.exchange([](int) { return 1e-3; });
@@ -234,7 +235,7 @@ TEST(FinesTransfer, AlongPathsNothingIsLost) {
     TransferCase c(way, Seeding::random, 3, 0.04);
     c.empty([](int e) { return e % 7 == 3 || e < 4; });
     const auto growth = [](int e) { return e % 3 == 0 ? 0.0 : 1e-3 * (1 + e % 5); };
-    // Only some points took anything, and by far not what eroded.
+    // Only some points take up fines, far less than was eroded.
     auto takes = takes_in_place(c, 1e-4);
     std::erase_if(takes, [&](const FinesUptake<2>& take) {
       return take.point % 2 == 0 || growth(take.element) == 0.0;
@@ -244,7 +245,7 @@ TEST(FinesTransfer, AlongPathsNothingIsLost) {
     EXPECT_NEAR(c.fines() + c.pending_mass(), result.eroded[0], 1e-13);
     EXPECT_NEAR(c.fines(), result.received[0], 1e-13);
     if (way == MassTransfer::nodal) continue;
-    // By element: what it eroded, as long as a point took up fines there.
+    // By element: all fines that it eroded, if a point took up fines there.
     std::vector<double> of_element(c.input.mesh.element_count(), 0.0);
     for (const FinesUptake<2>& take : takes) of_element[take.element] += take.mass;
     for (const FinesUptake<2>& take : takes) {

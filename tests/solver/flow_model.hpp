@@ -14,14 +14,14 @@ namespace suffuse::model {
 class Uniform {
  public:
   explicit Uniform(unsigned seed) : random_(seed) {}
-  /// In [-1, 1).
+  /// A number in [-1, 1).
   double operator()() { return 2.0 * static_cast<double>(random_() >> 11) * 0x1p-53 - 1.0; }
 
  private:
   std::mt19937_64 random_;
 };
 
-/// Flow alone on a mesh: walls unless said otherwise, soil of 0.02 m/s.
+/// Flow alone on a mesh: walls by default, soil of 0.02 m/s.
 template <int Dim>
 struct FlowModelOf {
   explicit FlowModelOf(const Mesh<Dim>& mesh_in) : mesh(mesh_in), grid(mesh) {
@@ -48,7 +48,7 @@ struct FlowModelOf {
                                                 conductivity(element_centroid(mesh, e)));
     }
   }
-  /// The forcing at each stage of a step, constant.
+  /// The forcing at each stage of a step; it is constant.
   [[nodiscard]] std::vector<const FlowForcing<Dim>*> constant(
       const ImplicitMixed<Dim>& flow) const {
     std::vector<const FlowForcing<Dim>*> result(flow.stages().size(), &forcing);
@@ -72,7 +72,7 @@ struct FlowModelOf {
 };
 using FlowModel = FlowModelOf<2>;
 
-/// Largest |net outflow of an element - what it should be| over the largest flux through a face.
+/// Largest |net outflow of an element - expected one| over the largest flux through a face.
 template <int Dim>
 double imbalance(const Grid<Dim>& grid, const std::vector<double>& flux,
                  const std::vector<double>& net_outflow) {

@@ -1,4 +1,4 @@
-/// What results say of boundaries, probes and sections, against fields and fluxes that are known.
+/// Results of boundaries, probes and sections, against known fields and fluxes.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace flow_results_test {
 using model::column_mesh;
 using model::jittered;
 
-/// Fluxes of the stream function with these values at nodes: what crosses any line to its right is
+/// Fluxes of the stream function with these values at nodes: the flux across a line to its right is
 /// the stream function at its end minus that at its start.
 std::vector<double> fluxes_of(const Grid<2>& grid, const std::vector<double>& stream) {
   std::vector<double> flux;
@@ -41,7 +41,7 @@ class Sections : public testing::Test {
       stream_.push_back(static_cast<double>(random() >> 11) * 0x1p-53);
     }
   }
-  /// Both ways along the line.
+  /// Checks both directions along the line.
   void expect_exact(const Vector<2>& from, const Vector<2>& to) const {
     const std::vector<double> flux = fluxes_of(grid_, stream_);
     const double exact = value_at(grid_, stream_, to) - value_at(grid_, stream_, from);
@@ -63,7 +63,7 @@ TEST_F(Sections, AnywhereInTheMesh) {
 
 TEST_F(Sections, OnNodesAndAlongFaces) {
   const auto& nodes = mesh_.nodes;
-  // From node to node across, along single faces within and on the outer boundary.
+  // From node to node, along single faces inside and on the outer boundary.
   expect_exact(nodes[23], nodes[56]);
   for (int f = 0; f < grid_.face_count(); ++f) {
     expect_exact(nodes[grid_.face_nodes[f][0]], nodes[grid_.face_nodes[f][1]]);
@@ -96,7 +96,7 @@ TEST_F(Sections, PartsOutsideCountNothing) {
 }
 
 TEST_F(Sections, ThatLeaveTheMeshAtANodeEndThere) {
-  // Mesh generators put nodes a little beside their places: faces are then almost along the line.
+  // Mesh generators put nodes slightly off their places: faces are then almost along the line.
   const auto move = [](const Vector<2>& x) {
     return x[1] == 0.0 ? Vector<2>(x[0] + 6.6e-11, 0.0) : x;
   };
@@ -105,7 +105,7 @@ TEST_F(Sections, ThatLeaveTheMeshAtANodeEndThere) {
   const std::vector<double> flux = fluxes_of(grid, stream_);
   const SectionLine line(grid, {4.0 / 9.0, -1.0}, {4.0 / 9.0, 2.0});
   EXPECT_NEAR(line.length(), 1.0, 1e-14);
-  // The stream function at the foot is that of a place 6.6e-11 of nine cells to the left.
+  // The foot of the line is 6.6e-11 m, in cells of 1/9 m, to the left of the node.
   const double foot = stream_[4] + 9.0 * 6.6e-11 * (stream_[3] - stream_[4]);
   EXPECT_NEAR(line.across(flux), stream_[7 * 10 + 4] - foot, 1e-14);
 }
@@ -140,10 +140,10 @@ Scene conduit_scene() {
 TEST(Discharge, OfSectionsAcrossAConduitIsThatOfItsEnds) {
   Scene scene = conduit_scene();
   scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
-  // Inclined; along faces; from node to node; and the other way round.
+  // Sections: inclined, along faces, from node to node, and from right to left.
   scene.output.sections = {section(0.0, 0.3, 1.0, 0.77), section(0.0, 0.5, 1.0, 0.5),
                            section(0.0, 0.25, 1.0, 1.0), section(1.0, 0.6, 0.0, 0.61)};
-  // Displaced nodes off the line at half the height, so that faces lie on it.
+  // Nodes at half the height are not displaced, so that faces lie on that line.
   auto move = jittered(0.02, 11);
   const auto move_most = [&](const Vector<2>& x) {
     const Vector<2> moved = move(x);
@@ -159,7 +159,7 @@ TEST(Discharge, OfSectionsAcrossAConduitIsThatOfItsEnds) {
   EXPECT_NEAR(out, 2e-2 * 6000.0 / (1000.0 * 9.81), 1e-3 * out);
   EXPECT_NEAR(ends[0].discharge, -out, 1e-12 * out);
   for (int k = 0; k < 4; ++k) {
-    // Downwards crosses a line to the right from its left end to its right one.
+    // Downward flow crosses a line to its right if it goes from left to right.
     const double sign = k == 3 ? -1.0 : 1.0;
     EXPECT_EQ(rows[k].section, k);
     EXPECT_NEAR(rows[k].discharge, sign * out, 1e-12 * out) << k;
@@ -170,7 +170,8 @@ TEST(Discharge, OfSectionsAcrossAConduitIsThatOfItsEnds) {
   EXPECT_EQ(ends[0].liquid_out, 0.0);
 }
 
-/// Linear in space: gravity at an angle, boundaries that prescribe the pressure of a uniform flow.
+/// A field that is linear in space: inclined gravity, boundaries with the pressure of a uniform
+/// flow.
 class Probes : public testing::Test {
  protected:
   static constexpr double g = 9.81;
@@ -180,7 +181,7 @@ class Probes : public testing::Test {
     scene_.gravity = {g * std::sin(angle), -g * std::cos(angle), 0.0};
     scene_.soils[0].porosity = 0.25;
     scene_.soils[0].porosity_gradient = {0.05, 0.02, 0.0};
-    // Along the conduit, against gravity.
+    // Uniform flow along the conduit, against gravity.
     scene_.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 9000.0)};
     scene_.output.probes = {{{0.31, 0.77, 0.0}}, {{0.5, 0.5, 0.0}}, {{1.0, 0.0, 0.0}}};
   }
@@ -214,7 +215,8 @@ TEST_F(Probes, HaveTheLinearStateOfAUniformFlow) {
 }
 
 TEST_F(Probes, HeadIsTheSameEverywhereInWaterAtRest) {
-  // Walls all around but for a corner of the bottom, where the pressure is that of a head of 2 m.
+  // There are walls all around except at a corner of the bottom, with the pressure of a head of 2
+  // m.
   scene_.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
   scene_.boundaries.clear();
   Mesh<2> mesh = column_mesh(6, 5);
@@ -256,7 +258,7 @@ TEST_F(Probes, OfAnExplicitFlowTakeNodePressuresAndSaturationOfElements) {
   for (const ProbeRow& row : rows) {
     EXPECT_NEAR(row.pressure, 100.0 * row.x - 7.0 * row.y, 1e-12);
   }
-  // Of the cell second from the left and fourth from below the lower triangle.
+  // The lower triangle of the second cell from the left in the fourth row from below.
   EXPECT_NEAR(rows[0].saturation, 0.01 * 2 * (3 * 6 + 1), 1e-12);
 }
 
@@ -275,7 +277,7 @@ TEST(NodePressures, OnABoundaryWithAHeadAreThoseOfItsWater) {
   if (face_conditions(c, grid)[face].kind != FaceKind::pressure) GTEST_SKIP() << "no heads yet";
   model::ModelRun run(c);
   const FlowState<2> flow = run.run({1.0}).flows.front();
-  // At the corners too, where the boundary ends.
+  // Includes the corners, where the boundary ends.
   for (int i = 0; i < c.mesh.node_count(); ++i) {
     const Vector<2>& x = c.mesh.nodes[i];
     EXPECT_NEAR(flow.node_pressure[i] / 9810.0 + x[1], 4.0 - x[0], 1e-9) << x.transpose();
@@ -309,7 +311,7 @@ TEST_F(Probes, OutsideTheMeshAreRefused) {
   EXPECT_EQ(refusal(scene_), "");
 }
 
-/// Water in from above, out below and to the right, with fines from the middle of the run on.
+/// Water enters above and leaves below and to the right, with fines from the middle of the run on.
 template <class Run>
 void expect_boundaries_to_make_the_ledger(Run& run, double flux_in) {
   const double end = run.input().document.scene.time.end;
@@ -399,7 +401,7 @@ TEST(BoundaryAccounts, WallsThatLetLiquidThroughHaveRowsOfTheirOwn) {
   EXPECT_EQ(rows[3].fines_out, 0.25);
 }
 
-/// Everything the new tables would say, as text: every bit.
+/// All new tables as text, with every bit.
 template <class Model>
 std::string lines_of(const Model& model) {
   const FlowState<2> flow = model.flow_state();
@@ -461,7 +463,7 @@ TEST(Snapshots, HaveHeadsUnderGravityAndSaturationsWhereTheFlowHasThem) {
   EXPECT_EQ(find(snapshot.cell, "saturation")->values, flow.saturation);
 }
 
-/// The highest place is free water, which has no soil that could drain.
+/// The highest place is free water, which cannot drain: only soil raises the warning.
 TEST(Suction, IsSaidOfSoilAlone) {
   LayerSettings layers;
   layers.inflow = layers.above = layers.below = layers.outflow = 1;
@@ -481,8 +483,8 @@ TEST(Suction, IsSaidOfSoilAlone) {
   EXPECT_EQ(found, 1);
 }
 
-/// A linear fit of the concentrations of points goes beyond them, even to where grains lock; soil
-/// erodes as the mean of its element lets it.
+/// A linear fit of the concentrations of points exceeds their range and may even reach the value at
+/// which grains lock; soil erodes with the mean concentration of its element.
 TEST(DoublePointSnapshot, ErodesAsTheStepDoes) {
   Scene scene = model::double_point_scene(0.012, 1e-3);
   scene.time.scheme = FlowScheme::implicit_mixed;

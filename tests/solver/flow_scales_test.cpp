@@ -1,4 +1,4 @@
-/// Scales of the implicit flow and what is read from its state, against flows known by hand.
+/// Scales of the implicit flow and values read from its state, against known flows.
 
 #include "flow/flow_scales.hpp"
 
@@ -70,7 +70,7 @@ TEST(FlowScales, FluxesWithoutASteadyFlowLeaveThemToTheFlow) {
   EXPECT_EQ(scales.pressure, 100.0);
 }
 
-/// The flow in the fullest soil, which sets the scales, may not exist although the run does.
+/// The saturated flow that sets the scales may not exist although the run does.
 TEST(FlowScales, SoilThatDrainsDoesSoStillWhereNoSteadyFlowExists) {
   FlowModel m(model::column_mesh(2, 4));
   Scene scene = model::paper_scene();
@@ -88,11 +88,11 @@ TEST(FlowScales, SoilThatDrainsDoesSoStillWhereNoSteadyFlowExists) {
 TEST(FlowScales, FastestChangeIsRelaxationOrDiffusionThroughAnElement) {
   const FlowModel coarse(model::column_mesh(4, 4));
   const FlowModel fine(model::column_mesh(8, 8));
-  // The liquid stops within k / (n g).
+  // Drag stops the liquid within k / (n g).
   EXPECT_NEAR(fastest_rate(coarse.grid, coarse.forcing.coefficients, infinite, true),
               0.3 * conductivity_gravity / 0.02, 1e-9);
   EXPECT_EQ(fastest_rate(coarse.grid, coarse.forcing.coefficients, infinite, false), 0.0);
-  // Pressure spreads with k K / (n rho g) per square of a height, 0.25 / sqrt(2).
+  // Pressure diffuses with k K / (n rho g) over a height of 0.25 / sqrt(2).
   const double rate = fastest_rate(coarse.grid, coarse.forcing.coefficients, 2e7, false);
   const double diffusivity = 0.02 * 2e7 / (0.3 * 1000.0 * conductivity_gravity);
   EXPECT_NEAR(rate / (diffusivity * 2.0 / (0.25 * 0.25)), 1.0, 1e-12);

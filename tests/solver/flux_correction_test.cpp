@@ -41,7 +41,7 @@ TEST(FluxCorrection, BalancesAnyFluxesAndLeavesPrescribedOnesAlone) {
 }
 
 TEST(FluxCorrection, PassesWallsThatLetLiquidThrough) {
-  // Two rooms, of which the upper one has no outlet but the faces of the wall.
+  // Two rooms; the upper one has no outlet except the faces of the wall.
   Mesh<2> mesh = model::column_mesh(3, 4);
   std::vector<std::array<int, 2>> edges;
   for (int i = 0; i < 3; ++i) edges.push_back({8 + i, 9 + i});
@@ -50,7 +50,7 @@ TEST(FluxCorrection, PassesWallsThatLetLiquidThrough) {
   m.set("bottom", FaceKind::pressure, 0.0);
   EXPECT_EQ(FluxCorrection<2>(m.grid, m.forcing.conditions).sealed_piece_count(), 1);
 
-  // The middle one of its faces conducts best.
+  // The middle face of the wall has the largest conductance.
   const auto& sides = m.mesh.boundaries.back().faces;
   std::vector<LeakyFace> walls;
   std::vector<std::array<int, 2>> pairs;
@@ -82,7 +82,7 @@ TEST(FluxCorrection, PassesWallsThatLetLiquidThrough) {
 }
 
 TEST(FluxCorrection, SendsWhatIsMissingAlongTheBestConductors) {
-  // A strip of good soil at the bottom leads from the sealed right to the open left.
+  // A strip of permeable soil at the bottom connects the sealed right side with the open left side.
   FlowModel m(model::column_mesh(8, 4));
   m.set("left", FaceKind::pressure, 0.0);
   std::vector<double> conductance(m.mesh.element_count());
@@ -110,7 +110,7 @@ TEST(FluxCorrection, SendsWhatIsMissingAlongTheBestConductors) {
 }
 
 TEST(FluxCorrection, TreeFollowsConductancesOnlyWhenTheirRatiosChangeALot) {
-  // From the right, where all conducts well, to the open left through the upper or the lower half.
+  // Flow from the permeable right side to the open left side, through the upper or the lower half.
   FlowModel m(model::column_mesh(8, 4));
   m.set("left", FaceKind::pressure, 0.0);
   FluxCorrection<2> correction(m.grid, m.forcing.conditions);

@@ -30,7 +30,7 @@ TEST(Grid, OutwardNormalsOfAnElementAddUpToZero) {
       const int f = grid.element_face[e][k];
       const double sign = grid.element_face_sign[e][k];
       sum += sign * grid.face_normal[f];
-      // Out of the element: away from its centroid.
+      // The normal points out of the element, away from its centroid.
       EXPECT_GT(sign * grid.face_normal[f].dot(grid.face_centre(f) - element_centroid(mesh, e)),
                 0.0);
       EXPECT_EQ(sign > 0.0 ? grid.face_left[f] : grid.face_right[f], e);
@@ -58,19 +58,20 @@ TEST(FieldNodes, BasisIsOneAtItsNodeAndAddsUpToOne) {
   EXPECT_NEAR(Nodes::basis(Nodes::far_vertex), 0.0, 1e-15);
   const ElementValues<2> values{2.0, -1.0, 5.0};
   const ElementValues<2> vertices = Nodes::at_vertices(values);
-  // The linear field through its vertex values, at field node 0.
+  // The value of the linear field with these vertex values at field node 0.
   EXPECT_NEAR(2.0 / 3.0 * vertices[0] + (vertices[1] + vertices[2]) / 6.0, values[0], 1e-14);
   EXPECT_NEAR(Nodes::value(values, {0.2, 0.3, 0.5}),
               0.2 * vertices[0] + 0.3 * vertices[1] + 0.5 * vertices[2], 1e-14);
 }
 
 TEST(FluxHistory, GoesOnAsItDid) {
-  // Linear in time: 2 on the mean of 4 s, 3 at their end, so 3.5 on the mean of the next 4 s.
+  // Linear in time: the mean over 4 s is 2, the value at their end 3, so the mean over the next 2 s
+  // is 3.5.
   const FluxHistory flux{{2.0, -1.0}, {3.0, -1.0}, 4.0};
   EXPECT_EQ(flux.extrapolated(4.0), (std::vector<double>{4.0, -1.0}));
   EXPECT_EQ(flux.extrapolated(2.0), (std::vector<double>{3.5, -1.0}));
   EXPECT_EQ(flux.extrapolated(0.0), flux.end);
-  // Not for ever.
+  // Extrapolation is limited in time.
   EXPECT_EQ(flux.extrapolated(1e9), flux.extrapolated(16.0));
 }
 

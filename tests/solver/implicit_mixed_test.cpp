@@ -1,4 +1,4 @@
-/// What the implicit mixed flow must keep on any mesh and with any contrast: volumes, bounds,
+/// Properties of the implicit mixed flow on any mesh and with any contrast: volumes, bounds,
 /// energy, rest.
 
 #include "mixed/implicit_mixed.hpp"
@@ -97,7 +97,7 @@ TEST_P(ImplicitMixedContrast, VolumesBalanceInEveryElement) {
           }
           state = step.end;
         }
-        // The last step again, of which storage is known without differences: nothing stored.
+        // Repeats the last step without storage, so that the exact net outflow is known.
         ImplicitMixed<2> stiff(m.grid, {infinite, inertia, stepping}, {0.0, -9.81});
         const auto step = stiff.step(state, 0.1, m.constant(stiff));
         worst_step = std::max(worst_step, imbalance(m.grid, step.face_flux, m.forcing.source));
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Contrasts, ImplicitMixedContrast,
                                            Contrast{"scattered", scattered}),
                          [](const auto& param_info) { return param_info.param.name; });
 
-/// How far face pressures leave [0, 6000] Pa, over steps from 1e-6 s to 1e3 s, as a share of it.
+/// Overshoot of face pressures over [0, 6000] Pa, as a share of it, in steps from 1e-6 s to 1e3 s.
 double overshoot(FlowModel& m, const ImplicitSettings& settings) {
   m.set("top", FaceKind::pressure, 6000.0);
   m.set("bottom", FaceKind::pressure, 0.0);
@@ -151,7 +151,7 @@ TEST(ImplicitMixed, MonotoneStepsKeepPressuresWithinThoseAtTheBoundary) {
     for (const double modulus : {2e7, 2e9, infinite}) {
       const std::string of =
           std::string(inertia ? "inertia" : "no inertia") + ", K = " + std::to_string(modulus);
-      // With inertia pressure is a wave that goes beyond them by itself.
+      // With inertia, pressure is a wave that exceeds these bounds.
       for (const auto stepping : {TimeStepping::monotone, TimeStepping::second_order}) {
         const bool monotone = stepping == TimeStepping::monotone;
         const double in_layer = overshoot(layer, {modulus, inertia, stepping});
@@ -167,8 +167,8 @@ TEST(ImplicitMixed, MonotoneStepsKeepPressuresWithinThoseAtTheBoundary) {
   }
 }
 
-/// Kinetic energy and that of the compressed water, J. Kinetic: momentum per flux is rho v, so the
-/// rate of |e| rho n |v|^2 / 2 is what pressure and drag do.
+/// Kinetic energy and energy of the compressed water, J. The momentum per flux is rho v, so
+/// pressure and drag change |e| rho n |v|^2 / 2.
 double energy(const FlowModel& m, double modulus, bool inertia, const MixedState<2>& state) {
   double sum = 0.0;
   const FlowCoefficients<2>& c = m.forcing.coefficients;
@@ -203,7 +203,7 @@ TEST(ImplicitMixed, EnergyDoesNotGrow) {
     for (const auto stepping : {TimeStepping::monotone, TimeStepping::second_order}) {
       for (const bool inertia : {false, true}) {
         for (const double modulus : {2e7, infinite}) {
-          if (!inertia && modulus == infinite) continue;  // no state
+          if (!inertia && modulus == infinite) continue;  // there is no such state
           ImplicitMixed<2> flow(m.grid, {modulus, inertia, stepping}, Vector<2>::Zero());
           for (const double dt : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1.0}) {
             MixedState<2> state = m.rest();
@@ -232,8 +232,8 @@ TEST(ImplicitMixed, EnergyDoesNotGrow) {
 }
 
 TEST(ImplicitMixed, QuadraticDragIsFulfilledInEveryElementHoweverItVaries) {
-  // From Darcy's drag to a million times it, over four decades from element to element, with a
-  // layer without quadratic drag.
+  // Drag is up to a million times Darcy's and varies over four decades between elements; one layer
+  // has no quadratic drag.
   double worst = 0.0;
   double worst_imbalance = 0.0;
   long max_solves = 0;
@@ -310,7 +310,7 @@ TEST(ImplicitMixed, WaterAtRestStaysAtRest) {
         }
         if (open) compare(flow.steady(m.forcing));
       }
-      // Against the flux that gravity would drive by itself in the most conductive soil, 1 m/s.
+      // Compared with the flux that gravity would drive in the most conductive soil, 1 m/s.
       EXPECT_LE(worst_flux, 1e-12);
       EXPECT_LE(worst_pressure, 1e-12 * 9810.0);
       std::cout << (open ? "open" : "sealed") << ", K = " << modulus << ": flux at rest "
@@ -319,7 +319,7 @@ TEST(ImplicitMixed, WaterAtRestStaysAtRest) {
   }
 }
 
-/// Flow in the fullest soil is that of a flow that never had a retention, whatever drained before.
+/// The saturated flow is that of a flow without retention, even after soil has drained.
 TEST(ImplicitMixed, SaturatedFlowForgetsHowSoilDrains) {
   FlowModel m(model::column_mesh(4, 8));
   m.set("top", FaceKind::pressure, -2e3);
@@ -342,8 +342,8 @@ TEST(ImplicitMixed, SaturatedFlowForgetsHowSoilDrains) {
   EXPECT_TRUE(drains.has_retention());
 }
 
-/// A saturated element of soil and free space, some of whose water soil has taken with it: its
-/// pressure falls to where the air fits, however short the step is.
+/// A saturated element of soil and free space loses some water to the moving soil: its pressure
+/// falls until air fills the space, for any length of the step.
 TEST(ImplicitMixed, AirComesIntoMixedElementsInStepsOfAnyLength) {
   for (const double dt : {1e2, 1.0, 1e-2, 1e-4, 1e-6, 1e-8}) {
     FlowModel m(model::column_mesh(4, 8));
@@ -376,8 +376,8 @@ TEST(ImplicitMixed, AirComesIntoMixedElementsInStepsOfAnyLength) {
 }
 
 TEST(ImplicitMixed, SealedBoxStoresWhatIsPutIn) {
-  // Nothing prescribes a pressure: the mean pressure follows from the volume alone, however stiff
-  // the water and whatever the flow inside.
+  // Nothing prescribes a pressure: the mean pressure follows from the volume alone, for any
+  // stiffness of the water and any flow inside.
   for (const double modulus : {2e7, 2e9, 2e14}) {
     FlowModel m(model::column_mesh(8, 8, 1.0, 1.0, model::jittered(0.03, 5)));
     m.set_conductivity(checkerboard);

@@ -11,8 +11,8 @@
 namespace suffuse {
 namespace lagged_preconditioner_test {
 
-/// Five-point matrix of flow on an n x n grid, conductances 1 + amount * (something between -1 and
-/// 1 that depends on place), grounded on one side.
+/// Five-point matrix of flow on an n x n grid, grounded on one side, with conductances 1 + amount *
+/// (a number between -1 and 1 that depends on the place).
 Eigen::SparseMatrix<double> flow_matrix(int n, double amount) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto connect = [&](int a, int b, double conductance) {
@@ -109,7 +109,8 @@ TEST_F(LaggedPreconditionerTest, AfterATiringSolutionTheNextMatrixIsFactored) {
 
 TEST_F(LaggedPreconditionerTest, HopelessIterationsEndEarly) {
   solve(flow_matrix(n, 0.0));
-  // Grounded a thousand times better everywhere, in places: each is another eigenvalue.
+  // Stronger grounding, up to a thousand times, varies from place to place: it adds many
+  // eigenvalues.
   Eigen::SparseMatrix<double> changed = flow_matrix(n, 0.0);
   for (int i = 0; i < static_cast<int>(size); ++i)
     changed.coeffRef(i, i) += std::pow(10.0, 3.0 * std::sin(7.0 * i));
@@ -137,7 +138,8 @@ TEST_F(LaggedPreconditionerTest, MatrixThatComesAgainAndAgainIsFactored) {
             LagLimits().repeated_iterations + LagLimits().tiring_iterations);
 }
 
-/// Eigen's factor with Eigen's substitution: the twin of CholeskyFactor, behind the same interface.
+/// Eigen's factor with Eigen's substitution: the equivalent of CholeskyFactor, with the same
+/// interface.
 class EigenFactor final : public Factor {
  public:
   void factorise(const Eigen::SparseMatrix<double>& matrix) override { factor_.compute(matrix); }
@@ -208,7 +210,7 @@ TEST(LaggedPreconditioner, TakesAnyFactor) {
 }
 
 TEST(LaggedPreconditioner, TwoThreadsGiveTheSameBits) {
-  constexpr int side = 110;  // large enough for loops to be shared
+  constexpr int side = 110;  // large enough for shared loops
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(side * side);
   const Eigen::VectorXd tolerance = Eigen::VectorXd::Constant(side * side, 1e-12);
   const auto solution = [&](int threads) {

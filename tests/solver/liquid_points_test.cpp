@@ -11,7 +11,7 @@
 namespace suffuse {
 namespace liquid_points_test {
 
-/// Points at random in the elements, every column of a point telling its id.
+/// Random points in the elements; all columns of a point identify its id.
 LiquidPoints<2> tagged_points(int count, int elements, bool with_flow) {
   LiquidPoints<2> points;
   std::mt19937_64 random(4);
@@ -29,7 +29,7 @@ LiquidPoints<2> tagged_points(int count, int elements, bool with_flow) {
   return points;
 }
 
-/// Every column still tells the id.
+/// Checks that every column still identifies the id.
 void expect_whole(const LiquidPoints<2>& points, bool with_flow) {
   for (int p = 0; p < points.size(); ++p) {
     const auto tag = static_cast<double>(points.id[p]);
@@ -89,7 +89,7 @@ TEST(LiquidPoints, VolumeIsThatOfWaterAndGrains) {
   const LiquidDensities densities{1000.0, 2700.0};
   EXPECT_DOUBLE_EQ(liquid_volume(2.0, 0.0, densities, 1.0), 2e-3);
   EXPECT_DOUBLE_EQ(liquid_volume(2.0, 5.4, densities, 1.0), 4e-3);
-  // Grains do not compress.
+  // Grains are incompressible.
   EXPECT_DOUBLE_EQ(liquid_volume(2.0, 5.4, densities, 2.0), 3e-3);
 }
 
@@ -147,7 +147,7 @@ TEST(ConcentrationFit, IsExactForALinearFunctionInEachRegion) {
 TEST(ConcentrationFit, GoesByTheNeighboursWhereAnElementIsEmpty) {
   FitCase c;
   std::vector<unsigned char> keep(c.points.size(), 1);
-  // Not one point in three elements side by side.
+  // Three neighbouring elements lose all their points.
   for (int p = 0; p < c.points.size(); ++p) {
     if (c.points.element[p] >= 2 && c.points.element[p] < 5) keep[p] = 0;
   }

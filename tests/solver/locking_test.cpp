@@ -33,7 +33,7 @@ Mesh<2> crossed_mesh(int cells, double jitter) {
 }
 
 struct TurningFlow {
-  /// In through the left quarter of the top, out through the right quarter.
+  /// Liquid enters through the left quarter of the top and leaves through the right quarter.
   explicit TurningFlow(Mesh<2> mesh) : c(make(std::move(mesh))), grid(c.mesh) {
     coefficients = model::flow_coefficients(grid, 0.02);
     NodalOperator<2> op(grid, face_conditions(c, grid), Vector<2>::Zero());
@@ -65,9 +65,8 @@ struct TurningFlow {
   double discharge = 0.0;
 };
 
-/// m2/s. Five-point finite differences on 64, 128, 256 and 512 cells across
-/// give 5.9994e-3, 6.0472e-3, 6.0712e-3 and 6.0833e-3: the differences halve, and this is their
-/// limit.
+/// m2/s. Five-point finite differences on 64, 128, 256 and 512 cells across give 5.9994e-3,
+/// 6.0472e-3, 6.0712e-3 and 6.0833e-3. Their differences halve; this is the limit.
 constexpr double discharge_reference = 6.0953e-3;
 
 TEST(Locking, IsSeenOnRegularAndFreeMeshes) {
@@ -80,7 +79,7 @@ TEST(Locking, IsAbsentOnCrossedMeshes) {
   std::vector<double> deviations;
   for (const int cells : {4, 8, 16, 32}) {
     const TurningFlow flow(crossed_mesh(cells, 0.2));
-    // The opening is a quarter of the width: one element of a mesh with four.
+    // The opening is a quarter of the width, which is only one element with four cells.
     if (cells >= 16) {
       EXPECT_LT(flow.deviation, locked_deviation);
     }
@@ -90,7 +89,7 @@ TEST(Locking, IsAbsentOnCrossedMeshes) {
     }
   }
   EXPECT_LT(deviations[0], 0.5);
-  // The pressure jumps along the top: order one half, as the solution's own smoothness allows.
+  // The pressure jumps along the top: the order is one half, as the solution is not smooth.
   EXPECT_GT(std::log2(deviations[2] / deviations[3]), 0.4);
 }
 

@@ -1,4 +1,4 @@
-/// A run whose soil fails: what it says, and what it leaves behind.
+/// A run whose soil fails: its message, and the results that it leaves.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 namespace suffuse {
 namespace lost_equilibrium_test {
 
-/// Water rises through sand until it floats: from 1 - 1/1.7 = 0.41 of pores on, or a little before,
-/// as fines make it heavier.
+/// Water rises through sand until it floats: at a porosity of 1 - 1/1.7 = 0.41, or slightly
+/// earlier, because fines make the liquid heavier.
 const test::Mode heave{"heave",
                        R"(name = "heave"
 formulation = "single-point"
@@ -43,7 +43,7 @@ TEST(LostEquilibrium, StopsTheRunWithItsLastStateWritten) {
   const std::string case_path = place.make_case(heave);
   const std::string folder = place.path("results");
   for (const bool again : {false, true}) {
-    // A run that goes on fails once more, and leaves the same behind.
+    // A resumed run fails again and leaves the same results.
     const test::Outcome outcome =
         place.solve(case_path, folder,
                     again ? std::vector<std::string>{"--resume"} : std::vector<std::string>{});

@@ -1,5 +1,5 @@
-/// Relaxation of the mass error alone: how fast a mismatch falls, and that what leaves the elements
-/// is what crosses the boundary.
+/// Relaxation of the mass error alone: how fast a mismatch falls, and that the volume released from
+/// the elements crosses the boundary.
 
 #include "flow/mass_relaxation.hpp"
 
@@ -18,11 +18,12 @@ namespace mass_relaxation_test {
 using model::FlowModel;
 using model::Uniform;
 
-/// Of a mismatch per step, m3 for one of water: changes below 16 units in the last place are none.
+/// Smallest change of a mismatch per step that counts, m3 per m3 of water: 16 units in the last
+/// place.
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// An element that gains `growth` m3/s of water too much and lets out what relaxation asks for.
+/// An element that gains `growth` m3/s of water too much and releases what relaxation requests.
 struct Element {
   MassRelaxation relaxation;
   double mismatch;
@@ -62,7 +63,7 @@ TEST(MassRelaxation, IsNoFasterThanTheFlowPassesThroughAnElement) {
 }
 
 TEST(MassRelaxation, SteadyGrowthIsLetOutAsItComes) {
-  // A proportional release alone would keep 4 dt growth = 2e-5 for ever.
+  // A purely proportional release would keep a mismatch of 4 dt growth = 2e-5.
   Element element(0.0);
   element.growth = 1e-5;
   std::vector<double> mismatch;
@@ -77,8 +78,8 @@ TEST(MassRelaxation, SteadyGrowthIsLetOutAsItComes) {
 }
 
 TEST(MassRelaxation, WhatLeavesTheElementsCrossesTheBoundary) {
-  // Water that does not compress, in elements that hold too much or too little of it: the net
-  // outflow of each is what it lets out.
+  // Incompressible water in elements that hold too much or too little of it: the net outflow of
+  // each is what it releases.
   FlowModel m(model::column_mesh(5, 7, 1.0, 1.0, model::jittered(0.03, 4)));
   m.set("bottom", FaceKind::pressure, 0.0);
   ImplicitMixed<2> flow(m.grid, {}, Vector<2>::Zero());
@@ -127,7 +128,7 @@ TEST(MassRelaxation, ShortStepsChangeTheSourceByLittle) {
 }
 
 TEST(MassRelaxation, BehindAKinkTheRateOfTheFirstStepCounts) {
-  // What grew by 1e-5 m3/s in steps of 1e6 s no longer does.
+  // A mismatch that grew by 1e-5 m3/s in steps of 1e6 s stops growing.
   const auto rate_after = [](bool passes_kink) {
     Element element(0.0);
     element.growth = 1e-5;

@@ -57,7 +57,7 @@ inline BoundaryCondition seepage_on(const std::string& name) {
   return b;
 }
 
-/// `alpha` in 1/m.
+/// \param alpha 1/m
 inline RetentionModel gardner(double alpha, double residual_saturation = 0.1) {
   return {retention_law("gardner"), residual_saturation, {.alpha = alpha}};
 }

@@ -1,4 +1,4 @@
-/// Water and air that soil takes along as it moves.
+/// Water and air that moving soil carries along.
 
 #include "coupling/moved_air.hpp"
 
@@ -82,7 +82,7 @@ TEST_F(MovedAirTest, SoilComesFromTheElementBehindIt) {
   EXPECT_NEAR(against.without_air(f), (1.0 - air) * back[f], 1e-16);
 }
 
-/// Solid that crosses beyond what the soil would carry takes the place of water where it goes.
+/// Solid that moves without its soil displaces water at its new place.
 TEST_F(MovedAirTest, NoElementGivesWaterThatItDoesNotHave) {
   int f = 0;
   while (grid_.is_outer(f)) ++f;
@@ -116,7 +116,7 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfWhatLeaves) {
   }
 }
 
-/// A side that holds no air gives none, and one that holds no water takes none.
+/// A side without air gives none, and a side without water takes none.
 TEST_F(MovedAirTest, AirOfASideStaysWithinItsRoom) {
   std::vector<double> volume(grid_.face_count(), 0.0);
   SolidMotion still;
@@ -144,8 +144,8 @@ TEST_F(MovedAirTest, AirOfASideStaysWithinItsRoom) {
   }
 }
 
-/// Soil that moves has less than its residual saturation where it is dry enough, and its capacity
-/// is the slope of its saturation.
+/// Moving soil may be drier than its residual saturation; its capacity is the slope of its
+/// saturation.
 TEST(DryingSoil, LosesWhatItRetains) {
   RetentionModel soil = model::van_genuchten(3.0, 2.5, 0.1);
   soil.dries_at = 1000.0;
@@ -160,7 +160,8 @@ TEST(DryingSoil, LosesWhatItRetains) {
   EXPECT_NEAR(soil.effective(0.55), 0.5, 1e-15);
 }
 
-/// An element at the surface of the soil retains as its soil and as free space, by their shares.
+/// An element at the surface of the soil retains water as a mixture of its soil and free space, by
+/// their shares.
 TEST(FlowSoils, MixWhereSoilFillsAPart) {
   FlowSoils<2> soils;
   soils.head_per_pressure = 1e-4;

@@ -1,5 +1,5 @@
-/// The skeleton that moves, driven with given pore pressures: equilibrium, fluxes of soil and
-/// solid, points that change their element, erosion, the stress at the start.
+/// The moving skeleton under given pore pressures: equilibrium, fluxes of soil and solid, points
+/// that change their element, erosion, the stress at the start.
 
 #include "motion/moving_skeleton.hpp"
 
@@ -27,7 +27,7 @@ BoundaryCondition held(const std::string& name) {
   return b;
 }
 
-/// A load on top that comes from 0 to 1 s and stays.
+/// A load on top that grows from 0 s to 1 s and then stays.
 BoundaryCondition loaded(const std::string& name, double traction) {
   BoundaryCondition b;
   b.on = name;
@@ -50,7 +50,7 @@ struct Body {
         soils(input),
         solid(grid, soils, soils.exchange_span(false), threads) {}
 
-  /// What drives a step: `pressure` is of the pores, per element, Pa.
+  /// Forcing of a step; `pressure`: pore pressure per element, Pa.
   struct Forcing : MotionForcing {
     std::vector<double> pressure;
   };
@@ -60,14 +60,14 @@ struct Body {
     return {{end, duration, std::vector<double>(count, liquid_mass)},
             std::vector<double>(count, pressure)};
   }
-  /// Tries a step, from what was tried before it.
+  /// Solves a step, starting from the last solution.
   const SolidMotion& move(const Forcing& forcing) {
     step = solid.start_step(forcing, std::move(step));
     return solid.solve(*step, forcing.pressure);
   }
-  /// Takes the step that was tried last.
+  /// Commits the step that was solved last.
   SolidMotion commit() { return solid.commit(*std::exchange(step, {})).first; }
-  /// Steps of equal length; the load comes in the first second.
+  /// Steps of equal length; the load grows in the first second.
   void run(double from, double to, int steps) {
     const double dt = (to - from) / steps;
     for (int k = 1; k <= steps; ++k) {
@@ -102,7 +102,7 @@ double total(const std::vector<double>& values) {
   return std::reduce(values.begin(), values.end(), 0.0);
 }
 
-/// Leaves an element, of volumes through faces.
+/// Net outflow of an element, from volumes through faces.
 template <int Dim>
 double outflow(const Grid<Dim>& grid, const std::vector<double>& face_volume, int e) {
   double sum = 0.0;
@@ -112,7 +112,7 @@ double outflow(const Grid<Dim>& grid, const std::vector<double>& face_volume, in
   return sum;
 }
 
-/// s with E ln s = -q s.
+/// Stretch s with ln s = -q s; q: load over modulus.
 double stretch_under(double load_over_modulus) {
   double s = 1.0;
   for (int k = 0; k < 50; ++k) {
@@ -150,7 +150,7 @@ TEST(MovingSkeleton, ATryChangesNothingAndTheNextStartsFromIt) {
   EXPECT_EQ(b.move(b.forcing(1.0, 1.0, 2e4)).iterations, 0);
   EXPECT_LT(b.move(b.forcing(1.0, 1.0, 2.0001e4)).iterations, first);
   EXPECT_EQ(b.bytes(), before);
-  // The way to an answer changes it by the tolerance alone.
+  // A solution depends on the path of the iteration only within the tolerance.
   const std::vector<double> face_volume = b.move(b.forcing(1.0, 1.0)).face_volume;
   Body same(model::column_mesh(2, 8), oedometer_scene(model::elastic_soil(1e6, 0.3), 1e5));
   const std::vector<double> direct = same.move(b.forcing(1.0, 1.0)).face_volume;
@@ -221,8 +221,8 @@ TEST(FaceBubbles, CarryAPressureJumpOverTheirOwnStiffness) {
     if (m.grid.is_outer(f)) continue;
     const double length = m.grid.face_normal[f].norm();
     const Vector<2> n = m.grid.face_normal[f] / length;
-    // The energy of the unit bubble 4 N_1 N_2 n, whose gradients are linear: by the midpoints of
-    // the sides.
+    // The energy of the unit bubble 4 N_1 N_2 n, whose gradients are linear, by the midpoint rule
+    // on the sides.
     double stiffness = 0.0;
     for (const int side : {m.grid.face_left[f], m.grid.face_right[f]}) {
       const int opposite = m.grid.side_of(side, f);
@@ -258,22 +258,23 @@ TEST(SolidGains, StayInTheirPieceAndLeaveNoElementLessThanNothing) {
   EXPECT_NEAR(some[1], -0.1 + 0.25 * 0.1, 1e-15);
   EXPECT_NEAR(total(some), 0.0, 1e-15);
   EXPECT_EQ(some[3], 0.0);
-  // The first difference is 0.2, the others -0.1: the second element may keep half of it.
+  // The first difference is 0.2, the others -0.1: the second element may keep half of its
+  // difference.
   const std::vector<double> little = gains(0.25, {0.5, 0.05, 0.45, 0.5});
   EXPECT_NEAR(solid[1] + little[1], 0.0, 1e-15);
   EXPECT_NEAR(solid[0] + little[0], 0.6, 1e-15);
   EXPECT_NEAR(total(little), 0.0, 1e-15);
 }
 
-/// A column whose porosity changes with the height sinks through its elements.
+/// A column whose porosity depends on the height sinks through its elements.
 Scene sinking_scene() {
   Scene scene = oedometer_scene(model::elastic_soil(1e6, 0.2), 3e5);
   scene.soils[0].porosity_gradient = {0.02, 0.05, 0.0};
   return scene;
 }
 
-/// Pieces of soil that have met share what their smooth volumes differ by: gains still add up to
-/// nothing in each piece.
+/// Pieces of soil that have met share the difference of their smooth volumes: gains in each piece
+/// still add up to zero.
 TEST(SolidFlux, GainsOfAPieceAddUpToNothing) {
   const std::vector<double> before{0.5, 0.3, 0.2, 0.4, 0.6, 0.0};
   const std::vector<double> after{0.4, 0.45, 0.25, 0.5, 0.55, 0.0};
@@ -320,11 +321,11 @@ TEST(SolidFlux, ClosesToRoundOffWhileASoftColumnSinksThroughElements) {
 
 TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
   Scene scene = sinking_scene();
-  scene.soils[0].conductivity = 1e6;  // crossing forces are gone within a step
+  scene.soils[0].conductivity = 1e6;  // crossing forces vanish within a step
   Body b(model::column_mesh(3, 12, 0.25, 1.0), scene);
   const SolidState start = b.solid.state();
   const std::vector<double> porosity = b.solid.initial_porosity();
-  // The same motion without sorting.
+  // Compares with the same motion without sorting.
   SolidPoints<2> points = b.solid.points();
   const Supports<2> supports = scene_supports(b.grid, b.soils);
   const PointSkeleton law{skeleton_law("elastic"), model::elastic_soil(1e6, 0.2).at(1.0)};
@@ -361,8 +362,8 @@ TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
   EXPECT_GT(moved, points.size() / 2);
 }
 
-/// A load that stays moves the soil as far as water has time to leave, however many points have
-/// come into another element.
+/// Under a constant load, soil moves only as water leaves, even if many points have changed their
+/// element.
 TEST(MovingPoints, ThatCrossElementsDoNotMoveTheSoilAtOnce) {
   Body b(model::column_mesh(3, 12, 0.25, 1.0), sinking_scene());
   const PointsByElement start(b.input.mesh.element_count(), b.solid.points().element);
@@ -488,7 +489,7 @@ TEST(MovingSkeleton, SettlesAsItsFinesErode) {
   const int rows = 64;
   Body b(model::column_mesh(1, rows, 1.0 / rows, 1.0), scene);
   b.run(0.0, 1.0, 40);
-  // As long as the rate is per volume of today, fines last longer than 0.1/1e-3 s.
+  // The rate is per present volume, so fines last longer than 0.1/1e-3 s.
   EXPECT_TRUE(b.solid.exchanges_within(110.0, 111.0));
   double now = 0.0;
   std::vector<double> exchange;
@@ -596,7 +597,7 @@ TEST(StartMotion, CarriesTheBuoyantWeightWhereThePointsAre) {
     EXPECT_EQ(g.solid.points().volume[p], g.input.solid_points.volume[p]);
     EXPECT_EQ(g.solid.points().plastic_strain[p], 0.0);
   }
-  // It stays: the first step moves nothing.
+  // The ground is in equilibrium: the first step moves nothing.
   const SolidMotion& motion = g.move(g.at_rest);
   EXPECT_TRUE(motion.converged);
   EXPECT_LE(motion.travel, 1e-9);
@@ -631,7 +632,7 @@ TEST(StartMotion, SaysWhenThereIsNoEquilibrium) {
   soil.cohesion = 1.0;
   Scene scene = oedometer_scene(soil, 0.0);
   scene.gravity = {0.0, -9.81, 0.0};
-  scene.boundaries.erase(scene.boundaries.begin() + 1);  // the left side stands free
+  scene.boundaries.erase(scene.boundaries.begin() + 1);  // the left side is free
   Body b(model::column_mesh(4, 4), scene);
   const Body::Forcing forcing = b.forcing(0.0, 0.0);
   EXPECT_FALSE(b.solid.start_motion(forcing.pressure, forcing.liquid_mass).stands);

@@ -14,8 +14,8 @@
 namespace suffuse {
 namespace multigrid_test {
 
-/// Seven-point matrix of flow through n x n x n cells, grounded at one side. `contrast`: of the
-/// conductivities of layers, which are multiplied by up to 1e4 at random places.
+/// Seven-point matrix of flow through n x n x n cells, grounded at one side. `contrast` is that of
+/// the conductivities of layers, which are multiplied by up to 1e4 at random places.
 Eigen::SparseMatrix<double> flow_matrix(int n, double contrast) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto conductivity = [&](int i, int j, int k) {
@@ -73,7 +73,7 @@ TEST(Multigrid, FindsTheSolutionThatTheRightHandSideWasMadeOf) {
     const auto matrix = flow_matrix(20, contrast);
     const Eigen::VectorXd exact = waves(matrix.rows());
     const Solved solved = solve(matrix, matrix * exact);
-    // With a contrast of 1e12 between all, round-off of the right-hand side alone is 1e-4 of some.
+    // With a total contrast of 1e12, the round-off of the right-hand side causes errors of 1e-4.
     const double error = (solved.x - exact).lpNorm<Eigen::Infinity>();
     EXPECT_LE(error, contrast == 1.0 ? 1e-11 : 1e-3);
     const Eigen::VectorXd left = matrix * (solved.x - exact);
@@ -120,8 +120,8 @@ TEST(Multigrid, IsTakenForLargeModelsOfThreeDimensions) {
   EXPECT_TRUE(newton_factor(2, 10'000'000)->is_exact());
 }
 
-/// Like the tangent at a front of water in dry soil: what an unknown of a wet layer does to the one
-/// below goes one way, and is 300 times what the symmetric part couples.
+/// Like the tangent at a front of water in dry soil: the coupling from a wet layer to the one below
+/// is one-sided, and 300 times the symmetric coupling.
 TEST(NewtonSystem, SolvesTangentsThatAreFarFromTheSymmetricMatrix) {
   constexpr int n = 24;
   Eigen::SparseMatrix<double> nearly = flow_matrix(n, 1.0);

@@ -55,7 +55,7 @@ TEST(NodalOperator, ForceIsTheTransposeOfTheFlux) {
   VectorField<2> v(s.c.mesh.node_count());
   for (auto& value : v) value = {uniform(), uniform()};
   s.op.constrain(v);
-  // Power of the force on the flux at the nodes = pressure times net outflow.
+  // Power of the force on the flux at the nodes equals pressure times net outflow.
   double at_nodes = 0.0;
   for (int i = 0; i < s.c.mesh.node_count(); ++i) {
     at_nodes += s.op.node_porosity()[i] * v[i].dot(s.op.force(i, p));
@@ -85,7 +85,7 @@ TEST(NodalOperator, PrescribedFluxAndVelocityEnter) {
   Square by_flux({model::flux_on("top", 0.012), model::pressure_on("bottom", 0.0)});
   const VectorField<2> rest(by_flux.c.mesh.node_count(), Vector<2>::Zero());
   EXPECT_NEAR(by_flux.flux_through("top", rest), -0.012, 1e-15);
-  // Intrinsic velocity: the flux is that of the porosity at the boundary's nodes.
+  // Intrinsic velocity: the flux follows with the porosity at the boundary's nodes.
   double porosity = 0.0;
   for (int i = 0; i <= 5; ++i) {
     const int node = 6 * 6 + i;
@@ -99,7 +99,7 @@ TEST(NodalOperator, PrescribedFluxAndVelocityEnter) {
                 (by_velocity.op.node_porosity()[36 + i] + by_velocity.op.node_porosity()[37 + i]);
   }
   EXPECT_NEAR(by_velocity.flux_through("top", rest), -expected, 1e-15);
-  // The nodes themselves move at the prescribed velocity.
+  // The velocity of the nodes is the prescribed one.
   VectorField<2> v = rest;
   by_velocity.op.constrain(v);
   EXPECT_NEAR(v[38][1], -0.12, 1e-15);
@@ -109,7 +109,7 @@ TEST(NodalOperator, PrescribedFluxAndVelocityEnter) {
 
 TEST(NodalOperator, AWallAtAnyAngleLetsLiquidSlideAlongIt) {
   Square s({});
-  // Rotate the square by 30 degrees: side walls are then neither vertical nor horizontal.
+  // Rotates the square by 30 degrees: side walls are then neither vertical nor horizontal.
   Case<2> c = s.c;
   const Eigen::Rotation2Dd turn(0.5);
   for (auto& x : c.mesh.nodes) x = turn * x;
@@ -132,7 +132,7 @@ TEST(NodalOperator, ConditionsThatMeetOnAFaceAreRefused) {
 }
 
 TEST(SteadyFlow, IsDarcysLaw) {
-  // Flux-driven and pressure-driven columns of uniform soil: p linear, q = k i.
+  // Uniform soil in columns driven by a flux and by pressures: p is linear, q = k i.
   Scene scene = model::paper_scene();
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
   const Case<2> c =

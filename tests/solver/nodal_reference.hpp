@@ -1,7 +1,7 @@
 #pragma once
 
-/// The nodal scheme as its equations read, one loop per equation over all nodes, faces or elements:
-/// slow and plain, to compare the solver's own loops with.
+/// The nodal scheme as its equations are written, one loop per equation over all nodes, faces or
+/// elements: slow and plain, for comparison with the solver's own loops.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Disks of a test's own, of any size, which may be read-only.
+/// Private disks of a test, of any size, possibly read-only.
 
 #include <fcntl.h>
 #include <sched.h>
@@ -13,8 +13,8 @@
 
 namespace suffuse::test {
 
-/// Whether this process can mount a disk that no other process sees: as root, or as the root of a
-/// name space of its own, which it becomes if need be.
+/// Whether this process can mount a disk that no other process sees: as root, or as the root of its
+/// own name space, which it enters if necessary.
 inline bool can_mount() {
   static const bool can = [] {
     const uid_t user = ::geteuid();
@@ -50,7 +50,7 @@ class SmallDisk {
   bool make_read_only() const {
     return ::mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr) == 0;
   }
-  /// Takes all room that is left with a file of this name.
+  /// Fills the remaining space with a file of this name.
   void fill(const std::string& name) const {
     const int file = ::open((folder_ + "/" + name).c_str(), O_WRONLY | O_CREAT, 0666);
     const std::string page(4096, 'x');

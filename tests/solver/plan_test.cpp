@@ -35,7 +35,7 @@ TEST(Plan, SteadyFlowNeedsFluxesThatAddUp) {
   }
 }
 
-/// Water that does not compress has no other flow: refused before anything runs, at any time.
+/// With incompressible water such a flow is impossible at any time: it is refused before the run.
 TEST(Plan, StiffWaterNeedsFluxesThatAddUpAtAllTimes) {
   Scene scene = fluxes(0.01, -0.01);
   scene.initial_flow = InitialFlow::rest;
@@ -59,7 +59,8 @@ TEST(Plan, StiffWaterNeedsFluxesThatAddUpAtAllTimes) {
   EXPECT_EQ(refusal(), "none");
 }
 
-/// What a seepage face lets out, and what soil that is not full stores, need not add up.
+/// The outflow of a seepage face and the storage of unsaturated soil are free, so fluxes may
+/// differ.
 TEST(Plan, StiffWaterMayLeaveThroughASeepageFaceOrFillPores) {
   Scene scene = fluxes(0.01, 0.0);
   scene.boundaries.pop_back();
@@ -75,7 +76,7 @@ TEST(Plan, StiffWaterMayLeaveThroughASeepageFaceOrFillPores) {
   EXPECT_NO_THROW(plan());
 }
 
-/// The iteration over faces that switch knows no drag that grows with the square of the flux.
+/// The iteration over switching faces does not support drag that is quadratic in the flux.
 TEST(Plan, ErgunsDragNeedsFacesThatStayAsTheyAre) {
   Scene scene = model::paper_scene();
   scene.time.scheme = FlowScheme::implicit_mixed;
@@ -123,7 +124,7 @@ std::string slope_warnings(const Scene& scene) {
   return found;
 }
 
-/// 20 kPa over a side of 1 m under 10 m/s2: a head of 2.5 m, 2 m above mid-height.
+/// 20 kPa over a side of 1 m under 10 m/s2 is a head of 2.5 m, 2 m above mid-height.
 TEST(Plan, WarnsOfOnePressureOnABoundaryThatRises) {
   Scene scene = model::paper_scene();
   scene.gravity = {0.0, -10.0, 0.0};
@@ -134,7 +135,7 @@ TEST(Plan, WarnsOfOnePressureOnABoundaryThatRises) {
       "boundary[0].pressure: 20000 Pa all over \"left\", which rises from z = 0 m to 1 m: "
       "water that stands there has one head, not one pressure; head = 2.5 has this pressure at "
       "mid-height, z = 0.5 m\n");
-  scene.gravity = {-10.0, 0.0, 0.0};  // the left is level then, the top is not
+  scene.gravity = {-10.0, 0.0, 0.0};  // then the left side is level, and the top is not
   scene.boundaries[1].key = "boundary[1]";
   EXPECT_EQ(slope_warnings(scene),
             "boundary[1].pressure: 0 Pa all over \"top\", which rises from z = 0 m to 1 m: water "
@@ -144,7 +145,8 @@ TEST(Plan, WarnsOfOnePressureOnABoundaryThatRises) {
   EXPECT_EQ(slope_warnings(scene), "");
 }
 
-/// A point on a corner takes from the other two corners what it gives to its own, and more.
+/// A point on a corner makes the field at the other two corners lose pores, more than the point
+/// gains.
 TEST(Plan, PointsOnCornersMustLeavePoresElsewhere) {
   Scene scene = fluxes(0.01, -0.01);
   scene.points.solid_per_element = 1;
@@ -181,7 +183,7 @@ TEST(Plan, SkipsWhatTheSceneDoesNotNeed) {
   EXPECT_TRUE(plan_of({}).erosion);
 }
 
-/// The sentences from that about erosion on, as far as they are about fines and soil.
+/// The sentences of the plan from that on erosion on, if they are about fines and soil.
 std::vector<std::string> sentences_of_exchange(const Scene& scene, bool no_skip = false) {
   const Plan plan = make_plan(model::make_case(model::column_mesh(4, 4), scene),
                               {.threads = 1, .no_skip = no_skip});
@@ -204,7 +206,7 @@ TEST(Plan, SaysWhatFinesDo) {
                        "skip: conductivity that follows pores, no soil has it and changes"}));
   EXPECT_EQ(sentences_of_exchange(scene, true)[0], "run: erosion (--no-skip)");
 
-  // Soils that are told to do something, which does not come about.
+  // Keys of soils that have no effect here.
   scene.soils[0].deposition.coefficient = 2.0;
   scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
   scene.liquid.viscosity_model.law = viscosity_laws()[1];
@@ -233,7 +235,7 @@ TEST(Plan, SaysWhichDriveErodesWhichSoil) {
     scene.soils.back().region = name;
   }
   erode(scene.soils[0], "constant", "power", 1e-6);
-  erode(scene.soils[1], "flux", "time", 2.0);  // the word is the drive
+  erode(scene.soils[1], "flux", "time", 2.0);  // this law has its own drive
   erode(scene.soils[2], "first-order", "power", 1e-6);
   erode(scene.soils[3], "first-order", "time", 1e-3);
   erode(scene.soils[4], "first-order", "gradient", 0.0);
@@ -250,9 +252,9 @@ TEST(Plan, SaysWhichDriveErodesWhichSoil) {
 
 TEST(Plan, WarnsOfMassScalingThatDistortsTheFlow) {
   Scene scene = fluxes(0.01, -0.01);
-  scene.time.mass_scaling = 1e4;  // 68 s to settle in a run of 120 s
+  scene.time.mass_scaling = 1e4;  // settles in 68 s in a run of 120 s
   EXPECT_EQ(make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).warnings.size(), 1U);
-  scene.time.mass_scaling = 100.0;  // 0.68 s
+  scene.time.mass_scaling = 100.0;  // settles in 0.68 s
   EXPECT_TRUE(make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).warnings.empty());
 }
 
@@ -307,7 +309,7 @@ TEST(Plan, KeepsInertiaWhereItsTimeWouldBeNoticed) {
   EXPECT_FALSE(keeps());
   scene.time.end = 1.0;
   EXPECT_TRUE(keeps());
-  // Soil that moves has its own, and the liquid in its pores with it.
+  // Inertia of moving soil includes that of its liquid.
   scene.soils[0].skeleton = model::elastic_soil(1e7, 0.3);
   EXPECT_FALSE(keeps());
   scene.soils[0].skeleton = {};

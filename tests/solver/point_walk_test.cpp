@@ -22,7 +22,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// A mesh of the unit square with all that `walk` needs, kept together.
+/// A mesh of the unit square with all that `walk` needs.
 struct Field {
   Field(Mesh<2> m, const std::function<Vector<2>(const Vector<2>&)>& flux,
         const std::vector<std::string>& open = {}, double n = 0.3)
@@ -53,7 +53,7 @@ Mesh<2> rough_mesh(int cells, unsigned seed) {
   return model::column_mesh(cells, cells, 1.0, 1.0, model::jittered(0.25 / cells, seed));
 }
 
-/// Inside an element, on one of its edges or on one of its nodes, each as often.
+/// A place inside an element, on one of its edges or on one of its nodes, with equal probability.
 PointPlace<2> random_place(const Mesh<2>& mesh, Random& random) {
   const auto element = static_cast<int>(random() * mesh.element_count());
   std::array<double, 3> at{random(), random(), random()};
@@ -78,7 +78,7 @@ void expect_inside(const PointPlace<2>& place) {
   EXPECT_NEAR(sum, 1.0, 1e-13);
 }
 
-/// First element that holds `x`.
+/// The first element that contains `x`.
 PointPlace<2> place_of(const Field& field, const Vector<2>& x) {
   for (int e = 0; e < field.mesh.element_count(); ++e) {
     PointPlace<2> place{e, {}};
@@ -96,7 +96,7 @@ PointPlace<2> place_of(const Field& field, const Vector<2>& x) {
 }
 
 TEST(PointWalk, NoPointIsLostInRandomFluxBetweenWalls) {
-  // Random at every node, along the walls at the walls: what converges at nodes and on edges too.
+  // Flux is random at nodes, parallel to walls at walls, so it converges at nodes and on edges too.
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Random random(seed);
     const Field field(rough_mesh(7, seed), [&](const Vector<2>& x) {
@@ -121,7 +121,7 @@ TEST(PointWalk, UniformFluxMovesPointsStraightAcrossManyElements) {
   int compared = 0;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     Random random(seed);
-    // Some along the diagonals of the cells, which are edges of elements.
+    // Half of the fields flow along the diagonals of the cells, which are edges of elements.
     const bool along_edges = seed % 2 == 0;
     const Vector<2> flux =
         along_edges ? Vector<2>(0.3, 0.3) : Vector<2>(0.6 * random() - 0.3, 0.6 * random() - 0.3);
@@ -145,7 +145,7 @@ TEST(PointWalk, UniformFluxMovesPointsStraightAcrossManyElements) {
 
 TEST(PointWalk, LinearFluxIsFollowedToSecondOrderInTheStep) {
   // Rotation about the centre with a strain: x' = a x about it, x = exp(a t) x_0; a squared is
-  // -determinant times one, so the exponential is of sines and cosines.
+  // -determinant times identity, so the exponential consists of sines and cosines.
   Eigen::Matrix2d a;
   a << 0.2, -1.0, 1.2, -0.2;
   const double omega = std::sqrt(a.determinant());

@@ -40,7 +40,7 @@ struct Column {
   Column& operator=(const Column&) = delete;
   ~Column() = default;
 
-  /// One step of transport, however long.
+  /// One step of transport, of any length.
   void step(double dt) {
     FlowProgress flow{1, dt, time + dt, {face_rate, {}}};
     for (double& volume : flow.volumes.liquid) volume *= dt;
@@ -66,13 +66,13 @@ struct Column {
     const LiquidPoints<2> points = liquid.points();
     return std::accumulate(points.fines_mass.begin(), points.fines_mass.end(), 0.0);
   }
-  /// Fines that are neither in the liquid nor accounted for, of all that eroded.
+  /// Fines that are neither in the liquid nor booked, relative to the eroded fines.
   [[nodiscard]] double residual() const {
     const auto& pending = liquid.pending();
     const double waiting = densities.grain * std::accumulate(pending.begin(), pending.end(), 0.0);
     return (fines() + waiting + fines_out - fines_in - eroded) / std::max(eroded, 1.0);
   }
-  /// Largest difference between what a region holds, solid and liquid, and what was booked.
+  /// Largest difference between the fines of a region, solid and liquid, and the booked ones.
   [[nodiscard]] double region_residual() const {
     std::vector<double> left = received;
     for (int s = 0; s < soils.points().size(); ++s) {
@@ -113,22 +113,22 @@ struct Column {
   std::vector<FaceCondition> conditions;
   std::vector<double> pressure;
   PointsAlongFaces<2> liquid;
-  std::vector<double> face_rate;  ///< of a Darcy flux straight down, m3/s
+  std::vector<double> face_rate;  ///< rates of a vertical Darcy flux downwards, m3/s
   double time = 0.0;
   double eroded = 0.0;
   double fines_in = 0.0;
   double fines_out = 0.0;
-  /// Fines of each region's liquid by what was booked, without those of its own solid.
+  /// Booked gain of fines of each region, without those of its own solid.
   std::vector<double> received = std::vector<double>(8, 0.0);
 };
 
 struct Outcome {
-  double error = 0.0;  ///< of c in L2, root mean square over times
-  double mass = 0.0;   ///< largest error of the fluidised mass, of its maximum
+  double error = 0.0;  ///< error of c in L2, root mean square over times
+  double mass = 0.0;   ///< largest error of the fluidised mass, relative to its maximum
 };
 
-/// Every two seconds up to `end`, in a column 1 m high of `rows` rows and `across` columns of
-/// cells.
+/// Compares every two seconds up to `end`, in a column 1 m high of `rows` rows and `across` columns
+/// of cells.
 Outcome run(int rows, int across, int points, double dt) {
   constexpr double end = 30.0;
   Scene scene = model::double_point_scene(flux, rate);
@@ -161,7 +161,7 @@ Outcome run(int rows, int across, int points, double dt) {
 }
 
 TEST(PointsAlongFaces, TheErrorIsThatOfThePointsWhateverTheStep) {
-  // Steps of 2 s and more cross 0.65 of an element, the finer mesh's more than one.
+  // Points cross 0.65 of an element in 2 s, more than one element of the finer mesh.
   for (const int rows : {8, 16}) {
     for (const int points : {1, 3, 12}) {
       std::vector<double> errors;
@@ -187,12 +187,12 @@ TEST(PointsAlongFaces, FluidisedMass) {
             << " % at 1/8 m; steps of 1/4 s " << 100.0 * finer_step.mass << " %\n";
   EXPECT_LE(fine.mass, 0.005);
   EXPECT_LE(coarse.mass, 0.016);
-  // Points are whole: the column never holds exactly as many as its pores are worth.
+  // Points are whole: the volume of the points in the column is never exactly that of its pores.
   EXPECT_NEAR(fine.mass, finer_step.mass, 2e-4);
 }
 
 TEST(PointsAlongFaces, SecondOrderWherePorosityCurvesInTime) {
-  // phi_e = kappa (n_max - n): within a step porosity is taken to be linear in time.
+  // phi_e = kappa (n_max - n): within a step porosity is assumed linear in time.
   constexpr double kappa = 0.25;
   constexpr double end = 24.0;
   std::vector<double> errors;
@@ -250,7 +250,7 @@ TEST(PointsAlongFaces, PorosityThatVariesWithDepth) {
 }
 
 TEST(PointsAlongFaces, BooksCloseForEveryRegion) {
-  // Steps long enough to cross layers of one row within one step, and in the end the whole column.
+  // The steps cross layers of one row within one step, and the last one crosses the whole column.
   for (const MassTransfer way : {MassTransfer::nodal, MassTransfer::element}) {
     Scene scene = model::double_point_scene(flux, rate);
     scene.soils[0].erosion.mass_transfer = way;
@@ -264,13 +264,13 @@ TEST(PointsAlongFaces, BooksCloseForEveryRegion) {
       EXPECT_LE(column.region_residual(), 1e-12) << "after a step of " << dt << " s";
     }
     EXPECT_GT(column.fines_out, 0.5 * column.eroded);
-    // Nothing is there now but what came in clean during the last step, and passed eroding soil.
+    // The liquid present now entered clean during the last step and passed eroding soil.
     EXPECT_LT(column.fines(), 0.5 * column.eroded);
   }
 }
 
 TEST(PointsAlongFaces, FinesStayInSoilThatErodes) {
-  // What is above the specimen gets none.
+  // The regions above the specimen receive no fines.
   Scene scene = model::double_point_scene(flux, rate);
   LayerSettings layers;
   layers.above = 4;

@@ -1,4 +1,4 @@
-/// What progress says of the time that is left.
+/// The time left that progress reports.
 
 #include "driver/progress.hpp"
 
@@ -29,7 +29,7 @@ TEST(TimeLeft, OfARunThatWasResumedCountsFromThere) {
 }
 
 TEST(TimeLeft, IsUnknownWhileStepsGrow) {
-  // From 1e-10 s each step is a quarter longer than the one before, up to 1 s of 200 s; each takes
+  // Each step is a quarter longer than the one before, from 1e-10 s up to 1 s of 200 s, and takes
   // 0.05 s. The run takes 15.2 s.
   TimeLeft left(0.0, 200.0);
   double elapsed = 0.0;

@@ -1,4 +1,4 @@
-/// Soil that loses its equilibrium again and again, and goes nowhere.
+/// Soil that loses its equilibrium again and again without moving far.
 
 #include "coupling/repeated_failure.hpp"
 
@@ -13,13 +13,13 @@ namespace repeated_failure_test {
 constexpr double size = 0.5;  // of elements, m
 constexpr double fall = 1.0;  // s
 
-/// Two points, of which the second moves.
+/// Two points; the second one moves.
 struct Slope {
   RepeatedFailure<2> failure;
   std::vector<Vector<2>> position{{0.0, 0.0}, {3.0, 1.0}};
   double time = 100.0;
 
-  /// It fails, moves by `way` within a second, lies still, and stands for `standing` seconds.
+  /// The slope fails, moves by `way` within a second, rests, and stands for `standing` seconds.
   void fail(double way, double standing) {
     failure.fails(time, position, size);
     position[1][0] += way;
@@ -27,7 +27,8 @@ struct Slope {
     failure.rests(time, fall);
     time += standing;
   }
-  /// Of at most 100 failures, the one at which it is said to creep; 0: none.
+  /// The number of the failure at which the slope is found to creep; 0 if at most 100 show no
+  /// creep.
   int failures_until_creep(double way, double standing) {
     for (int i = 1; i <= 100; ++i) {
       fail(way, standing);

@@ -1,5 +1,5 @@
-/// What a run that goes on is made of: the state as bytes, restart points, tables that are cut,
-/// the lock of a folder.
+/// The parts of a resumed run: the state as bytes, restart points, tables that are cut, the lock of
+/// a folder.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -36,7 +36,7 @@ struct Pair {
   std::int64_t b = 0;
 };
 
-/// One of everything that an archive takes.
+/// One value of every kind that an archive accepts.
 struct Everything {
   bool yes = false;
   int number = 0;
@@ -173,7 +173,7 @@ TEST(RestartPoint, AFileWithoutOneHasNone) {
   EXPECT_FALSE(read_restart_point(path).has_value());
 }
 
-/// Everything that is kept goes into the digest.
+/// The digest covers all stored data.
 TEST(RestartPoint, NothingOfItCanBeChangedUnnoticed) {
   const std::vector<std::function<void(RestartPoint&)>> changes{
       [](RestartPoint& point) { point.time = 0.3; },
@@ -221,7 +221,7 @@ TEST(GrowingTable, GoesOnBehindTheRowsThatAreKept) {
   EXPECT_EQ(read_file(path), "t\n0\n");
 }
 
-/// As in the folder of a run that was stopped while it wrote.
+/// Tables as a run leaves them if it is stopped while it writes.
 TEST(RestartPoint, NeedsItsRowsInEveryTable) {
   const TemporaryFolder folder;
   const std::string path = folder.file("");

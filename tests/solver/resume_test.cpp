@@ -1,4 +1,4 @@
-/// A run that was stopped and goes on gives the same files as one that never stopped.
+/// A run that was stopped and resumed gives the same files as an undisturbed one.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ class Resumed : public testing::TestWithParam<test::Mode> {
     ASSERT_GE(test::snapshots_in(whole_), 5);
   }
 
-  /// What is left after snapshot `index`; rows go on behind it.
+  /// The files after snapshot `index`; rows go on beyond it.
   [[nodiscard]] std::string stopped_after(int index) const {
     std::string folder = place_.copy(whole_, "stopped");
     test::stop_after_snapshot(folder, index);
@@ -47,8 +47,8 @@ class Resumed : public testing::TestWithParam<test::Mode> {
     EXPECT_EQ(test::difference(folder, whole_), "");
   }
 
-  /// A run that gets `signal` once `rows` rows are there, or as soon after as it can be sent.
-  /// Whether it came before the end.
+  /// Sends `signal` to a run after `rows` rows, or as soon as possible later. Returns whether the
+  /// run was still going on.
   bool stop_by(int signal, long rows, const std::string& folder,
                const std::vector<std::string>& options = {}) const {
     Process process(test::solver_words(case_, folder, options), place_.path("stopped.txt"));
@@ -67,7 +67,8 @@ class Resumed : public testing::TestWithParam<test::Mode> {
     return true;
   }
 
-  /// The same, however fast the machine is: earlier and earlier, until it comes in time.
+  /// Stops a run on a machine of any speed: tries earlier and earlier until the signal comes in
+  /// time.
   void must_stop_by(int signal, const std::string& folder) const {
     for (long rows = test::lines_in(whole_ + "/" + layout::history) / 2; rows > 0; rows /= 2) {
       fs::remove_all(folder);
@@ -121,7 +122,7 @@ std::vector<test::Mode> variants() {
   const std::string tables =
       R"(boundary[0]={on = "top", pressure = [[0.0, 0.0], [1.0, 6e3], [3.0, 6e3], [3.00001, 3e3]], )"
       R"(concentration = [[0.0, 0.0], [4.0, 0.1]]})";
-  // Fines leave, are caught, and leave again as the flow turns; the liquid thickens.
+  // Fines leave, are caught, and leave again as the flow reverses; the liquid is viscous.
   const std::vector<std::string> soil{
       "soil.specimen.erosion={law = \"autocatalytic\", drive = \"shear-stress\", rate = 0.2, "
       "threshold = 0.5, residual = [[0.0, 0.03], [0.02, 0.01]], critical_concentration = 0.4}",
@@ -144,7 +145,7 @@ std::vector<test::Mode> variants() {
       test::with(single, "gravity",
                  {"gravity=[0.0, -9.81]", "initial.water_level=1.0", "time.stepping=monotone"}),
       test::with(single, "ergun", {"soil.specimen.drag=ergun"}),
-      // Seepage faces open and close as the head falls and rain comes.
+      // Seepage faces open and close as the head falls and rain falls.
       test::with(
           single, "unsaturated",
           {"gravity=[0.0, -9.81]", "initial.water_level=0.3",
@@ -156,7 +157,7 @@ std::vector<test::Mode> variants() {
                  {"gravity=[0.0, -9.81]", "initial.water_level=0.3",
                   R"(boundary[0]={on = "top", head = 1.5, reservoir_area = 0.2})"}),
       test::with(single, "boundary_values_in_time", {tables}),
-      // The flow is solved once and kept; what erodes does not change it.
+      // The flow is solved once and kept; erosion does not change it.
       test::with(single, "kept_flow",
                  {"soil.specimen.conductivity_law=constant", "liquid.bulk_modulus=inf",
                   "soil.specimen.erosion={law = \"constant\", rate = 2e-2, start = 1.0}"}),
@@ -189,10 +190,10 @@ TEST_P(ResumedVariant, FromAMiddleSnapshotAndAfterAnInterrupt) {
 INSTANTIATE_TEST_SUITE_P(Modes, ResumedVariant, testing::ValuesIn(variants()), name_of);
 INSTANTIATE_TEST_SUITE_P(InSpace, ResumedVariant, testing::ValuesIn(modes_in_space()), name_of);
 
-/// With one mode; the others go the same way through the same code.
+/// With one mode only: the others use the same code.
 class ResumedRun : public Resumed {
  protected:
-  /// Steps shorter than what lies between snapshots: each has the state.
+  /// Steps are shorter than the interval of snapshots, so each snapshot has its state.
   static test::Mode mode() {
     return test::with(test::five_modes()[3], "double_point", {"time.step=0.2"});
   }
@@ -213,7 +214,7 @@ TEST_F(ResumedRun, AcrossSeveralSnapshotsWithinAStep) {
   begin(test::with(
       test::five_modes()[3], "long_steps",
       {"time.step=2.0", "output={every = 0.25, snapshot_every = 0.25, restarts = 1000}"}));
-  // Steps end at 2, 4, ... s: the state is kept with snapshots 8, 16, ... alone.
+  // Steps end at 2, 4, ... s: only snapshots 8, 16, ... have the state.
   for (const int index : {7, 8, 9}) expect_same_when_resumed(stopped_after(index));
 }
 
@@ -222,7 +223,7 @@ TEST_F(ResumedRun, ManyTimesInARow) {
   const std::string history = folder + "/" + layout::history;
   int stops = 0;
   for (int attempt = 0; attempt < 5; ++attempt) {
-    // One goes on for at least three rows each time.
+    // The run goes on for at least three rows each time.
     const long rows = test::lines_in(history) + 3;
     const std::string threads = attempt % 2 == 0 ? "1" : "2";
     if (stop_by(SIGTERM, rows, folder, {"--resume", "--threads", threads})) ++stops;
@@ -242,7 +243,7 @@ TEST_F(ResumedRun, CheckpointsByTheClockChangeNothing) {
   const Outcome outcome = place_.solve(case_, folder, {"--checkpoint-every", "1e-9"});
   EXPECT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_EQ(test::difference(folder, whole_), "");
-  // And they are what a killed run goes on from: no snapshot has its time.
+  // A killed run resumes from a checkpoint: no snapshot has its time.
   fs::remove_all(folder);
   Process process(test::solver_words(case_, folder, {"--checkpoint-every", "1e-9"}),
                   place_.path("killed.txt"));
@@ -278,7 +279,7 @@ TEST_F(ResumedRun, WithoutAnythingThereItBeginsAnew) {
   const std::string empty = place_.path("empty");
   fs::create_directory(empty);
   expect_same_when_resumed(empty);
-  // Killed before the first snapshot was complete.
+  // The run was killed before the first snapshot was complete.
   std::string folder = stopped_after(-1);
   for (const char* table : {layout::history, layout::ledger, layout::regions, layout::boundaries}) {
     fs::resize_file(folder + "/" + table, test::read_file(folder + "/" + table).find('\n') + 1);
@@ -289,7 +290,7 @@ TEST_F(ResumedRun, WithoutAnythingThereItBeginsAnew) {
   std::ofstream(folder + "/snapshots/solid_000000.hdf.tmp") << "half";
   std::ofstream(folder + "/.case.4711.part.h5") << "half";
   expect_same_when_resumed(folder);
-  // Killed between the first snapshot and its state.
+  // The run was killed between the first snapshot and its state.
   folder = stopped_after(0);
   fs::remove(layout::in_folder(folder, layout::state(0)));
   for (const char* table : {layout::history, layout::ledger}) {
@@ -319,7 +320,7 @@ TEST_F(ResumedRun, WhatIsLeftOfAKillIsRemoved) {
   expect_same_when_resumed(folder);
 }
 
-/// A mode that keeps the states of so many snapshots only.
+/// A mode that keeps the states of only `count` snapshots.
 test::Mode with_restarts(const test::Mode& mode, int count) {
   return test::with(
       mode, "few_states",
@@ -349,7 +350,7 @@ TEST_F(ResumedRun, AStateGoesOnlyWhenANewerOneIsThere) {
   begin(with_restarts(mode(), 1));
   const std::string folder = place_.path("killed");
   int kills = 0;
-  // From the first files of a snapshot on, there are moments without its state.
+  // While a snapshot is written, there are moments without its state.
   for (int index = 1; index < last(); ++index) {
     Process process(test::solver_words(case_, folder, {"--resume"}), place_.path("killed.txt"));
     const std::string begun = layout::in_folder(folder, layout::snapshot("solid", index));
@@ -412,13 +413,13 @@ TEST_F(ResumedRun, AnotherRunIsRefused) {
   const std::string other = folder + ": holds results of scene \"double\", not of \"other\"";
   expect_refused(folder, scene, {"--resume"}, 2, other);
   expect_refused(folder, scene, {}, 2, other);
-  // And finished ones.
+  // Finished runs are refused too.
   expect_refused(whole_, mesh, {"--resume"}, 2,
                  whole_ + ": cannot be resumed: it holds the results of another case");
   expect_same_when_resumed(folder);
 }
 
-/// Something wrong with the newest snapshot, number 5, or with what it needs.
+/// Damage of the newest snapshot, number 5, or of the files that it needs.
 struct Damage {
   std::string name;
   std::function<void(const std::string&)> act;
@@ -508,7 +509,7 @@ TEST_F(ResumedRun, FromTheSnapshotBeforeADamagedOne) {
     const auto info = nlohmann::json::parse(test::read_file(folder + "/run.json"));
     EXPECT_LT(info.at("resumed_at"), 2.5);
     EXPECT_GE(info.at("resumed_at"), 2.0) << "went further back than it had to";
-    // A file that is missing is no damage: so does a kill leave it.
+    // A missing file is no damage: a kill leaves the folder like that.
     if (damage.name.ends_with("missing")) continue;
     EXPECT_NE(outcome.error.find("suffuse-solver: warning: passed over: " + folder),
               std::string::npos)

@@ -55,7 +55,7 @@ TEST(RigidSkeleton, PorosityFollowsFromWhatPointsHold) {
 }
 
 TEST(RigidSkeleton, ExchangeIsWhatTheStateLost) {
-  // A hundred thousand steps of the same length, whose round-off has the same sign.
+  // A hundred thousand steps of equal length, whose round-off has the same sign.
   SolidCase c(1e-3);
   const std::vector<double> before = c.solid.state().erodible_volume;
   std::vector<double> received(before.size(), 0.0);
@@ -126,7 +126,7 @@ TEST(PoreForecast, IsWhatErosionThenDoes) {
   const std::vector<double> then = c.solid.element_porosity();
   for (std::size_t e = 0; e < then.size(); ++e) {
     EXPECT_NEAR(ahead.porosity[e], then[e], 1e-15);
-    // Water stays: (1 - c) n.
+    // Water stays in place: (1 - c) n.
     EXPECT_NEAR((1.0 - ahead.concentration[e]) * ahead.porosity[e], 0.95 * 0.3, 1e-15);
   }
 }

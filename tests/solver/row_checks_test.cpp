@@ -1,4 +1,4 @@
-/// Warnings about rows of the history: when, once, and with what to do.
+/// Warnings about rows of the history: their time, their advice, and that each comes once.
 
 #include "driver/row_checks.hpp"
 
@@ -38,7 +38,7 @@ class Rows : public testing::Test {
   RowChecks checks_{scene_, infinite};
 };
 
-/// With where and when, once; a liquid that still flows is none of it.
+/// The warning names place and time and comes once; a liquid that still flows raises none.
 TEST_F(Rows, FinesThatLockAreToldOfOnce) {
   HistoryRow row = with_fines(0.0, 0.6);
   row.concentration_max_at = "element 7 at (0.5 0.25)";

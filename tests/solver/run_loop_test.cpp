@@ -10,7 +10,7 @@
 namespace suffuse {
 namespace run_loop_test {
 
-/// Keeps what it is given.
+/// Stores the output that it gets.
 class Notes final : public OutputSink<2> {
  public:
   explicit Notes(double stop_at = 1e9) : stop_at_(stop_at) {}
@@ -42,7 +42,7 @@ Case<2> paper_step(FlowScheme scheme) {
   return model::make_case(model::column_mesh(4, 4), scene);
 }
 
-/// The paper's step of 0.0851 s: 12 equal steps from one row to the next.
+/// With the paper's step of 0.0851 s there are 12 equal steps from one row to the next.
 TEST(RunLoop, OutputsEndStepsThatDivideTheTimeEvenly) {
   for (const FlowScheme scheme : {FlowScheme::explicit_nodal, FlowScheme::implicit_mixed}) {
     const Case<2> c = paper_step(scheme);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A sealed box of soil at random, let go from a random pressure, and the energy that the schemes
-/// themselves conserve or lose.
+/// A random sealed box of soil that starts from a random pressure, and the energy that the schemes
+/// conserve or lose.
 
 #include <algorithm>
 #include <cmath>
@@ -25,11 +25,11 @@ struct BoxSettings {
   bool convects = false;  ///< explicit: pressure is convected by the scheme
 };
 
-/// Changes of energy over a run, relative to what there was at its start.
+/// Changes of energy over a run, relative to the energy at its start.
 struct EnergyChange {
   double drift = 0.0;   ///< largest distance from the start
-  double growth = 0.0;  ///< largest growth in one step, of what there was before it
-  double kept = 1.0;    ///< at the end
+  double growth = 0.0;  ///< largest growth in one step, relative to the energy before it
+  double kept = 1.0;    ///< share of the energy at the end
   bool finite = true;
 
   void note(double first, double before, double now) {
@@ -56,8 +56,8 @@ class SealedBox {
     }
   }
 
-  /// `steps` steps of a share of the assembled limit. Pressures are so small against the modulus
-  /// that all but the linear part of the equation of state is below round-off.
+  /// Makes `steps` steps of a share of the assembled limit. Pressures are so small relative to the
+  /// modulus that nonlinear parts of the equation of state are below round-off.
   EnergyChange run_explicit(double share_of_limit, int steps) {
     NodalOperator<2> op(flow_.grid, flow_.forcing.conditions, Vector<2>::Zero());
     op.update(flow_.forcing.coefficients);
@@ -94,7 +94,7 @@ class SealedBox {
     return change;
   }
 
-  /// `steps` steps of `dt`, from random pressures and, with inertia, velocities.
+  /// Makes `steps` steps of `dt`, from random pressures and, with inertia, velocities.
   EnergyChange run_implicit(TimeStepping stepping, bool inertia, double dt, int steps) {
     ImplicitMixed<2> scheme(flow_.grid, {settings_.bulk_modulus, inertia, stepping},
                             Vector<2>::Zero());

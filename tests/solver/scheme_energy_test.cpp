@@ -1,4 +1,4 @@
-/// The energy that each scheme's own equations conserve or lose, in a sealed box at random.
+/// The energy that each scheme's own equations conserve or lose, in a random sealed box.
 
 #include "solver/scheme_energy.hpp"
 
@@ -49,7 +49,7 @@ TEST(SchemeEnergy, IsLostByTheExplicitSchemeWithDrag) {
   }
 }
 
-/// The measure itself: above the limit energy grows.
+/// Check of the measure itself: above the limit energy grows.
 TEST(SchemeEnergy, GrowsAboveTheLimit) {
   const EnergyChange change =
       SealedBox(box(2, std::numeric_limits<double>::infinity())).run_explicit(1.02, 2000);

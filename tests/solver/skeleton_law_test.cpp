@@ -77,8 +77,7 @@ Matrix3d random_turn(std::mt19937& random, bool in_plane) {
   return about_z * Eigen::AngleAxisd(angle(random), Vector3d::UnitX()).toRotationMatrix();
 }
 
-/// Kinks lie between a few of the differences: how many are off, and how far at most are the
-/// others.
+/// Some differences lie across kinks: the number of these, and the largest error of the others.
 struct Comparison {
   int kinks = 0;
   int plastic = 0;
@@ -166,7 +165,7 @@ TEST(SkeletonLaw, a_body_that_turns_carries_its_stress_along) {
       const Matrix3d b = b_of({-0.1, -0.02, -0.05}, random_turn(random, false));
       const Matrix3d increment = random_increment<3>(random, 0.1);
       const auto straight = skeleton_response<3>(*law, sand(), {b}, increment);
-      // First the increment and then the turn; and the turn of all that there is.
+      // Rotates the increment, and rotates everything.
       const auto turned = skeleton_response<3>(*law, sand(), {b}, turn * increment);
       const auto whole = skeleton_response<3>(*law, sand(), {turn * b * turn.transpose()},
                                               turn * increment * turn.transpose());
@@ -203,11 +202,12 @@ TEST(SkeletonLaw, plane_strain_is_space_without_strain_across) {
 }
 
 TEST(SkeletonLaw, equal_principal_strains_cost_no_accuracy) {
-  // The tangent is Lipschitz-continuous there: nothing may grow as strains approach each other.
+  // The tangent is Lipschitz-continuous there: no difference may grow as strains approach each
+  // other.
   Matrix3d direction;
   direction << 1.0, 0.3, -0.2, 0.3, -1.0, 0.4, -0.2, 0.4, 0.5;
   for (const SkeletonLaw* law : skeleton_laws()) {
-    // Elastic, at the edge of the largest stress and of the smallest, and beyond the apex.
+    // Elastic strains, strains at the edges of largest and smallest stress, and beyond the apex.
     for (const Vector3d& strain :
          {Vector3d(-0.01, -0.01, -0.01), Vector3d(0.0, 0.0, 0.0), Vector3d(-0.2, 0.02, 0.02),
           Vector3d(0.05, -0.1, -0.1), Vector3d(0.1, 0.1, 0.1)}) {
@@ -279,7 +279,7 @@ TEST(VonMisesLaw, pure_shear_stops_at_the_cohesion) {
   EXPECT_NEAR(at.stress(0, 0), 0.7, 1e-13);
   EXPECT_NEAR(at.stress(1, 1), -0.7, 1e-13);
   EXPECT_NEAR(at.stress(2, 2), 0.0, 1e-13);
-  // Elastic strain left is c/(2 G), in both directions.
+  // The remaining elastic strain is c/(2 G), in both directions.
   const double plastic = strain - 0.7 / (2.0 * p.shear_modulus());
   EXPECT_NEAR(at.plastic_strain, std::sqrt(4.0 / 3.0) * plastic, 1e-14);
 }
@@ -291,7 +291,7 @@ double excess_over_strength(const SkeletonParameters& p, const Vector3d& stress)
          2.0 * p.cohesion * std::cos(p.friction);
 }
 
-/// Trial strains of all kinds: near planes, edges and the apex.
+/// Trial strains of all kinds, also close to planes, edges and the apex.
 template <class Check>
 void for_trial_strains(Check check) {
   std::mt19937 random(11);
@@ -315,7 +315,7 @@ TEST(MohrCoulombLaw, stress_returns_to_the_limit) {
       if (at.plastic_strain > 0.0) {
         EXPECT_GT(excess, -1e-12 * p.young);
       }
-      // What has returned stays.
+      // A stress that was returned to the limit stays there.
       const PrincipalResponse again = law.respond(p, at.elastic_strain, 0.0);
       EXPECT_EQ(again.plastic_strain, 0.0);
       EXPECT_LT((again.stress - at.stress).cwiseAbs().maxCoeff(), 1e-13 * p.young);
@@ -344,7 +344,7 @@ TEST(MohrCoulombLaw, associated_flow_takes_the_most_work) {
   }
 }
 
-/// Flow that is not associated is a sum, with positive weights, of that of the planes which bind.
+/// Non-associated flow is a sum of the flows of the active planes, with positive weights.
 TEST(MohrCoulombLaw, flow_dilates_as_the_angle_says) {
   const SkeletonLaw& law = *skeleton_law("mohr-coulomb");
   const SkeletonParameters p = sand(35.0, 0.1, 12.0);
@@ -356,7 +356,7 @@ TEST(MohrCoulombLaw, flow_dilates_as_the_angle_says) {
     const Vector3d plastic = trial - at.elastic_strain;
     if (at.plastic_strain == 0.0 || at.stress.maxCoeff() > apex - 1e-9) return;
     ++flowing;
-    // Of any such sum: what stretches over what shortens.
+    // For any such sum, the ratio of extension to shortening is known.
     const double stretching = plastic.cwiseMax(0.0).sum();
     const double shortening = -plastic.cwiseMin(0.0).sum();
     EXPECT_NEAR(stretching * (1.0 - s), shortening * (1.0 + s), 1e-12);

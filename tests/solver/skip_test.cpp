@@ -1,4 +1,4 @@
-/// What the plan skips in time changes nothing, to the last bit.
+/// Operations that the plan skips in time change no bit of the results.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ Case<2> double_point_case(FlowScheme scheme, PressureIntegration integration) {
   Scene scene = model::double_point_scene(0.012, 2e-2);
   scene.time.scheme = scheme;
   scene.time.end = 10.0;
-  // Fewer steps; what they do is the same.
+  // There are fewer steps; each does the same.
   if (scheme == FlowScheme::explicit_nodal) scene.time.mass_scaling = 100.0;
   scene.flow.integration = integration;
   LayerSettings layers;
@@ -33,14 +33,14 @@ Case<2> double_point_case(FlowScheme scheme, PressureIntegration integration) {
   return model::make_double_point_case(model::layered_mesh(4, layers), scene);
 }
 
-/// The same plan but for what it skips in time.
+/// The same plan without skips in time.
 Plan without_spans(Plan plan) {
   plan.erosion_span = {};
   plan.fines_from = -infinity;
   return plan;
 }
 
-/// Everything that history and ledger have to say at each output time, with the calls of a pass.
+/// All values of history and ledger at each output time, with the number of calls of a pass.
 struct Record {
   std::vector<double> values;
   long calls = 0;
@@ -116,15 +116,15 @@ TEST(SkipInTime, OnlyWhatIsCertain) {
   EXPECT_TRUE(plan_of().erosion_span.meets(0.0, 2.1));
   EXPECT_FALSE(2.0 > plan_of().fines_from);
 
-  // Grains that flow in are there from the start.
+  // Grains of the inflow are present from the start.
   scene.boundaries[0].concentration = 0.1;
   EXPECT_TRUE(0.1 > plan_of().fines_from);
   EXPECT_FALSE(plan_of().erosion_span.meets(0.0, 2.0));
 
-  // Elements without liquid keep what they have for later.
+  // Elements without liquid keep their fines for later.
   scene.soils[0].erosion.empty_elements = EmptyElements::dry;
   EXPECT_EQ(plan_of().erosion_span.end, infinity);
-  // These laws come to an end without reaching it.
+  // With these laws erosion never ends completely.
   scene.soils[0].erosion.empty_elements = EmptyElements::wet;
   for (const ErosionLaw* law :
        {erosion_law("logarithmic"), erosion_law("first-order"), erosion_law("flux")}) {

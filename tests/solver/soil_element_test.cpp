@@ -23,7 +23,7 @@ SkeletonModel sliding(double friction, double cohesion, double dilation) {
           .dilation = dilation};
 }
 
-/// xx and zz keep their stress, yy is shortened: a triaxial test.
+/// xx and zz keep their stress, yy is shortened, as in a triaxial test.
 SoilElementTarget triaxial(double confinement, double axial_strain, double fines_left = 1.0) {
   return {.value = {-confinement, axial_strain, -confinement, 0.0},
           .is_stress = {true, false, true, false},
@@ -40,7 +40,7 @@ TEST(SoilElement, oedometer_at_large_strain) {
   EXPECT_EQ(
       element.advance({.value = {0.0, -0.5e6, 0.0, 0.0}, .is_stress = {false, true, false, false}}),
       1.0);
-  // 2 W(1/2), W the function of Lambert.
+  // 2 W(1/2), W being Lambert's function.
   EXPECT_NEAR(std::exp(element.state().strain[1]), 0.7034674225, 1e-10);
 }
 
@@ -56,8 +56,8 @@ TEST(SoilElement, isotropic_compression) {
   EXPECT_NEAR(element.state().deviator_stress(), 0.0, 1e-6);
 }
 
-/// sigma_1 = sigma_3 K + 2 (c/J) sqrt(K), K = (1 + sin phi)/(1 - sin phi): c is that of the
-/// Kirchhoff stress, J the volume over the first.
+/// sigma_1 = sigma_3 K + 2 (c/J) sqrt(K), K = (1 + sin phi)/(1 - sin phi): c refers to the
+/// Kirchhoff stress, J is the volume over the initial one.
 TEST(SoilElement, drained_triaxial_strength_is_that_of_mohr_and_coulomb) {
   for (const double cohesion : {0.0, 1e4}) {
     const SkeletonModel model = sliding(34.0, cohesion, 8.0);
@@ -80,7 +80,8 @@ TEST(SoilElement, flow_dilates_in_a_triaxial_test) {
   const SoilElementState before = element.state();
   ASSERT_EQ(element.advance(triaxial(1e5, -0.15)), 1.0);
   const SoilElementState& after = element.state();
-  // The stress stays, but the Kirchhoff stress grows with the volume, and with it elastic strain.
+  // The stress is constant, but the Kirchhoff stress grows with the volume, and so does elastic
+  // strain.
   const double growth = std::exp(after.volumetric_strain()) - std::exp(before.volumetric_strain());
   const double axial = growth * (after.stress[1] + 0.6e5) / 2e7;
   const double lateral = growth * (-1e5 - 0.3 * (after.stress[1] - 1e5)) / 2e7;
@@ -141,7 +142,7 @@ TEST(SoilElement, load_beyond_the_strength_is_found) {
   SoilElement element(model, isotropic(1e5), 1.0);
   const double share =
       element.advance({.value = {-1e5, -5e5, -1e5, 0.0}, .is_stress = {true, true, true, false}});
-  EXPECT_NEAR(share, 0.5, 1e-4);  // of the way from 1e5 to 5e5: sigma_1 = 3 sigma_3
+  EXPECT_NEAR(share, 0.5, 1e-4);  // share of the way from 1e5 to 5e5: sigma_1 = 3 sigma_3
   EXPECT_NEAR(element.state().stress[1], -3e5, 50.0);
   EXPECT_TRUE(element.is_admissible());
   EXPECT_FALSE(SoilElement(model, {-1e5, -4e5, -1e5, 0.0}, 1.0).is_admissible());
@@ -153,11 +154,11 @@ TEST(SoilElement, shear_under_constant_stress_stops_at_the_strength) {
   ASSERT_EQ(
       element.advance({.value = {-1e5, -1e5, 0.0, 0.05}, .is_stress = {true, true, false, false}}),
       1.0);
-  // Mohr's circle around 1e5: radius = 1e5 sin phi, as zz lies between.
+  // Mohr's circle around 1e5: radius = 1e5 sin phi, because zz is the intermediate stress.
   EXPECT_NEAR(std::abs(element.state().stress[3]), 5e4, 1.0);
 }
 
-/// Steps make no difference on a path that only loads.
+/// On a path that only loads, the state does not depend on the steps.
 TEST(SoilElement, many_steps_lead_to_the_same_state) {
   const SkeletonModel model = sliding(34.0, 1e3, 8.0);
   SoilElement one(model, isotropic(1e5), 1.0);
@@ -191,7 +192,7 @@ SkeletonModel clay() {
           .preconsolidation = start_limit};
 }
 
-/// Of the Kirchhoff stress, J times the stress, in which the law is written, Pa.
+/// Mean Kirchhoff stress (J times the stress), in which the law is written, Pa.
 double kirchhoff_pressure(const SoilElementState& state) {
   return state.mean_stress() * std::exp(state.volumetric_strain());
 }
@@ -225,7 +226,7 @@ TEST(CamClay, ShearsInProportionOnARadialPath) {
   const double eta = 0.6;
   const double slope = critical_slope();
   const SkeletonModel model = clay();
-  // p on the surface at the start.
+  // p on the yield surface at the start.
   const double p_start = start_limit / (1.0 + eta * eta / (slope * slope));
   const auto stress = [&](double p) {
     const double q = eta * p;
@@ -250,8 +251,8 @@ TEST(CamClay, ShearsInProportionOnARadialPath) {
               1e-9);
 }
 
-/// At constant volume the soil ends at the critical state: q = M p, p_c = 2 p, and what it
-/// compacts it swells by.
+/// At constant volume the soil ends at the critical state: q = M p, p_c = 2 p, and plastic
+/// compaction equals elastic swelling.
 TEST(CamClay, EndsAtTheCriticalStateAtConstantVolume) {
   for (const double p_start : {1e5, 1e4}) {  // on the wet side, and on the dry side
     const SkeletonModel model = clay();
@@ -274,7 +275,7 @@ TEST(CamClay, EndsAtTheCriticalStateAtConstantVolume) {
   }
 }
 
-/// Steps of backward Euler on a path that turns: the error falls with the first order.
+/// Backward Euler steps on a path that turns: the error is of first order.
 TEST(CamClay, DrainedShearConvergesWithOrderOne) {
   const auto shear_stress = [](int steps) {
     const SkeletonModel model = clay();

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Small bodies of soil on material points that move through a mesh, for tests: no files, no flow.
+/// Small bodies of soil on material points that move through a mesh, for tests without files and
+/// flow.
 
 #include <cmath>
 #include <functional>
@@ -35,8 +36,8 @@ inline Mesh<2> crossed_mesh(int nx, int ny, double width, double height) {
   return mesh;
 }
 
-/// Places that share a triangle's volume: a quadrature rule, or with 4 the centroids of the four
-/// triangles that the midpoints of the sides make.
+/// Points that share a triangle's volume: those of a quadrature rule, or with 4 the centroids of
+/// the four triangles made by the midpoints of the sides.
 inline std::vector<QuadraturePoint<2>> places_in_triangle(int count) {
   if (count != 4) return gauss_rule<2>(count);
   std::vector<QuadraturePoint<2>> places{{{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 0.25}};
@@ -58,7 +59,7 @@ inline std::vector<QuadraturePoint<3>> places_in_tetrahedron() {
   return places;
 }
 
-/// Soil in the elements whose centroid `holds` names, and what a step does to it.
+/// Soil in the elements whose centroid fulfils `holds`, and a step of it.
 template <int Dim>
 class SolidModel {
  public:
@@ -114,7 +115,7 @@ class SolidModel {
 
   [[nodiscard]] SolidBody<Dim> body() const { return {grid, points, sorted, skeleton, *classes}; }
 
-  /// A step under these loads at its end; the points move where it converges.
+  /// Makes a step under these loads at its end; the points move if it converges.
   NewtonSolution<Dim> step(const NodeVectors<Dim>& loads, const NodeVectors<Dim>& prescribed = {},
                            const std::vector<int>& held = {}) {
     Supports<Dim> supports(grid, face_support);
@@ -159,7 +160,7 @@ class SolidModel {
   int threads = 1;
 };
 
-/// Triangles with points as `places_in_triangle` has them.
+/// Triangles with the points of `places_in_triangle`.
 struct PlaneModel : SolidModel<2> {
   PlaneModel(
       Mesh<2> mesh_in, int points_per_element, const SkeletonModel& soil,

@@ -73,7 +73,7 @@ std::map<std::string, std::string> files_in(const std::string& folder) {
   return files;
 }
 
-/// run.json without what differs between two runs of the same case.
+/// run.json without entries that differ between two runs of the same case.
 nlohmann::json comparable(const std::string& text) {
   nlohmann::json info = nlohmann::json::parse(text);
   for (const char* key : {"threads", "wall_seconds", "memory_bytes", "resumed_at"}) info.erase(key);
@@ -104,7 +104,7 @@ void read_snapshots(const ResultsReader& results) {
   }
 }
 
-/// The files that a series names are there.
+/// Names the files of a series that are missing.
 std::string missing_files(const std::string& results, const std::string& kind) {
   const std::string path = layout::in_folder(results, layout::series(kind));
   if (!fs::exists(path)) return "";
@@ -191,7 +191,7 @@ std::vector<Mode> five_modes() {
        {"soil.specimen.conductivity_law=kozeny-carman", "time={end = 5.0}",
         "output={every = 0.1, snapshot_every = 0.5, restarts = 1000}"}},
       {"double_point_explicit", double_point, of_explicit},
-      // Waves in free water, which nothing stops, would ask for a million steps.
+      // Undamped waves in free water would need a million steps.
       {"double_point_implicit", double_point, {"time={end = 5.0, inertia = false}"}},
       {"double_point_at_points", double_point, at_points},
   };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The programs, run as a user would, and what they leave behind.
+/// The programs, run as by a user, and the files that they leave.
 
 #include <sys/types.h>
 
@@ -17,7 +17,7 @@ namespace suffuse::test {
 /// How a program ended.
 struct Outcome {
   int code = 0;       ///< exit code; 128 + signal where it was killed
-  std::string error;  ///< what it said on stderr
+  std::string error;  ///< output on stderr
 };
 
 /// A program that runs.
@@ -30,7 +30,7 @@ class Process {
       const std::function<void()>& prepare = [] {});
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
-  /// Kills it if need be.
+  /// Kills the program if it still runs.
   ~Process();
 
   [[nodiscard]] pid_t id() const { return id_; }
@@ -46,10 +46,10 @@ class Process {
   bool ended_ = false;
 };
 
-/// Waits for `condition` as long as `process` runs. Whether it came about.
+/// Waits for `condition` while `process` runs. Returns whether it was fulfilled.
 bool wait_for(Process& process, const std::function<bool()>& condition);
 
-/// A mode of the solver, with what is special about a run of it.
+/// A mode of the solver, and its settings for a run.
 struct Mode {
   std::string name;
   std::string scene;              ///< the whole text
@@ -58,15 +58,15 @@ struct Mode {
 std::ostream& operator<<(std::ostream& out, const Mode& mode);
 
 /// Single-point explicit and implicit; double-point mixed explicit, implicit, at material points.
-/// Runs of a tenth of a second with fifty rows and ten snapshots, in which everything moves. Every
-/// snapshot keeps its state.
+/// Runs of a tenth of a second of wall time with fifty rows and ten snapshots, in which all fields
+/// change. Every snapshot keeps its state.
 std::vector<Mode> five_modes();
 /// Single-point implicit: soil that is loaded, loses fines, settles and yields.
 Mode moving_mode();
-/// The same mode with more --set.
+/// A mode with additional --set arguments.
 Mode with(Mode mode, const std::string& name, const std::vector<std::string>& sets);
 
-/// The words of a solver's command line; quiet.
+/// The words of the solver's command line, with --quiet.
 std::vector<std::string> solver_words(const std::string& case_path, const std::string& results,
                                       const std::vector<std::string>& options = {});
 
@@ -88,25 +88,24 @@ class Workplace {
   TemporaryFolder folder_;
 };
 
-/// Makes of a finished run's folder what a kill leaves after snapshot `index` was written and
-/// before the next was: later snapshots and the end are missing, rows go on.
+/// Changes the folder of a finished run into that of a run killed between snapshot `index` and the
+/// next: later snapshots and the end are missing, rows go on.
 void stop_after_snapshot(const std::string& results, int index);
 
 /// Number of whole lines of a file; 0 where there is none.
 long lines_in(const std::string& path);
 int snapshots_in(const std::string& results);
 
-/// Everything that differs between two results folders: files byte for byte, but for the lock and
-/// run.json, of which all is compared but durations, threads, memory and from where it was resumed.
-/// Empty where nothing does.
+/// All differences between two results folders: files byte by byte, except the lock and run.json,
+/// in which durations, threads, memory and the place of resumption may differ. Empty if there are
+/// none.
 std::string difference(const std::string& results, const std::string& others);
 
-/// All bytes of all files of a folder, those of the lock too; with their names.
+/// All bytes of all files of a folder, including the lock; with their names.
 std::string contents(const std::string& folder);
 
-/// Everything wrong with a folder that a run has left at whatever moment: every snapshot that a
-/// series names is read whole, every table has whole rows, run.json names the scene. Empty where
-/// nothing is wrong.
+/// All faults of a folder that a run has left at any moment: every snapshot that a series names is
+/// read completely, every table has whole rows, run.json names the scene. Empty if there are none.
 std::string flaws(const std::string& results);
 
 }  // namespace suffuse::test

@@ -1,4 +1,4 @@
-/// Runs in stages: one that is done goes on to a later end, or its last state starts another one.
+/// Runs in stages: a finished run is resumed to a later end, or its last state starts another run.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ void expect_balanced(const Table& ledger) {
   }
 }
 
-/// A mode whose steps do not depend on the end of the run, nor do its warnings.
+/// A mode whose steps and warnings do not depend on the end of the run.
 test::Mode with_given_step(std::size_t index) {
   const test::Mode mode = test::five_modes()[index];
   const std::string slow =
@@ -85,7 +85,7 @@ TEST_P(Stages, TwoAreOneRunToTheLastBit) {
   EXPECT_NE(test::difference(staged, whole), "");
   solve(longer, staged, {"--resume", "--threads", "2"});
   EXPECT_EQ(test::difference(staged, whole), "");
-  // What stands there now is done.
+  // The run in the folder is finished now.
   const std::string before = test::contents(staged);
   solve(longer, staged, {"--resume"});
   EXPECT_TRUE(before == test::contents(staged));
@@ -96,7 +96,7 @@ std::string name_of(const testing::TestParamInfo<std::size_t>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Modes, Stages, testing::Values(0, 1, 2, 3, 4), name_of);
 
-/// With one mode; the others go the same way through the same code.
+/// With one mode only: the others use the same code.
 class Stage : public StagesBase {
  protected:
   [[nodiscard]] static test::Mode mode() { return test::five_modes()[1]; }
@@ -124,7 +124,7 @@ TEST_F(Stage, TheFirstMayEndBetweenOutputs) {
   solve(case_until(mode(), 1.234), folder);
   solve(case_until(mode(), 2.05), folder, {"--resume"});
   const std::vector<double> times = ResultsReader(folder).history().column("t");
-  // Multiples of 0.1 s, and both ends.
+  // There are multiples of 0.1 s, and both ends.
   ASSERT_EQ(times.size(), 23U);
   EXPECT_NEAR(times[12], 1.2, 1e-12);
   EXPECT_NEAR(times[13], 1.234, 1e-12);
@@ -185,7 +185,7 @@ TEST_F(Stage, NothingElseMayDiffer) {
 
 class FromEarlierBase : public StagesBase {
  protected:
-  /// A scene that starts from `a.results`, whose first half the run in it is.
+  /// A scene that starts from `a.results`, which contains its first half.
   [[nodiscard]] test::Mode second(const test::Mode& first,
                                   const std::vector<std::string>& sets = {}) const {
     std::vector<std::string> all{"name=second", "initial.from=a.results",
@@ -223,7 +223,7 @@ TEST_P(FromEarlier, TheLedgerStartsWithTheMassesOfTheEarlierRun) {
 }
 
 TEST_P(FromEarlier, GoesOnAsTheEarlierRunWouldHave) {
-  // Nothing in the scene depends on the time but the start of erosion, which is past.
+  // Only the start of erosion depends on the time in this scene, and it is past.
   test::Mode mode = test::five_modes()[GetParam()];
   run_first(mode);
   const std::string folder = place_.path("b.results");
@@ -281,7 +281,7 @@ TEST_F(FromEarlierOnce, BoundariesLawsGravityAndSchemeMayDiffer) {
         "differs: gravity: nothing there, [0.0, -9.81] here"}) {
     EXPECT_NE(explained.error.find(said), std::string::npos) << explained.error;
   }
-  // And back, with what was caught.
+  // Starts the first scene again from there, with the deposits.
   solve(place_.make_case(test::with(mode(), "third", {"name=third", "initial.from=b.results"})),
         place_.path("c.results"));
   const Table ledger = ResultsReader(place_.path("c.results")).ledger();

@@ -1,4 +1,4 @@
-/// Reuse of a steady flow alone: what ends it, and what does not.
+/// Reuse of a steady flow alone: changes that end it, and changes that do not.
 
 #include "flow/steady_reuse.hpp"
 
@@ -17,7 +17,7 @@ struct SteadyReuseTest : testing::Test {
   SteadyReuseSettings settings{true, 1e-3, false, false};
   FlowCoefficients<2> changed = m.forcing.coefficients;
 
-  /// Whether reuse that started with the model's coefficients goes on with the changed ones.
+  /// Whether a flow that was kept for the model's coefficients is still kept for the changed ones.
   [[nodiscard]] bool goes_on() const {
     SteadyReuse<2> reuse(settings);
     reuse.start(m.forcing.coefficients);
@@ -46,7 +46,7 @@ TEST_F(SteadyReuseTest, GoesOnWhileNothingChangesAndEndsWithAConductivity) {
 }
 
 TEST_F(SteadyReuseTest, WhatTheFlowDoesNotFeelDoesNotEndIt) {
-  // Resistance is drag over porosity; water and fines that it carries do not resist.
+  // Resistance is drag over porosity; water and its fines have no resistance.
   changed.drag[7] *= 1.25;
   changed.porosity[7] *= 1.25;
   changed.water_volume[7] *= 0.5;

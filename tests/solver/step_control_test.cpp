@@ -1,4 +1,4 @@
-/// Step control alone, on equations whose local errors are known.
+/// Step control alone, on equations with known local errors.
 
 #include "flow/step_control.hpp"
 
@@ -34,7 +34,7 @@ StepControl after_step(const StepSettings& s, double dt) {
 }
 
 TEST(StepControl, EstimateOfEqualStepsIsTheLocalErrorOfBackwardEuler) {
-  // y' = -y by backward Euler: y falls by 1 / (1 + dt) per step, exactly by exp(-dt).
+  // y' = -y by backward Euler: y falls by 1 / (1 + dt) per step, the exact solution by exp(-dt).
   std::vector<double> off;
   for (const double dt : {0.04, 0.02, 0.01}) {
     const std::vector<double> previous{1.0 + dt};
@@ -112,7 +112,7 @@ TEST(StepControl, LocalErrorsMeetTheToleranceAndStepsAreOfItsSquareRoot) {
 }
 
 TEST(StepControl, FindsTheLengthWhoseErrorIsTheTolerance) {
-  // An error of (dt / 2)^2: the longest step is of 2 s.
+  // The error is (dt / 2)^2, so the longest step is 2 s.
   for (const double first : {1e-3, 1.0, 1.9, 2.1, 50.0}) {
     StepControl control(settings(1e-3, 1e6));
     control.start(first, true);
@@ -142,7 +142,7 @@ TEST(StepControl, ErrorsThatDoNotFallWithTheStepEndTheRun) {
   EXPECT_GE(control.rejected(), 20);
 }
 
-/// Errors of steps right after a kink that fall only with steps shorter than the digits of time.
+/// Errors of steps after a kink that are small only in steps shorter than the resolution of time.
 TEST(StepControl, AfterAKinkStepsAreAsShortAsTimeHasDigits) {
   constexpr double kink = 1e9;
   StepControl control = after_step(settings(1e-3, 3e9), 1e7);
@@ -158,7 +158,7 @@ TEST(StepControl, AfterAKinkStepsAreAsShortAsTimeHasDigits) {
     time += dt;
   };
   for (int i = 0; i < limits.max_unresolved / std::sqrt(1e-3); ++i) step(2.0);
-  // What goes on for longer is no answer to the kink.
+  // Errors that last longer are not caused by the kink.
   EXPECT_THROW(step(2.0), NumericalError);
   control.pass_kink();
   step(2.0);
@@ -166,7 +166,7 @@ TEST(StepControl, AfterAKinkStepsAreAsShortAsTimeHasDigits) {
   EXPECT_THROW(step(2.0), NumericalError);
 }
 
-/// Two halves of what is left would be shorter than the digits of time allow.
+/// Half of the remaining time would be shorter than the resolution of time allows.
 TEST(StepControl, StepsAreNotHalvedBelowTheDigitsOfTime) {
   constexpr double kink = 1e9;
   StepControl control = after_step(settings(1e-3, 3e9), 1e7);
@@ -191,8 +191,8 @@ TEST(StepControl, StartsHoweverFarTheEndWhereTheFlowChangesFast) {
   }
 }
 
-/// A load that comes at once, at a face that drains: the error stays until a step is shorter than
-/// pressure takes through an element.
+/// A load is applied at once at a face that drains: the error stays until a step is shorter than
+/// the time in which pressure spreads through an element.
 TEST(StepControl, PressureThatSpreadsAfterAKinkIsNoJump) {
   StepSettings s = settings(1e-3, 1e5);
   s.crosses_jumps = s.starts_anew_after_jumps = true;
@@ -251,7 +251,7 @@ TEST(StepControl, GivenStepsDivideTheIntervalEvenly) {
 TEST(StepControl, ProposesNoStepThatIsTooShortToChangeTheTime) {
   const StepSettings s = settings(1e-3, 100.0);
   StepControl control = after_step(s, 1e-12);
-  // Rounded to what can be added to the time.
+  // The step is rounded to a number that can be added to the time.
   EXPECT_EQ(control.propose(0.8, 10.0, 1e9), (0.8 + 1e-12) - 0.8);
   for (int k = 0; k < 3; ++k) {
     control.account_for(1e9);
@@ -271,7 +271,7 @@ TEST(StepControl, CrossesJumpsInOneStepWithoutAnError) {
   EXPECT_EQ(control.propose(20.0, 20.0 + jump, 1e9), (20.0 + jump) - 20.0);
   EXPECT_EQ(control.error(20.0, jump, fields), 0.0);
   EXPECT_GT(control.error(20.0, 0.5 * jump, fields), 1e6);
-  // Where the flow itself changes within that time, it is followed.
+  // If the flow itself changes within that time, steps follow it.
   control.start(1.0, true, 0.5 * jump);
   EXPECT_GT(control.error(20.0, jump, fields), 1e6);
   EXPECT_GT(control.error(40.0, 2.0 * jump, fields), 1e6);

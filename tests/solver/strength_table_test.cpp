@@ -28,7 +28,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 constexpr double gravity = 9.81;
 constexpr double water_weight = 1000.0 * gravity;
 
-/// Text with numbers in the places of `%`.
+/// `pattern` with numbers in place of `%`.
 std::string filled(const std::string& pattern, const std::vector<double>& numbers) {
   std::string text;
   std::size_t next = 0;
@@ -68,7 +68,7 @@ class Workshop {
   [[nodiscard]] Columns factors(const std::string& name, const std::string& options = "") const {
     return columns_of(table(name, options));
   }
-  /// What a command that is wrong says, after the name of the program.
+  /// The message of a wrong command, after the name of the program.
   [[nodiscard]] std::string refusal(const std::string& arguments, int code = 2) const {
     EXPECT_EQ(run("suffuse-solver " + arguments + " -o a.csv"), code) << errors();
     EXPECT_FALSE(std::filesystem::exists(folder_.file("a.csv")));
@@ -109,10 +109,10 @@ struct Slope {
   double cohesion = 0.0;          ///< Pa
   double grain_density = 2700.0;  ///< kg/m3
   double water_level = -10.0;     ///< m
-  std::string more = "";          ///< of the scene
+  std::string more = "";          ///< further text of the scene
 };
 
-/// c/(gamma H) of a slope that is dry, or whose pores and surroundings are full of water.
+/// c/(gamma H) of a dry slope, or of one that is saturated and under water.
 double cohesion_for(double share, double unit_weight) {
   return share * unit_weight * 10.0;
 }
@@ -167,7 +167,7 @@ TEST(StrengthTable, SlopeOfGriffithsAndLane) {
                             short_text(found.at("fails")[0]) +
                             "); what fails moves most in soil \"fill\" at (";
   EXPECT_TRUE(w.errors().starts_with(start)) << w.errors();
-  // What slides: the slope, outwards at its toe; not the back nor the base.
+  // The sliding soil is the slope, outwards at its toe, but neither the back nor the base.
   const Hdf5File file(w.folder().file("slip.hdf"), Hdf5File::Mode::read);
   const std::vector<double> x = file.read_doubles("/VTKHDF/Points");
   const std::vector<double> slip = read_field(file, "/VTKHDF/PointData", "mechanism").values;
@@ -203,9 +203,9 @@ TEST(StrengthTable, SlopeUnderWaterHasTheFactorOfOneThatWeighsAsMuchAsItUnderWat
 // ------------------------------------------------------------------ the infinite slope with
 // seepage
 
-/// A piece of an infinite slope, turned so that its surface is the top of a box, with water that
+/// A piece of an infinite slope, rotated so that its surface is the top of a box, with water that
 /// flows along it. Its sides carry the stress at the limit, in steps of a row; the upper half has
-/// cohesion, so that no step fails by itself. Its friction falls with its fines, which leave at a
+/// cohesion, so that no such step fails by itself. Friction falls with the fines, which leave at a
 /// constant rate.
 struct InfiniteSlope {
   static constexpr int rows = 6;
@@ -217,7 +217,7 @@ struct InfiniteSlope {
   static constexpr double fines_last = 1e5;  ///< s
 
   static double fines_left(double time) { return 1.0 - time / fines_last; }
-  /// N/m3
+  /// \return N/m3
   static double saturated_weight(double left) {
     const double n = porosity + erodible * (1.0 - left);
     return ((1.0 - n) * 2700.0 + n * 1000.0) * gravity;
@@ -316,7 +316,7 @@ dilation = 28.0
   }
 };
 
-/// Meshed with and without a skeleton that moves, and both run.
+/// Meshed and run with and without a moving skeleton.
 const Workshop& infinite_slope() {
   static const Workshop w;
   static const bool made = [] {
@@ -348,8 +348,8 @@ void expect_exact_fines(const Columns& found) {
   }
 }
 
-/// The law takes fines per volume of soil, which grows as the slope dilates: in each interval the
-/// loss lies between those of the volumes at its ends, which follow from the mean porosity.
+/// The law erodes fines per volume of soil, which grows as the slope dilates: in each interval the
+/// loss lies between those for the volumes at its ends, which follow from the mean porosity.
 void expect_fines_of_the_volume(const Columns& found, const Columns& history) {
   const std::vector<double>& left = found.at("fines_left");
   const auto volume = [&](std::size_t k) {
@@ -486,7 +486,7 @@ TEST(StrengthTable, RefusesSoilThatFailsWithAnyStrengthAndNamesIt) {
       << said;
 }
 
-/// Air above the soil carries nothing: the factor is that of the soil alone.
+/// Air above the soil carries no load: the factor is that of the soil alone.
 TEST(StrengthTable, AirAboveTheSoilChangesNothing) {
   const Workshop w;
   std::string geometry = test::read_file(SUFFUSE_SOURCE_DIR "/tests/cases/slope.geo");
@@ -541,7 +541,7 @@ TEST(StrengthTable, WarnsOfSuctionInSoilThatStaysFull) {
   const std::string retention = "retention = {model = \"gardner\", alpha = 10.0}\n";
   scene.erase(scene.find(retention), retention.size());
   w.mesh("suction", scene);
-  // Water that flows out of a slope of this strength carries soil at its toe away.
+  // Water that flows out of a slope of this strength erodes soil at its toe.
   EXPECT_EQ(w.run("suffuse-solver suction.case.h5 --strength-reduction --quiet"), 3);
   EXPECT_TRUE(w.errors().starts_with("suffuse-solver: warning: at the start: suction up to "))
       << w.errors();

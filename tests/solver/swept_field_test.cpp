@@ -13,8 +13,8 @@
 namespace suffuse {
 namespace swept_field_test {
 
-/// A closed box of water in soil, or a column that water crosses; the flow comes of a stream
-/// function, so that it balances to round-off.
+/// A closed box of water in soil, or a column that water crosses; the flow is that of a stream
+/// function, so it balances to round-off.
 struct Box {
   explicit Box(const std::function<double(const Vector<2>&)>& stream)
       : c(make()),
@@ -64,7 +64,7 @@ struct Box {
     }
     return {low, high};
   }
-  /// A step with `times` the volumes.
+  /// Makes a step with `times` the volumes.
   bool step(double times) {
     std::vector<double> crossing = volumes;
     for (double& volume : crossing) volume *= times;
@@ -114,8 +114,8 @@ TEST(SweepOrder, ComesAlongTheFlow) {
   }
 }
 
-/// Liquid that goes around takes its fines along, however long the step: nothing is lost, there is
-/// no more anywhere than there was, and in the end they are spread evenly along each line.
+/// Liquid that circulates carries its fines along, in steps of any length: nothing is lost, and the
+/// concentration nowhere leaves its initial range.
 TEST(SweptField, GoesAroundInACircle) {
   for (const double times : {0.01, 1.0, 10.0}) {
     Box box(around);
@@ -139,7 +139,7 @@ TEST(SweptField, KeepsAConstantConcentration) {
   EXPECT_NEAR(high, 0.15, 1e-12);
 }
 
-/// Every point gives the same volume, whatever the liquid asks for.
+/// Every point gives the same volume, whatever the liquid requests.
 class GivingSkeleton final : public ErodingSkeleton<2> {
  public:
   GivingSkeleton(const Grid<2>& grid, const SoilMap<2>& soils, double volume)
@@ -153,8 +153,8 @@ class GivingSkeleton final : public ErodingSkeleton<2> {
   double volume_;
 };
 
-/// What points give comes into the liquid where they are today: in an element that has got a
-/// neighbour's points, as in one that has lost its own.
+/// The liquid receives fines at the present places of points: in an element that got a neighbour's
+/// points, and in one that has lost its own.
 TEST(ImplicitTransport, ReceivesWherePointsHaveMovedTo) {
   Box box(around);
   FieldTransport<2> transport(box.grid, box.soils, box.values.at(0.0), box.values,
@@ -190,7 +190,7 @@ TEST(ImplicitTransport, ReceivesWherePointsHaveMovedTo) {
   }
 }
 
-/// The concentration at faces can be asked for at any time: that changes neither the fines that
+/// The concentration at faces can be queried at any time: a query changes neither the fines that
 /// cross faces nor those that stay.
 TEST(FieldTransport, QuestionsChangeNothing) {
   for (const TransportScheme scheme :

@@ -1,4 +1,4 @@
-/// Fluidised fines and points that come in, on tetrahedra.
+/// Fluidised fines and points of the inflow, on tetrahedra.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace tetrahedra_transport_test {
 
 constexpr double flux = 0.012;
 
-/// A unit cube that liquid enters from above, uniformly and so exactly without divergence.
+/// A unit cube that liquid enters from above; the flux is uniform, so exactly without divergence.
 struct Cube {
   explicit Cube(Mesh<3> mesh, double inflow_concentration = 0.0)
       : c(make(std::move(mesh), inflow_concentration)),
@@ -41,7 +41,7 @@ struct Cube {
     scene.boundaries[0].concentration = inflow_concentration;
     return model::make_case(std::move(mesh), scene);
   }
-  /// Nothing goes through walls.
+  /// Sets the volumes of a uniform flux; nothing passes the walls.
   void set_flux(const Vector<3>& q) {
     volume.clear();
     for (int f = 0; f < grid.face_count(); ++f) {
@@ -54,7 +54,7 @@ struct Cube {
     for (const auto& values : state.fines_volume) sum += element_sum<3>(values);
     return sum;
   }
-  /// Advances by `time` in steps of a share of the limit; returns what came in.
+  /// Advances by `time` in steps of a share of the limit; returns the net volume that entered.
   double run(double time, double share = 0.9) {
     const double allowed = share * transport.steps_allowed(state, volume);
     const int steps = static_cast<int>(std::ceil(time / allowed));
@@ -112,8 +112,8 @@ TEST(TetrahedraTransport, AFrontStaysWithinBoundsAndEveryGrainIsBooked) {
   EXPECT_GE(s.lowest, 0.0);
   EXPECT_LE(s.highest, 0.6 + 1e-11);
   EXPECT_NEAR(s.fines(), in, 1e-15);
-  // After 10 s the front stands at q t / n = 0.4 m: what has spread by then has not reached the
-  // end.
+  // After 10 s the front is at q t / n = 0.4 m: grains that have spread ahead of it have not
+  // reached the end.
   EXPECT_NEAR(in, 0.6 * flux * 10.0, 1e-6);
 }
 
@@ -136,9 +136,9 @@ TEST(TetrahedraTransport, BothSidesOfAFaceFindTheSameGrains) {
   EXPECT_GE(inner, s.grid.face_count() / 2);
 }
 
-/// One element at a time, where nothing else limits the step: any flow through its faces, 0 or 0.02
-/// at each of its vertices, which no limiter would leave, and pores that differ by little, where
-/// every face has a share of its own, and by more than any soil's.
+/// One element at a time, where nothing else limits the step: any flow through its faces; 0 or 0.02
+/// at each of its vertices, which no limiter would leave; pores that differ little, where every
+/// face has a share of its own, or by more than in any soil.
 TEST(TetrahedraTransport, StepsAsLongAsAllowedTakeNoMoreThanThereIs) {
   Cube s(model::box_mesh({2, 2, 2}));
   model::Uniform uniform(4);
@@ -168,7 +168,7 @@ TEST(TetrahedraTransport, StepsAsLongAsAllowedTakeNoMoreThanThereIs) {
 }
 
 TEST(TetrahedraTransport, ASmoothProfileIsSecondOrder) {
-  // A bump carried down by 0.4 m; the limiter may clip its top, so the norm is L1.
+  // A bump moves down by 0.4 m; the limiter may clip its top, so the norm is L1.
   const auto bump = [](double z) {
     return z > 0.4 && z < 1.0 ? 0.3 * std::pow(std::sin((z - 0.4) / 0.6 * std::numbers::pi), 4)
                               : 0.0;
@@ -192,7 +192,7 @@ TEST(TetrahedraTransport, ASmoothProfileIsSecondOrder) {
     for_each_node([&](int e, int j, double z) {
       s.state.fines_volume[e][j] = s.state.liquid_volume[e][j] * bump(z);
     });
-    // A step in which nothing flows leaves the profile limited.
+    // A step without flow limits the profile first.
     TransportScratch<3> scratch;
     s.transport.start(s.state, std::vector<double>(s.volume.size(), 0.0), scratch);
     s.transport.advance(s.state, {}, {}, scratch);
@@ -209,11 +209,11 @@ TEST(TetrahedraTransport, ASmoothProfileIsSecondOrder) {
   EXPECT_LE(errors[2], 1e-3);
 }
 
-/// Moments of points on a triangle, and how many lie in each quarter of it.
+/// Moments of points on a triangle, and numbers of points in its quarters.
 struct Spread {
   std::array<double, 3> mean{};
   std::array<std::array<double, 3>, 3> second{};
-  std::array<double, 4> quarter{};  ///< at each corner, then the one in the middle
+  std::array<double, 4> quarter{};  ///< at each corner, then in the middle
 };
 
 Spread spread_of(bool random, const std::array<double, 3>& inflow, int points) {
@@ -239,7 +239,8 @@ TEST(TetrahedraPlacement, PointsLieEvenlyOnAFace) {
   for (const bool random : {false, true}) {
     const int points = 20000;
     const Spread spread = spread_of(random, {2.0, 2.0, 2.0}, points);
-    // Three standard deviations of random points; evenly spread ones are as close as a few of them.
+    // Three standard deviations of random points; evenly spread points deviate only by a few
+    // points.
     const double tolerance = random ? 3.0 * 0.25 / std::sqrt(points) : 5.0 / points;
     double worst = 0.0;
     for (int i = 0; i < 3; ++i) {

@@ -98,7 +98,7 @@ TEST(TetrahedraGrid, NormalsPointOutAndGradientsReproduceALinearFunction) {
 TEST(TetrahedraGrid, FieldNodesAreAQuadratureOfDegreeTwo) {
   using Nodes = FieldNodes<3>;
   EXPECT_NEAR(Nodes::near_vertex + 3.0 * Nodes::far_vertex, 1.0, 1e-15);
-  // Means over the tetrahedron: of a coordinate 1/4, of its square 1/10, of a product of two 1/20.
+  // Means over the tetrahedron: 1/4 of a coordinate, 1/10 of its square, 1/20 of a product of two.
   const double near = Nodes::near_vertex;
   const double far = Nodes::far_vertex;
   EXPECT_NEAR((near * near + 3.0 * far * far) / 4.0, 0.1, 1e-15);
@@ -112,7 +112,7 @@ TEST(TetrahedraGrid, FieldNodesAreAQuadratureOfDegreeTwo) {
   }
 }
 
-/// A mesh of the unit cube with volumes through its faces, kept together; porosity 0.3.
+/// A mesh of the unit cube with volumes through its faces; porosity 0.3.
 struct Field {
   explicit Field(Mesh<3> m)
       : mesh(std::move(m)),
@@ -124,7 +124,7 @@ struct Field {
   Field& operator=(const Field&) = delete;
   ~Field() = default;
 
-  /// Of a flux that is constant or linear along faces.
+  /// Sets volumes of a flux that is constant or linear along faces.
   template <class Flux>
   void set_flux(const Flux& flux) {
     for (int f = 0; f < grid.face_count(); ++f) {
@@ -152,7 +152,7 @@ struct Field {
   [[nodiscard]] bool is_inner(int node) const {
     return mesh.nodes[node].minCoeff() > 0.0 && mesh.nodes[node].maxCoeff() < 1.0;
   }
-  /// Turns around every edge between inner nodes: without divergence, nothing at the walls.
+  /// Circulation around every edge between inner nodes: no divergence, no flow at the walls.
   void set_random_turns(Random& random, double size) {
     for (const auto& nodes : mesh.elements) {
       for (int a = 0; a < 4; ++a) {
@@ -182,7 +182,7 @@ struct Field {
   std::vector<FacePassage<3>> passages;
 };
 
-/// Inside an element, on one of its faces, edges or nodes, each as often.
+/// A place inside an element, on one of its faces, edges or nodes, with equal probability.
 PointPlace<3> random_place(const Mesh<3>& mesh, Random& random, int kinds = 4) {
   PointPlace<3> place{static_cast<int>(random() * mesh.element_count()), {}};
   const auto zeros = static_cast<int>(random() * kinds);
@@ -211,7 +211,8 @@ TEST(TetrahedraWalk, UniformFluxMovesPointsStraight) {
   int left = 0;
   for (unsigned seed = 1; seed <= 9; ++seed) {
     Random random(seed);
-    // Some along diagonals of the cells and of their sides, which are edges of elements.
+    // Half of the fields flow along diagonals of the cells and of their sides, which are edges of
+    // elements.
     const bool along_edges = seed % 2 == 0;
     Vector<3> flux(0.3, seed % 4 == 0 ? 0.3 : 0.0, 0.3);
     if (!along_edges)
@@ -245,7 +246,7 @@ TEST(TetrahedraWalk, UniformFluxMovesPointsStraight) {
 }
 
 TEST(TetrahedraWalk, FollowsALinearFluxWithDivergenceAndPorosityInTime) {
-  // a + b x lies in the space of Raviart and Thomas on any mesh: x + a/b = e^(b tau) (x_0 + a/b)
+  // The space of Raviart and Thomas contains a + b x on any mesh: x + a/b = e^(b tau) (x_0 + a/b)
   // with the clock tau = integral of ds/n.
   double worst = 0.0;
   for (const double change : {0.0, 0.15, -0.1}) {
@@ -265,7 +266,7 @@ TEST(TetrahedraWalk, FollowsALinearFluxWithDivergenceAndPorosityInTime) {
             change == 0.0 ? (1.0 - from) / n : std::log((0.3 + change) / n) / change;
         const Vector<3> expected = start + std::expm1(b * clock) / b * (a + b * start);
         if (expected.minCoeff() < 1e-9 || expected.maxCoeff() > 1.0 - 1e-9) continue;
-        if (field.walk(place, from) >= 0) continue;  // began on an outer face and left at once
+        if (field.walk(place, from) >= 0) continue;  // started on an outer face and left at once
         expect_inside(place);
         worst = std::max(worst, (place.position(field.mesh) - expected).norm());
         ++compared;
@@ -367,7 +368,8 @@ TEST(TetrahedraWalk, NearAnEdgeThatTheFlowTurnsAroundPointsStay) {
       EXPECT_LE((place.position(field.mesh) - start).norm(), 10.0 * distance + 1e-13);
     }
   }
-  // Around through a ring of elements, thousands of times: too wide a circle to be taken for one.
+  // The point circulates thousands of times through a ring of elements, on a circle too wide to
+  // count as a point.
   field.add_turn(middle, 14, 3e4);
   const auto has_edge = [](const std::array<int, 4>& nodes) {
     return std::count(nodes.begin(), nodes.end(), middle) +
@@ -384,7 +386,7 @@ TEST(TetrahedraWalk, NothingIsLostAndTwoPartsAreTheWhole) {
   double worst = 0.0;
   int crossed = 0;
 #ifdef __SANITIZE_ADDRESS__
-  constexpr unsigned fields = 4;  // slow there
+  constexpr unsigned fields = 4;  // slow
 #else
   constexpr unsigned fields = 20;
 #endif

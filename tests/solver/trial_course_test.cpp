@@ -24,7 +24,7 @@ TEST(TrialCourse, GrowingStepsGoOnGrowingUntilTheyAreLongest) {
   const double last = course.last().time;
   const double growing = std::log(100.0 / last) / std::log(1.1);
   EXPECT_NEAR(course.steps_to_go(1e9, 100.0), growing, 0.15 * growing);
-  // 1 s long from t = 10 s on
+  // steps are 1 s long from t = 10 s on
   const double capped = std::log(10.0 / last) / std::log(1.1) + 990.0;
   EXPECT_NEAR(course.steps_to_go(1.0, 1000.0), capped, 0.02 * capped);
 }

@@ -16,8 +16,8 @@
 namespace suffuse::stress {
 namespace {
 
-/// A program that waits for what never comes takes no time: it is ended after so many times its
-/// share.
+/// A program that waits forever uses no processor time: it is ended when its wall time is this
+/// multiple of its limit.
 constexpr double max_waiting = 30.0;
 
 [[noreturn]] void become(std::vector<char*> words, const std::string& log, double max_seconds) {

@@ -15,7 +15,7 @@ struct ChildEnd {
   std::string output;    ///< what it wrote to standard output and error
 };
 
-/// `arguments` begins with the program; what it says goes through the file `log`.
+/// `arguments` begins with the program; its output goes through the file `log`.
 ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& log,
                    double max_seconds);
 

@@ -13,9 +13,10 @@ namespace suffuse::stress {
 namespace {
 
 constexpr unsigned seeds = 20;
-/// Of the energy at the start: sums of a few hundred terms over some thousand steps.
+/// Largest drift over the energy at the start: sums of a few hundred terms over some thousand
+/// steps.
 constexpr double max_drift = 1e-11;
-/// Of the energy before a step.
+/// Largest growth in a step over the energy before it.
 constexpr double max_growth = 1e-12;
 
 struct Box {
@@ -24,7 +25,7 @@ struct Box {
   double dt = 0.0;
 };
 
-/// Everything but what is asked at random.
+/// A box with random numbers for all settings of the sweep.
 Box random_box(unsigned seed) {
   Random random(seed + 300);
   Box box;

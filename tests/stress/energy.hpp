@@ -1,13 +1,13 @@
 #pragma once
 
-/// The energy of the flow schemes, in process: a sealed box is let go from a random pressure.
+/// The energy of the flow schemes, in process: a sealed box starts from a random pressure.
 
 #include <iosfwd>
 #include <string>
 
 namespace suffuse::stress {
 
-/// What the sweep does, for the table.
+/// Description of the sweep for the table.
 std::string energy_sweep_is();
 
 /// Appends a line per run. Returns how many failed.

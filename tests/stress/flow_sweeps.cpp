@@ -115,7 +115,8 @@ Sweep scaling() {
     sweep.add(explicit_ones, s, {set("time.mass_scaling", scaling)});
     sweep.add(explicit_ones, s + " drag stepped implicitly",
               {set("time.mass_scaling", scaling), "time.drag=implicit"});
-    // A million times as heavy, the liquid that is set in motion at once presses harder than K.
+    // The imposed flux sets liquid in motion at once: with 1e6 times its inertia, pressures exceed
+    // K.
     sweep.add(explicit_ones, s + " imposed flux", [&](Scenario& scenario) {
       scenario.changes = [scaling](const Span&) {
         return Changes{set("time.mass_scaling", scaling), top_flux + "0.012, concentration=0.1}"};
@@ -152,7 +153,7 @@ Sweep given_step() {
               s.expected = share > 1.0 ? Expected::refused : Expected::done;
               s.changes = [=](const Span& span) {
                 Changes result{"time.drag=" + drag};
-                // The least of what erosion does to the limit lies within the run.
+                // The smallest limit, which erosion changes, occurs within the run.
                 if (jumps) {
                   result.push_back(
                       "soil.other={like=\"specimen\", porosity=0.95, skeleton_fraction=0.05, "
@@ -170,7 +171,7 @@ Sweep given_step() {
   }
   for (const double share : {1e-6, 1e-3, 0.05, 1.0 / 3.0, 1.0}) {
     sweep.add(implicit_ones, "step " + shown(share) + " of the run", [&](Scenario& s) {
-      // Short steps in a short run.
+      // Short steps have a short run.
       s.end = share < 1e-4 ? 1e-3 : 100.0;
       const double step = share < 1e-4 ? 1e-6 : share * 100.0;
       s.changes = [step](const Span&) { return Changes{set("time.step", step)}; };

@@ -21,18 +21,18 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double round_off = 1e-12;
-/// Of the concentration in an element without grains.
+/// Largest round-off of the concentration in an element without grains.
 constexpr double no_grains = 1e-13;
-/// Pressures that a wave may reach where pressures alone drive, over their range: twice for each
-/// reflection. A step that is too long goes beyond in no time.
+/// Largest pressure of waves over the range of the driving pressures: each reflection doubles it.
+/// With too long a step, pressures soon exceed this.
 constexpr double max_waves = 10.0;
-/// Of the pressure where it is promised to stay within its bounds.
+/// Largest relative overshoot of pressures that are promised to stay within bounds.
 constexpr double max_overshoot = 1e-10;
-/// Of a discharge that is known, with the default tolerance of 1e-3.
+/// Largest relative error of a known discharge, with the default tolerance of 1e-3.
 constexpr double max_discharge_error = 3e-3;
-/// Of a mean porosity that is known.
+/// Largest error of a known mean porosity.
 constexpr double max_porosity_error = 1e-9;
-/// Factors of safety are found within 1 %, two of them within twice as much.
+/// Factors of safety are found within 1 %, so two of them differ by up to twice as much.
 constexpr double max_factor_error = 0.021;
 
 std::string shown(double value) {
@@ -49,7 +49,7 @@ class Judge {
         Judgement& judgement)
       : scenario_(scenario), case_(c), scene_(c.document.scene), results_(folder), j_(judgement) {}
 
-  /// What does not hold, one after the other; empty where all does.
+  /// The violated conditions, one after the other; empty if all hold.
   std::vector<std::string> complaints(bool ended_well) {
     read_run_info(ended_well);
     j_.bounded = promises_bounds();
@@ -89,9 +89,9 @@ class Judge {
            "run.json does not say why the run failed");
   }
 
-  /// Backward Euler on a mesh without obtuse angles, with a scalar mobility and nothing but
-  /// pressures that drive. Water masses that are let out later are a source, which single-point
-  /// models have and double-point models do not, and water that does not compress neither.
+  /// Backward Euler promises bounds on a mesh without obtuse angles, with a scalar mobility and
+  /// only pressures that drive. Water masses that are released later are a source: single-point
+  /// models have it, except with incompressible water; double-point models do not.
   [[nodiscard]] bool promises_bounds() const {
     const bool monotone =
         scenario_.scheme == Scheme::sp_monotone || scenario_.scheme == Scheme::dp_monotone;
@@ -149,7 +149,7 @@ class Judge {
     }
   }
 
-  /// Explicit runs have waves; those that pressures set off are about as high as these.
+  /// Explicit runs have waves; those caused by boundary pressures are about as high as these.
   void check_waves(double lowest, double highest) {
     const bool heavy = scene_.gravity != std::array<double, 3>{};
     if (!is_explicit(scenario_.scheme) || heavy) return;
@@ -160,7 +160,7 @@ class Judge {
       low = std::min(low, b.pressure->smallest());
       high = std::max(high, b.pressure->largest());
     }
-    // At rest there is the round-off of the equation of state.
+    // At rest, the round-off of the equation of state counts.
     const double range = high - low + round_off * scene_.liquid.bulk_modulus;
     expect(lowest >= low - max_waves * range && highest <= high + max_waves * range,
            "pressures from " + shown(lowest) + " to " + shown(highest) +
@@ -187,8 +187,8 @@ class Judge {
       j_.residual = std::max(j_.residual, residual);
       const double grains =
           at("solid", 0) + at("fines", 0) + at("fines_in", i) + at("fines_out", i);
-      // What the solid lost, counted as it is stored, is what the liquid gained, has let out, or
-      // waits for.
+      // The liquid gained what the solid lost, including fines that left the model and pending
+      // fines.
       const double lost = at("solid", 0) - at("solid", i);
       const double gained = at("fines", i) - at("fines", 0) + at("fines_out", i) -
                             at("fines_in", i) + at("pending", i);
@@ -196,7 +196,7 @@ class Judge {
              "the solid lost " + shown(lost) + " kg and the liquid gained " + shown(gained));
       const double eroded = at("eroded", i);
       const double deposited = at("deposited", i);
-      // Fines that come and go many times are counted every time.
+      // Fines that are eroded and deposited many times are counted every time.
       expect(std::abs(lost - (eroded - deposited)) <= round_off * (grains + eroded),
              "the solid lost " + shown(lost) + " kg; eroded are " + shown(eroded) + ", deposited " +
                  shown(deposited));
@@ -295,7 +295,7 @@ class Judge {
       break;
     }
     last_porosity_ = porosity;
-    // Means of elements lie between the extremes of their soils.
+    // Mean porosities of elements lie between 0 and 1.
     for (const double n : results_.field(index, "cell", "porosity").values) {
       if (n > 0.0 && n <= 1.0 + round_off) continue;
       complain("porosity " + shown(n) + " of an element in " + where);
@@ -303,14 +303,14 @@ class Judge {
     }
   }
 
-  /// The water of the ledger fills the pores that it can fill, up to what fines take of them.
+  /// The water of the ledger fills the saturated part of the pores that fines leave free.
   void check_stored_water(std::size_t index, const std::string& where) {
     const Table ledger = results_.ledger();
     const std::vector<double>& t = ledger.column("t");
     const double time = results_.times()[index];
     const auto row = std::ranges::find_if(
         t, [&](double at) { return std::abs(at - time) <= round_off * scene_.time.end; });
-    if (row == t.end()) return;  // of a run that failed between two rows
+    if (row == t.end()) return;  // a run that failed between two rows
     const auto i = static_cast<std::size_t>(row - t.begin());
     const auto cells = [&](const char* name) { return results_.field(index, "cell", name).values; };
     const std::vector<double> porosity = cells("porosity");
@@ -328,20 +328,20 @@ class Judge {
       liquid += of_element * saturation[e];
       room += of_element * saturation[e] * density_ratio(pressure[e], scene_.liquid.bulk_modulus);
     }
-    // Grains do not give way to pressure.
+    // Grains are incompressible.
     const double fines = ledger.column("fines")[i] / scene_.soils.front().grain_density;
     const double fits = room * (1.0 - fines / liquid);
     const double stored = ledger.column("water")[i] / scene_.liquid.density;
     const double misfit = std::abs(stored - fits) / pores;
     j_.misfit = std::max(j_.misfit, misfit);
-    // Points carry masses, whose volumes are off by what the run says.
+    // Points carry masses; their volumes have the error that the run reports.
     const double allowed = std::max(
         max_eos_error, is_double_point(scenario_.scheme) ? j_.volume_defect + round_off : 0.0);
     expect(misfit <= allowed, "the water stored in " + where + " takes " + shown(stored) +
                                   " m3 without pressure, the pores have room for " + shown(fits));
   }
 
-  /// n_e that stays whatever the flow.
+  /// The smallest n_e that remains at any flux.
   static double least_residual(const Soil& soil) {
     double least = 1.0;
     for (const auto& [flux, stays] : soil.erosion.residual.pairs) least = std::min(least, stays);
@@ -366,7 +366,7 @@ class Judge {
     check_places(index, where);
   }
 
-  /// Liquid points lie in the elements that they say.
+  /// Liquid points lie in the elements that they name.
   void check_places(std::size_t index, const std::string& where) {
     const std::vector<Vector<Dim>> places = results_.point_positions<Dim>(index, "liquid");
     const std::vector<double> element = results_.field(index, "liquid", "element").values;
@@ -395,7 +395,7 @@ std::string joined(const std::vector<std::string>& parts) {
   return result;
 }
 
-/// The line of what the program said that is its error.
+/// The lines of the program's output that are no warnings.
 std::string error_line(const std::string& output) {
   std::istringstream lines(output);
   std::string found;
@@ -406,7 +406,7 @@ std::string error_line(const std::string& output) {
   return found;
 }
 
-/// A time in s, but for a strength reduction, and a place.
+/// Whether the message names a time in s, or the start, and a place.
 bool says_where(const std::string& message) {
   static const std::regex time("t = [-+0-9.e]+ s");
   static const std::regex place(R"(at \( *[-+0-9.e]+,? +[-+0-9.e]+)");
@@ -415,7 +415,7 @@ bool says_where(const std::string& message) {
   return has_time && std::regex_search(message, place);
 }
 
-/// A controlled refusal says something, and does not call itself a bug.
+/// A controlled refusal has a message, and does not call itself a bug.
 Judgement refusal(const Scenario& scenario, int exit_code, const std::string& message) {
   Judgement result;
   result.exit_code = exit_code;
@@ -430,7 +430,7 @@ Judgement refusal(const Scenario& scenario, int exit_code, const std::string& me
   return result;
 }
 
-/// As a cell of a table without quotes.
+/// The text as a cell of a table without quotes.
 std::string cell(std::string text) {
   std::ranges::replace(text, ',', ';');
   std::ranges::replace(text, '\n', ' ');
@@ -458,11 +458,11 @@ Judgement judge_run(const Scenario& scenario, const Case<Dim>& c, const ChildEnd
   if (wrong_input) {
     result = judge_refusal(scenario, error_line(end.output));
   } else if (end.exit_code == static_cast<int>(ExitCode::file_failure) && scenario.disturb) {
-    // What was done to the case file the mesher would not have written.
+    // The mesher would not have written the disturbed case file.
     result = refusal(scenario, end.exit_code, error_line(end.output));
   } else if (end.exit_code == 0 || gave_up) {
     if (gave_up) result = refusal(scenario, end.exit_code, error_line(end.output));
-    // Without a start there is nothing to write.
+    // Without a start the run writes no results.
     if (gave_up && !std::filesystem::exists(folder)) return with_end(std::move(result), end);
     if (!gave_up) result.verdict = scenario.expected == Expected::refused ? "failed" : "pass";
     if (result.verdict == "failed" && !gave_up) result.message = "ran; expected a refusal";

@@ -9,10 +9,10 @@
 
 namespace suffuse::stress {
 
-/// Of one run; a line of the table.
+/// The judgement of one run; a line of the table.
 struct Judgement {
   std::string verdict;  ///< pass, refused or failed
-  std::string message;  ///< of the refusal, or what does not hold
+  std::string message;  ///< of the refusal, or the violated conditions
   int exit_code = 0;
   int warnings = 0;
   double residual = 0.0;   ///< largest of the ledger
@@ -31,15 +31,15 @@ struct Judgement {
   double seconds = 0.0;
 };
 
-/// The mesher's part refused the scenario.
+/// The mesher refused the scenario.
 Judgement judge_refusal(const Scenario& scenario, const std::string& message);
 /// The solver ran the case `c` into `folder` and ended as `end` says.
 template <int Dim>
 Judgement judge_run(const Scenario& scenario, const Case<Dim>& c, const ChildEnd& end,
                     const std::string& folder);
 
-/// Of a reduction of strength that wrote `tables`: with the strength of the scenario, and with the
-/// scaled one. The second did not run where the first ended without a factor.
+/// Judges a reduction of strength that wrote `tables`: with the strength of the scenario, and with
+/// the scaled one. The second does not run if the first ended without a factor.
 Judgement judge_strength(const Scenario& scenario, const std::vector<ChildEnd>& ends,
                          const std::vector<std::string>& tables);
 

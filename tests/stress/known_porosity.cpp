@@ -17,12 +17,13 @@ double integral(double low, double high, int parts) {
   return sum * h / 3.0;
 }
 
-/// By bisection of the time that porosity takes, int dn / -ln(n), n over its largest. With
-/// n = exp(-exp(w)) that is the integral of exp(-exp(w)) dw: smooth, so Simpson's rule does.
+/// Bisection for the porosity by the time that it takes, int dn / -ln(n), with n over its largest
+/// value. With n = exp(-exp(w)) this is the integral of exp(-exp(w)) dw, smooth enough for
+/// Simpson's rule.
 double logarithmic(double first, double most, double scaled_time) {
   const double begin = std::log(-std::log(first / most));
   const auto time_to = [&](double end) {
-    // Below, the integrand is 1 to the last digit.
+    // Below this value the integrand is 1 up to round-off.
     constexpr double flat = -40.0;
     constexpr int parts = 4000;
     if (end < flat && begin > flat) return (flat - end) + integral(flat, begin, parts);
@@ -37,7 +38,7 @@ double logarithmic(double first, double most, double scaled_time) {
   return most * std::exp(-std::exp(high));
 }
 
-/// Some fines stay. A scene that says nothing has a residual of 0.
+/// Whether some fines stay. A scene without a residual has 0.
 bool has_residual(const ErosionModel& model) {
   return std::ranges::any_of(model.residual.pairs,
                              [](const auto& pair) { return pair.second > 0.0; });

@@ -30,7 +30,7 @@ struct Arguments {
   bool keep = false;
 };
 
-/// Twice: with the strength of the scenario, and with that scaled.
+/// Runs the scenario twice: with its strength, and with the scaled strength.
 Judgement judged_strength(const Scenario& scenario, const Arguments& arguments,
                           const std::string& stem) {
   std::vector<ChildEnd> ends;
@@ -79,7 +79,7 @@ void list() {
   std::cout << "energy," << energy_sweep_is() << '\n';
 }
 
-/// Runs of a sweep, a line of the table each. Returns how many failed.
+/// Makes the runs of a sweep, a line of the table each. Returns how many failed.
 int run_sweep(const Sweep& sweep, const Arguments& arguments, std::ostream& table) {
   int failed = 0;
   for (std::size_t i = 0; i < sweep.scenarios.size(); ++i) {

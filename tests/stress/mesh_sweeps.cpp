@@ -10,8 +10,8 @@ Sweep porosity() {
                    "n_0 from 0.01 to 0.99; nothing to erode, a little, nearly everything; at rates "
                    "up to all at once");
   for (const double n : {0.01, 0.05, 0.5, 0.95, 0.99}) {
-    for (const double left : {1.0, 0.9, 1e-6}) {  // of the solid: skeleton
-      // At all once: in the middle of the run, within a millionth of it.
+    for (const double left : {1.0, 0.9, 1e-6}) {  // share of the solid that is skeleton
+      // "At once" is within a millionth of the run, in its middle.
       for (const double duration : {0.5, 1e-6}) {
         const std::string what = left == 1.0   ? "nothing to erode"
                                  : left == 0.9 ? "a tenth erodes"
@@ -153,7 +153,7 @@ Sweep slivers() {
     for (const std::string start : {"rest", "steady"}) {
       sweep.add(every, shape.name + std::string(" from ") + start, [&](Scenario& s) {
         s.mesh = shape.mesh;
-        // The same gradient however low the column.
+        // The gradient is the same for all heights of the column.
         double height = 0.0;
         for (const Vector<2>& node : shape.mesh().nodes) height = std::max(height, node[1]);
         s.changes = [=](const Span&) {
@@ -241,7 +241,7 @@ Sweep points() {
           seed);
     }
   }
-  // The fields of single-point models would run out of pores there.
+  // In single-point models the fields would run out of pores with these points.
   const auto on_corners = [](Scenario& s) {
     s.disturb = [](Case<2>& c) {
       join(c.solid_points);

@@ -14,13 +14,13 @@ namespace {
 constexpr unsigned seeds = 100;
 constexpr unsigned soft_seeds = 60;
 
-/// A number, or one that falls with the fines.
+/// A constant number, or one that falls with the fines.
 std::string falling(Random& random, double value, double share) {
   if (random.chance(0.5)) return number_text(value);
   return "[[1.0, " + number_text(value) + "], [0.0, " + number_text(share * value) + "]]";
 }
 
-/// A law of the skeleton and its numbers. `strong`: the soil stands.
+/// A law of the skeleton and its numbers. `strong`: the soil is stable.
 std::string skeleton(Random& random, double stiffness, bool strong) {
   const double poisson = random.chance(0.3) ? 0.0 : random.between(0.0, 0.49);
   const std::string elastic = "young = " + falling(random, stiffness, random.between(0.3, 0.9)) +
@@ -89,8 +89,8 @@ Changes column_changes(unsigned seed, double end) {
   return changes;
 }
 
-/// A column of one soft soil that catches fines until hardly less than its porosity, under a load
-/// up to its modulus: pores that are nearly gone.
+/// A column of one soft soil that catches fines up to almost its porosity, under a load up to its
+/// modulus: nearly all pores close.
 Changes soft_changes(unsigned seed, double end) {
   Random random(seed + 16000);
   const double stiffness = random.decades(1e4, 1e6);

@@ -15,7 +15,7 @@ std::string joined(const std::vector<std::string>& parts) {
   return text;
 }
 
-/// A drive at the gradient and flux that the run is about, in its own unit.
+/// Value of a drive at the gradient and flux of the run, in its own unit.
 double drive_scale(const std::string& drive, const Scales& s, double porosity) {
   const double permeability = s.conductivity * 1e-3 / weight;
   if (drive == "flux") return s.flux();
@@ -35,12 +35,12 @@ std::string residual(Random& random, double erodible, double flux) {
   for (int i = 0; i < pairs; ++i) {
     text += "[" + number_text(q) + ", " + number_text(stays) + "], ";
     q += random.between(0.05, 1.0) * flux;
-    stays *= random.between(0.0, 1.0);  // flow that is faster takes more
+    stays *= random.between(0.0, 1.0);  // a faster flow erodes more
   }
   return text + "]";
 }
 
-/// A run of `end` s takes a share of the fines that goes from a few in a hundred to nearly all.
+/// Erosion that takes from a few per cent to nearly all of the fines in a run of `end` s.
 std::string erosion(Random& random, const Scales& s, double porosity, double erodible, double end,
                     bool double_point) {
   constexpr std::array<const char*, 5> laws{"constant", "logarithmic", "first-order",
@@ -51,7 +51,7 @@ std::string erosion(Random& random, const Scales& s, double porosity, double ero
   std::vector<std::string> parts{word("law", law)};
   if (law != "flux") parts.push_back(word("drive", drive));
   const double scale = drive_scale(drive, s, porosity);
-  double taken = random.decades(0.05, 3.0);  // S, where the state is n_e
+  double taken = random.decades(0.05, 3.0);  // S, if the state is n_e
   if (law == "constant" || law == "logarithmic") taken *= erodible;
   if (law == "autocatalytic") taken /= std::max(0.02, s.inflow);
   double above = 1.0;
@@ -66,14 +66,14 @@ std::string erosion(Random& random, const Scales& s, double porosity, double ero
   if (random.chance(0.4)) {
     parts.push_back(entry("critical_concentration", random.decades(0.02, 0.6)));
   }
-  const bool anywhere = drive == "time" || drive == "flux";  // whatever bedding and retention
+  const bool anywhere = drive == "time" || drive == "flux";  // both allow bedding and retention
   if (random.chance(0.2) && anywhere) parts.emplace_back("momentum_transfer = true");
   if (double_point && random.chance(0.3)) parts.push_back(word("mass_transfer", "element"));
   if (double_point && random.chance(0.3)) parts.push_back(word("empty_elements", "dry"));
   return "erosion = {" + joined(parts) + "}";
 }
 
-/// Without a `porosity_min` pores fill up for good: then no more than a part of them.
+/// Without a `porosity_min` pores can fill up for good: then deposits take only a part of them.
 std::string deposition(Random& random, const Scales& s, double porosity, double fines, double end) {
   double coefficient = random.decades(0.1, 30.0);
   std::vector<std::string> parts;
@@ -110,7 +110,7 @@ std::string word(const std::string& key, const std::string& value) {
 
 std::string random_soil(Random& random, const Scales& s, double end, Scheme scheme) {
   const double n = s.porosity * random.between(0.8, 1.25);
-  const double loose = random.between(0.05, 0.4);  // of the solid
+  const double loose = random.between(0.05, 0.4);  // share of the solid
   const double erodible = (1.0 - n) * loose;
   std::vector<std::string> parts{entry("porosity", n),
                                  entry("skeleton_fraction", (1.0 - n) * (1.0 - loose)),

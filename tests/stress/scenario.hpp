@@ -14,7 +14,7 @@
 
 namespace suffuse::stress {
 
-/// Every way to carry the liquid and to step its flow.
+/// All transport and flow schemes.
 enum class Scheme {
   sp_explicit,
   sp_implicit,
@@ -31,25 +31,25 @@ std::string name_of(Scheme scheme);
 bool is_double_point(Scheme scheme);
 bool is_explicit(Scheme scheme);
 
-/// What the changes of a scene may depend on: how long it runs, and how long a step may be.
+/// What the changes of a scene may depend on: the end of the run and the largest step.
 struct Span {
   double end = 0.0;    ///< s
-  double limit = 0.0;  ///< s, the explicit scheme's stability limit; 0 where it is not known yet
+  double limit = 0.0;  ///< s, stability limit of the explicit scheme; 0 if it is not known yet
 };
 /// `--set` arguments, in order.
 using Changes = std::vector<std::string>;
 
 enum class Expected {
   done,     ///< the method covers it: a refusal is a failure
-  refused,  ///< the method does not: a run is a failure
+  refused,  ///< the method does not cover it: a run is a failure
   either
 };
 
-/// What does not hold, a sentence each.
+/// Violated conditions, a sentence each.
 using Complaints = std::vector<std::string>;
 
-/// The run is a reduction of strength, not a course in time. The factor of safety is proportional
-/// to the strength of all soils, so a second run with another strength has a factor that is known.
+/// The run is a reduction of strength, not a run in time. The factor of safety is proportional to
+/// the strength of all soils, so a second run with another strength has a known factor.
 struct StrengthRun {
   Changes scaled;      ///< in addition to those of the scenario
   double ratio = 1.0;  ///< of strengths, tan(phi) and c, with `scaled` over those without
@@ -60,18 +60,18 @@ struct Scenario {
   std::string parameters;  ///< in words, for the table
   unsigned seed = 0;       ///< 0: nothing is random
   std::variant<std::function<Mesh<2>()>, std::function<Mesh<3>()>> mesh;
-  /// Of the base scene (`scene_text`).
+  /// Changes of the base scene (`scene_text`).
   std::function<Changes(const Span&)> changes = [](const Span&) { return Changes{}; };
-  /// Of mesh and points, after seeding; in two dimensions.
+  /// Changes mesh and points after seeding; in two dimensions.
   std::function<void(Case<2>&)> disturb;
   double end = 100.0;  ///< s; explicit runs end after `explicit_steps` steps if that is sooner
   double explicit_steps = 10000.0;
   Expected expected = Expected::done;
-  /// Volume per time that the implicit schemes must end with, m3/s (per metre); known exactly.
+  /// Discharge at the end of implicit runs, m3/s (per metre); known exactly.
   std::optional<double> discharge;
-  /// What must hold of a run that ends well in addition to what holds of all.
+  /// Conditions on a run that ends well, in addition to those on all runs.
   std::function<Complaints(const ResultsReader&)> demands;
-  /// A run that is refused must say when (s) and where (x, y) as well.
+  /// A message of refusal must also contain the time (s) and the place (x, y).
   bool refusal_says_where = false;
   std::optional<StrengthRun> strength;
 };
@@ -85,11 +85,11 @@ struct Sweep {
 /// All sweeps that run the programs.
 std::vector<Sweep> all_sweeps();
 
-/// Levees under floods and rain, of soils that need not be saturated.
+/// Levees under floods and rain; their soils may be unsaturated.
 Sweep seepage_sweep();
-/// The mesh of one of them, of two soils: 1 m high, slopes of 0 to 2 m.
+/// The mesh of one of these levees, of two soils: 1 m high, slopes of 0 to 2 m.
 Mesh<2> levee_mesh(unsigned seed);
-/// Soils, flood, landside and rain of one of them; the run lasts as long as water needs to pass.
+/// Soils, flood, landside and rain of one of these levees; water crosses the levee within the run.
 Changes levee_changes(unsigned seed, double end);
 
 /// Soils that move: levees under floods, and columns that consolidate.

@@ -42,10 +42,10 @@ std::string soil(Random& random, double conductivity, double end) {
   const double residual = random.chance(0.3) ? 0.0 : random.between(0.02, 0.3);
   text += retention(random, residual);
   if (random.chance(0.7)) {
-    // Without flow, fines that erode into dry pores leave no room for the water.
+    // Without flow, fines that erode into dry pores would leave no room for the water.
     const bool by_flux = random.chance(0.5) || residual == 0.0;
     const double rate = random.decades(0.1, 10.0);
-    // Faster by flux, what erodes from unsaturated soil drives the flux that erodes it.
+    // If the rate by flux were larger, the eroded fines would drive the flux that erodes them.
     text += std::string(", erosion = {law = \"") + (by_flux ? "flux" : "first-order") + "\", " +
             entry("rate", by_flux ? std::min(rate / (conductivity * end), 10.0) : rate / end) + "}";
   }
@@ -122,7 +122,7 @@ Mesh<2> levee_mesh(unsigned seed) {
   const auto has = [&](const char* name) {
     return std::ranges::count(mesh.region_names, name) > 0;
   };
-  // Both soils of the scene must be somewhere.
+  // Both soils of the scene must be present.
   if (!has("other") || !has("specimen")) {
     name_regions(mesh, [&](const Vector<2>& x) { return x[1] < border ? "other" : "specimen"; });
   }

@@ -1,6 +1,6 @@
-/// Soil that moves or fails in the classes of input for which scenes of tests/cases stand: factors
-/// of safety, compression to the grains, rigid soil beside soil that moves, sand that has no
-/// equilibrium at the start. What is judged is known in each: a bound or a number.
+/// Soil that moves or fails, in the classes of input that tests/cases represents: factors of
+/// safety, compression to the grains, rigid soil next to soil that moves, sand without an
+/// equilibrium at the start. Each is judged by a known bound or number.
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ Mesh<2> levee_of_strength(unsigned seed) {
   return mesh;
 }
 
-/// With `ratio` times the strength.
+/// The friction and cohesion of a soil, with its strength scaled by `ratio`.
 std::string strength_of(double friction, double cohesion, double dilation, double ratio) {
   constexpr double degree = std::numbers::pi / 180.0;
   const double angle = std::atan(ratio * std::tan(friction * degree)) / degree;
@@ -107,7 +107,7 @@ Sweep strength_sweep() {
           s.mesh = [seed] { return levee_of_strength(seed); };
           s.changes = [changes](const Span&) { return changes; };
           s.strength = {scaled, ratio};
-          // Soil may fail whatever its strength, where water comes out of sand.
+          // Where water comes out of sand, soil may fail at any strength.
           s.expected = Expected::either;
           s.refusal_says_where = true;
         },
@@ -132,7 +132,7 @@ Sweep to_the_grains_sweep() {
     const bool erodes = seed % 2 == 0;
     std::string young = number(stiffness);
     if (erodes) {
-      // Where softer soil has lost its fines, steps become too short (docs/stability.md).
+      // If the soil without fines were softer, steps would become too short (docs/stability.md).
       const double left = std::max(stiffness * random.decades(1e-4, 0.3), 0.6 * load);
       young = "[[1.0, " + young + "], [0.0, " + number(left) + "]]";
     }
@@ -173,12 +173,12 @@ Sweep to_the_grains_sweep() {
   return maker.done();
 }
 
-// --- Rigid soil beside soil that moves
+// --- Rigid soil next to soil that moves
 
 constexpr double settlement_error = 5e-3;  // relative
 
 /// The rigid soil keeps its solid, and the column over it is compressed by the share `strain` of
-/// its height above `border`. 0: not known.
+/// its height above `border`; 0: the settlement is not known.
 Complaints settles_alone(const ResultsReader& results, double border, double strain) {
   Complaints complaints;
   const Table regions = results.region_ledgers();
@@ -207,8 +207,8 @@ Complaints settles_alone(const ResultsReader& results, double border, double str
   return complaints;
 }
 
-/// The load is M ln(J) / J of the column that cannot widen: ln(J) / J = -load / modulus, by
-/// Newton's method.
+/// Stretch J of the confined column under a load of -M ln(J) / J, M being the modulus, by Newton's
+/// method.
 double stretch_under(double load, double modulus) {
   double log = 0.0;
   for (int i = 0; i < 50; ++i) {
@@ -231,10 +231,11 @@ Sweep rigid_beside_sweep() {
     const double modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
     const double k = random.decades(1e-7, 1e-3);
     const double rigid_k = k * random.decades(1e-3, 1e3);
-    const double share = 0.5;  // of the rigid soil
-    // Small against the elements, as the soil sinks away from the surface that bears the load.
+    const double share = 0.5;  // height of the rigid soil
+    // The settlement must be small against the elements, as the loaded surface does not move with
+    // the soil.
     const double load = modulus * random.decades(1e-4, 5e-3);
-    // Long after consolidation, through the rigid soil too.
+    // The run ends long after consolidation, also that through the rigid soil.
     const double settling = weight / (modulus * std::min(k, rigid_k));
     const double end = (loaded ? 10.0 : random.decades(0.1, 10.0)) * settling;
     const bool heavy = !loaded;
@@ -291,7 +292,7 @@ Sweep rigid_beside_sweep() {
 
 // --- Sand without an equilibrium at the start
 
-/// No faster than a free fall, and not at rest.
+/// The soil falls, at most as fast as in free fall.
 Complaints falls(const ResultsReader& results, double height) {
   const Table history = results.history();
   const std::vector<double>& t = history.column("t");

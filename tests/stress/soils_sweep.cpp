@@ -1,5 +1,5 @@
 /// Exchange of fines: random laws, drives, deposition, conductivities, viscosities and floods that
-/// turn back. Rates are such that a run takes from a few of its fines to all.
+/// turn back. Rates are such that a run erodes from a few to all of its fines.
 
 #include "files/number_text.hpp"
 #include "stress/random_soil.hpp"
@@ -18,7 +18,7 @@ struct Run {
   Scales scales;
 };
 
-/// The first of a seed, so that its mesh, its end and its soils agree.
+/// Draws all that mesh, end and soils have in common first, so that they agree for a seed.
 Run drawn_run(unsigned seed, Scheme scheme) {
   Random random(seed + 20000);
   Run run;
@@ -119,7 +119,7 @@ Sweep soils_sweep() {
     scenario.mesh = [=] { return soils_mesh(seed, run.shape); };
     scenario.end = run.scales.end;
     scenario.explicit_steps = 3000.0;
-    // A liquid in which the grains lock flows no more: the run ends with an error that says so.
+    // A liquid in which the grains lock cannot flow: the run ends with an error that says so.
     if (run.scales.viscous) scenario.expected = Expected::either;
     scenario.changes = [=](const Span& span) { return soils_changes(seed, scheme, span.end); };
     sweep.scenarios.push_back(std::move(scenario));

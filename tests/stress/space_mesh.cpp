@@ -15,7 +15,7 @@
 namespace suffuse::stress {
 namespace {
 
-/// As the mesher makes it of `shape = "box"`.
+/// The box as the mesher makes it for `shape = "box"`.
 Mesh<3> built_in_box(Random& random, const Vector<3>& size, SpaceShape shape) {
   const bool layers = shape == SpaceShape::layers;
   std::string geometry = "geometry={shape = \"box\", " + entry("width", size[0]) + ", " +

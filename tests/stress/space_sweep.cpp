@@ -1,5 +1,5 @@
-/// Tetrahedra: boxes and dams of soils that differ by up to six decades, with everything at their
-/// boundaries that there is.
+/// Tetrahedra: boxes and dams of soils that differ by up to six decades, with all kinds of boundary
+/// conditions.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ struct Run {
   Front front = Front::closed;
   bool pressed = false;  ///< volumes are prescribed, not pressures
   bool heavy = false;    ///< gravity acts
-  bool air = false;      ///< behind the outlet, which lets no water in
+  bool air = false;      ///< there is air at the outlet, which lets no water in
   double jitter = 0.0;
   Scales scales;
 
@@ -55,7 +55,7 @@ Scales drawn_scales(Random& random, const Run& run) {
   // Pore volumes of a metre.
   s.end = random.decades(0.3, 10.0) * s.porosity / s.flux();
   s.modulus = random.decades(2e6, 2e9);
-  // Beside faces that may all close, fluxes need water that is stored.
+  // If all other faces may close, fluxes need compressible water.
   if (!(run.air && run.pressed) && random.chance(0.2)) {
     s.modulus = std::numeric_limits<double>::infinity();
   }
@@ -65,7 +65,7 @@ Scales drawn_scales(Random& random, const Run& run) {
   return s;
 }
 
-/// The first of a seed, so that its mesh, its end and its soils agree.
+/// Draws all that mesh, end and soils have in common first, so that they agree for a seed.
 Run drawn_run(unsigned seed) {
   Random random(seed + 70000);
   Run run;
@@ -78,8 +78,8 @@ Run drawn_run(unsigned seed) {
                              : SpaceShape::dam;
   const bool layers = run.shape == SpaceShape::layers;
   run.pressed = !run.is_dam() && random.chance(0.4);
-  // Across a block water would run in circles through the most pervious soil, between layers
-  // through the free water, with steps as short as the weight of each point wants them.
+  // Under gravity water would circulate, across a block through the most pervious soil and between
+  // layers through the free water, and the weight of each point would make steps very short.
   const bool circles = layers || (run.pressed && run.shape == SpaceShape::block);
   run.heavy = run.is_dam() || (!circles && random.chance(0.3));
   if (run.pressed) {
@@ -95,15 +95,15 @@ Run drawn_run(unsigned seed) {
     run.inside = things[random.below(static_cast<int>(things.size()))];
   }
   if (!layers && random.chance(0.3)) run.front = run.pressed ? Front::flux : Front::pressure;
-  // Faces of soil alone: at free water they open and close without end.
+  // Only faces of soil have air: at free water they would open and close without end.
   run.air = !run.is_dam() && random.chance(0.2) && !layers;
   run.jitter = random.chance(0.3) ? random.between(0.0, 0.3) : 0.0;
   run.scales = drawn_scales(random, run);
   return run;
 }
 
-/// Each soil of the mesh with a conductivity of its own. That of the run is the largest, or the
-/// smallest where liquid is pressed through.
+/// Gives each soil of the mesh its own conductivity. That of the run is the largest, or the
+/// smallest if liquid is pressed through.
 Changes soils(Random& random, const Run& run, const Mesh<3>& mesh, double end) {
   const double contrast = random.decades(1.0, 1e6);
   Changes changes;
@@ -140,12 +140,12 @@ std::vector<std::string> dam_boundaries(Random& random, const Scales& s, double 
   return all;
 }
 
-/// Pressures, heads or fluxes that turn, against a pressure or air.
+/// Pressures, heads or fluxes that change their sign, against a pressure or air.
 std::vector<std::string> driven_boundaries(Random& random, const Run& run, double end) {
   const Scales& s = run.scales;
   const bool across = run.shape == SpaceShape::block;
   const bool layers = run.shape == SpaceShape::layers;
-  // What is drawn from soil without an inlet would tear the water.
+  // Without an inlet, an outflow from the soil would tear the water apart.
   const bool reverses = !(run.air && run.pressed) && random.chance(0.6);
   const double pressure = weight * s.gradient;
   const auto [key, highest] = run.drive == Drive::pressure ? std::pair("pressure", pressure)
@@ -236,7 +236,7 @@ Changes space_changes(unsigned seed, const Run& run, double end) {
     add({"initial.water_level=" + number_text(run.is_dam() ? random.between(0.0, 0.5) : 1.0)});
   }
   add(liquid_changes(run.scales));
-  // Waves in free water, which nothing stops, would ask for a million steps.
+  // Undamped waves in free water would need a million steps.
   if (run.shape == SpaceShape::layers) add({"time.inertia=false"});
   add(point_changes(random, run, seed));
   if (!is_double_point(run.scheme) && random.chance(0.6)) add({"time.transport=implicit"});
@@ -289,8 +289,8 @@ Sweep space_sweep() {
     scenario.seed = seed;
     scenario.mesh = [=] { return space_mesh(seed, run.shape, run.cut()); };
     scenario.end = run.scales.end;
-    // A liquid in which the grains lock flows no more, points may come too near to corners, and
-    // what falls into dry soil may erode it at once: the run ends with an error that says so.
+    // A liquid in which the grains lock cannot flow, points may come too near to corners, and water
+    // that falls into dry soil may erode it at once: the run ends with an error that says so.
     if (run.scales.viscous || run.jitter > 0.0 || run.is_dam()) {
       scenario.expected = Expected::either;
     }

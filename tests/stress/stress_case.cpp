@@ -27,7 +27,7 @@ Case<Dim> build(const Scenario& scenario, const Span& span) {
   return c;
 }
 
-/// Largest step that the solver takes when the scene gives it, from its own message.
+/// Largest step that the solver accepts from the scene, read from its own message.
 template <int Dim>
 double limit_of_given_step(Case<Dim> c) {
   const std::string before = "expected at most ";

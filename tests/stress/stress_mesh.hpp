@@ -29,7 +29,7 @@ class Random {
 
 /// 0.5 m x 1 m, 4 x 8 cells of two right triangles, region `specimen`.
 Mesh<2> plain_column();
-/// The same with the heights of its rows changed: `level(share of the height)` in m.
+/// A plain column with other heights of its rows: `level(share of the height)` in m.
 Mesh<2> column_with_levels(const std::function<double(double)>& level);
 /// Regions by the place of an element's centroid: `region(centroid)` names them.
 template <int Dim, class Region>
@@ -50,7 +50,7 @@ void jitter_nodes(Mesh<2>& mesh, double amount, unsigned seed);
 /// Elements with an angle of more than 90 degrees, in three dimensions between their sides.
 template <int Dim>
 int obtuse_elements(const Mesh<Dim>& mesh);
-/// Cells 1 : `aspect`, of right triangles.
+/// A column of right triangles in cells of 1 : `aspect`.
 Mesh<2> flat_column(double aspect);
 /// Rows shifted against each other, so flat that the smallest angle is about `degrees`, the largest
 /// nearly 180.
@@ -63,7 +63,7 @@ void place(MaterialPoints<2>& points, Placement placement, unsigned seed);
 void duplicate(MaterialPoints<2>& points);
 /// One point per element, with all its volume.
 void join(MaterialPoints<2>& points);
-/// Takes the points of every `every`-th element away.
+/// Removes the points of every `every`-th element.
 void drop(MaterialPoints<2>& points, int every);
 
 }  // namespace suffuse::stress

@@ -26,19 +26,18 @@ inline const std::string gravity = "gravity=[0, -9.81]";
 inline const std::string rest_level = "initial.water_level=1.0";
 inline const std::string top_flux = "boundary[0]={on=\"top\", darcy_flux=";
 
-/// With 17 digits.
+/// The number with 17 digits.
 std::string number(double value);
-/// With four.
+/// The number with four digits.
 std::string shown(double value);
 /// `key=value`.
 std::string set(const std::string& key, double value);
 /// Pairs [t, value] of a boundary that changes.
 std::string pairs(const std::vector<std::pair<double, double>>& values);
 Changes joined(Changes first, const Changes& second);
-/// A law that erodes most of a tenth of the volume within the run: every law is given the rate that
-/// does.
+/// A law whose rate erodes most of a tenth of the volume within the run.
 Changes erosion(const std::string& law, const Span& span);
-/// Discharge of the 0.5 m wide column under 6 kPa, layers of the same height on each other.
+/// Discharge of the 0.5 m wide column under 6 kPa, through layers of equal height.
 double layered_discharge(const std::vector<double>& conductivities);
 
 class SweepMaker {
@@ -58,7 +57,7 @@ class SweepMaker {
       sweep_.scenarios.push_back(std::move(scenario));
     }
   }
-  /// Of a scene whose changes do not depend on anything.
+  /// Adds a scene whose changes do not depend on the run.
   void add(const std::vector<Scheme>& schemes, const std::string& parameters, Changes changes) {
     add(schemes, parameters,
         [&](Scenario& s) { s.changes = [changes](const Span&) { return changes; }; });
@@ -82,7 +81,7 @@ std::vector<Sweep> flow_sweeps();
 std::vector<Sweep> mesh_sweeps();
 /// Liquid that weighs, turns, and carries fines from boundaries and soils.
 std::vector<Sweep> transport_sweeps();
-/// The classes of input for which the scenes of tests/cases stand: of water, and of soil that
+/// The classes of input that the scenes of tests/cases represent, for water and for soil that
 /// moves.
 std::vector<Sweep> water_case_sweeps();
 std::vector<Sweep> soil_case_sweeps();

@@ -17,8 +17,7 @@ Sweep density() {
                         (heavy ? "; gravity" : "") + (momentum ? "; momentum" : ""),
                     [&](Scenario& s) {
                       s.explicit_steps = 4000.0;
-                      // What so heavy grains do when they set in motion, no step may be short
-                      // enough for.
+                      // No step may be short enough for the motion that such heavy grains cause.
                       if (ratio > 50.0 && (momentum || heavy)) s.expected = Expected::either;
                       s.changes = [=](const Span&) {
                         Changes result{set("liquid.density", water),
@@ -152,7 +151,7 @@ Sweep drying() {
   }
   sweep.add(every, "in as much as out by flux",
             {top_flux + "0.012}", "boundary[1]={on=\"bottom\", darcy_flux=-0.012}"});
-  // Water that must be compressed or expanded without end: possible for as long as it lasts.
+  // The water is compressed or expanded without end, which works only for some time.
   for (const double net : {1e-3, -1e-3}) {
     sweep.add(every, "sealed and pumped at " + shown(net) + " m/s", [&](Scenario& s) {
       s.changes = [net](const Span&) {
@@ -270,7 +269,7 @@ Sweep laws() {
                   };
                 });
     }
-    // Rates of which one step takes all there is, or next to nothing.
+    // In one step, such rates take all there is, or almost nothing.
     for (const double times : {1e-9, 1e3, 1e9}) {
       sweep.add(every, law + " at " + shown(times) + " times the rate", [&](Scenario& s) {
         s.changes = [=](const Span& span) {
@@ -283,7 +282,7 @@ Sweep laws() {
   return sweep.done();
 }
 
-/// Anything together: what nobody thought of.
+/// Random combinations of everything.
 Sweep anything() {
   SweepMaker sweep("anything", "mesh, soils, laws, boundaries and water at random, all at a time");
   for (unsigned seed = 1; seed <= 2 * seeds; ++seed) {

@@ -1,6 +1,6 @@
-/// Water in the classes of input for which scenes of tests/cases stand: dry soil under rising
-/// floods, decades with jumps, heads at ground level, bedding, slivers and coarse meshes, steady
-/// flow in unsaturated space. What is judged is known in each: a bound or a number.
+/// Water in the classes of input that tests/cases represents: dry soil under rising floods, decades
+/// with jumps, heads at ground level, bedding, slivers and coarse meshes, steady flow in
+/// unsaturated space. Each is judged by a known bound or number.
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +18,9 @@ namespace {
 
 constexpr unsigned runs = 30;
 constexpr double round_off = 1e-12;
-/// Of a discharge that is known: three times the default tolerance.
+/// Largest relative error of a known discharge: three times the default tolerance.
 constexpr double max_error = 3e-3;
-/// Of the volume of a liquid: grains leave no room for more.
+/// Largest share of grains in the volume of a liquid.
 constexpr double packing = 0.62;
 
 double largest(const std::vector<double>& values) {
@@ -65,7 +65,7 @@ constexpr double dry = 0.3;         // effective saturation
 constexpr double lost_there = 0.1;  // share of the fines
 
 /// Soil that the flood never wets keeps its fines, and no liquid holds more of them than their
-/// packing.
+/// densest packing.
 Complaints keeps_dry_fines(const ResultsReader& results, double residual) {
   Complaints complaints;
   const Table history = results.history();
@@ -107,7 +107,7 @@ Sweep dry_crest_sweep() {
     const double fines = (1.0 - n) * random.between(0.1, 0.3);
     const double residual = random.between(0.02, 0.15);
     const double end = random.decades(2.0, 20.0) * n * bank.height / k;
-    // Liquid that has passed the levee holds at most a third of its volume: k_r i of the drive
+    // Fines take at most a third of the liquid that has crossed the levee: k_r i of the drive
     // `gradient` is q / k, so that c grows by fines * rate / k per metre.
     const double share = random.decades(0.01, 0.3) * k / (fines * bank.length());
     const double permeability = k * 1e-3 / weight;
@@ -153,7 +153,7 @@ Sweep dry_crest_sweep() {
 
 // --- Decades, jumps and far ends
 
-/// Times and values of a pressure that jumps within next to no time, as `pairs`.
+/// Times and values of a pressure that jumps within almost no time, as `pairs`.
 struct Jumps {
   std::vector<std::pair<double, double>> values;
 
@@ -316,13 +316,13 @@ Mesh<3> space_terrace(const Terrace& t) {
                        t);
 }
 
-/// Heads of the ground's own level at first, then above and below by a share of the difference.
+/// Heads at ground level first, then above and below it by a share of the difference.
 Complaints is_continuous(const ResultsReader& results, const std::vector<double>& share_of_head) {
   const Table history = results.history();
   const std::vector<double>& flux = history.column("flux_out");
   if (flux.front() <= 0.0) return {"nothing flows where heads are at ground level"};
   for (std::size_t i = 0; i < flux.size(); ++i) {
-    // Rows are in the middle of the stretches of equal heads.
+    // Rows are in the middle of the intervals of constant head.
     const double exact = flux.front() * share_of_head[i];
     if (std::abs(flux[i] - exact) <= max_error * exact) continue;
     return {"flux_out = " + shown(flux[i]) + " m3/s in row " + std::to_string(i) + ", " +
@@ -340,7 +340,7 @@ Sweep ground_level_sweep() {
     const Terrace terrace = drawn_terrace(seed);
     Random random(seed + 121000);
     const double fall = terrace.high - terrace.low;
-    // Ground above its water level is dry: water comes out of it, and goes in by suction alone.
+    // Ground above its water level is dry: water leaves it, but enters only by suction.
     const bool inlet_falls = random.chance(0.5);
     const bool suction = inlet_falls || random.chance(0.5);
     const double small = fall * random.decades(1e-9, 1e-2);
@@ -348,7 +348,7 @@ Sweep ground_level_sweep() {
     const bool outlet_moves = random.chance(0.5);
     const bool outlet_seeps = random.chance(0.5);
     const double below = inlet_falls || outlet_moves ? -small : 0.0;
-    // Level, above, level, below, level; rows in the middle of each.
+    // Level, above, level, below, level; each row is in the middle of its interval.
     const std::vector<double> offsets{0.0, small, 0.0, below, 0.0};
     std::vector<std::pair<double, double>> heads;
     std::vector<double> shares;
@@ -360,7 +360,7 @@ Sweep ground_level_sweep() {
       if (i > 0) heads.emplace_back(at - 0.3 * each, value);
       heads.emplace_back(at + 0.3 * each, value);
       if (i == 0) heads.insert(heads.begin(), {0.0, value});
-      // Water comes out of dry ground at no pressure, as it does at ground level.
+      // Water leaves dry ground at zero pressure, as it does at ground level.
       const bool seeps = outlet_moves && outlet_seeps && offsets[i] < 0.0;
       shares.push_back(seeps ? 1.0 : 1.0 + (outlet_moves ? -1.0 : 1.0) * offsets[i] / fall);
     }
@@ -399,7 +399,7 @@ Sweep ground_level_sweep() {
 
 // --- Bedding
 
-/// The discharge of a column lies between that of flow straight up and that of level heads.
+/// The discharge of a column lies between that of vertical flow and that of level heads.
 struct Bounds {
   double low = 0.0;
   double high = 0.0;
@@ -506,7 +506,7 @@ Mesh<3> space_slivers(unsigned seed, double thin) {
   });
 }
 
-/// Still water: what flows is round-off of its pressures.
+/// In still water, only round-off of the pressures flows.
 Complaints is_still(const ResultsReader& results, double k) {
   const Table history = results.history();
   const double flux =
@@ -543,12 +543,12 @@ Sweep flat_cells_sweep() {
     const std::string heavy = space ? "gravity=[0, 0, -9.81]" : gravity;
     const double end = random.decades(1.0, 100.0) * 0.3 / k;
     if (kind == 0) {
-      // Full to its top, under air.
+      // The column is full to its top, where there is air.
       changes = joined(changes, {heavy, rest_level, "boundary[0]={on=\"top\", seepage_face=true}",
                                  "boundary[1]={on=\"right\", head=1.0}"});
       if (random.chance(0.5)) changes.push_back(retention);
     } else if (kind == 1) {
-      // Water at the height of its level, suction above.
+      // Water below the level, suction above.
       const double level = random.between(0.1, 0.9);
       changes = joined(changes, {heavy, retention, set("initial.water_level", level),
                                  "boundary[0]={on=\"top\", seepage_face=true}",
@@ -580,7 +580,7 @@ Sweep flat_cells_sweep() {
 
 // --- Steady flow in unsaturated space
 
-/// What enters leaves, and nothing changes.
+/// Inflow equals outflow, and nothing changes.
 Complaints stays_steady(const ResultsReader& results) {
   Complaints complaints;
   const Table history = results.history();

@@ -23,7 +23,7 @@ struct Stepping {
   Color color;
 };
 
-/// Marker and dash tell them apart in print without colours.
+/// Markers and dashes distinguish schemes in print without colours.
 constexpr std::array<Stepping, 4> steppings{
     {{"scaled", "explicit, mass scaling 10 000", Marker::diamond, Dash::dotted, {0.84, 0.37, 0.0}},
      {"explicit", "explicit", Marker::square, Dash::dashed, {0.0, 0.0, 0.0}},
@@ -105,7 +105,7 @@ void add_scheme(Chart& chart, const std::vector<AccuracyRun>& runs, const Steppi
   Curve best = markers(best_runs(own), stepping, hollow);
   best.joined = true;
   best.label = std::string(stepping.label) + formulation.label_end;
-  // Under the lines of every scheme.
+  // This line lies below the lines of all schemes.
   chart.curves.insert(chart.curves.begin(), all);
   chart.curves.push_back(best);
 }

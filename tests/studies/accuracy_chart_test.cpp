@@ -82,7 +82,7 @@ TEST(AccuracyCharts, OneForEachFormulationOnTheSameAxes) {
     EXPECT_EQ(chart.extra_x.size(), 4U);
     EXPECT_EQ(chart.x_label, "relative error of the concentration of fluidised grains, L1 (-)");
   }
-  // All runs, and the one that is best.
+  // Curves: all runs, and the best one.
   ASSERT_EQ(charts[0].curves.size(), 2U);
   EXPECT_EQ(charts[0].curves[0].x, (std::vector<double>{1e-2, 2e-2}));
   EXPECT_EQ(charts[0].curves[1].x, (std::vector<double>{1e-2}));

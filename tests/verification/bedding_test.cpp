@@ -1,6 +1,6 @@
-/// Soil that conducts differently along and across its bedding: the section is that of an isotropic
-/// soil stretched by sqrt(k_across / k_along) along the bedding, of conductivity
-/// sqrt(k_along k_across), whatever the direction of the bedding.
+/// Soil with different conductivities along and across its bedding: the section is equivalent to an
+/// isotropic soil stretched by sqrt(k_across / k_along) along the bedding, of conductivity
+/// sqrt(k_along k_across), for any direction of the bedding.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ namespace bedding_test {
 constexpr double better = 1e-3;  // m/s
 constexpr double worse = 1e-4;   // m/s
 
-/// Discharge of a square under a head on half its top, let out by a quarter of its side; `move`
-/// puts the square somewhere.
+/// Discharge of a square under a head on half of its top, with an outlet over a quarter of its
+/// side; `move` transforms the square.
 double discharge(const std::function<Vector<2>(const Vector<2>&)>& move, double k_along,
                  double k_across, double bedding) {
   Scene scene = model::paper_scene();
@@ -45,17 +45,17 @@ double discharge(const std::function<Vector<2>(const Vector<2>&)>& move, double 
   return row.flux_out;
 }
 
-/// Turned by `angle` degrees.
+/// `x` rotated by `angle` degrees.
 Vector<2> turned(const Vector<2>& x, double angle) {
   const double a = angle * std::numbers::pi / 180.0;
   return {std::cos(a) * x[0] - std::sin(a) * x[1], std::sin(a) * x[0] + std::cos(a) * x[1]};
 }
 
-/// Of soil that conducts `along` and `across` its bedding.
+/// Compares soil with the conductivities `along` and `across` its bedding with a stretched section.
 void expect_stretched_section(double along, double across) {
   const double squeeze = std::sqrt(across / along);
   for (const double angle : {0.0, 30.0, 90.0, -45.0}) {
-    // The square itself stays; its bedding rises by the angle.
+    // The square stays; its bedding rises by the angle.
     const double found = discharge([](const Vector<2>& x) { return x; }, along, across, angle);
     const double isotropic = discharge(
         [&](const Vector<2>& x) {
@@ -63,7 +63,7 @@ void expect_stretched_section(double along, double across) {
           return Vector<2>(y[0] * squeeze, y[1]);
         },
         std::sqrt(along * across), std::sqrt(along * across), 0.0);
-    // The model turned, bedding and all.
+    // The model rotated together with its bedding.
     const double rotated =
         discharge([](const Vector<2>& x) { return turned(x, 17.0); }, along, across, angle + 17.0);
     std::cout << "bedding " << angle << " degrees: " << found << " m2/s, off the stretched by "
@@ -124,7 +124,7 @@ TEST(Bedding, DecidesWhatRunsThroughAColumn) {
   EXPECT_NEAR(column_discharge(better, worse, 0.0, false), 0.5 * worse, 1e-12 * better);
 }
 
-/// Newton's method of quadratic drag keeps the bedding of the soil below the gravel.
+/// Newton's method for quadratic drag keeps the bedding of the soil below the gravel.
 TEST(Bedding, StaysBesideSoilWithErgunsDrag) {
   for (const auto& [along, across] : {std::pair{better, worse}, std::pair{worse, better}}) {
     const double flux = column_discharge(along, across, 0.0, true) / 0.5;

@@ -14,8 +14,8 @@ namespace boundary_values_test {
 
 using Knots = std::vector<std::pair<double, double>>;
 
-/// Mean downward velocity in a column one metre high: u' = p_top(t) / (rho L) - u / tau, whatever
-/// the bulk modulus, in closed form between the knots.
+/// Mean downward velocity in a column one metre high: u' = p_top(t) / (rho L) - u / tau, for any
+/// bulk modulus, in closed form between the knots.
 double exact_mean_velocity(const Knots& pressure, double tau, double t) {
   double u = 0.0;
   for (std::size_t k = 0; k + 1 < pressure.size(); ++k) {
@@ -39,7 +39,7 @@ double mean_velocity(const Case<2>& c, const FlowState<2>& flow) {
   return sum;
 }
 
-/// A pressure that changes until the end of the run: what it comes to bounds pressures too.
+/// A pressure that changes until the end of the run: its later values bound pressures too.
 TEST(BoundaryPressure, BoundsPressuresUntilTheEnd) {
   Scene scene = model::paper_scene();
   scene.time.scheme = FlowScheme::implicit_mixed;
@@ -54,8 +54,8 @@ TEST(BoundaryPressure, BoundsPressuresUntilTheEnd) {
   for (const FlowState<2>& flow : moments.flows) EXPECT_LE(flow.pressure_overshoot, 1e-10);
 }
 
-/// The warnings of the rows of a run between 6 kPa on top and 0 on the bottom, through two layers
-/// whose conductivities differ 1e4 times, on a square whose nodes are moved.
+/// Warnings of the rows of a run between 6 kPa on top and 0 on the bottom, through two layers whose
+/// conductivities have a ratio of 1e4, on a square whose nodes are moved.
 std::vector<std::string> warnings_of_layers(const std::function<Vector<2>(const Vector<2>&)>& move,
                                             double bulk_modulus = 2e7) {
   Mesh<2> mesh = model::column_mesh(8, 8, 1.0, 1.0, move);
@@ -85,7 +85,7 @@ std::vector<std::string> warnings_of_layers(const std::function<Vector<2>(const 
 
 TEST(ObtuseAngles, AreWarnedOfWherePressuresLeaveTheirBounds) {
   EXPECT_TRUE(warnings_of_layers([](const Vector<2>& x) { return x; }).empty());
-  // Rows of inner nodes moved to and fro: obtuse angles, and layers that the mesh follows.
+  // Rows of inner nodes are moved to and fro: angles become obtuse, and layers follow the mesh.
   const auto bent = [](const Vector<2>& x) {
     const double way = std::lround(8.0 * x[1]) % 2 == 0 ? 0.2 : -0.2;
     return Vector<2>(x[0] + way * x[0] * (1.0 - x[0]), x[1]);
@@ -102,7 +102,7 @@ TEST(ObtuseAngles, AreWarnedOfWherePressuresLeaveTheirBounds) {
   EXPECT_EQ(warnings[0].find("second order"), std::string::npos) << warnings[0];
 }
 
-/// Rest, a ramp within three times the time in which the flow settles, a jump down, and on.
+/// Rest, a ramp within three times the settling time of the flow, a jump down, then constant.
 TEST(BoundaryPressure, MovesTheColumnAsItChanges) {
   const Knots pressure{{0.0, 0.0},     {0.01, 0.0},       {0.03, 6000.0},
                        {0.04, 6000.0}, {0.04001, 2000.0}, {0.1, 2000.0}};
@@ -127,13 +127,13 @@ TEST(BoundaryPressure, MovesTheColumnAsItChanges) {
   }
   std::cout << "mean velocity under a pressure that changes: largest error " << errors[0]
             << " of the steady one with steps of 40 us, " << errors[1] << " with 10 us\n";
-  // First order, as drag is evaluated at one end of the step: half a step in the time it settles.
+  // First order, as drag is evaluated at one end of the step: half a step over the settling time.
   EXPECT_LT(errors[0], 0.5 * 4e-5 / tau);
   EXPECT_LT(errors[1], 0.5 * 1e-5 / tau);
 }
 
-/// Largest error of the fines that flowed in, over all that did, against the integral of c q.
-/// `knots`: times of both tables, at which the error is measured.
+/// Largest error of the mass of fines that flowed in, relative to all of it, against the integral
+/// of c q. `knots`: times of both tables, at which the error is measured.
 double error_of_fines_inflow(FlowScheme scheme, double step, const TimeFunction& flux,
                              const std::vector<double>& knots) {
   Scene scene = model::paper_scene();
@@ -162,9 +162,9 @@ double error_of_fines_inflow(FlowScheme scheme, double step, const TimeFunction&
   return worst / (2700.0 * volume);
 }
 
-/// Within an interval of the flow c counts with its mean: exact where either is constant,
-/// else c' q' D^3 / 12 is missed in each interval of length D: 1000 steps of the explicit scheme at
-/// most, a step of the implicit one.
+/// Within an interval of the flow c has its mean value. This is exact if c or q is constant;
+/// otherwise each interval of length D has an error of c' q' D^3 / 12. Intervals are at most 1000
+/// steps of the explicit scheme, or one step of the implicit one.
 void expect_the_integral(FlowScheme scheme, double step, double interval) {
   const std::vector<double> knots{0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 5.0};
   const double constant = error_of_fines_inflow(scheme, step, 0.012, knots);
@@ -175,7 +175,7 @@ void expect_the_integral(FlowScheme scheme, double step, double interval) {
   EXPECT_LT(constant, 1e-6);
   const double both_change = 0.5;  // s, from 1 s to 1.5 s
   const double missed = 0.1 * 0.008 * interval * interval / 12.0 * both_change;
-  EXPECT_LT(changing, missed / (0.012 * 0.2));  // more than 0.012 m/s 0.2 s enter
+  EXPECT_LT(changing, missed / (0.012 * 0.2));  // more than 0.012 m/s 0.2 s flow in
 }
 
 TEST(BoundaryConcentration, BringsInTheIntegral) {
@@ -186,7 +186,7 @@ TEST(BoundaryConcentration, BringsInTheIntegralOfTheImplicitScheme) {
   expect_the_integral(FlowScheme::implicit_mixed, 0.05, 0.05);
 }
 
-/// A table that says the same at all times is a number.
+/// A table that is constant in time is equivalent to a number.
 TEST(BoundaryValues, OfALevelTableChangeNothing) {
   const auto flux_of = [](const TimeFunction& pressure) {
     Scene scene = model::paper_scene();
@@ -200,11 +200,11 @@ TEST(BoundaryValues, OfALevelTableChangeNothing) {
   const double constant = flux_of(6000.0);
   EXPECT_GT(constant, 0.01);
   EXPECT_EQ(flux_of(TimeFunction(Knots{{0.01, 6000.0}, {0.02, 6000.0}})), constant);
-  // One that changes after the end takes the path of those that change, to the same values.
+  // A table that changes only after the end is treated as changing, with the same results.
   EXPECT_NEAR(flux_of(TimeFunction(Knots{{1.0, 6000.0}, {2.0, 0.0}})), constant, 1e-15);
 }
 
-/// The number that a velocity table has at each time is what crosses the face, and walls stay shut.
+/// The flux through the face follows the table of velocity at each time; walls stay closed.
 TEST(BoundaryVelocity, CrossesTheFaceAsItChanges) {
   Scene scene = model::paper_scene();
   scene.boundaries = {model::flux_on("top", 0.0), model::pressure_on("bottom", 0.0)};
@@ -217,7 +217,7 @@ TEST(BoundaryVelocity, CrossesTheFaceAsItChanges) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     const HistoryRow row = moments.states[k].history;
     const double expected = 0.3 * scene.boundaries[0].velocity->value(times[k]);
-    // The flux of the step around that time.
+    // The tolerance is the change of the flux within a step.
     EXPECT_NEAR(row.flux_in, expected, 0.3 * 0.04 * run.plan().flow.step) << times[k];
   }
 }

@@ -1,5 +1,5 @@
 /// Scenes in a box of tetrahedra, from their text to the ledger: the paper's column, and scenes
-/// that are the same in two and in three dimensions.
+/// that are equivalent in two and three dimensions.
 
 #include <cmath>
 #include <iostream>
@@ -57,12 +57,12 @@ constexpr double area = 0.125 * 0.125;
 struct ColumnCase {
   const char* name;
   std::vector<std::string> overrides;
-  double fines;  ///< error of the fines that left, of all that eroded
+  double fines;  ///< error of the fines that left, relative to all eroded fines
 };
 
 class ColumnOfTetrahedra : public ::testing::TestWithParam<ColumnCase> {};
 
-/// Clean water comes from above at 0.012 m/s throughout.
+/// Clean water enters from above at 0.012 m/s all the time.
 TEST(ProbesInSpace, HaveTheirHeightAndTheFluxUpwards) {
   SceneRun<3> run(column, {"liquid.bulk_modulus=inf",
                            "output.probe=[{at=[0.05, 0.1, 0.9]}, {at=[0.1, 0.02, 0.35]}]"});
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         ColumnCase{"SinglePoint", {}, 1e-3}, ColumnCase{"Free", {"mesh.structure=free"}, 1e-3},
         ColumnCase{"DoublePoint", {"formulation=double-point"}, 0.01},
         ColumnCase{"FreeDoublePoint", {"formulation=double-point", "mesh.structure=free"}, 0.01},
-        // One point in an element erodes as much; it leaves sooner or later.
+        // One point per element erodes the same mass, but its fines leave earlier or later.
         ColumnCase{"OnePoint", {"formulation=double-point", "points.liquid_per_element=1"}, 0.02}),
     [](const auto& param_info) { return std::string(param_info.param.name); });
 
@@ -127,8 +127,8 @@ TEST(ColumnOfTetrahedra, HasItsFreeWaterAndBuffers) {
   EXPECT_LE(run.worst_residual(), 1e-12);
 }
 
-/// Water turns from the top to the right side, through soil that erodes by the flux: nothing is
-/// uniform. The same in the plane, and between two impervious sides.
+/// Water turns from the top to the right side through soil that erodes by the flux: nothing is
+/// uniform. The scene is run in the plane, and in space between two impervious sides.
 const std::string corner = R"(
 formulation = "single-point"
 [geometry]
@@ -170,7 +170,7 @@ std::vector<std::string> sized(int cells, std::vector<std::string> overrides) {
   return overrides;
 }
 
-/// What the run has at its end, per metre of depth.
+/// Results of the run at its end, per metre of depth.
 template <int Dim>
 std::vector<double> ends(int cells, const std::string& formulation) {
   const double depth = Dim == 2 ? 1.0 : 1.0 / cells;

@@ -1,5 +1,5 @@
-/// The longest step of material-point integration: flow that points carry runs away at steps that
-/// mixed integration takes.
+/// The longest step of material-point integration: a flow that points carry becomes unstable at
+/// steps that are stable in mixed integration.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ double fastest(Mesh<2> mesh, const Scene& scene) {
   return speed;
 }
 
-/// Steady, the flow has k i / n = 0.041 m/s, at porosities of the end 0.031 m/s.
+/// The steady flow has k i / n = 0.041 m/s; with the porosities at the end it has 0.031 m/s.
 TEST(CarriedLimit, HoldsForFewPointsAndMany) {
   for (const int count : {1, 3, 6, 12}) {
     for (const double jitter : {0.0, 0.02}) {
@@ -55,7 +55,7 @@ TEST(CarriedLimit, HoldsForFewPointsAndMany) {
   }
 }
 
-/// The limit is less than that of mixed integration by no more than it must: sqrt(7/4).
+/// The limit is that of mixed integration over sqrt(7/4), and not smaller.
 TEST(CarriedLimit, IsThatOfMixedIntegrationLessWhatPointsPassOnLate) {
   Scene scene = carried_scene(6);
   const auto limit = [&] {

@@ -1,4 +1,4 @@
-/// Soil that consolidates: the skeleton moves as water leaves its pores.
+/// Soil that consolidates: its skeleton moves as water leaves its pores.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using model::Deviation;
 using model::fixed_on;
 using model::pressure_at;
 
-/// A column that drains at its top, where a load comes at once; below it may lie rigid soil.
+/// A column that drains at its top, where a load is applied at once; rigid soil may lie below it.
 template <class Run = model::ModelRun>
 class Column {
  public:
@@ -32,7 +32,7 @@ class Column {
         load_(load),
         run_(make(rows, poisson, bulk_modulus, tolerance, rigid_rows)) {}
 
-  /// c_v t / H2 of a time, and the time of it, s.
+  /// The time, s, at which c_v t / H2 = T.
   [[nodiscard]] double time_of(double T) const { return T * weight / (conductivity * oedometer_); }
   [[nodiscard]] Run& run() { return run_; }
   [[nodiscard]] double oedometer() const { return oedometer_; }
@@ -69,7 +69,7 @@ class Column {
       for (int e = 0; e < mesh.element_count(); ++e) {
         if (element_centroid(mesh, e)[1] < 0.0) mesh.element_region[e] = 1;
       }
-      scene.boundaries.erase(scene.boundaries.begin() + 1);  // the rock holds the soil
+      scene.boundaries.erase(scene.boundaries.begin() + 1);  // the rigid soil supports the soil
     }
     return model::make_case(std::move(mesh), scene);
   }
@@ -79,8 +79,8 @@ class Column {
   Run run_;
 };
 
-/// Largest distances from Terzaghi's solution from T = 0.1 on, over the final settlement and the
-/// first pressure.
+/// Largest differences from Terzaghi's solution from T = 0.1 on, relative to the final settlement
+/// and the first pressure.
 template <class Run>
 Deviation deviation_from_terzaghi(int rows, double poisson, double tolerance, int rigid_rows = 0) {
   constexpr double load = 1e3;
@@ -97,7 +97,8 @@ Deviation deviation_from_terzaghi(int rows, double poisson, double tolerance, in
     const double T = row.number("T");
     if (T < 0.1 || T > 1.0) continue;
     const auto moments = column.run().run({column.time_of(T)});
-    // The highest points lie below the surface, which drains: the soil between has its last strain.
+    // The highest points lie below the surface, which drains: the soil in between has its final
+    // strain.
     const double settlement = moments.states.back().history.settlement_max + last * below;
     const double elastic = last * (1.0 - first / load);
     const double exact = elastic + (last - elastic) * row.number("U");
@@ -160,8 +161,8 @@ TEST(Consolidation, LargeStrain) {
   EXPECT_LT(fine.pressure, 0.5 * coarse.pressure);
 }
 
-/// A foundation that is 1e4 times as stiff as the soil under it, and drains it: forces of soft soil
-/// are small beside those that stiff soil would have at a strain that counts.
+/// A foundation 1e4 times as stiff as the soil under it lets its water drain: forces of soft soil
+/// are small compared with those of stiff soil at a significant strain.
 TEST(Consolidation, UnderAStiffFoundation) {
   constexpr double load = 1e3;
   constexpr double second = weight / (conductivity * young);  // of T = 1
@@ -207,14 +208,14 @@ TEST(Consolidation, UndrainedLoadGoesToTheWater) {
   Column<> column(16, 0.3, load, 2e9);
   column.run().run({column.time_of(1e-6)});
   const double first = load / (1.0 + 0.3 * column.oedometer() / 2e9);
-  // Above, pressures overshoot by layers: the boundary drains less than an element so far.
+  // Above, the pressures of layers overshoot, because the drained zone is thinner than an element.
   for (const double depth : {0.5, 0.75}) {
     EXPECT_NEAR(pressure_at(column.run(), 1.0 - depth), first, 1e-4 * load);
   }
 }
 
-/// Soft clay that consolidates under three times its preconsolidation pressure settles as a soil
-/// element does whose sides are held: another code for the same law, without a mesh or water.
+/// Soft clay that consolidates under three times its preconsolidation pressure settles like a soil
+/// element with fixed sides, which is another code for the same law, without mesh and water.
 TEST(Consolidation, OfCamClaySettlesAsItsElementDoes) {
   constexpr double load = 3e4;
   SkeletonModel clay{.law = skeleton_law("cam-clay"),
@@ -249,7 +250,7 @@ TEST(Consolidation, OfCamClaySettlesAsItsElementDoes) {
   std::cout << "settlement " << settlement << " of a highest point, of the element " << settled
             << "; " << run.steps() << " steps\n";
   EXPECT_GT(settled, 0.05);
-  EXPECT_NEAR(settlement, settled, 0.03 * settled);  // it lies below the surface
+  EXPECT_NEAR(settlement, settled, 0.03 * settled);  // the point lies below the surface
 }
 
 }  // namespace consolidation_test

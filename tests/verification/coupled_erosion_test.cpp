@@ -40,7 +40,7 @@ double porosity_error(Run& run, const std::vector<double>& times) {
 
 TEST_P(FluxLawEverywhere, UniformFluxMakesItTheFirstOrderLaw) {
   const std::vector<double> times{7.0, 12.0, 22.0};
-  // Water that expands by p / K on its way flows faster below, and erodes faster.
+  // Water that expands by p / K on its way flows faster further down, and erodes faster.
   const double expansion = flux / 2e-2 * 9810.0 / 2e7;
   Scene scene = model::paper_scene();
   scene.boundaries = {model::flux_on("top", flux), model::pressure_on("bottom", 0.0)};
@@ -89,7 +89,7 @@ TEST(PermeabilityFeedbackDoublePoint, FluxVolumeAndFinesFollowTheExactSolution) 
     const HistoryRow history = moments.states[k].history;
     const LedgerRow ledger = moments.states[k].ledger;
     flux_error = std::max(flux_error, std::abs(history.flux_in / rows[k].number("q") - 1.0));
-    // Liquid comes in whole points: what they bring misses the volume by less than one per face.
+    // Liquid enters in whole points, so the volume is off by less than one point per face.
     const double volume = 2.0 * flux + rows[k].number("V_cum_since_t0");
     volume_error = std::max(volume_error, std::abs(ledger.water_in / 1000.0 - volume));
     out_error = std::max(out_error, std::abs(ledger.fines_out - rows[k].number("M_eroded_out")));

@@ -1,4 +1,4 @@
-/// How many times flow and motion of the soil ask each other in a step, from undrained to drained.
+/// Number of iterations between flow and motion of the soil in a step, from undrained to drained.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ constexpr int steps = 4;
 using model::fixed_on;
 
 /// Mean number of iterations in steps of length `T` H2/c_v on a block of `cells` x `cells` crossed
-/// cells, which is loaded at its top, where it drains, and free at its right side. Water does not
-/// change its volume.
+/// cells. It is loaded at its top, where it drains, and free at its right side. Water is
+/// incompressible.
 double iterations_per_step(int cells, double poisson, double T) {
   const double modulus = SkeletonParameters{young, poisson}.oedometer_modulus();
   const double step = T * weight / (conductivity * modulus);
@@ -38,7 +38,7 @@ double iterations_per_step(int cells, double poisson, double T) {
   scene.boundaries = {top, fixed_on("bottom", Fixing::both), fixed_on("left", Fixing::normal)};
   model::ModelRun run(model::make_case(model::crossed_mesh(cells, cells, 1.0, 1.0), scene));
   run.run({scene.time.end});
-  // The load comes in a step of its own. None was rejected.
+  // The load is applied in a separate step. No step was rejected.
   EXPECT_LE(run.steps(), steps + 1);
   return static_cast<double>(run.model().coupled_flow().iterations()) /
          static_cast<double>(run.steps());

@@ -1,6 +1,6 @@
 /// Steady seepage through a rectangular dam under gravity, in two dimensions. With Gardner's soil
 /// and suction above both water levels the discharge is known exactly; with a seepage face it lies
-/// between Charny's, who leaves capillarity out, and a bound that the capillary zone allows.
+/// between Charny's, without capillarity, and a bound for the capillary zone.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ Scene dam_scene(double alpha, DryPart dry) {
   return scene;
 }
 
-/// Of the left and the right side: what enters and what leaves, m2/s.
+/// Inflow on the left side and outflow on the right side, m2/s.
 std::pair<double, double> discharge(model::ModelRun& run) {
   const Grid<2>& grid = run.model().grid();
   const FlowState<2> flow = run.model().flow_state();
@@ -63,7 +63,7 @@ double steady_discharge(const Scene& scene, int cells) {
   return out;
 }
 
-/// Integral over the height of the potential of Gardner's soil beside water of level `head`, m3/s.
+/// Integral over the height of the potential of Gardner's soil next to water of level `head`, m3/s.
 double integrated_potential(double alpha, double head) {
   return conductivity * (head / alpha + 0.5 * head * head +
                          (1.0 - std::exp(-alpha * (height - head))) / (alpha * alpha));
@@ -102,7 +102,7 @@ TEST(RectangularDam, WithASeepageFaceLetsThroughCharnysDischarge) {
     EXPECT_GT(found[80], 1.0) << alpha;
     EXPECT_LT(found[80], largest) << alpha;
     EXPECT_LT(found[80], last) << alpha;
-    // The point where the seepage face ends is singular: differences halve with the elements.
+    // The end of the seepage face is singular: differences halve with the size of the elements.
     EXPECT_LT(std::abs(found[80] - found[40]), 0.75 * std::abs(found[40] - found[20])) << alpha;
     last = found[80];
   }

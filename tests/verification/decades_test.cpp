@@ -1,6 +1,6 @@
-/// Implicit transport: steps as long as the tolerance allows. Against exact profiles in steps of a
-/// hundred times the explicit limit, against the explicit scheme where both work, and its
-/// invariants.
+/// Implicit transport with steps as long as the tolerance allows. It is compared with exact
+/// profiles in steps of a hundred times the explicit limit, with the explicit scheme where both
+/// work, and with its invariants.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace decades_test {
 
 constexpr double flux = 1e-3;  // m/s
 constexpr double porosity = 0.35;
-/// In which ten times the liquid of the column passes, s.
+/// Time in which ten times the liquid of the column passes, s.
 constexpr double ten_passages = 10.0 * porosity / flux;
 
 /// A strip of square cells one metre high.
@@ -32,7 +32,7 @@ Mesh<2> strip(int cells) {
   return model::column_mesh(across, cells, static_cast<double>(across) / cells, 1.0);
 }
 
-/// Liquid goes down through a column, steady from the start.
+/// Liquid flows down through a column, steady from the start.
 Scene column_scene(double concentration, double end) {
   Scene scene = model::paper_scene();
   scene.soils[0].porosity = porosity;
@@ -73,7 +73,7 @@ double error_of(const Mesh<2>& mesh, const FinesState<2>& liquid,
 TEST(ImplicitTransport, FollowsCaughtFinesInLongSteps) {
   constexpr double c0 = 0.02;
   constexpr double lambda = 2.0;
-  // The profile behind the front of the table's suspension: q dc/dx = -lambda q c (1 - c).
+  // The profile behind the front of the suspension: q dc/dx = -lambda q c (1 - c).
   const auto exact = [](double x) {
     const double ratio = c0 / (1.0 - c0) * std::exp(-lambda * x);
     return ratio / (1.0 + ratio);
@@ -156,7 +156,7 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
   return sum / static_cast<double>(a.size());
 }
 
-/// Porosity at the end; in steps of `step` s, or of any length where that is zero.
+/// Porosity at the end, with steps of `step` s, or with steps by tolerance if it is zero.
 std::vector<double> porosity_after(Scene scene, double step, int cells) {
   if (step > 0.0) scene.time.step = step;
   model::ModelRun run(model::make_case(strip(cells), scene));
@@ -165,7 +165,7 @@ std::vector<double> porosity_after(Scene scene, double step, int cells) {
   return state.porosity;
 }
 
-/// A suspension that becomes richer fills the pores, which catch less and less.
+/// A suspension with growing concentration fills the pores, which catch less and less.
 TEST(ImplicitTransport, IsOfSecondOrderInTime) {
   constexpr double end = 14000.0;  // forty times the liquid of the column
   Scene scene = column_scene(0.0, end);
@@ -185,7 +185,7 @@ TEST(ImplicitTransport, IsOfSecondOrderInTime) {
   EXPECT_LT(chosen, 1e-4);
 }
 
-/// Fines run out, are caught and hindered: both schemes tend to the same.
+/// Fines run out, are caught and hindered: the difference of both schemes tends to zero.
 TEST(ImplicitTransport, TendsToWhatTheExplicitSchemeTendsTo) {
   constexpr double end = 1200.0;
   std::vector<double> apart;
@@ -305,7 +305,7 @@ TEST(ImplicitTransport, TakesAWeirThroughACentury) {
   }
 }
 
-/// Water under a head erodes a column for months, a million times what its pores hold.
+/// Water under a head erodes a column for months: a million times its pore volume passes.
 model::ModelRun run_for_months(std::optional<double> step) {
   Scene scene = model::paper_scene();
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
@@ -325,7 +325,7 @@ TEST(Decades, WaterFitsItsPoresAfterAMillionPassages) {
   model::ModelRun run = run_for_months(std::nullopt);
   const auto moments = run.run({3.6e7});
   const LedgerRow& ledger = moments.states[0].ledger;
-  // Elements are of one size; all fines are gone.
+  // Elements have equal sizes; all fines are gone.
   const std::vector<double>& open = moments.states[0].porosity;
   const double pores =
       0.5 * std::accumulate(open.begin(), open.end(), 0.0) / static_cast<double>(open.size());
@@ -338,8 +338,8 @@ TEST(Decades, WaterFitsItsPoresAfterAMillionPassages) {
   EXPECT_LE(run.worst_residual(), 1e-12);
 }
 
-/// One step in which the pores double and are passed through a million times cannot tell where the
-/// water goes; it used to be stored in the elements.
+/// In one step in which the pores double and a million pore volumes pass, the place of the water is
+/// undetermined; it used to be stored in the elements.
 TEST(Decades, AStepWhoseWaterDoesNotFitIsRefused) {
   model::ModelRun run = run_for_months(9e6);
   try {

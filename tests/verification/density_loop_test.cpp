@@ -1,6 +1,6 @@
-/// Heavy liquid drives light: two columns of different concentrations, joined above and below by
-/// gravel, carry q = k (rho_1 - rho_2) / rho_w H / (L_1 + L_2). And where a slow flow erodes in
-/// proportion to itself, the weight of the fines takes twice as many.
+/// Heavy liquid drives light liquid: two columns of different concentrations, joined above and
+/// below by gravel, carry q = k (rho_1 - rho_2) / rho_w H / (L_1 + L_2). And where a slow flow
+/// erodes in proportion to itself, the weight of the fines doubles the erosion.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace density_loop_test {
 constexpr int columns = 5;
 constexpr int rows = 12;
 
-/// A ring of cells: the columns at both sides, the rows above and below.
+/// A ring of cells: the columns at both sides, the rows at top and bottom.
 Mesh<2> ring() {
   Mesh<2> whole = model::column_mesh(columns, rows, 0.5, 1.2);
   Mesh<2> mesh = whole;
@@ -63,8 +63,8 @@ TEST(DensityLoop, OfTwoColumns) {
   EXPECT_NEAR(up / volume, exact, 1e-3 * exact);
 }
 
-/// Soil 1 m long and 0.5 m high, its water 1 cm higher on the left than on the right: lambda = 3
-/// 1/m, k = 1 mm/s. Drag is Darcy's at a conductivity that does not change.
+/// Soil 1 m long and 0.5 m high, with water 1 cm higher on the left than on the right: lambda = 3
+/// 1/m, k = 1 mm/s. Drag is Darcy's at a constant conductivity.
 class SlowSeepage : public testing::Test {
  protected:
   static Case<2> slow_seepage(double gravity) {
@@ -97,7 +97,7 @@ TEST_F(SlowSeepage, WithoutWeightLosesWhatTheHeadsTake) {
 }
 
 TEST_F(SlowSeepage, WithWeightLosesTwiceAsMuchAndSaysSo) {
-  // Finite volumes of first order on 60 x 30 and on 120 x 60 cells, a program of its own: 0.12581
+  // A separate program with first-order finite volumes on 60 x 30 and 120 x 60 cells gives 0.12581
   // and 0.12671 by 2833 s, 0.31656 and 0.31519 by 5666 s.
   model::ModelRun run(slow_seepage(9.81));
   const auto states = run.run({2833.0, 5666.0}).states;

@@ -1,5 +1,5 @@
-/// The paper's double-point column: solid mass against the erosion laws, points and masses that
-/// add up.
+/// The paper's double-point column: solid mass against the erosion laws, and balances of points and
+/// masses.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ Scene column_scene(const ErosionLaw* law, double rate, int points, double end,
   return scene;
 }
 
-/// h = 0.25.
+/// The column in elements of h = 0.25 m.
 Case<2> column_case(Scene scene) {
   LayerSettings layers;
   layers.inflow = layers.above = layers.below = layers.outflow = 2;
@@ -53,7 +53,7 @@ struct Seen {
   double empty_share = 0.0;  ///< mean share of the elements of soil that are empty
 };
 
-/// Runs to the last of the table's times and compares every row of it.
+/// Runs to the last time of the table and compares all its rows.
 Seen compare(const Scene& scene, const std::string& column) {
   std::vector<double> times;
   std::vector<double> porosity;
@@ -86,7 +86,7 @@ Seen compare(const Scene& scene, const std::string& column) {
     EXPECT_EQ(ledger.points, row.liquid_points);
     seen.concentration_min = std::min(seen.concentration_min, row.concentration_min);
     seen.concentration_max = std::max(seen.concentration_max, row.concentration_max);
-    // 64 elements of soil: specimen and buffers.
+    // There are 64 elements of soil: specimen and buffers.
     seen.empty_share += row.empty_elements / 64.0 / static_cast<double>(times.size());
   }
   EXPECT_GT(moments.states.back().ledger.points_out, initial) << "water was to flow";
@@ -115,7 +115,7 @@ struct LawCase {
   double rate;
   const char* column;  ///< of porosity.csv
   double end;
-  double exact;  ///< to which the solver integrates this law
+  double exact;  ///< accuracy to which the solver integrates this law
 };
 
 class DoublePointColumn : public ::testing::TestWithParam<std::tuple<LawCase, model::SchemeCase>> {
@@ -169,12 +169,13 @@ TEST(DoublePointColumnPoints, InThePapersModeTooFewPointsErodeTooLittle) {
     print("paper's mode, " + std::to_string(points) + " points", seen.back());
     expect_balanced(seen.back());
   }
-  // Every element of the specimen that is dry keeps its grains.
+  // Dry elements of the specimen keep their grains.
   EXPECT_GT(seen[0].worst_solid, 1.5 * seen[1].worst_solid);
   EXPECT_GT(seen[1].worst_solid, 1.5 * seen[2].worst_solid);
   EXPECT_LE(seen[2].worst_solid, 0.03);
-  // Points come out of free water, where each stands for 1/N of an element of liquid: 0.3 N of them
-  // fill an element of soil, at random. N = 12 leaves exp(-3.6) = 2.7 % of the elements empty.
+  // Points come from free water, where each represents 1/N of the liquid of an element, so an
+  // element of soil contains 0.3 N points on average, at random. N = 12 leaves exp(-3.6) = 2.7 % of
+  // the elements empty.
   const std::vector<double> number{1.0, 3.0, 12.0};
   for (std::size_t k = 0; k < number.size(); ++k) {
     const double expected = std::exp(-0.3 * number[k]);

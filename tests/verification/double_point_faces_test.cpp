@@ -1,5 +1,5 @@
 /// Double-point with the implicit flow: liquid points follow the volumes through faces. The column
-/// under a uniform flux against exact profiles, whatever the step.
+/// under a uniform flux is compared with exact profiles for any step.
 
 #include <gtest/gtest.h>
 
@@ -26,11 +26,12 @@ Scene faces_scene(int points, double end) {
 }
 
 struct Errors {
-  double concentration = 0.0;  ///< of points in L2, root mean square over times
-  double mass = 0.0;           ///< largest of the fluidised mass, of its maximum
+  double concentration = 0.0;  ///< error of points in L2, root mean square over times
+  double mass = 0.0;           ///< largest error of the fluidised mass, relative to its maximum
 };
 
-/// At 5, 10 ... 30 s in a column 1 m high; regions' books must close at each of these times.
+/// Errors at 5, 10 ... 30 s in a column 1 m high; the balances of regions must close at these
+/// times.
 Errors errors_of(int rows, Scene scene, const LayerSettings& layers = {}) {
   model::DoublePointRun run(
       model::make_double_point_case(model::layered_mesh(rows, layers, rows), std::move(scene)));
@@ -76,7 +77,7 @@ Errors errors_of(int rows, Scene scene, const LayerSettings& layers = {}) {
 }
 
 TEST(DoublePointFaces, TheErrorDoesNotDependOnTheStep) {
-  // Erosion starts within the steps of 1.5 and 5 s and ends within those of 1.5, 4 and 5 s.
+  // Erosion starts within steps of 1.5 and 5 s and ends within steps of 1.5, 4 and 5 s.
   std::vector<double> errors;
   for (const double step : {0.5, 1.0, 1.5, 4.0, 5.0}) {
     Scene scene = faces_scene(12, 30.0);
@@ -121,9 +122,9 @@ TEST(DoublePointFaces, ThePapersModeClosesItsBooksToo) {
 }
 
 TEST(DoublePointFaces, InAFlowThatTurns) {
-  // Water enters on the left and leaves at the top. Where the whole of a soil erodes at one rate,
-  // c = 1 - n(t_in) / n(t) by any path, and when a point came in is known to within `every`
-  // by its number: every output numbers points as the run does.
+  // Water enters on the left and leaves at the top. Where a whole soil erodes at one rate, c = 1 -
+  // n(t_in) / n(t) on any path. The number of a point gives its time of entry within `every`,
+  // because every output keeps the numbers of the run.
   constexpr double every = 0.5;
   constexpr double end = 20.0;
   Scene scene = faces_scene(12, end);
@@ -135,7 +136,7 @@ TEST(DoublePointFaces, InAFlowThatTurns) {
   EXPECT_LE(run.worst_residual(), 1e-12);
   const auto porosity = [](double t) { return 0.3 + rate * std::max(0.0, t - start); };
 
-  std::map<long, double> seen;  // first, by the point's number
+  std::map<long, double> seen;  // first time at which a point is seen, by its number
   double worst = 0.0;
   int injected = 0;
   for (std::size_t k = 0; k < times.size(); ++k) {

@@ -1,5 +1,5 @@
-/// Fluidised fines that liquid points carry, against exact profiles: physical masses, steady flow
-/// of q = 0.012 m/s from the first step, clean water from above.
+/// Fluidised fines on liquid points, against exact profiles: physical masses, steady flow of q =
+/// 0.012 m/s from the first step, clean water from above.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ double point_error(const Mesh<2>& mesh, const LiquidPoints<2>& liquid,
   return std::sqrt(square / sum);
 }
 
-/// The same, root mean square over 10, 20 ... 60 s of a run; the specimen alone.
+/// `point_error` of the specimen alone, root mean square over 10, 20 ... 60 s of a run.
 double error_of(int columns, Scene scene) {
   const int across = std::max(2, columns / 2);
   model::DoublePointRun run(model::make_double_point_case(
@@ -67,12 +67,12 @@ double error_of(int columns, Scene scene) {
   return std::sqrt(square / static_cast<double>(times.size()));
 }
 
-/// What the specimen holds in a run of a column with these layers, against the exact masses.
+/// Errors of the fluidised mass of the specimen in a run of a column with these layers.
 struct FluidisedMass {
   double worst_mass = 0.0;  ///< largest difference, relative to the largest mass
-  /// The same of what the pores would hold at the mean concentration of their points.
+  /// Error of the mass that the pores would hold at the mean concentration of their points.
   double worst_concentration = 0.0;
-  /// The same of the field between the points, as `sample` shows it, integrated over the specimen.
+  /// Error of the field between the points, as `sample` gives it, integrated over the specimen.
   double worst_field = 0.0;
 };
 
@@ -135,8 +135,8 @@ TEST(DoublePointFines, FluidisedMassInTheSpecimen) {
               << " %, at the exact pore volume " << 100.0 * worst.worst_concentration
               << " %, of the field between points " << 100.0 * worst.worst_field << " %\n";
   }
-  // Fines come and go with whole points, and the specimen never holds exactly as many as its pores
-  // are worth, least of all behind layers.
+  // Fines enter and leave with whole points, and the volume of the points in the specimen is never
+  // exactly that of its pores, least of all behind layers.
   EXPECT_LE(alone.worst_mass, 0.012);
   EXPECT_LE(alone.worst_concentration, 0.006);
   EXPECT_LE(between.worst_mass, 0.045);
@@ -168,7 +168,7 @@ TEST(DoublePointFines, LiquidThatCarriesTheFlowTakesUpGrainsAsWell) {
     error[carried ? 1 : 0] = error_of(4, scene);
   }
   std::cout << "error of c: mixed " << error[0] << ", material-point " << error[1] << "\n";
-  // Points along the faces are as good as water that expands by p/K lets them be; points that carry
+  // The accuracy of points along faces is limited by water that expands by p/K; points that carry
   // the flow move with the nodes' flux.
   EXPECT_LE(error[0], 4e-5);
   EXPECT_LE(error[1], 3e-4);
@@ -180,8 +180,8 @@ TEST(DoublePointFines, ErrorIsThatOfCompressibleWater) {
     errors.push_back(error_of(columns, fines_scene(12, 60.0)));
     std::cout << columns << " columns: error of c " << errors.back() << '\n';
   }
-  // The exact solution is incompressible, and water that expands by p/K = 3e-4 on its way down is
-  // not: that much of c at the outlet is left on any mesh.
+  // The exact solution is incompressible, but the water expands by p/K = 3e-4 on its way down: this
+  // error of c at the outlet remains on any mesh.
   for (const double error : errors) EXPECT_LE(error, 5e-5);
 }
 
@@ -232,7 +232,7 @@ TEST(DoublePointFines, PorosityThatVariesWithDepth) {
   EXPECT_LE(worst[1], 0.0125);
 }
 
-/// A value at y = 0, by a parabola through what is given near it, in least squares.
+/// The value at y = 0 of a parabola, fitted by least squares to values near it.
 class ValueAtInterface {
  public:
   void add(double y, double value) {
@@ -258,7 +258,7 @@ class ValueAtInterface {
 TEST(DoublePointFines, FluxOfGrainsIsContinuousWherePorosityJumps) {
   constexpr double buffer_porosity = 0.3;
   constexpr double specimen_porosity = 0.4;
-  constexpr double end = 60.0;  // all water up to half a metre below entered after the start
+  constexpr double end = 60.0;  // the water down to y = -0.5 m entered after the start
   constexpr double every = 0.25;
   Scene scene = fines_scene(12, end);
   scene.soils[0].porosity = specimen_porosity;
@@ -275,7 +275,7 @@ TEST(DoublePointFines, FluxOfGrainsIsContinuousWherePorosityJumps) {
   const Mesh<2>& mesh = run.input().mesh;
   const int specimen = model::region_index(mesh, "specimen");
 
-  // Eq. 5 as printed, along the same points: n_f of a point grows by phi_e alone.
+  // Eq. 5 as printed, along the same points: n_f of a point grows only by phi_e.
   struct Printed {
     double fines = 0.0;  ///< n_f
     bool in_specimen = false;

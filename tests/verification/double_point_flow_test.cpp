@@ -23,7 +23,7 @@ Scene column_scene(double end) {
   return scene;
 }
 
-/// What a column has come to at each of `times`, met one after the other.
+/// Results of a column at each of `times`.
 struct History {
   std::vector<double> porosity;
   std::vector<double> eroded;
@@ -69,8 +69,8 @@ TEST(DoublePointAndSinglePoint, AgreeInTheSameColumn) {
     error = std::max(error, std::abs(two.concentration_out[k] - expected));
     turbidity = std::max(turbidity, std::abs(two.turbidity_out[k] - grain_density * expected));
     const double difference = std::abs(two.concentration_out[k] - one.concentration_out[k]);
-    // The first water that entered after the start arrives at 28 s; a mesh that carries c smears
-    // the kink it brings, points do not.
+    // The first water that entered after the start arrives at 28 s. A mesh that carries c smears
+    // the kink of its arrival, but points do not.
     double& worst = times[k] == 28.0 ? at_front : concentration;
     worst = std::max(worst, difference);
     largest = std::max(largest, one.concentration_out[k]);
@@ -103,7 +103,7 @@ TEST(DoublePointBox, ASealedBoxErodesWithoutPressure) {
     const LedgerRow ledger = moments.states[0].ledger;
     std::cout << "sealed box: pressure " << row.pressure_min << " to " << row.pressure_max
               << " Pa, speed " << row.speed_max << " m/s, fines " << ledger.fines << " kg\n";
-    // K = 2e7 Pa: a part in 1e12 of volume is 2e-5 Pa.
+    // With K = 2e7 Pa, a share of 1e-12 of the volume is 2e-5 Pa.
     EXPECT_LE(std::max(-row.pressure_min, row.pressure_max), 2e-5);
     EXPECT_LE(row.speed_max, 1e-9);
     EXPECT_NEAR(ledger.fines, 2700.0 * 18e-3, 1e-9);
@@ -118,7 +118,7 @@ TEST(DoublePointThreads, OneAndTwoGiveTheSameBits) {
     scene.flow.integration = integration;
     scene.soils[0].erosion.start = 0.0;
     scene.time.mass_scaling = 1e4;
-    // More points than the loops need to go parallel.
+    // There are more points than the loops need to be parallel.
     SolverOptions options;
     options.threads = threads;
     model::DoublePointRun run(model::make_double_point_case(model::column_mesh(20, 20), scene),
@@ -154,7 +154,7 @@ TEST(DoublePointPressure, FallsInAStraightLineByEitherIntegration) {
     model::DoublePointRun run(model::make_double_point_case(model::column_mesh(4, 4), scene));
     const std::vector<double> times = model::times_up_to(10.0, 0.1);
     const auto moments = run.run(times);
-    // Mean over the second half of the time, per row of cells, by the elements' pressures.
+    // Mean over the second half of the time, per row of cells, of the elements' pressures.
     const auto counted = static_cast<double>(times.size() - times.size() / 2);
     std::array<double, 4> mean{};
     double scatter = 0.0;
@@ -167,7 +167,7 @@ TEST(DoublePointPressure, FallsInAStraightLineByEitherIntegration) {
     }
     double worst = 0.0;
     for (int row = 0; row < 4; ++row) {
-      // Mean over the row: its middle.
+      // The mean over the row is the value at its middle.
       worst = std::max(worst, std::abs(mean[row] - slope * (0.125 + 0.25 * row)));
     }
     std::cout << (mixed ? "mixed" : "material-point") << ": mean pressure profile off by "

@@ -1,5 +1,5 @@
-/// Many pore volumes through a column that does not erode: as many points as at the start, and no
-/// element without any.
+/// Many pore volumes pass a column that does not erode: the number of points stays, and no element
+/// becomes empty.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace double_point_long_test {
 constexpr double flux = 0.012;
 constexpr double pore_volume_time = 0.3 / flux;  ///< s, for a column one metre high
 
-/// Boundaries are called top and bottom; mass scaling alone, as the flow is steady.
+/// The boundaries are top and bottom; mass scaling has no effect on the steady flow.
 Scene still_scene(double end) {
   Scene scene = model::double_point_scene(flux, 0.0);
   for (Soil& soil : scene.soils) soil.erosion = {};
@@ -43,7 +43,7 @@ TEST_P(DoublePointLong, FortyPoreVolumesLeaveThePointsAsTheyWere) {
   const double end = 40.0 * pore_volume_time;
   model::DoublePointRun run(model::make_double_point_case(mesh(), still_scene(end)));
   const LedgerRow initial = run.model().ledger();
-  // Not in step with the column, in which the same points come again and again.
+  // The interval does not divide the passage of the column, after which the same points recur.
   const auto times = model::times_up_to(end, 0.37 * pore_volume_time);
   const auto moments = run.run(times);
   const std::size_t quarter = times.size() / 4;
@@ -70,11 +70,11 @@ TEST_P(DoublePointLong, FortyPoreVolumesLeaveThePointsAsTheyWere) {
             << " %, of the last by " << 100.0 * volume[1] << " %; volume defect " << worst_defect
             << ", in the last quarter " << late_defect << "; empty elements " << empty << '\n';
   EXPECT_GT(run.model().ledger().points_out, 35.0 * initial.points);
-  // Points are whole: each of the eight open faces keeps account of less than one.
+  // Points are whole: at each of the eight open faces less than one point is pending.
   const bool is_free = GetParam() == std::string("free");
   EXPECT_LE(worst_volume, is_free ? 8.0 / initial.points : 0.01);
   EXPECT_NEAR(volume[0], volume[1], 1e-3);
-  // In elements of other sizes points are of other sizes, too: their number varies more.
+  // With elements of different sizes points differ in size too, and their number varies more.
   const double jittered_or_free =
       GetParam() == std::string("jittered") ? 0.025 : 8.0 / initial.points;
   EXPECT_LE(worst_number, GetParam() == std::string("regular") ? 0.01 : jittered_or_free);
@@ -85,7 +85,7 @@ TEST_P(DoublePointLong, FortyPoreVolumesLeaveThePointsAsTheyWere) {
 
 INSTANTIATE_TEST_SUITE_P(Meshes, DoublePointLong, ::testing::Values("regular", "jittered", "free"));
 
-/// Positions in ascending order, whatever the order in which points were injected.
+/// Positions in ascending order, independent of the order of injection.
 std::vector<std::array<double, 2>> positions(const model::ModelState<DoublePoint>& state,
                                              const Mesh<2>& mesh) {
   std::vector<std::array<double, 2>> result;
@@ -100,7 +100,7 @@ std::vector<std::array<double, 2>> positions(const model::ModelState<DoublePoint
 TEST(DoublePointInjection, DoNotDependOnTheStep) {
   for (const Seeding seeding : {Seeding::low_discrepancy, Seeding::random}) {
     std::vector<std::vector<std::array<double, 2>>> seen;
-    // Every point of the start has left by then.
+    // All points of the start have left by then.
     const double end = 1.2 * pore_volume_time;
     for (const double step : {0.05, 0.013}) {
       Scene scene = still_scene(end);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What double-point tests share: the settings of the paper, and where the specimen is.
+/// Common settings of double-point tests: those of the paper, and the place of the specimen.
 
 #include <algorithm>
 
@@ -8,8 +8,8 @@
 
 namespace suffuse::model {
 
-/// As the paper has it: as many points in every element, at random; fines go to the points of
-/// their own element, and where there are none nothing erodes.
+/// The settings of the paper: the same number of points in every element, at random; fines go to
+/// the points of their own element, and nothing erodes in an element without points.
 inline void use_paper_mode(Scene& scene, int seed = 1) {
   scene.points.seeding = Seeding::random;
   scene.points.seed = seed;

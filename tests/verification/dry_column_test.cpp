@@ -1,5 +1,5 @@
-/// Dry sand that has no equilibrium at the start: a column from which the gate is gone collapses in
-/// a whole run. Its pores hold next to no liquid.
+/// Dry sand that has no equilibrium at the start: a column whose gate is removed collapses in a
+/// whole run. Its pores hold almost no liquid.
 
 #include <gtest/gtest.h>
 
@@ -50,8 +50,8 @@ std::function<bool(const Vector<2>&)> column(double aspect) {
 }
 
 struct Shape {
-  double runout = 0.0;  ///< of the farthest point but 2 % of them, m
-  double height = 0.0;  ///< of the mean of the points, m
+  double runout = 0.0;  ///< of the farthest point except 2 % of them, m
+  double height = 0.0;  ///< mean height of the points, m
 };
 
 Shape shape_of(const Snapshot& snapshot) {
@@ -68,7 +68,7 @@ Shape shape_of(const Snapshot& snapshot) {
 }
 
 /// Lube, Huppert, Sparks and Freundt (Phys. Rev. E 72 (2005) 041301): 1.2 a for a below 1.8. The
-/// mesh is coarse: of a low column only a few rows flow.
+/// mesh is coarse: in a low column only a few rows flow.
 double runout_over_that_of_sand(double aspect) {
   model::ModelRun run = sand(aspect + 0.25, 1.0 / cells, column(aspect));
   EXPECT_TRUE(run.model().solid().has_inertia());
@@ -79,7 +79,7 @@ double runout_over_that_of_sand(double aspect) {
   Shape before = {0.0, 0.5 * aspect};
   for (const Snapshot& snapshot : moments.snapshots) {
     const Shape now = shape_of(snapshot);
-    // What falls gives the energy: no front is faster than a fall from the top.
+    // The fall supplies the energy: no front is faster than a free fall from the top.
     EXPECT_LE(now.height, before.height + 1e-4 * aspect);
     EXPECT_LE(now.runout - before.runout, 0.05 * std::sqrt(2.0 * 9.81 * aspect));
     before = now;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Steps of dry soil with inertia, without flow, on the parts of the solver.
+/// Steps of dry soil with inertia and without flow, made with parts of the solver.
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +13,16 @@
 namespace suffuse::model {
 
 struct InertialLimits {
-  double max_travel = 0.25;  ///< of a point in a step, over the height of its element
-  double growth = 1.5;       ///< of a step over the one before
-  /// A step that takes more iterations of Newton's method makes the next one shorter; one that
-  /// takes at most half as many lets it grow.
+  double max_travel = 0.25;  ///< of a point in a step, relative to the height of its element
+  double growth = 1.5;       ///< of a step, relative to the one before
+  /// A step with more iterations of Newton's method makes the next one shorter; one with at most
+  /// half as many lets it grow.
   int many_iterations = 8;
   double shortest = 1e-7;  ///< s; no step is tried below this
   NewtonLimits newton = {.max_iterations = 12, .tolerance = 1e-5};
 };
 
-/// What a step did.
+/// Results of a step.
 struct InertialStep {
   double duration = 0.0;  ///< s
   int iterations = 0;     ///< of Newton's method
@@ -34,7 +34,7 @@ struct InertialStep {
 template <int Dim>
 class InertialMotion {
  public:
-  /// Points at rest. Keeps references to grid and supports.
+  /// Starts with points at rest. Keeps references to grid and supports.
   InertialMotion(const Grid<Dim>& grid, const Supports<Dim>& supports, int point_count, int threads,
                  const InertialLimits& limits = {})
       : grid_(grid),
@@ -46,8 +46,8 @@ class InertialMotion {
   [[nodiscard]] PointVelocities<Dim>& velocities() { return velocities_; }
   [[nodiscard]] const PointVelocities<Dim>& velocities() const { return velocities_; }
 
-  /// Moves the points by one step of at most `longest` seconds. Throws NumericalError where no step
-  /// is short enough, or a point leaves the mesh.
+  /// Moves the points by one step of at most `longest` seconds. Throws NumericalError if no step is
+  /// short enough, or if a point leaves the mesh.
   /// \param skeleton  per point
   /// \param mass      per point, kg
   /// \param loads     per node, N: the weight of the points among them
@@ -75,7 +75,7 @@ NodeVectors<Dim> times(double factor, NodeVectors<Dim> vectors) {
   return vectors;
 }
 
-/// The displacement of nodes that go on as they go, where nothing holds them.
+/// The displacement of free nodes that keep their velocity.
 template <int Dim>
 NodeVectors<Dim> coasting(const DisplacementUnknowns<Dim>& unknowns, const NodalMotion<Dim>& nodes,
                           double dt) {
@@ -115,7 +115,7 @@ InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
   const PointsByElement sorted(grid_.mesh.element_count(), points.element);
   const ElementClasses classes(grid_, points, sorted);
   const NodalMotion<Dim> nodes = velocities_.to_nodes(grid_, points, mass);
-  // Inertia holds a piece of soil that hangs by one node.
+  // Inertia supports a piece of soil that is connected by one node.
   Equilibrium<Dim> equilibrium({grid_, points, sorted, skeleton, classes, 0.0}, supports_,
                                threads_);
   InertialStep result{.duration = first_try(sorted, nodes, longest)};

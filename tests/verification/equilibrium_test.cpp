@@ -1,4 +1,4 @@
-/// States that must not move, and runs that must not blow up.
+/// States that must not move, and runs that must stay bounded.
 
 #include <gtest/gtest.h>
 
@@ -50,12 +50,12 @@ TEST_P(SealedBox, ErosionSourcesNoPressureAndLosesNoMass) {
       EXPECT_NEAR(row.fines, row.eroded, 1e-12 * row.solid);
     }
     EXPECT_LE(run.worst_residual(), 1e-12);
-    // Everything eroded is still in the box.
+    // All eroded fines are still in the box.
     EXPECT_GT(moments.states.back().ledger.fines, 100.0);
   }
 }
 
-/// The unit square in Gmsh's unstructured mesh, its upper half another region.
+/// The unit square in Gmsh's unstructured mesh; its upper half is another region.
 Mesh<2> two_soils_free_mesh(double size) {
   Mesh<2> mesh = model::free_mesh(size);
   mesh.region_names = {"specimen", "loose"};
@@ -95,8 +95,8 @@ TEST_P(HydrostaticRest, StaysAtRestOnAnUnstructuredMeshWithTwoPorosities) {
 }
 
 TEST(EquationOfState, PressureIsThatOfTheMasses) {
-  // From rest, ringing, with erosion: what the flow integrates and what the masses say could drift
-  // apart.
+  // From rest, with waves and erosion, the pressure that the flow integrates and that of the masses
+  // could diverge.
   Scene scene = model::paper_scene();
   scene.soils[0].erosion = {erosion_law("logarithmic"), 1e-2, 0.0, false};
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
@@ -128,7 +128,7 @@ TEST_P(SteadyFlow, StaysSteady) {
   const auto moments = run.run({0.1, 1.0});
   for (std::size_t k = 0; k < 2; ++k) {
     const HistoryRow row = moments.states[k].history;
-    // p/K is 3e-4 here: the water expands by that on its way.
+    // p/K is 3e-4 here: the water expands by that share on its way.
     EXPECT_NEAR(row.flux_out, 0.012, 0.012 * 4e-4);
   }
 }

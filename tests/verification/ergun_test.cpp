@@ -33,7 +33,7 @@ Fluxes fluxes_of(Case<2> c) {
 
 Scene ergun_scene(const ReferenceRow& row) {
   Scene scene = model::paper_scene();
-  // So stiff that water does not expand on its way: by p/K = 60 kPa / K < 1e-6.
+  // The modulus is so large that water does not expand on its way: p/K = 60 kPa / K < 1e-6.
   scene.liquid.bulk_modulus = 2e11;
   scene.soils[0].porosity = row.number("n");
   scene.soils[0].conductivity = row.number("k");

@@ -18,8 +18,8 @@ using model::missing_fines;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// Runs until the soil has lost its equilibrium; the time of that, s. The model stays as it was in
-/// the last one.
+/// Runs until the soil has lost its equilibrium, and returns the time, s. The model keeps its last
+/// equilibrium.
 double time_of_failure(model::ModelRun& run) {
   const double end = run.input().document.scene.time.end;
   const double erodible = run.model().ledger().erodible;
@@ -37,11 +37,11 @@ double time_of_failure(model::ModelRun& run) {
 
 // ------------------------------------------------------------------------------ drained oedometer
 
-/// A load comes and the soil drains; then its fines go with the water that rises through it, and
-/// the soil becomes softer. Off from the reference by so much: stretch, porosity, fines left.
+/// A load is applied and the soil drains; then its fines leave with the water that rises through
+/// it, and the soil becomes softer. Returns the largest error of stretch, porosity and fines left.
 template <class Run>
 double oedometer_error(int rows, int steps_between) {
-  constexpr double loaded = 20.0;  // s: the load has come, the soil has drained
+  constexpr double loaded = 20.0;  // s: the load is applied, the soil has drained
   constexpr double load = 1e5;
   const auto reference = read_reference("oedometer-eroding.csv");
   Scene scene = model::paper_scene();
@@ -59,7 +59,7 @@ double oedometer_error(int rows, int steps_between) {
   soil.erosion.start = loaded;
   BoundaryCondition top = clean_pressure_on("top", 0.0);
   top.traction = VectorFunction{{{0.0, {0.0, 0.0, 0.0}}, {0.75 * loaded, {0.0, -load, 0.0}}}};
-  // Water passes some three times, and its gradient carries 1e-4 of the load.
+  // About three pore volumes pass; their gradient carries 1e-4 of the load.
   BoundaryCondition bottom = model::flux_on("bottom", 1e-2);
   bottom.fix = Fixing::both;
   scene.boundaries = {fixed_on("left", Fixing::normal), fixed_on("right", Fixing::normal), top,
@@ -92,8 +92,8 @@ double oedometer_error(int rows, int steps_between) {
 }
 
 TEST(ErodingOedometer, SettlesAsItsFinesGoWithTheWater) {
-  // Points near the surface are off by a share of an element: 1.7e-3, 1.4e-3 and 5e-4 in all with
-  // 32, 64 and 128 rows.
+  // Points near the surface are off by a share of an element: the total errors are 1.7e-3, 1.4e-3
+  // and 5e-4 with 32, 64 and 128 rows.
   EXPECT_LE(oedometer_error<model::ModelRun>(128, 40), 1e-3);
 }
 
@@ -103,7 +103,8 @@ TEST(ErodingOedometer, TheSameWithLiquidPoints) {
 
 // ------------------------------------------------------------------------------------- upward flow
 
-/// Water rises through sand that erodes evenly: the lighter the sand, the nearer to floating.
+/// Water rises through sand that erodes evenly: as the sand becomes lighter, it comes closer to
+/// floating.
 double heave_time(double gradient, double rate, int rows) {
   constexpr double conductivity = 1e-2;
   Scene scene = model::paper_scene();
@@ -130,7 +131,7 @@ double heave_time(double gradient, double rate, int rows) {
 
 TEST(UpwardFlow, LiftsTheSoilWhenItHasLostEnoughOfItsWeight) {
   constexpr double gradient = 1.0;
-  // So slow that the liquid is hardly heavier for its fines.
+  // Erosion is so slow that fines hardly make the liquid heavier.
   constexpr double rate = 1e-6;
   const double porosity = 1.0 - gradient / 1.7;
   const double exact = (porosity - 0.3) / rate;
@@ -142,19 +143,18 @@ TEST(UpwardFlow, LiftsTheSoilWhenItHasLostEnoughOfItsWeight) {
 
 // ------------------------------------------------------------------------------------------- slope
 
-/// A piece of an infinite slope with seepage along it, turned so that its surface is the top of a
+/// A piece of an infinite slope with seepage along it, rotated so that its surface is the top of a
 /// box: gravity is inclined. Its sides carry the stress of the infinite slope at its limit, row by
-/// row (a side's traction is uniform), and the flux k sin(beta) enters and leaves through them. The
-/// normal stress along the slope, which equilibrium does not give, is the one at failure along the
-/// slope with associated flow. The uppermost soil is a load: sand without cohesion would not bear
-/// that the traction of the highest row is uniform. Next to nothing erodes, so weights stay, but
-/// friction falls with it.
+/// row (a side's traction is uniform), and the flux k sin(beta) enters and leaves through them.
+/// Equilibrium does not determine the normal stress along the slope; it is that at failure with
+/// associated flow. The uppermost soil is a load: sand without cohesion would fail under the
+/// uniform traction of the highest row. Almost nothing erodes, so weights stay, but friction falls.
 struct ErodingSlope {
   static constexpr double slope = 15.0 * degree;
   static constexpr double height = 3.0;         // m
-  static constexpr double cover = 1.5;          // of soil that is a load on top, m
+  static constexpr double cover = 1.5;          // of soil that acts as a load on top, m
   static constexpr double erodible = 5e-4;      // of the volume
-  static constexpr double duration = 100.0;     // until all of that is gone, s
+  static constexpr double duration = 100.0;     // until all erodible fines are gone, s
   static constexpr double conductivity = 1e-3;  // m/s
   static constexpr double first_friction = 35.0;
   static constexpr double last_friction = 20.0;

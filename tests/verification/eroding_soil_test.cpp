@@ -1,4 +1,4 @@
-/// Soil that erodes and moves, in whole runs: with the flow that carries its fines away.
+/// Soil that erodes and moves, in whole runs, with the flow that carries its fines away.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using model::clean_pressure_on;
 using model::fixed_on;
 using model::missing_fines;
 
-/// Both sides.
+/// Smooth walls on both sides.
 std::vector<BoundaryCondition> smooth_walls() {
   return {fixed_on("left", Fixing::normal), fixed_on("right", Fixing::normal)};
 }
@@ -86,7 +86,7 @@ TEST(StiffSoil, DiffersFromRigidSoilByItsCompressibility) {
               largest_difference(end.pressure, rigid.pressure) / 5886.0,
               std::abs(end.ledger.water / rigid.ledger.water - 1.0),
               std::abs(end.ledger.fines_out / rigid.ledger.fines_out - 1.0)};
-    // The law goes with what is left at a point, whatever the soil does.
+    // The law depends on the fines left at a point, not on the motion of the soil.
     EXPECT_NEAR(end.ledger.erodible, rigid.ledger.erodible, 1e-13 * rigid.ledger.erodible);
     std::cout << "E " << moduli[k] << " Pa: porosity off by " << off[k][0] << ", pressure by "
               << off[k][1] << ", water by " << off[k][2] << ", fines that left by " << off[k][3]
@@ -137,8 +137,8 @@ void expect_weight_of_what_is_there() {
   soil.erosion.law = erosion_law("constant");
   soil.erosion.rate = rate;
   soil.erosion.start = 1.0;
-  // Under the lid the pressure is that of the air: a lid that lets nothing through would hold the
-  // soil by suction where it becomes lighter.
+  // Under the lid the pressure is that of the air: a tight lid would hold the soil by suction as it
+  // becomes lighter.
   scene.boundaries = smooth_walls();
   scene.boundaries.push_back(clean_pressure_on("top", 0.0));
   scene.boundaries.push_back(fixed_on("bottom", Fixing::both));
@@ -173,8 +173,8 @@ TEST(SealedBox, TheSameWithLiquidPoints) {
 
 // ---------------------------------------------------------------- points in the region of another
 
-/// Soft soil that erodes above soft soil that does not: squeezed, the upper soil comes into
-/// elements of the lower region.
+/// Soft soil that erodes above soft soil that does not: when both are compressed, the upper soil
+/// moves into elements of the lower region.
 void check_two_soils(TransportScheme transport) {
   Mesh<2> mesh = model::crossed_mesh(2, 8, 0.25, 1.0);
   mesh.region_names = {"base", "specimen"};
@@ -185,7 +185,7 @@ void check_two_soils(TransportScheme transport) {
   scene.time.scheme = FlowScheme::implicit_mixed;
   scene.time.transport = transport;
   scene.time.end = 120.0;
-  scene.time.step = 1.0;  // points that change their element make pressures jump
+  scene.time.step = 1.0;  // points that change their element cause jumps of pressure
   scene.soils[0].skeleton = model::elastic_soil(1e6, 0.0);
   scene.soils.push_back(scene.soils[0]);
   scene.soils[1].region = "base";

@@ -1,6 +1,7 @@
-/// What drives erosion, where porosity is uniform and the answer is an ordinary differential
-/// equation: drives that grow with what they open, a threshold that is crossed within a step,
-/// residuals that go with the flux; and a suspension that makes the liquid viscous.
+/// Drives of erosion where porosity is uniform, so that the solution follows from an ordinary
+/// differential equation: drives that grow as erosion opens pores, a threshold that is crossed
+/// within a step, residuals that depend on the flux; and a suspension that makes the liquid
+/// viscous.
 
 #include <gtest/gtest.h>
 
@@ -25,13 +26,13 @@ Scene driven_scene(const char* law, const char* drive, double rate, double end) 
   scene.time.scheme = FlowScheme::implicit_mixed;
   scene.time.stepping = TimeStepping::second_order;
   scene.time.tolerance = 1e-4;
-  scene.time.inertia = false;  // the differential equations have none
+  scene.time.inertia = false;  // the differential equations have no inertia
   scene.time.end = end;
   scene.output.every = scene.output.snapshot_every = end;
   return scene;
 }
 
-/// Water of this head on top of a column of one metre, clean.
+/// Clean water of this head on top of a column of one metre.
 void set_head(Scene& scene, const TimeFunction& head) {
   TimeFunction pressure = head;
   for (auto& [time, value] : pressure.knots) value *= weight;
@@ -63,8 +64,8 @@ struct FeedbackCase {
   double rate;
   double threshold;
   double gradient;
-  double accuracy;  ///< in steps by a tolerance of 1e-4
-  double step;      ///< from which on the order shows, s
+  double accuracy;  ///< with steps by a tolerance of 1e-4
+  double step;      ///< longest step in the range of the order, s
 };
 
 constexpr double porosity = 0.3;
@@ -169,7 +170,7 @@ TEST(Suspension, PushesCleanWaterOut) {
   const auto moments = run.run(times);
   const double width = 1.0 / 32;
   for (std::size_t k = 0; k < times.size(); ++k) {
-    // Where a sharp front would be that holds as many fines.
+    // The place of a sharp front that holds the same fines.
     const LedgerRow& ledger = moments.states[k].ledger;
     const double front = (ledger.fines + ledger.fines_out) / (2700.0 * 0.1 * 0.3 * width);
     const double flux = moments.states[k].history.flux_in / width;

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Fluidised fines in a column that clean water enters at uniform Darcy flux q, by
-/// characteristics: D ln(1 - c)/Dt = -phi_e / n_L along a path of the liquid. Integrated with small
-/// steps from the law and the initial porosity; nothing of the solver is in it.
+/// Fluidised fines in a column that clean water enters at uniform Darcy flux q, by characteristics:
+/// D ln(1 - c)/Dt = -phi_e / n_L along a path of the liquid. It is integrated with small steps from
+/// the law and the initial porosity, independently of the solver.
 
 #include <algorithm>
 #include <cmath>
@@ -37,11 +37,11 @@ class UniformFines {
 
   [[nodiscard]] double porosity(double t) const { return at(porosity_, (t - start_) / step); }
 
-  /// `x` from the inlet.
+  /// \param x from the inlet
   [[nodiscard]] double concentration(double x, double t) const {
     if (t <= start_) return 0.0;
     const double entered = at(path_, (t - start_) / step) - x;
-    double position = 0.0;  // water that was in the column before erosion began
+    double position = 0.0;  // the water was in the column before erosion began
     if (entered > 0.0) {
       const auto above = std::upper_bound(path_.begin(), path_.end(), entered);
       const auto i = static_cast<double>(above - path_.begin());
@@ -60,11 +60,11 @@ class UniformFines {
 
   double start_;
   std::vector<double> porosity_;
-  std::vector<double> path_;  ///< travelled by liquid since the start of erosion, m
+  std::vector<double> path_;  ///< path of liquid since the start of erosion, m
 };
 
-/// Any porosity n(x, t) and rate phi(x, t) in closed form: the path is followed back from (x, t) to
-/// the inlet or to the start of erosion.
+/// For any porosity n(x, t) and rate phi(x, t) in closed form: the path is followed back from (x,
+/// t) to the inlet or to the start of erosion.
 inline double concentration_along_path(const std::function<double(double, double)>& porosity,
                                        const std::function<double(double, double)>& rate,
                                        double start, double flux, double x, double t) {

@@ -1,6 +1,6 @@
-/// Columns in which the exchange of fines depends on what the liquid carries, against exact
-/// profiles: a suspension that is caught, with room for ever and with room that goes; erosion by
-/// what others have freed; erosion and deposition at once. In both formulations.
+/// Columns in which the exchange of fines depends on the concentration of the liquid, against exact
+/// profiles: a suspension that is caught, with unlimited and with limited room; erosion that
+/// fluidised fines cause; erosion and deposition at once. In both formulations.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ struct ExchangeCase {
   const char* table;
   std::function<void(Scene&)> set;
   double flux;
-  double concentration;  ///< of what enters
+  double concentration;  ///< of the inflow
 };
 
 Scene column_scene(const ExchangeCase& c, Formulation formulation, FlowScheme scheme, double end) {
@@ -77,7 +77,7 @@ class Exact {
   [[nodiscard]] double x(std::size_t k) const { return x_[k]; }
   [[nodiscard]] double porosity(std::size_t k) const { return porosity_[k]; }
   [[nodiscard]] double concentration(std::size_t k) const { return concentration_[k]; }
-  /// Over all places and times of the table.
+  /// Range over all places and times of the table.
   [[nodiscard]] double range_of_porosity() const { return highest_porosity_ - lowest_porosity_; }
   [[nodiscard]] double range_of_concentration() const { return highest_concentration_; }
 
@@ -95,7 +95,7 @@ struct Profile {
   double concentration;
 };
 
-/// Means over the width of a thin slice about a depth, from element-wise linear fields at snapshot.
+/// Means over the width of a thin slice at a depth, from element-wise linear fields of a snapshot.
 class Slices {
  public:
   Slices(const Mesh<2>& mesh, const Snapshot& snapshot) : mesh_(mesh) {
@@ -104,7 +104,7 @@ class Slices {
       if (field.name == "concentration") concentration_ = &field.values;
     }
   }
-  /// At depth x below the top, along the vertical through the middle of the column.
+  /// Values at depth x below the top, on the vertical through the middle of the column.
   [[nodiscard]] Profile at(double x) const {
     double n = 0.0;
     double c = 0.0;
@@ -119,7 +119,7 @@ class Slices {
       }
       const double y = std::clamp(1.0 - x, 1e-9, 1.0 - 1e-9);
       if (y < low - 1e-12 || y > high + 1e-12) continue;
-      // At this height on the vertical through the centroid.
+      // The place at this height on the vertical through the centroid.
       const Vector<2> place(element_centroid(mesh_, e)[0], y);
       Eigen::Matrix3d a;
       for (int k = 0; k < 3; ++k) {
@@ -146,9 +146,9 @@ struct Errors {
   double concentration = 0.0;
 };
 
-/// Means of the errors at the places of the table over the range of the exact values; without the
-/// ends and those within `margin` of the front where the suspension has come to, at which c falls
-/// to nothing.
+/// Mean errors at the places of the table, relative to the range of the exact values. The ends are
+/// left out, and so are places within `margin` of the front of the suspension, where c falls to
+/// zero.
 template <class Run>
 Errors errors(Run& run, const ExchangeCase& c, double time, double margin) {
   const Exact exact(c.table, time);
@@ -162,7 +162,7 @@ Errors errors(Run& run, const ExchangeCase& c, double time, double margin) {
   Errors sum;
   int count = 0;
   for (std::size_t k = 0; k < exact.size(); ++k) {
-    // The ends are single vertices, which count for nothing in L1.
+    // The ends are single vertices, which have no weight in L1.
     const bool end = exact.x(k) == 0.0 || exact.x(k) == 1.0;
     if (end || std::abs(exact.x(k) - front) < margin) continue;
     const Profile found = slices.at(exact.x(k));
@@ -217,8 +217,8 @@ TEST_P(ExchangeProfiles, DoublePointFollowsThem) {
   }
 }
 
-/// Behind the front the concentration stays, and porosity grows at the rate of the table.
-/// `accuracy`: double-point porosity is found by elements, and is off by a share of these.
+/// Behind the front the concentration is constant, and porosity changes at the rate of the table.
+/// `accuracy`: double-point porosity follows from elements, with an error of a share of an element.
 template <class Run>
 void expect_balance_of_both(Run& run, double accuracy = 0.01) {
   const std::vector<double> times{600.0, 1000.0};
@@ -272,7 +272,7 @@ TEST(ErosionAndDeposition, BalanceInDoublePoint) {
   }
 }
 
-/// Whatever the step, a point keeps the share that its path leaves it.
+/// In steps of any length, a point keeps the share of fines that its path determines.
 TEST(ErosionAndDeposition, PointsAreExactAlongTheirPaths) {
   Scene scene =
       column_scene(first_order, Formulation::double_point, FlowScheme::implicit_mixed, 900.0);

@@ -1,4 +1,4 @@
-/// Soil under free water and under air, and a bank of it that loses its fines, fails and runs out.
+/// Soil under free water and under air, and a bank that loses its fines, fails and runs out.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using model::clean_pressure_on;
 using model::fixed_on;
 using model::missing_fines;
 
-/// Elements whose centroid `holds` are soil, the others free water.
+/// Elements whose centroid fulfils `holds` are soil, the others free water.
 Mesh<2> under_water(Mesh<2> mesh, const std::function<bool(const Vector<2>&)>& holds) {
   mesh.region_names = {"specimen", "free_above"};
   for (int e = 0; e < mesh.element_count(); ++e) {
@@ -34,8 +34,8 @@ Scene basin(double water_level) {
   return scene;
 }
 
-/// sigma'_v = -(1 - n)(rho_s - rho_w) g z, z below the surface of the soil. Off by so much of the
-/// largest.
+/// sigma'_v = -(1 - n)(rho_s - rho_w) g z, z below the surface of the soil. Returns the largest
+/// error, relative to the largest stress.
 double submerged_stress_error(int rows) {
   constexpr double surface = 0.5;
   Scene scene = basin(1.0);
@@ -58,7 +58,7 @@ double submerged_stress_error(int rows) {
   return error;
 }
 
-/// Stress is constant in an element: its error falls with the size of elements.
+/// Stress is constant in an element: its error is proportional to the size of elements.
 TEST(FreeWater, PressesOnTheSoilBelowIt) {
   double last = 0.0;
   for (const int rows : {8, 16, 32}) {
@@ -72,8 +72,9 @@ TEST(FreeWater, PressesOnTheSoilBelowIt) {
   }
 }
 
-/// Gardner's soil over a water table at its base, under air: its weight with the water that it
-/// holds, and suction times the effective saturation. sigma' is off by so much of the largest.
+/// Gardner's soil over a water table at its base, under air: the stress follows from the weight of
+/// soil and its water, and from suction times the effective saturation. Returns the largest error
+/// of sigma', relative to the largest stress.
 double stress_error_under_air(int rows) {
   constexpr double surface = 0.5;
   constexpr double alpha = 3.0;
@@ -102,7 +103,7 @@ double stress_error_under_air(int rows) {
   double error = 0.0;
   for (std::size_t p = 0; p < snapshot.solid_positions.size() / 3; ++p) {
     const double y = snapshot.solid_positions[3 * p + 1];
-    if (y > 0.35) continue;  // elements at the surface hold water as soil and as free space do
+    if (y > 0.35) continue;  // elements at the surface are a mixture of soil and free space
     const double exact = exact_at(y);
     error = std::max(error, std::abs(stress->values[4 * p + 1] - exact) / -exact_at(0.0));
   }
@@ -165,9 +166,9 @@ HistoryRow fails_and_runs_out_under_water() {
   std::cout << "failed at " << now.history.failure_time << " s, moved by "
             << now.history.displacement_max << " m at " << now.time << " s, inertia "
             << now.history.inertia << ", " << run.steps() << " steps\n";
-  // It moves as fast as it falls a little before it has no equilibrium any more, which is at 8.1 s.
+  // The speed criterion starts inertia a little before equilibrium is lost, which is at 8.1 s.
   EXPECT_GT(now.history.failure_time, 7.5);
-  // All fines are gone after 10 s; sand of 25 degrees does not stand at 45.
+  // All fines are gone after 10 s; sand of 25 degrees is unstable at 45 degrees.
   EXPECT_LT(now.history.failure_time, 10.0);
   EXPECT_GT(now.history.inertia, 1e-3);
   EXPECT_GT(now.history.displacement_max, 0.4);
@@ -199,7 +200,7 @@ Scene bank_in_air() {
   return scene;
 }
 
-/// Nothing is lost, and no element is sucked dry.
+/// Nothing is lost, and no element is drained below a pressure of -1e5 Pa.
 TEST(Bank, SlidesIntoAir) {
   const Scene scene = bank_in_air();
   model::ModelRun run = bank_run(scene);
@@ -230,7 +231,7 @@ TEST(Bank, EndsInItsLastEquilibriumWhereTheSceneSaysSo) {
   EXPECT_GT(run.model().time(), 8.0);
 }
 
-/// A run that is kept while soil slides goes on with the same bits, on another number of threads.
+/// A run that is stored while soil slides resumes with the same bits, on another number of threads.
 TEST(Bank, GoesOnFromWithinItsSlide) {
   Scene scene = bank();
   scene.time.end = 12.0;

@@ -1,6 +1,6 @@
-/// Along any path of length s through soil that only catches fines, fines over water go with
-/// exp(-lambda s): in radial flow and under a weir, along streamlines to the outlet, whose lengths
-/// are those of walks against the flow.
+/// Along any path of length s through soil that only catches fines, the ratio of fines to water is
+/// proportional to exp(-lambda s): in radial flow and under a weir, along streamlines to the
+/// outlet, whose lengths follow from walks against the flow.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace suffuse {
 namespace filter_paths_test {
 
 constexpr double lambda = 2.0;
-constexpr double entering = 1e-4;  // so little that pores stay as they are
+constexpr double entering = 1e-4;  // so small that pores stay as they are
 
 Scene filter_scene(Formulation formulation, double end) {
   Scene scene = model::paper_scene();
@@ -44,7 +44,7 @@ Mesh<2> ring(int cells) {
   });
 }
 
-/// A place on an outer face, a share of it from one of its ends.
+/// A place on an outer face, at a share of its length from one end.
 PointPlace<2> place_on(const Grid<2>& grid, int face, double share) {
   const int e = grid.face_left[face];
   PointPlace<2> place{e, {}};
@@ -57,7 +57,7 @@ PointPlace<2> place_on(const Grid<2>& grid, int face, double share) {
   return place;
 }
 
-/// Fines over water, by volume, at a place.
+/// Ratio of fines to water, by volume, at a place.
 double fines_at(const FinesState<2>& state, const PointPlace<2>& place) {
   const int e = place.element;
   ElementValues<2> c;
@@ -79,8 +79,8 @@ double length_to(const Grid<2>& grid, const std::vector<double>& face_flux, Poin
   return length;
 }
 
-/// Largest relative error at the outlet, over two streamlines from each of its faces that `counts`;
-/// their lengths go to `lengths`.
+/// Largest relative error at the outlet, over two streamlines from each of its faces for which
+/// `counts` holds; the lengths of the streamlines are stored in `lengths`.
 double worst_at_outlet(model::ModelRun& run, double end,
                        const std::function<bool(const Vector<2>&)>& counts,
                        std::vector<double>& lengths) {
@@ -137,7 +137,7 @@ TEST(FilterPaths, OfPointsAreThoseTheyWalked) {
   EXPECT_LE(run.worst_residual(), 1e-12);
 }
 
-/// Water goes in through the ground on the left of a weir of 0.4 m and out on its right.
+/// Water enters the ground on the left of a weir of 0.4 m and leaves it on its right.
 TEST(FilterPaths, UnderAWeirAreTheStreamlines) {
   constexpr int cells = 24;
   Mesh<2> mesh = model::column_mesh(2 * cells, cells, 2.0, 1.0);
@@ -156,7 +156,8 @@ TEST(FilterPaths, UnderAWeirAreTheStreamlines) {
   Scene scene = filter_scene(Formulation::single_point, 150.0);
   scene.boundaries = {inlet_on("upstream"), model::pressure_on("downstream", 0.0)};
   model::ModelRun run(model::make_case(mesh, scene));
-  // Neither at the edge of the weir, where the flow is singular, nor where it hardly moves.
+  // Faces at the edge of the weir, where the flow is singular, and faces with little flow are left
+  // out.
   const auto counts = [](const Vector<2>& x) { return x[0] > 1.25 && x[0] < 1.8; };
   std::vector<double> lengths;
   const double worst = worst_at_outlet(run, 150.0, counts, lengths);

@@ -1,6 +1,6 @@
-/// Fluidised fines against exact profiles: physical masses (no mass scaling), steady flow of
-/// q = 0.012 m/s from the first step, clean water from above. With the explicit scheme, and with
-/// the implicit one in steps of its own choice and of one second.
+/// Fluidised fines against exact profiles: physical masses (no mass scaling), steady flow of q =
+/// 0.012 m/s from the first step, clean water from above. Uses the explicit scheme, and the
+/// implicit one with steps by tolerance and of one second.
 
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ double node_depth(const Mesh<2>& mesh, int e, int j) {
   return 1.0 - y;
 }
 
-/// Relative L1 error of c by the rule of the field nodes, leaving out what lies within `margin` of
-/// `kink` (none with a negative margin).
+/// Relative L1 error of c by the rule of the field nodes, without places within `margin` of `kink`
+/// (a negative margin leaves out none).
 double relative_error(const Mesh<2>& mesh, const model::ModelState<SinglePoint>& state,
                       const std::function<double(double)>& exact, double kink, double margin) {
   double error = 0.0;
@@ -62,12 +62,12 @@ double relative_error(const Mesh<2>& mesh, const model::ModelState<SinglePoint>&
   return error / scale;
 }
 
-/// Mean of the element's linear fields at depth x, over the width: what `sample` would show.
+/// Mean over the width of the elements' linear fields at depth x, as `sample` gives it.
 double value_at_depth(const Mesh<2>& mesh, const model::ModelState<SinglePoint>& state, double x) {
   double sum = 0.0;
   int count = 0;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    // On the element's edge or inside, along its own vertical through the centroid.
+    // The element contains this depth on the vertical through its centroid.
     const Vector<2> centre = element_centroid(mesh, e);
     double low = 1e9;
     double high = -1e9;
@@ -77,8 +77,8 @@ double value_at_depth(const Mesh<2>& mesh, const model::ModelState<SinglePoint>&
     }
     const double y = 1.0 - x;
     if (y < low - 1e-12 || y > high + 1e-12) continue;
-    // Barycentric coordinates by areas, at the point of this depth on the centroid's vertical that
-    // lies in the element's height; the fields do not vary across.
+    // Barycentric coordinates by areas, at this depth on the vertical through the centroid; the
+    // fields do not vary across.
     Eigen::Matrix3d a;
     for (int k = 0; k < 3; ++k) {
       a(0, k) = 1.0;
@@ -151,7 +151,7 @@ TEST_P(FinesProfile, ErrorAndOrder) {
     for (std::size_t k = 0; k < law.times.size(); ++k) {
       const double t = law.times[k];
       const auto profile = [&](double x) { return exact.concentration(x, t); };
-      // The front: where water stands that entered when erosion began.
+      // The front is the water that entered when erosion began.
       double front = 0.0;
       while (front < 1.0 && profile(front) < (1.0 - 1e-12) * profile(2.0)) front += 1e-3;
       const model::ModelState<SinglePoint>& state = moments.states[k];
@@ -183,8 +183,8 @@ TEST_P(FinesProfile, ErrorAndOrder) {
     const double order = 0.5 * std::log2(coarse / fine);
     std::cout << scheme().name << ", " << law.name << " t = " << law.times[k] << " s: " << coarse
               << " -> " << fine << ", order " << order << '\n';
-    // The exact solution is incompressible; water that expands by p/K on its way is not. Where the
-    // coarse mesh is already closer than that there is no order left to see.
+    // The exact solution is incompressible, but water expands by p/K on its way. If the coarse mesh
+    // is already closer than this, no order can be observed.
     constexpr double expansion = 6000.0 / 2e7;
     if (coarse < expansion) {
       EXPECT_LE(fine, expansion) << "t = " << law.times[k];
@@ -277,7 +277,7 @@ TEST_P(FinesProfileNonUniform, PorosityThatVariesWithDepth) {
   }
 }
 
-/// Water made from nothing, relative to the water that entered, without erosion.
+/// Water that is created without cause, relative to the water that entered, without erosion.
 double water_made(bool third_term) {
   Scene scene = fines_scene(model::explicit_scheme, erosion_law("none"), 0.0, 5.0);
   scene.soils[0].porosity = 0.35;
@@ -293,8 +293,8 @@ double water_made(bool third_term) {
 
 TEST(PorosityGradientTerm, WithoutItWaterIsCreatedOrLost) {
   EXPECT_LE(std::abs(water_made(true)), 1e-12);
-  // v is uniform then, so q = n v leaves larger than it came by the ratio of porosities, those of
-  // the outermost elements, whose centroids lie a third of a cell inside.
+  // Then v is uniform, so q = n v grows on the way by the ratio of porosities of the outermost
+  // elements, whose centroids lie a third of a cell inside.
   const double made = water_made(false);
   const double inside = 0.1 / 8.0 / 3.0;
   EXPECT_NEAR(made, (0.35 - inside) / (0.25 + inside) - 1.0, 1e-3);

@@ -1,5 +1,5 @@
-/// The flow net under a sheet pile, from scene to net: right angles, squares, equal discharge, and
-/// the same discharge as the tables and the exact one.
+/// The flow net under a sheet pile, from scene to net: right angles, squares, equal discharges, and
+/// a discharge that equals that of the tables and the exact one.
 
 #include "figures/flow_net.hpp"
 
@@ -66,9 +66,9 @@ std::vector<Vector<2>> gradients(const Mesh<2>& mesh, const std::vector<double>&
   return sums;
 }
 
-/// Largest angle by which two fields miss right angles between their lines, degrees, at nodes that
-/// are not at the edge, and further than `away` from the foot of the pile and the corners where
-/// the soil ends below.
+/// Largest deviation from right angles between the lines of two fields, degrees, at nodes that are
+/// not on the edge and are further than `away` from the foot of the pile and the lower corners of
+/// the soil.
 double worst_angle(const FlowNet& net, double away) {
   const Mesh<2>& mesh = net.map.mesh;
   const auto h = gradients(mesh, net.map.head);
@@ -91,7 +91,7 @@ double worst_angle(const FlowNet& net, double away) {
 }
 
 /// q / (k H) under a pile of the share s of the depth, in a layer that ends at `half_length` on
-/// both sides: the half of it, a rectangle, goes to a half-plane by sn, whose modulus is small.
+/// both sides: sn, with a small modulus, maps half of it, a rectangle, to a half-plane.
 double exact_discharge(double s) {
   const double nome = std::exp(-2.0 * std::numbers::pi * half_length / depth);
   const double k = 4.0 * std::sqrt(nome) * (1.0 - 4.0 * nome);
@@ -121,7 +121,7 @@ TEST(FlowNet, HasTheDischargeOfTheTablesAndTheExactOne) {
 }
 
 TEST(FlowNet, HasRightAnglesAwayFromCorners) {
-  // Elements of 0.4 m in a layer of 6 m, of 0.05 m at the foot of the pile.
+  // Elements of 0.4 m in a layer of 6 m, and of 0.05 m at the foot of the pile.
   const FlowNet net = flow_net(pile_run("angles"), 0.0, {});
   const double near = worst_angle(net, 0.5);
   const double far = worst_angle(net, 1.0);
@@ -135,8 +135,8 @@ TEST(FlowNet, HasEqualDischargeBetweenItsStreamlines) {
   const FlowNet net = flow_net(run, 0.0, 5);
   ASSERT_EQ(net.tubes, 5);
   EXPECT_EQ(net.drops, 10);
-  // Where the drawn lines cross an upright line just beside the pile, and what the flux of the
-  // elements along it adds up to in between.
+  // Crossings of the drawn lines with a vertical line close to the pile, and the flux of the
+  // elements along it between two crossings.
   const double x = 1e-3;
   std::vector<double> crossings{-depth, -0.5 * depth};
   const std::vector<double> none;

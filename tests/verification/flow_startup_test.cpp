@@ -33,7 +33,7 @@ class FlowColumn {
         stability_limit(grid_, coefficients_, op_.node_porosity(), modulus, scaling, drag).step;
   }
 
-  /// p = amplitude sin(pi y), at the element centroids.
+  /// Sets p = amplitude sin(pi y) at the element centroids.
   void set_mode(double amplitude) {
     std::vector<double> pressure(case_.mesh.element_count());
     for (std::size_t e = 0; e < pressure.size(); ++e) {
@@ -42,7 +42,7 @@ class FlowColumn {
     flow_.set_pressure(pressure);
   }
 
-  /// Steps no longer than `longest` to exactly `time`.
+  /// Runs to exactly `time` in steps no longer than `longest`.
   void run(double time, double longest) {
     const auto steps = static_cast<long>(std::ceil(time / longest));
     dt_ = time / static_cast<double>(steps);
@@ -82,7 +82,7 @@ class FlowColumn {
     }
     return sum;
   }
-  /// Pressure at depth x below the top: mean of the elements within half a cell, weighted.
+  /// Pressure at depth x below the top: weighted mean of the elements within half a cell.
   [[nodiscard]] double pressure_at_depth(double x, double cell) const {
     double sum = 0.0;
     double weight = 0.0;
@@ -124,8 +124,8 @@ double exact_mode(double a, double omega, double t) {
 struct Setting {
   const char* name;
   double scaling;
-  /// s: until then the mode has turned by less than ten radians. Lumped masses make it lag by
-  /// (pi h)^2 / 24 of every radian, so that at size 1/16 one percent is used up soon after.
+  /// s: until then the mode has turned by less than ten radians. Lumped masses cause a lag of (pi
+  /// h)^2 / 24 per radian, so that at size 1/16 the error exceeds one percent soon after.
   double latest;
 };
 
@@ -189,14 +189,14 @@ TEST(FlowStartup, LateScaledModeLagsAsLumpedMassesDo) {
 TEST(FlowStartupOrder, InSpaceTwoForTheModeOneForPressure) {
   const double a = porosity * 9.81 / 0.02;
   const double omega = std::numbers::pi * std::sqrt(2e7 / density);
-  const double time = 0.0055;  // neither an extremum nor a zero of the mode
+  const double time = 0.0055;  // the mode has neither an extremum nor a zero then
   const double exact = exact_mode(a, omega, time);
   std::vector<double> mode_error;
   std::vector<double> field_error;
   for (const int cells : {16, 32, 64}) {
     FlowColumn column(cells, 0.0, 0.02, 2e7, 1.0);
     column.set_mode(1.0);
-    column.run(time, 2e-7);  // time error far below that of space
+    column.run(time, 2e-7);  // the error in time is far below that in space
     mode_error.push_back(std::abs(column.mode_amplitude() - exact));
     field_error.push_back(column.pressure_error(exact));
   }
@@ -208,7 +208,8 @@ TEST(FlowStartupOrder, InSpaceTwoForTheModeOneForPressure) {
   }
 }
 
-/// Order in time against a run with very small steps on the same mesh, so that space drops out.
+/// Order in time against a run with very small steps on the same mesh, which cancels errors in
+/// space.
 double time_order(double conductivity, DragIntegration drag) {
   const double time = 0.007;
   const auto amplitude = [&](double longest) {
@@ -228,7 +229,8 @@ TEST(FlowStartupOrder, InTimeTwoWithoutDrag) {
 }
 
 TEST(FlowStartupOrder, InTimeOneWithDragAtOneEndOfTheStep) {
-  // As published: drag at the old velocity. Implicit drag takes the new one; either is first order.
+  // As published: drag at the old velocity. Implicit drag uses the new one; both are of first
+  // order.
   EXPECT_NEAR(time_order(5e-3, DragIntegration::explicit_drag), 1.0, 0.15);
   EXPECT_NEAR(time_order(5e-3, DragIntegration::implicit_drag), 1.0, 0.15);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Limit loads of strip footings on weightless soil, by displacements of a rough rigid footing in
-/// stiff soil: its shape stays.
+/// stiff soil, which keeps its shape.
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +14,15 @@ namespace suffuse::footing {
 
 using model::PlaneModel;
 
-/// Half of a footing of width 2, at the left of the top of a box that the whole mechanism fits in.
+/// Half of a footing of width 2, at the left of the top of a box that contains the whole mechanism.
 struct Footing {
   const char* law = "mohr-coulomb";
   double friction = 0.0;  ///< degrees; flow is associated
   double cohesion = 0.0;
-  double surcharge = 0.0;  ///< beside the footing, and in the soil all around at the start
+  double surcharge = 0.0;  ///< next to the footing, and in the soil all around at the start
   bool crossed = true;
   int steps = 6;
-  double push = 80.0;  ///< the last displacement, over the unit of stress over E
+  double push = 80.0;  ///< final displacement, over the unit of stress over E
 };
 
 /// tan^2(45 + phi/2) exp(pi tan phi)
@@ -37,14 +37,14 @@ inline double exact_cohesion_factor(double friction) {
   return (exact_surcharge_factor(friction) - 1.0) / std::tan(friction * std::numbers::pi / 180.0);
 }
 
-/// Where the mechanism ends beside the footing, from its middle; it is as deep as a third of that.
+/// End of the mechanism next to the footing, from its middle; its depth is a third of that.
 inline double mechanism(double friction) {
   const double phi = friction * std::numbers::pi / 180.0;
   return 1.0 + 2.0 * std::tan(0.25 * std::numbers::pi + 0.5 * phi) *
                    std::exp(0.5 * std::numbers::pi * std::tan(phi));
 }
 
-/// Soil and footing, `cells` under its half.
+/// Soil and footing, with `cells` under half of the footing.
 struct FootingModel : PlaneModel {
   FootingModel(const Footing& footing, int cells)
       : PlaneModel(mesh_of(footing, cells), 1, soil_of(footing)) {
@@ -90,8 +90,8 @@ struct FootingModel : PlaneModel {
   std::vector<int> beside;  ///< faces that carry the surcharge
 };
 
-/// The mean pressure under the footing at last: the forces at its nodes, all of them, over its own
-/// width. Throws NumericalError where Newton's method does not converge.
+/// The final mean pressure under the footing: all forces at its nodes over its own width. Throws
+/// NumericalError if Newton's method does not converge.
 inline double limit_load(const Footing& footing, int cells) {
   FootingModel m(footing, cells);
   NodeVectors<2> loads = m.no_loads();
@@ -121,9 +121,9 @@ inline double limit_load(const Footing& footing, int cells) {
   return load;
 }
 
-/// What the loads of 2 and 4 cells tend to: the edge of the footing makes their errors
-/// proportional to the size of cells. Both are above what is `exact`, as flow is associated and the
-/// displacements are possible ones.
+/// Limit of the loads for fine meshes, from those of 2 and 4 cells: the edge of the footing makes
+/// their errors proportional to the size of cells. Both are above `exact`, as flow is associated
+/// and the displacements are kinematically admissible.
 inline double limit_of_fine_meshes(const Footing& footing, double exact) {
   const double coarse = limit_load(footing, 2);
   const double fine = limit_load(footing, 4);

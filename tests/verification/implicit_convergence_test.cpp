@@ -1,5 +1,5 @@
 /// Order of the implicit mixed flow in space: a smooth solution on unstructured meshes, and seepage
-/// under a dam with a cutoff wall, whose corners are singular, against its exact discharge.
+/// under a dam with a cutoff wall, which has singular corners, against its exact discharge.
 
 #include <gtest/gtest.h>
 
@@ -119,8 +119,8 @@ TEST(ImplicitConvergence, PressureOfOrderTwoAndFluxOfOrderOneOnDisturbedMeshes) 
 }
 
 /// Flow through a layer of depth one under a dam whose floor reaches from -b to b, with a sheet
-/// pile of depth s in its middle. By symmetry one half, with half the head: the vertical below the
-/// pile is an equipotential.
+/// pile of depth s in its middle. By symmetry one half is computed, with half the head: the
+/// vertical below the pile is an equipotential.
 struct Dam {
   double floor;  ///< b / T
   double pile;   ///< s / T
@@ -133,8 +133,9 @@ struct Dam {
     return 0.5 * std::comp_ellint_1(std::sqrt(1.0 - m * m)) / std::comp_ellint_1(m);
   }
 
-  /// The same by the scheme. With `grading` 1 squares of 1 / `cells`; above it as many cells on
-  /// either side of the pile's tip and of the end of the floor, drawn towards these.
+  /// The value of `exact` by the scheme. With `grading` 1 the mesh has squares of 1 / `cells`; with
+  /// more, as many cells on either side of the pile's tip and of the end of the floor, graded
+  /// towards these.
   [[nodiscard]] double computed(int cells, double grading) const {
     const auto cells_of = [&](double length) {
       if (grading > 1.0 && length > 0.0) return cells;
@@ -177,7 +178,7 @@ struct Dam {
   }
 
  private:
-  /// Flow leaves a layer of depth one as exp(-pi x / 2): what is left out is 1e-7 of it.
+  /// Flow in a layer of depth one decays as exp(-pi x / 2): the part left out is 1e-7 of it.
   static constexpr double reach = 10.0;
 
   static double towards_both(double share, double grading) {

@@ -85,8 +85,8 @@ TEST(ImplicitStartup, MeanVelocityIsExactInSpaceAndOfTheOrderOfTheSteppingInTime
 }
 
 TEST(ImplicitStartup, ForcingThatChangesWithinAStepKeepsTheOrder) {
-  // The pressure that makes v = V sin(w t) while drag and porosity change:
-  // P = rho L (v' + drag v / rho).
+  // Pressure for which v = V sin(w t) while drag and porosity change: P = rho L (v' + drag v /
+  // rho).
   const double speed = 0.01;
   const double frequency = 2.0 / relaxation;
   const double end = relaxation;
@@ -117,7 +117,7 @@ TEST(ImplicitStartup, ForcingThatChangesWithinAStepKeepsTheOrder) {
         }
         return forcing;
       };
-      column.set("top", FaceKind::pressure, 1.0);  // marks it
+      column.set("top", FaceKind::pressure, 1.0);  // marks the faces
       ImplicitMixed<2> flow(column.grid, {infinite, true, stepping}, Vector<2>::Zero());
       MixedState<2> state = column.rest();
       double volume = 0.0;
@@ -145,7 +145,7 @@ TEST(ImplicitStartup, ForcingThatChangesWithinAStepKeepsTheOrder) {
     std::cout << '\n';
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(std::log2(error[i][0] / error[i + 1][0]), order, 0.2) << i;
-      // The first-order error of the volume happens to pass zero on the way.
+      // The first-order error of the volume passes through zero here.
       if (order == 2.0) {
         EXPECT_NEAR(std::log2(error[i][1] / error[i + 1][1]), 2.0, 0.2) << i;
       }
@@ -222,7 +222,7 @@ TEST(ImplicitStartup, PressureDiffusesAsInTheTableWithAndWithoutInertia) {
       ++compared;
     }
     EXPECT_EQ(compared, 15);
-    EXPECT_LE(worst, 6.0);  // a thousandth of the step of pressure
+    EXPECT_LE(worst, 6.0);  // a thousandth of the jump of pressure
     std::cout << "diffusion " << (inertia ? "with" : "without") << " inertia: largest error "
               << worst << " Pa of 6000 Pa\n";
   }
@@ -245,7 +245,7 @@ TEST(ImplicitErgun, SteadyFluxIsTheRootOfErgunsEquation) {
     m.set("bottom", FaceKind::pressure, 0.0);
     ImplicitMixed<2> flow(m.grid, {2e7, true, TimeStepping::second_order}, Vector<2>::Zero());
     const auto steady = flow.steady(m.forcing);
-    MixedState<2> state = m.rest();  // and from rest, over steps much longer than start-up takes
+    MixedState<2> state = m.rest();  // and from rest, over steps much longer than start-up
     for (int i = 0; i < 8; ++i) state = flow.step(state, 1e3, m.constant(flow)).end;
     const double expected = row.number("q_ergun");
     for (int e = 0; e < m.mesh.element_count(); ++e) {
@@ -255,7 +255,7 @@ TEST(ImplicitErgun, SteadyFluxIsTheRootOfErgunsEquation) {
     }
     ++compared;
 
-    // The same flux prescribed: the gradient follows.
+    // With this flux prescribed, the gradient follows.
     m.set("bottom", FaceKind::flux, -expected);
     ImplicitMixed<2> driven(m.grid, {2e7, true, TimeStepping::second_order}, Vector<2>::Zero());
     const auto state2 = driven.steady(m.forcing).end;

@@ -1,6 +1,6 @@
-/// Scenes that leave the implicit flow no smooth way to go: coefficients that transport changes
-/// between steps, soil that resists at once, pressures that jump. None may stop a run or ask for
-/// steps without end.
+/// Scenes without a smooth solution for the implicit flow: coefficients that transport changes
+/// between steps, sudden resistance of soil, jumps of pressure. They must neither stop a run nor
+/// need an unlimited number of steps.
 
 #include <gtest/gtest.h>
 
@@ -137,8 +137,8 @@ TEST_P(HardScenes, DoublePointRuns) {
   runs_to_its_end<model::DoublePointRun>(Formulation::double_point);
 }
 
-/// Free water over and under soil, as heavy as what it carries: it next to nothing resists, so that
-/// a point that crosses a face must not be a jump of its weight.
+/// Free water over and under soil is as heavy as the fines in it make it, and almost without
+/// resistance: a point that crosses a face must not make its weight jump.
 TEST(HeavyLiquid, FlowsThroughFreeWaterInDoublePoint) {
   LayerSettings layers;
   layers.inflow = layers.above = layers.below = layers.outflow = 2;
@@ -159,8 +159,8 @@ TEST(HeavyLiquid, FlowsThroughFreeWaterInDoublePoint) {
   }
 }
 
-/// Feedback that begins where the flow has come to rest from a start whose first fluxes are many
-/// times the later ones, and where the steps have grown long.
+/// Feedback begins after the start-up, whose first fluxes are many times the later ones, has
+/// settled and steps have grown long.
 TEST(FeedbackAfterAStart, KeepsTheToleranceAndDoesNotSeeSkips) {
   const std::vector<double> times{3.0, 6.0, 9.0, 12.0, 15.0};
   const auto flows = [&](double tolerance, bool no_skip) {
@@ -192,7 +192,7 @@ TEST(FeedbackAfterAStart, KeepsTheToleranceAndDoesNotSeeSkips) {
   EXPECT_LE(skipped, 1e-4);
 }
 
-/// Stiff water in a column: the flux follows from the head and the weight of what is in it.
+/// Stiff water in a column: the flux follows from the head and the weight of the liquid.
 TEST(HeavyLiquid, FlowsAsItsWeightTellsIt) {
   for (const double tolerance : {1e-3, 1e-4}) {
     Scene scene = column(Formulation::single_point);
@@ -224,11 +224,12 @@ TEST(HeavyLiquid, FlowsAsItsWeightTellsIt) {
   }
 }
 
-/// Outputs end steps: a run with many of them takes other steps, which agree within the tolerance.
+/// Outputs end steps: a run with many outputs has other steps, with equal results within the
+/// tolerance.
 template <class Run>
 void outputs_change_little(Formulation formulation) {
   Scene scene = column(formulation);
-  scene.liquid.bulk_modulus = infinite;  // few steps but for the outputs
+  scene.liquid.bulk_modulus = infinite;  // few steps except for the outputs
   std::vector<double> often;
   for (int k = 1; k <= 400; ++k) often.push_back(0.1 * k);
   Run few_outputs(case_of(scene));

@@ -1,6 +1,6 @@
 /// The single-point formulation with implicit flow: coupling of flow and erosion in both
 /// directions, steps by tolerance, events, soils and waters of any stiffness, and a flow that is
-/// not solved where it does not change.
+/// not solved while it does not change.
 
 #include <gtest/gtest.h>
 
@@ -69,8 +69,8 @@ double fines_at_depth(const Mesh<2>& mesh, const model::ModelState<SinglePoint>&
       c[j] = state.liquid.fines_volume[e][j] / state.liquid.liquid_volume[e][j];
       volume += state.liquid.liquid_volume[e][j];
     }
-    // Each element has one horizontal edge: its fields do not vary across, so the value at depth x
-    // lies on the line from that edge to the opposite vertex.
+    // Each element has one horizontal edge and its fields do not vary across, so the value at depth
+    // x lies on the line from that edge to the opposite vertex.
     const ElementValues<2> at = FieldNodes<2>::at_vertices(c);
     double top = 0.0;
     double bottom = 0.0;
@@ -120,7 +120,7 @@ TEST_P(ImplicitPermeabilityFeedback, FluxVolumeAndFinesFollowTheExactSolution) {
   scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
   scene.soils[0].erosion = {erosion_law("constant"), feedback.rate, 2.0, false};
   scene.time.step = feedback.step;
-  scene.time.inertia = false;  // nor has the exact solution
+  scene.time.inertia = false;  // the exact solution has none either
   scene.time.tolerance = feedback.tolerance;
   model::ModelRun run(model::make_case(strip(64), scene));
   const double width = width_of(run.input().mesh);
@@ -139,8 +139,8 @@ TEST_P(ImplicitPermeabilityFeedback, FluxVolumeAndFinesFollowTheExactSolution) {
         std::max(volume_error, std::abs(ledger.water_in / 1000.0 / width / volume - 1.0));
     out_error = std::max(out_error,
                          std::abs(ledger.fines_out / width - row.number("M_eroded_out")) / 270.0);
-    // Within a few elements of the fronts of erosion's start and end, where n_f has kinks, the mesh
-    // decides.
+    // Close to the fronts from the start and the end of erosion, n_f has kinks whose error depends
+    // on the mesh.
     const double since_exhaustion = row.number("t") - 2.0 - 0.1 / feedback.rate;
     const double tail = since_exhaustion * row.number("q") / row.number("n_L");
     for (const double x : {0.5, 1.0}) {
@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, ImplicitPermeabilityFeedback,
                          [](const auto& param_info) { return param_info.param.name; });
 
 TEST(ImplicitPermeabilityFeedback, ItsErrorFallsWithTheSquareOfTheStep) {
-  // Volume through at t = 22 s, on a coarse mesh: space plays no part in it.
+  // Volume at the outlet up to t = 22 s, on a coarse mesh: errors in space have no effect on it.
   double exact = 0.0;
   for (const auto& row : read_reference("permeability-feedback.csv")) {
     if (row.number("alpha") == 5e-3 && row.number("t") == 22.0) {
@@ -253,8 +253,8 @@ TEST(FluxLaw, ErosionFollowsAFluxThatChanges) {
 }
 
 TEST(Breakpoints, KinksOfBoundaryValuesAndErosionAreHitExactly) {
-  // Inflow with its kinks at odd times, erosion with its start and end at others: with every one
-  // hit, what enters and what erodes is exact.
+  // Inflow has its kinks, and erosion its start and end, at odd times: if steps end at all of them,
+  // the inflow and the eroded mass are exact.
   Scene scene = implicit_scene(20.0);
   scene.boundaries = {model::flux_on("top", 0.0), model::pressure_on("bottom", 0.0)};
   scene.boundaries[0].darcy_flux = TimeFunction(std::vector<std::pair<double, double>>{
@@ -307,7 +307,7 @@ TEST(StartUp, ToleranceBoundsTheError) {
     std::cout << "start-up, tolerance " << tolerance << ": error " << worst << " in " << steps
               << " steps\n";
     EXPECT_LE(worst, tolerance);
-    // Second order: ten times the accuracy for the root of ten times the steps.
+    // The order is two: an error ten times smaller needs sqrt(10) times as many steps.
     if (last_steps > 0) {
       EXPECT_NEAR(static_cast<double>(steps) / static_cast<double>(last_steps), 3.16, 0.6);
     }
@@ -316,7 +316,7 @@ TEST(StartUp, ToleranceBoundsTheError) {
 }
 
 TEST(StartUp, WavesThatMoveNothingAreNotFollowed) {
-  // Waves of 0.13 ms, while drag takes 7 ms: what has flowed is that of the start-up alone, exact.
+  // Waves take 0.13 ms, drag takes 7 ms: the volume is that of the start-up alone, which is exact.
   constexpr double tau = 2e-2 / (0.3 * 9.81);
   constexpr double height = 0.05;
   constexpr double end = 0.5;

@@ -1,5 +1,5 @@
-/// Soils from clay to gravel and waters from soft to incompressible through a day, with steps that
-/// follow what happens and not what is stable.
+/// A day in soils from clay to gravel and with waters from soft to incompressible; the length of
+/// steps follows the changes, not stability.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ Scene under_head(double end) {
 TEST(Stiffness, AnySoilAndAnyWaterGetThroughADay) {
   for (const double conductivity : {1e-9, 1e-7, 1e-5, 1e-3, 1e-1}) {
     for (const double modulus : {2e5, 2e7, 2e9, stiff}) {
-      // 70 000 elements are crossed in such a day; once is enough.
+      // In such a day liquid crosses 70 000 elements; one such run is enough.
       if (conductivity == 1e-1 && modulus != 2e7) continue;
       Scene scene = under_head(86400.0);
       scene.liquid.bulk_modulus = modulus;
@@ -45,8 +45,8 @@ TEST(Stiffness, AnySoilAndAnyWaterGetThroughADay) {
       for (const double n : moments.states[0].porosity) {
         EXPECT_NEAR(n, 0.4 - 0.1 * std::exp(-1e-4 * 85800.0), 1e-11);
       }
-      // Where diffusion of pressure, of the time L^2 rho g n / (K k), is done: Darcy's flux. Water
-      // that expands by p / K on its way flows faster below, by so much more or less.
+      // After the diffusion of pressure, of the time L^2 rho g n / (K k), the flux is Darcy's.
+      // Water that expands by p / K on its way flows faster further down by that share.
       const double settling = 1000.0 * 9.81 * 0.3 / (modulus * conductivity);
       if (settling < 1e3) {
         std::cout << "  flux over Darcy's: " << row.flux_in / (conductivity * 0.6) << '\n';

@@ -1,4 +1,4 @@
-/// Soil whose inertia counts, dry: waves, a thrown block, and a column that collapses.
+/// Dry soil with inertia: waves, a thrown block, and a column that collapses.
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ const auto everywhere = [](const Vector<2>&) { return true; };
 
 // ------------------------------------------------------------------------------------------ waves
 
-/// Speed of the wave of a column of height 1 that swings at its first frequency, with `steps` steps
-/// per quarter of the period: the top comes to a halt after the time in which a wave goes up once.
+/// Wave speed in a column of height 1 that oscillates at its first frequency, with `steps` steps
+/// per quarter of the period: the top stops after the time in which a wave travels up once.
 double wave_speed(double modulus, double density, int rows, int steps, double exact) {
   InertialModel m(model::crossed_mesh(1, rows, 1.0 / rows, 1.0), model::elastic_soil(modulus, 0.0),
                   density, Vector<2>::Zero(), everywhere);
@@ -32,7 +32,7 @@ double wave_speed(double modulus, double density, int rows, int steps, double ex
   limits.newton.tolerance = 1e-11;
   m.start_motion(limits);
   constexpr double k = 0.5 * std::numbers::pi;
-  constexpr double amplitude = 1e-5;  // of the velocity over that of the wave
+  constexpr double amplitude = 1e-5;  // of the velocity, relative to that of the wave
   for (int p = 0; p < m.points.size(); ++p) {
     const double v = amplitude * exact;
     const double y = m.points.position[p][1];
@@ -53,7 +53,8 @@ double wave_speed(double modulus, double density, int rows, int steps, double ex
   }
 }
 
-/// Liquid that drag holds fast moves with the grains, and its stiffness, K/n, is added to theirs.
+/// Liquid that drag couples to the grains moves with them, and its stiffness, K/n, is added to
+/// theirs.
 TEST(Waves, HaveTheSpeedOfTheReference) {
   double worst = 0.0;
   for (const ReferenceRow& row : read_reference("wave-speeds.csv")) {
@@ -131,7 +132,7 @@ TEST(Collapse, RunsOutAsFarAsSandDoesAndComesToRest) {
   EXPECT_NEAR(result.runout, 1.2, 0.2 * 1.2);
 }
 
-/// A steep bank whose cohesion goes with its fines stands, fails, runs out, and stands again.
+/// A steep bank whose cohesion falls with its fines stands, fails, runs out, and stands again.
 TEST(WeakeningBank, FailsRunsOutAndStandsAgain) {
   SkeletonModel soil = model::frictional_soil(1e6, 31.0);
   soil.cohesion = FinesFunction({{1.0, 8e3}, {0.0, 0.0}});

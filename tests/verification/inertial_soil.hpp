@@ -1,6 +1,6 @@
 #pragma once
 
-/// Bodies of dry soil whose inertia counts, for tests: no files, no flow.
+/// Bodies of dry soil with inertia, for tests without files and flow.
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ struct InertialModel : PlaneModel {
     for (const double v : points.volume) mass.push_back(density * v);
   }
 
-  /// After all supports are set.
+  /// To be called after all supports are set.
   void start_motion(const InertialLimits& inertial = {}) {
     supports = std::make_unique<Supports<2>>(grid, face_support);
     motion = std::make_unique<InertialMotion<2>>(grid, *supports, points.size(), threads, inertial);
@@ -31,7 +31,7 @@ struct InertialModel : PlaneModel {
     add_point_forces(grid, points, force, result);
     return result;
   }
-  /// One step of at most `longest` seconds.
+  /// Makes one step of at most `longest` seconds.
   InertialStep move(double longest) {
     const InertialStep step = motion->step(points, skeleton, mass, loads(), longest);
     time += step.duration;
@@ -64,7 +64,7 @@ inline SkeletonModel frictional_soil(double young, double friction, double cohes
   return soil;
 }
 
-/// A column of dry sand of width 1 and height `aspect`, which a gate has held at its right; a
+/// A column of dry sand of width 1 and height `aspect`, whose gate on the right is removed; a
 /// symmetry plane lies at its left.
 struct Collapse {
   double aspect = 1.0;
@@ -76,14 +76,14 @@ struct Collapse {
 };
 
 struct CollapseResult {
-  double runout = 0.0;  ///< of the farthest point but 0.5 % of them, over the width
+  double runout = 0.0;  ///< of the farthest point except 0.5 % of them, relative to the width
   double height = 0.0;
-  double time = 0.0;  ///< at which the soil rests, or `end`, s
+  double time = 0.0;  ///< when the soil comes to rest, or `end`, s
   bool rests = false;
   int steps = 0;
   double iterations = 0.0;  ///< per step
   int tries = 0;
-  double volume = 0.0;  ///< over the one at the start
+  double volume = 0.0;  ///< relative to the initial one
   std::vector<Vector<2>> places;
 };
 
@@ -107,7 +107,7 @@ inline CollapseResult collapse(const Collapse& c) {
     ++result.steps;
     result.iterations += step.iterations;
     result.tries += step.tries;
-    // At the very start nothing has moved yet.
+    // At the very start nothing has moved yet, which is no rest.
     result.rests =
         m.time > 0.5 && SoilKinetics{m.energy(), step.inertia_share, m.extent(c.aspect)}.is_rest();
   }

@@ -40,7 +40,7 @@ Scene infiltration_scene() {
   return scene;
 }
 
-/// Heights every 1/25 m, psi at the end of `end` seconds; `step`: given, or by the tolerance.
+/// psi at heights every 1/25 m after `end` seconds; steps have the length `step`, if given.
 std::vector<double> infiltrated(int cells, double end, TimeStepping stepping,
                                 std::optional<double> step) {
   Scene scene = infiltration_scene();
@@ -62,7 +62,7 @@ double distance(const std::vector<double>& one, const std::vector<double>& other
   return largest;
 }
 
-/// Farthest from the exact profiles, over their range.
+/// Largest error against the exact profiles, relative to their range.
 double error_of_infiltration(TimeStepping stepping, double tolerance) {
   const auto rows = read_reference("infiltration-gardner.csv");
   Scene scene = infiltration_scene();
@@ -91,7 +91,7 @@ TEST(Infiltration, FollowsSrivastavaAndYeh) {
   EXPECT_LT(error_of_infiltration(TimeStepping::second_order, 1e-3), 0.01);
   const double coarse = error_of_infiltration(TimeStepping::monotone, 1e-3);
   const double fine = error_of_infiltration(TimeStepping::monotone, 2.5e-4);
-  // Backward Euler's steps go with the root of the tolerance, and its errors with the steps.
+  // Backward Euler's steps are proportional to the root of the tolerance, its errors to the steps.
   EXPECT_LT(fine, 0.01);
   EXPECT_LT(fine, 0.7 * coarse);
 }
@@ -144,8 +144,8 @@ TEST(SteadyProfile, AboveAWaterTableIsExact) {
   }
 }
 
-/// Rain on soil in a box, without an outlet and with water that does not compress: there is no
-/// steady flow, and what falls is what the pores take.
+/// Rain on soil in a box without an outlet, with incompressible water: there is no steady flow, and
+/// the pores take all the rain.
 TEST(Infiltration, FillsTheSoilOfASealedBox) {
   Scene scene = column_scene();
   scene.soils[0].retention = model::gardner(1.0);
@@ -210,7 +210,7 @@ TEST(Ponding, OfDrySand) {
     double time = 0.0;
     while (run.model().time() < 3600.0) {
       run.model().advance(3600.0);
-      // Short against everything at first.
+      // The first steps are very short.
       if (time > 1e-3) shortest = std::min(shortest, run.model().last_step());
       time = run.model().time();
     }
@@ -229,8 +229,8 @@ TEST(Ponding, OfDrySand) {
   }
 }
 
-/// Columns of Celia, Bouloutas and Zarba (1990), wetted from above and drained from below: at
-/// every step what is stored changes by what crosses the ends.
+/// Columns of Celia, Bouloutas and Zarba (1990), wetted from above and drained from below: in every
+/// step the change of storage is the flow through the ends.
 TEST(Celia, MassesBalanceAtEveryStep) {
   for (const bool wets : {true, false}) {
     for (const double step : {2400.0, 360.0, 20.0}) {

@@ -15,16 +15,16 @@
 
 namespace suffuse::model {
 
-/// Largest distances of a column from an exact solution.
+/// Largest deviations of a column from an exact solution.
 struct Deviation {
   double settlement = 0.0;
   double pressure = 0.0;
   long steps = 0;
 };
 
-/// A column that a load of half its modulus squeezes to two thirds of its height, on a mesh that
-/// stays where it was: errors of settlement, over the height, and of pressure at the base, over the
-/// load, from a time on.
+/// A load of half its modulus compresses a column to two thirds of its height, on a mesh that stays
+/// in place. Returns the largest errors, from a time on, of the settlement over the height and of
+/// the pressure at the base over the load.
 inline Deviation deviation_at_large_strain(const std::string& law, int rows, double from) {
   constexpr double modulus = 1e6;
   constexpr double load = 0.5 * modulus;

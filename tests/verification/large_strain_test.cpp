@@ -14,7 +14,7 @@ TEST(LargeStrain, TendsToTheExactSolution) {
   EXPECT_GT(std::log2(coarse.pressure / fine.pressure) / 2.0, 1.0);
 }
 
-/// Points that cross elements disturb the pressure, for times in which little water leaves.
+/// Points that cross elements disturb the pressure for the time in which little water leaves.
 TEST(LargeStrain, ReachesItsEndThoughPoresCloseAtTheSurface) {
   const model::Deviation off = model::deviation_at_large_strain("kozeny-carman", 32, 0.4);
   EXPECT_LT(off.settlement, 0.01);

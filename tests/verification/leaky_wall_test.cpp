@@ -1,5 +1,5 @@
-/// Walls that let liquid through, against resistances in series, a room that fills through its
-/// wall, Gardner's profiles above a water table, and the same soil without the wall.
+/// Walls that let liquid through, compared with resistances in series, a room that fills through
+/// its wall, Gardner's profiles above a water table, and soil without a wall.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ Mesh<2> walled_column(int ny, const std::vector<double>& cuts, double width = 0.
   return mesh;
 }
 
-/// Soils of these conductivities from below; water that is stored nowhere.
+/// Soils of these conductivities from bottom to top; water is not stored.
 Scene column_scene(const std::vector<double>& conductivities) {
   Scene scene = model::paper_scene();
   scene.time.scheme = FlowScheme::implicit_mixed;
@@ -82,7 +82,7 @@ TEST(LeakyWall, IsAResistanceInSeriesWithTheSoil) {
       Scene scene = column_scene({2e-4, 3e-7});
       scene.gravity = {0.0, gravity, 0.0};
       scene.walls = {wall_on("wall 0", conductance)};
-      // Water that is stored changes no steady flow.
+      // Storage of water does not change a steady flow.
       Scene stores = scene;
       stores.liquid.bulk_modulus = 2e9;
       model::ModelRun stored(model::make_case(walled_column(8, {0.375}, width), stores));
@@ -109,7 +109,7 @@ TEST(LeakyWall, IsAResistanceInSeriesWithTheSoil) {
 }
 
 TEST(LeakyWall, HidesNoDigitOfTheFlux) {
-  // A wall that conducts far better than the soil, deep under water, solved at once.
+  // A wall with a much larger conductance than the soil, deep under water, solved in one step.
   const double conductance = 3e4;
   model::FlowModel m(walled_column(8, {0.375}, 0.3, 5));
   m.set_conductivity([](const Vector<2>& x) { return x[1] > 0.375 ? 3e-4 : 7e-4; });
@@ -154,7 +154,7 @@ TEST(LeakyWall, HasOneConcentrationWhateverFlows) {
       const int partner = grid.face_partner[f];
       if (partner < 0) continue;
       EXPECT_EQ(concentration[f], concentration[partner]);
-      // That of the side from which liquid comes.
+      // The concentration is that of the side from which liquid comes.
       const int from = volumes[f] >= 0.0 ? f : partner;
       if (volume == 0.0) continue;
       const auto at_vertices =
@@ -200,7 +200,7 @@ TEST(LeakyWall, IsOneInThreeDimensionsToo) {
 }
 
 TEST(LeakyWall, ClosesNoRoomOfWaterThatIsNotStored) {
-  // The room between two walls has no other outlet, and that below the last has none but its wall.
+  // The room between two walls has no other outlet; the one below the last wall has only this wall.
   for (const double conductance : {1e-9, 1e-6, 1e-3}) {
     Scene scene = column_scene({1e-3, 1e-3, 1e-3});
     scene.walls = {wall_on("wall 0", conductance), wall_on("wall 1", 2.0 * conductance)};
@@ -223,7 +223,7 @@ TEST(LeakyWall, ClosesNoRoomOfWaterThatIsNotStored) {
 }
 
 TEST(LeakyWall, FillsARoomAtTheRateOfItsStorage) {
-  // Soil that conducts so well that pressure is one in each room: dp/dt = C / (S w) (p_above - p).
+  // Soil is so permeable that pressure is uniform in each room: dp/dt = C / (S w) (p_above - p).
   const double conductance = 1e-6;
   Scene scene = column_scene({1e-2, 1e-2});
   scene.liquid.bulk_modulus = 2e7;
@@ -245,7 +245,7 @@ TEST(LeakyWall, FillsARoomAtTheRateOfItsStorage) {
 }
 
 TEST(LeakyWall, LetsFinesPassAsIfItWereNotThere) {
-  // A prescribed flux drives the same volumes with and without a wall.
+  // A prescribed flux causes the same volumes with and without a wall.
   Scene scene = column_scene({1e-3, 1e-3});
   scene.boundaries[0] = model::flux_on("top", 1e-2);
   scene.boundaries[0].concentration = 0.1;
@@ -254,7 +254,7 @@ TEST(LeakyWall, LetsFinesPassAsIfItWereNotThere) {
   for (const double modulus : {stiff, 2e7}) {
     scene.liquid.bulk_modulus = modulus;
     Scene with_wall = scene;
-    // Water that is pressed together has another volume: with it a small jump of the pressure.
+    // Compressed water has another volume, so the wall has only a small jump of pressure then.
     with_wall.walls = {wall_on("wall 0", std::isinf(modulus) ? 1e-4 : 1.0)};
     model::ModelRun run(model::make_case(walled_column(8, {0.5}), with_wall));
     Mesh<2> whole = model::column_mesh(2, 8, 0.25, 1.0);
@@ -290,8 +290,8 @@ TEST(LeakyWall, LetsFinesPassAsIfItWereNotThere) {
 }
 
 TEST(LeakyWall, UniformConcentrationStaysUniform) {
-  // Clean water is gone after forty times the pores; from then on all has the concentration that
-  // enters.
+  // After forty pore volumes the initial water is gone; then the concentration is that of the
+  // inflow everywhere.
   Scene scene = column_scene({1e-3, 1e-3});
   scene.boundaries[0].concentration = 0.1;
   scene.walls = {wall_on("wall 0", 1e-2)};
@@ -304,7 +304,7 @@ TEST(LeakyWall, UniformConcentrationStaysUniform) {
 }
 
 /// Soil one metre wide and high under a sheet pile from its surface to half its depth: flow from
-/// the left half of the surface to the right one.
+/// the left half of the surface to the right half.
 model::ModelRun sheet_pile(double conductance, bool cut = true) {
   Mesh<2> mesh = model::column_mesh(8, 8);
   mesh.region_names = {"soil 0"};
@@ -371,7 +371,7 @@ TEST(LeakyWall, TakesTheJumpOfGardnersProfile) {
     model::ModelRun run(model::make_case(walled_column(rows, {0.5}, 1.0 / rows, 1), scene));
     const auto moments = run.run({86400.0});
     const FlowState<2>& flow = moments.flows.back();
-    // The faces at the wall hold its jump whatever the mesh.
+    // The faces at the wall have its jump on any mesh.
     const Grid<2> grid = grid_with_walls(run.input());
     double error = 0.0;
     int pairs = 0;
@@ -398,8 +398,7 @@ TEST(LeakyWall, TakesTheJumpOfGardnersProfile) {
 }
 
 TEST(LeakyWall, WetsDrySoilBehindIt) {
-  // A pond on a thin layer over a clogged sheet: what enters is held back by the sheet, whose
-  // conductance says how much passes at most.
+  // A pond on a thin layer over a clogged sheet: the conductance of the sheet limits the inflow.
   const double conductance = 2e-7;
   Scene scene = column_scene({1e-5, 1e-5});
   scene.gravity = {0.0, -9.81, 0.0};
@@ -418,7 +417,7 @@ TEST(LeakyWall, WetsDrySoilBehindIt) {
   for (const double time : {10000.0, 20000.0, 40000.0}) {
     run.run({time});
     const auto rows = run.model().boundary_rows(run.model().flow_state());
-    // From the pond 0.35 m above the sheet into a suction of 1 to 2 m.
+    // The pond level is 0.35 m above the sheet, and the suction below the sheet is 1 to 2 m.
     const double passed = rows[1].liquid_in - last;
     last = rows[1].liquid_in;
     const double duration = time == 40000.0 ? 20000.0 : 10000.0;
@@ -431,7 +430,7 @@ TEST(LeakyWall, WetsDrySoilBehindIt) {
     EXPECT_LE(std::abs(row.ledger.residual_water), 1e-12);
     EXPECT_LE(std::abs(row.ledger.residual_grains), 1e-12);
   }
-  // Above the sheet all is full and nearly at rest, while soil below it is under suction.
+  // Above the sheet soil is saturated and almost at rest, while soil below it is under suction.
   const FlowState<2> flow = run.model().flow_state();
   for (int e = 0; e < run.input().mesh.element_count(); ++e) {
     const bool above = run.input().mesh.element_region[e] == 1;

@@ -1,5 +1,5 @@
-/// A levee in two dimensions with everything at once: wetting and draining, a flood that rises and
-/// falls, seepage faces that open and close, rain, a well, erosion by two laws.
+/// A levee in two dimensions with many processes at once: wetting and draining, a flood that rises
+/// and falls, seepage faces that open and close, rain, a well, erosion by two laws.
 
 #include <gtest/gtest.h>
 
@@ -143,8 +143,8 @@ TEST(Levee, KeepsItsMassesWhateverHappens) {
       EXPECT_GT(course.switches, 10);
       EXPECT_GT(course.ledger.eroded, 0.1);
       ASSERT_EQ(course.boundaries.size(), 4u);
-      EXPECT_GT(course.boundaries[0].liquid_in, 0.1);    // the flood wets
-      EXPECT_GT(course.boundaries[0].liquid_out, 0.01);  // and drains
+      EXPECT_GT(course.boundaries[0].liquid_in, 0.1);    // the flood enters
+      EXPECT_GT(course.boundaries[0].liquid_out, 0.01);  // and leaves
       EXPECT_GT(course.boundaries[1].liquid_out, 0.0);
       EXPECT_EQ(course.boundaries[1].liquid_in, 0.0);
       EXPECT_GT(course.boundaries[2].liquid_in, 0.0);

@@ -1,4 +1,4 @@
-/// Limit loads that take larger meshes: footings on soil of 30 degrees.
+/// Limit loads that need larger meshes: footings on soil of 30 degrees.
 
 #include <gtest/gtest.h>
 

@@ -18,10 +18,10 @@ constexpr double load = 1e3;              // Pa
 constexpr double weight = 1000.0 * 9.81;  // of water, N/m3
 constexpr double height = 4.0;            // m; half of the width is 1 m
 
-/// The right upper quarter of a tall body. No key of a scene imposes a rigid and smooth plate; but
-/// far from its ends, whatever loads them, a body that does not change along its height has plane
-/// sections, which is what the plates enforce (Saint-Venant). So the load is uniform, and the
-/// pressures are those at mid-height.
+/// The right upper quarter of a tall body. No key of a scene imposes a rigid and smooth plate. But
+/// far from its ends, for any loads on them, a body that is uniform along its height has plane
+/// sections, as the plates enforce (Saint-Venant). So the load is uniform, and the pressures are
+/// those at mid-height.
 class Quarter {
  public:
   Quarter(int columns, double poisson)
@@ -29,11 +29,12 @@ class Quarter {
         run_(model::make_case(model::crossed_mesh(columns, 10, 1.0, height), scene(poisson))) {}
 
   [[nodiscard]] model::ModelRun& run() { return run_; }
-  /// Of T = 1, s.
+  /// Time of T = 1, s.
   [[nodiscard]] double second() const { return second_; }
-  /// Mean of the lowest nodes at a distance from the middle plane, over the first pressure.
+  /// Mean pressure of the lowest nodes at a distance from the middle plane, over the first
+  /// pressure.
   double pressure(double distance) {
-    const double first = 0.5 * load;  // of water that hardly compresses
+    const double first = 0.5 * load;  // of nearly incompressible water
     return model::mean_pressure(run_,
                                 [&](const Vector<2>& x) {
                                   return std::abs(x[0] - distance) < 1e-9 && x[1] < 0.1 * height;
@@ -83,7 +84,7 @@ TEST_P(Mandel, PressureInTheMiddleFirstRises) {
   for (const ReferenceRow& row : read_reference("mandel.csv")) {
     if (row.number("nu") != poisson) continue;
     const double T = row.number("T");
-    // The peak is flat: it is found by looks that are 0.005 apart.
+    // The peak is flat: it is sought at intervals of 0.005.
     while (now + 0.0051 < T && now < 0.15) run_to(now + 0.005);
     run_to(T);
     const double centre = quarter.pressure(0.0) - row.number("p_centre");

@@ -21,7 +21,7 @@ inline LiquidPoints<2> liquid_of(const DoublePoint<2>& model) {
   return model.liquid().points();
 }
 
-/// What a model has come to at one time.
+/// State of a model at one time.
 template <template <int> class Model>
 struct ModelState {
   double time = 0.0;             ///< s
@@ -43,7 +43,7 @@ class FormulationRun {
   explicit FormulationRun(Case<2> c, SolverOptions options = {})
       : case_(std::move(c)), plan_(make_plan(case_, options)), model_(case_, plan_) {}
 
-  /// State and flow at each of `times` (ascending), and snapshots where asked for.
+  /// State and flow at each of `times` (ascending), and snapshots if requested.
   struct Moments {
     std::vector<ModelState<Model>> states;
     std::vector<FlowState<2>> flows;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whole runs with soil that moves: boundaries, and what to read from a run.
+/// Whole runs with moving soil: boundaries, and results of a run.
 
 #include <cmath>
 
@@ -16,25 +16,25 @@ inline BoundaryCondition fixed_on(const std::string& name, Fixing fix) {
   return b;
 }
 
-/// A boundary at a pressure, Pa, through which clean water enters, if any does.
+/// A boundary at a pressure, Pa; an inflow through it is clean.
 inline BoundaryCondition clean_pressure_on(const std::string& name, double pressure) {
   BoundaryCondition b = pressure_on(name, pressure);
   b.concentration = 0.0;
   return b;
 }
 
-/// Fines that could erode at the start are left, in the liquid, or have left with it: what is
-/// missing, kg.
+/// Fines missing in the balance, kg: initially erodible fines are still erodible, in the liquid, or
+/// have left with it.
 inline double missing_fines(const LedgerRow& now, double erodible_at_start) {
   return now.erodible + now.fines + now.fines_out - now.fines_in - erodible_at_start;
 }
 
-/// A traction, Pa, that comes at once and stays.
+/// A traction, Pa, that is applied at once and stays.
 inline VectorFunction sudden_traction(const Vector<2>& traction, double end) {
   return VectorFunction{{{0.0, {0.0, 0.0, 0.0}}, {1e-12 * end, {traction[0], traction[1], 0.0}}}};
 }
 
-/// Pressure where `at` holds, mean of the nodes there, Pa.
+/// Mean pressure of the nodes where `at` holds, Pa.
 template <class Run, class Place>
 double mean_pressure(Run& run, const Place& at) {
   const Grid<2>& grid = run.model().grid();

@@ -21,7 +21,8 @@ namespace node_pressure_test {
 
 constexpr double pi = std::numbers::pi;
 
-// --- The weir of the README, its water there at once ---------------------------------------------
+// --- The weir of the README, with its water applied at once
+// ---------------------------------------
 
 const char* const weir_geometry = R"(
 Point(1) = {0, 0, 0};  Point(2) = {3, 0, 0};  Point(3) = {3, 1, 0};
@@ -78,7 +79,7 @@ Case<2> weir() {
 TEST(NodePressures, OfTheWeirAreBetweenThosePrescribed) {
   model::ModelRun run(weir());
   constexpr double round_off = 1e-6;  // Pa
-  // At the start faces of the upstream side have 6000 Pa, and all others 0.
+  // At the start faces of the upstream side have 6000 Pa, and all other faces 0.
   for (const double time : {0.0, 1e-6, 2.0, 40.0}) {
     SCOPED_TRACE(time);
     const FlowState<2> flow = run.run({time}).flows.back();
@@ -117,7 +118,7 @@ Errors errors_of(const Grid<2>& grid, const Values& pressure) {
   return result;
 }
 
-/// What the nodes had without the limit.
+/// Node pressures without the limit.
 std::vector<double> means_of_fields(const Grid<2>& grid, const MixedFlow<2>& flow,
                                     const std::vector<double>& mean) {
   std::vector<double> result(grid.mesh.node_count(), 0.0);
@@ -131,7 +132,7 @@ std::vector<double> means_of_fields(const Grid<2>& grid, const MixedFlow<2>& flo
   return result;
 }
 
-/// With the limit, and without.
+/// Errors with and without the limit.
 std::array<Errors, 2> errors_on(int cells) {
   model::FlowModel m(model::column_mesh(cells, cells, 1.0, 1.0, model::jittered(0.2 / cells, 5)));
   m.set("top", FaceKind::pressure, 0.0);

@@ -1,4 +1,4 @@
-/// The paper's single-point column from its scene files to the tables, as a user runs it.
+/// The paper's single-point column from its scene files to the tables, run as by a user.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace paper_column_test {
 
 namespace fs = std::filesystem;
 
-/// Meshes and runs a scene of workflows/paper into a folder of its own.
+/// Meshes and runs a scene of workflows/paper in a folder of its own.
 class PaperRun {
  public:
   explicit PaperRun(const std::string& scene, const std::vector<std::string>& overrides = {})
@@ -55,7 +55,7 @@ class PaperRun {
   }
 
  private:
-  /// Without the slash of parametrised tests.
+  /// The name of the test without the slash of parametrised tests.
   static std::string test_name() {
     std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::replace(name.begin(), name.end(), '/', '-');
@@ -84,7 +84,7 @@ struct PaperCase {
   std::vector<std::string> overrides;  ///< of the scene
 };
 
-/// The paper's scene with the implicit scheme: in steps of one second, or of its own choice.
+/// The paper's scene with the implicit scheme: with steps of one second, or by tolerance.
 const std::vector<std::string> implicit_one_second{"time={end=120.0,step=1.0}"};
 const std::vector<std::string> implicit_tolerance{"time={end=120.0}"};
 
@@ -108,7 +108,7 @@ TEST_P(PaperColumn, PorosityAndMassesAreExact) {
   EXPECT_GE(compared, 22);
   std::cout << expected.scene << (expected.overrides.empty() ? "" : ", implicit")
             << ": largest porosity error / 0.1 = " << worst << '\n';
-  // No overshoot of the cap, not by round-off of the mean either beyond one part in 1e15.
+  // Porosity must not exceed the cap, not even by round-off of the mean beyond one part in 1e15.
   for (const double n : porosity) EXPECT_LE(n, 0.4 * (1.0 + 4e-16));
 
   compared = 0;
@@ -191,7 +191,7 @@ TEST(PaperColumnPoints, TheAnswerDoesNotDependOnTheNumberOfPoints) {
 TEST(PaperColumnPoints, OffTheGaussPositionsTheSolidIsUntouchedAndFinesMoveALittle) {
   const PaperRun gauss("sp-constant-figure");
   const PaperRun moved("sp-constant-figure", {"points.jitter=0.1"});
-  // Porosity is uniform, so what each point erodes does not depend on where it is.
+  // Porosity is uniform, so the erosion of a point does not depend on its place.
   EXPECT_LE(largest_difference(gauss.ledger(), moved.ledger(), {"solid", "erodible", "eroded"}),
             1e-12);
   EXPECT_LE(largest_difference(gauss.history(), moved.history(), {"porosity_mean"}), 1e-12);
@@ -206,7 +206,8 @@ TEST(PaperColumnPoints, OffTheGaussPositionsTheSolidIsUntouchedAndFinesMoveALitt
 TEST(PaperColumnDirection, AnUpwardRunMirrorsTheDownwardOne) {
   const PaperRun down("sp-constant-figure");
   const PaperRun up("sp-constant-figure", {"boundary[0].on=bottom", "boundary[1].on=top"});
-  // The mirrored mesh adds in another order; the ringing flow carries that round-off on.
+  // The mirrored mesh adds numbers in another order; the oscillating flow carries that round-off
+  // on.
   EXPECT_LE(largest_difference(down.ledger(), up.ledger(), masses), 1e-10);
   EXPECT_LE(largest_difference(down.history(), up.history(),
                                {"porosity_mean", "flux_in", "flux_out", "pressure_max"}),

@@ -1,5 +1,5 @@
-/// Kozeny-Carman's conductivity under a head that does not change: erosion opens the pores, and the
-/// flux follows.
+/// Kozeny-Carman's conductivity under a constant head: erosion opens the pores, and the flux
+/// follows.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ Table table_of(double rate) {
   return table;
 }
 
-/// Of the flux in and out, relative.
+/// Largest relative error of the flux in and out.
 double largest_error(const Scene& scene, const Table& table) {
   model::ModelRun run(model::make_case(model::column_mesh(2, 8), scene));
   const auto moments = run.run(table.times);
@@ -61,8 +61,8 @@ double largest_error(const Scene& scene, const Table& table) {
 
 class PermeabilityFeedback : public ::testing::TestWithParam<double> {};
 
-/// The flux is that of the porosity when the flow last learned of it, 0.2 % less at most: with
-/// d ln KC / d ln n = (3 - n) / (1 - n) < 4.4 that is 0.9 %.
+/// The flow uses the porosity of its last update, which is at most 0.2 % lower: with d ln KC / d ln
+/// n = (3 - n) / (1 - n) < 4.4 the flux is at most 0.9 % lower.
 TEST_P(PermeabilityFeedback, FollowsTheReferenceTable) {
   const Table table = table_of(GetParam());
   ASSERT_GE(table.times.size(), 6U);
@@ -75,8 +75,8 @@ TEST_P(PermeabilityFeedback, FollowsTheReferenceTable) {
   EXPECT_GT(growth, 1.4);
 }
 
-/// The step is chosen for the drag that will be, not for that at the start: drag falls by two
-/// thirds, which helps where it is stepped explicitly and harms where implicitly.
+/// The step is chosen for the later drag, not for that at the start: drag falls by two thirds,
+/// which helps if it is stepped explicitly and harms if implicitly.
 TEST(PermeabilityFeedback, StepIsSafeToTheEnd) {
   for (const auto drag : {DragIntegration::explicit_drag, DragIntegration::implicit_drag}) {
     Scene scene = feedback_scene(5e-3, 0.012, 30.0);
@@ -92,7 +92,7 @@ TEST(PermeabilityFeedback, StepIsSafeToTheEnd) {
   }
 }
 
-/// Steps are short enough that porosity within them is followed to the tolerance.
+/// Steps are short enough that changes of porosity within them stay below the tolerance.
 TEST_P(PermeabilityFeedback, FollowsTheReferenceTableImplicitly) {
   const Table table = table_of(GetParam());
   Scene scene = feedback_scene(GetParam(), table.initial, table.times.back());

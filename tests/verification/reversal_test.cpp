@@ -1,4 +1,4 @@
-/// Flow that erodes, deposits, turns back and erodes again: what must hold whatever it does.
+/// Flow that erodes, deposits, reverses and erodes again: conditions that must always hold.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ void PrintTo(const ReversalCase& c, std::ostream* stream) {
   *stream << c.name;
 }
 
-/// Fast flow downwards takes fines, slow flow leaves them, fast flow upwards takes them again.
+/// Fast flow downwards erodes fines, slow flow deposits them, fast flow upwards erodes them again.
 Scene reversal_scene(Formulation formulation, FlowScheme scheme) {
   Scene scene = model::paper_scene();
   scene.formulation = formulation;
@@ -62,7 +62,7 @@ std::vector<double> moments_of_run() {
   return times;
 }
 
-/// c of every place of the liquid.
+/// Concentrations at all places of the liquid.
 std::vector<double> concentrations(const FinesState<2>& liquid) {
   std::vector<double> result;
   for (std::size_t e = 0; e < liquid.fines_volume.size(); ++e) {
@@ -100,13 +100,13 @@ void expect_invariants(Run run) {
     const LedgerRow& row = state.ledger;
     EXPECT_NEAR(row.solid - solid, row.deposited - row.eroded, 1e-12 * solid) << state.time;
     if (before != nullptr) {
-      // What erodes is counted as what is deposited and what the solid lost, to their last digits.
+      // Eroded mass is counted as the sum of deposits and loss of the solid, up to round-off.
       EXPECT_GE(row.eroded, before->eroded - 1e-14 * solid) << state.time;
       EXPECT_GE(row.deposited, before->deposited - 1e-14 * solid) << state.time;
     }
     before = &state.ledger;
   }
-  // It was what the name says: fines left, were caught, and left again.
+  // The flow really reversed: fines left, were caught, and left again.
   const auto at = [&](double time) {
     return moments.states[std::lround(48.0 * time / end_time) - 1].ledger;
   };
@@ -154,7 +154,7 @@ void expect_same_bits(const Snapshot& one, const Snapshot& two) {
   }
 }
 
-/// With more elements (single-point) and points than the loops need to go parallel.
+/// There are more elements (single-point) and points than the loops need to be parallel.
 TEST(Reversal, OneAndTwoThreadsGiveTheSameBits) {
   const auto single = [](int threads) {
     Scene scene = reversal_scene(Formulation::single_point, FlowScheme::implicit_mixed);

@@ -1,4 +1,4 @@
-/// A retention law that no pressure calls upon changes nothing.
+/// A retention law changes nothing if no pressure is negative.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace suffuse {
 namespace saturated_limit_test {
 
-/// Under a head of 3 to 4 m, with erosion by the flux, bedding and fines that enter.
+/// Soil under a head of 3 to 4 m, with erosion by the flux, bedding and fines in the inflow.
 Scene confined_scene(bool retains) {
   Scene scene = model::paper_scene();
   scene.time.scheme = FlowScheme::implicit_mixed;

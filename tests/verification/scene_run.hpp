@@ -1,6 +1,6 @@
 #pragma once
 
-/// Scenes from their text to the ledger, in two and in three dimensions.
+/// Runs scenes from their text to the ledger, in two and three dimensions.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ Case<Dim> case_of(const std::string& text, const std::vector<std::string>& overr
   return c;
 }
 
-/// A scene's model, which runs to one time after the other.
+/// A scene's model, which runs to a sequence of times.
 template <int Dim>
 class SceneRun {
  public:

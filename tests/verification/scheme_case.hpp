@@ -1,6 +1,6 @@
 #pragma once
 
-/// Schemes of the flow and their settings, for tests that each of them must pass.
+/// Schemes of the flow and their settings, for tests that every scheme must pass.
 
 #include <ostream>
 
@@ -32,7 +32,8 @@ inline constexpr SchemeCase implicit_one_second{"implicit_one_second", FlowSchem
                                                 1.0};
 inline constexpr SchemeCase implicit_transport{"implicit_transport", FlowScheme::implicit_mixed,
                                                0.25, TransportScheme::implicit_sweeps,
-                                               // On the coarse mesh it is closer than the others.
+                                               // Its error on the coarse mesh is smaller than that
+                                               // of the others.
                                                1.45};
 
 }  // namespace suffuse::model

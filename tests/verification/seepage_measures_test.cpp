@@ -1,4 +1,4 @@
-/// Hydraulic gradients, power and conductivity of the whole, against what they are in flow along a
+/// Hydraulic gradients, power and total conductivity, compared with their values in flow along a
 /// column.
 
 #include "formulation/seepage_measures.hpp"
@@ -16,7 +16,7 @@ namespace seepage_measures_test {
 
 constexpr double weight = 1000.0 * 9.81;
 
-/// A column of 1 m, the lower half of which may be a soil of its own that does not erode.
+/// A column of 1 m, the lower half of which may be another soil that does not erode.
 Case<2> column(bool layered) {
   Scene scene = model::paper_scene();
   scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
@@ -25,7 +25,7 @@ Case<2> column(bool layered) {
   scene.boundaries[0].concentration = 0.0;
   scene.initial_flow = InitialFlow::steady;
   scene.time.scheme = FlowScheme::implicit_mixed;
-  // Water that is compressed would flow faster towards the outlet.
+  // Compressed water would flow faster towards the outlet.
   scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
   scene.time.end = 60.0;
   Mesh<2> mesh = model::column_mesh(2, 8);
@@ -55,7 +55,7 @@ TEST(SeepageMeasures, GradientIsThatOfTheHead) {
   }
 }
 
-/// Under gravity the pressure of water at rest drives nothing.
+/// Under gravity the pressure of water at rest drives no flow.
 TEST(SeepageMeasures, WaterAtRestHasNoGradient) {
   Case<2> c = column(false);
   c.document.scene.gravity = {0.0, -9.81, 0.0};
@@ -69,8 +69,8 @@ TEST(SeepageMeasures, WaterAtRestHasNoGradient) {
   for (const Vector<2>& i : gradient) EXPECT_LT(i.norm(), 1e-10);
 }
 
-/// Along a column: P = rho_w g Q h, and k_eff / k_0 is the discharge over that at the start, as the
-/// head stays.
+/// Along a column: P = rho_w g Q h, and k_eff / k_0 is the discharge over that at the start,
+/// because the head is constant.
 class AlongAColumn : public ::testing::TestWithParam<bool> {};
 
 TEST_P(AlongAColumn, PowerAndConductivityAreThoseOfTheWhole) {
@@ -81,7 +81,7 @@ TEST_P(AlongAColumn, PowerAndConductivityAreThoseOfTheWhole) {
   for (const auto& state : moments.states) {
     const HistoryRow& row = state.history;
     EXPECT_NEAR(row.power, row.flux_out * 6000.0, 1e-7 * row.power);
-    // Water that fills what erodes makes the fluxes differ by 1e-4.
+    // Water that fills the eroded volume makes the fluxes differ by 1e-4.
     EXPECT_NEAR(row.conductivity_ratio, row.flux_out / first.flux_out,
                 2e-3 * row.conductivity_ratio);
   }

@@ -1,5 +1,5 @@
-/// Flow under a sheet pile of no thickness, through the mesher: a [[wall]] slits the mesh. For half
-/// the depth of a layer without ends, q / (k h) = 1/2.
+/// Flow under a sheet pile of zero thickness, through the mesher: a [[wall]] slits the mesh. For a
+/// pile of half the depth of an infinite layer, q / (k h) = 1/2.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace suffuse {
 namespace sheet_pile_test {
 
-/// A layer 1 m deep and 12 m long; elements of `size` at the foot of the pile, and larger with the
+/// A layer 1 m deep and 12 m long; elements of `size` at the foot of the pile, which grow with the
 /// distance from it.
 std::string geometry(double size) {
   std::ostringstream text;

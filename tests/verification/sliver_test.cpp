@@ -1,4 +1,4 @@
-/// Meshes with a triangle that is next to flat: what its round-off leaves is no reason to stop.
+/// Meshes with an almost flat triangle: its round-off must not stop a run.
 
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ void add_sliver(Mesh<2>& mesh, int element, double degrees) {
   }
 }
 
-/// Water stands 0.75 m high at the left of a block of soil under air, and 0.25 m at the right,
-/// where it seeps out above.
+/// A block of soil under air, with water 0.75 m high at its left and 0.25 m high at its right,
+/// where seepage leaves above the water.
 constexpr const char* dam = R"(formulation = "single-point"
 gravity = [0.0, -9.81]
 geometry = {shape = "column", width = 1.0, height = 1.0}
@@ -89,7 +89,7 @@ const std::vector<std::vector<std::string>> soils{
     {R"(soil.specimen.retention={model="van-genuchten", alpha=2.0, n=2.0, residual_saturation=0.05})"},
     {R"(soil.specimen.retention={model="gardner", alpha=2.0, residual_saturation=0.05})"}};
 
-/// Elements at a side with a head, within, and at the water level.
+/// Elements at a side with a head, inside, and at the water level.
 constexpr std::array<int, 3> split{0, 9, 15};
 
 TEST(Slivers, StillWaterIsStillInThem) {

@@ -1,5 +1,5 @@
 /// Equilibrium of the solid on material points, dry and quasi-static, against exact solutions: a
-/// column under its own weight, an oedometer at large strain, a block that is carried and turned.
+/// column under its own weight, an oedometer at large strain, a block that is moved and rotated.
 
 #include <gtest/gtest.h>
 
@@ -26,8 +26,8 @@ std::string name_of(MeshKind kind) {
                                      : "irregular";
 }
 
-/// A column of cells of size h, `soil_rows` of them soil and `rows` in all; in an irregular one
-/// inner nodes move at random by up to a fifth of h, those at the soil's surface along it.
+/// A column of cells of size h, `soil_rows` of soil and `rows` in all. In an irregular column inner
+/// nodes move at random by up to a fifth of h, those at the soil's surface only along it.
 Mesh<2> column_of_cells(MeshKind kind, int columns, int soil_rows, int rows, double h) {
   if (kind == MeshKind::crossed) return model::crossed_mesh(columns, rows, columns * h, rows * h);
   Mesh<2> mesh = model::column_mesh(columns, rows, columns * h, rows * h);
@@ -68,7 +68,7 @@ struct ColumnResult {
   int max_iterations = 0;
 };
 
-/// `exact`: a row of the table of reference. The weight comes in equal steps.
+/// `exact`: a row of the reference table. The weight is applied in equal steps.
 ColumnResult column_under_weight(const ReferenceRow& exact, const ColumnCase& c) {
   const double length = exact.number("l0");
   const double gamma = exact.number("gamma");
@@ -99,7 +99,7 @@ ColumnResult column_under_weight(const ReferenceRow& exact, const ColumnCase& c)
   return result;
 }
 
-/// Steps that a load of this much takes: fewer where the soil is stiff.
+/// Number of steps for the load of a row: fewer if the soil is stiff.
 int steps_for(const ReferenceRow& row) {
   return row.number("gamma") * row.number("l0") / row.number("E_oed") > 1.0 ? 40 : 10;
 }
@@ -149,13 +149,13 @@ TEST(ColumnUnderItsWeight, WithOtherNumbersOfPoints) {
       }
     }
   }
-  // One point an element leaves elements empty where the soil is sheared or compressed: on a
-  // regular mesh it does.
+  // With one point per element, elements become empty where the soil is sheared or compressed; on a
+  // regular mesh this works.
   EXPECT_LE(std::abs(column_under_weight(rows[1], {.points = 1, .steps = 40}).length_error), 5e-3);
 }
 
 TEST(ColumnUnderItsWeight, HasItsLengthInThreeDimensions) {
-  // Points go from tetrahedron to tetrahedron.
+  // Points move from tetrahedron to tetrahedron.
   const ReferenceRow exact = read_reference("self-weight-column.csv")[1];
   const double length = exact.number("l0");
   const int rows = 32;
@@ -182,8 +182,8 @@ TEST(ColumnUnderItsWeight, HasItsLengthInThreeDimensions) {
 
 // ------------------------------------------------------------------------------- the oedometer
 
-/// 2 W(1/2), the height of soil without lateral strain (nu 0) under a load of half its modulus,
-/// over the height before: ln s = -s/2.
+/// 2 W(1/2), the ratio of heights of soil without lateral strain (nu 0) under a load of half its
+/// modulus: ln s = -s/2.
 double oedometer_stretch() {
   double s = 0.7;
   for (int k = 0; k < 20; ++k) s -= (std::log(s) + 0.5 * s) / (1.0 / s + 0.5);
@@ -274,9 +274,9 @@ TEST(Oedometer, IsExactInThreeDimensions) {
 
 // ------------------------------------------------------------------------ a block that is carried
 
-/// A step of a motion that turns a block about its middle and carries it on.
+/// A step of a motion that rotates a block about its middle and translates it.
 struct RigidMotion {
-  double angle;  ///< rad a step
+  double angle;  ///< rad per step
   Vector<2> centre;
 
   [[nodiscard]] Vector<2> displacement(const Vector<2>& x, const Vector<2>& shift) const {
@@ -319,8 +319,8 @@ TEST(CarriedBlock, HasNoStressAndItsVolumeAfterManyTurns) {
   }
 }
 
-/// The mean of |sigma|/E in a block that follows its core, which is turned by half a turn in so
-/// many steps; the worst is bounded here.
+/// The mean of |sigma|/E in a block that follows its core, which is rotated by half a turn in
+/// `steps` steps. Checks the largest one too.
 double stress_of_turned_block(int steps) {
   const int cells = 12;
   PlaneModel m(model::crossed_mesh(cells, cells, 1.0, 1.0), 4, model::elastic_soil(1e6, 0.3),
@@ -358,14 +358,14 @@ double stress_of_turned_block(int steps) {
 }
 
 TEST(CarriedBlock, IsHinderedByTheSoftElementsAtItsEdgeLessInSmallerSteps) {
-  // Turning deforms partial elements, and their soft stiffness works against it, as a drag: in
+  // Rotation deforms partial elements, and their soft stiffness resists it like a drag: in
   // proportion to the step.
   EXPECT_NEAR(stress_of_turned_block(90) / stress_of_turned_block(180), 2.0, 0.5);
 }
 
 TEST(CarriedBlock, TurnsAboutANodeByWhichItHangsAsFarAsTheSoftStiffnessLetsIt) {
-  // The upper cell touches the others in the node (0.5, 0.5), about which it could turn freely. Its
-  // moment is weight V a/2; turned by theta, |grad du|^2 = 2 theta^2.
+  // The upper cell touches the others in the node (0.5, 0.5), about which it could rotate freely.
+  // Its moment is weight V a/2; at a rotation theta, |grad du|^2 = 2 theta^2.
   const double weight = 1e3;
   const double young = 1e6;
   PlaneModel m(model::column_mesh(4, 4), 4, model::elastic_soil(young, 0.3),
@@ -410,8 +410,8 @@ TEST(Newton, ConvergesQuadratically) {
 }
 
 TEST(Newton, TakesPartOfAStepThatWouldTurnElementsInsideOut) {
-  // Six times what halves the column: the first step of Newton's method alone would be far below
-  // the bottom.
+  // The load is six times that which halves the column: the first step of Newton's method alone
+  // would end far below the bottom.
   OedometerModel m(MeshKind::regular, 4, 3);
   NodeVectors<2> loads = m.no_loads();
   m.surface.add_traction(m.grid, m.sorted, Vector<2>(0.0, -3e6), loads);

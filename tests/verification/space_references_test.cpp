@@ -1,5 +1,5 @@
-/// Three dimensions against closed solutions: discharges into a well, from a sphere and from a
-/// flooded disc; infiltration and deposition in a column of tetrahedra.
+/// Closed solutions in three dimensions: discharges into a well, from a sphere and from a flooded
+/// disc; infiltration and deposition in a column of tetrahedra.
 
 #include <cmath>
 #include <functional>
@@ -46,7 +46,7 @@ every = 1.0
   return build_geometry_of<3>(document).mesh;
 }
 
-/// Steady flow at the pressure `value`, Pa, of the place on the boundaries that are `open`.
+/// Steady flow with the pressure `value` of the place, Pa, on the boundaries that are `open`.
 struct Flow {
   Flow(const std::string& file, double size, const std::vector<std::string>& open,
        const std::function<double(const Vector<3>&)>& value)
@@ -64,7 +64,7 @@ struct Flow {
         Vector<3>::Zero());
     step = scheme.steady(model.forcing);
   }
-  /// Into the soil, m3/s, over k times a difference of 1 Pa as a head, m2/s.
+  /// Discharge through a boundary, m3/s, over k times a difference of 1 Pa as a head, m2/s.
   [[nodiscard]] double discharge(const std::string& name) const {
     double sum = 0.0;
     for (const auto& boundary : model.mesh.boundaries) {
@@ -88,7 +88,7 @@ struct Flow {
 
 struct Errors {
   double discharge;  ///< relative
-  double pressure;   ///< rms, of 1 Pa
+  double pressure;   ///< root mean square, relative to 1 Pa
 };
 
 void expect_order(const char* name, const std::function<Errors(double)>& errors_at, double size,
@@ -126,7 +126,7 @@ TEST(ExactInSpace, SourceInASphere) {
   expect_order("sphere", errors, 0.06, 2.0, 2.0, 0.005);
 }
 
-/// Weber's disc: the flux grows without bound towards its edge, as at the corner of a dam.
+/// Weber's disc: the flux is unbounded at its edge, as at the corner of a dam.
 TEST(ExactInSpace, FloodedDiscInSealedGround) {
   constexpr double a = 0.5;
   const auto exact = [](const Vector<3>& x) {
@@ -159,7 +159,7 @@ std::vector<std::string> column_of(int cells) {
   return {"geometry.width=" + size, "geometry.depth=" + size, "mesh.size=" + size};
 }
 
-/// Farthest from the profiles of Srivastava and Yeh, over their range.
+/// Largest error against the profiles of Srivastava and Yeh, relative to their range.
 double error_of_infiltration(int cells) {
   std::vector<std::string> overrides = column_of(cells);
   const std::string middle = std::to_string(0.5 / cells);
@@ -213,14 +213,14 @@ TEST(ExactInSpace, InfiltrationIntoAColumn) {
   EXPECT_LT(error_of_infiltration(40), 0.015);
 }
 
-/// A suspension of which soil catches a part: the table's porosity, from top to bottom.
+/// A suspension of which soil catches a part; the table has the porosity from top to bottom.
 struct Deposition {
   const char* table;
   double concentration;
   std::vector<std::string> overrides;
 };
 
-/// Of the mean porosity, over its change; the last time of the table.
+/// Largest error of the mean porosity, relative to its change, over the times of the table.
 double error_of_deposition(const Deposition& deposition, const std::string& formulation,
                            int cells) {
   std::vector<std::string> overrides = column_of(cells);

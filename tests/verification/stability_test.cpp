@@ -1,4 +1,4 @@
-/// The reported limit of the explicit step, tried: 1e5 steps at 0.99 of it from a random pressure.
+/// Tests the reported limit of the explicit step: 1e5 steps at 0.99 of it from a random pressure.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ class FreeFlow {
   void run(long steps, double dt) {
     for (long s = 0; s < steps; ++s) flow_.step(dt);
   }
-  /// Of compression and motion, J: what the scheme exchanges and drag takes.
+  /// Energy of compression and motion, J, which the scheme exchanges and drag dissipates.
   [[nodiscard]] double energy() const {
     double sum = 0.0;
     for (int e = 0; e < case_.mesh.element_count(); ++e) {
@@ -105,7 +105,7 @@ class StabilityLimitRun : public ::testing::TestWithParam<std::size_t> {
   [[nodiscard]] static const MeshCase& mesh_case() { return mesh_cases()[GetParam()]; }
 };
 
-/// The bound by elements is safe; the assembled limit is sharp where there is next to no drag.
+/// The bound by elements is safe; the assembled limit is sharp if there is almost no drag.
 TEST_P(StabilityLimitRun, TheAssembledLimitIsSharp) {
   for (const DragIntegration drag :
        {DragIntegration::explicit_drag, DragIntegration::implicit_drag}) {
@@ -129,20 +129,20 @@ TEST_P(StabilityLimitRun, TheAssembledLimitIsSharp) {
 TEST_P(StabilityLimitRun, HoldsForAHundredThousandSteps) {
   for (const DragIntegration drag :
        {DragIntegration::explicit_drag, DragIntegration::implicit_drag}) {
-    // Almost no drag, so that nothing but the limit keeps the run bounded; then drag that matters.
+    // With almost no drag only the limit keeps the run bounded; then with significant drag.
     for (const double conductivity : {1e6, 1e-3}) {
       FreeFlow flow(mesh_case().mesh(), 1.0, drag, mesh_case().porosity, conductivity);
       flow.start_at_random(11);
       const double begin = flow.energy();
       flow.run(100000, 0.99 * flow.limit());
-      // The scheme's own energy has a cross term: within 1/(1 - 0.99^2) of this one.
+      // The scheme's own energy has a cross term: it is within 1/(1 - 0.99^2) of this one.
       EXPECT_LE(flow.energy(), 60.0 * begin) << mesh_case().name << " k = " << conductivity;
     }
   }
 }
 
 TEST_P(StabilityLimitRun, LiesBelowTheTrueLimitByAKnownFactor) {
-  // Where the run really blows up, by bisection over the step.
+  // Finds the step at which the run becomes unstable, by bisection.
   const auto survives = [&](double factor) {
     FreeFlow flow(mesh_case().mesh(), 1.0, DragIntegration::explicit_drag, mesh_case().porosity,
                   1e6);
@@ -160,7 +160,7 @@ TEST_P(StabilityLimitRun, LiesBelowTheTrueLimitByAKnownFactor) {
     (survives(middle) ? low : high) = middle;
   }
   std::cout << mesh_case().name << ": true limit / reported limit = " << low << '\n';
-  // Element by element the bound is sharp on even meshes and cautious next to slivers and jumps.
+  // The bound by elements is sharp on even meshes and conservative next to slivers and jumps.
   EXPECT_LE(low, std::string(mesh_case().name) == "regular" ? 1.5 : 6.0);
 }
 

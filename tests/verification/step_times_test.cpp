@@ -1,5 +1,5 @@
-/// Steps of the implicit flow around times at which something changes at once: late in long runs,
-/// at the start, and where soil fails.
+/// Steps of the implicit flow around sudden changes: late in long runs, at the start, and where
+/// soil fails.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace step_times_test {
 
 constexpr double unit_weight = 1000.0 * 9.81;  // of water, N/m3
 
-/// As in a scene, to the last digit.
+/// The number as in a scene, with all its digits.
 std::string text_of(double value) {
   std::ostringstream text;
   text.precision(17);
@@ -46,7 +46,7 @@ end = 1e12
 every = 1e11
 )";
 
-/// Flux out of it, m3/s.
+/// Flux out of the column, m3/s.
 double flux_at(double pressure) {
   return 0.5 * 2e-2 * pressure / unit_weight;
 }
@@ -58,8 +58,8 @@ TEST(StepTimes, StartsHoweverFarTheEnd) {
   EXPECT_LT(run.worst_residual(), 1e-12);
 }
 
-/// Flux out in the middle of a ramp from 1 kPa to 6 kPa within a millisecond, at its end, and
-/// later, over the last.
+/// Flux out in the middle of a ramp from 1 kPa to 6 kPa within a millisecond, at its end, and 10 s
+/// later, relative to the steady one at 6 kPa.
 std::vector<double> flux_around_ramp(double start, double end) {
   const double ramp = 1e-3;
   const std::string pressure = "boundary[0].pressure=[[0.0, 1e3], [" + text_of(start) +
@@ -84,7 +84,7 @@ TEST(StepTimes, RampsAreFollowedLateInALongRun) {
   EXPECT_NEAR(late.back(), 1.0, 1e-4);
 }
 
-/// Two times that doubles tell apart only just, or not at all in the sums of steps.
+/// Two times that are nearly or exactly equal as doubles in sums of steps.
 TEST(StepTimes, JumpsBetweenNeighbouringTimes) {
   for (const double width : {1.2e-7, 1e-6, 1e-5, 1e-4}) {
     const std::string pressure =
@@ -135,8 +135,8 @@ at = [0.03125, 0.5]
 at = [0.03125, 0.25]
 )";
 
-/// Largest error of the pressure over the load, at T = 0.1 after a load that comes within `width`
-/// from `start` on.
+/// Largest error of the pressure over the load, at T = 0.1 after a load that is applied within
+/// `width` from `start` on.
 double error_after_load(double start, double width, double tolerance) {
   constexpr double second = 1000.0;  // of T = 1
   std::string table = "boundary[0].traction=[[0.0, 0.0, 0.0], ";
@@ -160,7 +160,7 @@ double error_after_load(double start, double width, double tolerance) {
   return error;
 }
 
-/// The row at 1 % of the run.
+/// Compares the row at 1 % of the run.
 TEST(StepTimes, ALoadThatComesAtOnceIsFollowedAtTheTolerance) {
   for (const double start : {0.0, 5e3}) {
     for (const double width : {1e-6, 1e-3, 0.1}) {
@@ -173,8 +173,8 @@ TEST(StepTimes, ALoadThatComesAtOnceIsFollowedAtTheTolerance) {
   }
 }
 
-/// A block of clay between a rough base and a load that it cannot carry: it is there at once after
-/// 10 s, and the soil fails.
+/// A block of clay between a rough base and a load that it cannot carry: the load is applied at
+/// once after 10 s, and the soil fails.
 constexpr const char* broken_block = R"(formulation = "single-point"
 gravity = [0.0, -9.81]
 geometry = {shape = "column", width = 1.0, height = 1.0}

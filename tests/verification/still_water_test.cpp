@@ -1,4 +1,4 @@
-/// Water that stands still under gravity stays still and erodes nothing.
+/// Water at rest under gravity stays at rest and erodes nothing.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ Mesh<2> pond_mesh(double amount = 0.0) {
   });
 }
 
-/// Largest flux in any element, m/s, over ten days, and what eroded, kg.
+/// Checks the largest flux through a face, m/s, over ten days, and the eroded mass, kg.
 void expect_still(const std::string& what, Mesh<2> mesh, const Scene& scene) {
   model::ModelRun run(model::make_case(std::move(mesh), scene));
   double largest = 0.0;
@@ -80,7 +80,7 @@ TEST(StillWater, UnderAPondErodesNothingInTenDays) {
   }
 }
 
-/// Three layers, 1e5 apart in conductivity; the two upper ones retain water above its level.
+/// Three layers with conductivities 1e5 apart; the two upper ones retain water above its level.
 Scene layered_scene(double bulk_modulus) {
   Scene scene = pond_scene(bulk_modulus);
   scene.time.stepping = TimeStepping::monotone;

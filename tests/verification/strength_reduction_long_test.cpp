@@ -1,5 +1,5 @@
-/// Factors of safety where soil dilates less than it rubs, on meshes on which Newton's method alone
-/// gives up.
+/// Factors of safety of soil with less dilation than friction, on meshes on which Newton's method
+/// alone does not converge.
 
 #include <gtest/gtest.h>
 

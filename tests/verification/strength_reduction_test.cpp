@@ -1,4 +1,4 @@
-/// Factors of safety of slopes by reduction of strength, against exact and published ones.
+/// Factors of safety of slopes by reduction of strength, against exact and published values.
 
 #include "tools/strength_reduction.hpp"
 
@@ -19,7 +19,7 @@ using model::PlaneModel;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// Angles in degrees.
+/// Soil with angles in degrees.
 SkeletonModel mohr_coulomb_soil(double friction, double cohesion, double dilation,
                                 double young = 1e8) {
   SkeletonModel soil;
@@ -56,16 +56,16 @@ TEST(ReducedStrength, DividesCohesionAndTheTangentOfFriction) {
   const SkeletonParameters half = reduced_strength(full, 2.0);
   EXPECT_DOUBLE_EQ(half.cohesion, 5e3);
   EXPECT_DOUBLE_EQ(std::tan(half.friction), 0.5 * std::tan(full.friction));
-  EXPECT_EQ(half.dilation, half.friction);  // 16.1 degrees, below 20
+  EXPECT_EQ(half.dilation, half.friction);  // 16.1 degrees, less than 20
   EXPECT_EQ(reduced_strength(full, 1.2).dilation, full.dilation);
   EXPECT_EQ(half.young, full.young);
 }
 
 // ---------------------------------------------------------------------------- the infinite slope
 
-/// A piece of an infinite slope, turned so that its surface is the top of a box. Its sides carry
-/// the stress of the infinite slope, whose normal part is the one at the limit: the stress
-/// everywhere is then known, and no other failure comes before that along the slope.
+/// A piece of an infinite slope, rotated so that its surface is the top of a box. Its sides carry
+/// the stress of the infinite slope, with the normal stress at the limit: the stress is then known
+/// everywhere, and no other failure precedes that along the slope.
 struct InfiniteSlope {
   double slope = 0.0;         ///< beta, rad
   double weight = 0.0;        ///< of the soil with its water, N/m3
@@ -74,11 +74,11 @@ struct InfiniteSlope {
   [[nodiscard]] double mobilised() const {
     return std::tan(slope) * weight / (weight - water_weight);
   }
-  /// Of water that flows along the slope, Pa.
+  /// Pressure of water that flows along the slope, Pa.
   [[nodiscard]] double pressure(double depth) const {
     return water_weight * std::cos(slope) * depth;
   }
-  /// On a plane across the slope that looks down the slope, total, Pa.
+  /// Total traction on a plane across the slope that faces down the slope, Pa.
   [[nodiscard]] Vector<2> traction(double depth) const {
     const double across = -(weight - water_weight) * std::cos(slope) * depth;  // effective
     const double along = across * (1.0 + 2.0 * mobilised() * mobilised());
@@ -107,7 +107,7 @@ struct InfiniteSlope {
   }
 };
 
-/// Found over exact.
+/// Relative error of the factor of safety.
 double infinite_slope_error(const InfiniteSlope& slope, double friction, double dilation) {
   const double height = 3.0;
   PlaneModel m(model::crossed_mesh(4, 6, 2.0, height), 1,
@@ -137,7 +137,7 @@ TEST(InfiniteSlope, FailsUnderSeepageAlongItAtHalfTheFactor) {
 // ---------------------------------------------------------------------- slopes and cuts of a
 // height
 
-/// 2:1, of height 1 m on a rigid base, `cells` over the height.
+/// A slope of 2:1, of height 1 m on a rigid base, with `cells` over the height.
 struct SlopeTwoToOne : PlaneModel {
   SlopeTwoToOne(int cells, const SkeletonModel& soil) : PlaneModel(mesh_of(cells), 1, soil) {
     support("bottom", Support::both);
@@ -159,14 +159,14 @@ SafetyFactor slope_factor(int cells, double dilation, double young = 1e8, int th
 }
 
 TEST(Slope, HasTheFactorOfGriffithsAndLane) {
-  // Dilation in full: an upper bound, which falls as the mesh is refined.
+  // With full dilation the factor is an upper bound, which falls as the mesh is refined.
   const double coarse = slope_factor(4, 20.0).factor;
   const double fine = slope_factor(12, 20.0).factor;
   EXPECT_GT(coarse, fine);
   EXPECT_NEAR(fine, 1.4, 0.05);
 }
 
-/// The same slope cut out of the points of a box: its surface lies inside elements.
+/// A slope of 2:1 cut out of the points of a box: its surface lies inside elements.
 struct SlopeInBox : PlaneModel {
   SlopeInBox(int cells, const SkeletonModel& soil)
       : PlaneModel(
@@ -218,9 +218,9 @@ TEST(Slope, OfElasticSoilNeverFailsAndOfSoilWithoutStrengthAlways) {
   EXPECT_EQ(safety_factor(mud, mud.weight(unit_weight), 0.01).factor, 0.0);
 }
 
-// ---------------------------------------------------------------------- what decides a trial
+// ---------------------------------------------------------------------- the end of a trial
 
-/// Without dilation: Newton's method finds no equilibrium in most trials near the limit.
+/// Without dilation, Newton's method finds no equilibrium in most trials near the limit.
 SafetyFactor slope_factor_with(const StrengthReductionLimits& limits) {
   const SlopeTwoToOne m(8, mohr_coulomb_soil(20.0, 0.05 * unit_weight, 0.0));
   const Supports<2> supports(m.grid, m.face_support);
@@ -263,20 +263,20 @@ TEST(PseudoTime, MovesSoilThatFailsAtAConstantSpeed) {
   const SettledSoil<2> far = time.settle(m.no_loads(), {.far = 8e-8});
   ASSERT_EQ(near.end, Settling::runs_away);
   ASSERT_EQ(far.end, Settling::runs_away);
-  // No stress balances this share of the forces, however far the soil goes.
+  // No stress balances this share of the forces at any displacement.
   std::cout << "out of balance " << near.residual << ", " << far.residual << std::endl;
   EXPECT_NEAR(far.residual, near.residual, 0.05 * near.residual);
   EXPECT_GT(far.residual, 1e-9);  // the tolerance of soil at rest
 }
 
-/// A vertical cut of height 1 m, the soil as wide behind it and below it.
+/// A vertical cut of height 1 m; the soil behind it and below it has the same extent.
 struct VerticalCut : PlaneModel {
   VerticalCut(int cells, const SkeletonModel& soil) : PlaneModel(mesh_of(cells), 1, soil) {
     support("bottom", Support::both);
     support("left", Support::normal);
     support("right", Support::normal);
   }
-  /// The box without its upper right part: the soil ends with the mesh.
+  /// The box without its upper right part: the mesh ends with the soil.
   static Mesh<2> mesh_of(int cells) {
     const double h = 1.0 / cells;
     const int below = cells / 2;

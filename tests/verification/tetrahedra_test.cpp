@@ -93,7 +93,7 @@ class SmoothFlow {
     }
     return {std::sqrt(sum[0]), std::sqrt(sum[1])};
   }
-  /// Of the largest flux through a face.
+  /// Imbalance relative to the largest flux through a face.
   [[nodiscard]] double imbalance() const {
     return model::imbalance(m_.grid, step_.face_flux, m_.forcing.source);
   }
@@ -160,7 +160,8 @@ TEST(Tetrahedra, ElementsBalanceAtAnyContrastAndWithStorage) {
       const MixedState<3> rest = m.rest();
       const double dt = 10.0;
       const auto step = flow.step(rest, dt, m.constant(flow));
-      // What leaves an element over the step is what the drop of its faces' pressures sets free.
+      // The outflow of an element over the step is the volume released as the pressures of its
+      // faces drop.
       std::vector<double> net_outflow(m.mesh.element_count(), 0.0);
       for (int e = 0; e < m.mesh.element_count(); ++e) {
         for (const int f : m.grid.element_face[e]) {

@@ -8,7 +8,7 @@
 namespace suffuse {
 namespace threads_test {
 
-/// A column with more nodes, faces and elements than the loops need to go parallel.
+/// A column with more nodes, faces and elements than the loops need to be parallel.
 Scene large_scene() {
   Scene scene = model::paper_scene();
   scene.soils[0].erosion = {erosion_law("logarithmic"), 1e-2, 0.0, false};
@@ -41,7 +41,8 @@ TEST(Threads, OneAndTwoGiveTheSameBits) {
 }
 
 TEST(Threads, ImplicitFlowToo) {
-  // The flow erodes and feels the erosion: every step is solved, and looked into on the way.
+  // Flow and erosion depend on each other: every step is solved, and times within steps are
+  // evaluated.
   Scene scene = large_scene();
   scene.time.scheme = FlowScheme::implicit_mixed;
   scene.time.step = 0.5;
@@ -51,7 +52,7 @@ TEST(Threads, ImplicitFlowToo) {
   expect_same_bits(snapshot_of(scene, {0.3, 0.8, 1.2}, 1), snapshot_of(scene, {0.3, 0.8, 1.2}, 2));
 }
 
-/// A box of enough tetrahedra that the loops are shared, flushed from above.
+/// A box of enough tetrahedra for shared loops; water flows through it from above.
 Case<3> box_case(Formulation formulation) {
   Scene scene = large_scene();
   scene.formulation = formulation;

@@ -1,5 +1,5 @@
-/// Erosion in unsaturated soil, through which water seeps under its weight alone: the gradient is 1
-/// everywhere and k_r = |q|/k, whatever the retention law.
+/// Erosion in unsaturated soil through which water seeps by its weight alone: the gradient is 1
+/// everywhere and k_r = |q|/k, for any retention law.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace unsaturated_erosion_test {
 constexpr double conductivity = 1e-4;
 constexpr double porosity = 0.4;
 
-/// Porosity gained over a second at |q| = share k, over the rate: D.
+/// D: porosity gained in a second at |q| = share k, divided by the rate.
 double drive_in_seepage(const DriveLaw& drive, double share) {
   Scene scene = model::paper_scene();
   scene.time.scheme = FlowScheme::implicit_mixed;
@@ -28,7 +28,7 @@ double drive_in_seepage(const DriveLaw& drive, double share) {
   soil.retention = model::gardner(2.0, 0.05);
   soil.erosion.law = erosion_law("constant");
   soil.erosion.drive = &drive;
-  // Eroded in all: pores that open draw in water, far less than what flows.
+  // Total eroded volume: opening pores draw in water, far less than the flow.
   constexpr double little = 1e-10;
   const double size = std::map<std::string_view, double>{
       {"time", 1.0},
@@ -50,8 +50,8 @@ double drive_in_seepage(const DriveLaw& drive, double share) {
   return sum / static_cast<double>(moments.states.back().porosity.size()) / soil.erosion.rate;
 }
 
-/// What each drive is where the flux |q| = k_r k has the gradient 1, which only k_r of the pores
-/// feel: that of the same flux in saturated soil, and the less the drier the soil is.
+/// The drives for a flux |q| = k_r k under the gradient 1, of which only the share k_r counts: they
+/// are those of the same flux in saturated soil, so they fall as the soil becomes drier.
 TEST(UnsaturatedErosion, GoesWithTheWaterThatFlows) {
   const double kappa = conductivity * 1e-3 / 9810.0;
   for (const double share : {0.5, 0.1, 1e-3}) {

@@ -1,5 +1,5 @@
-/// A levee of dry sand in three dimensions, whose water follows from Newton's method with
-/// multigrid, against its plane section, which takes a direct factor.
+/// A levee of dry sand in three dimensions, solved by Newton's method with multigrid, compared with
+/// its plane section, which uses a direct factor.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ constexpr double height = 2.0;  // m
 constexpr int columns = 24;
 constexpr int rows = 12;
 
-/// Crest 1 m, slopes 1:2. `x` in the unit interval.
+/// Crest 1 m, slopes 1:2; `x` is in the unit interval.
 double across(double x, double z) {
   return std::lerp(2.0 * z, 9.0 - 2.0 * z, x);
 }
@@ -39,7 +39,7 @@ Mesh<Dim> levee() {
   }
 }
 
-/// A flood on the left rises within half the time.
+/// A flood on the left that rises in the first half of the time.
 template <int Dim>
 Scene scene_of(double alpha, double n) {
   Scene scene = model::paper_scene();
@@ -63,7 +63,7 @@ Scene scene_of(double alpha, double n) {
   return scene;
 }
 
-/// Per metre of levee.
+/// Results per metre of levee.
 struct Flood {
   double entered = 0.0;     ///< m3/m
   double stored = 0.0;      ///< m3/m

@@ -1,5 +1,5 @@
 /// Level ground that the water outside just reaches: a head equal to the height of the ground is
-/// the pressure 0 there, in two and in three dimensions, however coordinates are rounded.
+/// the pressure 0 there, in two and three dimensions, for any rounding of coordinates.
 
 #include <cmath>
 #include <string>
@@ -16,8 +16,8 @@ namespace water_line_test {
 constexpr double conductivity = 1e-4;  // m/s
 constexpr double drop = 0.25;          // m, of the head from the top to the bottom
 
-/// A column of height `height` under `above`, which is what holds at the top, with a head that is
-/// lower by `drop` at the bottom.
+/// A column of height `height` under the conditions `above` at the top, with a head that is lower
+/// by `drop` at the bottom.
 std::string column(const std::string& geometry, const std::string& gravity,
                    const std::string& height, const std::string& above) {
   return "formulation = \"single-point\"\ngravity = " + gravity + "\n" + geometry +
@@ -54,7 +54,7 @@ std::string box(const std::string& height) {
          "\n[mesh]\nsize = 0.1\n";
 }
 
-/// What leaves, m3/s (2D: m2/s), with `head` at the top and with `pressure = 0.0` there.
+/// Discharge, m3/s (2D: m2/s), with `head` at the top and with `pressure = 0.0` there.
 template <int Dim>
 std::pair<double, double> discharges(const std::string& geometry, const std::string& height,
                                      const std::string& head) {
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Heights, WaterAtTheGround,
                                            Ground{"RoundedDown", "0.3", "0.30000000000000004"}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-/// 2300 mm are 2.3000000000000003 m.
+/// 2300 mm become 2.3000000000000003 m.
 TEST(WaterAtTheGroundOfAFile, flows_whatever_the_scale_rounds) {
   const test::TemporaryFolder folder;
   folder.write("column.geo",
@@ -113,7 +113,7 @@ TEST(WaterAtTheGroundOfAFile, flows_whatever_the_scale_rounds) {
   EXPECT_NEAR(found, conductivity * drop / 2.3, 1e-5 * expected);
 }
 
-/// The ground of tests/cases/head-level.toml under heads at its two levels, and under no pressure.
+/// The ground of tests/cases/head-level.toml under heads at its two levels, and at zero pressure.
 TEST(GroundOfTwoLevels, flows_from_the_upper_to_the_lower) {
   const std::string folder = SUFFUSE_SOURCE_DIR "/tests/cases/";
   const std::vector<std::string> file{"geometry.file=\"" + folder + "a.geo\""};
@@ -131,8 +131,8 @@ TEST(GroundOfTwoLevels, flows_from_the_upper_to_the_lower) {
   EXPECT_NEAR(under_heads.history().flux_in, expected, 1e-12 * expected);
 }
 
-/// Half of this slope is in the air: faces whose centres are above the level stay as they were, and
-/// so does one whose centre is level with it, as a part of that face is above.
+/// Half of this slope is in air: faces whose centres are above the level are unchanged, and so is
+/// one whose centre is at the level, as a part of that face is above it.
 TEST(SlopeAtTheWater, is_wet_below_the_level_alone) {
   Mesh<2> mesh;
   mesh.nodes = {{0.0, 0.0}, {3.0, 0.0}, {0.0, 3.0}};

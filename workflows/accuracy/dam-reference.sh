@@ -1,6 +1,6 @@
 #!/bin/bash
-# The dam on a mesh that is graded to the corners of the weir: dam-reference.sh BIN OUT > dam.csv
-# Takes a few minutes. Every other run is compared with the lines that it prints.
+# Solves the dam on a mesh graded to the corners of the weir: dam-reference.sh BIN OUT > dam.csv.
+# Takes a few minutes. All other runs are compared with the lines that it prints.
 set -eu -o pipefail
 bin=$1 out=$2
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Puts the results between the marks of the document and the charts beside it: document.sh OUT DOCS
+# Puts the results between the marks of the document and the charts into its folder: document.sh OUT
+# DOCS
 set -eu -o pipefail
 out=$1 docs=$2
 here=$(cd "$(dirname "$0")" && pwd)

@@ -3,18 +3,19 @@
 #
 #     measure.sh BIN PROBLEM REFERENCE.csv OUT [short]
 #
-# Writes OUT/PROBLEM.csv, a line per run without a header, and OUT/PROBLEM.left-out.csv, a line per run that was
-# not made because --explain says that it would take too long. Run after run, whatever -j: they are timed.
+# Writes OUT/PROBLEM.csv, a line per run without a header, and OUT/PROBLEM.left-out.csv, a line per
+# run that was left out because --explain says that it would take too long. Runs are timed, so they
+# are made one after the other, whatever -j.
 set -eu -o pipefail
 bin=$1 problem=$2 reference=$3 out=$4 form=${5:-full}
 here=$(cd "$(dirname "$0")" && pwd)
-# The longest run, in seconds, and how often each is repeated for the median.
+# The longest run, in seconds, and the number of repetitions for the median.
 limit=${ACCURACY_LIMIT:-6} repetitions=${ACCURACY_REPETITIONS:-5}
-# Runs that take longer than this are made once in the short form.
+# In the short form, runs that take longer than this are made once.
 once=0
 if [ "$form" == short ]; then
   limit=1 repetitions=1
-  # Times are judged there.
+  # The check of the short form judges the times of this problem.
   [ "$problem" != fines-constant ] || limit=10 repetitions=3 once=0.5
 fi
 # A run of the next size takes 8 times as long, or a little more.
@@ -41,12 +42,12 @@ while read -r scheme size points tolerance changes; do
   series=$scheme,$points,$tolerance
   read -ra keys <<< "$changes"
   "$bin/suffuse-mesher" "$here/$problem.toml" -o "$work/run.case.h5" "${keys[@]/#/--set=}" > /dev/null
-  # Of the first in a series nothing is known yet.
+  # Nothing is known yet of the first run in a series.
   if exceeds "${last[$series]:-$limit}" "$(awk -v l=$limit -v g=$growth 'BEGIN { print l / g }')"; then
     "$bin/suffuse-solver" "$work/run.case.h5" --explain > "$work/explain" 2> "$work/log"
     estimate=$(awk -f "$here/../plan/estimate.awk" "$work/explain")
     expected=$(cut -d, -f2 <<< "$estimate")
-    if exceeds "${expected:-1e9}" $limit; then  # none where steps take too long to be tried
+    if exceeds "${expected:-1e9}" $limit; then  # no estimate if steps take too long to be tried
       echo "$row,$(cut -d, -f1,2 <<< "$estimate")" >> "$out/$problem.left-out.csv.tmp"
       last[$series]=$limit
       continue

@@ -1,17 +1,18 @@
 #!/bin/bash
-# The runs of a problem, one per line: SCHEME SIZE POINTS TOLERANCE KEY=VALUE..., coarse to fine within a
-# scheme. `variants.sh PROBLEM short` lists the few of SHORT=1.
+# Lists the runs of a problem, one per line: SCHEME SIZE POINTS TOLERANCE KEY=VALUE..., coarse to
+# fine within a scheme. `variants.sh PROBLEM short` lists the few of SHORT=1.
 #
 # SCHEME is FORMULATION-WAY: sp, dp in its default mode, or dp in the paper's mode (paper); scaled (explicit,
-# mass scaling 1e4), explicit, drag (explicit, drag stepped implicitly) or implicit. POINTS are those per
-# element: solid ones for sp, else liquid ones at the start. TOLERANCE is - where there is none.
+# mass scaling 1e4), explicit, drag (explicit, drag stepped implicitly) or implicit. POINTS are
+# points per element: solid points for sp, liquid points at the start otherwise. TOLERANCE is - if
+# there is none.
 set -eu -o pipefail
 problem=$1 form=${2:-full}
 
 # As in Figs. 5 and 6 of the paper: see ../paper/variants.mk.
 as_in_paper="points.seeding=gauss points.equal_volume=false soil.specimen.erosion.mass_transfer=element \
 soil.specimen.erosion.empty_elements=dry"
-# The pressure lives at points with the explicit scheme only.
+# Only the explicit scheme can have its pressure at points.
 at_points="flow.integration=material-point"
 
 declare -A keys=(
@@ -29,13 +30,13 @@ declare -A points=([sp]=3 [dp]="12 3 48" [paper]="12 3")
 tolerances="1e-3 1e-2 1e-4"
 case $problem in
   startup) points=([sp]=3 [dp]=3 [paper]=3) ;;
-  # Nothing there hangs on where the liquid's points are.
+  # The result does not depend on the places of the liquid points.
   feedback) points=([sp]=3 [dp]="12 3" [paper]="12 3") ;;
   dam) points=([sp]=3 [dp]="12 3" [paper]="12 3") ;;
 esac
 if [ "$form" == short ]; then
   case $problem in
-    # Where times are judged there are runs long enough to be timed.
+    # The check judges times of this problem, so it has runs long enough to be timed.
     fines-constant) sizes[$problem]="0.25 0.125 0.0625" sizes[sp]="0.0625 0.03125" ;;
     dam) sizes[dam]="0.8 0.4" ;;
     *) sizes[$problem]="0.5 0.25" ;;
@@ -44,7 +45,7 @@ if [ "$form" == short ]; then
   tolerances=1e-3
 fi
 
-# The error of the explicit schemes falls with the step there, and that with the size.
+# There, the error of the explicit schemes falls with the step, and the step with the size.
 sizes[small-steps]="${sizes[startup]} 0.0625 0.03125 0.015625"
 
 run() { # FORMULATION WAY SIZE POINTS TOLERANCE
@@ -58,9 +59,9 @@ run() { # FORMULATION WAY SIZE POINTS TOLERANCE
   echo "$1-$2 $3 $4 $5 mesh.size=$3 ${keys[$1]} ${keys[$2]}$more"
 }
 
-# sizes_of FORMULATION WAY COUNT TOLERANCE: all of the problem for the usual points and tolerance. The finest is
-# for sp, and other numbers of points do without the two finest, or the finest with the implicit scheme: they
-# are slow and show nothing more. So do other tolerances.
+# sizes_of FORMULATION WAY COUNT TOLERANCE: all sizes for the usual points and tolerance. Only sp
+# has the finest size. Other numbers of points leave out the two finest sizes, or the finest with
+# the implicit scheme, because they are slow and show nothing more. So do other tolerances.
 sizes_of() {
   local all=${sizes[$problem]} most=9 usual=${points[$1]%% *}
   [ "$problem-$form-$2" == startup-full-implicit ] || [ "$problem-$form" != startup-full ] || all=${sizes[small-steps]}
@@ -73,7 +74,7 @@ sizes_of() {
       [ "$1" == sp ] || most=5
       [ "$3" == "$usual" ] && [ "$4" == - -o "$4" == "${tolerances%% *}" ] || most=4
       [ "$2" != implicit ] || [ "$3" == "$usual" ] || most=5
-      # The tolerance to choose there.
+      # This tolerance is the one to choose for these problems.
       [ "$1 $4" != "sp 1e-2" ] || most=9
       ;;
     dam) [ "$3" == "$usual" ] && [ "$4" == - -o "$4" == "${tolerances%% *}" ] || most=4 ;;
@@ -84,10 +85,10 @@ sizes_of() {
 for formulation in sp dp paper; do
   for way in scaled explicit drag implicit; do
     for count in ${points[$formulation]}; do
-      # How drag is stepped has nothing to do with the points.
+      # The stepping of drag does not depend on the points.
       [ $way != drag ] || [ "$count" == "${points[$formulation]%% *}" ] || continue
       settings=-
-      # Other tolerances with the usual number of points alone.
+      # Other tolerances are run only with the usual number of points.
       [ $way != implicit ] || settings=${tolerances%% *}
       [ $way != implicit ] || [ "$count" != "${points[$formulation]%% *}" ] || settings=$tolerances
       for tolerance in $settings; do

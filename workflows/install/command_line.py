@@ -82,7 +82,7 @@ def parse_help(name, output):
         if heading:
             section = command.entries.setdefault(heading[1], [])
         elif line and not line.startswith(" "):
-            section = None  # what comes behind the lists, or the name of a group of options
+            section = None  # text after the lists, or the name of a group of options
         elif section is not None and entry:
             column = TEXT_COLUMN + len(entry[1]) - 2
             following = lines[number + 1] if number + 1 < len(lines) else ""

@@ -1,5 +1,5 @@
-# Run by cpack on the trees of files that it packs: documents as Debian's policy wants them. Manual pages and changes are
-# compressed, and the licence is in a file `copyright`.
+# cpack runs this on the folders that it packs, so that documents follow Debian's policy: manual
+# pages and changes are compressed, and the licence is in a file `copyright`.
 file(READ ${CMAKE_CURRENT_LIST_DIR}/../../LICENSE licence)
 string(APPEND licence "\n------------------------------------------------------------------------------\n\n"
   "On Debian systems the GNU General Public License, version 2, is in /usr/share/common-licenses/GPL-2.\n")

@@ -1,5 +1,5 @@
-# What `cmake --install` puts where, and what other CMake projects find. Two components: `programs`, and `development`,
-# the reader of results for programs of one's own.
+# What `cmake --install` installs, and what other CMake projects find. There are two components:
+# `programs`, and `development`, the reader of results for programs of users.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
@@ -12,7 +12,7 @@ set(command_line ${Python3_EXECUTABLE} ${install_sources}/command_line.py)
 set(programs suffuse-mesher suffuse-solver suffuse-post)
 set(documents ${CMAKE_INSTALL_DOCDIR})
 
-# --- Texts that are made of what the programs and the README say ---
+# --- Texts made from the output of the programs and from the README ---
 file(MAKE_DIRECTORY ${install_texts})
 foreach(program IN LISTS programs)
   set(page ${install_texts}/${program}.1)
@@ -65,7 +65,7 @@ foreach(library physics case results)
 endforeach()
 target_compile_features(suffuse_physics INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
 if(SUFFUSE_NATIVE)
-  # How Eigen aligns what it allocates depends on the processor; both sides of a library must agree.
+  # The alignment of Eigen's memory depends on the processor; both sides of a library must agree.
   target_compile_options(suffuse_physics INTERFACE $<INSTALL_INTERFACE:-march=native>)
 endif()
 install(TARGETS suffuse_physics suffuse_case suffuse_results EXPORT SuffuseTargets

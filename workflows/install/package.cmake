@@ -1,5 +1,5 @@
-# `cpack` in the folder of a build makes Debian packages: `suffuse`, and `suffuse-dev` with the reader of results.
-# `make -C workflows package` does it with the preset `package`.
+# `cpack` in the folder of a build makes Debian packages: `suffuse`, and `suffuse-dev` with the
+# reader of results. `make -C workflows package` calls it with the preset `package`.
 set(SUFFUSE_MAINTAINER "The Suffuse authors <suffuse@example.org>" CACHE STRING "Name and address in Debian packages")
 
 set(CPACK_GENERATOR DEB)
@@ -19,7 +19,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME suffuse)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
-# Pictures are drawn off the screen by Mesa, which no program links.
+# Mesa draws pictures off the screen; no program links to it.
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri, python3:any")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/workflows/install/prerm)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy")

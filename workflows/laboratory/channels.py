@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""When a channel has run through the specimen of channel.toml, how wide channels are then and what it took.
+"""Tables when a channel crosses the specimen of channel.toml, with its width and the loss of fines.
 
     channels.py POST RESULTS... > TABLE
 

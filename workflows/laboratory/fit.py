@@ -196,12 +196,13 @@ def search(runner, name, points, stages, out):
         trials.append([len(trials) + 1, rate, residual, root_mean_square(computed - measured), *computed])
         return computed - measured
 
-    # Where everything that can leave has left before the first point, no rate is better than another: the search
-    # starts from the best of a few decades, with a little more to lose than was lost.
+    # If everything that can leave has left before the first point, all high rates fit equally well:
+    # the search starts from the best of a few decades, with a little more to lose than was lost.
     share = max(0.0, 1.0 - 0.0102 * max(measured))
     starts = [[math.log(factor), share] for factor in (0.01, 0.1, 1.0, 10.0, 100.0)]
     start = min(starts, key=lambda x: root_mean_square(difference(x)))
-    # Differences over a thousandth: what the steps' tolerance leaves of noise is smaller.
+    # A step of a thousandth for differences is larger than the noise that the steps' tolerance
+    # leaves.
     least_squares(difference, start, bounds=([-12.0, 0.0], [12.0, 1.0]), diff_step=1e-3, xtol=1e-7, ftol=1e-10)
     write_csv(out / "search.csv", ["trial", "rate", "residual", "misfit", *(f"fines_lost_{h:g}h" for h in hours)], trials)
     return min(trials, key=lambda trial: trial[3])

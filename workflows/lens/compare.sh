@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The lens beside its section, as CSV: compare.sh LENS-HISTORY SECTION-HISTORY. Half of the lens is 1.5 m wide, half of
-# the model 6 m.
+# Compares the lens with its plane section, as CSV: compare.sh LENS-HISTORY SECTION-HISTORY. Half of
+# the lens is 1.5 m wide, half of the model 6 m.
 set -eu -o pipefail
 awk -F, '
   FNR == 1 { for (i = 1; i <= NF; ++i) { sub(/ .*/, "", $i); column[i] = $i }; ++file; next }  # without units

@@ -1,4 +1,4 @@
-"""Shows a results folder in ParaView 5.11 or newer: fields beside one another, each with its colour bar, over all times.
+"""Shows results in ParaView 5.11 or newer: fields side by side, with colour bars, over all times.
 
     SUFFUSE_RESULTS=NAME.results paraview --script=show_results.py
     pvpython show_results.py NAME.results [--fields porosity,concentration] [--time T] [--save PICTURE.png]
@@ -154,7 +154,7 @@ def lay_out(sources, fields):
     views = []
     cell = 0
     for number, field in enumerate(fields):
-        # Splitting cell i puts what was in it into 2 i + 1 and opens 2 i + 2.
+        # Splitting cell i moves its content to cell 2 i + 1 and opens cell 2 i + 2.
         views.append(new_view(layout, cell))
         show_field(sources, field, views[-1])
         add_time(source, views[-1])

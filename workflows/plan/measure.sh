@@ -1,11 +1,11 @@
 #!/bin/bash
-# How good the estimate of a scene is: its estimate and its run; and with `skips` what its plan is worth: its run with
-# --no-skip in addition.
+# Quality of the estimate of a scene: its estimate and its run. With `skips` also the gain by its
+# plan: another run with --no-skip.
 #
 #     measure.sh SOLVER NAME.case.h5 STEM [skips]
 #
-# Writes STEM.csv, one line without a header (see report.awk), and keeps STEM.explain. Runs that take
-# less than `small` seconds are repeated, as the median of three says more than one.
+# Writes STEM.csv, one line without a header (see report.awk), and keeps STEM.explain. Runs that
+# take less than `small` seconds are made three times, for the median.
 set -eu -o pipefail
 solver=$1 case=$2 stem=$3 skips=${4:-}
 here=$(dirname "$0")
@@ -15,7 +15,7 @@ small=5
 value() { sed -n "s/^  \"$1\": \([-+.e0-9]*\),*$/\1/p" "$2/run.json"; }
 # Calls of a pass: calls NAME FOLDER
 calls() { sed -n "/\"name\": \"$1\"/,/}/s/.*\"calls\": \([0-9]*\),*/\1/p" "$2/run.json"; }
-# Seconds of all passes: what is left when nothing is written.
+# Seconds of all passes: the time of the run without writing.
 pass_seconds() { awk '/"passes":/,/\]/ { if (sub(/.*"seconds": /, "")) sum += $0 } END { print sum }' "$1/run.json"; }
 bytes() { find "$1" -type f -printf '%s\n' | awk '{ sum += $1 } END { printf "%.0f", sum }'; }
 is_small() { awk -v s="$1" -v most=$small 'BEGIN { exit !(s < most) }'; }
@@ -41,7 +41,7 @@ if is_small "${times[with]}"; then
   for again in 2 3; do both; done
 fi
 
-line() { # COLUMNS...: what no run without a plan has found is empty
+line() { # COLUMNS...: those that need a run without a plan are empty if there is none
   printf '%s,' "$(basename "$stem")" "$@" "$(value memory_bytes "$stem.with.results")" "$(bytes "$stem.with.results")"
   awk -f "$here/estimate.awk" "$stem.explain"
 }
@@ -57,10 +57,10 @@ fi
 kept=$(calls "flow, steady and kept" "$stem.with.results")
 bound=1e-12 leave=
 if [ "${kept:-0}" -gt 0 ]; then
-  # A given step takes no tolerance: the default's.
+  # A given step has no tolerance: the default is taken.
   tolerance=$(sed -n 's/.*steps chosen for a local error of \([-+.e0-9]*\).*/\1/p' "$stem.explain")
   bound=$(awk -v t="${tolerance:-1e-3}" 'BEGIN { print 0.1 * t }')
-  # Not results of the run, but how long its steps are and how far it is from exact.
+  # These columns are not results: they say how long steps are and how large errors are.
   leave="dt residual_water residual_grains eos_error pressure_overshoot pressure_scatter volume_defect"
 fi
 apart="0 -"

@@ -1,17 +1,17 @@
-# The scenes of the table: of every kind that the workflows, the tutorials and the cases have, each of which runs for
-# less than ten minutes. Name, scene, KEY=VALUE as for the mesher's --set, without spaces.
+# The scenes of the table: of every kind that the workflows, the tutorials and the cases have. Each
+# runs for less than ten minutes. Name, scene, KEY=VALUE as for the mesher's --set, without spaces.
 
 # $(call plan_scene,NAME,SCENE,CHANGES): its estimate.
 define plan_scene
 plan_names += $1
 $(call run_rules,$(OUT)/plan/$1,$2,name=$1 $3,plan/variants.mk)
 endef
-# $(call plan_skips,NAME,SCENE,CHANGES): the same, and what skipping is worth.
+# $(call plan_skips,NAME,SCENE,CHANGES): its estimate, and the gain by skipping.
 define plan_skips
 plan_skip_names += $1
 $(call plan_scene,$1,$(PAPER)/$2.toml,$3)
 endef
-# The paper's, and finer ones with little to write, which take long enough to be timed.
+# The paper's scenes, and finer ones with little output that take long enough to be timed.
 plan_fine := output.snapshot_every=30.0
 $(foreach name,sp-constant-table dp-logarithmic sp-consistent sp-implicit dp-implicit,$(eval $(call plan_skips,$(name),$(name))))
 $(eval $(call plan_skips,dp-consistent-fine,dp-consistent,mesh.size=0.0625 $(plan_fine)))
@@ -33,7 +33,7 @@ $(eval $(call plan_scene,day,stiffness/day.toml))
 # Soil that moves: a bank, soil with layers.
 $(eval $(call plan_scene,kill-bank,stress/kill-bank.toml))
 $(eval $(call plan_scene,bedding,../tests/cases/bedding.toml))
-# Cases: deposits, pores that erode until no water is left, drives that grow, changes at once after decades.
+# Cases: deposits, pores that erode until no water is left, drives that grow, jumps after decades.
 $(foreach case,residual-decades no-water-left negative-deposits gradient-drive jump-in-decades,\
   $(eval $(call plan_scene,$(case),../tests/cases/$(case).toml)))
 # Three dimensions.

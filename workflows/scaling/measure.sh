@@ -1,11 +1,11 @@
 #!/bin/bash
-# What each stage of the pipeline costs for a column of some size.
+# Measures the cost of each stage of the pipeline for a column of a given size.
 #
 #     measure.sh PROGRAMS SCENE.toml MODE ELEMENTS THREADS STEM
 #
-# PROGRAMS is the folder of the three programs; MODE one of sp-explicit, sp-implicit, dp-material-point,
-# dp-mixed, dp-implicit. Writes STEM.csv, a header and one line. Whatever takes less than a few seconds is
-# repeated, and the median taken.
+# PROGRAMS is the folder of the three programs; MODE one of sp-explicit, sp-implicit,
+# dp-material-point, dp-mixed, dp-implicit. Writes STEM.csv, a header and one line. Stages that take
+# less than a few seconds are repeated, and the median is taken.
 set -eu -o pipefail
 programs=$1 scene=$2 mode=$3 elements=$4 threads=$5 stem=$6
 small=4
@@ -14,8 +14,8 @@ small=4
 size=$(awk -v n="$elements" 'BEGIN { printf "%.17g", 1 / int(sqrt(n / 2) + 0.5) }')
 steps=$(awk -v n="$elements" 'BEGIN { print n <= 2e4 ? 200 : n <= 2e5 ? 50 : 20 }')
 
-# Explicit steps are nine tenths of the stability limit, which goes with the size of an element;
-# implicit ones let the liquid pass a tenth of an element.
+# Explicit steps are nine tenths of the stability limit, which is proportional to the size of an
+# element; in implicit steps the liquid passes a tenth of an element.
 times() { awk -v h="$size" -v n="$1" -v per_size="$2" 'BEGIN { printf "step=%.6g,end=%.6g", per_size * h, n * per_size * h }'; }
 changes=()
 case $mode in
@@ -23,7 +23,7 @@ case $mode in
   sp-implicit | dp-implicit)
     steps=20
     time="{inertia=false,$(times $steps 2.0)}"
-    # Permeability changes with porosity: the flow is solved in every step.
+    # Permeability changes with porosity, so the flow is solved in every step.
     changes+=('soil.specimen.conductivity_law=kozeny-carman') ;;
   *) echo "measure.sh: got mode '$mode'" >&2; exit 2 ;;
 esac

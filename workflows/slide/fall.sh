@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# How far the soil moves in the seconds after it has first failed, as a figure: fall.sh POST RESULTS FIGURE.
+# The movement of the soil in the seconds after it first fails, as a figure: fall.sh POST RESULTS
+# FIGURE.
 set -eu -o pipefail
 failed=$(awk -F, '
   NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }

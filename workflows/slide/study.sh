@@ -10,7 +10,7 @@ for run in 0.7,1e-3 0.5,1e-3 0.35,1e-3 0.25,1e-3 0.5,1e-2 0.5,3e-4; do
     --set time.tolerance="$tolerance" --set time.failure=stop --set time.end=40000.0 --set 'output={every=500.0}' > /dev/null
   code=0
   "$1/suffuse-solver" "$stem.case.h5" -o "$stem.results" --force --quiet > "$stem.log" 2>&1 || code=$?
-  # It ends where the soil has lost its equilibrium; the time stays empty where it has not.
+  # The run ends when the soil has lost its equilibrium; otherwise the time stays empty.
   case $code in
     0) failed= ;;
     3) failed=$(tail -1 "$stem.results/history.csv" | cut -d, -f1) ;;

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Puts the tables between the marks of docs/stability.md and the chart beside it: document.sh PROGRAM OUT DOCS
+# Puts the tables between the marks of docs/stability.md and the chart into the folder: document.sh
+# PROGRAM OUT DOCS
 set -eu -o pipefail
 program=$1 out=$2 docs=$3
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,12 +1,13 @@
 #!/bin/bash
-# Is anything lost when runs are killed? Kills them at random moments, several times in a row, has each go on until
-# it is done, and compares every file with that of a run that nobody disturbed.
+# Is anything lost when runs are killed? Kills runs at random moments, several times in a row,
+# resumes each until it is done, and compares every file with that of an undisturbed run.
 #
 #     kill.sh PROGRAMS FOLDER KILLS
 #
-# PROGRAMS is the folder of the three programs. Writes FOLDER/kill.csv, a line per formulation and scheme, and
-# prints it as a table. Fails where a snapshot that a series names cannot be read, where a run does not go on, or
-# where it ends otherwise; what is left of that stays in FOLDER. SEED=N: other moments.
+# PROGRAMS is the folder of the three programs. Writes FOLDER/kill.csv, a line per formulation and
+# scheme, and prints it as a table. Fails if a snapshot that a series names cannot be read, if a run
+# does not go on, or if its files differ at the end; such a run stays in FOLDER. SEED=N: other
+# moments.
 set -u -o pipefail
 programs=$(cd "$1" && pwd) folder=$2 kills=$3
 scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -23,7 +24,7 @@ moving() {
   echo --set 'boundary[2]={on="left",fix="normal"}' --set 'boundary[3]={on="right",fix="normal"}'
 }
 
-# Of half a second, with forty snapshots: much of the time one is being written.
+# Runs of half a second with forty snapshots, so that a snapshot is often being written.
 set_options() { # MODE
   case $1 in
     sp-explicit) echo --set 'time={end=0.4,scheme="explicit"}' --set output.every=0.01 ;;
@@ -39,7 +40,7 @@ set_options() { # MODE
 
 milliseconds() { local now; now=$(date +%s%N); echo $((now / 1000000)); }
 
-# What run.json says of the run itself; durations and threads differ between any two.
+# The facts of the run in run.json; durations and threads differ between any two runs.
 account() { grep -vE '"(wall_seconds|seconds|memory_bytes|threads|resumed_at)":' "$1/run.json"; }
 
 same() { # RESULTS
@@ -47,7 +48,7 @@ same() { # RESULTS
     diff <(account "$1") <(account whole) >> differences.txt
 }
 
-# Every snapshot that the series name, and every row.
+# Reads every snapshot that the series name, and every row.
 readable() { # RESULTS
   [ -e "$1/mesh.hdf.series" ] || return 0
   "$programs/suffuse-post" export "$1" -o exported > post.txt 2>&1 &&
@@ -55,7 +56,7 @@ readable() { # RESULTS
     "$programs/suffuse-post" ledger "$1" >> post.txt 2>&1
 }
 
-start() { # RESULTS: in the background, where a kill leaves no message of the shell
+start() { # RESULTS: in the background, where the shell prints no message about a kill
   "$programs/suffuse-solver" kill.case.h5 -o "$1" --quiet --resume --threads $((1 + RANDOM % 2)) \
     --checkpoint-every "$((RANDOM % 2)).05" 2> solver.txt &
   pid=$!
@@ -81,7 +82,7 @@ disturb() { # MODE WANTED
     for ((in_a_row = 1 + RANDOM % 4; in_a_row > 0; --in_a_row)); do
       [ "$done_kills" -lt "$wanted" ] || break
       start "$results"
-      # 15 bits are not enough for a second in milliseconds and less.
+      # RANDOM has 15 bits, too few for a moment within a second to less than a millisecond.
       sleep "$(awk -v r="$((RANDOM * 32768 + RANDOM))" -v t="$duration" 'BEGIN { print r / 2^30 * t / 1000 }')"
       kill -9 $pid 2> /dev/null
       wait $pid 2> /dev/null
@@ -117,7 +118,7 @@ echo formulation,scheme,run_seconds,kills,unreadable,runs,clean_resumes,equal_en
 wrong=0
 for index in "${!modes[@]}"; do
   mode=${modes[index]}
-  # All together as many as asked for.
+  # The shares of all modes add up to KILLS.
   share=$((kills * (index + 1) / ${#modes[@]} - kills * index / ${#modes[@]}))
   disturb "$mode" "$share" 2> >(grep -v ' Killed ' >&2)
   formulation=single-point

@@ -2,10 +2,10 @@
 """What a run is made of, in a file STEM.inputs: run.sh makes the run again when this changes.
 
     scene /path/weir.toml                     the scene
-    set soil.foundation.porosity=0.3          what is changed in it, as for the mesher's --set
+    set soil.foundation.porosity=0.3          a change of it, as for the mesher's --set
     sha256 0123... /path/weir.geo             the content of every file that has a part in it
 
-    inputs.py SCENE PROGRAMS STEM [KEY=VALUE...]     writes STEM.inputs, where its text is another
+    inputs.py SCENE PROGRAMS STEM [KEY=VALUE...]     writes STEM.inputs, if its text changes
 """
 
 import functools
@@ -22,13 +22,13 @@ QUOTED = re.compile(r'"([^"\n]+)"|\'([^\'\n]+)\'')
 
 @functools.lru_cache(maxsize=None)
 def content(path):
-    """The line of a file; of an earlier run's results folder that of its run.json."""
+    """The line of a file, or for the results folder of an earlier run that of its run.json."""
     file = path / "run.json" if path.is_dir() else path
     return f"sha256 {hashlib.sha256(file.read_bytes()).hexdigest()} {file}"
 
 
 def named_files(text, folder):
-    """Files and results folders that a text in quotes names, from `folder`. A text that names none by chance does no harm."""
+    """Files and results folders that quoted texts name, from `folder`. A chance hit is harmless."""
     for groups in QUOTED.findall(text):
         path = folder / (groups[0] or groups[1])
         try:
@@ -58,7 +58,7 @@ def inputs_of(scene, programs, changes):
 
 
 def write_changed(path, text):
-    """Leaves a file of this very text alone, with its time."""
+    """Writes a file, unless it has this text already: then it keeps its time."""
     if path.is_file() and path.read_text(encoding="utf-8", errors="replace") == text:
         return
     pending = path.with_name(path.name + ".new")

@@ -1,26 +1,29 @@
 #!/usr/bin/env bash
-# One run: mesh, solve, ledger. Goes on where an earlier call was stopped, and does nothing where one came to an end.
+# One run: mesh, solve, ledger. It goes on where an earlier call was stopped, and does nothing if an
+# earlier call reached an end.
 #
 #     run.sh PROGRAMS STEM TOLERANCE
 #
-# PROGRAMS is the folder of the programs. STEM.inputs says what the run is made of (inputs.py). Makes STEM.case.h5,
-# STEM.results/, STEM.ledger.csv, STEM.log, and STEM.status when the run came to an end by itself: a word, then the messages.
+# PROGRAMS is the folder of the programs. STEM.inputs lists the inputs of the run (inputs.py). Makes
+# STEM.case.h5, STEM.results/, STEM.ledger.csv, STEM.log, and STEM.status when the run ends by
+# itself: a word, then the messages.
 #
 #     done        to the end, and every kilogram is accounted for
 #     refused     the input is wrong
 #     failed      the computation could not go on
 #     unbalanced  a residual of the ledger is above TOLERANCE
 #
-# The exit code is 0 then, whatever the word; otherwise that of the program that was stopped or could not use a file,
-# and the next call goes on. PROGRESS=1: what the programs say is shown instead of kept in STEM.log.
+# Then the exit code is 0, whatever the word. Otherwise it is that of the program that was stopped
+# or could not use a file, and the next call goes on. PROGRESS=1 shows the messages of the programs
+# instead of keeping them in STEM.log.
 set -u
 programs=$1 stem=$2 tolerance=$3
 name=${stem##*/}
 cd "${stem%/*}" || exit 4
-# What the case was made of. The results belong to that case.
+# The inputs of the case, to which the results belong.
 started=.$name.started
 
-# A program goes on when make is killed above it. Programs inherit the lock, so this waits for them.
+# A program goes on when make above it is killed. Programs inherit the lock, so this waits for them.
 exec 9> ".$name.lock"
 flock 9
 if [ "$name.status" -nt "$name.inputs" ]; then exit 0; fi
@@ -33,20 +36,20 @@ if [ -z "${PROGRESS:-}" ]; then
   exec > "$name.log" 2>&1
   quiet=(--quiet)
 fi
-# Stopped by a signal: let the solver write its checkpoint first.
+# When a signal stops this script, the solver still writes its checkpoint.
 trap : INT TERM HUP
 
-# A process less for every run that has nothing to say.
+# Saves a process for every run without messages.
 show_messages() { [ ! -s "$messages" ] || cat "$messages"; }
 
-# end WORD: with the messages of the last program.
+# end WORD: writes the status, with the messages of the last program.
 end() {
   { echo "$1"; show_messages; } > "$name.status.new" && mv "$name.status.new" "$name.status"
   echo "$name $1" >&3
   exit 0
 }
 
-# step PROGRAM WORD3 ARGUMENT...: WORD3 is what exit code 3 means.
+# step PROGRAM WORD3 ARGUMENT...: runs a program; exit code 3 ends the run with the status WORD3.
 step() {
   local program=$1 word=$2 code=0
   shift 2

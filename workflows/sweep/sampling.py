@@ -10,8 +10,8 @@ import math
 import random
 import statistics
 
-# Parameters that a distribution needs, and those that it may have. Mean and deviation (standard) are those of the quantity
-# itself before it is cut off, also of a lognormal one.
+# Parameters that a distribution needs, and parameters that it may have. Mean and (standard)
+# deviation are those of the quantity itself before it is cut off, for a lognormal distribution too.
 PARAMETERS = {
     "normal": ({"mean", "deviation"}, {"min", "max"}),
     "lognormal": ({"mean", "deviation"}, {"min", "max"}),
@@ -21,7 +21,7 @@ DIGITS = 10
 
 
 class Distribution:
-    """Throws ValueError, which says what is expected, where parameters do not fit together."""
+    """Throws ValueError, which says what is expected, if parameters do not fit together."""
 
     def __init__(self, name, parameters):
         needed, possible = PARAMETERS[name]
@@ -51,7 +51,7 @@ class Distribution:
         self.normal = statistics.NormalDist(mean, deviation)
 
     def _share(self, value):
-        """Probability of less than `value`, nothing being cut off."""
+        """Probability of less than `value`, before values are cut off."""
         if math.isinf(value):
             return 0.0 if value < 0.0 else 1.0
         if self.name == "lognormal":
@@ -69,6 +69,6 @@ class Distribution:
     def sample(self, key, seed, count):
         """`count` values of a key, as texts."""
         generator = random.Random(f"{seed} {key}")
-        # random() may be 0, of which there is no inverse.
+        # random() may be 0, where the inverse does not exist.
         shares = (generator.random() or 2.0**-54 for _ in range(count))
         return [f"{self.quantile(share):.{DIGITS}g}" for share in shares]

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Runs a command beside a Slurm of its own on this machine, and stops that Slurm afterwards:
+# Starts a Slurm of its own on this machine, runs a command there, and stops that Slurm afterwards:
 #
 #     slurm_here.sh CPUS COMMAND ARGUMENT...
 #
-# For tests: one node, no accounting, no limits of memory. Its keys, logs and state lie in a temporary folder.
-# Exit code 77, with a message, where the packages slurm-wlm and munge are missing.
+# For tests: one node, no accounting, no limits of memory. Its keys, logs and state are in a
+# temporary folder. Exit code 77, with a message, if the packages slurm-wlm and munge are missing.
 set -eu -o pipefail
 cpus=$1
 shift
@@ -16,7 +16,7 @@ done
 [ "$(id -u)" -eq 0 ] || { echo "slurm_here.sh: slurmd has to be started by root; skipped" >&2; exit 77; }
 
 work=$(mktemp -d /tmp/slurm-here.XXXXXX)
-# munged asks that others can pass its folders and not write into them.
+# munged requires that others can pass through its folders but not write into them.
 chmod 755 "$work"
 daemons=()
 stop() {
@@ -28,7 +28,7 @@ stop() {
 trap stop EXIT
 trap 'exit 130' INT TERM HUP
 
-# port: a free one.
+# port: prints a free port.
 port() { /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'; }
 
 host=$(hostname -s)
@@ -75,7 +75,7 @@ start() {
   daemons+=($!)
 }
 
-# give_up WHAT: with the logs.
+# give_up WHAT: prints the logs and ends.
 give_up() {
   echo "slurm_here.sh: $1" >&2
   tail -n 20 "$work"/*.log >&2

@@ -4,7 +4,7 @@
     sweep.py prepare SCENE SWEEP FOLDER --programs BIN     writes FOLDER/runs.csv and what each run is made of
     sweep.py conclude FOLDER --programs BIN                writes FOLDER/sweep.csv, cost.csv and figures
 
-Exit codes: 2 for wrong input; of `conclude` 1 where a run did not come to a good end.
+Exit codes: 2 for wrong input; 1 of `conclude` if a run did not end well.
 """
 
 import argparse
@@ -22,7 +22,7 @@ from inputs import inputs_of, write_changed
 from problems import InputError, problem
 from runs import read_runs
 
-# What another run of the same input may have otherwise; cost.csv has it.
+# Columns that may differ between runs of the same input; cost.csv has them.
 COST = ["wall_seconds", "memory_bytes"]
 TABULATED = {"done", "failed", "unbalanced"}
 LOST = "fines_lost_percent"
@@ -40,7 +40,7 @@ def read_csv(path):
 
 
 def refuse_foreign(folder, scene, sweep):
-    """The runs of one sweep are not replaced by those of another whose table has the same name."""
+    """Throws InputError if another sweep with a table of this name made the runs of the folder."""
     sources = folder / "sources.txt"
     expected = f"{scene}\n{pathlib.Path(sweep).absolute()}\n"
     if sources.is_file() and sources.read_text(encoding="utf-8") != expected:
@@ -62,7 +62,7 @@ def prepare(options):
         changes = [f"{key}={value}" for key, value in zip(keys, run) if value]
         (folder / name).mkdir(exist_ok=True)
         write_changed(folder / name / f"{name}.inputs", inputs_of(scene, programs, changes))
-    # Rows that the table does not have any more keep their results, and are made no more.
+    # Rows that were removed from the table keep their results, but are not made again.
     for inputs in folder.glob("[0-9]*/*.inputs"):
         if inputs.stem not in names:
             inputs.unlink()
@@ -98,7 +98,7 @@ def run_tables(folder, names, programs):
     if len(names) == 1:
         print(f"{names[0]}: no row in the table: {ended.stderr.strip()}", file=sys.stderr)
         return [], {}
-    # One run that cannot be read must not hide the others.
+    # One unreadable run must not hide the others.
     columns, found = [], {}
     for name in names:
         header, row = run_tables(folder, [name], programs)
@@ -155,7 +155,7 @@ def figures(folder, keys, rows):
 
 
 def draw(folder, keys, rows, programs):
-    """Those that are missing or older than the table. Returns messages."""
+    """Draws the figures that are missing or older than the table. Returns messages."""
     post = programs / "suffuse-post"
     wanted = figures(folder, keys, rows)
     made = max((folder / "sweep.csv").stat().st_mtime_ns, post.stat().st_mtime_ns)

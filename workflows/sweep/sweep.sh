@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A sweep from its table to its figures, in OUT_FOLDER/sweep/NAME/: sweep.sh CALLED_FROM. make calls it, with its
-# variables in the environment and itself as MAKE, whose -j is that of the runs.
+# A sweep from its table to its figures, in OUT_FOLDER/sweep/NAME/: sweep.sh CALLED_FROM. make calls
+# it, with its variables in the environment and itself as MAKE; its -j holds for the runs.
 set -eu -o pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . ./find_file.sh

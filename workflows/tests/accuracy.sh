@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Does `make accuracy SHORT=1` work, and does it fail when it must? In a folder of its own; arguments go to make
-# (BIN=FOLDER).
+# Does `make accuracy SHORT=1` work, and does it fail when it must? Works in a folder of its own;
+# arguments go to make (BIN=FOLDER).
 set -euo pipefail
 
 workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -19,8 +19,9 @@ expect() {
   fi
 }
 
-# largest LAW RATE TIMES TABLE CONDITION COLUMN OPTION...: how far the concentrations that runs are compared with
-# are from a table of exact ones, where an awk CONDITION on its columns holds; at its own depths.
+# largest LAW RATE TIMES TABLE CONDITION COLUMN OPTION...: compares the reference concentrations of
+# the study with a table of exact ones, at the depths of the table, in rows where an awk CONDITION
+# on its columns holds.
 largest() {
   local law=$1 rate=$2 time=$3 table=$4 condition=$5 value=$6
   shift 6
@@ -49,7 +50,8 @@ expect 'grains along the column, first-order law' close "$(largest first-order 0
 expect 'grains where porosity varies' close "$(largest constant 1e-3 12 fines-profile-nonuniform-porosity.csv \
   '$at["t"] == 12' '$at["c"]' -v n0=0.25 -v slope=0.1)"
 
-# same NAME FACTOR FILE CONDITION TIME VALUE: the other references against tables of exact values.
+# same NAME FACTOR FILE CONDITION TIME VALUE: compares the other references with tables of exact
+# values.
 same() {
   "$workflows/accuracy/reference.sh" "$1" > "$work/reference.csv"
   awk -F, -v factor="$2" 'NR == FNR { if (FNR > 1) q[$1 + 0] = -$2; next }
@@ -67,7 +69,7 @@ same() {
 # The table has velocities.
 expect 'flux that starts up' close "$(same startup 0.3 flow-startup.csv \
   '$at["case"] == "physical" && $at["quantity"] == "mean_v" && $at["k"] == 0.02' value)"
-# The table is of a soil that conducts ten times as well.
+# The table is for a soil with ten times the conductivity.
 expect 'flux that grows with porosity' close "$(same feedback 0.1 permeability-feedback.csv '$at["alpha"] == 0.005' q)"
 
 before=$(cat "$workflows/../docs/accuracy.md" "$workflows"/../docs/images/*.png | cksum)

@@ -14,7 +14,8 @@ run_make() {
     > "$work/make.log" 2>&1 || { cat "$work/make.log"; echo "FAILED: make $*"; exit 1; }
 }
 
-# Paths, times (to the nanosecond) and sizes of every file made so far. Hidden ones are notes of make's own.
+# Paths, times (to the nanosecond) and sizes of all files made so far. Hidden files are notes of
+# make.
 inventory() { find "$work/out" -type f -not -name '.*' -printf '%P %T@ %s\n' | sort; }
 
 # redone BEFORE: the files whose line is not in BEFORE, one per line, by path below out/.

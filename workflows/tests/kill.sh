@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Do runs that are killed end as if nothing had happened? A few of them; `make kill` does more. KILLS=N: how many.
-# Arguments go to make (BIN=FOLDER).
+# Do killed runs end with the same files as undisturbed ones? Makes a few kills; `make kill` makes
+# more. KILLS=N: their number. Arguments go to make (BIN=FOLDER).
 set -euo pipefail
 
 workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Does the fit to a seepage test find what is exact, and does it refuse wrong tables? In a folder of its own;
-# arguments go to make (BIN=FOLDER).
+# Does the fit to a seepage test find the exact values, and does it refuse wrong tables? Works in a
+# folder of its own; arguments go to make (BIN=FOLDER).
 set -euo pipefail
 
 workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -30,8 +30,9 @@ fit() {
   echo "$status $(sed "s|$work/||g" "$work/log" | tail -1)"
 }
 
-# The measured values are exact for a rate of 1.5e-5 1/s and a residual of half of the fines, 0.04875, but for the
-# minutes in which water passes the specimen. Stages of 10 h: 1 and 2 in another test.
+# The measured values are exact for a rate of 1.5e-5 1/s and a residual of half of the fines,
+# 0.04875, except for the minutes in which water passes the specimen. One test has stages of 10 h
+# with gradients 1 and 2.
 awk 'BEGIN {
   rate = 1.5e-5
   print "run,hours,fines_lost,conductance"
@@ -49,7 +50,7 @@ cp "$work/out/search.csv" "$work/search.csv"
 fit "$work/exact.csv" "$work/gradients.csv" > /dev/null
 expect 'the same search again' 'same' "$(cmp -s "$work/search.csv" "$work/out/search.csv" && echo same)"
 
-# refused WHAT MESSAGE LINE...: a table of these lines.
+# refused WHAT MESSAGE LINE...: fits to a table of these lines.
 refused() {
   local what=$1 message=$2
   shift 2

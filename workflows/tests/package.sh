@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The Debian packages on a bare Debian 12, in a folder of its own: installed by apt, used as the README says, removed without a
-# trace; then checked by lintian, and a program is built with suffuse-dev.
+# Tests the Debian packages on a bare Debian 12, in a folder of its own: apt installs them, the
+# commands of the README are run, and they are removed without a trace; then lintian checks them,
+# and a program is built with suffuse-dev.
 #   package.sh FOLDER     FOLDER has the packages; the base system and what apt downloads are kept there for the next time
 # Needs root and debootstrap. MIRROR=URL: where Debian is; LINTIAN= leaves lintian out.
 set -euo pipefail
@@ -32,7 +33,7 @@ else
   tar -C "$root" -xf "$cache/debian-12.tar"
 fi
 chmod 755 "$root"  # the root of a system, not a private folder
-# The way out of this machine is that of its own apt.
+# The new system reaches the network by the proxy of this machine's apt.
 apt-config dump Acquire::http > "$root/etc/apt/apt.conf.d/90-of-the-host"
 cp -L /etc/resolv.conf "$root/etc/resolv.conf"
 cp "$cache"/archives/*.deb "$root/var/cache/apt/archives/" 2> /dev/null || true
@@ -40,7 +41,7 @@ mkdir "$root/srv/suffuse"
 cp "$folder"/suffuse*.deb "$source/README.md" "$root/srv/suffuse/"
 cp -r "$source/tests/install/consumer" "$root/srv/suffuse/"
 
-# inside: bash commands from stdin, in the new system.
+# inside: runs bash commands from stdin in the new system.
 inside() {
   unshare --mount --pid --fork -- bash -c 'mount -t proc proc "$1/proc" && exec chroot "$1" \
     env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 LINTIAN="$2" bash -eu -o pipefail' \
@@ -54,7 +55,7 @@ apt() { apt-get -qq --yes --no-install-recommends "$@" > log 2>&1 < /dev/null ||
 files() { find / -xdev \( -path /proc -o -path /srv -o -path /var/cache -o -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \
   -o -path /tmp \) -prune -o -print | sort; }
 apt update
-# Dependencies first, so that what is left behind can only be the package's own.
+# Dependencies are installed first, so that files left behind can only be the package's own.
 apt satisfy "$(dpkg-deb -f suffuse_*.deb Depends)"
 files > before
 apt install ./suffuse_*.deb
@@ -67,7 +68,7 @@ chown -R 1000 .
 awk '/^## Ten minutes/ { inside = 1 } /^## More/ { exit } inside && (/^    suffuse-/ || more) { print substr($0, 5); more = /\\$/ }' \
   ../README.md > commands.sh
 [ "$(grep -c '^suffuse-' commands.sh)" -ge 15 ]
-# As an ordinary user: libraries keep caches and settings in HOME.
+# The commands run as an ordinary user: libraries keep caches and settings in HOME.
 HOME=$PWD setpriv --reuid 1000 --regid 1000 --clear-groups bash -eux commands.sh > output 2>&1 || { cat output; exit 1; }
 for picture in porosity.png masses.svg curves.png model.png head.png flownet.png concentration.png profile.png; do
   [ "$(stat -c %s $picture)" -gt 5000 ] || { echo "$picture is empty"; exit 1; }
@@ -81,7 +82,7 @@ for program in mesher solver post; do
 done
 man suffuse-solver | grep -q -- '--checkpoint-every'
 echo 'manual pages are read'
-python3 -c 'import suffuse' 2> page || grep -q 'No module named' page  # what it needs is recommended alone
+python3 -c 'import suffuse' 2> page || grep -q 'No module named' page  # numpy is only recommended
 
 apt purge suffuse
 files > after

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A report in headless Chromium: report.sh POST RESULTS FOLDER. Writes the page and pictures of it into FOLDER. Fails
-# where the page writes to the console, asks for anything, or where its sliders and tables do not do what they must.
-# Says so and does nothing where Chromium is missing.
+# Opens a report in headless Chromium: report.sh POST RESULTS FOLDER. Writes the page and pictures
+# of it into FOLDER. Fails if the page writes to the console or requests anything, or if its sliders
+# and tables do not work. If Chromium is missing, it says so and does nothing.
 set -euo pipefail
 post=$(realpath "$1") results=$(realpath "$2") folder=$3
 mkdir -p "$folder"
@@ -25,7 +25,7 @@ browse() {
 
 "$post" report "$results" -o report.html
 
-# The page with what watches it before its own script, and what uses it behind.
+# The page, with a script before its own that watches it, and a script after it that uses it.
 watch='<script>window.seen=[];addEventListener("error",e=>seen.push(e.message));
 addEventListener("securitypolicyviolation",e=>seen.push(e.blockedURI));</script>'
 use='<script>
@@ -68,7 +68,7 @@ for name in first together pictures ascending descending decoded; do check "$nam
 check 'requests of the page' "$(value requests)" 0
 check 'errors of the page' "$(value errors)" 0
 check 'messages in the console' "$(grep -c 'CONSOLE' browser.log || true)" 0
-# Chromium asks Google for its own updates.
+# Chromium requests its own updates from Google.
 check 'addresses in the log of the network' "$(grep -o '"url":"[^"]*"' "$profile/net.json" |
   grep -v '"url":"\(file\|data\|chrome\|devtools\|about\):' | grep -vE '"https?://[a-z0-9.]*google(apis)?\.com/' | sort -u)" ''
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Do check_rooms.sh, check_sizes.py and check_names.py see what they must? On a tree of a few files, in a folder of its own.
+# Do check_rooms.sh, check_sizes.py and check_names.py find what they must? Works on a tree of a few
+# files, in a folder of its own.
 set -euo pipefail
 
 workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -66,7 +67,8 @@ rooms=(common mesh scene case physics files results grid linear solid equilibriu
 for ((i = 5; i < 19; ++i)); do file "solver/${rooms[i]}/all.hpp" "${rooms[@]:0:i}"; done
 expect 'too many arrows' 1 'solver/: has 107 arrows between rooms; expected at most 88'
 
-# Does check_sizes.py? Rooms that it lists are small here, and it says so. A class counts with the bodies of its members, and braces in comments and texts do not.
+# Does check_sizes.py? The listed rooms are small here, and it reports that. A class counts with the
+# bodies of its members; braces in comments and texts do not count.
 {
   echo 'class Large {'; seq -f '  int member_%g;  // {' 100; echo '};'
   echo 'void Large::act() {'; seq -f '  call("{", %g);' 500; echo '}'
@@ -79,7 +81,7 @@ else
   failures=$((failures + 1))
 fi
 
-# Does check_names.py? It sees functions, with a body, in unnamed namespaces of one program.
+# Does check_names.py? It looks for functions with a body in unnamed namespaces of one program.
 # unnamed PATH LINE...: writes a source file with these lines in an unnamed namespace.
 unnamed() {
   mkdir -p "$work/$(dirname "$1")"

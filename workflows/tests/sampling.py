@@ -28,7 +28,7 @@ def expect_near(what, expected, found, tolerance):
 
 
 def integral(density, low, high, count=20000):
-    """By Simpson's rule."""
+    """Integral by Simpson's rule."""
     step = (high - low) / count
     inner = sum((4 if i % 2 else 2) * density(low + i * step) for i in range(1, count))
     return (density(low) + inner + density(high)) * step / 3.0
@@ -39,13 +39,13 @@ def normal_density(mean, deviation):
 
 
 def lognormal_density(mean, deviation):
-    """Of x > 0 whose own mean and deviation these are, from its median and the variance of its logarithm."""
+    """Density of x > 0 with this mean and deviation, by its median and the variance of log x."""
     variance = math.log(1.0 + (deviation / mean) ** 2)
     median = mean * math.exp(-variance / 2.0)
     return lambda x: math.exp(-math.log(x / median) ** 2 / (2.0 * variance)) / (x * math.sqrt(2.0 * math.pi * variance))
 
 
-# A distribution, its density, and where next to nothing lies outside.
+# A distribution, its density, and the ends between which nearly all values lie.
 CASES = [
     ("normal", {"mean": 0.3, "deviation": 0.02}, normal_density(0.3, 0.02), 0.1, 0.5),
     ("normal", {"mean": 0.3, "deviation": 0.1, "min": 0.25, "max": 0.5}, normal_density(0.3, 0.1), 0.25, 0.5),
@@ -66,7 +66,7 @@ def check_distribution(name, parameters, density, low, high):
     deviation = math.sqrt(integral(lambda x: (x - mean) ** 2 * density(x), low, high) / whole)
     count = 20000
     values = [float(text) for text in distribution.sample("soil.a.porosity", 1, count)]
-    # Four standard errors; the seed is always the same.
+    # The tolerance is four standard errors; the seed is always the same.
     expect_near(f"{what}: mean of a sample", mean, statistics.fmean(values), 4.0 * deviation / math.sqrt(count))
     expect_near(f"{what}: deviation of a sample", deviation, statistics.pstdev(values), 0.05 * deviation)
     values.sort()
@@ -93,7 +93,7 @@ HEADER = "key,distribution,mean,deviation,min,max"
 LISTED = "a,b\n1,2\n"
 SAMPLED = f"runs,2\nseed,1\n{HEADER}\n"
 
-# Texts of a table, and what is said of them; TABLE stands for its path.
+# Texts of a table, and the messages about them; TABLE stands for its path.
 WRONG = [
     ("", "TABLE: got no line; expected a line of keys and a line for each run"),
     ("a,b\n", "TABLE: got no run; expected a row for each run"),

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Does a sweep through Slurm end with the table of one by make, also where jobs and daemons of jobs are killed? On this machine,
-# in a folder of its own; arguments go to make (BIN=FOLDER). Skipped where Slurm is missing.
+# Does a sweep through Slurm end with the same table as one by make, also if jobs and daemons of
+# jobs are killed? Works on this machine, in a folder of its own; arguments go to make (BIN=FOLDER).
+# Skipped if Slurm is missing.
 set -euo pipefail
 
 workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -13,7 +14,8 @@ sweep() {
   make -C "$workflows" sweep SCENE="$work/column.toml" SWEEP="$work/runs.csv" OUT="$work/$out" "$@" "${make_arguments[@]}"
 }
 
-# one_solver: one that works in the folder of the test, waiting for it for some seconds.
+# one_solver: prints a solver that works in the folder of the test, and waits for it for some
+# seconds.
 one_solver() {
   local i pid
   for ((i = 0; i < 50; ++i)); do
@@ -29,7 +31,7 @@ parent() { awk '{ print $4 }' "/proc/$1/stat" 2> /dev/null; }
 
 job_of() { tr '\0' '\n' 2> /dev/null < "/proc/$1/environ" | sed -n 's/^SLURM_JOB_ID=//p' | grep .; }
 
-# tree PID: it and all below it. Jobs are below slurmd.
+# tree PID: prints the process and all its descendants. Jobs are descendants of slurmd.
 tree() {
   local child
   echo "$1"
@@ -38,7 +40,7 @@ tree() {
 
 ended() { find "$work/slurm" -name '0*.status' 2> /dev/null | wc -l; }
 
-# wait_for COUNT: runs that have come to an end.
+# wait_for COUNT: waits until this many runs have ended.
 wait_for() {
   local i
   for ((i = 0; i < 1200; ++i)); do
@@ -49,7 +51,7 @@ wait_for() {
   exit 1
 }
 
-# Within slurm_here.sh.
+# This part runs within slurm_here.sh.
 if [ "${1:-}" = inside ]; then
   work=$2
   shift 2
@@ -58,7 +60,8 @@ if [ "${1:-}" = inside ]; then
   killed=0
   for ((round = 1; round <= 4; ++round)); do
     wait_for $((runs * round / 10))
-    # A run; a job; and what Slurm starts a job with, above run.sh, after which the job has to be cancelled.
+    # Kills a run, a job, and the process above run.sh that starts a job, after which the job is
+    # cancelled.
     ! solver=$(one_solver) || ! kill -9 "$solver" 2> /dev/null || killed=$((killed + 1))
     ! solver=$(one_solver) || ! job=$(job_of "$solver") || ! scancel "$job" || killed=$((killed + 1))
     if solver=$(one_solver) && job=$(job_of "$solver") && above=$(parent "$solver") && above=$(parent "$above") &&
@@ -67,7 +70,7 @@ if [ "${1:-}" = inside ]; then
       scancel "$job" || true
     fi
   done
-  # And make, with the sweep's own processes.
+  # Kills make with the sweep's own processes.
   for pid in $(tree $caller); do kill -9 "$pid" 2> /dev/null || true; done
   wait "$caller" 2> /dev/null || true
   echo "killed $killed runs, steps and jobs, and make at $(ended) of $runs runs"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Does a sweep make every run once, say what went wrong, and go on where it was killed? In a folder of its own, whose name
-# has spaces; arguments go to make (BIN=FOLDER, -j2).
+# Does a sweep make every run once, report what went wrong, and go on after it was killed? Works in
+# a folder of its own, whose name has spaces; arguments go to make (BIN=FOLDER, -j2).
 set -euo pipefail
 
 workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -22,7 +22,7 @@ expect() {
   fi
 }
 
-# run_make TARGET VARIABLE...: the exit code is in `code`, what was said in make.log.
+# run_make TARGET VARIABLE...: sets `code` to the exit code and writes the output to make.log.
 run_make() {
   code=0
   make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" "$@" > "$work/make.log" 2>&1 || code=$?
@@ -82,7 +82,8 @@ sed -i 's/^0.5,/1.0,/' "of rates.csv"
 run_sweep
 expect 'the row as it was, the table as it was' same "$(cmp "$work/table" "$out/sweep.csv" && echo same)"
 
-# Killed: make and everything under it but one solver. That one is held up, so that the next call meets it.
+# Kills make and all its descendants except one solver, which is stopped so that the next call meets
+# it.
 rm -rf "$out"
 run_sweep > /dev/null & caller=$!
 orphan=
@@ -92,7 +93,7 @@ for ((i = 0; i < 1200 && ${#orphan} == 0; ++i)); do
     case $(readlink "/proc/$pid/cwd") in "$out"/*) kill -STOP "$pid" && orphan=$pid ;; esac
   done
 done
-# tree PID: it and all below it.
+# tree PID: prints the process and all its descendants.
 tree() { echo "$1"; for child in $(pgrep -P "$1"); do tree "$child"; done; }
 for pid in $(tree "$caller"); do [ "$pid" = "$orphan" ] || kill -9 "$pid" 2> /dev/null || true; done
 wait "$caller" 2> /dev/null || true
