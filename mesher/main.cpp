@@ -108,7 +108,7 @@ void check_outputs(const Arguments& arguments, const SceneDocument& document) {
 
 template <int Dim>
 void refuse_too_many_points(const SceneDocument& document, const Mesh<Dim>& mesh) {
-  // More is probably due to a misplaced decimal point.
+  // A larger number is probably due to a misplaced decimal point.
   constexpr double max_points = 1e8;
   double count = 0.0;
   for (const std::int64_t of_element : liquid_point_counts(mesh, document.scene)) {

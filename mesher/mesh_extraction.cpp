@@ -28,9 +28,9 @@ constexpr double out_of_plane = 1e-9;
 constexpr double max_coordinate = 1e50;
 /// Characters.
 constexpr std::size_t longest_name = 127;
-/// Names go into files, tables and messages: in UTF-8, and without what moves a terminal's cursor.
+/// Whether a name can be in files, tables and messages: UTF-8 without control characters.
 bool is_plain_name(const std::string& name) {
-  std::size_t expected = 0;  // bytes that continue a character
+  std::size_t expected = 0;  // missing bytes of the current character
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte == 0x7f) return false;
@@ -105,7 +105,7 @@ class Extraction {
     return place_text<Dim>(centre);
   }
 
-  /// Nothing where Gmsh has no such entity.
+  /// The entity, or null if Gmsh has none.
   [[nodiscard]] const GmshEntity* find_entity(int dimension, int tag) const {
     const auto found = std::ranges::find_if(model_.entities, [&](const GmshEntity& entity) {
       return entity.dimension == dimension && entity.tag == tag;
@@ -113,7 +113,7 @@ class Extraction {
     return found == model_.entities.end() ? nullptr : &*found;
   }
 
-  /// The elements of an entity that have the wanted type; the others are problems.
+  /// The elements of an entity that have the required type; others are problems.
   Elements read_entity(const GmshEntity& entity, int wanted, ProblemKind& wrong_types) {
     Elements result;
     for (const GmshElements& block : entity.elements) {
@@ -240,7 +240,7 @@ class Extraction {
     mesh().element_region.resize(tags_.elements.size(), regions.empty() ? 0 : regions.front());
   }
 
-  /// List of the entities that a user can name, for the case that none has a name.
+  /// List of the entities that a user can name, if none has a name.
   [[nodiscard]] std::string inventory(const std::vector<int>& dimensions) const {
     std::string text;
     for (const int dimension : dimensions) {
@@ -326,7 +326,7 @@ class Extraction {
     }
   }
 
-  /// Its nodes by their indices, if an element has them all.
+  /// The side with these nodes, by their indices, if an element has all of them.
   [[nodiscard]] std::optional<Side> side_of(const std::vector<Tag>& nodes) const {
     Side side{};
     for (int a = 0; a < Dim; ++a) {

@@ -32,8 +32,8 @@ std::vector<QuadraturePoint<3>> gauss_rule<3>(int count);
 /// Solid points: `points.solid_per_element` per element, each with its weight's share of the
 /// volume. With `points.jitter` each point moves in a random direction by a random distance of up
 /// to jitter times the element's size, sqrt(2 area) or cbrt(6 volume), but stays within its
-/// element; volumes do not change. The same seed gives the same points on every platform.
-/// This one fills every element: for meshes of soil alone.
+/// element; volumes do not change. The same seed gives the same points on every platform. Fills
+/// every element, for meshes of soil alone.
 template <int Dim>
 MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const PointSettings& settings);
 

@@ -91,7 +91,7 @@ class Flow : private PlausibilityBase<Dim> {
   }
 
   /// Without gravity a head is compared with 0, and with the largest length of the model instead of
-  /// its height. A head far below the model is no fault: the model is dry.
+  /// its height. A head far below the model is valid: the model is dry.
   void check_head(const std::string& key, double head) {
     const bool falls = has_gravity(scene_.gravity);
     const auto [low, high] = falls ? this->heights() : std::pair(0.0, 0.0);

@@ -123,7 +123,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     warn("gravity", text + "; " + shown_value(g) + " is usual");
   }
 
-  /// Triangles in a row keep a yielding soil from flowing: limit loads come out too high, by 9 %
+  /// Warns of triangles that are not crossed: with yielding soil limit loads are too high, by 9 %
   /// and more (docs/limits.md).
   void check_structure() {
     if (scene_.mesh.structure == MeshStructure::crossed) return;
@@ -140,9 +140,9 @@ class Plausibility : private PlausibilityBase<Dim> {
 
   // Elements across a region.
 
-  /// Per node, number of edges to the nearest place where liquid may enter or leave its region: 0,
-  /// 1, or 2 for all that is farther. An impervious side does not count as such a place: a plane of
-  /// symmetry is one, and there is flow on both of its sides.
+  /// Number of edges from each node to the nearest place where liquid may enter or leave its
+  /// region: 0, 1, or 2 for larger distances. Impervious sides are no such places: they may be
+  /// planes of symmetry, with flow on both sides.
   [[nodiscard]] std::vector<int> edges_from_flow() const {
     constexpr int far = 2;
     std::vector<int> edges(mesh_.nodes.size(), far);

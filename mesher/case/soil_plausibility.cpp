@@ -56,8 +56,8 @@ class Soils : private PlausibilityBase<Dim> {
              short_number(soil.conductivity) + "; sizes are in mm, not in m");
   }
 
-  /// Checks a given `skeleton_fraction` only: the check of gradations warns where the gradation
-  /// gives it.
+  /// Checks only a given `skeleton_fraction`; for one from a gradation the check of gradations
+  /// warns.
   void check_fines(const Soil& soil) {
     const std::string key = joined(table_of(soil), "skeleton_fraction");
     if (!soil.erosion.law->erodes() || !given(key)) return;

@@ -2,7 +2,7 @@
 
 /// Writes the values of an HDF5 dataset compressed, in the form of HDF5's own filters "shuffle" and
 /// "deflate", which every reader of HDF5 undoes. The filters themselves take three times as long:
-/// they also try to compress what cannot be, the low digits of computed numbers.
+/// they also try to compress incompressible bytes, the low digits of computed numbers.
 
 #include <hdf5.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Reads and writes HDF5 files: the part of the library that case and results files need. Every
-/// failure is a FileError that names the file and the object.
+/// Reads and writes HDF5 files: the functions for case and results files. Every failure is a
+/// FileError with the names of file and object.
 
 #include <hdf5.h>
 

@@ -8,8 +8,8 @@
 
 namespace suffuse {
 
-/// A whole face is under water where its centre is below the level, and where it is horizontal
-/// ground that the water just reaches.
+/// A face is under water as a whole if its centre is below the level, or if it is horizontal and
+/// the water just reaches it.
 template <int Dim>
 class WaterLine {
  public:
