@@ -30,9 +30,9 @@ struct ColumnShape {
   [[nodiscard]] double level(int row) const { return height * row / rows; }
 };
 
-/// The column that a scene asks for, bottom to top: outflow, free_below, buffer, specimen, buffer,
-/// free_above, inflow, without the layers that have no rows. Its ends are called "outflow" and
-/// "inflow" if it has such layers, otherwise "bottom" and "top".
+/// The column of a scene, bottom to top: outflow, free_below, buffer, specimen, buffer, free_above,
+/// inflow, without the layers that have no rows. Its ends are called "outflow" and "inflow" if it
+/// has such layers, otherwise "bottom" and "top".
 ColumnShape column_of(const Scene& scene);
 
 /// Number of elements along a side: as near to `size` as a whole number allows.

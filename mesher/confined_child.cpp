@@ -25,7 +25,7 @@
 #include "plain_text.hpp"
 #include "system_call_filter.hpp"
 
-// Address sanitizers reserve address space without end.
+// Address sanitizers reserve unlimited address space.
 #if defined(__SANITIZE_ADDRESS__)
 #define SUFFUSE_ADDRESS_SANITIZER
 #elif defined(__has_feature)
@@ -140,7 +140,7 @@ void write_all(int descriptor, char mark, const std::string& text) {
 
 // In the parent
 
-/// Reads from the child until it closes its end or goes over a limit.
+/// Reads from the child until it closes its end or exceeds a limit.
 class Watch {
  public:
   Watch(pid_t child, int descriptor, const ChildLimits& limits)
@@ -150,7 +150,7 @@ class Watch {
     }
   }
 
-  /// The limit that the child went over, if it did.
+  /// Returns the limit that the child exceeded, if any.
   std::optional<How> run(std::string& bytes) {
     constexpr int milliseconds = 50;
     std::vector<char> part(std::size_t{1} << 20U);

@@ -20,7 +20,7 @@ struct ChildEnd {
     refused,         ///< it tried a forbidden action
     crashed,         ///< by a signal
     left,            ///< without a reply
-    processor_time,  ///< took more than it was given
+    processor_time,  ///< exceeded its limit
     wall_time,
     memory,
   };
@@ -29,10 +29,9 @@ struct ChildEnd {
 };
 
 /// Runs `prepare` in a child process, which is then confined (`system_call_filter.hpp`), runs
-/// `body` and returns its reply. Both are held to `limits`. The child has no other descriptor than
-/// that of its reply; what it prints is dropped. It ends with this process, whichever way this one
-/// ends. The author of the file that the child read may have made the reply: only its length is
-/// certain.
+/// `body` and returns its reply. `limits` apply to both. The child has no other descriptor than
+/// that of its reply; what it prints is dropped. It ends with this process in any case. The author
+/// of the file that the child read may have made the reply: only its length is certain.
 ///
 /// There must be one thread only. Throws FileError if no confined child can be started.
 ChildEnd run_confined(const std::function<void()>& prepare,

@@ -13,7 +13,7 @@ namespace suffuse {
 
 namespace {
 
-/// The first error that Gmsh logged from line `from` of its log on; empty where there is none. Gmsh
+/// The first error that Gmsh logged from line `from` of its log on; empty if there is none. Gmsh
 /// does not throw an exception for every error.
 std::string first_logged_error(std::size_t from) {
   constexpr std::string_view prefix = "Error: ";

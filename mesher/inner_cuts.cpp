@@ -146,8 +146,8 @@ class InnerCuts {
     return result;
   }
 
-  /// The two edges of a node that lie most nearly in line; of several such pairs (regular mesh)
-  /// that nearest to the x-axis, for any numbering of the nodes.
+  /// The two edges of a node that are closest to a straight line; of several such pairs (regular
+  /// mesh) that nearest to the x-axis, for any numbering of the nodes.
   [[nodiscard]] std::optional<std::array<Face, 2>> edges_in_line(int node) const {
     constexpr double round_off = 1e-9;
     const auto& x = extracted_.mesh.nodes;

@@ -18,7 +18,7 @@ namespace suffuse {
 namespace {
 
 /// Smallest volume of an element, relative to its longest edge to the power of the dimension; a
-/// triangle has an angle of about 1e-10 degrees then.
+/// triangle then has an angle of about 1e-10 degrees.
 constexpr double smallest_volume = 1e-12;
 /// Relative to the diagonal of the mesh.
 constexpr double same_place = 1e-9;
@@ -268,7 +268,7 @@ class MeshChecks {
     }
   }
 
-  /// How far a place in the plane of a face lies from its border; negative: outside.
+  /// Distance of a place in the plane of a face from its border; negative: outside.
   [[nodiscard]] double inside(const Vector<Dim>& x, const Face& face) const {
     if constexpr (Dim == 2) {
       const Vector<2> along = x_[face[1]] - x_[face[0]];

@@ -26,7 +26,7 @@ using Tag = std::size_t;
 constexpr double out_of_plane = 1e-9;
 /// Largest coordinate, m: the square of an area, a product of four lengths, is still finite.
 constexpr double max_coordinate = 1e50;
-/// Characters.
+/// Bytes.
 constexpr std::size_t longest_name = 127;
 /// Whether a name can be in files, tables and messages: UTF-8 without control characters.
 bool is_plain_name(const std::string& name) {
@@ -148,7 +148,7 @@ class Extraction {
     const Vector<2> between = x[1] - x[0];
     const double share = (between[0] * second[1] - between[1] * second[0]) /
                          (first[0] * second[1] - first[1] * second[0]);
-    // Outside (0, 1) the quadrangle is not convex; its mean point then at least shows where it is.
+    // Outside (0, 1) the quadrangle is not convex; its mean point then shows its place.
     const bool convex = share > 0.0 && share < 1.0;
     const Vector<2> middle =
         convex ? Vector<2>(x[0] + share * first) : Vector<2>(0.25 * (x[0] + x[1] + x[2] + x[3]));
@@ -337,7 +337,7 @@ class Extraction {
     return face_key<Dim>(side);
   }
 
-  /// A curve (surface) is a boundary, or lies inside the mesh as a whole.
+  /// Adds a curve (surface), which must be a boundary or be inside the mesh as a whole.
   void add_boundary(const std::string& name, const std::vector<std::vector<Tag>>& sides,
                     const FaceTable<Dim>& faces) {
     std::set<Side> outer;

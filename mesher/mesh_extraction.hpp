@@ -28,7 +28,7 @@ struct ExtractedMesh {
   std::vector<BoundarySet<Dim>> inner_curves;
   /// Physical points that are nodes of the mesh: what a well may name.
   std::vector<NamedNode> points;
-  /// The faults of the mesh: `found` and `expected` only, as the caller knows where it came from.
+  /// The faults of the mesh: `found` and `expected` only, because the caller knows its origin.
   std::vector<InputProblem> problems;
   /// End of a message for a geometry that names no curve (surface): it lists those that can get a
   /// name.
@@ -43,7 +43,7 @@ enum class Quadrangles {
   refused,
   /// Into four triangles that meet where the diagonals cross. The four divergences of such a
   /// quadrangle are not independent, so linear velocities have enough freedom for one pressure per
-  /// triangle. On general triangles they have not.
+  /// triangle, unlike on general triangles.
   cut_along_diagonals,
 };
 

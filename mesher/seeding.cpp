@@ -67,7 +67,7 @@ Rule<3> fourteen_points() {
   return rule;
 }
 
-/// Uniform numbers from a fixed recipe: std::uniform_real_distribution differs between libraries.
+/// Uniform numbers by a fixed algorithm: std::uniform_real_distribution differs between libraries.
 class UniformNumbers {
  public:
   /// The streams of one seed are independent.

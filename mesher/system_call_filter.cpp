@@ -28,9 +28,9 @@ int report_descriptor = -1;
 int memory_file = -1;
 bool is_confined = false;
 
-/// Flags of open with which a file is written or made.
+/// Flags of `open` that write or create a file.
 constexpr int writing_flags = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
-/// Only the handler opens files, and with this flag, so that opening a pipe does not wait.
+/// Only the handler opens files, and with this flag, so that opening a pipe does not block.
 constexpr int handlers_flag = O_NONBLOCK;
 
 /// System calls that need only memory and time, or use existing descriptors.

@@ -216,7 +216,7 @@ class SceneCheck {
     return false;
   }
 
-  /// A curve or point that is inside the mesh but is not cut has been reported elsewhere.
+  /// Whether a name is inside the mesh. Names that are inside but not cut are reported elsewhere.
   bool check_inner(const std::string& key, const std::string& name, const std::string& what,
                    const std::vector<std::string>& names) {
     if (std::ranges::find(inner_, name) != inner_.end()) return true;

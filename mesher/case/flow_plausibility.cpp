@@ -7,7 +7,7 @@ namespace suffuse {
 namespace {
 
 // Limits within which there is no warning.
-/// Largest height of a head above the model, in heights of the model and in m: the larger counts.
+/// Largest height of a head above the model, in model heights and in m; the larger one applies.
 constexpr double farthest_head = 3.0;
 constexpr double least_far_head = 30.0;
 /// m/s, which are 3.6 m/h; the heaviest rain ever measured had 0.6e-3 m/s.

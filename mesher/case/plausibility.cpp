@@ -206,8 +206,8 @@ class Plausibility : private PlausibilityBase<Dim> {
     return set == mesh_.boundaries.end() ? nullptr : &*set;
   }
 
-  /// The highest prescribed head, which no head exceeds once the flow is steady; nothing where
-  /// a prescribed flux lets liquid in, or no head is prescribed.
+  /// The highest prescribed head, which no head exceeds once the flow is steady; nothing if a
+  /// prescribed flux lets liquid in, or if no head is prescribed.
   [[nodiscard]] std::optional<double> highest_head() const {
     double highest = -infinite;
     for (const BoundaryCondition& b : scene_.boundaries) {
@@ -260,7 +260,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     if (!worst.cause.empty()) warn_of_suction(soil, worst);
   }
 
-  /// Raises the suction by what a boundary prescribes at a face.
+  /// Raises the suction to that which a boundary prescribes at a face.
   template <class Raise>
   void raise_at_face(const BoundaryCondition& b, const std::array<int, Dim>& face,
                      const Raise& raise) const {

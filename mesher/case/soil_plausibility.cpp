@@ -128,8 +128,8 @@ class Soils : private PlausibilityBase<Dim> {
     return volume > 0.0 ? sum / volume : 0.0;
   }
 
-  /// A traction given as a number acts from the start, when the soil is in equilibrium and its
-  /// water at rest.
+  /// Warns of a traction given as a number, which acts from the start, when the soil is in
+  /// equilibrium and its water at rest.
   void check_traction(const BoundaryCondition& b) {
     const bool is_number = b.traction && b.traction->knots.size() == 1;
     if (!is_number || !scene_.initial_from.empty()) return;

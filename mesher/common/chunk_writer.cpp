@@ -55,7 +55,7 @@ class Compressor {
   }
 
   /// Compresses numbers whose bytes are sorted: all first bytes, then all second bytes, and so on.
-  /// The result is valid until the next call, and empty where zlib fails.
+  /// The result is valid until the next call, and empty if zlib fails.
   std::span<const std::uint8_t> compress(std::span<const std::uint8_t> sorted,
                                          std::size_t number_size) {
     if (!works_ || deflateReset(&stream_) != Z_OK) return {};

@@ -23,7 +23,7 @@ struct ChunkShape {
 ChunkShape chunk_shape(std::size_t rows, std::size_t columns, std::size_t number_size);
 
 /// Fills the dataset `set`, which was created with such chunks and both filters, with `numbers`,
-/// row by row. Returns false where HDF5 or zlib fail.
+/// row by row. Returns false if HDF5 or zlib fails.
 bool write_chunks(hid_t set, const ChunkShape& shape, const std::uint8_t* numbers);
 
 }  // namespace suffuse

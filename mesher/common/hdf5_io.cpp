@@ -173,7 +173,7 @@ void write_array(hid_t file, const std::string& path, const std::string& dataset
   write_dataset(file, path, dataset, file_type, memory_type, array_space(shape), values.data());
 }
 
-/// A table is compressed column by column; a plain array is one column.
+/// Compresses a table column by column; a plain array is one column.
 template <class Value>
 void write_compressed_array(hid_t file, const std::string& path, const std::string& dataset,
                             hid_t type, std::span<const Value> values,

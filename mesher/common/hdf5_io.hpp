@@ -59,8 +59,8 @@ class Hdf5File {
   void link_to(const std::string& object, const std::string& file);
   /// Whether `object` is such a link to `file`.
   [[nodiscard]] bool is_in(const std::string& object, const std::string& file) const;
-  /// Text, and lists of texts: UTF-8 of fixed length, padded with NUL. Text of variable length is
-  /// neither written nor read, as HDF5 itself crashes on it in a damaged file.
+  /// Writes text, and lists of texts: UTF-8 of fixed length, padded with NUL. Text of variable
+  /// length is neither written nor read, because HDF5 crashes on it in a damaged file.
   void write_text(const std::string& dataset, const std::string& value);
   void write_texts(const std::string& dataset, const std::vector<std::string>& values);
 

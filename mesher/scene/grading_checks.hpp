@@ -21,7 +21,7 @@ enum class Stability { stable, unstable, unknown };
 struct GradingVerdict {
   std::string check;  ///< "Kenney and Lau (1986)"
   Stability stability = Stability::unknown;
-  double value = unset;     ///< the number that decides, unset where unknown
+  double value = unset;     ///< the number that decides; unset if unknown
   double at_finer = unset;  ///< F of `value`, or S of a split, per cent; unset for whole curves
   /// F below which the gradation lacks points that the check needs, per cent; 0: complete.
   double known_from = 0.0;
@@ -30,17 +30,17 @@ struct GradingVerdict {
 
 /// The grains that are loose between the others, estimated from the gradation.
 struct FinesContent {
-  double finer = unset;   ///< F*, per cent: where H/F is smallest
+  double finer = unset;   ///< F*, per cent, at the smallest H/F
   double size = unset;    ///< d there, mm
   double ratio = unset;   ///< H/F there
-  bool at_limit = false;  ///< no gap: H/F still falls where the search ends
+  bool at_limit = false;  ///< no gap: H/F still falls at the end of the search
 };
 
 /// Above this percentage fines carry load, and the coarse grains float in them.
 inline constexpr double load_bearing_fines = 35.0;
 
-/// Largest F of the search for loose grains: 20 %, or 30 % where the coarse grains are of one size,
-/// C_u = D60/D10 <= 3 of what is coarser than at F = 30 % (Kenney and Lau 1985).
+/// Largest F of the search for loose grains: 20 %, or 30 % if the coarse grains have about one
+/// size, C_u = D60/D10 <= 3 of what is coarser than at F = 30 % (Kenney and Lau 1985).
 double search_limit(const Gradation& gradation);
 
 /// F* at the smallest H/F, for F up to the limit of the search, and at gaps beyond: sizes with H <

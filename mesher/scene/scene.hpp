@@ -279,7 +279,7 @@ struct SceneDocument {
   /// are `boundary[0].on` and so on. Tables are included under their own names.
   std::map<std::string, std::string> where;
   /// Text of each table that a boundary takes from a file, by the file's name in the scene: the
-  /// next stage reads the same numbers, wherever it runs.
+  /// next stage reads the same numbers on any machine.
   std::map<std::string, std::string> files;
 
   /// Place where `key` was given; otherwise that of the nearest enclosing table, or the file's

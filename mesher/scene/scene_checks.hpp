@@ -22,7 +22,7 @@ struct Contradiction {
 struct SceneInquiry {
   /// Whether a key or table was given, right or wrong.
   std::function<bool(const std::string& key)> given;
-  /// Whether a key was given a value that is not allowed.
+  /// Whether a key has a value that is not allowed.
   std::function<bool(const std::string& key)> refused;
   std::function<void(const Contradiction&)> report;
 };

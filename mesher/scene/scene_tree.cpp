@@ -248,7 +248,7 @@ std::optional<std::size_t> take_index(std::string_view& rest) {
   const std::size_t end = rest.find(']');
   if (!rest.starts_with('[') || end == std::string_view::npos) return std::nullopt;
   const std::string digits(rest.substr(1, end - 1));
-  // No scene has a thousand million boundaries.
+  // More than nine digits are no valid number of an entry.
   const bool number = !digits.empty() && digits.size() < 10 &&
                       digits.find_first_not_of("0123456789") == std::string::npos;
   if (!number) return std::nullopt;

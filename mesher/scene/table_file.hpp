@@ -1,6 +1,6 @@
 #pragma once
 
-/// Tables of values against time in CSV files of their own.
+/// Tables of values against time in separate CSV files.
 
 #include <optional>
 #include <string>

@@ -130,7 +130,7 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
     double gross = 0.0;
     for (int f = 0; f < grid.face_count(); ++f) {
       const FaceKind kind = conditions[f].kind;
-      if (kind == FaceKind::pressure || kind == FaceKind::seepage) return;  // balances them
+      if (kind == FaceKind::pressure || kind == FaceKind::seepage) return;  // takes the difference
       double flux = grid.face_normal[f].norm() * conditions[f].value;
       if (kind == FaceKind::velocity) {
         if (time > 0.0 || !steady) return;  // the flux then depends on the porosity

@@ -58,7 +58,7 @@ class SweptField {
   std::vector<double> inflow_;  ///< liquid through each outer face in the interval, m3
   SweepOrder order_;
   double share_ = 0.0;  ///< of the last solved step in the interval
-  /// Concentrations at the first stage and at the end, as ElementSides places them.
+  /// Concentrations at the first stage and at the end, in the order of ElementSides.
   std::vector<double> first_;
   std::vector<double> last_;
   std::vector<Exchange> exchange_;

@@ -32,7 +32,7 @@ std::string this_process() {
   return "process " + std::to_string(::getpid()) + on_host + this_host();
 }
 
-/// Takes the lock of an open file. Tries several times: readers that test the lock hold it shortly.
+/// Takes the lock of an open file. Tries several times: readers that test the lock hold it briefly.
 bool take_lock(int file) {
   constexpr int attempts = 5;
   for (int attempt = 1;; ++attempt) {

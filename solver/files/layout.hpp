@@ -9,7 +9,7 @@ namespace suffuse::layout {
 
 /// Value of the key "format" in run.json; identifies our results.
 inline constexpr const char* format = "suffuse-results";
-/// Since 2 the grid of the snapshots and the restart state are separate files.
+/// Since version 2 the grid of the snapshots and the restart state are separate files.
 inline constexpr int format_version = 2;
 inline constexpr int oldest_readable_version = 1;
 

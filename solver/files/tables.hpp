@@ -70,7 +70,7 @@ struct HistoryRow {
   // Values that are no columns; the checks of the run use them.
   std::string concentration_max_at;  ///< the element of `concentration_max`
   std::string volume_defect_at;      ///< the element of `volume_defect`; may be empty
-  /// Share of the power that drives the flow which the weight of the fluidised fines supplies.
+  /// Share of the driving power of the flow that the weight of the fluidised fines supplies.
   double fines_weight_share = 0.0;
 };
 

@@ -149,7 +149,7 @@ class TwoPhaseModel {
   long steps_ = 0;
 };
 
-/// The formulation that the scene asks for. Keeps a reference to the case.
+/// Makes the formulation of the scene. Keeps a reference to the case.
 template <int Dim>
 std::unique_ptr<TwoPhaseModel<Dim>> make_model(const Case<Dim>& c, const ModelOptions& options);
 

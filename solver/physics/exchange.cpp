@@ -8,7 +8,7 @@
 namespace suffuse {
 namespace {
 
-/// The state that the drive sees, at |q| = `flux`.
+/// The state for the drive at |q| = `flux`.
 LocalState drive_state(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double flux) {
   LocalState state{.porosity = place.porosity, .flux = flux};

@@ -29,9 +29,9 @@ class FinesTransfer {
     std::vector<double> eroded;    ///< per region: fines its solid lost, kg
   };
 
-  /// `exchange`: fines from each solid point, m3, empty: none; `porosity`: of the elements before.
-  /// `pending`: volume of fines kept per node, m3; it is transferred too. The points' volumes are
-  /// those at p = 0, because only ratios of near volumes matter.
+  /// `exchange`: fines from each solid point, m3, empty: none; `porosity`: of the elements before
+  /// the exchange. `pending`: volume of fines kept per node, m3; it is transferred too. The points'
+  /// volumes are those at p = 0, because only ratios of near volumes matter.
   Result transfer(const std::vector<double>& exchange, const std::vector<double>& porosity,
                   LiquidDensities densities, PointBlocks<Dim>& points,
                   std::vector<double>& pending) const;

@@ -34,7 +34,7 @@ std::array<double, Dim + 1> all_coordinates(const std::array<double, Dim>& at) {
   return result;
 }
 
-/// Points of different elements may be changed, put in and taken out by different threads.
+/// Different threads may change, add and remove points of different elements.
 template <int Dim>
 class PointBlocks {
  public:
@@ -68,7 +68,7 @@ class PointBlocks {
   }
   void add_fines(int element, int slot, double mass) { blocks_[element][slot].fines_mass += mass; }
 
-  /// Takes a point out; the element's last one takes its slot.
+  /// Removes a point; the element's last point takes its slot.
   CarriedPoint<Dim> remove(int element, int slot);
   /// Appends a point.
   void add(int element, const CarriedPoint<Dim>& point);

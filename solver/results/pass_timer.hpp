@@ -7,7 +7,7 @@
 
 namespace suffuse {
 
-/// What one pass of the solver cost.
+/// Cost of one pass of the solver.
 struct PassTiming {
   std::string name;
   long calls = 0;

@@ -40,14 +40,14 @@ inline constexpr std::array<const char*, 3> keys_that_may_change{"time.end", "ou
 template <int Dim>
 std::string digest_of_model(const Case<Dim>& c);
 
-/// Writes to `/Suffuse/restart`, which must not be there yet.
+/// Writes to `/Suffuse/restart`, which must not exist yet.
 void write_restart_point(Hdf5File& file, const RestartPoint& point);
 
 /// Reads the restart point of one file; nothing if the file has no state. Throws FileError if the
 /// state is damaged or has the layout of another version.
 std::optional<RestartPoint> read_restart_point(const std::string& path);
 
-/// What `newest_restart_point` found.
+/// Result of `newest_restart_point`.
 struct FoundRestart {
   std::optional<RestartPoint> point;
   std::string path;                 ///< of the file that holds it

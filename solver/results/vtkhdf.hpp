@@ -34,7 +34,7 @@ VtkGrid vtk_grid(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points);
 /// One vertex cell per position of `points` (x, y, z of each).
 VtkGrid vtk_grid(std::vector<double> points);
 
-/// What the fields of a file belong to, and how they are stored.
+/// Fields of a file, on cells and points, and their precision.
 struct VtkFields {
   std::vector<Field> cell = {};
   std::vector<Field> point = {};

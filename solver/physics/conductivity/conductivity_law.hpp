@@ -40,7 +40,7 @@ struct ConductivityModel {
 
 /// A conductivity law.
 struct ConductivityLaw {
-  std::string_view word;         ///< what `conductivity_law` is in a scene
+  std::string_view word;         ///< value of `conductivity_law` in a scene
   std::string_view description;  ///< the dependence on porosity, for the scene reference
   std::span<const ConductivityParameter> parameters = {};
   /// k / k_0. Null: always 1.

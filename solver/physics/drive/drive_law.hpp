@@ -2,7 +2,7 @@
 
 /// Drives of erosion: the erosion rate grows with the drive above its threshold. Each drive is one
 /// file of this folder; docs/contributing.md says how to add one. In unsaturated soil only pores
-/// that carry flow erode: drives see k_r i, the gradient that would drive the same flux through the
+/// that carry flow erode: drives use k_r i, the gradient that would drive the same flux through the
 /// saturated soil (docs/theory.md, "Erosion").
 
 #include <span>
@@ -14,7 +14,7 @@ namespace suffuse {
 
 /// A drive of erosion.
 struct DriveLaw {
-  std::string_view word;       ///< what `drive` is in a scene
+  std::string_view word;       ///< value of `drive` in a scene
   std::string_view equation;   ///< D, for the scene reference
   std::string_view symbol;     ///< its symbol in equations
   std::string_view unit = {};  ///< of the threshold

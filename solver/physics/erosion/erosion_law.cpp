@@ -13,7 +13,7 @@ LocalState local_state(const ErosionModel& model, double porosity, double flux) 
           .flux = flux};
 }
 
-/// D if it depends on |q| alone; otherwise NaN.
+/// D if it depends at most on |q|; otherwise NaN.
 double drive_at(const ErosionModel& model, double flux) {
   return model.drive->depends_on_flow() ? model.drive->value({.flux = flux}) : 1.0;
 }

@@ -23,7 +23,7 @@ namespace suffuse {
 
 /// An erosion law. Its functions are called only with 0 < porosity and 0 < erodible_fraction.
 struct ErosionLaw {
-  std::string_view word;         ///< what `law` is in a scene
+  std::string_view word;         ///< value of `law` in a scene
   std::string_view equation;     ///< the state, for the scene reference
   std::string_view rate_symbol;  ///< symbol of the key `rate`
   std::string_view drive = {};   ///< the drive of this law; empty: the scene gives it

@@ -1,4 +1,4 @@
-/// The first-order law with the drive "flux" as a law: the erodible fines decay exponentially with
+/// The first-order law combined with the drive "flux": the erodible fines decay exponentially with
 /// the volume of liquid that has passed.
 
 #include "physics/erosion/erosion_law.hpp"

@@ -52,7 +52,7 @@ struct RetentionParameter {
 
 /// A retention law. Its functions are called with psi < 0.
 struct RetentionLaw {
-  std::string_view word;         ///< what `model` is in a scene
+  std::string_view word;         ///< value of `model` in a scene
   std::string_view description;  ///< S_e and k_r, for the scene reference
   std::span<const RetentionParameter> parameters;
   /// S_e

@@ -23,7 +23,7 @@ constexpr int most_iterations = 200;
 /// tension.
 constexpr double next_to_nothing = 1e-8;
 
-/// Return of a trial stress with the pressure p, positive in compression, and the shear stress q.
+/// Return mapping of a trial stress: pressure p, positive in compression, and shear stress q.
 struct Clay {
   Clay(const SkeletonParameters& s, double trial_pressure, double trial_shear, double compacted)
       : bulk(s.lame() + 2.0 / 3.0 * s.shear_modulus()),

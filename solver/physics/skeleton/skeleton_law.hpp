@@ -30,7 +30,7 @@ struct SkeletonLaw {
   /// Whether the law has a strength, which a factor of safety can divide.
   [[nodiscard]] bool yields() const;
 
-  std::string_view word;         ///< what `law` is in a scene
+  std::string_view word;         ///< value of `law` in a scene
   std::string_view description;  ///< for the scene reference
   std::span<const SkeletonParameter> parameters;
   /// The response to trial strains in any order: the elastic logarithmic strains before the

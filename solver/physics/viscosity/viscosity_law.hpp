@@ -10,7 +10,7 @@ namespace suffuse {
 
 /// A viscosity law.
 struct ViscosityLaw {
-  std::string_view word;         ///< what `viscosity_law` is in a scene
+  std::string_view word;         ///< value of `viscosity_law` in a scene
   std::string_view description;  ///< for the scene reference
   /// mu / mu_0 at a concentration below `maximum_concentration`. Null: always 1.
   double (*ratio)(double concentration, double maximum_concentration) = nullptr;
