@@ -196,7 +196,7 @@ ChildLimits limits_for(const std::string& path, double max_seconds) {
   constexpr double seconds_per_byte = 2e-6;  // a hundred times the usual time
   constexpr double memory = 1e9;
   constexpr double memory_per_byte = 100.0;
-  constexpr double wall_per_processor_time = 10.0;  // on a machine with other work
+  constexpr double wall_per_processor_time = 10.0;  // on a busy machine
   ChildLimits limits{max_seconds, 0.0, 0.0};
   if (is_mesh_file(path)) {
     std::error_code ignored;

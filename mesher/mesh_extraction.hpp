@@ -41,7 +41,7 @@ struct ExtractedMesh {
 
 enum class Quadrangles {
   refused,
-  /// Into four triangles that meet where the diagonals cross. The four divergences of such a
+  /// Cuts into four triangles that meet where the diagonals cross. The four divergences of such a
   /// quadrangle are not independent, so linear velocities have enough freedom for one pressure per
   /// triangle, unlike on general triangles.
   cut_along_diagonals,

@@ -23,7 +23,8 @@ enum class Refused : char {
 /// An attempt is reported as the byte `report_mark`, the byte of `Refused` and the name of the file
 /// if there is one. A process that blocks signals, as before the start of another process, is ended
 /// by SIGSYS without a report.
-/// \param report_to  descriptor Throws FileError if the system has no such filter.
+/// \param report_to  descriptor
+/// Throws FileError if the system has no such filter.
 void confine_process(int report_to);
 
 inline constexpr char report_mark = 'C';

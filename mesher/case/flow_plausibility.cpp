@@ -12,8 +12,8 @@ constexpr double farthest_head = 3.0;
 constexpr double least_far_head = 30.0;
 /// m/s, which are 3.6 m/h; the heaviest rain ever measured had 0.6e-3 m/s.
 constexpr double heaviest_rain = 1e-3;
-/// Least ratio of a pressure to the pressure under water as high as the model. It is checked where
-/// the latter is more than `noticed` Pa.
+/// Least ratio of a pressure to the pressure under water as high as the model. It is checked if the
+/// latter is more than `noticed` Pa.
 constexpr double least_pressure = 2e-3;
 constexpr double noticed = 1e3;
 

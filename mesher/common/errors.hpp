@@ -17,9 +17,9 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
-/// One problem of the user's input. Prints as `WHERE: KEY: got FOUND; expected EXPECTED; did you
-/// mean SUGGESTION?` where WHERE is `FILE:LINE` (or `--set KEY=VALUE`), and empty parts are left
-/// out.
+/// One problem of the user's input. Prints as
+/// `WHERE: KEY: got FOUND; expected EXPECTED; did you mean SUGGESTION?`
+/// where WHERE is `FILE:LINE` (or `--set KEY=VALUE`), and empty parts are left out.
 struct InputProblem {
   std::string where{};
   std::string key{};

@@ -44,8 +44,8 @@ class Gradation {
   std::vector<GradationPoint> points_;
 };
 
-/// The fault of a table [[d, F], ...] as a gradation, if one entry is wrong: `F = 60 % at d = 4 mm
-/// after F = 70 %`. Empty if there is none.
+/// The fault of a table [[d, F], ...] as a gradation, if one entry is wrong:
+/// `F = 60 % at d = 4 mm after F = 70 %`. Empty if there is none.
 std::string gradation_fault(const std::vector<std::vector<double>>& rows);
 
 }  // namespace suffuse

@@ -145,7 +145,7 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
   if (start >= end - equality_margin) {
     return unknown(check, gradation, "splits below S = 100 %");
   }
-  // The logarithm of the ratio is linear in u between these, and jumps where sizes do.
+  // The logarithm of the ratio is linear in u between these values and jumps with the sizes.
   std::vector<double> splits{start, end};
   for (const GradationPoint& point : gradation.points()) {
     splits.push_back(point.finer);

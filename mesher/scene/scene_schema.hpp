@@ -68,8 +68,8 @@ struct SceneKey {
   [[nodiscard]] std::string expected() const;
   /// The value for `store`, or nothing if it is not allowed.
   [[nodiscard]] std::optional<Value> accept(const Value& value) const;
-  /// The fault of the pairs of a function or a gradation, if one pair is wrong: `t = 3 after t =
-  /// 5`. Empty if the message has to quote the whole value.
+  /// The fault of the pairs of a function or a gradation, if one pair is wrong:
+  /// `t = 3 after t = 5`. Empty if the message has to quote the whole value.
   [[nodiscard]] std::string fault(const Value& value) const;
 
  private:

@@ -12,7 +12,7 @@
 
 namespace suffuse {
 
-/// Where something was given.
+/// The place of a key or a value.
 struct Place {
   std::size_t source = 0;  ///< 0 for the file, then one for each `--set`
   std::size_t line = 0;
@@ -23,7 +23,7 @@ struct Place {
   }
 };
 
-/// By dotted key.
+/// Places by dotted key.
 using Places = std::map<std::string, Place>;
 
 /// The nearest enclosing key of `key` that `places` knows, `key` included; nullptr when none is.

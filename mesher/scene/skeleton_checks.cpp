@@ -71,7 +71,7 @@ class SkeletonChecks : private SceneCheckBase {
     refuse_of_rigid({fix, traction});
   }
 
-  /// Refuses keys that have no effect where all skeletons are rigid.
+  /// Refuses keys that have no effect if all skeletons are rigid.
   void refuse_of_rigid(const std::vector<std::string>& keys) const {
     const bool unknown = std::ranges::any_of(scene_.soils, [&](const Soil& soil) {
       const std::string table = table_of(soil) + ".skeleton";

@@ -9,7 +9,7 @@
 
 namespace suffuse {
 
-/// The two sides of a piece of a wall. The flux through it is conductance * (p_face - p_partner).
+/// The two sides of a piece of a wall; its flux is conductance * (p_face - p_partner), m3/s.
 struct LeakyFace {
   int face = -1;  ///< the smaller number
   int partner = -1;

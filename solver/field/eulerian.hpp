@@ -86,7 +86,7 @@ class EulerianTransport {
       const FinesState<Dim>& state, const std::vector<double>& face_volume) const;
 
  private:
-  /// A mesh node on the outer boundary or on a wall that lets liquid through.
+  /// A mesh node on the outer boundary or on a leaky wall.
   struct OuterNode {
     int node;
     std::vector<int> faces;     ///< faces of the outer boundary at the node

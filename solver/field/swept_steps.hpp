@@ -15,7 +15,7 @@ namespace suffuse {
 struct SweptSettings {
   double end = 0.0;            ///< of the run, s
   double tolerance = 1e-3;     ///< bound of a step's error, relative
-  bool step_is_given = false;  ///< an interval is one step, whatever its error
+  bool step_is_given = false;  ///< an interval is one step, for any error
 };
 
 template <int Dim>

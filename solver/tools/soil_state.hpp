@@ -22,8 +22,8 @@ struct SoilState {
 
 /// Reads the state from the fields of a snapshot (`soil_fields`). Points of a rigid skeleton are at
 /// their places in the case.
-/// \param soils  with the points of the case Throws FileError if the snapshot has another number of
-/// points or elements.
+/// \param soils  with the points of the case
+/// Throws FileError if the snapshot has another number of points or elements.
 template <int Dim>
 SoilState<Dim> soil_state(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                           const Snapshot& snapshot);
