@@ -90,7 +90,7 @@ class RegularBox {
     } while (std::ranges::next_permutation(axes).found);
   }
 
-  /// A face lies on a boundary when its three corners do.
+  /// Adds the faces that lie on a boundary with all three corners.
   void add_outer_faces(const std::array<Index, 4>& corners) {
     for (int d = 0; d < 3; ++d) {
       for (const int end : {0, 1}) {
@@ -106,12 +106,12 @@ class RegularBox {
 
   const ColumnShape& column_;
   double depth_;
-  int bottom_;  ///< row of elements
+  int bottom_;  ///< lowest row of elements
   Index cells_;
   Mesh<3> mesh_;
 };
 
-/// The rectangle at the foot.
+/// Adds the rectangle at the bottom.
 int add_floor(const ColumnShape& column, double depth, double size) {
   const double z = column.level(column.layers.front().bottom);
   const double w = column.width;
@@ -141,7 +141,7 @@ void mesh_free_box(const ColumnShape& column, double depth, double size) {
     gmsh::vectorpair made;
     geo::extrude({{2, below}}, 0.0, 0.0, column.level(layer.top) - column.level(layer.bottom),
                  made);
-    // The opposite surface, the volume, and a side for each line of the floor.
+    // `made` has the opposite surface, the volume, and a side for each line of the floor.
     below = made[0].second;
     regions[layer.region].push_back(made[1].second);
     const std::array names{"front", "right", "back", "left"};

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The built-in geometry of three dimensions: a column with a depth, of tetrahedra.
+/// The built-in geometry in three dimensions: a box of tetrahedra.
 
 #include "column.hpp"
 #include "mesh/mesh.hpp"
@@ -8,10 +8,10 @@
 
 namespace suffuse {
 
-/// [0, width] x [0, depth] over the column's levels in cuboids of six tetrahedra each, one for each
-/// order of the axes in which a path along edges leads from a cuboid's first corner to its last
-/// (H. W. Kuhn, IBM J. Res. Dev. 4 (1960) 518-524): neighbours share their faces. Boundaries: both
-/// ends along z, "left" and "right" along x, "front" and "back" along y.
+/// [0, width] x [0, depth] over the column's levels, in cuboids of six tetrahedra, one for each
+/// path along edges from a cuboid's first corner to its last (H. W. Kuhn, IBM J. Res. Dev. 4 (1960)
+/// 518-524). Neighbours share their faces. Boundaries: both ends along z, "left" and "right" along
+/// x, "front" and "back" along y.
 Mesh<3> regular_box(const ColumnShape& column, double depth, double size);
 
 /// Meshes the box of `regular_box` with unstructured tetrahedra in the current Gmsh model. Throws

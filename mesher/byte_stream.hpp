@@ -1,6 +1,6 @@
 #pragma once
 
-/// Values as bytes, to be handed from one process to another of the same program.
+/// Values as bytes, to pass them between processes of the same program.
 
 #include <cstddef>
 #include <cstdint>
@@ -39,8 +39,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads what a `ByteWriter` wrote; other bytes do no harm. Throws std::out_of_range instead of
-/// reading beyond the end, and before it allocates.
+/// Reads the bytes of a `ByteWriter`; other bytes do no harm. Throws std::out_of_range before it
+/// reads beyond the end or allocates memory for missing values.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -65,7 +65,7 @@ class ByteReader {
     const char* from = take(size, 1);
     return {from, size};
   }
-  /// A number of values that follow, each of at least one byte.
+  /// Number of the following values, each of at least one byte.
   [[nodiscard]] std::size_t count() {
     const auto value = number<std::uint64_t>();
     if (value > rest_.size()) throw std::out_of_range("bytes are missing");

@@ -36,7 +36,7 @@ double grid_position(double length, double at, int rows) {
   return length * row / rows;
 }
 
-/// Gmsh places the points of a transfinite curve to about 1e-12 only; balances are held to less.
+/// Corrects nodes: Gmsh places points of a transfinite curve to about 1e-12, balances need less.
 void place_nodes_exactly(const ColumnShape& column, double size) {
   std::vector<std::size_t> tags;
   std::vector<double> coordinates;

@@ -25,7 +25,7 @@
 #include "plain_text.hpp"
 #include "system_call_filter.hpp"
 
-// Address sanitizers reserve address space without end.
+// Address sanitizers reserve unlimited address space.
 #if defined(__SANITIZE_ADDRESS__)
 #define SUFFUSE_ADDRESS_SANITIZER
 #elif defined(__has_feature)
@@ -43,7 +43,7 @@ namespace {
 
 using How = ChildEnd::How;
 
-/// First byte of what the child writes; `report_mark` is another.
+/// First byte of the child's output; another one is `report_mark`.
 constexpr char reply_mark = 'R';
 constexpr char no_memory_mark = 'M';
 constexpr char unconfined_mark = 'U';
@@ -56,7 +56,7 @@ void set_limit(__rlimit_resource resource, double value) {
   ::setrlimit(resource, &limit);
 }
 
-/// Sets limits for the case that the parent, which watches the times more closely, cannot.
+/// Sets limits in case the parent, which watches the times more exactly, cannot do so.
 void limit_use(const ChildLimits& limits) {
   constexpr double open_files = 64.0;
   set_limit(RLIMIT_CPU, limits.processor_seconds + 1.0);
@@ -70,7 +70,7 @@ void limit_use(const ChildLimits& limits) {
 #endif
 }
 
-/// Handlers are those of the program that this was a copy of.
+/// Removes the signal handlers and the mask inherited from the parent.
 void reset_signals() {
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
   sigset_t none;
@@ -78,15 +78,15 @@ void reset_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-/// Ends the child where a library ends it, without the work that the parent's program does last.
+/// If a library ends the child, skips the exit handlers inherited from the parent.
 void leave_nothing_to_do_at_exit() {
   static_cast<void>(std::atexit([] { ::_exit(1); }));
 #ifdef SUFFUSE_ADDRESS_SANITIZER
-  __sanitizer_set_death_callback([] { std::abort(); });  // what it finds is a crash
+  __sanitizer_set_death_callback([] { std::abort(); });  // a finding counts as a crash
 #endif
 }
 
-/// Keeps the one descriptor, under the number that it returns; nothing is read or shown.
+/// Keeps only this descriptor, with a new number that it returns; nothing else is read or shown.
 int keep_only(int descriptor) {
   constexpr int kept = STDERR_FILENO + 1;
   const int nowhere = ::open("/dev/null", O_RDWR);
@@ -134,13 +134,13 @@ void write_all(int descriptor, char mark, const std::string& text) {
   } catch (const std::length_error&) {
     write_all(descriptor, no_memory_mark, "");
   }
-  // Nothing is unwound that the parent has too, and no search for leaks begins.
+  // Ends without destructors and exit handlers copied from the parent, and without a leak check.
   ::_exit(0);
 }
 
 // In the parent
 
-/// Reads from the child until it closes its end or goes over a limit.
+/// Reads from the child until it closes its end or exceeds a limit.
 class Watch {
  public:
   Watch(pid_t child, int descriptor, const ChildLimits& limits)
@@ -150,7 +150,7 @@ class Watch {
     }
   }
 
-  /// The limit that the child went over, if it did.
+  /// Returns the limit that the child exceeded, if any.
   std::optional<How> run(std::string& bytes) {
     constexpr int milliseconds = 50;
     std::vector<char> part(std::size_t{1} << 20U);
@@ -222,7 +222,7 @@ ChildEnd end_of(int status, std::string bytes) {
         return {How::refused, words_for("")};
       case SIGXCPU:
         return {How::processor_time, ""};
-      case SIGKILL:  // the system's, when it has no more memory
+      case SIGKILL:  // sent by the system if memory runs out
       case SIGXFSZ:
         return {How::memory, ""};
       default:
@@ -233,7 +233,7 @@ ChildEnd end_of(int status, std::string bytes) {
   return {How::replied, std::move(bytes)};
 }
 
-/// Ends the child, however it is left.
+/// Ends the child in any case.
 class Child {
  public:
   explicit Child(pid_t id) : id_(id) {}
@@ -241,7 +241,7 @@ class Child {
   Child& operator=(const Child&) = delete;
   ~Child() { wait(); }
 
-  /// Its status. Where the child has begun to end, the signal comes too late to change it.
+  /// Ends the child and returns its status. A child that has begun to end keeps its own status.
   int wait() {
     if (id_ < 0) return status_;
     ::kill(id_, SIGKILL);
@@ -281,7 +281,7 @@ ChildEnd run_confined(const std::function<void()>& prepare,
     throw FileError("no pipe to another process can be made");
   const Descriptor reading(ends[0]);
   Descriptor writing(ends[1]);
-  // A parent program may have set this signal to be ignored: the child would then leave no status.
+  // The program that started this one may have ignored this signal; then there would be no status.
   std::signal(SIGCHLD, SIG_DFL);
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();

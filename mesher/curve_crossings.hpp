@@ -9,8 +9,8 @@
 namespace suffuse {
 
 /// The first few places at which two curves meet without a common point, or a curve meets itself,
-/// each as `curves 2 and 4 that meet at (1, 0.5)`, in the model's unit of length. Takes the mesh of
-/// the curves, and makes it where there is none.
+/// each as `curves 2 and 4 that meet at (1, 0.5)`, in the model's unit of length. Uses the mesh of
+/// the curves; creates it if necessary.
 std::vector<std::string> curve_crossings();
 
 }  // namespace suffuse

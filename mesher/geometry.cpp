@@ -80,7 +80,7 @@ ExtractedMesh<3> build_box(const SceneDocument& document, std::vector<std::strin
   return extract_mesh<3>(read_gmsh_model());
 }
 
-/// Gives the problems of the mesh their place in the scene and their key.
+/// Sets the place in the scene and the key of the problems of the mesh.
 void place_problems(const SceneDocument& document, std::vector<InputProblem>& problems) {
   const bool from_file = !document.scene.geometry.file.empty();
   const std::string key = from_file ? "geometry.file" : "geometry.shape";
@@ -93,9 +93,9 @@ void place_problems(const SceneDocument& document, std::vector<InputProblem>& pr
   }
 }
 
-/// One problem in the place of one for each boundary, wall and well, where the geometry has no
-/// named curves at all.
-/// \param curves  that could be named, as text
+/// Replaces the problems of boundaries, walls and wells by one problem if the geometry has no named
+/// curves.
+/// \param curves  that can be named, as text
 template <int Dim>
 void explain_missing_curves(const SceneDocument& document, const std::string& curves,
                             std::vector<InputProblem>& problems) {
@@ -114,7 +114,7 @@ void explain_missing_curves(const SceneDocument& document, const std::string& cu
                       ""});
 }
 
-/// Gmsh reads names of faces from a STEP file, where the CAD program wrote any, but none of edges.
+/// Advises on names: Gmsh reads names of faces in a STEP file, if any, but none of edges.
 template <int Dim>
 void advise_on_step(const SceneDocument& document, std::vector<InputProblem>& problems) {
   const std::string& file = document.scene.geometry.file;
@@ -129,7 +129,7 @@ void advise_on_step(const SceneDocument& document, std::vector<InputProblem>& pr
                       ""});
 }
 
-/// Cuts walls and wells into the mesh and holds the scene against it.
+/// Cuts walls and wells into the mesh and compares it with the scene.
 template <int Dim>
 Geometry<Dim> finished(const SceneDocument& document, ExtractedMesh<Dim> extracted,
                        std::vector<std::string> notes) {
@@ -169,7 +169,7 @@ std::vector<std::string> notes_on(const GmshReply& reply) {
   return notes;
 }
 
-/// The mesh of the user's file, in the dimension that it has.
+/// The mesh of the user's file, in its own dimension.
 AnyGeometry geometry_from_file(const SceneDocument& document, double max_seconds) {
   const GmshReply reply = read_geometry_file(document, max_seconds);
   if (reply.model.dimension == 3) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The mesh that a scene asks for: the built-in column or box, or the user's own file.
+/// The mesh of a scene: the built-in column or box, or the user's own file.
 
 #include <string>
 #include <variant>
@@ -17,27 +17,26 @@ struct Geometry {
   std::vector<std::string> notes;  ///< what the user should know, one sentence each
 };
 
-/// Processor time of Gmsh over a file, s.
+/// Largest processor time of Gmsh for a file, s.
 inline constexpr double default_geometry_seconds = 600.0;
 
 using AnyGeometry = std::variant<Geometry<2>, Geometry<3>>;
 
-/// Builds the mesh with Gmsh and holds the scene against it. Throws InputError with every problem
-/// found, FileError when the geometry file cannot be read. A file with volumes is of three
-/// dimensions. Problems name nodes and elements by
-/// Gmsh's numbers, those of the user's .msh, and places of a file by its own coordinates; the mesh
-/// is in the order of `hilbert_order.hpp`.
+/// Builds the mesh with Gmsh and compares it with the scene. Throws InputError with every problem
+/// found, FileError if the geometry file cannot be read. A file with volumes has three dimensions.
+/// Problems name nodes and elements by Gmsh's numbers, those of the user's .msh, and places of a
+/// file by its own coordinates; the mesh is in the order of `hilbert_order.hpp`.
 ///
-/// A .geo or .step file is meshed here: sizes and fields in the file hold, `mesh.size` is the size
-/// where the file says nothing and an upper bound elsewhere. A .geo that meshes itself and a .msh
-/// are used as they are. Lengths in a .step file are converted from its own unit to metres; those
-/// in .geo and .msh files are in `geometry.scale` metres.
-/// \param max_seconds  of processor time that Gmsh may take over a file, which can hold an endless
-///   loop
+/// A .geo or .step file is meshed here: sizes and fields of the file apply, and `mesh.size` is an
+/// upper bound and the size where the file gives none. A .geo that meshes itself and a .msh are
+/// used unchanged. Lengths in a .step file are converted from its own unit to metres; those in .geo
+/// and .msh files are in `geometry.scale` metres.
+/// \param max_seconds  of processor time that Gmsh may take for a file, which can contain an
+///   endless loop
 AnyGeometry build_geometry(const SceneDocument& document,
                            double max_seconds = default_geometry_seconds);
 
-/// The geometry of `build_geometry` where its dimension is known.
+/// `build_geometry` for a known dimension.
 template <int Dim>
 Geometry<Dim> build_geometry_of(const SceneDocument& document) {
   return std::get<Geometry<Dim>>(build_geometry(document));

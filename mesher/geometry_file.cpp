@@ -38,14 +38,14 @@ const char* advice_on(const std::string& path) {
   return is_mesh_file(path) ? advice_on_mesh : "a geometry that Gmsh can mesh";
 }
 
-/// Gmsh names an edge of its own that it cannot recover; the user knows the curves.
+/// Describes the crossing curves behind Gmsh's message of an edge that it cannot recover.
 std::string crossings_behind(const std::string& complaint) {
   const std::vector<std::string> crossings =
       complaint.starts_with("Unable to recover") ? curve_crossings() : std::vector<std::string>{};
   return listed(crossings, "and");
 }
 
-/// `'FILE', line N: MESSAGE` is how Gmsh places an error in a script.
+/// A problem from Gmsh's error in a script, which has the form `'FILE', line N: MESSAGE`.
 InputProblem gmsh_problem(const SceneDocument& document, const std::string& path,
                           const std::string& complaint) {
   constexpr std::string_view before_line = "', line ";
@@ -101,7 +101,7 @@ void open_step(const std::string& path) {
   gmsh::vectorpair regions;
   gmsh::model::getEntities(regions, dimension);
   if (regions.size() > 1) {
-    gmsh::model::occ::removeAllDuplicates();  // neighbours come with a border each
+    gmsh::model::occ::removeAllDuplicates();  // neighbours have separate borders in the file
     gmsh::model::occ::synchronize();
   }
   name_groups_by_label(dimension);
@@ -142,8 +142,7 @@ void generate_mesh(const SceneDocument& document, const std::string& path, int d
   });
 }
 
-/// Whether the file asks for more threads than the one that Gmsh has here. Refuses a number that no
-/// machine has.
+/// Whether the file requests more than the one thread of Gmsh. Refuses an impossible number.
 bool wants_threads(const SceneDocument& document) {
   constexpr double most = 1024.0;
   bool several = false;
@@ -191,13 +190,13 @@ std::string reply_of_child(const SceneDocument& document, const std::string& pat
   return bytes_of(reply);
 }
 
-/// A mesh is read in next to no time; how long it takes to make one, nobody knows.
+/// Limits for reading a mesh follow from its size; the time to make a mesh is unknown.
 ChildLimits limits_for(const std::string& path, double max_seconds) {
   constexpr double seconds = 10.0;
-  constexpr double seconds_per_byte = 2e-6;  // a hundred times what it takes
+  constexpr double seconds_per_byte = 2e-6;  // a hundred times the usual time
   constexpr double memory = 1e9;
   constexpr double memory_per_byte = 100.0;
-  constexpr double wall_per_processor_time = 10.0;  // on a machine with other work
+  constexpr double wall_per_processor_time = 10.0;  // on a busy machine
   ChildLimits limits{max_seconds, 0.0, 0.0};
   if (is_mesh_file(path)) {
     std::error_code ignored;
@@ -265,10 +264,10 @@ GmshReply read_geometry_file(const SceneDocument& document, double max_seconds) 
     throw FileError(document.locate("geometry.file") + ": geometry.file: there is no file " + path);
   }
   const ChildLimits limits = limits_for(path, max_seconds);
-  // Gmsh writes as it starts and ends: it starts before it may not, and never ends.
+  // Gmsh writes files when it starts and ends. It starts before confinement, and never ends.
   std::optional<GmshSession> of_child;
   const auto start_gmsh = [&of_child] {
-    // Parallel regions have one thread, whatever the file asks for: more could not be started.
+    // Parallel regions get one thread for any request of the file: more cannot be started.
     ::omp_set_max_active_levels(0);
     of_child.emplace();
   };

@@ -16,7 +16,7 @@ namespace suffuse {
 
 namespace {
 
-/// Okabe and Ito's colours, told apart by the colour-blind too.
+/// Okabe and Ito's colours, which the colour-blind can distinguish.
 constexpr std::array<std::array<int, 3>, 7> palette{{{230, 159, 0},
                                                      {86, 180, 233},
                                                      {0, 158, 115},
@@ -25,7 +25,7 @@ constexpr std::array<std::array<int, 3>, 7> palette{{{230, 159, 0},
                                                      {213, 94, 0},
                                                      {204, 121, 167}}};
 
-/// Gmsh counts from one. Nodes hang on an entity: the first region has them all.
+/// Gmsh counts from one. Nodes belong to an entity: the first region has all of them.
 template <int Dim>
 void add_nodes(const Mesh<Dim>& mesh) {
   std::vector<std::size_t> tags(mesh.nodes.size());

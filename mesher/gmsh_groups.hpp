@@ -7,8 +7,8 @@
 
 namespace suffuse {
 
-/// Makes a physical group of entities of a dimension and names it. Gmsh chooses its tag where `tag`
-/// is -1.
+/// Makes a physical group of entities of a dimension and names it. Gmsh chooses its tag if `tag` is
+/// -1.
 void name_group(int dimension, const std::vector<int>& entities, const std::string& name,
                 int tag = -1);
 

@@ -62,8 +62,7 @@ void add_groups(GmshModel& model, int dimension) {
   }
 }
 
-/// Number of nodes of an element of a type that Suffuse reads; for other types as many as there
-/// are.
+/// Number of nodes of an element of a type that Suffuse reads; for other types the present number.
 int expected_nodes(const GmshElements& block) {
   switch (block.type) {
     case gmsh_type::line:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The mesh of a Gmsh model with what its file names, as plain data: it can be handed from the
-/// process that ran Gmsh to another.
+/// The mesh of a Gmsh model with the names of its file, as plain data that can be passed from the
+/// process of Gmsh to another.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace suffuse {
 
 /// Elements of one type.
 struct GmshElements {
-  int type = 0;  ///< Gmsh's number of it
+  int type = 0;  ///< Gmsh's number of the type
   std::string type_name;
   int nodes_each = 0;
   std::vector<std::size_t> tags;
@@ -38,7 +38,7 @@ struct GmshGroup {
 };
 
 struct GmshModel {
-  int dimension = 2;  ///< 3 where there are volumes
+  int dimension = 2;  ///< 3 if there are volumes
   std::vector<std::size_t> node_tags;
   std::vector<double> coordinates;   ///< three for each node
   std::vector<GmshEntity> entities;  ///< of `dimension`, then of one less, each by ascending tags
@@ -48,11 +48,11 @@ struct GmshModel {
 /// Reads the current model of Gmsh. Throws the exceptions of Gmsh for its own errors.
 GmshModel read_gmsh_model();
 
-/// 3 where the current Gmsh model has volumes, otherwise 2.
+/// 3 if the current Gmsh model has volumes, otherwise 2.
 int gmsh_model_dimension();
 
-/// The fault of a model that did not come from Gmsh itself, or an empty text: numbers of values
-/// that do not match, elements at nodes that do not exist.
+/// The fault of a model that cannot come from Gmsh, or an empty text: numbers of values that do not
+/// match, elements with nodes that do not exist.
 std::string gmsh_model_defect(const GmshModel& model);
 
 }  // namespace suffuse

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The reply of the process that runs Gmsh over a user's file, and its form as bytes.
+/// The reply of the process that runs Gmsh for a user's file, and its form as bytes.
 
 #include <string>
 #include <string_view>
@@ -12,16 +12,16 @@
 namespace suffuse {
 
 struct GmshReply {
-  std::vector<InputProblem> problems;  ///< what is wrong with the file; then there is no model
+  std::vector<InputProblem> problems;  ///< problems of the file; then there is no model
   GmshModel model;
-  bool meshes_itself = false;  ///< the file, so that `mesh.size` does not apply
-  bool wants_threads = false;  ///< the file, more than the one that there is
+  bool meshes_itself = false;  ///< the file does so, and `mesh.size` does not apply
+  bool wants_threads = false;  ///< the file requests more than the one thread
 };
 
 std::string bytes_of(const GmshReply& reply);
 
-/// The bytes may be anything. Throws InputError where they are not a whole reply, or one whose
-/// numbers do not fit together. Texts come without what moves a terminal's cursor.
+/// The bytes may be arbitrary. Throws InputError if they are no complete and consistent reply.
+/// Removes control characters, which can move a terminal's cursor, from texts.
 GmshReply reply_from(std::string_view bytes);
 
 }  // namespace suffuse

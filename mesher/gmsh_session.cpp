@@ -13,7 +13,7 @@ namespace suffuse {
 
 namespace {
 
-/// The first error that Gmsh logged from line `from` of its log on; empty where there is none. Gmsh
+/// The first error that Gmsh logged from line `from` of its log on; empty if there is none. Gmsh
 /// does not throw an exception for every error.
 std::string first_logged_error(std::size_t from) {
   constexpr std::string_view prefix = "Error: ";
@@ -36,8 +36,8 @@ std::size_t log_length() {
 GmshSession::GmshSession() {
   constexpr bool read_configuration = false;
   gmsh::initialize(0, nullptr, read_configuration);
-  // An error ends the meshing and is logged. As an exception, Gmsh's own choice, it would end the
-  // program when it leaves one of Gmsh's parallel regions.
+  // An error ends the meshing and is logged. As an exception, Gmsh's default, it would end the
+  // program if it left one of Gmsh's parallel regions.
   gmsh::option::setNumber("General.AbortOnError", 1);
   gmsh::option::setNumber("General.Terminal", 0);
   gmsh::option::setNumber("General.NoPopup", 1);

@@ -18,8 +18,8 @@ class GmshSession {
   ~GmshSession();
 };
 
-/// Runs `body` and returns what Gmsh complained about, or empty when it did not; `no_memory` where
-/// there was not enough.
+/// Runs `body` and returns the error of Gmsh, or an empty text; `no_memory` if memory was not
+/// sufficient.
 std::string gmsh_complaint(const std::function<void()>& body);
 
 }  // namespace suffuse

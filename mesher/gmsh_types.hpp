@@ -1,6 +1,6 @@
 #pragma once
 
-/// Gmsh's numbers of the elements that are read and written (its manual, "MSH file format").
+/// Gmsh's numbers of the element types that are read and written (its manual, "MSH file format").
 
 namespace suffuse::gmsh_type {
 

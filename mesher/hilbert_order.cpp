@@ -30,7 +30,7 @@ std::vector<std::uint64_t> element_positions(const Mesh<Dim>& mesh) {
     const Vector<Dim> x = (element_centroid(mesh, e) - low) * cells_per_metre;
     std::array<std::uint32_t, Dim> cell;
     for (int d = 0; d < Dim; ++d) {
-      // Round-off takes the centroid of a flat element out of the square.
+      // Round-off can move the centroid of a flat element out of the square.
       cell[d] = static_cast<std::uint32_t>(std::clamp(x[d], 0.0, last_cell));
     }
     positions.push_back(hilbert_position<Dim>(cell, level));
@@ -75,8 +75,8 @@ void sort_faces(BoundarySet<Dim>& set, bool in_pairs) {
 
 template <int Dim>
 std::uint64_t hilbert_position(std::array<std::uint32_t, Dim> cell, int level) {
-  // The curve in a cell is the whole curve, mirrored or turned. Undo that from the coarsest level
-  // on: what a digit of the coordinates asks is applied to all finer digits.
+  // The curve in a cell is the whole curve, mirrored or turned. This is undone from the coarsest
+  // level on: each digit of the coordinates transforms all finer digits.
   for (std::uint32_t bit = 1U << (level - 1); bit > 1; bit >>= 1) {
     const std::uint32_t finer = bit - 1;
     for (int d = 0; d < Dim; ++d) {

@@ -1,12 +1,12 @@
 #pragma once
 
 /// Numbers the elements and nodes of a mesh so that neighbours in space are neighbours in memory:
-/// elements along Hilbert's curve, nodes as the elements need them.
+/// elements along Hilbert's curve, nodes in the order of the elements.
 ///
 /// Hilbert's curve passes through all cells of a grid of 2^k cells a side (squares for Dim = 2,
-/// cubes for 3), each step into a neighbouring cell. Any stretch of it fills a compact part of the
-/// grid, on every scale: a loop over elements finds its nodes in the cache, and a row of
-/// consecutive elements is a part of the model with a short border.
+/// cubes for 3), each step into a neighbouring cell. Any part of it fills a compact part of the
+/// grid, on every scale: a loop over elements finds its nodes in the cache, and consecutive
+/// elements form a part of the model with a short border.
 
 #include <array>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace suffuse {
 
-/// Levels of the grid whose cells still have a position on the curve of 64 bits.
+/// Largest level of the grid for which positions on the curve fit 64 bits.
 template <int Dim>
 inline constexpr int finest_hilbert_level = 63 / Dim;
 

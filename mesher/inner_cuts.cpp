@@ -60,7 +60,7 @@ class InnerCuts {
                                [&](const auto& b) { return b.on == name; });
   }
 
-  /// Whether there is a curve of this name inside the mesh.
+  /// Adds the curve of this name inside the mesh to the cuts; false if there is none.
   bool cut_curve(const std::string& key, const std::string& name) {
     const auto& curves = extracted_.inner_curves;
     const auto curve = std::ranges::find(curves, name, &BoundarySet<Dim>::name);
@@ -93,7 +93,7 @@ class InnerCuts {
     }
   }
 
-  /// Sides that belong to another cut already are a problem.
+  /// Adds a cut; sides that belong to another cut are a problem.
   void add(const std::string& key, const BoundarySet<Dim>& set) {
     const std::string side = MeshWords<Dim>::side;
     key_of_[set.name] = key;
@@ -128,7 +128,7 @@ class InnerCuts {
     return sum / Dim;
   }
 
-  /// Nodes at the other ends of the edges of an inner node that may be cut; empty for an outer
+  /// Nodes at the other ends of the edges of an inner node that can be cut; empty for an outer
   /// node.
   [[nodiscard]] std::vector<int> neighbours(int node) const {
     std::map<int, int> elements;  // number of elements at the edge to each node
@@ -146,8 +146,8 @@ class InnerCuts {
     return result;
   }
 
-  /// The two edges of a node that lie most nearly in line; of several such pairs, as a regular mesh
-  /// has them, the one nearest to the x-axis, whatever the numbers of the nodes.
+  /// The two edges of a node that are closest to a straight line; of several such pairs (regular
+  /// mesh) that nearest to the x-axis, for any numbering of the nodes.
   [[nodiscard]] std::optional<std::array<Face, 2>> edges_in_line(int node) const {
     constexpr double round_off = 1e-9;
     const auto& x = extracted_.mesh.nodes;

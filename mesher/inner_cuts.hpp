@@ -12,8 +12,8 @@
 namespace suffuse {
 
 /// Cuts the mesh along each inner curve that a wall or a well names, and at each point that a well
-/// names: along two edges there that lie most nearly in line. Adds problems, and a note for each
-/// inner curve that nothing names. Returns the names of all curves and points.
+/// names: along the two edges there that are closest to a straight line. Adds problems, and a note
+/// for each inner curve that nothing names. Returns the names of all curves and points.
 template <int Dim>
 InnerNames cut_walls_and_wells(const SceneDocument& document, ExtractedMesh<Dim>& extracted,
                                std::vector<std::string>& notes);

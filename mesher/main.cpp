@@ -66,7 +66,7 @@ std::string output_path(const Arguments& arguments) {
   return fs::path(arguments.scene).stem().string() + ".case.h5";
 }
 
-/// Tells where the case is when `-o` does not say so and it is not next to the scene.
+/// Notes the place of the case if `-o` does not give it and it is not next to the scene.
 std::vector<std::string> place_notes(const Arguments& arguments) {
   const std::string output = output_path(arguments);
   const std::string beside = file_beside_scene(arguments.scene, output);
@@ -82,7 +82,7 @@ bool same_file(const std::string& a, const std::string& b) {
          fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
-/// No input may be overwritten by an output.
+/// Refuses outputs that would overwrite an input.
 void check_outputs(const Arguments& arguments, const SceneDocument& document) {
   std::vector<std::string> inputs{arguments.scene};
   if (!document.scene.geometry.file.empty()) inputs.push_back(geometry_path(document));
@@ -108,7 +108,7 @@ void check_outputs(const Arguments& arguments, const SceneDocument& document) {
 
 template <int Dim>
 void refuse_too_many_points(const SceneDocument& document, const Mesh<Dim>& mesh) {
-  // More is probably due to a misplaced decimal point.
+  // A larger number is probably due to a misplaced decimal point.
   constexpr double max_points = 1e8;
   double count = 0.0;
   for (const std::int64_t of_element : liquid_point_counts(mesh, document.scene)) {

@@ -18,12 +18,12 @@ namespace suffuse {
 namespace {
 
 /// Smallest volume of an element, relative to its longest edge to the power of the dimension; a
-/// triangle has an angle of about 1e-10 degrees then.
+/// triangle then has an angle of about 1e-10 degrees.
 constexpr double smallest_volume = 1e-12;
 /// Relative to the diagonal of the mesh.
 constexpr double same_place = 1e-9;
 
-/// Things with boxes around them, found again by a box.
+/// Objects with bounding boxes, which can be searched by a box.
 template <int Dim>
 class Bins {
  public:
@@ -32,7 +32,7 @@ class Bins {
     Vector<Dim> high;
   };
 
-  /// \param all  what will be added lies in it
+  /// \param all  contains everything that will be added
   Bins(const Box& all, std::size_t count) : low_(all.low) {
     const double per_axis = std::ceil(std::pow(2.0 * static_cast<double>(count) + 1.0, 1.0 / Dim));
     size_ = std::max((all.high - all.low).maxCoeff() / per_axis, 1e-300);
@@ -40,7 +40,7 @@ class Bins {
   void add(const Box& box, int thing) {
     visit(box, [&](const Cell& cell) { things_[cell].push_back(thing); });
   }
-  /// The things that share a bin with the box, in ascending order.
+  /// The objects that share a bin with the box, in ascending order.
   [[nodiscard]] std::vector<int> near(const Box& box) const {
     std::vector<int> result;
     visit(box, [&](const Cell& cell) {
@@ -111,7 +111,7 @@ class MeshChecks {
 
   struct Side {
     Face key;     ///< nodes in ascending order
-    bool is_odd;  ///< how the order of the nodes that leads around it outwards differs from `key`
+    bool is_odd;  ///< whether the outward order of the nodes is an odd permutation of `key`
     int element;
     int corner;  ///< opposite
   };
@@ -202,7 +202,7 @@ class MeshChecks {
     for (int e = 0; e < mesh_.element_count(); ++e) {
       for (int corner = 0; corner <= Dim; ++corner) {
         const Face face = face_opposite<Dim>(mesh_.elements[e], corner);
-        int swaps = Dim * corner;  // swaps from the outward order to the ascending one
+        int swaps = Dim * corner;  // swaps from outward to ascending order
         for (int a = 0; a < Dim; ++a) {
           for (int b = 0; b < a; ++b) swaps += face[b] > face[a] ? 1 : 0;
         }
@@ -212,13 +212,12 @@ class MeshChecks {
     std::ranges::stable_sort(sides_, {}, &Side::key);
   }
 
-  /// Two neighbours turn around their common side in opposite directions, as all elements are
-  /// positively oriented. Two that turn in the same direction lie on the same side of it: they
-  /// overlap.
+  /// All elements are positively oriented, so neighbours have opposite orientations of their common
+  /// side. Two elements with equal orientations lie on the same side of it and overlap.
   void check_overlaps() {
     ProblemKind kind(problems_, std::string(Words::elements) +
                                     " that do not overlap: the mesh is folded or has one twice");
-    std::map<int, std::pair<const Side*, const Side*>> overlaps;  // by the later element
+    std::map<int, std::pair<const Side*, const Side*>> overlaps;  // by the second element
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       if (is_flat_[sides_[i].element]) continue;
       for (std::size_t j = i + 1; j < sides_.size() && sides_[j].key == sides_[i].key; ++j) {
@@ -241,7 +240,7 @@ class MeshChecks {
     }
   }
 
-  /// A node in the middle of a neighbour's side connects nothing: what looks like one body would be
+  /// Finds nodes within a neighbour's side. They connect nothing: an apparent single body would be
   /// two, with an impervious joint.
   void check_hanging_nodes() {
     ProblemKind kind(problems_, std::string("neighbours that share whole ") + Words::sides +
@@ -269,7 +268,7 @@ class MeshChecks {
     }
   }
 
-  /// How far a place in the plane of a face lies from its border; negative: outside.
+  /// Distance of a place in the plane of a face from its border; negative: outside.
   [[nodiscard]] double inside(const Vector<Dim>& x, const Face& face) const {
     if constexpr (Dim == 2) {
       const Vector<2> along = x_[face[1]] - x_[face[0]];
@@ -287,7 +286,7 @@ class MeshChecks {
     }
   }
 
-  /// Away from the corners, where duplicate nodes would be.
+  /// Whether a place lies on a face, away from its corners (those would be duplicate nodes).
   [[nodiscard]] bool lies_on(const Vector<Dim>& x, const Face& face) const {
     if (std::abs(unit_normal(face).dot(x - x_[face[0]])) > tolerance_) return false;
     for (const int node : face) {
@@ -296,7 +295,7 @@ class MeshChecks {
     return inside(x, face) > (Dim == 2 ? tolerance_ : -tolerance_);
   }
 
-  /// Parts that share no side and yet lie on each other: their outer sides cross, or one lies
+  /// Finds parts that overlap although they share no side: their outer sides cross, or one lies
   /// within an element of the other.
   void check_parts() {
     ProblemKind kind(
@@ -340,7 +339,7 @@ class MeshChecks {
     }
   }
 
-  /// Both by more than round-off.
+  /// Whether two faces cross by more than round-off.
   [[nodiscard]] bool cross(const Face& face, const Face& other) const {
     if constexpr (Dim == 2) {
       return separates_ends(face, other) && separates_ends(other, face);
@@ -349,7 +348,7 @@ class MeshChecks {
     }
   }
 
-  /// Both ends of an edge on different sides of a line.
+  /// Whether the ends of an edge are on different sides of a line.
   [[nodiscard]] bool separates_ends(const Face& line, const Face& edge) const {
     const Vector<Dim> normal = unit_normal(line);
     const auto aside = [&](int node) { return normal.dot(x_[node] - x_[line[0]]); };
@@ -357,7 +356,7 @@ class MeshChecks {
     return low < -tolerance_ && high > tolerance_;
   }
 
-  /// An edge of one face passes through the other.
+  /// Whether an edge of one face passes through the other.
   [[nodiscard]] bool an_edge_passes(const Face& face, const Face& through) const {
     const Vector<Dim> normal = unit_normal(through);
     for (int a = 0; a < Dim; ++a) {
@@ -389,7 +388,7 @@ class MeshChecks {
     return part;
   }
 
-  /// Farther from each of its sides than the tolerance.
+  /// Whether a place lies within an element, farther from its sides than the tolerance.
   [[nodiscard]] bool lies_within(const Vector<Dim>& x, int e) const {
     const auto& corners = mesh_.elements[e];
     for (int a = 0; a <= Dim; ++a) {

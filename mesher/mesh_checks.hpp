@@ -16,9 +16,9 @@ struct MeshTags {
   std::vector<std::size_t> elements;
 };
 
-/// Turns elements round that are not positively oriented, and returns how many. Adds to `problems`,
-/// `found` and `expected` only: nodes at one place, elements without a volume, elements that
-/// overlap, nodes on sides of other elements, and parts that lie on each other.
+/// Reorients elements that are not positively oriented, and returns their number. Adds to
+/// `problems`, `found` and `expected` only: nodes at one place, elements without a volume, elements
+/// that overlap, nodes on sides of other elements, and parts that lie on each other.
 template <int Dim>
 int check_mesh(Mesh<Dim>& mesh, const MeshTags& tags, std::vector<InputProblem>& problems);
 

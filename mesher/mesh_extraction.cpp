@@ -26,11 +26,11 @@ using Tag = std::size_t;
 constexpr double out_of_plane = 1e-9;
 /// Largest coordinate, m: the square of an area, a product of four lengths, is still finite.
 constexpr double max_coordinate = 1e50;
-/// Characters.
+/// Bytes.
 constexpr std::size_t longest_name = 127;
-/// Names go into files, tables and messages: in UTF-8, and without what moves a terminal's cursor.
+/// Whether a name can be in files, tables and messages: UTF-8 without control characters.
 bool is_plain_name(const std::string& name) {
-  std::size_t expected = 0;  // bytes that continue a character
+  std::size_t expected = 0;  // missing bytes of the current character
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte == 0x7f) return false;
@@ -105,7 +105,7 @@ class Extraction {
     return place_text<Dim>(centre);
   }
 
-  /// Nothing where Gmsh has no such entity.
+  /// The entity, or null if Gmsh has none.
   [[nodiscard]] const GmshEntity* find_entity(int dimension, int tag) const {
     const auto found = std::ranges::find_if(model_.entities, [&](const GmshEntity& entity) {
       return entity.dimension == dimension && entity.tag == tag;
@@ -113,7 +113,7 @@ class Extraction {
     return found == model_.entities.end() ? nullptr : &*found;
   }
 
-  /// The elements of an entity that have the wanted type; the others are problems.
+  /// The elements of an entity that have the required type; others are problems.
   Elements read_entity(const GmshEntity& entity, int wanted, ProblemKind& wrong_types) {
     Elements result;
     for (const GmshElements& block : entity.elements) {
@@ -148,7 +148,7 @@ class Extraction {
     const Vector<2> between = x[1] - x[0];
     const double share = (between[0] * second[1] - between[1] * second[0]) /
                          (first[0] * second[1] - first[1] * second[0]);
-    // Outside (0, 1) the quadrangle is not convex; its mean point then at least shows where it is.
+    // Outside (0, 1) the quadrangle is not convex; its mean point then shows its place.
     const bool convex = share > 0.0 && share < 1.0;
     const Vector<2> middle =
         convex ? Vector<2>(x[0] + share * first) : Vector<2>(0.25 * (x[0] + x[1] + x[2] + x[3]));
@@ -240,7 +240,7 @@ class Extraction {
     mesh().element_region.resize(tags_.elements.size(), regions.empty() ? 0 : regions.front());
   }
 
-  /// List of the entities that a user can name, for the case that none has a name.
+  /// List of the entities that a user can name, if none has a name.
   [[nodiscard]] std::string inventory(const std::vector<int>& dimensions) const {
     std::string text;
     for (const int dimension : dimensions) {
@@ -326,7 +326,7 @@ class Extraction {
     }
   }
 
-  /// Its nodes by their indices, if an element has them all.
+  /// The side with these nodes, by their indices, if an element has all of them.
   [[nodiscard]] std::optional<Side> side_of(const std::vector<Tag>& nodes) const {
     Side side{};
     for (int a = 0; a < Dim; ++a) {
@@ -337,7 +337,7 @@ class Extraction {
     return face_key<Dim>(side);
   }
 
-  /// A curve (surface) is a boundary, or lies inside the mesh as a whole.
+  /// Adds a curve (surface), which must be a boundary or be inside the mesh as a whole.
   void add_boundary(const std::string& name, const std::vector<std::vector<Tag>>& sides,
                     const FaceTable<Dim>& faces) {
     std::set<Side> outer;

@@ -21,29 +21,29 @@ struct NamedNode {
 template <int Dim>
 struct ExtractedMesh {
   /// Physical surfaces are its regions, physical curves its boundaries, in three dimensions
-  /// physical volumes and surfaces; nodes that no element uses are left out. Complete only when
-  /// there are no problems.
+  /// physical volumes and surfaces; nodes that no element uses are left out. Complete only if there
+  /// are no problems.
   Mesh<Dim> mesh;
   /// Physical curves (surfaces) that lie inside the mesh: what a wall or a well may name.
   std::vector<BoundarySet<Dim>> inner_curves;
   /// Physical points that are nodes of the mesh: what a well may name.
   std::vector<NamedNode> points;
-  /// The faults of the mesh: `found` and `expected` only, as the caller knows where it came from.
+  /// The faults of the mesh: `found` and `expected` only, because the caller knows its origin.
   std::vector<InputProblem> problems;
   /// End of a message for a geometry that names no curve (surface): it lists those that can get a
   /// name.
   std::optional<std::string> curves_to_name;
-  /// Clockwise triangles, or tetrahedra inside out, that were turned round.
+  /// Number of elements with negative orientation that were reoriented.
   int turned = 0;
-  /// False when so much is missing that a comparison with the scene would only add more messages.
+  /// False if so much is missing that a comparison with the scene would only add messages.
   bool comparable = false;
 };
 
 enum class Quadrangles {
   refused,
-  /// Into four triangles that meet where the diagonals cross. Linear velocities can then follow any
-  /// flow with one pressure per triangle: the four divergences of a quadrangle cut this way are not
-  /// independent, where on general triangles they leave velocities too few freedoms.
+  /// Cuts into four triangles that meet where the diagonals cross. The four divergences of such a
+  /// quadrangle are not independent, so linear velocities have enough freedom for one pressure per
+  /// triangle, unlike on general triangles.
   cut_along_diagonals,
 };
 

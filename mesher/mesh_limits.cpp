@@ -10,7 +10,7 @@ namespace suffuse {
 
 namespace {
 
-/// More is probably due to a misplaced decimal point.
+/// A larger number is probably due to a misplaced decimal point.
 constexpr double max_elements = 5e6;
 
 [[noreturn]] void refuse_size(const SceneDocument& document, double smallest,

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Refuses sizes of elements that make more of them than anybody wants.
+/// Refuses element sizes that give too many elements.
 
 #include <string>
 

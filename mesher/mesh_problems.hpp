@@ -1,6 +1,6 @@
 #pragma once
 
-/// Words and lists that problems of a mesh share.
+/// Common words and lists of problems of a mesh.
 
 #include <cstddef>
 #include <string>

@@ -5,8 +5,8 @@
 
 namespace suffuse {
 
-/// A text of unknown origin as it may be printed: of at most 100 000 bytes, and without control
-/// characters, which can move a terminal's cursor; ends of lines stay.
+/// A text of unknown origin, made safe to print: at most 100 000 bytes, without control characters
+/// except ends of lines.
 inline std::string plain_text(std::string text) {
   constexpr std::size_t most = 100000;
   if (text.size() > most) text.resize(most);

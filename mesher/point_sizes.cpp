@@ -13,7 +13,7 @@ namespace suffuse {
 
 namespace {
 
-/// The size that Gmsh stores for a point without one.
+/// The size that Gmsh stores for a point without a size.
 constexpr double no_size = 1e22;
 
 /// Reads `cl__1 = 1e+22;` and `Point(7) = {0, 0, 0, cl__1};`.
@@ -39,7 +39,7 @@ gmsh::vectorpair points_without_size(std::istream& unrolled) {
 }  // namespace
 
 void set_default_point_size(double size) {
-  // The API of Gmsh 4.8 sets sizes but does not tell them; its unrolled geometry does.
+  // The API of Gmsh 4.8 can set sizes but not return them; they are in its unrolled geometry.
   const WritesToMemory memory;
   gmsh::write("model.geo_unrolled");
   std::ifstream stream(memory.path());

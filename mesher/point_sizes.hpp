@@ -4,10 +4,10 @@
 
 namespace suffuse {
 
-/// Gives `size` to every point of the current Gmsh model to which its file gave none. Without it
-/// Gmsh would take a tenth of the model's diagonal there. For confined processes
-/// (`system_call_filter.hpp`) alone: Gmsh has to write a file for it. Gmsh's own errors come as its
-/// exceptions.
+/// Gives `size` to every point of the current Gmsh model whose file gives none. Gmsh would
+/// otherwise use a tenth of the model's diagonal. Only for confined processes
+/// (`system_call_filter.hpp`), because Gmsh has to write a file. Throws the exceptions of Gmsh for
+/// its own errors.
 void set_default_point_size(double size);
 
 }  // namespace suffuse

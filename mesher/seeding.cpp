@@ -67,7 +67,7 @@ Rule<3> fourteen_points() {
   return rule;
 }
 
-/// Uniform numbers from a fixed recipe: std::uniform_real_distribution differs between libraries.
+/// Uniform numbers by a fixed algorithm: std::uniform_real_distribution differs between libraries.
 class UniformNumbers {
  public:
   /// The streams of one seed are independent.
@@ -148,7 +148,7 @@ class Jitter {
   UniformNumbers random_;
 };
 
-/// Points anywhere in an element by chance.
+/// Random points in an element.
 template <int Dim>
 class RandomPoints {
  public:
@@ -157,7 +157,7 @@ class RandomPoints {
     double x = random_.next();
     double y = random_.next();
     if constexpr (Dim == 2) {
-      if (x + y > 1.0) {  // the other half of the square, folded over
+      if (x + y > 1.0) {  // reflect the other half of the square
         x = 1.0 - x;
         y = 1.0 - y;
       }
@@ -177,15 +177,15 @@ class RandomPoints {
 template <int Dim>
 class EvenPoints;
 
-/// Basu and Owen's sequence: the digits of the index in base 4, the last one first, choose one of
-/// the four similar triangles again and again; the point is the centroid of the last. Any 4^m
-/// points from a multiple of 4^m on fall into different ones of the 4^m triangles.
+/// Basu and Owen's sequence: each digit of the index in base 4, the last one first, chooses one of
+/// four similar triangles of the one before; the point is the centroid of the last triangle. Any
+/// 4^m points from a multiple of 4^m on fall into different ones of the 4^m triangles.
 template <>
 class EvenPoints<2> {
  public:
   std::array<double, 3> next() {
     std::array<double, 3> point{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-    // Half the way from the centroid to a corner; the middle triangle stands on its head.
+    // Half the distance from the centroid to a corner; the middle triangle is inverted.
     double half = 0.5;
     for (std::uint64_t rest = index_++; rest > 0; rest /= 4) {
       const std::uint64_t digit = rest % 4;
@@ -216,7 +216,7 @@ class EvenPoints<3> {
   }
 
  private:
-  /// The digits of the index behind the point, in reverse order.
+  /// Number in [0, 1) with the digits of the index behind the point, in reverse order.
   [[nodiscard]] double radical_inverse(std::uint64_t base) const {
     double result = 0.0;
     double place = 1.0;
@@ -230,7 +230,7 @@ class EvenPoints<3> {
   std::uint64_t index_ = 0;
 };
 
-/// On a side two elements would claim the point.
+/// Whether a place is off all sides; a point on a side would belong to two elements.
 template <std::size_t N>
 bool is_inside(const std::array<double, N>& barycentric) {
   constexpr double margin = 1e-9;
@@ -260,8 +260,8 @@ double mean_liquid_volume(const Mesh<Dim>& mesh, const Scene& scene, Counts coun
   return elements > 0 ? sum / elements : 0.0;
 }
 
-/// Rounds to the nearest whole number, at least one. Halves are rounded down even where round-off
-/// lifts them a little, so that equal elements get equal numbers.
+/// Rounds to the nearest whole number, at least one. Halves are rounded down, also with round-off,
+/// so that equal elements get equal numbers.
 std::int64_t whole_points(double share) {
   constexpr double round_off = 1e-9;
   constexpr double most = 1e9;

@@ -32,8 +32,8 @@ std::vector<QuadraturePoint<3>> gauss_rule<3>(int count);
 /// Solid points: `points.solid_per_element` per element, each with its weight's share of the
 /// volume. With `points.jitter` each point moves in a random direction by a random distance of up
 /// to jitter times the element's size, sqrt(2 area) or cbrt(6 volume), but stays within its
-/// element; volumes do not change. The same seed gives the same points on every platform.
-/// This one fills every element: for meshes of soil alone.
+/// element; volumes do not change. The same seed gives the same points on every platform. Fills
+/// every element, for meshes of soil alone.
 template <int Dim>
 MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const PointSettings& settings);
 
@@ -43,19 +43,19 @@ MaterialPoints<Dim> seed_solid_points(const Mesh<Dim>& mesh, const Scene& scene)
 
 /// Number of liquid points of each element, from 1 to 1e9. With `points.equal_volume` it is
 /// proportional to the liquid volume of the element, n_0 V_e, in free water V_e: a mean element of
-/// the soils that erode (of all soils where none does) has `points.liquid_per_element`. Without it,
+/// the soils that erode (of all soils if none does) has `points.liquid_per_element`. Without it,
 /// and always with Gauss points, every element has `points.liquid_per_element`.
 template <int Dim>
 std::vector<std::int64_t> liquid_point_counts(const Mesh<Dim>& mesh, const Scene& scene);
 
-/// Liquid points of a double-point scene, as `liquid_point_counts` has them and placed as
+/// Liquid points of a double-point scene, in the numbers of `liquid_point_counts` and placed as
 /// `points.seeding` says; `volume` is liquid volume and adds up to n_0 V_e in every element. Gauss
-/// points have their weights' shares of it, all others equal ones, and lie more than 1e-9 off every
-/// side in barycentric coordinates. The same scene gives the same points on every platform.
+/// points have shares by their weights, other points equal shares and barycentric coordinates above
+/// 1e-9. The same scene gives the same points on every platform.
 ///
-/// The low-discrepancy points are the van der Corput sequence on the triangle, K. Basu and
-/// A. B. Owen, SIAM J. Numer. Anal. 53 (2015) 743-761, and Halton's sequence on the tetrahedron,
-/// Numer. Math. 2 (1960) 84-90; they go on from element to element.
+/// The low-discrepancy points are the van der Corput sequence on the triangle, K. Basu and A. B.
+/// Owen, SIAM J. Numer. Anal. 53 (2015) 743-761, and Halton's sequence on the tetrahedron, Numer.
+/// Math. 2 (1960) 84-90; they continue from element to element.
 template <int Dim>
 MaterialPoints<Dim> seed_liquid_points(const Mesh<Dim>& mesh, const Scene& scene);
 

@@ -11,7 +11,7 @@ namespace suffuse {
 
 namespace {
 
-/// Below this, steps get small and interpolation poor.
+/// Below this angle steps are small and interpolation is poor, degrees.
 constexpr double poor_angle = 5.0;
 
 struct Line {
@@ -34,7 +34,7 @@ double region_volume(const Mesh<Dim>& mesh, std::size_t region) {
   return volume;
 }
 
-/// All of them, and how many an element has: `400 (12 to 40 per element)`.
+/// Number of points, and that per element: `400 (12 to 40 per element)`.
 template <int Dim>
 std::string liquid_counts(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points) {
   std::vector<int> counts(mesh.elements.size(), 0);

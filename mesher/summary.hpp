@@ -15,7 +15,7 @@ namespace suffuse {
 template <int Dim>
 std::string case_summary(const Case<Dim>& c, const std::vector<std::string>& notes);
 
-/// A sentence when the smallest angle is below 5 degrees, empty otherwise.
+/// A sentence if the smallest angle is below 5 degrees, otherwise empty.
 template <int Dim>
 std::string angle_warning(const Mesh<Dim>& mesh);
 

@@ -22,18 +22,18 @@ namespace suffuse {
 
 namespace {
 
-/// The descriptor to which the handler below reports; it has no other way to get values.
+/// The descriptor to which the handler below reports; only globals can pass values to it.
 int report_descriptor = -1;
 /// The file of `WritesToMemory`, or -1.
 int memory_file = -1;
 bool is_confined = false;
 
-/// Flags of open with which a file is written or made.
+/// Flags of `open` that write or create a file.
 constexpr int writing_flags = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
-/// Only the handler opens files, and with this flag, so that opening a pipe does not wait.
+/// Only the handler opens files, and with this flag, so that opening a pipe does not block.
 constexpr int handlers_flag = O_NONBLOCK;
 
-/// System calls that take only memory and time, or use descriptors that the process has.
+/// System calls that need only memory and time, or use existing descriptors.
 constexpr std::array allowed_calls{
     // memory
     SCMP_SYS(brk), SCMP_SYS(mmap), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect),
@@ -59,7 +59,7 @@ constexpr std::array allowed_calls{
     SCMP_SYS(clock_gettime), SCMP_SYS(clock_getres), SCMP_SYS(gettimeofday), SCMP_SYS(time),
     SCMP_SYS(times), SCMP_SYS(getrandom), SCMP_SYS(uname), SCMP_SYS(sysinfo)};
 
-/// Calls that end the process. Those that open a file are judged by `opened`.
+/// The reason to end the process at a call, if any. `opened` decides on calls that open a file.
 std::optional<Refused> refusal_of(long call) {
   switch (call) {
     case SYS_clone:
@@ -203,7 +203,7 @@ class Filter {
   void load() { check(::seccomp_load(context_)); }
 
  private:
-  /// -EDOM: this processor has no such call.
+  /// Throws for an error of the library, except -EDOM: this processor has no such call.
   static void check(int result) {
     if (result < 0 && result != -EDOM) no_filter(-result);
   }

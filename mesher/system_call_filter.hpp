@@ -1,12 +1,12 @@
 #pragma once
 
-/// Takes from a process the rights that reading a file and computing do not need.
+/// Removes the rights of a process that are not needed to read files and compute.
 
 #include <string>
 
 namespace suffuse {
 
-/// What a confined process may not do.
+/// Actions that a confined process must not do.
 enum class Refused : char {
   process = 'p',  ///< start a program, a process or a thread
   writing = 'w',  ///< write, make, rename or remove a file
@@ -16,15 +16,15 @@ enum class Refused : char {
 };
 
 /// From now on this process may compute, allocate memory, read regular files, write to the
-/// descriptors that it has, and end: every system call that these do not need is refused, by an
-/// allow list. An attempt at what `Refused` lists ends the process; any other call fails with
-/// EPERM. The process cannot take this back.
+/// descriptors that it has, and end: an allow list refuses every other system call. An attempt at
+/// what `Refused` lists ends the process; any other call fails with EPERM. The process cannot take
+/// this back.
 ///
 /// An attempt is reported as the byte `report_mark`, the byte of `Refused` and the name of the file
-/// if there is one. A process that blocks signals, as one does that is about to start another, is
-/// ended by SIGSYS and reports nothing.
+/// if there is one. A process that blocks signals, as before the start of another process, is ended
+/// by SIGSYS without a report.
 /// \param report_to  descriptor
-/// Throws FileError where the system has no such filter.
+/// Throws FileError if the system has no such filter.
 void confine_process(int report_to);
 
 inline constexpr char report_mark = 'C';

@@ -35,7 +35,7 @@ std::string default_folder(const std::string& case_path) {
   return name + ".results";
 }
 
-/// What would run, and what it would take. Leaves nothing behind.
+/// Prints the plan of a run and its estimated cost. Leaves no files.
 template <int Dim>
 int explain(const suffuse::Case<Dim>& c, const suffuse::Plan& plan, int threads) {
   using namespace suffuse;
@@ -88,7 +88,7 @@ std::string refuse_empty(const std::string& name) {
   return name.empty() ? "got an empty name; expected that of a folder" : "";
 }
 
-/// Has the options of a test at one point.
+/// Adds the options of the element test.
 void add_element_test(CLI::App& app, suffuse::ElementTestOptions& element) {
   CLI::Option* table =
       app.add_option("--element-test", element.table,
@@ -113,7 +113,7 @@ void add_element_test(CLI::App& app, suffuse::ElementTestOptions& element) {
   }
 }
 
-/// Has the options of the factor of safety.
+/// Adds the options of the strength reduction.
 void add_strength_reduction(CLI::App& app, Arguments& arguments) {
   CLI::Option* mode = app.add_flag(
       "--strength-reduction", arguments.strength_reduction,

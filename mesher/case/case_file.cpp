@@ -166,7 +166,7 @@ class CaseReader {
                     "; write the case file anew with suffuse-mesher");
   }
 
-  /// Texts of the files that the scene names; the case has no such data sets where there are none.
+  /// Texts of the files that the scene names; without any the case has no such data sets.
   [[nodiscard]] std::map<std::string, std::string> scene_files() const {
     if (!file_.exists("/scene/file_names")) return {};
     const std::vector<std::string> names = file_.read_texts("/scene/file_names");
@@ -310,8 +310,8 @@ class CaseReader {
     }
   }
 
-  /// Checks that the volumes of the points of each element add up to the volume that they stand
-  /// for: sums over points must equal sums over elements.
+  /// Checks that the volumes of the points of each element add up to the volume that they
+  /// represent: sums over points must equal sums over elements.
   template <class VolumeOf>
   void check_volumes(const std::string& group, const Mesh<Dim>& mesh,
                      const MaterialPoints<Dim>& points, const VolumeOf& volume_of) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The case file: what suffuse-mesher hands to suffuse-solver. One HDF5 file; see
+/// The case file, which suffuse-mesher writes and suffuse-solver reads. One HDF5 file; see
 /// docs/file-formats.md.
 
 #include <string>

@@ -69,7 +69,7 @@ class SceneCheck {
     return closest.empty() ? "" : in_quotes(closest);
   }
 
-  /// In two dimensions a third component, of gravity for example, would have no effect.
+  /// Refuses a third component, for example of gravity, which has no effect in two dimensions.
   void check_two_dimensional(const std::string& key, const std::array<double, 3>& value) {
     if (Dim == 2 && value[2] != 0.0) {
       report(key, "a third number, " + short_number(value[2]),
@@ -216,7 +216,7 @@ class SceneCheck {
     return false;
   }
 
-  /// A curve or point that is inside the mesh but is not cut has been reported elsewhere.
+  /// Whether a name is inside the mesh. Names that are inside but not cut are reported elsewhere.
   bool check_inner(const std::string& key, const std::string& name, const std::string& what,
                    const std::vector<std::string>& names) {
     if (std::ranges::find(inner_, name) != inner_.end()) return true;
@@ -235,8 +235,8 @@ class SceneCheck {
     }
   }
 
-  /// A face that the water level passes gets another kind of condition. The explicit scheme cannot
-  /// change that.
+  /// Refuses heads that pass a face, which changes the kind of its condition: the explicit scheme
+  /// cannot do that.
   void check_explicit_heads() {
     const Scene& scene = document_.scene;
     if (scene.time.scheme != FlowScheme::explicit_nodal || !has_gravity(scene.gravity)) return;
@@ -350,7 +350,7 @@ class SceneCheck {
   std::vector<std::string> inner_;   ///< `curves_` and points inside the mesh
   std::vector<std::string> outer_;   ///< boundaries
   std::vector<std::string> slit_;    ///< curves and points that are cut
-  std::set<std::string> meant_;      ///< regions that soils of other names most likely mean
+  std::set<std::string> meant_;      ///< regions that misspelt names of soils most likely mean
   std::vector<InputProblem> problems_;
 };
 

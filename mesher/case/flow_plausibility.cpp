@@ -7,13 +7,13 @@ namespace suffuse {
 namespace {
 
 // Limits within which there is no warning.
-/// Largest height of a head above the model, in heights of the model and in m: the larger counts.
+/// Largest height of a head above the model, in model heights and in m; the larger one applies.
 constexpr double farthest_head = 3.0;
 constexpr double least_far_head = 30.0;
 /// m/s, which are 3.6 m/h; the heaviest rain ever measured had 0.6e-3 m/s.
 constexpr double heaviest_rain = 1e-3;
-/// Least ratio of a pressure to the pressure under water as high as the model. It is checked where
-/// the latter is more than `noticed` Pa.
+/// Least ratio of a pressure to the pressure under water as high as the model. It is checked if the
+/// latter is more than `noticed` Pa.
 constexpr double least_pressure = 2e-3;
 constexpr double noticed = 1e3;
 
@@ -91,7 +91,7 @@ class Flow : private PlausibilityBase<Dim> {
   }
 
   /// Without gravity a head is compared with 0, and with the largest length of the model instead of
-  /// its height. A head far below the model is no fault: the model is dry.
+  /// its height. A head far below the model is valid: the model is dry.
   void check_head(const std::string& key, double head) {
     const bool falls = has_gravity(scene_.gravity);
     const auto [low, high] = falls ? this->heights() : std::pair(0.0, 0.0);

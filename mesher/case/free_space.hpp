@@ -1,6 +1,6 @@
 #pragma once
 
-/// What fills the regions that have no soil.
+/// The content of regions without soil.
 
 #include <string>
 
@@ -9,11 +9,11 @@
 
 namespace suffuse {
 
-/// Whether the region holds air where no water stands: it does where some soil has a retention law.
+/// Whether the region can hold air above the water: it can if some soil has a retention law.
 bool can_hold_air(const Scene& scene, const std::string& region);
 
-/// "free water", "air", or both where the water level at the start lies within the region or is
-/// not known; empty for soil. \param region  index into `region_names`
+/// "free water", "air", or both if the initial water level is within the region or unknown; empty
+/// for soil. `region`: index into `region_names`.
 template <int Dim>
 std::string free_space_text(const Mesh<Dim>& mesh, const Scene& scene, int region);
 

@@ -123,7 +123,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     warn("gravity", text + "; " + shown_value(g) + " is usual");
   }
 
-  /// Triangles in a row keep a yielding soil from flowing: limit loads come out too high, by 9 %
+  /// Warns of triangles that are not crossed: with yielding soil limit loads are too high, by 9 %
   /// and more (docs/limits.md).
   void check_structure() {
     if (scene_.mesh.structure == MeshStructure::crossed) return;
@@ -140,9 +140,9 @@ class Plausibility : private PlausibilityBase<Dim> {
 
   // Elements across a region.
 
-  /// Per node, number of edges to the nearest place where liquid may enter or leave its region: 0,
-  /// 1, or 2 for all that is farther. An impervious side does not count as such a place: a plane of
-  /// symmetry is one, and there is flow on both of its sides.
+  /// Number of edges from each node to the nearest place where liquid may enter or leave its
+  /// region: 0, 1, or 2 for larger distances. Impervious sides are no such places: they may be
+  /// planes of symmetry, with flow on both sides.
   [[nodiscard]] std::vector<int> edges_from_flow() const {
     constexpr int far = 2;
     std::vector<int> edges(mesh_.nodes.size(), far);
@@ -206,8 +206,8 @@ class Plausibility : private PlausibilityBase<Dim> {
     return set == mesh_.boundaries.end() ? nullptr : &*set;
   }
 
-  /// The highest prescribed head, which no head exceeds once the flow is steady; nothing where
-  /// a prescribed flux lets liquid in, or no head is prescribed.
+  /// The highest prescribed head, which no head exceeds once the flow is steady; nothing if a
+  /// prescribed flux lets liquid in, or if no head is prescribed.
   [[nodiscard]] std::optional<double> highest_head() const {
     double highest = -infinite;
     for (const BoundaryCondition& b : scene_.boundaries) {
@@ -260,7 +260,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     if (!worst.cause.empty()) warn_of_suction(soil, worst);
   }
 
-  /// Raises the suction by what a boundary prescribes at a face.
+  /// Raises the suction to that which a boundary prescribes at a face.
   template <class Raise>
   void raise_at_face(const BoundaryCondition& b, const std::array<int, Dim>& face,
                      const Raise& raise) const {

@@ -20,8 +20,8 @@ std::vector<std::string> plausibility_warnings(const SceneDocument& document,
                                                const Mesh<Dim>& mesh);
 
 /// A warning for each soil without a retention law that the initial water level or prescribed heads
-/// and pressures put under a suction of more than 0.5 m of water somewhere. Under gravity only. The
-/// solver observes suction itself.
+/// and pressures put under a suction of more than 0.5 m of water somewhere. Only with gravity. The
+/// solver also checks suction.
 template <int Dim>
 std::vector<std::string> suction_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
 

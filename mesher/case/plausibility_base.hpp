@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the checks behind the warnings of `plausibility.hpp` share, and the functions that make
+/// Common base of the checks for the warnings of `plausibility.hpp`, and the functions that make
 /// these warnings.
 
 #include <algorithm>

@@ -56,8 +56,8 @@ class Soils : private PlausibilityBase<Dim> {
              short_number(soil.conductivity) + "; sizes are in mm, not in m");
   }
 
-  /// Checks a given `skeleton_fraction` only: the check of gradations warns where the gradation
-  /// gives it.
+  /// Checks only a given `skeleton_fraction`; for one from a gradation the check of gradations
+  /// warns.
   void check_fines(const Soil& soil) {
     const std::string key = joined(table_of(soil), "skeleton_fraction");
     if (!soil.erosion.law->erodes() || !given(key)) return;
@@ -128,8 +128,8 @@ class Soils : private PlausibilityBase<Dim> {
     return volume > 0.0 ? sum / volume : 0.0;
   }
 
-  /// A traction given as a number acts from the start, when the soil is in equilibrium and its
-  /// water at rest.
+  /// Warns of a traction given as a number, which acts from the start, when the soil is in
+  /// equilibrium and its water at rest.
   void check_traction(const BoundaryCondition& b) {
     const bool is_number = b.traction && b.traction->knots.size() == 1;
     if (!is_number || !scene_.initial_from.empty()) return;

@@ -10,8 +10,8 @@ namespace {
 /// Last time of a table over the end of the run, such as 48 for an hour of a flood of two days.
 constexpr double longest_table = 50.0;
 constexpr double shortest_table = 1e-3;
-/// A table in a file, or in the scene, with at least so many rows is a time series. With fewer rows
-/// it is a value that changes at the start, in however short a time.
+/// A table in a file, or in the scene, with at least this number of rows is a time series. With
+/// fewer rows it is a value that may change at the start within any short time.
 constexpr std::size_t course_in_file = 3;
 constexpr std::size_t course_in_scene = 4;
 constexpr double large_results = 1e9;  // bytes

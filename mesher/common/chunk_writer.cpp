@@ -11,20 +11,19 @@
 namespace suffuse {
 namespace {
 
-// The bytes of numbers are written as they lie in memory.
+// The bytes of numbers are written as in memory.
 static_assert(std::endian::native == std::endian::little);
 
-/// How to compress: zlib's level and strategy.
+/// Effort of compression: zlib's level and strategy.
 struct Effort {
   int level = 1;
   int strategy = Z_DEFAULT_STRATEGY;
   bool operator==(const Effort&) const = default;
 };
 
-/// The effort that some bytes are worth, judged from a thousand of them. Bytes without frequent
-/// values and with few equal neighbours, such as the low digits of computed numbers, are stored as
-/// they are. Where fewer than a quarter of other bytes have equal neighbours, repeated strings are
-/// not searched for, only runs of one value.
+/// The effort for some bytes, from a sample of a thousand. Bytes without frequent values and with
+/// few equal neighbours, such as the low digits of computed numbers, are not compressed. If at most
+/// a quarter of other bytes have equal neighbours, only runs of one value are searched for.
 Effort effort_for(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t samples = 1024;
   std::array<std::uint64_t, 256> counts{};
@@ -44,8 +43,8 @@ Effort effort_for(std::span<const std::uint8_t> bytes) {
   return {};
 }
 
-/// Compresses one chunk after the other. A new start of zlib for each would take as long as
-/// compressing a small chunk.
+/// Compresses one chunk after the other. Restarting zlib for each would take as long as compressing
+/// a small chunk.
 class Compressor {
  public:
   Compressor() { works_ = deflateInit(&stream_, effort_.level) == Z_OK; }
@@ -56,7 +55,7 @@ class Compressor {
   }
 
   /// Compresses numbers whose bytes are sorted: all first bytes, then all second bytes, and so on.
-  /// The result is valid until the next call, and empty where zlib fails.
+  /// The result is valid until the next call, and empty if zlib fails.
   std::span<const std::uint8_t> compress(std::span<const std::uint8_t> sorted,
                                          std::size_t number_size) {
     if (!works_ || deflateReset(&stream_) != Z_OK) return {};
@@ -69,7 +68,7 @@ class Compressor {
     for (std::size_t k = 0; k < number_size; ++k) {
       const auto bytes = sorted.subspan(k * count, count);
       set_effort(effort_for(bytes));
-      // zlib does not write to what it reads.
+      // zlib does not change its input.
       stream_.next_in = const_cast<std::uint8_t*>(bytes.data());
       stream_.avail_in = static_cast<uInt>(count);
       const bool last = k + 1 == number_size;
@@ -92,7 +91,7 @@ class Compressor {
   std::vector<std::uint8_t> out_;
 };
 
-/// Column `column` from row `first` on, with its bytes sorted; zeros behind the last row.
+/// Column `column` from row `first` on, with its bytes sorted; zeros after the last row.
 void sort_bytes(const ChunkShape& shape, const std::uint8_t* numbers, std::size_t first,
                 std::size_t column, std::vector<std::uint8_t>& sorted) {
   const std::size_t size = shape.number_size;

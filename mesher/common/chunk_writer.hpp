@@ -2,7 +2,7 @@
 
 /// Writes the values of an HDF5 dataset compressed, in the form of HDF5's own filters "shuffle" and
 /// "deflate", which every reader of HDF5 undoes. The filters themselves take three times as long:
-/// they also try to compress what cannot be, the low digits of computed numbers.
+/// they also try to compress incompressible bytes, the low digits of computed numbers.
 
 #include <hdf5.h>
 
@@ -23,7 +23,7 @@ struct ChunkShape {
 ChunkShape chunk_shape(std::size_t rows, std::size_t columns, std::size_t number_size);
 
 /// Fills the dataset `set`, which was created with such chunks and both filters, with `numbers`,
-/// row by row. Returns false where HDF5 or zlib fail.
+/// row by row. Returns false if HDF5 or zlib fails.
 bool write_chunks(hid_t set, const ChunkShape& shape, const std::uint8_t* numbers);
 
 }  // namespace suffuse

@@ -19,7 +19,7 @@ inline const std::string exit_codes_help =
     "Exit codes: 0 done, 2 wrong input, 3 a computation or a check failed, 4 a file cannot be "
     "read or written, 130 interrupted (SIGINT, SIGTERM, SIGHUP).";
 
-/// What is wrong with the first argument that no option or command takes.
+/// The problem of the first argument that no option or command takes.
 inline InputError unknown_argument(const CLI::App& app) {
   const std::string first = app.remaining(true).front();
   std::string program = app.get_name();
@@ -52,8 +52,8 @@ inline void refuse_unknown_command(const CLI::App& app, const std::string& first
       InputProblem{"", "", '"' + first + '"', quoted_list(known), closest_name(first, known)}});
 }
 
-/// Reads the arguments. The exit code where the program is done: after --help or --version. Throws
-/// InputError.
+/// Reads the arguments. Returns an exit code if the program is done, after --help or --version.
+/// Throws InputError.
 inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);

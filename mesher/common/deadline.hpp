@@ -1,7 +1,7 @@
 #pragma once
 
-/// A moment of wall time by which a thread wants to be done, even within a step. Loops over a mesh
-/// (grid/parallel.hpp) look at the clock before they start. Runs have no deadline.
+/// A wall time at which a thread must stop, even within a step. Loops over a mesh
+/// (grid/parallel.hpp) check it before they start. Runs have no deadline.
 
 #include <chrono>
 #include <optional>
@@ -9,7 +9,7 @@
 namespace suffuse {
 
 /// Thrown when the deadline has passed. Results of the computation are incomplete and must not be
-/// used. It is no error of the computation, so that handlers of such errors do not catch it.
+/// used. It is not derived from other exceptions, so that handlers of errors do not catch it.
 struct DeadlinePassed {};
 
 /// Sets the deadline of this thread during its lifetime.

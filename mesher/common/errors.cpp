@@ -56,7 +56,7 @@ InputError::InputError(const std::string& sentence) : InputError(InputProblem{.k
 void prepare_process() {
   for (const int stream : {0, 1, 2}) {
     if (::fcntl(stream, F_GETFD) != -1) continue;
-    // open() takes the lowest free number, which is this one.
+    // open() returns the lowest free number, which is this one.
     static_cast<void>(::open("/dev/null", O_RDWR));
   }
   std::signal(SIGXFSZ, SIG_IGN);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Errors with which a stage ends: each kind has an exit code.
+/// Errors that end a program: each kind has an exit code.
 
 #include <stdexcept>
 #include <string>
@@ -17,7 +17,7 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
-/// One thing wrong with the user's input. Prints as
+/// One problem of the user's input. Prints as
 /// `WHERE: KEY: got FOUND; expected EXPECTED; did you mean SUGGESTION?`
 /// where WHERE is `FILE:LINE` (or `--set KEY=VALUE`), and empty parts are left out.
 struct InputProblem {
@@ -30,7 +30,7 @@ struct InputProblem {
   [[nodiscard]] std::string message() const;
 };
 
-/// Everything wrong with the input, all at once. `what()` has one problem per line.
+/// All problems of the input. `what()` has one problem per line.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<InputProblem> problems);
@@ -43,7 +43,7 @@ class InputError : public std::runtime_error {
   std::vector<InputProblem> problems_;
 };
 
-/// The computation could not go on: the message says where and what to do.
+/// The computation could not continue: the message says where and what to do.
 class NumericalError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -56,8 +56,8 @@ class FileError : public std::runtime_error {
 };
 
 /// Opens /dev/null for each of stdin, stdout and stderr that is closed: otherwise a file opened
-/// later would get its number, and the messages meant for it. Makes a write fail where a file may
-/// not grow further (SIGXFSZ), instead of ending the program.
+/// later would get its number, and its messages. Ignores SIGXFSZ: a write beyond the largest file
+/// size then fails and does not end the program.
 void prepare_process();
 
 /// Runs `body`, prints what it throws to stderr as `PROGRAM: error: ...` (an InputError's problems

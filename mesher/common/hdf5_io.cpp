@@ -39,9 +39,8 @@ class Handle {
   Close close_;
 };
 
-/// Keeps HDF5 from printing its error stack, as every failure becomes a FileError, and from
-/// cleaning up at the end of the program: it crashes there when a full disk has kept it from
-/// closing a file.
+/// Stops HDF5 from printing its error stack, because every failure becomes a FileError, and from
+/// cleaning up at the end of the program, where it crashes if a full disk prevented closing a file.
 void tame_hdf5() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -93,8 +92,8 @@ Handle array_space(const std::vector<std::size_t>& shape) {
   return {H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose};
 }
 
-/// Type of texts of one fixed length, at least one byte. ASCII where the texts allow, as VTK's
-/// reader needs it for its attributes.
+/// Type of texts of one fixed length, at least one byte. ASCII if possible, because VTK's reader
+/// needs it for its attributes.
 Handle text_type(std::span<const std::string> values) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   std::size_t longest = 1;
@@ -109,7 +108,7 @@ Handle text_type(std::span<const std::string> values) {
   return type;
 }
 
-/// The texts one after the other, each padded to the size of `type`.
+/// The concatenated texts, each padded to the size of `type`.
 std::string padded(std::span<const std::string> values, const Handle& type) {
   std::string buffer;
   for (std::string value : values) {
@@ -119,16 +118,15 @@ std::string padded(std::span<const std::string> values, const Handle& type) {
   return buffer;
 }
 
-/// How objects of one class are created: without times, so that equal contents give equal bytes.
+/// Settings to create objects of one class: without times, so that equal contents give equal bytes.
 Handle creation_settings(hid_t property_class) {
   Handle creation(H5Pcreate(property_class), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
   return creation;
 }
 
-/// How groups are created: links and attributes are stored in the header of the group. Otherwise
-/// HDF5 would make a heap and a tree for nine or more of them, which take more room than many a
-/// field.
+/// Settings to create groups: links and attributes are stored in the header of the group. Otherwise
+/// HDF5 would make a heap and a tree for nine or more of them, which may be larger than a field.
 Handle group_settings() {
   constexpr unsigned most = 64;
   Handle creation = creation_settings(H5P_GROUP_CREATE);
@@ -175,7 +173,7 @@ void write_array(hid_t file, const std::string& path, const std::string& dataset
   write_dataset(file, path, dataset, file_type, memory_type, array_space(shape), values.data());
 }
 
-/// A table is compressed column by column; a plain array is one column.
+/// Compresses a table column by column; a plain array is one column.
 template <class Value>
 void write_compressed_array(hid_t file, const std::string& path, const std::string& dataset,
                             hid_t type, std::span<const Value> values,
@@ -221,8 +219,8 @@ void write_attribute(hid_t file, const std::string& path, const std::string& obj
   }
 }
 
-/// Refuses a link: it can lead to any file that the user may read, or to a pipe on which the
-/// program would wait for ever. Suffuse's own objects are no links.
+/// Refuses a link: it can lead to any file that the user may read, or to a pipe that blocks the
+/// program. Suffuse's own objects are no links.
 void refuse_link(hid_t file, const std::string& path, const std::string& object) {
   H5L_info_t link{};
   if (H5Lget_info(file, object.c_str(), &link, H5P_DEFAULT) < 0) fail_reading(path, object);
@@ -254,15 +252,15 @@ std::vector<std::size_t> shape_of(const std::string& path, const std::string& ob
   return {extents.begin(), extents.end()};
 }
 
-/// The number of values, after a check that the file can hold them: a damaged extent must not
-/// become an allocation of terabytes.
+/// The number of values, after a check that the file can hold them: a damaged extent must not cause
+/// an allocation of terabytes.
 std::size_t checked_count(const std::string& path, const std::string& dataset, const Handle& set,
                           const Handle& type) {
   const Handle space(H5Dget_space(set.id()), H5Sclose);
   if (H5Sget_simple_extent_type(space.id()) == H5S_NULL) return 0;
   const std::vector<std::size_t> shape = shape_of(path, dataset, space);
   const Handle creation(H5Dget_create_plist(set.id()), H5Pclose);
-  constexpr long double highest_compression = 1100.0L;  // deflate cannot do better
+  constexpr long double highest_compression = 1100.0L;  // largest ratio of deflate
   const long double gain = H5Pget_nfilters(creation.id()) > 0 ? highest_compression : 1.0L;
   auto bytes = static_cast<long double>(H5Tget_size(type.id()));
   for (std::size_t extent : shape) bytes *= static_cast<long double>(extent);
@@ -287,7 +285,7 @@ void expect_class(const std::string& path, const std::string& object, const Hand
   fail(path, object, "holds " + found_name + "; expected " + wanted_name);
 }
 
-/// Types that HDF5 would convert by cutting off values are refused.
+/// Refuses types that HDF5 would convert with a loss of values.
 void expect_convertible(const std::string& path, const std::string& object, const Handle& type) {
   const std::size_t size = H5Tget_size(type.id());
   const bool is_unsigned =
@@ -379,7 +377,7 @@ Value number_attribute(const Hdf5File& file, hid_t id, const std::string& object
 /// and verifies them before it uses the metadata. Without checksums, a damaged file makes HDF5 1.10
 /// itself read and write memory that it must not.
 void refuse_old_layout(const std::string& path) {
-  constexpr std::size_t place_of_version = 8;  // behind the signature
+  constexpr std::size_t place_of_version = 8;  // after the signature
   std::array<char, place_of_version + 1> start{};
   std::ifstream(path, std::ios::binary).read(start.data(), start.size());
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
@@ -469,7 +467,7 @@ void Hdf5File::close() {
 
 bool Hdf5File::exists(const std::string& object) const {
   if (object == "/") return true;
-  // H5Lexists wants every parent to exist.
+  // H5Lexists requires that every parent exists.
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     const std::string parent = object.substr(0, end);
     if (H5Lexists(file_, parent.c_str(), H5P_DEFAULT) <= 0) {

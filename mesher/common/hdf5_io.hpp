@@ -1,7 +1,7 @@
 #pragma once
 
-/// Reads and writes HDF5 files: the part of the library that case and results files need. Every
-/// failure is a FileError that names the file and the object.
+/// Reads and writes HDF5 files: the functions for case and results files. Every failure is a
+/// FileError with the names of file and object.
 
 #include <hdf5.h>
 
@@ -59,8 +59,8 @@ class Hdf5File {
   void link_to(const std::string& object, const std::string& file);
   /// Whether `object` is such a link to `file`.
   [[nodiscard]] bool is_in(const std::string& object, const std::string& file) const;
-  /// Text, and lists of texts: UTF-8 of fixed length, padded with NUL. Text of variable length is
-  /// neither written nor read, as HDF5 itself crashes on it in a damaged file.
+  /// Writes text, and lists of texts: UTF-8 of fixed length, padded with NUL. Text of variable
+  /// length is neither written nor read, because HDF5 crashes on it in a damaged file.
   void write_text(const std::string& dataset, const std::string& value);
   void write_texts(const std::string& dataset, const std::vector<std::string>& values);
 

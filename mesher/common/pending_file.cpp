@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Waits until the file or folder is on the disk. It is no failure when the file system cannot do
-/// this (EINVAL).
+/// Waits until the file or folder is on the disk. A file system that cannot do this (EINVAL) is no
+/// error.
 void synchronise(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw FileError(path + ": cannot be opened: " + std::strerror(errno));

@@ -1,8 +1,8 @@
 #pragma once
 
 /// A file under construction. It is written under a temporary name in its final folder, and renamed
-/// only when complete: an interrupted program leaves no incomplete file that looks complete.
-/// A terminal or a pipe gets the contents when they are complete.
+/// only when complete: an interrupted program leaves no incomplete file that looks complete. A
+/// terminal or a pipe receives the contents when they are complete.
 
 #include <filesystem>
 #include <string>
@@ -22,7 +22,7 @@ class PendingFile {
   /// Where to write.
   [[nodiscard]] const std::string& temporary_path() const { return temporary_path_; }
 
-  /// Brings the finished file to the disk and renames it. Throws FileError.
+  /// Synchronises the finished file to the disk and renames it. Throws FileError.
   void commit();
 
  private:
@@ -30,7 +30,7 @@ class PendingFile {
 
   std::string path_;
   std::string temporary_path_;
-  bool is_special_;  ///< a terminal, a pipe: never to be replaced by a file
+  bool is_special_;  ///< a terminal or pipe, never replaced by a file
   bool committed_ = false;
 };
 

@@ -6,8 +6,8 @@
 
 namespace suffuse {
 
-/// Opens a file to read. Anything other than a regular file stays unopened: reading a folder
-/// throws, and a pipe may keep the program waiting for ever.
+/// Opens a regular file for reading. Others stay closed: reading a folder throws, and a pipe may
+/// block the program.
 inline std::ifstream open_regular_file(const std::string& path) {
   std::error_code ignored;
   std::ifstream in;

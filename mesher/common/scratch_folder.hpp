@@ -5,10 +5,10 @@
 
 namespace suffuse {
 
-/// A new folder for temporary files (in TMPDIR), removed with all in it.
+/// A new folder for temporary files (in TMPDIR), removed with its contents.
 class ScratchFolder {
  public:
-  /// The folder's name begins with `prefix`. Throws FileError when it cannot be made.
+  /// The folder's name begins with `prefix`. Throws FileError if it cannot be made.
   explicit ScratchFolder(const std::string& prefix);
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;

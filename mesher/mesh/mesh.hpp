@@ -12,7 +12,7 @@ namespace suffuse {
 template <int Dim>
 using Vector = Eigen::Matrix<double, Dim, 1>;
 
-/// A named set of outer faces, each given by its nodes. Of a wall or a well inside the mesh
+/// A named set of outer faces, each given by its nodes. For a wall or a well inside the mesh
 /// (`slit.hpp`) it holds both sides, one after the other: faces[2 i] and faces[2 i + 1] lie at the
 /// same place.
 template <int Dim>

@@ -52,7 +52,7 @@ class Slitting {
       sides.name = set.name;
       for (const Face& face : set.faces) {
         const std::vector<int>& owners = owners_.at(face_key<Dim>(face));
-        if (owners.size() != 2) continue;  // the mesh is wrong in another way
+        if (owners.size() != 2) continue;  // another problem of the mesh
         const Face first = renamed(face, owners[0]);
         const Face second = renamed(face, owners[1]);
         if (first == second) {
@@ -68,7 +68,7 @@ class Slitting {
   }
 
  private:
-  /// Gives every fan around a node but the first a node of its own.
+  /// Gives every fan around a node, except the first, its own node.
   void part_fans(int node, const std::vector<int>& elements) {
     std::vector<std::size_t> fan(elements.size());
     std::iota(fan.begin(), fan.end(), 0U);
@@ -76,7 +76,7 @@ class Slitting {
       while (fan[i] != i) i = fan[i] = fan[fan[i]];
       return i;
     };
-    std::map<Face, std::size_t> seen;  // faces at the node, with the element met first
+    std::map<Face, std::size_t> seen;  // faces at the node, with the first element found
     for (std::size_t i = 0; i < elements.size(); ++i) {
       const auto& corners = mesh_.elements[elements[i]];
       for (int corner = 0; corner <= Dim; ++corner) {

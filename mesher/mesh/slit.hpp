@@ -21,8 +21,8 @@ struct JoinedFace {
 /// Cuts `mesh` along the faces of `cuts`, which lie between two elements each and belong to one set
 /// alone. A node is doubled for each further fan of elements around it that no uncut face joins to
 /// the first: a tip inside the mesh stays single; an end at the outer boundary, a bend and both
-/// sides of a crossing come apart. Appends to the mesh's boundaries one set per cut, with the same
-/// name and the two sides of each face one after the other: faces[2 i] and faces[2 i + 1].
+/// sides of a crossing are separated. Appends to the mesh's boundaries one set per cut, with the
+/// same name and the two sides of each face one after the other: faces[2 i] and faces[2 i + 1].
 template <int Dim>
 std::vector<JoinedFace<Dim>> slit(Mesh<Dim>& mesh, const std::vector<BoundarySet<Dim>>& cuts);
 

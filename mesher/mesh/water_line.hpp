@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which faces of a boundary lie under the water level of its `head`.
+/// Finds the faces of a boundary under the water level of its `head`.
 
 #include <array>
 
@@ -8,8 +8,8 @@
 
 namespace suffuse {
 
-/// A whole face is under water where its centre is below the level, and where it is horizontal
-/// ground that the water just reaches.
+/// A face is under water as a whole if its centre is below the level, or if it is horizontal and
+/// the water just reaches it.
 template <int Dim>
 class WaterLine {
  public:
@@ -17,8 +17,8 @@ class WaterLine {
   WaterLine(const Mesh<Dim>& mesh, const std::array<double, 3>& gravity);
   /// Height of the centre of a face, m.
   [[nodiscard]] double centre_height(const std::array<int, Dim>& face) const;
-  /// A face is under water where the head exceeds this value, m: the height of its centre; for a
-  /// level face, a little less, so that a head equal to its height counts as water although the
+  /// A face is under water if the head exceeds this value, m: the height of its centre; for a level
+  /// face, a little less, so that a head equal to its height counts as water although the
   /// coordinates are rounded.
   [[nodiscard]] double wet_above(const std::array<int, Dim>& face) const;
 

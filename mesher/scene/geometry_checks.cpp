@@ -58,7 +58,7 @@ class GeometryChecks : private SceneCheckBase {
            "no such key: the file states its own unit, and is read in metres", {"geometry.file"});
   }
 
-  /// Refuses keys that have no effect on a mesh from a file, which is used as it is.
+  /// Refuses keys that have no effect on a mesh from a file, which is used unchanged.
   void check_mesh_of_file() const {
     for (const std::string key : {"mesh.size", "mesh.structure"}) {
       if (!given(key)) continue;

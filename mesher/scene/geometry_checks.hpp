@@ -1,6 +1,6 @@
 #pragma once
 
-/// Checks of `[geometry]` and `[mesh]` together: what goes with a shape and what with a file.
+/// Checks of `[geometry]` and `[mesh]` together: keys that need a shape or a file.
 
 #include <string>
 

@@ -8,10 +8,10 @@
 namespace suffuse {
 namespace {
 
-/// Range of the sizes of grains, mm: a size outside is a mistake.
+/// Range of the sizes of grains, mm: other sizes are mistakes.
 constexpr double smallest_grain = 1e-6;
 constexpr double largest_grain = 1e6;
-/// Percentages that differ by less are equal.
+/// Percentages with smaller differences are equal.
 constexpr double percentage_margin = 1e-9;
 
 }  // namespace
@@ -24,7 +24,7 @@ double Gradation::finer(double size) const {
   return a.finer + (b.finer - a.finer) * std::log(size / a.size) / std::log(b.size / a.size);
 }
 
-/// The size of a percentage that is between those of points i and i + 1.
+/// The size for a percentage between those of points i and i + 1.
 double Gradation::between(std::size_t i, double finer) const {
   const GradationPoint& a = points_[i];
   const GradationPoint& b = points_[i + 1];

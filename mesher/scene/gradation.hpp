@@ -8,14 +8,14 @@
 
 namespace suffuse {
 
-/// A point of the curve, such as a sieve gives.
+/// A point of the curve, for example from a sieve.
 struct GradationPoint {
   double size = 0.0;   ///< d, mm
   double finer = 0.0;  ///< F, per cent by mass
 };
 
 /// The curve is linear between points, in per cent over log d. It is unknown below the first point,
-/// unless that is at 0 %.
+/// unless this point is at 0 %.
 class Gradation {
  public:
   Gradation() = default;
@@ -29,8 +29,8 @@ class Gradation {
   [[nodiscard]] double smallest_size() const { return points_.front().size; }
   [[nodiscard]] double smallest_finer() const { return points_.front().finer; }
 
-  /// Which of the sizes with one percentage is meant: a gap in the grading is a level stretch of
-  /// the curve, with a fine and a coarse end.
+  /// Which size of a percentage is meant in a gap, where the curve is level between a fine and a
+  /// coarse end.
   enum class End { fine, coarse };
 
   /// F at a size, per cent: 100 beyond the last point. The size must not be below the first.
@@ -44,8 +44,8 @@ class Gradation {
   std::vector<GradationPoint> points_;
 };
 
-/// The fault of a table [[d, F], ...] as a gradation, where one entry is wrong: `F = 60 % at
-/// d = 4 mm after F = 70 %`. Empty where it is right.
+/// The fault of a table [[d, F], ...] as a gradation, if one entry is wrong:
+/// `F = 60 % at d = 4 mm after F = 70 %`. Empty if there is none.
 std::string gradation_fault(const std::vector<std::vector<double>>& rows);
 
 }  // namespace suffuse

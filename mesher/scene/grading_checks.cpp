@@ -15,9 +15,9 @@ using End = Gradation::End;
 
 /// H is the mass between d and `size_ratio` d.
 constexpr double size_ratio = 4.0;
-/// Per cent: where H is less, the curve is as level as in a gap (Kezdi).
+/// Per cent: a smaller H marks a gap in the curve (Kezdi).
 constexpr double level = 15.0;
-/// Percentages (absolute) and ratios (relative) that differ by less are equal.
+/// Percentages (absolute) and ratios (relative) with smaller differences are equal.
 constexpr double equality_margin = 1e-9;
 
 /// A size at which H/F may be smallest.
@@ -58,8 +58,8 @@ std::vector<ShapePoint> shape_points(const Gradation& gradation,
   return all;
 }
 
-/// The point with F up to `limit` at which `value` is smallest, the last where several are equal to
-/// round-off; nullptr when there is none.
+/// The point with F up to `limit` and the smallest `value`, the last one of several that are equal
+/// within round-off; nullptr if there is none.
 template <class Value>
 const ShapePoint* smallest(const std::vector<ShapePoint>& points, double limit, Value value) {
   const ShapePoint* found = nullptr;
@@ -99,8 +99,8 @@ double split_ratio(const Gradation& gradation, double u, End end) {
 double search_limit(const Gradation& gradation) {
   constexpr double wide = 20.0;
   constexpr double narrow = 30.0;
-  // The coarse part starts at F = 30 % of the whole. A share of the coarse part is therefore this
-  // share of the whole: 60 % become 72 %, and 10 % become 37 %.
+  // The coarse part starts at F = 30 % of the whole. A percentage of the coarse part becomes a
+  // percentage of the whole: 60 % become 72 %, and 10 % become 37 %.
   const auto of_coarse = [](double finer) { return narrow + finer * (100.0 - narrow) / 100.0; };
   if (gradation.smallest_finer() > of_coarse(10.0)) return narrow;
   const double uniformity =
@@ -145,7 +145,7 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
   if (start >= end - equality_margin) {
     return unknown(check, gradation, "splits below S = 100 %");
   }
-  // The logarithm of the ratio is linear in u between these, and jumps where sizes do.
+  // The logarithm of the ratio is linear in u between these values and jumps with the sizes.
   std::vector<double> splits{start, end};
   for (const GradationPoint& point : gradation.points()) {
     splits.push_back(point.finer);
@@ -156,7 +156,7 @@ GradingVerdict check_kezdi(const Gradation& gradation) {
   for (const double u : splits) {
     if (u < start - equality_margin || u > end + equality_margin) continue;
     for (const End side : {End::fine, End::coarse}) {
-      // There is no split before the first, and none behind the last.
+      // There is no split before the first and after the last.
       if (std::abs(u - (side == End::fine ? start : end)) <= equality_margin) continue;
       const double ratio = split_ratio(gradation, u, side);
       if (ratio <= largest * (1.0 + equality_margin)) continue;

@@ -3,7 +3,7 @@
 namespace suffuse {
 namespace {
 
-/// Every parameter that some law asks for, each key once.
+/// All parameters of the laws, each key once.
 template <class Parameter, class Law>
 std::vector<Parameter> parameters_of(std::span<const Law* const> laws) {
   std::vector<Parameter> all;
@@ -16,7 +16,7 @@ std::vector<Parameter> parameters_of(std::span<const Law* const> laws) {
   return all;
 }
 
-/// Words of the laws that ask for a key.
+/// Words of the laws with a parameter.
 template <class Law>
 std::vector<std::string> words_with(std::span<const Law* const> laws, std::string_view key) {
   std::vector<std::string> words;

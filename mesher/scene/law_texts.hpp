@@ -1,6 +1,6 @@
 #pragma once
 
-/// Texts about the laws, for the scene reference and for messages, from what each law declares.
+/// Texts about the laws from their declarations, for the scene reference and for messages.
 
 #include <algorithm>
 #include <span>
@@ -33,7 +33,7 @@ std::string described(std::span<const Law* const> laws, std::string_view Law::*m
   return text;
 }
 
-/// `a, b, c`, with other separators where given.
+/// `a, b, c`, or with other separators.
 std::string chained(const std::vector<std::string>& texts, const std::string& separator,
                     const std::string& last_separator);
 
@@ -44,17 +44,16 @@ std::string rate_unit();
 /// Units of the threshold: `"flux": m/s, ...`.
 std::string threshold_unit();
 
-/// Every parameter that some conductivity law asks for, each key once.
+/// All parameters of the conductivity laws, each key once.
 std::vector<ConductivityParameter> conductivity_parameters();
-/// Words of the conductivity laws that ask for this key.
+/// Words of the conductivity laws with this parameter.
 std::vector<std::string> laws_with_conductivity_parameter(std::string_view key);
 
-/// Every parameter that some retention law asks for, and the words of the laws that ask for a key.
+/// All parameters of the retention laws, and the words of the laws with a parameter.
 std::vector<RetentionParameter> retention_parameters();
 std::vector<std::string> laws_with_retention_parameter(std::string_view key);
 
-/// Every parameter that some law of the skeleton asks for, and the words of the laws that ask for a
-/// key.
+/// All parameters of the laws of the skeleton, and the words of the laws with a parameter.
 std::vector<SkeletonParameter> skeleton_parameters();
 std::vector<std::string> laws_with_skeleton_parameter(std::string_view key);
 

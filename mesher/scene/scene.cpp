@@ -11,7 +11,7 @@
 namespace suffuse {
 namespace {
 
-/// Bytes. A device or a pipe may have no end.
+/// Bytes. The limit is for devices and pipes without an end.
 constexpr std::size_t largest_scene = 100'000'000;
 
 /// Throws FileError.

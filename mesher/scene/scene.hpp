@@ -23,18 +23,18 @@ namespace suffuse {
 enum class Formulation { single_point, double_point };
 enum class MeshStructure { regular, crossed, free };
 enum class FlowScheme { explicit_nodal, implicit_mixed };
-/// What the run does when the soil loses its equilibrium: it stops, or it follows the failure with
-/// the soil's inertia; `by_room`: it follows where the mesh has room for that.
+/// Action when the soil loses its equilibrium: the run stops, or follows the failure with the
+/// soil's inertia; `by_room`: it follows if the mesh has space for the moving soil.
 enum class AtFailure { by_room, stop, follow };
 enum class TimeStepping { second_order, monotone };
-/// How fluidised fines are carried on the mesh; `by_count`: by the number of explicit steps.
+/// Transport of fluidised fines on the mesh; `by_count`: by the number of explicit steps.
 enum class TransportScheme { by_count, implicit_sweeps, explicit_steps };
 enum class DragIntegration { explicit_drag, implicit_drag };
 enum class InitialFlow { rest, steady };
 enum class Seeding { gauss, random, low_discrepancy };
-/// What a boundary with a head does above its water level.
+/// Condition of a boundary with a head above its water level.
 enum class DryPart { seepage, impervious, suction };
-/// Directions in which the soil at a boundary stays in its place: normal to it, or all.
+/// Directions in which the soil at a boundary is fixed: normal to it, or all.
 enum class Fixing { none, normal, both };
 enum class SoilDrag { darcy, ergun };
 enum class MassTransfer { nodal, element };
@@ -76,8 +76,8 @@ struct PointSettings {
   int liquid_per_element = 12;  ///< double-point: in an element of the specimen at the start
   Seeding seeding = Seeding::low_discrepancy;  ///< for liquid points
   /// Liquid points have equal volumes, and their number in an element is proportional to its liquid
-  /// volume; false: equal numbers in all elements, as in the paper. Always false for Gauss points
-  /// in a scene that was read, as their volumes differ.
+  /// volume; false: equal numbers in all elements, as in the paper. After reading it is false for
+  /// Gauss points, whose volumes differ.
   bool equal_volume = true;
 };
 
@@ -90,7 +90,7 @@ struct LiquidProperties {
 
 struct ErosionSettings {
   const ErosionLaw* law = no_erosion();  ///< never null
-  double rate = 0.0;                     ///< in the unit of the drive
+  double rate = 0.0;                     ///< in the `rate_unit` of the drive
   double start = 0.0;                    ///< t_0, s
   bool momentum_transfer = false;        ///< keep rho_s phi_e (v_L - v_S) in the liquid's momentum
   MassTransfer mass_transfer =
@@ -99,7 +99,7 @@ struct ErosionSettings {
       EmptyElements::wet;                        ///< double-point: erode without liquid points?
   const DriveLaw* drive = drive_laws().front();  ///< never null
   double threshold = 0.0;                        ///< D_cr, in the unit of the drive
-  ResidualFraction residual = {};                ///< n_e that stays
+  ResidualFraction residual = {};                ///< n_e that does not erode
   double critical_concentration = std::numeric_limits<double>::infinity();  ///< c_cr
 };
 
@@ -108,11 +108,11 @@ struct Soil {
   double porosity = unset;                    ///< n_0 at `porosity_origin`
   std::array<double, 3> porosity_gradient{};  ///< 1/m: n_0(x) = porosity + gradient . (x - origin)
   std::array<double, 3> porosity_origin{};    ///< m
-  double skeleton_fraction = unset;           ///< n_C; as given, or by the gradation
+  double skeleton_fraction = unset;           ///< n_C; given, or from the gradation
   Gradation gradation;                        ///< empty: not given
   double grain_density = unset;               ///< rho_s, kg/m3
-  double conductivity = unset;                ///< k at the initial porosity, along bedding, m/s
-  double conductivity_across = unset;         ///< across bedding, m/s; unset: as along it
+  double conductivity = unset;                ///< k at the initial porosity along bedding, m/s
+  double conductivity_across = unset;         ///< across bedding, m/s; unset: as along bedding
   double bedding = 0.0;                       ///< angle of bedding from the x-axis, degrees
   RetentionModel retention;                   ///< without a law: saturated at any pressure
   const ConductivityLaw* conductivity_law = conductivity_laws().front();  ///< never null
@@ -143,7 +143,7 @@ struct Soil {
   [[nodiscard]] ConductivityModel conductivity_model() const {
     return {conductivity_law, conductivity, skeleton_fraction, conductivity_parameters};
   }
-  /// Whether fines can leave this soil, or be caught in it.
+  /// Whether fines can erode or be deposited in this soil.
   [[nodiscard]] bool exchanges() const { return erodes(erosion_model()) || deposition.deposits(); }
   /// n_0 at a position of 2 or 3 coordinates.
   template <class Position>
@@ -173,7 +173,7 @@ struct BoundaryCondition {
   double reservoir_area = unset;
   DryPart dry = DryPart::seepage;
   bool seepage_face = false;  ///< air outside: water leaves at p = 0, none enters
-  /// Volume flux of rain, m/s: at most what the soil takes in at p = 0 enters.
+  /// Volume flux of rain, m/s; the flux that enters is limited to that at p = 0.
   std::optional<TimeFunction> rain;
   /// Rate of a well: volume of liquid that enters through all its faces per second, m3/s per m, in
   /// three dimensions m3/s.
@@ -205,7 +205,7 @@ struct OutputProbe {
 struct TimeSettings {
   double end = unset;  ///< s
   FlowScheme scheme = FlowScheme::implicit_mixed;
-  /// Time step, s; unset: explicit, 0.9 of the stability limit; implicit, chosen by `tolerance`
+  /// Time step, s. Unset: 0.9 of the stability limit (explicit), or by `tolerance` (implicit).
   std::optional<double> step;
   double mass_scaling = 1.0;                              ///< S; explicit only
   DragIntegration drag = DragIntegration::explicit_drag;  ///< explicit only
@@ -231,7 +231,7 @@ enum class FieldPrecision { float64, float32 };
 struct OutputSettings {
   double every = unset;           ///< s between rows of the tables and, by default, snapshots
   double snapshot_every = unset;  ///< s between snapshots
-  /// s between rows, and between snapshots, while soil fails; unset: as at other times.
+  /// s between rows and between snapshots while soil fails; unset: as at other times.
   std::optional<double> failure_every;
   int restarts = 2;  ///< number of newest snapshots from which a run can be continued
   FieldPrecision precision = FieldPrecision::float64;
@@ -252,8 +252,7 @@ struct Scene {
   std::array<double, 3> gravity{};  ///< m/s2
   InitialFlow initial_flow = InitialFlow::rest;
   std::string initial_from;  ///< results folder whose last state is the initial one; may be empty
-  /// Level of the liquid at rest, m above the datum: as given, or the head of the boundaries at
-  /// t = 0.
+  /// Level of the liquid at rest, m above the datum: given, or the head of the boundaries at t = 0.
   std::optional<double> water_level;
   /// K_0: horizontal over vertical effective stress at the start; unset: equilibrium under gravity.
   std::optional<double> earth_pressure;
@@ -267,11 +266,11 @@ struct Scene {
   /// Free water (n_L = 1, no solid): a region without a soil that is called inflow, outflow,
   /// free_above or free_below, in a double-point scene or one whose soil moves.
   [[nodiscard]] bool is_free_water(const std::string& region) const;
-  /// Whether soil that loses its equilibrium moves on, in a mesh of these regions.
+  /// Whether the run follows the failure of soil in a mesh with these regions.
   [[nodiscard]] bool follows_failure(const std::vector<std::string>& regions) const;
 };
 
-/// Whether a region of this name holds free water where it has no soil: inflow, outflow, free_above
+/// Whether a region of this name holds free water if it has no soil: inflow, outflow, free_above
 /// and free_below.
 bool names_free_water(const std::string& region);
 
@@ -282,11 +281,11 @@ struct SceneDocument {
   std::string text;                    ///< the TOML file, byte for byte
   std::vector<std::string> overrides;  ///< `--set` arguments, in order
   Scene scene;
-  /// `FILE:LINE` (or `--set KEY=VALUE`) of every key that was given, by dotted key; entries of
-  /// [[boundary]] are `boundary[0].on` and so on, tables are there under their own name.
+  /// `FILE:LINE` (or `--set KEY=VALUE`) of every given key, by dotted key; entries of [[boundary]]
+  /// are `boundary[0].on` and so on. Tables are included under their own names.
   std::map<std::string, std::string> where;
   /// Text of each table that a boundary takes from a file, by the file's name in the scene: the
-  /// next stage reads the same numbers, wherever it runs.
+  /// next stage reads the same numbers on any machine.
   std::map<std::string, std::string> files;
 
   /// Place where `key` was given; otherwise that of the nearest enclosing table, or the file's
@@ -304,8 +303,8 @@ SceneDocument parse_scene(const std::string& text, const std::string& path,
                           const std::vector<std::string>& overrides = {},
                           const std::map<std::string, std::string>& files = {});
 
-/// Sets the defaults that depend on the dimension of the mesh, which a scene with a geometry file
-/// does not tell.
+/// Sets the defaults that depend on the dimension of the mesh, which is unknown in a scene with a
+/// geometry file.
 void complete_for_mesh(SceneDocument& document, int dimension);
 
 /// Path of a file that a scene names relative to its own folder.

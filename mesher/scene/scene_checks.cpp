@@ -15,7 +15,7 @@
 namespace suffuse {
 namespace {
 
-/// Largest number of rows of a table. More is probably a mistake, and would fill the disk.
+/// Largest number of rows of a table: more are probably a mistake and would fill the disk.
 constexpr double max_rows = 1e6;
 
 class Checks : private SceneCheckBase {
@@ -88,7 +88,7 @@ class Checks : private SceneCheckBase {
     }
   }
 
-  /// The momentum that eroded grains take is computed per element and neglects bedding and suction.
+  /// Refuses bedding and suction, which the momentum of eroded grains neglects.
   void check_momentum(const Soil& soil, const std::string& table) const {
     const bool needs = soil.erosion_model().drive->depends_on_conductivity;
     if (!soil.erosion.momentum_transfer || !needs) return;
@@ -99,8 +99,7 @@ class Checks : private SceneCheckBase {
            "false, or another drive", {joined(table, "drive")});
   }
 
-  /// Whether the soil inherits: it may inherit keys that its law does not use, but not be given
-  /// them.
+  /// Whether the soil inherits keys: inherited keys, unlike given ones, may be unused by its law.
   [[nodiscard]] bool inherits(const Soil& soil) const { return given(table_of(soil) + ".like"); }
 
   void check_drive(const Soil& soil, const std::string& table) const {
@@ -187,11 +186,11 @@ class Checks : private SceneCheckBase {
     }
   }
 
-  /// The liquid carries one kind of grains: two kinds could not be separated once they are mixed.
+  /// Refuses different grains, which could not be separated once they are in the liquid.
   void check_grains() const {
     for (const Soil& soil : scene_.soils) {
       const Soil& first = scene_.soils.front();
-      // Not equal and both set: what is unset has been reported.
+      // Both are set and differ; unset values are reported elsewhere.
       if (soil.grain_density < first.grain_density || soil.grain_density > first.grain_density) {
         const std::string other = table_of(first) + ".grain_density";
         report(table_of(soil) + ".grain_density", shown_value(soil.grain_density),
@@ -202,7 +201,7 @@ class Checks : private SceneCheckBase {
     }
   }
 
-  /// The number of Gauss points must be that of a rule, and their volumes are unequal.
+  /// Checks that the number of Gauss points is that of a rule; their volumes are unequal.
   void check_seeding() const {
     if (scene_.points.seeding != Seeding::gauss) return;
     const int count = scene_.points.liquid_per_element;
@@ -247,8 +246,7 @@ class Checks : private SceneCheckBase {
     return keys;
   }
 
-  /// Without the third term of Eq. 2 no balance closes: then soil must not erode, and no fines
-  /// enter.
+  /// Without the third term of Eq. 2 no balance closes: refuses erosion and fines that enter.
   void check_third_term() const {
     const bool single_point = scene_.formulation == Formulation::single_point;
     if (scene_.flow.porosity_gradient_term || !single_point) return;
@@ -291,7 +289,7 @@ class Checks : private SceneCheckBase {
       report(other, "a key of the explicit scheme " + scheme,
              "scheme = \"explicit\", or no such key", {key});
     }
-    // In the other formulation these keys are wrong with either scheme, and are reported elsewhere.
+    // In the double-point formulation these keys are always wrong and are reported elsewhere.
     const bool single_point = scene_.formulation == Formulation::single_point;
     if (single_point && !scene_.flow.porosity_gradient_term) {
       report("flow.porosity_gradient_term", "false " + scheme,
@@ -390,8 +388,7 @@ class Checks : private SceneCheckBase {
     return f.is_constant() ? smallest : smallest + " to " + shown_number(f.largest());
   }
 
-  /// A concentration belongs to liquid that enters: it is a contradiction where liquid is drawn out
-  /// at all times.
+  /// Refuses a concentration, which is that of entering liquid, if liquid leaves at all times.
   void check_outflow(const std::optional<TimeFunction>& flow, const std::string& name,
                      const BoundaryCondition& boundary, const std::string& entry) const {
     if (!boundary.concentration || !flow || flow->largest() >= 0.0) return;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Checks the keys of a scene against each other, once each key is right by itself.
+/// Checks the keys of a scene against each other, after the check of each key.
 
 #include <functional>
 #include <string>
@@ -10,24 +10,24 @@
 
 namespace suffuse {
 
-/// Keys that do not go together, or one that another asks for.
+/// Keys that contradict each other, or a missing key that another one requires.
 struct Contradiction {
-  std::string key;  ///< the one to change
+  std::string key;  ///< the key to change
   std::string found;
   std::string expected;
   std::vector<std::string> others;  ///< the other keys involved
 };
 
-/// What the checks may ask about a scene, and how they say what is wrong.
+/// Questions of the checks about a scene, and their way to report problems.
 struct SceneInquiry {
   /// Whether a key or table was given, right or wrong.
   std::function<bool(const std::string& key)> given;
-  /// Whether a key was given a value that is not allowed.
+  /// Whether a key has a value that is not allowed.
   std::function<bool(const std::string& key)> refused;
   std::function<void(const Contradiction&)> report;
 };
 
-/// Values that were wrong by themselves are still unset in `scene` and raise nothing here.
+/// Values that are wrong by themselves are unset in `scene` and are not reported here.
 void check_scene(const Scene& scene, const SceneInquiry& inquiry);
 
 }  // namespace suffuse

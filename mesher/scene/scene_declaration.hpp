@@ -1,7 +1,7 @@
 #pragma once
 
-/// Declares a key of a scene in one expression: where its value is stored, and what it may be.
-/// For the lists of keys only.
+/// Declares a key of a scene in one expression: its storage and its allowed values. Only for the
+/// lists of keys.
 
 #include <algorithm>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace suffuse::declaration {
 
-// Where a key is kept.
+// Storage of keys.
 
 template <class Member>
 auto at(Member Scene::*member) {
@@ -75,7 +75,7 @@ auto on_boundary(Member BoundaryCondition::*member) {
   return in_list(&Scene::boundaries, member);
 }
 
-// How a value is stored: one overload for each type of member, and the kind of value that it needs.
+// Storage of values: one overload for each type of member, with the kind of value that it needs.
 
 inline void keep(double& member, const Value& value) {
   member = std::get<double>(value);
@@ -197,12 +197,12 @@ struct Declaration : SceneKey {
   Declaration&& or_infinite() && { return set(infinite_allowed, true); }
   Declaration&& one_of(std::vector<std::int64_t> all) && { return set(integers, std::move(all)); }
   Declaration&& mandatory() && { return set(required, true); }
-  /// Required where the table lacks the other key.
+  /// Makes the key required if the table lacks the other key.
   Declaration&& mandatory_without(const std::string& other) && {
     unless = other;
     return set(required, true);
   }
-  /// The argument of a table of values: `of_argument("|q|", "fluxes (m/s, ascending)")`.
+  /// Sets the argument of a table of values: `of_argument("|q|", "fluxes (m/s, ascending)")`.
   Declaration&& of_argument(std::string letter, std::string in_words) && {
     argument = std::move(letter);
     return set(arguments, std::move(in_words));

@@ -10,8 +10,8 @@
 namespace suffuse {
 namespace {
 
-/// The level that all boundaries with a head have at the start, to round-off. Wells do not count:
-/// they may be pumped from the start on.
+/// The common level of all boundaries with a head at the start, within round-off. Wells are left
+/// out, because they may be pumped from the start.
 std::optional<double> common_head(const Scene& scene) {
   constexpr double round_off = 1e-9;  // m
   std::optional<double> common;

@@ -9,13 +9,13 @@
 namespace suffuse {
 namespace {
 
-/// Longer values, such as tables of times, would hide what the message says.
+/// Longest value in a message; longer ones, such as tables of times, would hide the rest.
 constexpr std::size_t longest_value = 40;
 
 /// Values by dotted key, as messages show them.
 using Values = std::map<std::string, std::string>;
 
-/// 200 and 200.0 are one value, which is shown as 200.
+/// The value as text: 200 and 200.0 are equal and give 200.
 std::string shown(const SceneNode& node) {
   if (!node.value) return node.shown;
   std::string text = shown_value(*node.value);

@@ -14,7 +14,7 @@ auto in_viscosity(Member ViscosityModel::*member) {
   return at(&Scene::liquid, &LiquidProperties::viscosity_model, member);
 }
 
-/// A number of rows of elements next to the specimen.
+/// Storage of a number of rows of elements next to the specimen.
 auto rows(int LayerSettings::*member) {
   return at(&Scene::geometry, &GeometrySettings::layers, member);
 }
@@ -31,7 +31,7 @@ std::string no_erosion_word() {
   return shown_value(std::string(no_erosion()->word));
 }
 
-/// A number that only some conductivity laws ask for.
+/// Declares a parameter of some conductivity laws.
 Declaration conductivity_parameter(const ConductivityParameter& parameter) {
   const auto access = [value = parameter.value](Scene& scene, std::size_t i) -> double& {
     return scene.soils[i].conductivity_parameters.*value;
@@ -46,7 +46,7 @@ Declaration conductivity_parameter(const ConductivityParameter& parameter) {
                               : std::move(d).otherwise(standard);
 }
 
-/// A number that only some retention laws ask for. It has no default.
+/// Declares a parameter of some retention laws. It has no default.
 Declaration retention_parameter(const RetentionParameter& parameter) {
   const auto access = [value = parameter.value](Scene& scene, std::size_t i) -> double& {
     return scene.soils[i].retention.parameters.*value;
@@ -60,14 +60,14 @@ Declaration retention_parameter(const RetentionParameter& parameter) {
       .otherwise_as("required by its model");
 }
 
-/// The laws, and the word for no law, which a soil may need that is `like` another.
+/// The laws, and the word for no law, which a soil that is `like` another may need.
 std::vector<std::pair<std::string, const RetentionLaw*>> retention_meanings() {
   auto meanings = by_word(retention_laws());
   meanings.insert(meanings.begin(), {"none", nullptr});
   return meanings;
 }
 
-/// A number that only some laws of the skeleton ask for.
+/// Declares a parameter of some laws of the skeleton.
 Declaration skeleton_parameter(const SkeletonParameter& parameter) {
   std::vector<std::string> laws = laws_with_skeleton_parameter(parameter.key);
   const bool of_all = laws.size() == skeleton_laws().size();
@@ -120,12 +120,12 @@ Declaration conductivity() {
   return d;
 }
 
-/// Rows of elements in a layer of the column.
+/// Declares the number of rows of elements in a layer of the column.
 Declaration layer(const char* pattern, int LayerSettings::*member, const char* sentence) {
   return key(pattern, rows(member), sentence).at_least(0).at_most(1000).otherwise(0);
 }
 
-/// A key that only the reader uses; the scene does not store it.
+/// Declares a key that only the reader uses; the scene does not store it.
 Declaration instruction(const char* pattern, const char* sentence) {
   Declaration d;
   d.pattern = pattern;

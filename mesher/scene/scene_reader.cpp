@@ -52,7 +52,7 @@ class SceneReader {
     check_table(root_, "", "");
     inherit();
     collect_places(root_, "");
-    // Set before the keys are bound: a misspelt structure must not be judged as a shape's default.
+    // This precedes the binding of keys: a misspelt structure must not get the default of a shape.
     if (places_.contains("geometry.file")) scene_.mesh.structure = MeshStructure::crossed;
     bind();
     read_tables();
@@ -78,8 +78,7 @@ class SceneReader {
     InputProblem problem;
   };
 
-  /// The table that keys of a pattern are found in: the scene itself, one soil or one entry of a
-  /// list.
+  /// The table with the keys of a pattern: the scene itself, one soil or one entry of a list.
   struct Instance {
     const SceneNode* table;
     std::string key;  ///< key of the table
@@ -101,8 +100,8 @@ class SceneReader {
     report(place_of(key), key, "nothing", expected);
   }
 
-  /// Reports a contradiction at its key, or at the last `--set` of one of the keys involved. Where
-  /// the key and its table are missing, the place is that of the first of the other keys.
+  /// Reports a contradiction at its key, or at the last `--set` of one of the keys involved. If the
+  /// key and its table are missing, the place is that of the first of the other keys.
   void report(const Contradiction& contradiction) {
     Place place = place_of(contradiction.key);
     for (const std::string& key : contradiction.others) {
@@ -148,7 +147,7 @@ class SceneReader {
       if (!next || step.index.has_value() != is_list(pattern)) {
         return report_unknown(key, pattern, step.shown(), step.name, change.node);
       }
-      // A value in the place of a table is reported when the tables are checked.
+      // A value in place of a table is reported by the check of tables.
       if (node->form != (is_list(pattern) ? Form::list : Form::table)) return;
       node = step.index ? entry_at(*node, key, *step.index, change.node)
                         : child_at(*node, step.name, *next, change.node);
@@ -161,7 +160,7 @@ class SceneReader {
     node->name = std::move(name);
   }
 
-  /// The child of this name, made when there is none.
+  /// The child of this name; creates it if there is none.
   static SceneNode* child_at(SceneNode& table, const std::string& name, const std::string& pattern,
                              const SceneNode& change) {
     if (SceneNode* child = table.find(name)) return child;
@@ -172,7 +171,7 @@ class SceneReader {
     return &table.children.emplace_back(std::move(made));
   }
 
-  /// The entry of this index, made when it is the next; nullptr, and a report, beyond that.
+  /// The entry of this index; creates the next one. Reports later ones and returns nullptr.
   SceneNode* entry_at(SceneNode& list, const std::string& key, std::size_t index,
                       const SceneNode& change) {
     const std::size_t count = list.children.size();
@@ -228,7 +227,7 @@ class SceneReader {
         expected.starts_with("a number")) {
       expected.replace(0, 1, "a finite");
     }
-    // The expected value names the only word, so that a suggestion would repeat it.
+    // The expected value is the only word; a suggestion would repeat it.
     const auto* text = node.value ? std::get_if<std::string>(&*node.value) : nullptr;
     std::string suggestion;
     if (text && declared.words.size() > 1) suggestion = closest_name(*text, declared.words);
@@ -244,7 +243,7 @@ class SceneReader {
            nearest_key(name, table, pattern, example_soil()));
   }
 
-  /// What a table may hold, in words.
+  /// Allowed content of a table, in words.
   [[nodiscard]] static std::string members(const std::string& pattern) {
     if (is_list(pattern)) return "an entry such as " + indexed(pattern, 0);
     if (scene_children(pattern) == std::vector<std::string>{"*"}) return "names of regions";
@@ -252,7 +251,7 @@ class SceneReader {
     return "a value, not a table";
   }
 
-  /// The only soil there is, or a word that stands for any.
+  /// The only soil, or a placeholder.
   [[nodiscard]] std::string example_soil() const {
     const SceneNode* soils = root_.find("soil");
     return soils && soils->children.size() == 1 ? shown_name(soils->children[0].name) : "NAME";
@@ -414,8 +413,8 @@ class SceneReader {
     }
   }
 
-  /// A soil that lacks many keys, in a scene with a soil that lacks none, most likely has a
-  /// misspelt name: that is one problem and not one for each key.
+  /// Reports soils that lack keys. In a scene with a complete soil, one that lacks many keys most
+  /// likely has a misspelt name: this is one problem, not one for each key.
   void report_incomplete_soils(const std::vector<Instance>& soils) {
     std::vector<std::string> complete;
     for (const Instance& soil : soils) {
@@ -469,7 +468,7 @@ class SceneReader {
   std::vector<Problem> problems_;
   SceneNode root_;
   std::set<std::string> without_inheritance_;  ///< soils whose `like` cannot be followed
-  /// By soil: required keys that it lacks, and what is expected of each.
+  /// By soil: missing required keys, and the expected value of each.
   std::map<std::string, std::vector<std::pair<std::string, std::string>>> missing_;
   std::set<std::string> refused_;  ///< keys whose value is not allowed
   Places places_;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// From the text of a scene to the scene: every key checked by itself and against the others.
+/// Reads the text of a scene; checks every key by itself and against the others.
 
 #include <functional>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace suffuse {
 
-/// The text of a file that a scene names, or nothing where it cannot be read.
+/// The text of a file that a scene names, or nothing if it cannot be read.
 using FileLoader = std::function<std::optional<std::string>(const std::string& name)>;
 
 /// Throws InputError with every problem found.

@@ -92,7 +92,7 @@ every = 1.0
 ```
 )";
 
-/// A part of a scene that shows what some keys are for.
+/// A part of a scene that shows the use of some keys.
 struct Example {
   const char* title;
   const char* sentence;

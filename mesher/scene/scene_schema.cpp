@@ -23,7 +23,7 @@ bool within(const SceneKey& key, double x) {
 
 /// The name of a value of this key in messages and in the reference.
 std::string quantity_of(const SceneKey& key) {
-  // A list of symbols would not read as one quantity between bounds.
+  // A list of symbols cannot be one quantity between bounds.
   const bool one_symbol = !key.symbol.empty() && key.symbol.find(',') == std::string::npos;
   return one_symbol ? key.symbol : key.leaf();
 }
@@ -296,7 +296,7 @@ std::string shown_number(double value) {
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   std::string text(buffer.data(), end);
-  // 2e+07 is 2e7 to everybody but printf.
+  // Shortens 2e+07 to 2e7.
   const std::size_t exponent = text.find('e');
   if (exponent == std::string::npos) return text;
   const bool negative = text[exponent + 1] == '-';
@@ -328,7 +328,7 @@ std::string shown_value(const Value& value) {
 std::string out_of_order(const std::string& argument, double value, double earlier) {
   const std::string found = argument + " = " + shown_number(value);
   if (value != earlier) return found + " after " + argument + " = " + shown_number(earlier);
-  // An argument that is a little larger, in few digits.
+  // A slightly larger argument with few digits.
   const double later =
       std::stod(short_number(value + 1e-4 * (value == 0.0 ? 1.0 : std::abs(value))));
   return found + " twice (for a jump give " + shown_number(value) + " and " + shown_number(later) +

@@ -15,7 +15,7 @@
 
 namespace suffuse {
 
-/// Arrays of numbers: a table of values against time has two in each.
+/// Arrays of numbers; each has two in a table of values against time.
 using Rows = std::vector<std::vector<double>>;
 
 /// A value of TOML. Only arrays of numbers, and arrays of such arrays, are allowed as arrays.
@@ -31,7 +31,7 @@ enum class ValueKind {
   vector,
   number_or_word,   ///< a number, or one of `words`
   function,         ///< a number, or pairs of numbers
-  vector_function,  ///< a vector, or a time and a vector in each of many
+  vector_function,  ///< a vector, or pairs of a time and a vector
   gradation
 };
 
@@ -50,7 +50,7 @@ struct SceneKey {
   std::optional<Bound> lower;
   std::optional<Bound> upper;
   bool infinite_allowed = false;  ///< for numbers: inf is within the bounds
-  /// The argument of a function given by pairs: its symbol, and what it is in words.
+  /// The argument of a function given by pairs: its symbol and its name.
   std::string argument = "t";
   std::string arguments = "times (s, ascending)";
   bool argument_is_share = false;      ///< between 0 and 1; pairs may descend too
@@ -59,17 +59,17 @@ struct SceneKey {
   bool required = false;
   std::string unless;  ///< the other key of its table that stands in for a required one
   std::optional<Value> default_value;
-  std::string default_note;  ///< the default in words, where it is no plain value
+  std::string default_note;  ///< the default in words, if it is no plain value
   /// Stores an accepted value in the soil or boundary of this index, or in the scene itself.
   std::function<void(Scene&, std::size_t, const Value&)> store;
 
   [[nodiscard]] std::string leaf() const;    ///< `porosity`
   [[nodiscard]] std::string bounds() const;  ///< `0 < n_0 < 1`, or empty
   [[nodiscard]] std::string expected() const;
-  /// The value as `store` needs it, or nothing when it is not allowed here.
+  /// The value for `store`, or nothing if it is not allowed.
   [[nodiscard]] std::optional<Value> accept(const Value& value) const;
-  /// The fault of the pairs of a function or a gradation, where one pair is wrong: `t = 3 after
-  /// t = 5`. Empty where the message has to quote the whole value.
+  /// The fault of the pairs of a function or a gradation, if one pair is wrong:
+  /// `t = 3 after t = 5`. Empty if the message has to quote the whole value.
   [[nodiscard]] std::string fault(const Value& value) const;
 
  private:
@@ -87,27 +87,27 @@ struct SceneSection {
 const std::vector<SceneKey>& scene_keys();
 const std::vector<SceneSection>& scene_sections();
 
-/// nullptr when no key has this pattern.
+/// The key of this pattern, or nullptr.
 const SceneKey* find_scene_key(const std::string& pattern);
 
-/// What may follow a pattern, in the order of declaration: names, `*` or `[]`. Empty for keys and
-/// for what does not exist. The empty pattern is the whole scene.
+/// The parts that may follow a pattern, in the order of declaration: names, `*` or `[]`. Empty for
+/// keys and unknown patterns. The empty pattern is the whole scene.
 std::vector<std::string> scene_children(const std::string& pattern);
 
 /// `parent.child`, `parent[]`, or `child` at the top level.
 std::string joined(const std::string& parent, const std::string& child);
 
-/// A name as written in a dotted key: in quotes where TOML needs them.
+/// A name as in a dotted key, in quotes if TOML needs them.
 std::string shown_name(const std::string& name);
 
 /// The shortest text that reads back as exactly this number, `2e7`.
 std::string shown_number(double value);
 
-/// A value as one would write it in a scene.
+/// A value as written in a scene.
 std::string shown_value(const Value& value);
 
-/// The fault of a time, or of another argument, that is not larger than the one before it. Where
-/// the two are equal, the text says how to give a jump.
+/// The fault of a time, or of another argument, that is not larger than the one before it. If the
+/// two are equal, the text explains how to give a jump.
 std::string out_of_order(const std::string& argument, double value, double earlier);
 
 /// `a, b or c`

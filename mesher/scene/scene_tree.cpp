@@ -16,7 +16,7 @@ namespace {
 
 using Form = SceneNode::Form;
 
-/// Places in the file, or the one place of an override.
+/// Places in the file, or the place of an override.
 struct Locator {
   std::string file;
   std::optional<Place> fixed;
@@ -117,8 +117,8 @@ SceneNode read_node(const toml::node& node, std::string name, const Place& place
       InputProblem{.where = where, .key = sentence, .found = {}, .expected = {}, .suggestion = {}});
 }
 
-/// Largest depth of nested tables, by dotted keys, headings and braces. Recursive functions handle
-/// the tables, with one call for each level.
+/// Largest depth of nested tables by dotted keys, headings and braces, because recursive functions
+/// call themselves once for each level.
 constexpr int deepest_table = 64;
 
 /// Finds the number of the first line whose tables are nested too deeply, or 0. Counts dots,
@@ -185,7 +185,7 @@ class DepthScan {
     dots_ = 0;
   }
 
-  /// Moves to the quote that ends the text which begins here.
+  /// Moves to the quote that ends the text beginning here.
   void skip_text(char quote) {
     const std::string three(3, quote);
     const bool is_long = text_.substr(at_, 3) == three;
@@ -209,7 +209,7 @@ class DepthScan {
   bool begins_line_ = true;
   bool is_heading_ = false;
   int heading_ = 0;              // dots in the heading above
-  int dots_ = 0;                 // dots in the key at hand
+  int dots_ = 0;                 // dots in the current key
   int within_ = 0;               // dots in the keys of all tables in braces around it
   std::vector<int> outer_dots_;  // dots in each of those keys
 };
@@ -248,7 +248,7 @@ std::optional<std::size_t> take_index(std::string_view& rest) {
   const std::size_t end = rest.find(']');
   if (!rest.starts_with('[') || end == std::string_view::npos) return std::nullopt;
   const std::string digits(rest.substr(1, end - 1));
-  // No scene has a thousand million boundaries.
+  // More than nine digits are no valid number of an entry.
   const bool number = !digits.empty() && digits.size() < 10 &&
                       digits.find_first_not_of("0123456789") == std::string::npos;
   if (!number) return std::nullopt;

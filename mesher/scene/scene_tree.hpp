@@ -1,7 +1,7 @@
 #pragma once
 
-/// A scene as written: the tree of tables, lists of tables and values of a TOML file, each with the
-/// place it was given at. Only the syntax of TOML is checked here.
+/// A scene as written: the tree of tables, lists of tables and values of a TOML file, with their
+/// places. Only the syntax of TOML is checked here.
 
 #include <map>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace suffuse {
 
-/// Where something was given.
+/// The place of a key or a value.
 struct Place {
   std::size_t source = 0;  ///< 0 for the file, then one for each `--set`
   std::size_t line = 0;
@@ -23,7 +23,7 @@ struct Place {
   }
 };
 
-/// By dotted key.
+/// Places by dotted key.
 using Places = std::map<std::string, Place>;
 
 /// The nearest enclosing key of `key` that `places` knows, `key` included; nullptr when none is.
@@ -36,7 +36,7 @@ struct SceneNode {
   Form form = Form::table;
   Place place;
   std::string shown;              ///< as messages quote it
-  std::optional<Value> value;     ///< nothing when TOML allows it but no key could take it
+  std::optional<Value> value;     ///< nothing if TOML allows the value but no key can
   std::optional<Value> accepted;  ///< set by the checks
   std::vector<SceneNode> children;
 
@@ -61,7 +61,7 @@ struct Override {
 /// Throws InputError when the text is not TOML.
 SceneNode read_toml(const std::string& text, const std::string& path);
 
-/// Reads `key=value`; a value that is not TOML and does not begin like any is a text.
+/// Reads `key=value`; a value that does not begin like a TOML value is a text.
 /// \param source  of the override's place
 /// Throws InputError.
 Override read_override(const std::string& argument, std::size_t source);

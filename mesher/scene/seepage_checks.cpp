@@ -65,7 +65,7 @@ class SeepageChecks : private SceneCheckBase {
     }
   }
 
-  /// In the explicit scheme the kind of a face does not change, and the drag is isotropic.
+  /// Refuses faces that change their kind and anisotropic drag in the explicit scheme.
   void check_explicit_seepage() const {
     const auto refuse = [&](const std::string& key, const std::string& found,
                             const std::string& instead = "no such key") {
@@ -75,7 +75,7 @@ class SeepageChecks : private SceneCheckBase {
     for (const BoundaryCondition& boundary : scene_.boundaries) {
       if (boundary.seepage_face) refuse(joined(boundary.key, "seepage_face"), "a seepage face");
       if (boundary.rain) refuse(joined(boundary.key, "rain"), "rain");
-      // The tip of a well has one velocity for both sides, which cannot point into both.
+      // The tip of a well has one velocity for both sides, which cannot be inward on both.
       if (boundary.rate) refuse(joined(boundary.key, "rate"), "a rate", "a head");
       if (boundary.is_reservoir()) refuse(joined(boundary.key, "reservoir_area"), "a reservoir");
     }
@@ -92,7 +92,7 @@ class SeepageChecks : private SceneCheckBase {
     }
   }
 
-  /// Liquid points fill the pores of their soil, and stay on their side of a wall.
+  /// Refuses retention and leaky walls: liquid points fill the pores and do not cross walls.
   void check_double_point_seepage() const {
     const std::string found = " with formulation = \"double-point\"";
     for (const Soil& soil : scene_.soils) {
@@ -133,8 +133,8 @@ class SeepageChecks : private SceneCheckBase {
     }
   }
 
-  /// Liquid at rest under gravity has a level, which must be known: with p = 0 everywhere it would
-  /// not be at rest.
+  /// Liquid at rest under gravity needs a known level: with p = 0 everywhere it would not be at
+  /// rest.
   void check_start() const {
     if (given("initial.from")) {
       for (const std::string other : {"initial.flow", "initial.water_level", "initial.stress"}) {

@@ -51,7 +51,7 @@ class SkeletonChecks : private SceneCheckBase {
     check_dilation(soil.skeleton, table);
   }
 
-  /// Soil whose angle of dilation exceeds its angle of friction would produce energy.
+  /// Refuses an angle of dilation above that of friction, which would produce energy.
   void check_dilation(const SkeletonModel& skeleton, const std::string& table) const {
     const std::string key = table + ".dilation";
     const std::string other = table + ".friction";
@@ -71,7 +71,7 @@ class SkeletonChecks : private SceneCheckBase {
     refuse_of_rigid({fix, traction});
   }
 
-  /// Refuses keys that have no effect where all skeletons are rigid.
+  /// Refuses keys that have no effect if all skeletons are rigid.
   void refuse_of_rigid(const std::vector<std::string>& keys) const {
     const bool unknown = std::ranges::any_of(scene_.soils, [&](const Soil& soil) {
       const std::string table = table_of(soil) + ".skeleton";
@@ -102,7 +102,7 @@ class SkeletonChecks : private SceneCheckBase {
            "time.failure = \"follow\", or no such key", {"time.failure"});
   }
 
-  /// Waves of 1500 m/s in the soil would make steps of the explicit scheme too short for any use.
+  /// Refuses the explicit scheme: waves of 1500 m/s in the soil would make its steps too short.
   void check_scheme() const {
     if (scene_.time.scheme != FlowScheme::explicit_nodal || refused("time.scheme")) return;
     for (const Soil& soil : scene_.soils) {
@@ -113,7 +113,7 @@ class SkeletonChecks : private SceneCheckBase {
     }
   }
 
-  /// Flow is relative to the soil: where the soil suddenly starts or stops, so would the flow.
+  /// Refuses inertia of the flow: it is relative to the soil and would start and stop with it.
   void check_inertia() const {
     if (!scene_.time.inertia.value_or(false)) return;
     report("time.inertia", "true beside a skeleton that moves",

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the gradation of a soil says about the other keys of that soil.
+/// Effects of the gradation of a soil on its other keys.
 
 #include <functional>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace suffuse {
 
-/// Gives each soil without a `skeleton_fraction` that of its gradation, (1 - n_0)(1 - F*), where F*
-/// is known.
+/// Gives each soil without a `skeleton_fraction` that of its gradation, (1 - n_0)(1 - F*), if F* is
+/// known.
 /// \param given  whether the scene has a key
 void derive_skeletons(Scene& scene, const std::function<bool(const std::string& key)>& given);
 
@@ -20,7 +20,7 @@ void derive_skeletons(Scene& scene, const std::function<bool(const std::string& 
 /// \param table  of the soil, `soil.sand`
 void check_grading_of(const Soil& soil, const std::string& table, const SceneInquiry& inquiry);
 
-/// Sentences about soils with an erosion law although their fines cannot move, or carry load.
+/// Sentences about soils that have an erosion law although their fines cannot move, or carry load.
 std::vector<std::string> grading_warnings(const SceneDocument& document);
 
 }  // namespace suffuse

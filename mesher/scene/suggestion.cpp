@@ -14,15 +14,15 @@ std::size_t nearness_limit(const std::string& word) {
   return std::max<std::size_t>(1, word.size() / 3);
 }
 
-/// The table or key that a pattern stands for: in the soil or boundary of `table` where the pattern
-/// has such a part too.
+/// The table or key of a pattern; if the pattern has a part for soils or boundaries, in that of
+/// `table`.
 std::string concrete(std::string pattern, const std::string& table,
                      const std::string& table_pattern, const std::string& soil) {
   for (const std::string group :
        {"soil.*", "boundary[]", "wall[]", "well[]", "output.probe[]", "output.section[]"}) {
     if (!pattern.starts_with(group)) continue;
     if (table_pattern.starts_with(group)) {
-      // What follows the group has no wildcard, so it is as long in the table as in its pattern.
+      // The text after the group has no wildcard, so it has the same length in table and pattern.
       const std::size_t below = table_pattern.size() - group.size();
       return table.substr(0, table.size() - below) + pattern.substr(group.size());
     }
@@ -58,7 +58,7 @@ std::string nearest_key(const std::string& name, const std::string& table,
     const SceneKey* key = find_scene_key(candidate);
     const std::size_t distance = edit_distance(name, leaf.substr(0, leaf.find('[')));
     std::size_t score = std::numeric_limits<std::size_t>::max();
-    // A key of the same name in another table is likelier than one letter wrong in this one.
+    // A key of this name in another table is more likely than a wrong letter in this table.
     if (distance <= (here ? nearness_limit(name) : name.size() / 4)) {
       score = 2 * distance + (here ? 0 : 1);
     } else if (key && !name.empty() && key->symbol == name) {

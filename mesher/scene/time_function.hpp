@@ -10,13 +10,13 @@ namespace suffuse {
 
 /// Linear between its knots, constant before the first and after the last.
 struct TimeFunction {
-  /// A constant. Implicit: a plain number is the usual boundary value.
+  /// A constant. Implicit, because most boundary values are plain numbers.
   TimeFunction(double value) : knots{{0.0, value}} {}  // NOLINT(google-explicit-constructor)
   /// \param pairs  of time (s) and value: at least one, times strictly ascending
   explicit TimeFunction(std::vector<std::pair<double, double>> pairs) : knots(std::move(pairs)) {}
 
   [[nodiscard]] double value(double time) const;
-  /// Has the same value at all times, whether given as a number or as a table.
+  /// Whether the value is the same at all times, given as a number or as a table.
   [[nodiscard]] bool is_constant() const;
   [[nodiscard]] double smallest() const;
   [[nodiscard]] double largest() const;

@@ -11,7 +11,7 @@
 namespace suffuse {
 namespace {
 
-/// Longest line that is searched for the fault; for a longer one the message is the parser's.
+/// Longest line that is searched for the fault; longer ones get the message of the parser.
 constexpr std::size_t longest_line = 1000;
 
 struct FaultyLine {
@@ -19,7 +19,7 @@ struct FaultyLine {
   std::string text;
 };
 
-/// The name in the brackets of `[soil.sand]` or `[[boundary]]`; empty where a line is no such
+/// The name in the brackets of `[soil.sand]` or `[[boundary]]`; empty if the line is no such
 /// heading.
 std::string heading_of(const std::string& line) {
   const std::size_t begin = line.find_first_not_of(" \t");
@@ -32,7 +32,7 @@ std::string heading_of(const std::string& line) {
 
 FaultyLine line_of(const std::string& text, std::size_t number) {
   FaultyLine result;
-  std::map<std::string, std::size_t> entries;  // number so far, by the name of the list
+  std::map<std::string, std::size_t> entries;  // present number, by the name of the list
   std::istringstream lines(text);
   for (std::size_t i = 1; i <= number && std::getline(lines, result.text); ++i) {
     const std::string heading = heading_of(result.text);

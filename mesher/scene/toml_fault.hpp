@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is wrong where a scene is not TOML.
+/// Describes the fault of a scene that is not TOML.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace suffuse {
 
-/// A number with a decimal comma and a word without quotes are named with their key and what is
-/// expected; other faults are told in the words of the parser. \param where  place of the line, for
-/// the message
+/// A decimal comma and a word without quotes are reported with key and expected value; for other
+/// faults the message is the parser's.
+/// \param where  place of the line, for the message
 InputProblem toml_fault(const std::string& text, std::size_t line, const std::string& where,
                         const std::string& parser_says);
 

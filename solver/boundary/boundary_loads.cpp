@@ -19,7 +19,7 @@ std::vector<int> faces_of(const Grid<Dim>& grid, const std::string& boundary) {
   return faces;
 }
 
-/// Pressure of the water outside at a place, Pa; 0 above its level.
+/// Pressure of the outer water at a place, Pa; 0 above its level.
 template <int Dim>
 double outside_pressure(const Scene& scene, double head, const Vector<Dim>& x) {
   const double above = has_gravity(scene.gravity) ? head - height(x, scene.gravity) : head;

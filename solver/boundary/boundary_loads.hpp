@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the scene's boundaries do to the soil: where they hold it, and what they load it with.
+/// Supports and loads of the soil at the scene's boundaries.
 
 #include <vector>
 
@@ -9,27 +9,26 @@
 
 namespace suffuse {
 
-/// Where the scene holds the soil: at boundaries with `fix`, and all nodes of soil whose skeleton
-/// is rigid.
+/// Supports of the scene: boundaries with `fix`, and all nodes of soil with a rigid skeleton.
 template <int Dim>
 Supports<Dim> scene_supports(const Grid<Dim>& grid, const SoilMap<Dim>& soils);
 
-/// Tractions of the scene, and the weight of the water that a head keeps outside: its pressure,
-/// normal to the soil. A boundary with both has the traction alone.
+/// Loads of the scene: tractions, and the pressure of the outer water at boundaries with a head. If
+/// a boundary has both, only the traction acts.
 template <int Dim>
 class BoundaryLoads {
  public:
   /// \param sorted  the points by element
   BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const PointsByElement& sorted);
 
-  /// Adds the forces at a time, s, to those on the nodes, N.
+  /// Adds the forces on the nodes at a time, s, to `loads`, N.
   void add(const PointsByElement& sorted, double time, NodeVectors<Dim>& loads) const;
-  /// Times at which a traction has a kink, s. Those of heads are kinks of the flow already.
+  /// Times at which a traction has a kink, s. The kinks of heads are breakpoints of the flow.
   [[nodiscard]] std::vector<double> breakpoints() const;
   /// Largest difference of a traction from that at the start, Pa.
   [[nodiscard]] double largest_change() const;
-  /// Moves the loaded surfaces with the soil. Throws NumericalError where one would leave the mesh;
-  /// all are then as they were.
+  /// Moves the loaded surfaces with the soil. Throws NumericalError if one would leave the mesh;
+  /// then none has moved.
   void move(const PointsByElement& sorted, const NodeVectors<Dim>& displacement);
 
   void archive(auto& archive) { archive(surfaces_); }

@@ -9,7 +9,7 @@
 namespace suffuse {
 namespace {
 
-/// A head of the water outside: its pressure below the water level, what the scene says above it.
+/// Prescribes the water pressure below the level of a head, and what `dry` says above it.
 void prescribe_head(double head, DryPart dry, const FaceSurroundings& around,
                     FaceCondition& result) {
   const bool wet = !around.gravity || head > around.wet_above || dry == DryPart::suction;
@@ -22,8 +22,8 @@ void prescribe_head(double head, DryPart dry, const FaceSurroundings& around,
   }
 }
 
-/// What a boundary prescribes at a time, the same for all its faces: of a head H itself, of a rate
-/// its whole.
+/// The condition of a boundary at a time, common to its faces: for a head its value is H, for a
+/// rate the total rate.
 FaceCondition condition_of(const BoundaryCondition& boundary, int index, double time) {
   FaceCondition condition;
   condition.kind = FaceKind::wall;
@@ -59,13 +59,13 @@ FaceCondition at_face(const BoundaryCondition& boundary, FaceCondition condition
   return condition;
 }
 
-/// Whether the kind of a face, or what is unknown there, changes at some time of the run.
+/// Whether the kind of a face, or its unknown, changes during the run.
 bool may_switch(const BoundaryCondition& boundary, const FaceSurroundings& around, double end) {
   if (boundary.seepage_face || boundary.rain) return true;
   if (!boundary.head || !around.gravity || boundary.dry == DryPart::suction) return false;
   if (boundary.is_reservoir()) return true;
   const auto [lowest, highest] = boundary.head->range(0.0, end);
-  // An impervious part stays impervious where the water never comes.
+  // An impervious face that the water never reaches stays impervious.
   return lowest <= around.wet_above &&
          (boundary.dry == DryPart::seepage || highest > around.wet_above);
 }
@@ -80,7 +80,7 @@ std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
   return varying;
 }
 
-/// Heights of the faces of a case against gravity, and areas of its boundaries.
+/// Finds heights of faces and areas of boundaries.
 template <int Dim>
 class Outside {
  public:
@@ -138,7 +138,7 @@ std::vector<std::vector<int>> faces_of_boundaries(const Case<Dim>& c, const Grid
       owner[f] = b;
       result[b].push_back(f);
     }
-    std::ranges::sort(result[b]);  // sums over them have the same bits wherever they are made
+    std::ranges::sort(result[b]);  // the order fixes the bits of sums over them
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   return result;

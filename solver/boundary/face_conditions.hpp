@@ -1,7 +1,7 @@
 #pragma once
 
-/// The scene's boundary conditions, face by face: which faces are walls, and where a pressure or a
-/// flux is prescribed, with their values in time.
+/// The scene's boundary conditions, face by face: walls, prescribed pressures and prescribed
+/// fluxes, with their values in time.
 
 #include <string>
 #include <vector>
@@ -17,34 +17,34 @@ enum class FaceKind : unsigned char {
   pressure,  ///< value: Pa
   velocity,  ///< value: intrinsic liquid velocity into the model, m/s
   flux,      ///< value: Darcy flux into the model, m/s
-  /// Air outside: p <= 0, and a Darcy flux of at most `value` (m/s, >= 0) into the model; at least
-  /// one of the two at its limit. Zero: a seepage face; otherwise rain.
+  /// Air outside: p <= 0 and a Darcy flux of at most `value` (m/s, >= 0) into the model; at least
+  /// one of the two is an equality. `value` = 0: a seepage face; otherwise rain.
   seepage,
 };
 
 struct FaceCondition {
   FaceKind kind = FaceKind::interior;
   double value = 0.0;
-  double concentration = 0.0;  ///< c of liquid that enters; without one in the scene 0
+  double concentration = 0.0;  ///< c of liquid that enters; 0 by default
   int boundary = -1;           ///< index of the scene's boundary entry
-  /// The kind may change during the run: an implicit flow keeps an unknown for the face.
+  /// The kind may change during the run: an implicit flow has an unknown for the face.
   bool switches = false;
 
-  /// What may change: the scene restores the rest.
+  /// Stores the values that may change; the rest follows from the scene.
   void archive(auto& archive) { archive(kind, value, concentration); }
-  /// Whether the flux through the face is prescribed; at a wall it is zero.
+  /// Whether the flux through the face is prescribed (zero at a wall).
   [[nodiscard]] bool fixes_flux() const {
     return kind == FaceKind::wall || kind == FaceKind::velocity || kind == FaceKind::flux;
   }
 };
 
-/// What the condition of a face depends on in addition to its boundary's entry in the scene.
+/// Data of a face on which its condition depends, in addition to the scene's boundary entry.
 struct FaceSurroundings {
   double unit_weight = 0.0;  ///< pressure per head: rho_w |g|, with 9.81 m/s2 without gravity, N/m3
   bool gravity = false;
   double height = 0.0;     ///< z of the face's centre against gravity, m
-  double wet_above = 0.0;  ///< the face is under water where a head exceeds this (`WaterLine`), m
-  double area = 0.0;       ///< of all faces of its boundary, m2
+  double wet_above = 0.0;  ///< the face is under water if the head exceeds this (`WaterLine`), m
+  double area = 0.0;       ///< total area of the boundary, m2
 };
 
 /// The condition of each face of the grid, with its values at t = 0. Throws InputError when a
@@ -60,8 +60,8 @@ struct ReservoirLevel {
   double rate = 0.0;                         ///< dH/dt of the last step, m/s
 };
 
-/// Boundary conditions whose values change in time. The kind changes with them where the level of a
-/// head passes a face: such faces have `switches`.
+/// Boundary conditions that change in time. The kind of a face changes when the level of a head
+/// passes it; such faces have `switches`.
 template <int Dim>
 class BoundaryValues {
  public:
@@ -70,14 +70,14 @@ class BoundaryValues {
 
   /// Per face of the grid, at a time in s.
   [[nodiscard]] std::vector<FaceCondition> at(double time) const;
-  /// Sets `conditions`, which `at` or `face_conditions` made of this case for any time, to those at
-  /// `time`. Changes only faces of boundaries whose values change in time.
+  /// Sets `conditions`, from `at` or `face_conditions` of this case, to those at `time`. Changes
+  /// only faces of boundaries whose values change in time.
   void update(double time, std::vector<FaceCondition>& conditions) const;
   /// Likewise, with levels of reservoirs that have risen at these rates since the last step, m/s.
   void update(double time, const std::vector<double>& reservoir_rates,
               std::vector<FaceCondition>& conditions) const;
-  /// Sets concentrations alone to those at `time`. Liquid that enters over an interval has the
-  /// concentration at its middle, which is the mean where the concentration is linear.
+  /// Sets only the concentrations to those at `time`. Liquid that enters during an interval has the
+  /// concentration at mid-interval, which is the mean of a linear concentration.
   void update_concentrations(double time, std::vector<FaceCondition>& conditions) const;
 
   /// How fast the level of each reservoir rose in the last step, m/s.
@@ -95,8 +95,8 @@ class BoundaryValues {
 
   /// Whether any value changes in time.
   [[nodiscard]] bool vary() const { return !varying_.empty(); }
-  /// Times at which a value that changes may have a kink, in (0, end), s: ascending, each once.
-  /// Between two of them every value is linear in time, while the level of a head passes no face.
+  /// Times at which a value may have a kink, in (0, end), s: ascending, each once. Between them
+  /// every value is linear in time, unless the level of a head passes a face.
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
 
  private:

@@ -9,7 +9,7 @@ namespace suffuse {
 template <int Dim>
 std::vector<LeakyFace> leaky_faces(const Case<Dim>& c, const Grid<Dim>& grid) {
   const Scene& scene = c.document.scene;
-  // Both sides are at the same height: heads differ as pressures do.
+  // Both sides have equal heights: the difference of heads is that of pressures.
   const double pressure_per_head = unit_weight(scene.liquid.density, scene.gravity);
   std::vector<LeakyFace> result;
   for (const Wall& wall : scene.walls) {

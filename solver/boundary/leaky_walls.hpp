@@ -1,7 +1,6 @@
 #pragma once
 
-/// Walls that let liquid through: pairs of outer faces at the same place, and how well they
-/// conduct.
+/// Leaky walls: pairs of outer faces at the same place, and their conductances.
 
 #include <vector>
 
@@ -10,18 +9,18 @@
 
 namespace suffuse {
 
-/// The two sides of a piece of a wall, through which conductance * (p_face - p_partner) m3/s pass.
+/// The two sides of a piece of a wall; its flux is conductance * (p_face - p_partner), m3/s.
 struct LeakyFace {
   int face = -1;  ///< the smaller number
   int partner = -1;
   double conductance = 0.0;  ///< m3/(s Pa)
 };
 
-/// Those of the scene's walls with a conductance, ascending.
+/// Leaky faces of the scene's walls with a conductance, ascending.
 template <int Dim>
 std::vector<LeakyFace> leaky_faces(const Case<Dim>& c, const Grid<Dim>& grid);
 
-/// The grid of a case, whose leaky faces are partners.
+/// The grid of a case, with leaky faces joined as partners.
 template <int Dim>
 Grid<Dim> grid_with_walls(const Case<Dim>& c);
 

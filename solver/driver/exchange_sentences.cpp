@@ -5,7 +5,7 @@
 namespace suffuse {
 namespace {
 
-/// "soil sand" or "soils sand and silt": those that a condition holds of; empty: none.
+/// "soil sand" or "soils sand and silt": those that satisfy a condition; empty: none.
 template <class Condition>
 std::string soils_that(const Scene& scene, const Condition& holds) {
   std::vector<std::string> names;
@@ -16,7 +16,7 @@ std::string soils_that(const Scene& scene, const Condition& holds) {
   return (names.size() > 1 ? "soils " : "soil ") + listed(names, "and");
 }
 
-/// Each drive with its soils.
+/// Describes each drive with its soils.
 void describe_erosion(const Scene& scene, const std::string& because, Plan& plan) {
   const auto erodes_by = [](const Soil& soil, const DriveLaw* drive) {
     const ErosionModel model = soil.erosion_model();

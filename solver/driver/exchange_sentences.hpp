@@ -8,8 +8,8 @@
 
 namespace suffuse {
 
-/// What fines do between solid and liquid, and what they change: which drives run in which soils,
-/// and which couplings run or are skipped. `because`: why a pass runs that is not needed, or empty.
+/// Describes the exchange of fines and its effects: the drives of each soil, and the couplings that
+/// are run or skipped. `because`: reason for running a pass that is not needed, or empty.
 void describe_exchange(const Scene& scene, const std::string& because, Plan& plan);
 
 }  // namespace suffuse

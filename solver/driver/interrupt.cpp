@@ -16,9 +16,9 @@ void catch_interrupts() {
   requested = 0;
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);
-  // A program started by nohup must go on ignoring it.
+  // A program started by nohup must continue to ignore SIGHUP.
   if (std::signal(SIGHUP, request) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  // The program that read the messages has ended: no reason to end the run.
+  // The run continues if the program that reads its messages ends.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

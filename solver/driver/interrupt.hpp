@@ -1,13 +1,13 @@
 #pragma once
 
-/// Signals that end a run in good order: SIGINT, SIGTERM and SIGHUP (the terminal was closed).
+/// Signals that end a run in an orderly way: SIGINT, SIGTERM and SIGHUP (the terminal was closed).
 
 namespace suffuse {
 
 /// From this call on these signals set `interrupted` instead of ending the program, and SIGPIPE is
 /// ignored.
 void catch_interrupts();
-/// Whether one of them came since the last `catch_interrupts`.
+/// Whether such a signal came since the last `catch_interrupts`.
 [[nodiscard]] bool interrupted();
 
 }  // namespace suffuse

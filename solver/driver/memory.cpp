@@ -12,8 +12,8 @@ namespace suffuse {
 
 double peak_memory() {
   constexpr double kilobyte = 1024.0;
-  // VmHWM counts this program alone. getrusage also counts the program that started it, before
-  // the exec: a large shell or test runner, for instance.
+  // VmHWM counts this program alone. getrusage also counts the program that called exec, such as a
+  // large shell or test runner.
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     double kilobytes = 0.0;

@@ -13,7 +13,7 @@
 
 namespace suffuse {
 
-/// Times k * every up to the end, and the end itself. Multiples, not sums: no drift.
+/// Times k * every up to the end, and the end. They are multiples, so round-off does not add up.
 class OutputTimes {
  public:
   OutputTimes(double every, double end) : every_(every), end_(end) {}
@@ -21,16 +21,16 @@ class OutputTimes {
   [[nodiscard]] double next() const {
     return is_same_time(multiple(), end_) ? end_ : std::min(multiple(), end_);
   }
-  /// Whether the next time has come, but for round-off.
+  /// Whether the next time has come, within round-off.
   [[nodiscard]] bool is_due(double time) const {
     return !finished() && (next() <= time || is_same_time(next(), time));
   }
   [[nodiscard]] bool finished() const { return last_ >= end_; }
-  /// Number of times that are past.
+  /// Number of past times.
   [[nodiscard]] long past() const { return past_; }
-  /// The end is that of the scene: a run that has reached it may be restored with a later one.
+  /// The end comes from the scene: a finished run may be restored with a later end.
   void archive(auto& archive) { archive(index_, past_, last_); }
-  /// Whether the next time has come, but for round-off; then moves on to the one after it.
+  /// Whether the next time has come, within round-off; if so, advances to the following one.
   bool take(double time) {
     const bool due = is_due(time);
     if (due) advance();
@@ -44,7 +44,7 @@ class OutputTimes {
   /// Number of all times.
   [[nodiscard]] long count() const {
     OutputTimes rest = *this;
-    // Starts shortly before the end, as there may be very many times.
+    // Starts shortly before the end, because there may be very many times.
     const long skipped = std::max(0L, static_cast<long>(end_ / every_) - 2 - index_);
     rest.index_ += skipped;
     rest.past_ += skipped;
@@ -59,18 +59,18 @@ class OutputTimes {
   double end_;
   long index_ = 0;  ///< of the next multiple
   long past_ = 0;
-  double last_ = -1.0;  ///< the time before, s; negative: none
+  double last_ = -1.0;  ///< the last past time, s; negative: none
 };
 
-/// Both kinds of output of a scene; both come more often while soil fails.
+/// The outputs of a scene, rows and snapshots; both are more frequent while soil fails.
 class OutputSchedule {
  public:
-  /// What is to be written at one time.
+  /// Outputs that are due at one time.
   struct Due {
     bool row = false;
     bool snapshot = false;
   };
-  /// Outputs of one kind that are past.
+  /// Past outputs of one kind.
   struct Past {
     long count = 0;
     double last = -1.0;  ///< time, s; negative: none
@@ -96,9 +96,9 @@ class OutputSchedule {
     archive(rows_, snapshots_, past_rows_, past_snapshots_, in_failure_);
   }
 
-  /// Soil fails, or does not, from `time` on, s; `last_step` is the length of the last step, s.
-  /// Outputs that would come more often than steps come with each step and shorten none: steps of
-  /// their length might not even change the time.
+  /// Sets whether soil fails from `time`, s, on; `last_step` is the length of the last step, s. If
+  /// `failure_every` is shorter than steps, each step is written and none is shortened: such a
+  /// short step might not even change the time.
   void follow_failure(double time, bool fails, double last_step) {
     each_step_ = fails && failure_every_ && *failure_every_ < last_step;
     if (!failure_every_ || !fails || each_step_) {
@@ -114,7 +114,7 @@ class OutputSchedule {
   /// step.
   [[nodiscard]] bool writes_each_step() const { return each_step_; }
 
-  /// The next output time, s. Only before it is finished.
+  /// The next output time, s. Not to be called when finished.
   [[nodiscard]] double next() const {
     const double regular = rows_.finished()        ? snapshots_.next()
                            : snapshots_.finished() ? rows_.next()
@@ -122,7 +122,7 @@ class OutputSchedule {
     return std::min(regular, in_failure_);
   }
 
-  /// What is due at `time`; moves on to the output after it.
+  /// Outputs that are due at `time`; advances to the following ones.
   Due take(double time) {
     const bool in_failure = each_step_ || in_failure_ <= time ||
                             (in_failure_ != none && is_same_time(in_failure_, time));

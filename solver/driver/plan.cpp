@@ -35,7 +35,7 @@ bool retains_air(const Scene& scene) {
   return std::ranges::any_of(scene.soils, &Soil::drains);
 }
 
-/// The most that erosion can open soil until `end`, s, under any flow.
+/// Largest porosity that erosion can cause until `end`, s, under any flow.
 double largest_porosity(const ErosionModel& model, double porosity, double end) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (depends_on_flux(model) || depends_on_concentration(model)) {
@@ -44,10 +44,10 @@ double largest_porosity(const ErosionModel& model, double porosity, double end) 
   return porosity_after(model, porosity, 0.0, end, infinite);
 }
 
-/// Coefficients at which the stability limit is smallest: the porosity at the end of the run and
-/// the smallest water fraction. Erosion turns solid into fines in the liquid, so n_w of a soil that
-/// erodes stays as it is at the start. A soil that does not erode may fill with the liquid that is
-/// richest in fines: with `with_richest_liquid` it does.
+/// Coefficients with the smallest stability limit: the porosity at the end of the run and the
+/// smallest water fraction. Erosion turns solid into fines in the liquid, so n_w of a soil that
+/// erodes does not change. Soil that does not erode may fill with the liquid richest in fines,
+/// which is assumed if `with_richest_liquid`.
 template <int Dim>
 FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& grid,
                                          const SoilMap<Dim>& soils, bool with_richest_liquid) {
@@ -64,7 +64,7 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
                                                         porosity, scene.time.end);
   }
   const double clean = 1.0 - largest_inflow_concentration(scene);
-  double dilution = 1.0;  // smallest share of water in liquid that carries eroded fines
+  double dilution = 1.0;  // least share of water in liquid with eroded fines
   for (int e = 0; e < elements; ++e) {
     if (!soils.is_soil(e)) first[e] = last[e] = 1.0;
     dilution = std::min(dilution, first[e] / last[e]);
@@ -78,8 +78,8 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
       return darcy_drag(porosity, scene.liquid.density,
                         soil.conductivity_model().at(first[e], porosity));
     };
-    // Drag that is stepped explicitly lowers the limit, implicitly it raises it. With most laws
-    // drag falls as porosity grows, with a constant conductivity it grows.
+    // Explicit drag lowers the limit, implicit drag raises it. With most laws drag decreases with
+    // porosity; with a constant conductivity it increases.
     const auto [least, most] = std::minmax({drag_at(first[e]), drag_at(last[e])});
     worst.porosity.push_back(last[e]);
     worst.water_volume.push_back(grid.volume[e] * first[e] * clean *
@@ -109,14 +109,13 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
 }
 
 /// Without a prescribed pressure a steady flow exists only if the prescribed fluxes add up to zero.
-/// For incompressible water they must do so at all times, unless soil that is not full stores
-/// liquid.
+/// For incompressible water this must hold at all times, unless unsaturated soil stores liquid.
 template <int Dim>
 void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
                                  const SoilMap<Dim>& soils, const BoundaryValues<Dim>& values) {
   const Scene& scene = c.document.scene;
   const bool stiff = std::isinf(scene.liquid.bulk_modulus) && !retains_air(scene);
-  // For incompressible water as strict as the implicit scheme.
+  // For incompressible water the tolerance is that of the implicit scheme.
   const double round_off = stiff ? 1e-9 : 1e-6;
   const bool steady = scene.initial_flow == InitialFlow::steady;
   std::vector<double> times;
@@ -131,10 +130,10 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
     double gross = 0.0;
     for (int f = 0; f < grid.face_count(); ++f) {
       const FaceKind kind = conditions[f].kind;
-      if (kind == FaceKind::pressure || kind == FaceKind::seepage) return;  // lets the rest out
+      if (kind == FaceKind::pressure || kind == FaceKind::seepage) return;  // takes the difference
       double flux = grid.face_normal[f].norm() * conditions[f].value;
       if (kind == FaceKind::velocity) {
-        if (time > 0.0 || !steady) return;  // the flux depends on the porosity by then
+        if (time > 0.0 || !steady) return;  // the flux then depends on the porosity
         flux *= soils.soil_of_element(grid.face_left[f]).initial_porosity(grid.face_centre(f));
       }
       net += flux;
@@ -151,7 +150,7 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
   }
 }
 
-/// Where faces open, close or fall dry, the implicit flow iterates over them with linear drag.
+/// With faces that open, close or fall dry, the iteration of the implicit flow needs linear drag.
 template <int Dim>
 void refuse_ergun_beside_switching_faces(const Case<Dim>& c,
                                          const std::vector<FaceCondition>& conditions) {
@@ -167,7 +166,7 @@ void refuse_ergun_beside_switching_faces(const Case<Dim>& c,
                                 "\"darcy\": where faces open, close or fall dry, drag is linear"});
 }
 
-/// Longest time constant with which drag stops the flow in a soil, k / (n g), s.
+/// Longest relaxation time of the flow in a soil by drag, k / (n g), s.
 double longest_relaxation(const Scene& scene) {
   double relaxation = 0.0;
   for (const Soil& soil : scene.soils) {
@@ -180,7 +179,7 @@ double longest_relaxation(const Scene& scene) {
   return relaxation;
 }
 
-/// Not with scaled masses, which `RowChecks` checks otherwise.
+/// Not used with scaled masses, for which `RowChecks` has another check.
 template <int Dim>
 void find_speed_that_drag_follows(const Case<Dim>& c, Plan& plan) {
   const Scene& scene = c.document.scene;
@@ -189,8 +188,8 @@ void find_speed_that_drag_follows(const Case<Dim>& c, Plan& plan) {
   plan.speed_that_drag_follows = extent(c.mesh).norm() / longest_relaxation(scene);
 }
 
-/// The slowest soil's pressures spread over the whole model with the diffusivity K k / (rho n g),
-/// and drag stops the liquid: both to exp(-11) = 2e-5.
+/// Time in which pressures diffuse through the whole model with the smallest diffusivity K k / (rho
+/// n g) of a soil, and drag stops the liquid, both to exp(-11) = 2e-5, s.
 template <int Dim>
 double settling_time(const Case<Dim>& c) {
   const Scene& scene = c.document.scene;
@@ -221,7 +220,7 @@ void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
 }
 
 void describe_explicit_flow(const Scene& scene, Plan& plan) {
-  // Each stretch from one output to the next is divided evenly.
+  // The time between two outputs is divided into equal steps.
   const double stretch =
       std::min({scene.output.every, scene.output.snapshot_every, scene.time.end});
   const double step = stretch / std::ceil(stretch / plan.flow.step * (1.0 - 1e-12));
@@ -261,7 +260,7 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
                       : "skip: the flow while it is steady and nothing that drives it changes");
 }
 
-/// The times at which nothing erodes.
+/// Describes the times without erosion.
 void describe_spans(const Scene& scene, Plan& plan) {
   const bool late = plan.erosion && plan.erosion_span.start > 0.0;
   const bool early = plan.erosion && plan.erosion_span.end < scene.time.end;
@@ -334,9 +333,9 @@ void describe(const Scene& scene, const std::vector<std::string>& regions,
       outputs(scene.output.snapshot_every) + " snapshots; steps end on them");
 }
 
-/// Inertia delays the flow by its relaxation time. It is left out where this time is short against
-/// the given step, or where the volume that it delays is within the tolerance of the volume that
-/// flows in the whole run; and where the soil moves, whose inertia has that of the liquid in it.
+/// Inertia delays the flow by its relaxation time. It is neglected if this time is short against
+/// the given step, or if the delayed volume is within the tolerance of the volume that flows in the
+/// whole run. It is also off if the soil moves: the soil's inertia includes that of its liquid.
 void plan_implicit_step(const Scene& scene, Plan& plan) {
   constexpr double short_of_a_step = 0.01;
   plan.flow.step = scene.time.step.value_or(unset);
@@ -344,11 +343,11 @@ void plan_implicit_step(const Scene& scene, Plan& plan) {
       scene.time.step ? short_of_a_step * *scene.time.step : scene.time.tolerance * scene.time.end;
   plan.flow.inertia = !retains_air(scene) && !scene.moves() &&
                       scene.time.inertia.value_or(longest_relaxation(scene) > unnoticed);
-  // Inertia is there for the start-up as a whole; the waves in it need not be followed.
+  // Inertia matters for the duration of the start-up; its waves need not be resolved.
   if (plan.flow.inertia && !scene.time.inertia) plan.flow.unnoticed = unnoticed;
 }
 
-/// Free water has next to no drag: its oscillations last for hours.
+/// Warns of free water with inertia: it has little drag, so its oscillations last for hours.
 template <int Dim>
 void warn_of_free_water_with_inertia(const Case<Dim>& c, Plan& plan) {
   const Scene& scene = c.document.scene;
@@ -362,8 +361,8 @@ void warn_of_free_water_with_inertia(const Case<Dim>& c, Plan& plan) {
       "take time.inertia = false unless that is what you look for");
 }
 
-/// One pressure all over a boundary that rises is no water that stands there: most likely a head
-/// was meant.
+/// Warns of a constant pressure on a boundary that is not level: outer water has a constant head,
+/// which is most likely meant.
 template <int Dim>
 void warn_of_pressures_on_slopes(const Case<Dim>& c, const Grid<Dim>& grid,
                                  const std::vector<FaceCondition>& conditions, Plan& plan) {
@@ -404,8 +403,8 @@ template <int Dim>
 void plan_explicit_step(const Case<Dim>& c, const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                         const std::vector<FaceCondition>& conditions, Plan& plan) {
   const Scene& scene = c.document.scene;
-  // A given step is refused only for liquid that is certain to come. During the run it is checked
-  // against the limit of the moment.
+  // A given step is refused only for liquid that is certain to occur. During the run it is checked
+  // against the present limit.
   const FlowCoefficients<Dim> worst = worst_coefficients(c, grid, soils, !plan.flow.step_given);
   NodalOperator<Dim> op(grid, conditions, Vector<Dim>::Zero());
   op.update(worst);
@@ -433,7 +432,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   const SoilMap<Dim> soils(c);
   Plan plan;
   plan.warnings = plausibility_warnings(c.document, c.mesh);
-  // The liquid of an earlier run may hold fines as well.
+  // The liquid of an earlier run may also contain fines.
   const bool fines_enter = largest_inflow_concentration(scene) > 0.0 || !scene.initial_from.empty();
   plan.erosion = soils.erodes() || (soils.deposits() && fines_enter);
   plan.transport = plan.erosion || fines_enter;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The plan of a run: which passes it runs and which it skips, with which steps. It is made once,
-/// from the scene, before anything runs.
+/// The plan of a run: its passes, those that are skipped, and its steps. It is made once from the
+/// scene, before the run.
 
 #include <limits>
 #include <optional>
@@ -20,14 +20,14 @@ struct SolverOptions {
 };
 
 struct Plan : ModelOptions {
-  StabilityLimit limit;  ///< explicit only: the smallest that is expected in the run
-  /// Only with inertia: faster liquid crosses the model before drag slows or accelerates it to its
-  /// steady speed, m/s. The momentum that it carries along is not in the equations.
+  StabilityLimit limit;  ///< explicit only: smallest limit expected in the run
+  /// Only with inertia: speed above which liquid crosses the model before drag makes it steady,
+  /// m/s. The equations lack the convected momentum of such liquid.
   double speed_that_drag_follows = std::numeric_limits<double>::infinity();
-  /// Implicit only: after it a flow that starts from rest is steady to about 1e-5 of itself, s.
+  /// Implicit only: time after which a flow from rest is steady to about 1e-5, s.
   double settling_time = 0.0;
-  /// Implicit only, without inertia: elements with an obtuse angle, which can take pressures beyond
-  /// those of the boundaries.
+  /// Implicit only, without inertia: number of elements with an obtuse angle, which can cause
+  /// pressures outside the range of the boundaries.
   std::optional<int> obtuse_elements;
   std::vector<std::string> sentences;  ///< what runs, what is skipped, and why
   std::vector<std::string> warnings;

@@ -54,7 +54,7 @@ void Progress::report(double time, double dt, bool soil_fails) {
   standing_.step = dt;
   if (standing_.first_step == 0.0) standing_.first_step = dt;
   standing_.soil_fails = soil_fails;
-  // What a failure takes says nothing of the time before and after it.
+  // The time of a failure is left out, because its pace differs from that of other times.
   if (soil_fails) in_failure_ += now - reported_;
   reported_ = now;
   if (!soil_fails) standing_.time_left = time_left_.at(seconds(now - start_ - in_failure_), time);

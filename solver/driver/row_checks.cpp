@@ -42,12 +42,11 @@ std::vector<std::string> RowChecks::check(const HistoryRow& row) {
   return warnings;
 }
 
-/// The equation of state holds for small changes of volume only.
+/// The equation of state is valid only for small changes of volume.
 std::string RowChecks::check_compression(const HistoryRow& row) {
   constexpr double small = 0.1;
   const double modulus = scene_.liquid.bulk_modulus;
-  // A flow that becomes unstable shows first in how pressures of points scatter about those of the
-  // nodes.
+  // An instability appears first as scatter of point pressures about node pressures.
   const double pressure =
       std::max({std::abs(row.pressure_min), std::abs(row.pressure_max), row.pressure_scatter});
   std::ostringstream message;
@@ -76,8 +75,8 @@ std::string RowChecks::check_mass_scaling(double speed) {
   return message.str();
 }
 
-/// The pressure is convected and the momentum is not. Waves between an inlet and an outlet then
-/// grow by 1 + v / c with every way back, unless drag damps them by as much.
+/// The model convects pressure but not momentum. Waves between an inlet and an outlet then grow by
+/// the factor 1 + v / c with every reflection, unless drag damps them as much.
 std::string RowChecks::check_momentum(double speed) {
   if (momentum_warned_ || !(speed > speed_that_drag_follows_)) return "";
   momentum_warned_ = true;
@@ -89,11 +88,11 @@ std::string RowChecks::check_momentum(double speed) {
   return message.str();
 }
 
-/// Fines in the liquid neither settle nor hold each other up in this model: their weight drives a
-/// flow, which where it erodes brings more of them.
+/// Fluidised fines neither settle nor support each other in this model: their weight drives a flow,
+/// which can erode more fines.
 std::string RowChecks::check_fines_weight(const HistoryRow& row) {
   constexpr double most_of_it = 0.5;
-  constexpr double noticed = 1e-3;  // concentration, below which density differs by a per mille
+  constexpr double noticed = 1e-3;  // concentration; the density changes by a per mille
   if (weight_warned_ || !(row.fines_weight_share > most_of_it)) return "";
   if (!(row.concentration_max > noticed)) return "";
   weight_warned_ = true;
@@ -109,7 +108,7 @@ std::string RowChecks::check_fines_weight(const HistoryRow& row) {
   return message.str();
 }
 
-/// Grains that lie as densely as in a packing lock, and the liquid flows no more.
+/// Grains as dense as in a packing lock, and the liquid cannot flow.
 std::string RowChecks::check_packing(const HistoryRow& row) {
   constexpr double packing = 0.62;  // the usual c_m of Krieger and Dougherty
   if (packing_warned_ || !(row.concentration_max > packing)) return "";
@@ -125,8 +124,8 @@ std::string RowChecks::check_packing(const HistoryRow& row) {
   return message.str();
 }
 
-/// On a mesh of even elements points fill them as they would at random: out of some thousand
-/// elements one differs from the mean of N points by 5 sqrt(N).
+/// In a mesh of equal elements the number of points per element varies as if random: among some
+/// thousand elements one differs from the mean N by 5 sqrt(N).
 std::string RowChecks::check_volume_defect(const HistoryRow& row) {
   constexpr double deviations = 5.0;
   const double points = scene_.points.liquid_per_element;
@@ -143,8 +142,8 @@ std::string RowChecks::check_volume_defect(const HistoryRow& row) {
   return message.str();
 }
 
-/// Obtuse angles and long steps of second order can take pressures beyond those of the boundaries.
-/// On most such meshes they do not, so that only a run in which it happened says so.
+/// Obtuse angles and long second-order steps can cause pressures outside the range of the
+/// boundaries. This is rare, so there is a warning only if it happened.
 std::string RowChecks::check_overshoot(const HistoryRow& row) {
   constexpr double noticed = 0.01;  // of the range of pressures
   const bool second_order = scene_.time.stepping == TimeStepping::second_order;

@@ -1,7 +1,6 @@
 #pragma once
 
-/// Checks each row of the history: whether its numbers are within what the equations of the model
-/// describe.
+/// Checks whether the values of each row of the history are within the validity of the model.
 
 #include <optional>
 #include <string>
@@ -15,17 +14,16 @@ namespace suffuse {
 
 class RowChecks {
  public:
-  /// Keeps a reference to the scene. `speed_that_drag_follows`, m/s, and `obtuse_elements` are the
-  /// plan's.
+  /// Keeps a reference to the scene. `speed_that_drag_follows`, m/s, and `obtuse_elements` come
+  /// from the plan.
   RowChecks(const Scene& scene, double speed_that_drag_follows,
             std::optional<int> obtuse_elements = {})
       : scene_(scene),
         speed_that_drag_follows_(speed_that_drag_follows),
         obtuse_elements_(obtuse_elements) {}
 
-  /// New warnings; each is given once in a run, that of a failure once per failure. Throws
-  /// NumericalError where an entry is not finite or a pressure is above the bulk modulus of the
-  /// liquid.
+  /// Returns new warnings; each is given once in a run, that of a failure once per failure. Throws
+  /// NumericalError if an entry is not finite or a pressure exceeds the liquid's bulk modulus.
   std::vector<std::string> check(const HistoryRow& row);
 
   void archive(StateArchive& archive) {
@@ -53,7 +51,7 @@ class RowChecks {
   bool defect_warned_ = false;
   bool overshoot_warned_ = false;
   bool packing_warned_ = false;
-  double failure_warned_ = 0.0;  ///< the last one that has been told, s
+  double failure_warned_ = 0.0;  ///< time of the last reported failure, s
 };
 
 }  // namespace suffuse

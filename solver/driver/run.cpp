@@ -24,7 +24,7 @@
 namespace suffuse {
 namespace {
 
-/// As a shell reads it as one word.
+/// Quotes a word for a shell.
 std::string quoted(const std::string& word) {
   const bool plain = std::ranges::all_of(word, [](unsigned char c) {
     return std::isalnum(c) != 0 ||
@@ -42,7 +42,7 @@ std::string quoted(const std::string& word) {
   return result + "'";
 }
 
-/// A run with its results folder: every output is checked and written.
+/// A run that checks every output and writes it to a results folder.
 template <int Dim>
 class Run final : public OutputSink<Dim> {
  public:
@@ -62,7 +62,7 @@ class Run final : public OutputSink<Dim> {
         progress_(starting_point.from ? starting_point.from->time : 0.0,
                   case_.document.scene.time.end, starts_from_rest(starting_point), run.quiet),
         writer_(open_results(std::move(starting_point))) {
-    // The model has points of its own by now.
+    // The model has its own points now.
     case_.liquid_points = {};
   }
 
@@ -73,7 +73,7 @@ class Run final : public OutputSink<Dim> {
       finish_writing();
       progress_.finish();
       if (!loop_.finished()) return stop();
-      // Before the status "done": after it nothing removes the file.
+      // This precedes the status "done", after which nothing would remove the file.
       writer_.remove_checkpoint();
       write_info("done", "");
       return ExitCode::done;
@@ -107,18 +107,18 @@ class Run final : public OutputSink<Dim> {
     append_tables(writer_, loop_.model(), flow);
   }
 
-  /// The run goes on while the files are written.
+  /// Writes the files while the run continues.
   void write_snapshot(const FlowState<Dim>& flow) override {
-    // One at a time: two in memory would be too many.
+    // Only one snapshot at a time is kept in memory.
     finish_writing();
     Snapshot snapshot = loop_.model().snapshot(flow);
     snapshot.restart = restart_point();
-    // Where there can be no other thread, this one writes when it waits.
+    // If no thread can be started, the snapshot is written in `finish_writing`.
     writing_ = std::async(std::launch::async | std::launch::deferred,
                           [this, snapshot = std::move(snapshot)]() mutable {
                             writer_.write_snapshot(std::move(snapshot));
                           });
-    // Rows without any snapshot would be results from which no run can go on.
+    // No run could continue from rows without a snapshot.
     if (loop_.schedule().past_snapshots().count == 1) finish_writing();
     since_saved_ = Stopwatch();
   }
@@ -133,8 +133,7 @@ class Run final : public OutputSink<Dim> {
   }
 
  private:
-  /// Comes after everything that can fail because of the case: results of an earlier run are
-  /// replaced only here.
+  /// Replaces the results of an earlier run, after everything that can fail because of the case.
   ResultsWriter<Dim> open_results(StartingPoint starting_point) {
     for (const std::string& warning : plan_.warnings) warn(warning);
     if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
@@ -161,8 +160,8 @@ class Run final : public OutputSink<Dim> {
     return ExitCode::interrupted;
   }
 
-  /// Writes row and snapshot of the last state in equilibrium, also between two output times. A run
-  /// that goes on from there drops this output again.
+  /// Writes row and snapshot of the last state in equilibrium, also between two output times. A
+  /// resumed run removes this output.
   void write_last_equilibrium() {
     const double now = loop_.model().time();
     const OutputSchedule& schedule = loop_.schedule();
@@ -175,7 +174,7 @@ class Run final : public OutputSink<Dim> {
     write_checkpoint();
   }
 
-  /// The run has failed for this reason, whether its last state can be written or not.
+  /// Notes the failure of the run, also if its last state cannot be written.
   void fail_in_last_equilibrium(const std::string& message) {
     try {
       write_last_equilibrium();
@@ -186,7 +185,7 @@ class Run final : public OutputSink<Dim> {
     note_failure(message);
   }
 
-  /// Waits for the snapshot that is being written. Throws what its writing threw.
+  /// Waits for the snapshot that is being written. Throws its exception.
   void finish_writing() {
     if (writing_.valid()) writing_.get();
   }
@@ -196,7 +195,7 @@ class Run final : public OutputSink<Dim> {
       write_info("failed", message);
       finish_writing();
     } catch (const std::exception&) {
-      // A disk that has no room for results may have none for this either.
+      // The disk may be full.
     }
   }
 
@@ -255,11 +254,11 @@ class Run final : public OutputSink<Dim> {
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
   ResultsWriter<Dim> writer_;
-  /// A thread that writes a snapshot. While it works no other thread uses HDF5; tables still grow.
+  /// The writing of a snapshot, during which no other thread uses HDF5; tables still grow.
   std::future<void> writing_;
 };
 
-/// The results of the earlier run are not to be replaced by those that start from it.
+/// Refuses to replace the results of the earlier run that this run starts from.
 template <int Dim>
 void refuse_own_source(const SceneDocument& document, const SourceRun<Dim>& source,
                        const std::string& folder) {
@@ -294,7 +293,7 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
       std::fprintf(stderr, "%s has no snapshot to go on from: begins anew\n", folder.c_str());
     }
   }
-  // A run that goes on has all that it needs in its own state.
+  // A resumed run has all that it needs in its own state.
   std::optional<SourceRun<Dim>> source;
   if (!starting_point->from) source = read_source_run(c, options.threads);
   if (source) refuse_own_source(c.document, *source, folder);

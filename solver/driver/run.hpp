@@ -1,6 +1,6 @@
 #pragma once
 
-/// Runs a case from its start, or from where an earlier run stopped, and writes its results folder.
+/// Runs a case from its start, or from the last state of a stopped run; writes its results folder.
 
 #include <string>
 
@@ -13,16 +13,16 @@ struct RunOptions {
   bool quiet = false;   ///< no progress
   bool resume = false;  ///< continue the run in the folder, if there is one
   bool force = false;   ///< replace the results of another case
-  /// Wall time, s, after which a run that has written no snapshot writes a checkpoint; 0: never.
+  /// Wall time without a snapshot after which a run writes a checkpoint, s; 0: never.
   double checkpoint_every = 600.0;
 };
 
 /// Runs a case to its end into `folder`. Returns ExitCode::done, or ExitCode::interrupted after
-/// SIGINT, SIGTERM or SIGHUP (with a checkpoint, and a line that says how to go on). A run that is
-/// resumed gives the same bits as one that never stopped, on any number of threads. Throws
-/// NumericalError and FileError, after noting it in run.json, and InputError where the folder holds
-/// the results of another case. Takes the case by value and gives back the memory of its liquid
-/// points once the model has its own: move it in. `case_path` is for messages.
+/// SIGINT, SIGTERM or SIGHUP (with a checkpoint, and a message how to continue). A resumed run
+/// gives the same bits as one that never stopped, on any number of threads. Throws NumericalError
+/// and FileError, noted in run.json, and InputError if the folder holds the results of another
+/// case. Takes the case by value, to free its liquid points when the model has its own: move it in.
+/// `case_path` is for messages.
 template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path = "NAME.case.h5");

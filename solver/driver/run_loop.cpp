@@ -30,7 +30,7 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
 
 template <int Dim>
 void RunLoop<Dim>::warn_of_points(OutputSink<Dim>& sink) {
-  // To ask after every interval would take time. The first intervals are often those of a start.
+  // A check after every interval would take time. The first intervals often belong to the start-up.
   constexpr long every = 16;
   if (warned_of_points_ || model_->steps() % every != 0) return;
   if (const auto warning = many_crossings_warning(*model_, end_)) {
@@ -55,7 +55,7 @@ void RunLoop<Dim>::output(OutputSink<Dim>& sink) {
   const OutputSchedule::Due due = schedule_.take(model_->time());
   if (!due.row && !due.snapshot) return;
   const FlowState<Dim> flow = model_->flow_state();
-  // The snapshot keeps the state of the run, and with it how many rows there are.
+  // The row comes first, because the snapshot stores the number of rows.
   if (due.row) sink.write_row(flow);
   if (due.snapshot) sink.write_snapshot(flow);
 }

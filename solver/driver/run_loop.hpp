@@ -1,8 +1,7 @@
 #pragma once
 
-/// The loop of a run: the model advances, interval by interval, and hands its state to a sink at
-/// every output time. A run and the trial of an estimate take the same steps, as both go through
-/// it.
+/// The loop of a run: advances the model by intervals, and passes its state to a sink at every
+/// output time. A run and the trial of an estimate both use it, so they take the same steps.
 
 #include <memory>
 #include <string>
@@ -15,22 +14,22 @@
 
 namespace suffuse {
 
-/// What becomes of the output of a run.
+/// Receives the output of a run.
 template <int Dim>
 class OutputSink {
  public:
   virtual ~OutputSink() = default;
 
-  /// A warning of the model. Comes before the output of the same step.
+  /// Receives a warning of the model, before the output of the same step.
   virtual void warn(const std::string& text) = 0;
-  /// A row of every table is due. Comes before the snapshot of the same step.
+  /// Receives a row for every table, before the snapshot of the same step.
   virtual void write_row(const FlowState<Dim>& flow) = 0;
   virtual void write_snapshot(const FlowState<Dim>& flow) = 0;
-  /// After every interval, with its output. The loop ends where this is false.
+  /// Called after every interval and its output. The loop ends if it returns false.
   virtual bool continue_after_interval() = 0;
 };
 
-/// A row of every table but the history.
+/// Appends a row to every table except the history.
 template <int Dim>
 void append_tables(ResultsWriter<Dim>& writer, const TwoPhaseModel<Dim>& model,
                    const FlowState<Dim>& flow) {
@@ -44,7 +43,7 @@ void append_tables(ResultsWriter<Dim>& writer, const TwoPhaseModel<Dim>& model,
 template <int Dim>
 class RunLoop {
  public:
-  /// Makes the model at its start, which is `earlier` where there is any. Keeps a reference to the
+  /// Makes the model in its initial state, or in the state `earlier`. Keeps a reference to the
   /// case.
   RunLoop(const Case<Dim>& c, const ModelOptions& options,
           const EarlierState<Dim>* earlier = nullptr)
@@ -54,8 +53,8 @@ class RunLoop {
     if (earlier) model_->start_from(*earlier);
   }
 
-  /// From the start, with the output of t = 0, or from the restored state: to the end, to an
-  /// interrupt, or until the sink stops it. Throws NumericalError, and what the sink throws.
+  /// Runs from the start, with the output of t = 0, or from the restored state, until the end, an
+  /// interrupt, or a stop by the sink. Throws NumericalError, and what the sink throws.
   void run(OutputSink<Dim>& sink);
 
   [[nodiscard]] bool finished() const { return schedule_.finished(); }
@@ -66,8 +65,7 @@ class RunLoop {
   void archive(StateArchive& archive) {
     archive(*model_, schedule_, warned_of_points_, warned_of_outputs_);
   }
-  /// From where a run can continue: the state of the loop and of `more`, for an archive that is
-  /// given the same.
+  /// The state from which a run can continue: that of the loop and of `more`, in this order.
   template <class... More>
   RestartPoint restart_point(More&... more) {
     RestartPoint point;
@@ -75,7 +73,7 @@ class RunLoop {
     point.rows = schedule_.past_rows().count;
     point.snapshots = schedule_.past_snapshots().count;
     StateArchive state;
-    state.reserve(state_size_ + state_size_ / 8);  // points may have become more
+    state.reserve(state_size_ + state_size_ / 8);  // the number of points may have grown
     state(*this, more...);
     point.state = state.finish();
     state_size_ = point.state.size();
@@ -90,8 +88,8 @@ class RunLoop {
   std::unique_ptr<TwoPhaseModel<Dim>> model_;
   OutputSchedule schedule_;
   double end_;                      ///< of the run, s
-  bool warned_of_points_ = false;   ///< that they have far to go
-  bool warned_of_outputs_ = false;  ///< that each step is written
+  bool warned_of_points_ = false;   ///< the warning of many crossings was given
+  bool warned_of_outputs_ = false;  ///< the warning of an output each step was given
   std::size_t state_size_ = 0;      ///< of the last restart point, bytes
 };
 

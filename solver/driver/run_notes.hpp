@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a run keeps in addition to its loop. It is part of the state of the run: listed once, for
-/// the run that goes on and for one that starts from the last state of another.
+/// State of a run in addition to its loop. It is listed once, for resumed runs and for runs that
+/// start from the last state of another run.
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ struct RunNotes {
   RowChecks checks;
   SpentEnergy energy = {};
   std::vector<std::string> warnings = {};
-  std::vector<std::string> origin = {};  ///< of the state that the run started from, for run.json
+  std::vector<std::string> origin = {};  ///< origin of the initial state, for run.json
 
   void archive(StateArchive& archive) { archive(checks, energy, warnings, origin); }
 };

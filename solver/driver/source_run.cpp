@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* source_key = "initial.from";
 
-/// Compares what must be the same in both scenes. Problems name the key of the later one.
+/// Compares the keys that must be equal in both scenes. Problems name the key of the later scene.
 class Comparison {
  public:
   Comparison(const SceneDocument& here, const Scene& there, std::string folder)
@@ -96,7 +96,7 @@ class Comparison {
   throw InputError(InputProblem{document.locate(source_key), source_key, found, expected});
 }
 
-/// Puts a model of that case into the state of its last snapshot.
+/// Restores a model of the case to the state of `point`, and returns this state.
 template <int Dim>
 EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, int threads) {
   const Plan plan = make_plan(c, {threads, point.no_skip});

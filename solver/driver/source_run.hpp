@@ -1,6 +1,6 @@
 #pragma once
 
-/// The run that `initial.from` of a scene names, from whose last state another one starts.
+/// The run named by `initial.from` of a scene, from whose last state another run starts.
 
 #include <optional>
 #include <string>
@@ -15,18 +15,17 @@ template <int Dim>
 struct SourceRun {
   std::string folder;  ///< of its results
   EarlierState<Dim> state;
-  /// For plan and run.json: from where the state is, its time and digest, and how the scenes
-  /// differ.
+  /// For plan and run.json: origin, time and digest of the state, and differences of the scenes.
   std::vector<std::string> sentences;
 };
 
-/// Whether two cases have the same mesh, but for its boundaries, and the same solid points.
+/// Whether two cases have the same mesh, except boundaries, and the same solid points.
 template <int Dim>
 bool have_same_points(const Case<Dim>& a, const Case<Dim>& b);
 
-/// Reads the last state of the run; nothing where the scene names none. Throws InputError where the
-/// run is not done, or is of another formulation, mesh, water or soil; FileError where its files
-/// cannot be read.
+/// Reads the last state of the run; nothing if the scene names none. Throws InputError if the run
+/// is not done, or has another formulation, mesh, water or soil; FileError if its files cannot be
+/// read.
 template <int Dim>
 std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The energy that water has spent on the soil, from the power in the rows of the history.
+/// The energy dissipated by water in the soil, from the power in the rows of the history.
 
 #include "files/tables.hpp"
 #include "results/state_archive.hpp"
@@ -9,7 +9,7 @@ namespace suffuse {
 
 class SpentEnergy {
  public:
-  /// J, until a row that comes after all rows before; power is linear in between.
+  /// Energy until a row, J. Rows must come in order; power is linear between them.
   double at(const HistoryRow& row) {
     energy_ += 0.5 * (row.t - time_) * (power_ + row.power);
     time_ = row.t;
@@ -20,7 +20,7 @@ class SpentEnergy {
   void archive(StateArchive& archive) { archive(time_, power_, energy_); }
 
  private:
-  double time_ = 0.0;    ///< of the row before, s
+  double time_ = 0.0;    ///< of the last row, s
   double power_ = 0.0;   ///< W
   double energy_ = 0.0;  ///< J
 };

@@ -16,7 +16,7 @@ std::string changeable_keys() {
   return listed({keys_that_may_change.begin(), keys_that_may_change.end()}, "and");
 }
 
-/// What differs from the run in `folder` and may not.
+/// Differences from the run in `folder` that are not allowed.
 template <int Dim>
 std::vector<std::string> lasting_differences(const std::string& folder, const Case<Dim>& c) {
   std::vector<std::string> result = differences_from_run(folder, c);
@@ -27,7 +27,7 @@ std::vector<std::string> lasting_differences(const std::string& folder, const Ca
   return result;
 }
 
-/// What the run in `folder` can go on from. Throws InputError where it is a run of something else.
+/// Finds the state to resume the run in `folder`. Throws InputError if it is another case.
 template <int Dim>
 FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
                           const SolverOptions& options) {
@@ -62,7 +62,7 @@ FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
 template <int Dim>
 bool is_complete(const Case<Dim>& c, const std::string& folder, const SolverOptions& options) {
   if (!is_finished(folder)) return false;
-  // No lock: the folder may be on a disk that cannot be written.
+  // Takes no lock, because the folder may be read-only.
   const FoundRestart found = find_restart(c, folder, options);
   return found.point && found.point->time >= c.document.scene.time.end && found.damage.empty();
 }

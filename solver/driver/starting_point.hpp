@@ -1,7 +1,7 @@
 #pragma once
 
-/// Where a run starts: in a folder of its own, from the scene's initial state or from the state
-/// that an earlier run left there.
+/// The start of a run in its folder: the scene's initial state, or the state of an earlier run
+/// there.
 
 #include <optional>
 #include <string>
@@ -15,13 +15,13 @@ namespace suffuse {
 
 struct StartingPoint {
   std::string folder;
-  std::optional<RestartPoint> from;  ///< none: the initial state
+  std::optional<RestartPoint> from;  ///< nothing: the initial state
   FolderLock lock;                   ///< of the folder
 };
 
-/// The last state that the run in `folder` left, for `--resume`; warns on stderr of states that are
-/// damaged. Nothing where that run is complete. Throws InputError where it is a run of something
-/// else, FileError where its results hold no state.
+/// The last state of the run in `folder`, for `--resume`; nothing if that run is complete. Warns of
+/// damaged states on stderr. Throws InputError if it is another case, FileError if its results hold
+/// no state.
 template <int Dim>
 std::optional<StartingPoint> find_starting_point(const Case<Dim>& c, const std::string& folder,
                                                  const SolverOptions& options);

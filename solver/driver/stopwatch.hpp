@@ -4,7 +4,7 @@
 
 namespace suffuse {
 
-/// Wall time since it was made.
+/// Wall time since its construction.
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const {

@@ -7,10 +7,10 @@
 
 namespace suffuse {
 
-/// A file that gets a text, whole or not at all; standard output where its path is `-`.
+/// A file for a text, written completely or not at all; `-` is standard output.
 class TextOutput {
  public:
-  /// Throws FileError where the folder is missing: before there is anything to lose.
+  /// Throws FileError if the folder is missing, before the text is computed.
   explicit TextOutput(const std::string& path);
   /// Throws FileError.
   void write(const std::string& text);

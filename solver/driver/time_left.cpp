@@ -3,10 +3,10 @@
 namespace suffuse {
 namespace {
 
-/// Two paces that differ by less than this factor are about the same.
+/// Largest ratio of two paces that agree.
 constexpr double agreement = 2.0;
-/// A stretch takes this share of the wall time before it, and at least so long and so many
-/// intervals, in which steps that grow do so by more than `agreement`.
+/// A stretch takes this share of the wall time before it, at least `shortest_stretch` and
+/// `fewest_intervals`, in which growing steps grow by more than `agreement`.
 constexpr double stretch_share = 0.25;
 constexpr double shortest_stretch = 0.2;  // s
 constexpr int fewest_intervals = 8;

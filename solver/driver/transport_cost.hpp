@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the transport of fines costs in a run, explicit and implicit, as far as a part of the run
-/// shows.
+/// Cost of the transport of fines in a run, explicit and implicit, estimated from a part of the
+/// run.
 
 #include <optional>
 #include <string>
@@ -10,12 +10,11 @@
 
 namespace suffuse {
 
-/// The scheme that carries fines at this moment, and what the other would cost until `end`, s.
+/// Describes the present scheme of transport, and the cost of the other one until `end`, s.
 template <int Dim>
 std::string transport_sentence(const TwoPhaseModel<Dim>& model, double end);
 
-/// Where liquid points would have to cross more elements than a user waits for: what that costs,
-/// and what does without them.
+/// A warning if liquid points have to cross very many elements: the cost, and an alternative.
 template <int Dim>
 std::optional<std::string> many_crossings_warning(const TwoPhaseModel<Dim>& model, double end);
 

@@ -21,8 +21,8 @@ struct Bracket {
   double high;
 };
 
-/// Where a function that is negative at 0 and positive at 1 changes its sign, to the last digits
-/// (Illinois, Dowell and Jarratt 1971). It may jump there.
+/// Bracket of the sign change of a function that is negative at 0 and positive at 1, within
+/// round-off (Illinois, Dowell and Jarratt 1971). The function may jump there.
 template <class Function>
 Bracket change_of_sign(const Function& function) {
   Bracket at{0.0, 1.0};
@@ -30,11 +30,11 @@ Bracket change_of_sign(const Function& function) {
   double above = function(at.high);
   if (!(below < 0.0)) return {at.low, at.low};
   if (!(above > 0.0)) return {at.high, at.high};
-  int side = 0;  // that moved last
+  int side = 0;  // the bound that moved last
   constexpr int enough = 200;
   for (int i = 0; i < enough && at.high - at.low > 1e-15 * at.high; ++i) {
     const double guess = (at.low * above - at.high * below) / (above - below);
-    // Where it jumps, the secant creeps.
+    // Bisects every third time, because secants converge slowly at a jump.
     const bool halves = i % 3 == 2 || !(guess > at.low && guess < at.high);
     const double middle = halves ? 0.5 * (at.low + at.high) : guess;
     const double value = function(middle);
@@ -91,7 +91,7 @@ void ElementBalance<Dim>::find_points(const ElementStart<Dim>& start,
 
 template <int Dim>
 ElementBalance<Dim>::ElementBalance(const SoilMap<Dim>& soils) : soils_(soils) {
-  // The integrals of `gain` in linear_fines.hpp, by the concentration at nodes.
+  // Derivatives of `gain` in linear_fines.hpp with respect to the concentration at nodes.
   constexpr double scale = 1.0 / (Dim * (Dim + 1));
   const Matrix identity = Matrix::Identity();
   const Matrix ones = Matrix::Ones();
@@ -137,8 +137,8 @@ void ElementBalance<Dim>::find_moved(const ElementStart<Dim>& start,
       entering_.include(at_first[a]);
       entering_.include(at_last[a]);
     }
-    // A linear field that is right to second order jumps at sides: values there may be as far off
-    // as the mean of the element that the liquid comes from.
+    // A second-order linear field jumps at sides: the range includes the mean of the upwind
+    // element.
     const int upwind = start.neighbour[k];
     if (upwind >= 0) {
       const auto begin = static_cast<std::ptrdiff_t>(Dim + 1) * upwind;
@@ -163,7 +163,7 @@ bool ElementBalance<Dim>::find_exchange(const SolidInStep<Dim>& solid, bool is_l
   for (int p = begin_; p < end_; ++p) {
     const int i = p - begin_;
     const double at_point = std::max(0.0, basis_[i].dot(c));
-    // At the last stage: what the rates of the first one have given.
+    // The last stage includes the exchange by the rates of the first stage.
     const double share = (1.0 - first_stage) / first_stage;
     const Exchange before =
         is_last ? Exchange{share * first_[i].eroded, share * first_[i].deposited} : Exchange{};
@@ -174,7 +174,7 @@ bool ElementBalance<Dim>::find_exchange(const SolidInStep<Dim>& solid, bool is_l
     const auto net = [&](double porosity, double concentration) {
       return first_stage * dt * rate(porosity, concentration).into_liquid();
     };
-    // n = start + net(n, c), by Newton's method from where the point is.
+    // Solves n = start + net(n, c) by Newton's method.
     double n = is_last ? start : start + guess_[i];
     double by_porosity = 0.0;
     bool solved = false;
@@ -216,7 +216,7 @@ bool ElementBalance<Dim>::solve_stage(const SolidInStep<Dim>& solid, const Stage
       if (!find_exchange(solid, is_last, c)) return false;
       given_ = spread(now_);
     }
-    // Where the exchange is known beforehand, the first stage has its share of it.
+    // If the exchange is known in advance, the first stage takes its share of it.
     const Values given = (coupled_ || is_last ? 1.0 : first_stage) * given_;
     Matrix system = -first_stage * moved_;
     system.diagonal() += stage.liquid + given;
@@ -264,7 +264,7 @@ bool ElementBalance<Dim>::solve_linear(const ElementStart<Dim>& start,
 
   Eigen::Map<Values>(at_vertices_.first.data()) = across_nodes(c_first);
   Eigen::Map<Values>(at_vertices_.last.data()) = across_nodes(c);
-  // How far the first stage is from a straight line through the ends of the step.
+  // The errors are deviations of the first stage from a straight line between the ends.
   const double change_first = first_stage * moved_first.sum() + given_first;
   const double change_last =
       (1.0 - first_stage) * moved_first.sum() + first_stage * moved_last.sum() + given_last;
@@ -292,14 +292,14 @@ double ElementBalance<Dim>::solve_mean(const ElementStart<Dim>& start,
   if (!coupled_) return balance(given_.sum());
   const auto missing = [&](double m, double s) {
     const double result = (liquid + s + outflow_) * m - fines - entered_ - s;
-    // Liquid in which the grains lock has no exchange: that is too much.
+    // If the grains lock, the exchange is not finite: m is too large.
     return std::isfinite(result) ? result : liquid + outflow_;
   };
   const Bracket mean = change_of_sign([&](double m) { return missing(m, given(m)); });
   const double below = missing(mean.low, given(mean.low));
   const std::vector<Exchange> at_low = now_;
   const double above = missing(mean.high, given(mean.high));
-  // The exchange may jump between them; what balances lies between.
+  // The exchange may jump between the bounds; interpolation gives the balance.
   const double share = above > below ? std::clamp(-below / (above - below), 0.0, 1.0) : 0.0;
   for (std::size_t i = 0; i < now_.size(); ++i) {
     now_[i].eroded = std::lerp(at_low[i].eroded, now_[i].eroded, share);
@@ -315,7 +315,7 @@ auto ElementBalance<Dim>::allowed(const ElementStart<Dim>& start) const -> Range
   for (int j = 0; j <= Dim; ++j) before[j] = start.fines[j] / start.liquid[j];
   for (const double c : FieldNodes<Dim>::at_vertices(before)) range.include(c);
   if (exchanges_) {
-    // The way through a corner is up to Dim times the mean way through the element.
+    // A path through a corner is up to Dim times as long as the mean path.
     double eroded = 0.0;
     double deposited = 0.0;
     for (int p = begin_; p < end_; ++p) {
@@ -326,7 +326,7 @@ auto ElementBalance<Dim>::allowed(const ElementStart<Dim>& start) const -> Range
     range.high += Dim * eroded / passing;
     range.low -= Dim * deposited / passing;
   }
-  // Where the field is flat, round-off alone would leave the range.
+  // In a flat field round-off alone would leave the range.
   const double slack = 1e-13 * range.high;
   return {std::max(0.0, range.low - slack), std::min(1.0, range.high + slack)};
 }
@@ -370,12 +370,12 @@ StepErrors ElementBalance<Dim>::solve(const ElementStart<Dim>& start, const Soli
     if (slope > 0.0) slope = std::min(slope, slope_within(allowed(start), mean));
   }
   if (!solved) {
-    // What a step's error is relative to, without an estimate of it.
+    // Reference values of the errors; there is no error estimate.
     const double given = spread(now_).sum();
     errors = {.held = mean * (element_sum<Dim>(start.liquid) + start.gained + given),
               .exchanged = std::abs(given)};
   }
-  // Both solutions balance, and so does what lies between them.
+  // Both solutions satisfy the balance, and so does every mean of them.
   const auto between = [&](double at_mean, double linear) {
     return slope == 1.0 ? linear : slope == 0.0 ? at_mean : at_mean + slope * (linear - at_mean);
   };

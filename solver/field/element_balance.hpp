@@ -1,9 +1,9 @@
 #pragma once
 
-/// Fines in one element over one step of implicit transport, once it is known what enters: two
-/// stages of the L-stable method of Alexander (SIAM J. Numer. Anal. 14 (1977) 1006) for the linear
-/// concentration, limited towards one backward Euler step for its mean, which stays within bounds
-/// whatever the length of the step. The exchange with the solid is part of the system.
+/// Fines in one element over one step of implicit transport with known inflow: two stages of the
+/// L-stable method of Alexander (SIAM J. Numer. Anal. 14 (1977) 1006) for the linear concentration,
+/// limited towards one backward Euler step for its mean, which stays within bounds for any length
+/// of the step. The exchange with the solid is part of the system.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -24,25 +24,25 @@ struct StageValues {
   ElementValues<Dim> last;
 };
 
-/// What an element starts a step with.
+/// State and flow of an element for a step.
 template <int Dim>
 struct ElementStart {
   int element;
   ElementValues<Dim> liquid;   ///< m3
   ElementValues<Dim> fines;    ///< m3
-  double gained = 0.0;         ///< liquid that the flow brings within the step, m3
-  ElementValues<Dim> outflow;  ///< through its sides within the step, m3
+  double gained = 0.0;         ///< liquid that the element gains in the step, m3
+  ElementValues<Dim> outflow;  ///< through its sides in the step, m3
   UpwindPlaces<Dim> upwind;
   std::array<int, Dim + 1> neighbour;  ///< across each side; negative: none
 };
 
-/// Estimates of errors of a step, and what they compare with, m3 of fines.
+/// Error estimates of a step and their reference values, m3 of fines.
 struct StepErrors {
-  double fines = 0.0;      ///< in a wrong element
-  double exchange = 0.0;   ///< of what solid and liquid exchanged
-  double held = 0.0;       ///< in the liquid at the end
-  double exchanged = 0.0;  ///< with the solid, either way
-  double entered = 0.0;    ///< from outside the model
+  double fines = 0.0;      ///< error of the fines in elements
+  double exchange = 0.0;   ///< error of the exchange with the solid
+  double held = 0.0;       ///< fines in the liquid at the end
+  double exchanged = 0.0;  ///< absolute exchange with the solid
+  double entered = 0.0;    ///< fines from outside the model
 
   void add(const StepErrors& other) {
     fines += other.fines;
@@ -53,7 +53,7 @@ struct StepErrors {
   }
 };
 
-/// Exchange at the solid points in a step.
+/// The solid in a step, for its exchange.
 template <int Dim>
 struct SolidInStep {
   const Skeleton<Dim>& solid;
@@ -63,7 +63,7 @@ struct SolidInStep {
   bool exchanges = true;
 
   [[nodiscard]] double first_time() const { return from + first_stage * (to - from); }
-  /// Just before its end: what starts there has not yet started.
+  /// Just before the end, so that erosion that starts there is not included.
   [[nodiscard]] double end() const { return to - 1e-9 * (to - from); }
 };
 
@@ -72,10 +72,9 @@ class ElementBalance {
  public:
   explicit ElementBalance(const SoilMap<Dim>& soils);
 
-  /// Solves for one element. `first` and `last`: values at the vertices of all elements and at
-  /// outer faces, as `ElementSides` places them; those of this element are set. `exchange`: per
-  /// solid point; those of this element are set. `slope`: the most of the linear solution that may
-  /// be kept; becomes what was kept.
+  /// Solves for one element; sets its values in `first` and `last` (values at the vertices of all
+  /// elements and at outer faces, in the order of `ElementSides`) and in `exchange` (per solid
+  /// point). `slope`: largest allowed share of the linear solution; becomes the share taken.
   StepErrors solve(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid, double& slope,
                    std::vector<double>& first, std::vector<double>& last,
                    std::vector<Exchange>& exchange);
@@ -84,7 +83,7 @@ class ElementBalance {
   using Values = Eigen::Matrix<double, Dim + 1, 1>;
   using Matrix = Eigen::Matrix<double, Dim + 1, Dim + 1>;
 
-  /// One stage: (liquid + s) c - first_stage moved c = known + s, where s is what points give.
+  /// One stage: (liquid + s) c - first_stage moved c = known + s, s: fines from the points.
   struct Stage {
     Values liquid;
     Values known;
@@ -99,57 +98,57 @@ class ElementBalance {
     }
   };
   using SideMatrix = Eigen::Matrix<double, Dim + 1, Dim>;
-  /// What transport adds to an element's fines at its nodes, per m3 that leaves through a side.
+  /// Gain of fines at the nodes of an element by transport, per m3 of outflow through a side.
   struct SideMatrices {
-    Matrix inside;      ///< by c at the nodes, where liquid enters there
-    Matrix outflow;     ///< by c at the nodes, where liquid leaves
-    SideMatrix inflow;  ///< by c at the nodes of the side, where it enters
+    Matrix inside;      ///< coefficients of c at the nodes, for inflow
+    Matrix outflow;     ///< coefficients of c at the nodes, for outflow
+    SideMatrix inflow;  ///< coefficients of c at the nodes of the side, for inflow
   };
 
   void find_points(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid);
-  /// What transport adds, by what enters and by what is in the element.
+  /// Finds the gain by transport for entering concentrations and those of the element.
   void find_moved(const ElementStart<Dim>& start, const std::vector<double>& first,
                   const std::vector<double>& last);
-  /// Exchange at each point of the element since the start of the step, if the concentration at the
-  /// nodes is `c` at this stage. False where the point's own equation has no solution.
+  /// Finds the exchange at each point since the start of the step for the concentration `c` at the
+  /// nodes at this stage. False if the equation of a point has no solution.
   [[nodiscard]] bool find_exchange(const SolidInStep<Dim>& solid, bool is_last, const Values& c);
   [[nodiscard]] Values spread(const std::vector<Exchange>& exchange) const;
-  /// False where its iteration does not converge.
+  /// Solves a stage for `c`. False if the iteration does not converge.
   [[nodiscard]] bool solve_stage(const SolidInStep<Dim>& solid, const Stage& stage, bool is_last,
                                  Values& c);
-  /// The linear solution; false where there is none.
+  /// Finds the linear solution; false if there is none.
   bool solve_linear(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid,
                     StepErrors& errors);
-  /// The mean by one backward Euler step.
+  /// Finds the mean by one backward Euler step.
   [[nodiscard]] double solve_mean(const ElementStart<Dim>& start, const SolidInStep<Dim>& solid);
-  /// What values at vertices may be: between those that were there, those that enter and the means
-  /// where these come from, and beyond them by what the element itself gives and takes.
+  /// Allowed range of values at vertices: that of the earlier values, the entering values and the
+  /// upwind means, extended by the exchange in the element.
   [[nodiscard]] Range allowed(const ElementStart<Dim>& start) const;
-  /// Whether the linear solution is.
+  /// Whether the linear solution is within `range`.
   [[nodiscard]] bool is_within(const Range& range) const;
-  /// The most of the linear solution's deviation from `mean` that stays within `range`.
+  /// Largest share of the linear solution's deviation from `mean` that stays within `range`.
   [[nodiscard]] double slope_within(const Range& range, double mean) const;
 
   const SoilMap<Dim>& soils_;
   std::array<SideMatrices, Dim + 1> by_side_;
-  // Values of the element that is solved.
+  // Values of the current element.
   int begin_ = 0;
   int end_ = 0;
   bool exchanges_ = false;
   bool coupled_ = false;          ///< exchange depends on the concentration
   std::vector<Values> basis_;     ///< per point: basis functions there
   std::vector<Exchange> now_;     ///< per point, per volume of soil
-  std::vector<Exchange> linear_;  ///< per point: of the linear solution
-  std::vector<double> slope_;     ///< per point: of the net exchange by c
-  std::vector<Exchange> first_;   ///< per point: up to the first stage
-  std::vector<double> guess_;     ///< per point: what porosity gains up to there
-  Values given_;                  ///< by the points to the liquid, per node, m3
-  Matrix moved_;                  ///< what transport adds per node, by c at nodes
-  Values first_load_;     ///< what transport adds per node, by what enters: at the first stage
-  Values last_load_;      ///< and at the last
-  double entered_ = 0.0;  ///< fines, over the step, m3
-  double outflow_ = 0.0;  ///< of liquid through all sides that it leaves by, m3
-  Range entering_{};      ///< of the concentrations that enter
+  std::vector<Exchange> linear_;  ///< per point: exchange of the linear solution
+  std::vector<double> slope_;     ///< per point: d(net exchange) / dc
+  std::vector<Exchange> first_;   ///< per point: exchange until the first stage
+  std::vector<double> guess_;     ///< per point: gain of porosity until the first stage
+  Values given_;                  ///< fines from the points to the liquid, per node, m3
+  Matrix moved_;                  ///< gain by transport per node: coefficients of c at nodes
+  Values first_load_;             ///< gain per node by entering liquid, at the first stage
+  Values last_load_;              ///< gain per node by entering liquid, at the last stage
+  double entered_ = 0.0;          ///< fines that enter in the step, m3
+  double outflow_ = 0.0;          ///< liquid that leaves in the step, m3
+  Range entering_{};              ///< of the entering concentrations
   StageValues<Dim> at_vertices_;  ///< of the linear solution
 };
 

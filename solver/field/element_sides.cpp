@@ -7,7 +7,7 @@
 namespace suffuse {
 namespace {
 
-/// Where a node stands among the vertices of an element.
+/// Index of a node among the vertices of an element.
 template <int Dim>
 std::uint8_t position_in(const std::array<int, Dim + 1>& vertices, int node) {
   return static_cast<std::uint8_t>(std::find(vertices.begin(), vertices.end(), node) -

@@ -1,8 +1,8 @@
 #pragma once
 
-/// How elements meet, as the transport of a concentration that is linear in each of them needs it:
-/// side k of an element lies opposite vertex k, and its nodes are the vertices that follow k, in
-/// that order.
+/// Neighbours of elements and their common nodes, for the transport of a concentration that is
+/// linear in each element. Side k of an element is opposite to vertex k; its nodes are the vertices
+/// that follow k, in that order.
 
 #include <array>
 #include <cstdint>
@@ -20,8 +20,8 @@ constexpr int side_vertex(int k, int a) {
   return (k + 1 + a) % (Dim + 1);
 }
 
-/// Where the concentration at the nodes of each side of an element is, among values at the vertices
-/// of all elements, one after the other, with what enters through each outer face behind them.
+/// Places of the upwind concentrations at the nodes of each side, in a list of the values at the
+/// vertices of all elements and then the entering value of each outer face.
 template <int Dim>
 using UpwindPlaces = std::array<std::array<int, Dim>, Dim + 1>;
 
@@ -31,13 +31,13 @@ class ElementSides {
   explicit ElementSides(const Grid<Dim>& grid);
 
   struct Sides {
-    /// Element across; at the outer boundary -1 minus the number of the face among the outer ones.
+    /// Element across the side; at the outer boundary -1 minus the index of the outer face.
     std::array<int, Dim + 1> neighbour;
-    /// Where the side's nodes stand among the neighbour's vertices.
+    /// Indices of the side's nodes among the neighbour's vertices.
     std::array<std::array<std::uint8_t, Dim>, Dim + 1> theirs;
   };
   [[nodiscard]] const Sides& of(int element) const { return sides_[element]; }
-  /// Faces of the outer boundary: without the sides of leaky walls.
+  /// Faces of the outer boundary, without leaky walls.
   [[nodiscard]] const std::vector<int>& outer_faces() const { return outer_faces_; }
 
   /// Number of values at the vertices of all elements and at outer faces.
@@ -49,7 +49,7 @@ class ElementSides {
                     std::vector<double>& at_vertices) const;
   [[nodiscard]] UpwindPlaces<Dim> upwind_places(int element,
                                                 const ElementValues<Dim>& outflow) const;
-  /// What leaves through each side of an element; `face_volume` along each face's normal.
+  /// Outflow through each side of an element, from `face_volume` along each face's normal.
   [[nodiscard]] ElementValues<Dim> outflow(int element,
                                            const std::vector<double>& face_volume) const {
     ElementValues<Dim> result;
@@ -58,8 +58,8 @@ class ElementSides {
     }
     return result;
   }
-  /// Sets `result` to what crosses each face along its normal, from what leaves through the sides
-  /// of all elements.
+  /// Sets `result` to the volume through each face along its normal, from the outflow through the
+  /// sides of all elements.
   void at_faces(const ElementField<Dim>& outflow, int threads, std::vector<double>& result) const;
 
  private:
@@ -86,7 +86,7 @@ inline UpwindPlaces<Dim> ElementSides<Dim>::upwind_places(int element,
   return result;
 }
 
-/// The node at the place of `node` on the other side of a face: itself, but across a wall.
+/// The node at the place of `node` across a face: `node` itself, except at a leaky wall.
 template <int Dim>
 int node_beyond(const Grid<Dim>& grid, int face, int node);
 

@@ -17,14 +17,14 @@ void include(ConcentrationRange& range, double value) {
   range.high = std::max(range.high, value);
 }
 
-/// Where the field is flat, round-off alone would decide whether an element is an extremum and must
-/// be flattened: a little room keeps the limiter continuous.
+/// Widens a range a little. In a flat field round-off alone would otherwise decide which elements
+/// are extrema, and the limiter would not be continuous.
 ConcentrationRange with_slack(const ConcentrationRange& range) {
   constexpr double slack = 1e-12;
   return {std::max(std::min(range.low, 0.0), range.low - slack), range.high + slack};
 }
 
-/// Whether the values at the vertices of an element are what they may be.
+/// Whether the values at the vertices of an element are within the allowed ranges.
 template <int Dim>
 bool are_allowed(const double* at_vertices, const std::array<int, Dim + 1>& vertices,
                  const std::vector<ConcentrationRange>& allowed) {
@@ -36,7 +36,7 @@ bool are_allowed(const double* at_vertices, const std::array<int, Dim + 1>& vert
   return all;
 }
 
-/// Share of the deviations from the mean that stays within what the vertices allow.
+/// Largest share of the deviations from the mean that stays within the allowed ranges.
 template <int Dim>
 double share_kept(const double* at_vertices, double mean, const std::array<int, Dim + 1>& vertices,
                   const std::vector<ConcentrationRange>& allowed) {
@@ -80,7 +80,7 @@ void EulerianTransport<Dim>::find_nodes_of_sides() {
     for (const int i : grid_.face_nodes[f]) {
       const int partner = node_beyond<Dim>(grid_, f, i);
       std::vector<int>& partners = outer_node(i).partners;
-      // The tip of a wall is one node.
+      // Both sides of a wall share the node at its tip.
       if (partner != i && std::ranges::find(partners, partner) == partners.end()) {
         partners.push_back(partner);
       }
@@ -91,8 +91,8 @@ void EulerianTransport<Dim>::find_nodes_of_sides() {
 template <int Dim>
 double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
                                              const std::vector<double>& face_volume) const {
-  // An element's mean is a sum of its face means with these weights; a face may take away no more
-  // than its own share, or the mean could turn negative (Zhang & Shu 2010).
+  // An element's mean is a weighted sum of its face means. The outflow through a face must not
+  // exceed its weight, or the mean could become negative (Zhang & Shu 2010).
   return smallest_of(grid_.mesh.element_count(), threads_, infinity, [&](int e) {
     const ElementValues<Dim>& pores = state.liquid_volume[e];
     const double total = element_sum<Dim>(pores);
@@ -102,8 +102,8 @@ double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
       share[k] =
           total - Dim * (FieldNodes<Dim>::far_vertex * total + FieldNodes<Dim>::spread * pores[k]);
     }
-    // Pores that differ too much have no useful weights: every face then gets the share of the
-    // smallest.
+    // If the pore volumes of an element differ too much, every face gets the smallest one as
+    // weight.
     if (*std::min_element(share.begin(), share.end()) < 0.25 * smallest) share.fill(smallest);
     double allowed = infinity;
     for (int k = 0; k <= Dim; ++k) {
@@ -204,7 +204,7 @@ ConcentrationRange EulerianTransport<Dim>::range_at_boundary(
     const auto k = std::find(faces.begin(), faces.end(), f) - faces.begin();
     if (scratch.outflow[e][k] < 0.0) include(range, conditions_[f].concentration);
     if (scratch.outflow[e][k] > 0.0) {
-      // Nothing downstream bounds the vertices of an outlet: let the field go on as it comes.
+      // No downstream value bounds the vertices of an outlet: allow extrapolation.
       const double width = inside.high - inside.low;
       include(range, std::max(0.0, inside.low - width));
       include(range, std::min(1.0, inside.high + width));

@@ -10,8 +10,8 @@
 
 namespace suffuse {
 
-/// Volume of liquid (that of the pores, where no air is in them) and of fluidised fines in it, per
-/// element and field node, m3.
+/// Volumes of liquid (the pore volume, without air) and of fluidised fines in it, per element and
+/// field node, m3.
 template <int Dim>
 struct FinesState {
   ElementField<Dim> liquid_volume;
@@ -20,7 +20,7 @@ struct FinesState {
   void archive(auto& archive) { archive(liquid_volume, fines_volume); }
 };
 
-/// Adds a volume of liquid to an element, spread as the liquid there lies.
+/// Adds a volume of liquid to an element, distributed like its liquid.
 template <int Dim>
 void add_liquid(ElementValues<Dim>& liquid, double volume) {
   const double growth = 1.0 + volume / element_sum<Dim>(liquid);
@@ -33,14 +33,14 @@ struct ConcentrationRange {
   double high;
 };
 
-/// Working memory of a step. The caller keeps it, so that steps allocate nothing.
+/// Working memory of a step, kept by the caller to avoid allocations.
 template <int Dim>
 struct TransportScratch {
   /// Outflow through the element's sides in one step, m3; side k lies opposite vertex k.
   ElementField<Dim> outflow;
-  /// Where the concentration that crosses side k is, at its nodes, among `at_vertices`.
+  /// Places in `at_vertices` of the concentrations that cross side k, at its nodes.
   std::vector<UpwindPlaces<Dim>> upwind;
-  /// Concentration at the vertices of each element, then what enters through each outer face.
+  /// Concentration at the vertices of each element, then the entering one of each outer face.
   std::vector<double> at_vertices;
   std::vector<double> next_at_vertices;
   ElementField<Dim> stage_fines;            ///< after the first stage, as in FinesState, m3
@@ -51,61 +51,59 @@ struct TransportScratch {
 
 /// Two-stage strong-stability-preserving Runge-Kutta over upwind face fluxes, concentration limited
 /// after each stage (Kuzmin 2010, vertex-based: means of the elements around a vertex bound the
-/// value there; an element's fines are never changed, only how they lie in it).
+/// value there; the limiter changes the distribution of an element's fines, not their sum).
 ///
-/// Every loop gathers: an element finds what crosses its sides from the values on the side that it
-/// comes from, and the neighbour finds the same number from the same values.
+/// Every loop gathers: both elements at a side compute its flux from the same upwind values and get
+/// the same number.
 template <int Dim>
 class EulerianTransport {
  public:
   EulerianTransport(const Grid<Dim>& grid, const ElementSides<Dim>& sides,
                     const std::vector<FaceCondition>& conditions, int threads = 1);
 
-  /// Largest number of times that `face_volume` may cross in one step: a step that moves
-  /// `face_volume` m3 through each face keeps concentrations within bounds while this is >= 1.
+  /// Largest multiple of `face_volume` (m3 through each face) that one step can carry with
+  /// concentrations within bounds.
   [[nodiscard]] double steps_allowed(const FinesState<Dim>& state,
                                      const std::vector<double>& face_volume) const;
 
-  /// Starts an interval of steps with `face_volume` m3 of liquid through each face in each.
+  /// Starts an interval of steps, each with `face_volume` m3 of liquid through each face.
   void start(const FinesState<Dim>& state, const std::vector<double>& face_volume,
              TransportScratch<Dim>& scratch) const;
-  /// Moves the state by one step in which `eroded` m3 of fines join the liquid (empty: none), and
-  /// elements gain `gained` m3 of liquid by the flow (empty: none).
-  /// Leaves concentrations at the vertices within the means of the elements around them and, at an
-  /// inlet, the concentration that enters; expects the state so. Throws NumericalError where an
-  /// element's mean concentration leaves [0, 1).
+  /// Advances the state by one step, in which `eroded` m3 of fines join the liquid and elements
+  /// gain `gained` m3 of liquid by the flow (empty: none). Limits the values at a vertex to the
+  /// range of the means of the elements around it and of the entering concentration; requires such
+  /// values at the start. Throws NumericalError if an element's mean concentration leaves [0, 1).
   void advance(FinesState<Dim>& state, const ElementField<Dim>& eroded,
                const std::vector<double>& gained, TransportScratch<Dim>& scratch) const;
-  /// Fines that join the liquid (negative: leave it) between steps of an interval, m3.
+  /// Adds fines (negative: removes them) to the liquid between steps of an interval, m3.
   void receive(FinesState<Dim>& state, const ElementField<Dim>& exchange,
                TransportScratch<Dim>& scratch) const;
   /// Volume of fines that crossed each face since `start`, m3.
   void fines_crossed(const TransportScratch<Dim>& scratch, std::vector<double>& result) const;
 
-  /// Mean concentration, weighted with the volume of liquid, of the liquid that crosses each face
-  /// when it runs along `face_volume`.
+  /// Volume-weighted mean concentration of the liquid that crosses each face with `face_volume`.
   [[nodiscard]] std::vector<double> face_concentration(
       const FinesState<Dim>& state, const std::vector<double>& face_volume) const;
 
  private:
-  /// A mesh node on the outer boundary or on a wall that lets liquid through.
+  /// A mesh node on the outer boundary or on a leaky wall.
   struct OuterNode {
     int node;
-    std::vector<int> faces;     ///< of the outer boundary there
+    std::vector<int> faces;     ///< faces of the outer boundary at the node
     std::vector<int> partners;  ///< nodes at the same place across a wall
   };
 
   void find_nodes_of_sides();
-  /// Limits the fines of a stage whose means are known; leaves its values at the vertices.
+  /// Limits the fines of a stage with known means; sets the values at the vertices.
   void limit_stage(const ElementField<Dim>& liquid, ElementField<Dim>& fines,
                    TransportScratch<Dim>& scratch) const;
   void find_allowed(TransportScratch<Dim>& scratch) const;
-  /// Concentrations on both sides of a wall are one, whatever order their nodes have.
+  /// Makes concentrations on both sides of a wall equal for any order of their nodes.
   void agree_at_walls(std::vector<double>& concentration) const;
   /// Range of the means of the elements around a node.
   [[nodiscard]] ConcentrationRange range_around(int node, const std::vector<double>& mean) const;
-  /// Range at a node of the boundary: with the elements across a wall, with what enters there, and
-  /// wider where liquid leaves.
+  /// Range at a node of the boundary: includes elements across a wall and the entering
+  /// concentration, and is wider at outlets.
   [[nodiscard]] ConcentrationRange range_at_boundary(const OuterNode& outer,
                                                      const TransportScratch<Dim>& scratch) const;
 

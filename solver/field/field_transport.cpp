@@ -8,7 +8,7 @@
 namespace suffuse {
 namespace {
 
-/// Adds liquid to each element, spread as the liquid there lies.
+/// Adds liquid to each element, distributed like its liquid.
 template <int Dim>
 void gain(FinesState<Dim>& state, const std::vector<double>& gained) {
   for (std::size_t e = 0; e < gained.size(); ++e)
@@ -150,7 +150,7 @@ std::vector<TransportStep> FieldTransport<Dim>::start_steps(double start, const 
                                                             std::vector<double>& gained) {
   double allowed = scheme_.steps_allowed(state_, flow.volumes.liquid);
   if (!gained.empty()) {
-    // Where liquid drains, what is left in the end limits the step.
+    // If liquid drains, the liquid at the end limits the step.
     FinesState<Dim> after = state_;
     gain(after, gained);
     allowed = std::min(allowed, scheme_.steps_allowed(after, flow.volumes.liquid));

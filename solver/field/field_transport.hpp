@@ -10,14 +10,14 @@
 
 namespace suffuse {
 
-/// A run of more explicit steps than this takes implicit ones (docs/accuracy.md).
+/// A run that would need more explicit steps takes implicit ones (docs/accuracy.md).
 inline constexpr double explicit_steps_of_a_run = 2000.0;
 
 struct FieldTransportSettings {
   TransportScheme scheme = TransportScheme::by_count;
   double fines_from = 0.0;  ///< fines can be in the liquid after this time, s
   SweptSettings implicit;
-  bool points_move = false;  ///< solid points change their places in the elements
+  bool points_move = false;  ///< solid points move within elements
 };
 
 template <int Dim>
@@ -28,29 +28,28 @@ class FieldTransport final : public Transport<Dim> {
                  const BoundaryValues<Dim>& boundary_values, const FieldTransportSettings& settings,
                  int threads);
 
-  /// Without a limit where transport is implicit.
+  /// Infinite for implicit transport.
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
   [[nodiscard]] double longest_explicit_step(const std::vector<double>& face_rate) const override {
     return transport_safety * scheme_.steps_allowed(state_, face_rate);
   }
-  /// Whether an interval with these volumes per second through faces is crossed by implicit steps.
+  /// Whether transport is implicit at these volumes per second through faces.
   [[nodiscard]] bool is_implicit(const std::vector<double>& face_rate) const;
   [[nodiscard]] typename Transport<Dim>::Coupling coupling() const override {
     return {.steps = 32.0, .pore_growth = 2e-3};
   }
-  /// Moves liquid and fines through an interval that the flow has crossed since `start`, s, while
-  /// they exchange fines with the solid: in turns, in explicit steps, or together with it in one
-  /// system, in implicit steps. Returns the volume of fines that crossed each face, m3. Throws
-  /// NumericalError.
+  /// Moves liquid and fines through the interval of the flow from `start`, s, and exchanges fines
+  /// with the solid: alternately in explicit steps, or in one system in implicit steps. Returns the
+  /// volume of fines that crossed each face, m3. Throws NumericalError.
   [[nodiscard]] std::vector<double> move(double start, const FlowProgress& flow,
                                          SolidExchange<Dim>& exchange);
 
   void archive(StateArchive& archive) override { archive(state_, timing_, implicit_); }
   [[nodiscard]] std::vector<PassTiming> passes() const override;
 
-  /// The liquid that is there when the run starts: without this air, m3 per element.
+  /// Removes the air at the start of the run, m3 per element, from the liquid.
   void start(const std::vector<double>& air);
-  /// Starts with the liquid as another run left it.
+  /// Starts from the last liquid of another run.
   void start_from(const FinesState<Dim>& earlier) { state_ = earlier; }
   [[nodiscard]] const FinesState<Dim>& state() const { return state_; }
   /// Mean concentration of the liquid that would cross each face at these volumes.
@@ -63,17 +62,16 @@ class FieldTransport final : public Transport<Dim> {
                                                     SolidExchange<Dim>& exchange);
   [[nodiscard]] std::vector<double> move_implicitly(double start, const FlowProgress& flow,
                                                     SolidExchange<Dim>& exchange);
-  /// Explicit steps that cross the interval. `gained`: volume that the liquid of each element
-  /// gains, m3, in the interval; becomes that in each step.
+  /// Explicit steps over the interval. `gained`: volume of liquid that each element gains in the
+  /// interval, m3; becomes that of each step.
   [[nodiscard]] std::vector<TransportStep> start_steps(double start, const FlowProgress& flow,
                                                        std::vector<double>& gained);
-  /// Fines that each solid point gives to the liquid or takes from it, m3, at one moment between
-  /// steps; empty: none.
+  /// Adds the exchange of each solid point, m3, to the liquid between two steps; empty: none.
   void receive(const std::vector<double>& exchange);
-  /// Exchange at solid points as a field, m3 per element and field node. Its sum is that of the
-  /// points exactly.
+  /// Distributes the exchange of solid points to field nodes, m3 per element and node. The sum
+  /// stays the same.
   void spread(const std::vector<double>& exchange, ElementField<Dim>& field) const;
-  /// Again where the points have moved.
+  /// Finds `basis_`. To be repeated when points have moved.
   void find_basis();
 
   const Grid<Dim>& grid_;
@@ -84,13 +82,13 @@ class FieldTransport final : public Transport<Dim> {
   EulerianTransport<Dim> scheme_;
   SweptSteps<Dim> implicit_;
   FinesState<Dim> state_;
-  /// Values of the element's basis functions at its points; only of the first element's points
-  /// where they lie alike in every element that has any.
+  /// Values of the element's basis functions at its points. If points have the same barycentric
+  /// places in all elements with points, only those of one element.
   std::vector<ElementValues<Dim>> basis_;
   bool points_lie_alike_ = true;
   PassTiming timing_{"transport", 0, 0.0};
 
-  // Kept, so that steps allocate nothing.
+  // Kept to avoid allocations in steps.
   TransportScratch<Dim> scratch_;
   ElementField<Dim> eroded_;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a concentration that is linear in each element does there: its values at vertices, and what
-/// transport adds to the fines of an element.
+/// A concentration that is linear in each element: its values at vertices, and the gain of fines of
+/// an element by transport.
 
 #include <algorithm>
 #include <array>
@@ -24,8 +24,8 @@ void find_concentration(const ElementValues<Dim>& fines, const ElementValues<Dim
   for (int k = 0; k <= Dim; ++k) c[k] = FieldNodes<Dim>::at_vertex(at_nodes[k], sum);
 }
 
-/// Sum of the values at a side's nodes. The elements on both sides have these in different orders
-/// and find the same number, to the last bit: three values are added in the order of their size.
+/// Sum of the values at a side's nodes, with the same bits for both elements at the side: three
+/// values are added in the order of their size.
 template <int Dim>
 [[gnu::always_inline]] inline double side_sum(const std::array<double, Dim>& values) {
   if constexpr (Dim == 2) {
@@ -41,18 +41,18 @@ template <int Dim>
   }
 }
 
-/// What transport adds to the fines of an element, per field node, m3. `c` at its vertices;
-/// `upwind`: where the concentration at the nodes of its sides is among `at_vertices`; `outflow`
-/// through them, m3. To `out` the share `share` of what leaves through each side is added.
+/// Gain of fines of an element by transport, per field node, m3. `c`: concentration at its
+/// vertices; `upwind`: places of that at the nodes of its sides in `at_vertices`; `outflow`:
+/// through them, m3. Adds the share `share` of the fines that leave through each side to `out`.
 template <int Dim>
 [[gnu::always_inline]] inline ElementValues<Dim> gain(const double* c,
                                                       const ElementValues<Dim>& outflow,
                                                       const std::vector<double>& at_vertices,
                                                       const UpwindPlaces<Dim>& upwind, double share,
                                                       ElementValues<Dim>& out) {
-  // Integrals with the element's linear functions, times Dim (Dim + 1). Through a side: of c q with
-  // those of its vertices. Inside: of c q with their gradients, where q is the field of Raviart and
-  // Thomas; the geometry cancels.
+  // Integrals times Dim (Dim + 1): of c q over each side with the linear functions of its vertices,
+  // and of c q inside with the gradients of these functions, q being the Raviart-Thomas field. The
+  // geometry cancels.
   ElementValues<Dim> load{};
   double net_outflow = 0.0;
   double sum = 0.0;
@@ -70,7 +70,7 @@ template <int Dim>
     }
     load[k] += net_outflow * ((sum + c[k]) / (Dim + 2)) - outflow[k] * sum;
   }
-  // The field nodes' functions are the vertices' made orthogonal: the same map as for values.
+  // The functions of field nodes are orthogonalised: their map is that of the values.
   constexpr double scale = 1.0 / (Dim * (Dim + 1));
   const double whole = element_sum<Dim>(load);
   ElementValues<Dim> result;
@@ -78,10 +78,10 @@ template <int Dim>
   return result;
 }
 
-/// Throws NumericalError where the mean concentration `mean(e)` of an element e leaves [0, 1).
+/// Throws NumericalError if the mean concentration `mean(e)` of an element e leaves [0, 1).
 template <int Dim, class Mean>
 void refuse_impossible_concentrations(const Grid<Dim>& grid, const Mean& mean, int threads) {
-  // Round-off of an empty element is not a wrong value; anything beyond it is.
+  // Allows for round-off in an element without fines.
   constexpr double round_off = 1e-13;
   const auto possible = [](double c) { return c >= -round_off && c < 1.0; };
   const int elements = grid.mesh.element_count();

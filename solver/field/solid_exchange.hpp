@@ -1,7 +1,6 @@
 #pragma once
 
-/// The exchange of fines between the solid and the liquid in its pores, as transport asks for it in
-/// the steps of an interval.
+/// Exchange of fines between the solid and the liquid in its pores during the steps of transport.
 
 #include <functional>
 #include <vector>
@@ -15,10 +14,10 @@ namespace suffuse {
 template <int Dim>
 class SolidExchange {
  public:
-  /// Finds concentration and saturation of the liquid at the solid points, as it lies now.
+  /// Finds the present concentration and saturation of the liquid at the solid points.
   using FindLiquid = std::function<void(PointFlows& flows)>;
 
-  /// `solid` outlives this. `find_liquid` is called where some exchange depends on the liquid.
+  /// `solid` outlives this. `find_liquid` is called if some exchange depends on the liquid.
   SolidExchange(Skeleton<Dim>& solid, FindLiquid find_liquid)
       : solid_(solid), find_liquid_(std::move(find_liquid)) {}
 
@@ -27,7 +26,7 @@ class SolidExchange {
   [[nodiscard]] const Skeleton<Dim>& solid() const { return solid_; }
   /// The flow at the solid points in the interval.
   [[nodiscard]] const PointFlows& flows() const { return flows_; }
-  /// The flow at the solid points with the liquid as it lies now.
+  /// The flow at the solid points with the present liquid.
   const PointFlows& find_flows() {
     if (depends_on_concentration()) find_liquid_(flows_);
     return flows_;
@@ -36,9 +35,9 @@ class SolidExchange {
     return solid_.soils().exchange_depends_on().concentration;
   }
 
-  /// When solid and liquid exchange fines around a step of transport. Where the exchange depends on
-  /// the fines in the liquid, half of it comes before the liquid moves and half after (Strang),
-  /// which is of second order; otherwise all of it comes while the liquid moves.
+  /// Times of the exchange in a step of transport. If the exchange depends on the fines in the
+  /// liquid, half of it comes before the liquid moves and half after (Strang splitting, second
+  /// order); otherwise all of it comes while the liquid moves.
   struct Times {
     TimeSpan before = TimeSpan::never();
     TimeSpan during = TimeSpan::never();
@@ -46,14 +45,14 @@ class SolidExchange {
   };
   [[nodiscard]] Times times(const TransportStep& step) const;
 
-  /// Exchanges fines over a time. Returns what goes into the liquid, m3 per solid point; empty
-  /// where none can be exchanged. The solid does not change in elements of `excluded` (may be
+  /// Exchanges fines over a time. Returns the volume that goes into the liquid, m3 per solid point;
+  /// empty if there is no exchange. The solid does not change in elements of `excluded` (may be
   /// empty).
   const std::vector<double>& over(const TimeSpan& time, const std::vector<char>& excluded = {});
-  /// The solid takes an exchange that is known: per solid point and volume of soil. Returns as
-  /// `over`.
+  /// Applies a known exchange, per solid point and volume of soil, to the solid. Returns as `over`
+  /// does.
   const std::vector<double>& take(const std::vector<Exchange>& change);
-  /// The solid takes what the liquid has left, m3 per solid point.
+  /// Adds deposits, m3 per solid point, to the solid.
   void deposit(const std::vector<double>& volume) { solid_.deposit(volume); }
 
   [[nodiscard]] const PassTiming& timing() const { return timing_; }
@@ -63,7 +62,7 @@ class SolidExchange {
   Skeleton<Dim>& solid_;
   FindLiquid find_liquid_;
   PointFlows flows_;
-  std::vector<double> volume_;  ///< exchanged last, m3 per solid point
+  std::vector<double> volume_;  ///< last exchange, m3 per solid point
   PassTiming timing_{"erosion", 0, 0.0};
 };
 

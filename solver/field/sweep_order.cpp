@@ -5,7 +5,7 @@
 namespace suffuse {
 namespace {
 
-/// Depth first against the flow, with a stack of its own: a path may pass every element.
+/// Depth-first search against the flow, with an explicit stack: a path may pass every element.
 template <int Dim>
 class Search {
  public:
@@ -58,7 +58,7 @@ class Search {
 
   void follow(int e, int number) { lowest_[e] = std::min(lowest_[e], number); }
 
-  /// All elements above `e` on the stack are one component.
+  /// Completes the component of `e` and the elements above it on the stack.
   void close(int e) {
     const auto begin = static_cast<int>(order_.elements.size());
     auto first = open_.end();
@@ -66,7 +66,7 @@ class Search {
       --first;
       number_[*first] = done;
     } while (*first != e);
-    // As they were found backwards along the flow, the last is the most upwind one.
+    // The search goes against the flow, so the last element is the most upwind one.
     order_.elements.insert(order_.elements.end(), std::make_reverse_iterator(open_.end()),
                            std::make_reverse_iterator(first));
     open_.erase(first, open_.end());
@@ -76,8 +76,8 @@ class Search {
 
   const ElementSides<Dim>& sides_;
   const ElementField<Dim>& outflow_;
-  std::vector<int> number_;  ///< in which elements were found; 0: not yet
-  std::vector<int> lowest_;  ///< number of those that an open element's path comes back to
+  std::vector<int> number_;  ///< order in which elements were found; 0: not yet
+  std::vector<int> lowest_;  ///< lowest number that an open element reaches
   std::vector<int> open_;    ///< elements found whose component is not known yet
   std::vector<Frame> path_;
   int count_ = 0;

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The order in which one sweep along the flow finds the concentration in every element: those that
-/// the liquid comes from first. Elements that the liquid goes around in (convection, round-off of
-/// still liquid) have no such order among themselves: they are a circle and stand together.
+/// The order of the elements in a sweep along the flow: upwind elements come first. Elements in
+/// which liquid circulates (convection, round-off in liquid at rest) have no such order: they form
+/// a circle and are adjacent in the order.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace suffuse {
 
 struct SweepOrder {
   struct Circle {
-    int begin;  ///< among `elements`
+    int begin;  ///< index in `elements`
     int end;
   };
   std::vector<int> elements;
@@ -22,8 +22,8 @@ struct SweepOrder {
   [[nodiscard]] int largest_circle() const;
 };
 
-/// `outflow` through the sides of each element. Strongly connected components by Tarjan (SIAM J.
-/// Comput. 1 (1972) 146), which come in the order that is wanted, and neighbours near each other.
+/// Finds the order from the outflow through the sides of each element: strongly connected
+/// components by Tarjan (SIAM J. Comput. 1 (1972) 146), which come in upwind order.
 template <int Dim>
 SweepOrder sweep_order(const ElementSides<Dim>& sides, const ElementField<Dim>& outflow);
 

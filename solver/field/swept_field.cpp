@@ -11,9 +11,8 @@
 namespace suffuse {
 namespace {
 
-/// Fines as the concentration that was solved for lies in the element, and `sum` of them
-/// altogether, m3. Where next to nothing has stayed of much that passed, the sum, a difference, may
-/// be wrong by its last digit: less than nothing is nothing. `passing`: liquid that passed, m3.
+/// Fines distributed like the solved concentration, with the total `sum`, m3. `sum` is a
+/// difference: if it is negative within the round-off of the `passing` liquid, m3, it is ignored.
 template <int Dim>
 ElementValues<Dim> fines_of(const ElementValues<Dim>& liquid, const double* at_vertices, double sum,
                             double passing) {
@@ -125,8 +124,8 @@ template <int Dim>
 bool SweptField<Dim>::solve_circle(const FinesState<Dim>& state, const SolidInStep<Dim>& solid,
                                    double share, const SweepOrder::Circle& circle,
                                    StepErrors& errors) {
-  // Rounds along the flow, each of which takes what the one before left behind. After a few of
-  // them limits may only become stricter, so that the rounds have an end.
+  // Repeats sweeps along the flow, each from the values of the one before. After a few sweeps
+  // limits may only become stricter, so that the iteration converges.
   constexpr int enough = 200;
   constexpr int free_rounds = 4;
   constexpr int remembered = 12;
@@ -176,7 +175,7 @@ bool SweptField<Dim>::solve_circle(const FinesState<Dim>& state, const SolidInSt
 
 template <int Dim>
 void SweptField<Dim>::finish(FinesState<Dim>& state, const ElementField<Dim>& received) {
-  // What crosses a side is the mean over the step, and the same number on both sides.
+  // The flux through a side is the mean over the step, equal for both elements.
   for (std::size_t i = 0; i < last_.size(); ++i) {
     first_[i] = (1.0 - first_stage) * first_[i] + first_stage * last_[i];
   }

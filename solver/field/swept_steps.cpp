@@ -10,15 +10,15 @@
 namespace suffuse {
 namespace {
 
-// Lengths of steps, in lengths of the step before.
+// Limits of the length of a step, relative to the step before.
 constexpr double most_growth = 4.0;
 constexpr double least = 0.1;
 constexpr double most_retry = 0.9;
 constexpr double unsolved = 0.25;
 constexpr double safety = 0.85;
-/// What comes in over this share of the run counts as nothing.
+/// Fines that enter during this share of the run are negligible.
 constexpr double passing_share = 1e-6;
-/// A step that misses the end by less than this share of itself ends there.
+/// A step is extended to the end if the rest is less than this share of the step.
 constexpr double end_margin = 1e-9;
 
 }  // namespace
@@ -47,7 +47,7 @@ const std::vector<Exchange>& SweptSteps<Dim>::solve(const FinesState<Dim>& state
   const PassTimer timer(timing_);
   const double left = end_ - time_;
   dt_ = settings_.step_is_given ? left : std::min(next_, left);
-  // No short step before the end: two halves are better than nine tenths and one.
+  // Divides the rest into two equal steps to avoid a short last one.
   if (dt_ < left && left < 2.0 * dt_) dt_ = 0.5 * left;
   const bool shortened = dt_ < next_;
   bool rejected = false;
@@ -64,7 +64,7 @@ const std::vector<Exchange>& SweptSteps<Dim>::solve(const FinesState<Dim>& state
                                         : most_growth;
     if (solved && error <= 1.0) {
       const double next = dt_ * std::clamp(wanted, least, most_growth);
-      // A step that the interval cut short says nothing against the longer one that was planned.
+      // A step that was shortened to the interval must not reduce the planned length.
       next_ = shortened && !rejected && wanted >= 1.0 ? std::max(next, next_) : next;
       dt_ = to - time_;
       return field_.exchange();

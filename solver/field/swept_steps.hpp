@@ -15,7 +15,7 @@ namespace suffuse {
 struct SweptSettings {
   double end = 0.0;            ///< of the run, s
   double tolerance = 1e-3;     ///< bound of a step's error, relative
-  bool step_is_given = false;  ///< an interval is one step, whatever its error
+  bool step_is_given = false;  ///< an interval is one step, for any error
 };
 
 template <int Dim>
@@ -28,14 +28,14 @@ class SweptSteps {
         round_off_(4.0 * std::numeric_limits<double>::epsilon() *
                    std::accumulate(grid.volume.begin(), grid.volume.end(), 0.0)) {}
 
-  /// Starts on an interval that the flow has crossed.
+  /// Starts an interval of the flow.
   void start(double start, const FlowProgress& flow);
   [[nodiscard]] bool finished() const { return time_ >= end_; }
-  /// Solves for the next step. Returns what the solid points exchange in it, per volume of soil.
-  /// Throws NumericalError where no step is short enough.
+  /// Solves the next step. Returns the exchange of the solid points in it, per volume of soil.
+  /// Throws NumericalError if no step is short enough.
   const std::vector<Exchange>& solve(const FinesState<Dim>& state, const Skeleton<Dim>& solid,
                                      const PointFlows& flows);
-  /// Takes that step. `received`: what the solid gave, m3 per element and field node.
+  /// Applies the solved step. `received`: fines from the solid, m3 per element and field node.
   void finish(FinesState<Dim>& state, const ElementField<Dim>& received);
 
   [[nodiscard]] const SweptField<Dim>& field() const { return field_; }
@@ -43,22 +43,22 @@ class SweptSteps {
   void archive(auto& archive) { archive(next_, most_held_, exchanged_, timing_); }
 
  private:
-  /// Error over the tolerance of a step of `dt`: misplaced fines over the most that the liquid has
-  /// held, and misjudged exchange over all that there was. Where fines come from nothing, the least
-  /// that counts is what comes at this rate in a millionth of the run.
+  /// Error of a step of `dt` over the tolerance. The error of fines in elements is relative to the
+  /// most fines that the liquid has held, that of the exchange to the total exchange. Their
+  /// smallest reference is the gain of fines at the present rate in a millionth of the run.
   [[nodiscard]] double relative(const StepErrors& errors, double dt) const;
 
   SweptField<Dim> field_;
   SweptSettings settings_;
-  double round_off_;    ///< of the solid's volumes, which what erodes is a difference of, m3
+  double round_off_;    ///< of the eroded volume, a difference of solid volumes, m3
   double start_ = 0.0;  ///< of the interval, s
   double end_ = 0.0;
-  double time_ = 0.0;                                      ///< up to which it has been crossed
-  double dt_ = 0.0;                                        ///< of the step that was solved last, s
-  StepErrors errors_;                                      ///< of the same
+  double time_ = 0.0;                                      ///< reached in the interval, s
+  double dt_ = 0.0;                                        ///< of the last solved step, s
+  StepErrors errors_;                                      ///< of the last solved step
   double next_ = std::numeric_limits<double>::infinity();  ///< length of the next step, s
-  double most_held_ = 0.0;                                 ///< fines in the liquid, m3
-  double exchanged_ = 0.0;  ///< between solid and liquid, either way, m3
+  double most_held_ = 0.0;                                 ///< most fines in the liquid, m3
+  double exchanged_ = 0.0;  ///< absolute exchange of solid and liquid, m3
   PassTiming timing_{"transport, implicit", 0, 0.0};
 };
 

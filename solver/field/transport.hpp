@@ -1,9 +1,9 @@
 #pragma once
 
-/// Moves liquid and the fines in it with the flow, and lets them exchange fines with the solid.
-/// Three strategies share this interface: a field on the mesh, points along the volumes that cross
-/// faces, and points that carry the flow themselves. The move itself returns what crossed borders:
-/// volumes through faces (FieldTransport), or points (PointTransport).
+/// Moves liquid and its fines with the flow, and exchanges fines with the solid. Three strategies
+/// share this interface: a field on the mesh, points that follow the volumes through faces, and
+/// points that carry the flow. Their functions `move` return what crossed borders: volumes through
+/// faces (FieldTransport), or points (PointTransport).
 
 #include <vector>
 
@@ -33,26 +33,26 @@ class Transport {
   [[nodiscard]] virtual double longest_explicit_step(const std::vector<double>& face_rate) const {
     return longest_step(face_rate);
   }
-  /// How far the flow may go ahead of this.
+  /// Limits of the interval of the flow between two calls of transport.
   struct Coupling {
-    double steps;        ///< of transport, where the flow could go any length by itself
-    double pore_growth;  ///< relative, where the flow does not forecast the pores
+    double steps;        ///< of transport, if the flow allows several in an interval
+    double pore_growth;  ///< relative, if the flow does not forecast the pores
   };
   [[nodiscard]] virtual Coupling coupling() const = 0;
 
   virtual void archive(StateArchive& archive) = 0;
-  /// What this cost, for run.json.
+  /// Cost of transport, for run.json.
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
 };
 
-/// Share of its limit that a step of transport takes.
+/// Safety factor on the limit of a step of transport.
 inline constexpr double transport_safety = 0.9;
 
-/// An interval in `count` equal steps.
+/// Divides an interval into `count` equal steps.
 std::vector<TransportStep> equal_steps(double start, double end, double count);
 
-/// Number of steps over an interval when one may be the share `allowed` of it (safety included).
-/// Rounds down within 1 %, which the safety covers: intervals are often cut to whole steps.
+/// Number of steps over an interval if a step may be the share `allowed` of it (safety included).
+/// Rounds down within 1 %, which the safety covers: intervals are often whole steps.
 double step_count(double allowed);
 
 }  // namespace suffuse

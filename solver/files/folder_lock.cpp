@@ -32,8 +32,7 @@ std::string this_process() {
   return "process " + std::to_string(::getpid()) + on_host + this_host();
 }
 
-/// Takes the lock of an open file. A reader that asks for it holds it for a moment: not at the
-/// first refusal is it taken.
+/// Takes the lock of an open file. Tries several times: readers that test the lock hold it briefly.
 bool take_lock(int file) {
   constexpr int attempts = 5;
   for (int attempt = 1;; ++attempt) {
@@ -52,7 +51,7 @@ bool holds_one_file(const std::string& folder) {
   return std::distance(fs::directory_iterator(folder, ignored), {}) == 1;
 }
 
-/// The process that took the lock last, unless it gave the lock back; empty where it did.
+/// The process that took the lock last; empty if it released the lock.
 std::string holder(const std::string& path) {
   std::ifstream in = open_regular_file(path);
   std::string name;
@@ -81,7 +80,7 @@ FolderLock::FolderLock(const std::string& folder) {
     throw FileError(folder + ": another suffuse-solver writes there" + in_brackets(holder(path)) +
                     "; wait for it, or choose another folder with -o");
   }
-  // For the message of the one that comes too late; nothing depends on it.
+  // The name is only used in the error message of another solver.
   const std::string name = this_process() + "\n";
   if (::ftruncate(file_, 0) == 0) {
     [[maybe_unused]] const auto written = ::write(file_, name.data(), name.size());
@@ -90,7 +89,7 @@ FolderLock::FolderLock(const std::string& folder) {
 
 FolderLock::~FolderLock() {
   if (file_ < 0) return;
-  // The name of a process that was killed stays in the file, that of this one does not.
+  // Only the name of a process that was killed stays in the file.
   [[maybe_unused]] const int emptied = ::ftruncate(file_, 0);
   std::error_code ignored;
   if (made_folder_ && holds_one_file(folder_)) {

@@ -1,19 +1,19 @@
 #pragma once
 
-/// One solver at a time writes into a results folder.
+/// A lock, so that only one solver writes into a results folder.
 
 #include <string>
 #include <utility>
 
 namespace suffuse {
 
-/// Holds the lock (flock) until destroyed or until the process ends, however that happens. Where
-/// the file system knows no locks no other solver is kept out. A folder that it made and that has
-/// got nothing else is removed again.
+/// Holds the lock (flock) until it is destroyed or the process ends. It has no effect on file
+/// systems without locks. The destructor removes a folder that it has made if it holds only the
+/// lock.
 class FolderLock {
  public:
   FolderLock() = default;
-  /// Makes the folder if need be. Throws FileError, which names the process that holds the lock.
+  /// Makes the folder if necessary. Throws FileError that names the process that holds the lock.
   explicit FolderLock(const std::string& folder);
   FolderLock(FolderLock&& other) noexcept { *this = std::move(other); }
   FolderLock& operator=(FolderLock&& other) noexcept {
@@ -32,9 +32,9 @@ class FolderLock {
   bool made_folder_ = false;
 };
 
-/// Whether a solver may still be writing into the folder: it holds the lock, or nobody can tell.
-/// That is so where the file system knows no locks, and where a solver on another host left its
-/// name, as not every file system passes locks on from host to host.
+/// Whether a solver may be writing into the folder: it holds the lock, or that is unknown. It is
+/// unknown without file locks, and if a solver on another host left its name, because not every
+/// file system shares locks between hosts.
 [[nodiscard]] bool may_be_held(const std::string& folder);
 
 }  // namespace suffuse

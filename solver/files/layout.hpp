@@ -7,9 +7,9 @@
 
 namespace suffuse::layout {
 
-/// What marks run.json as ours: value of its key "format".
+/// Value of the key "format" in run.json; identifies our results.
 inline constexpr const char* format = "suffuse-results";
-/// 2: the grid of snapshots and the state to go on from are in files of their own.
+/// Since version 2 the grid of the snapshots and the restart state are separate files.
 inline constexpr int format_version = 2;
 inline constexpr int oldest_readable_version = 1;
 
@@ -44,7 +44,7 @@ inline std::string snapshot(const std::string& kind, std::size_t index) {
   return std::string(snapshots) + "/" + kind + "_" + digits + ".hdf";
 }
 
-/// "mesh_grid.hdf": the grid that all snapshots of `kind`, "mesh" or "solid", share; beside them.
+/// "mesh_grid.hdf": the common grid of all snapshots of `kind`, "mesh" or "solid".
 inline std::string grid_name(const std::string& kind) {
   return kind + "_grid.hdf";
 }
@@ -52,7 +52,7 @@ inline std::string grid_name(const std::string& kind) {
 inline std::string grid(const std::string& kind) {
   return std::string(snapshots) + "/" + grid_name(kind);
 }
-/// "snapshots/state_000012.hdf": from where a run goes on behind snapshot 12.
+/// "snapshots/state_000012.hdf": the state to continue from after snapshot 12.
 inline std::string state(std::size_t index) {
   return snapshot("state", index);
 }

@@ -7,7 +7,7 @@
 namespace suffuse {
 namespace {
 
-/// Two or three digits.
+/// The number with two or three digits.
 std::string rounded_text(double value) {
   const double size = value > 0.0 ? std::pow(10.0, std::floor(std::log10(value)) - 1.0) : 1.0;
   std::array<char, 32> buffer{};

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Numbers as text: exactly, for files; in a few digits, for sentences.
+/// Numbers as text: exact for files, with few digits for sentences.
 
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace suffuse {
 
-/// Shortest decimal text that reads back exactly.
+/// Shortest decimal text from which the same number is read.
 std::string number_text(double value);
 
 /// Four digits, for sentences.
@@ -20,7 +20,7 @@ std::string bytes_text(double bytes);
 /// 75.4 -> "75 s", 400 -> "6.7 min": two or three digits.
 std::string duration_text(double seconds);
 
-/// The number that is the whole of `text`, or nothing.
+/// The number if `text` is one number, otherwise nothing.
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace suffuse

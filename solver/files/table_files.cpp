@@ -29,7 +29,7 @@ std::string values_of(const Row& row, const Columns& columns) {
   return line;
 }
 
-/// Inserts `cells` behind the first column of `line`.
+/// Inserts `cells` after the first cell of `line`.
 std::string with_second(std::string line, const std::string& cells) {
   return line.insert(line.find(','), ',' + cells);
 }
@@ -90,7 +90,7 @@ std::string table_line(const SectionRow& row) {
 }
 
 std::string csv_cell(std::string text) {
-  // A line of the table is a line of the file.
+  // Each row of the table must be one line of the file.
   std::ranges::replace_if(
       text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   if (text.find_first_of(",\"") == std::string::npos) return text;

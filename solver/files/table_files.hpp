@@ -1,6 +1,6 @@
 #pragma once
 
-/// The tables of a results folder as files: which a case has, and their lines.
+/// The table files of a results folder, and their lines.
 
 #include <string>
 #include <vector>
@@ -10,18 +10,18 @@
 
 namespace suffuse {
 
-/// A table and how it grows.
+/// A table file.
 struct TableFile {
   std::string name;         ///< of the file
   std::string header;       ///< names of the columns
-  long lines_per_time = 1;  ///< that every output time adds
+  long lines_per_time = 1;  ///< added at every output time
 };
 
 /// The tables that a run of this case writes. `regions`: number of regions of the mesh.
 std::vector<TableFile> table_files(const Scene& scene, std::size_t regions);
 
-/// Whose crossings boundaries.csv has, in its order: the scene's boundaries and wells, then the
-/// walls that let liquid through. Nothing crosses the rest of the outer boundary.
+/// Boundaries in boundaries.csv, in its order: the scene's boundaries and wells, then the leaky
+/// walls. Nothing crosses the rest of the outer boundary.
 std::vector<std::string> booked_boundaries(const Scene& scene);
 
 // The line of a row, with its end.
@@ -32,9 +32,9 @@ std::string table_line(const BoundaryRow& row);
 std::string table_line(const ProbeRow& row);
 std::string table_line(const SectionRow& row);
 
-/// A text as a cell of a CSV file: quoted where it must be, on one line.
+/// A text as a cell of a CSV file: on one line, quoted if necessary.
 std::string csv_cell(std::string text);
-/// The cells of a line, which may end as lines do elsewhere.
+/// The cells of a line, which may end in a carriage return.
 std::vector<std::string> csv_cells(std::string line);
 
 }  // namespace suffuse

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The tables of a run: history, ledger, regions and boundaries, and probes and sections where the
+/// The tables of a run: history, ledger, regions and boundaries, and probes and sections if the
 /// scene has any. Each row type lists its columns once, for writer, reader and the post stage.
 
 #include <array>
@@ -19,60 +19,58 @@ struct Column {
   std::string_view unit;
 };
 
-/// A run ends where `eos_error` exceeds this: masses can balance in pores that do not hold them.
+/// A run stops if `eos_error` exceeds this value: the masses then do not fit the pores.
 inline constexpr double max_eos_error = 0.05;
 
 /// One row of history.csv: the state of the flow at time t. Fluxes are liquid volumes per second
 /// (m3/s per metre of thickness in 2D).
 struct HistoryRow {
   double t = 0.0;
-  double dt = 0.0;             ///< step of the flow in force, s
-  double porosity_mean = 0.0;  ///< volume mean over eroding regions, or over all soil
+  double dt = 0.0;             ///< current step of the flow, s
+  double porosity_mean = 0.0;  ///< mean over soil that exchanges fines, or over all soil
   double flux_in = 0.0;        ///< liquid that enters through all boundaries
   double flux_out = 0.0;       ///< liquid that leaves through all boundaries
   double liquid_points = 0.0;
   double empty_elements = 0.0;
   double empty_elements_total = 0.0;
-  double concentration_out =
-      0.0;  ///< flux-weighted mean c of the leaving liquid; 0 when none leaves
+  double concentration_out = 0.0;  ///< flux-weighted mean c of the outflow; 0 without outflow
   double concentration_min = 0.0;
   double concentration_max = 0.0;
   double pressure_min = 0.0;   ///< of the node pressures, Pa
   double pressure_max = 0.0;   ///< Pa
   double speed_max = 0.0;      ///< largest intrinsic liquid speed, m/s
   double volume_defect = 0.0;  ///< double-point: max |sum V_p / (n_L V_e) - 1| over elements
-  /// Root mean square of the pressures (of elements, or of liquid points where they carry it) about
-  /// the smooth field of the node pressures, Pa.
+  /// Root mean square of the difference of the pressures of elements (or of liquid points that
+  /// carry pressure) from the smooth field of the node pressures, Pa.
   double pressure_scatter = 0.0;
-  /// Single-point, implicit: largest difference between an element's mass of water and what fits
-  /// its pores at its pressure (equation of state), as a share of the pores; the next step corrects
-  /// it.
+  /// Single-point, implicit: largest difference of an element's mass of water from that of the
+  /// equation of state at its pressure, as a share of the pores. The next step corrects it.
   double eos_error = 0.0;
-  /// Implicit: how far pressures lie outside the range of their boundary and initial values, over
-  /// that range; 0 where gravity or a prescribed flux leaves them without such bounds.
+  /// Implicit: distance of the pressures from the range of their boundary and initial values, over
+  /// that range; 0 if gravity or a prescribed flux makes these bounds invalid.
   double pressure_overshoot = 0.0;
   double turbidity_out = 0.0;      ///< mass of fines per volume of the leaving liquid, g/l
   double eroded = 0.0;             ///< grains eroded since the start, kg
   double fines_out = 0.0;          ///< grains that left through the boundaries since the start, kg
   double fines_out_percent = 0.0;  ///< `fines_out` in % of the fines at the start
   double solid_out_percent = 0.0;  ///< `fines_out` in % of the solid at the start, the dry mass
-  /// Conductivity of all soil over that at the start (SeepagePower); 0 where nothing flows.
+  /// Conductivity of all soil over that at the start (SeepagePower); 0 without flow.
   double conductivity_ratio = 0.0;
-  double power = 0.0;   ///< that water spends on the soil, W
-  double energy = 0.0;  ///< since the start, J: of the power in the rows, linear in between
-  // Motion of the skeleton; 0 where it does not move.
+  double power = 0.0;   ///< dissipated by the water in the soil, W
+  double energy = 0.0;  ///< integral of `power` from the start, J; linear between rows
+  // Motion of the skeleton; 0 if it is rigid.
   double settlement_max = 0.0;  ///< largest displacement along gravity, or down in y without it, m
   double displacement_max = 0.0;  ///< m
-  /// What makes the solid's flux fit its volumes, over the flux of its motion, in the last step.
+  /// Correction that fits the solid's flux to its volumes, over its flux, in the last step.
   double solid_correction = 0.0;
   double newton_iterations = 0.0;  ///< of the solid's equilibrium, since the start
   double inertia = 0.0;  ///< forces of inertia over the loads, in the last step; 0 in equilibrium
-  double failure_time = 0.0;  ///< when the soil lost its equilibrium last, s; 0: never, or at t = 0
+  double failure_time = 0.0;  ///< last loss of equilibrium, s; 0: never, or at t = 0
 
-  // No columns: further values that the checks of the run ask for.
+  // Values that are no columns; the checks of the run use them.
   std::string concentration_max_at;  ///< the element of `concentration_max`
-  std::string volume_defect_at;      ///< the element of `volume_defect`; empty where there is none
-  /// Share of the power that drives the flow that the weight of the fines in the liquid gives.
+  std::string volume_defect_at;      ///< the element of `volume_defect`; may be empty
+  /// Share of the driving power of the flow that the weight of the fluidised fines supplies.
   double fines_weight_share = 0.0;
 };
 
@@ -111,15 +109,15 @@ inline constexpr std::array<Column<HistoryRow>, 32> history_columns{{
     {"failure_time", &HistoryRow::failure_time, "s"},
 }};
 
-/// Names that columns of history.csv had in earlier versions, and their names of today: `left`
-/// stands for what remains (`fines_left` of solid points), and these columns count what went out.
+/// Former and present names of columns of history.csv. `left` now means what remains (`fines_left`
+/// of solid points); these columns contain what left the model.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> renamed_columns{{
     {"fines_left", "fines_out"},
     {"fines_left_percent", "fines_out_percent"},
     {"solid_left_percent", "solid_out_percent"},
 }};
 
-/// The name of today of a column of an earlier version; empty for any other name.
+/// The present name of a renamed column; empty for any other name.
 inline std::string renamed_column(std::string_view name) {
   for (const auto& [before, now] : renamed_columns) {
     if (name == before) return std::string(now);
@@ -127,11 +125,11 @@ inline std::string renamed_column(std::string_view name) {
   return "";
 }
 
-/// One row of ledger.csv: masses in kg (per metre of thickness in 2D), cumulative where they cross
-/// a boundary. Residual = (stored + out - in - carried - initial) / initial, per constituent.
+/// One row of ledger.csv: masses in kg (per metre of thickness in 2D); those that cross a boundary
+/// are cumulative. Residual = (stored + out - in - carried - initial) / initial, per constituent.
 struct LedgerRow {
   double t = 0.0;
-  double solid = 0.0;     ///< all solid in place: skeleton and erodible
+  double solid = 0.0;     ///< solid in place, skeleton and erodible
   double erodible = 0.0;  ///< solid in place that can still erode
   double water = 0.0;
   double fines = 0.0;   ///< fluidised fines in the model
@@ -140,16 +138,16 @@ struct LedgerRow {
   double fines_in = 0.0;
   double water_out = 0.0;
   double fines_out = 0.0;
-  double residual_water = 0.0;  ///< relative to the initial water and what came in
-  /// Relative to the initial grains, solid and fluidised, and what came in.
+  double residual_water = 0.0;  ///< relative to the initial and the entered water
+  /// Relative to the initial (solid and fluidised) and the entered grains.
   double residual_grains = 0.0;
-  /// Double-point: fines eroded where no liquid point is near, waiting at nodes for one.
+  /// Double-point: eroded fines kept at nodes until a liquid point comes near.
   double pending = 0.0;
   double points = 0.0;  ///< liquid points, and how many entered and left since the start
   double points_in = 0.0;
   double points_out = 0.0;
   double deposited = 0.0;  ///< fines deposited since the start
-  double carried = 0.0;    ///< solid that points have carried in, minus out, since the start
+  double carried = 0.0;    ///< net solid that moving points carried in since the start
 };
 
 inline constexpr std::array<Column<LedgerRow>, 18> ledger_columns{{
@@ -173,9 +171,9 @@ inline constexpr std::array<Column<LedgerRow>, 18> ledger_columns{{
     {"carried", &LedgerRow::carried, "kg"},
 }};
 
-/// regions.csv: the ledger of one region, its boundary with other regions included in `*_in` and
-/// `*_out`. Columns: those of the ledger with `region` (index into `regions` of run.json) and
-/// `porosity_mean` behind `t`.
+/// regions.csv: the ledger of one region; `*_in` and `*_out` include its borders with other
+/// regions. Columns: those of the ledger, with `region` (index into `regions` of run.json) and
+/// `porosity_mean` after `t`.
 struct RegionRow {
   int region = 0;
   double porosity_mean = 0.0;
@@ -183,7 +181,7 @@ struct RegionRow {
 };
 
 /// boundaries.csv: what crossed one entry of the scene's boundaries. Masses in kg and volumes in m3
-/// since the start (per metre of thickness in 2D). `boundary`, its name, stands behind `t`.
+/// since the start (per metre of thickness in 2D). The column `boundary`, its name, follows `t`.
 struct BoundaryRow {
   double t = 0.0;
   std::string boundary;
@@ -191,9 +189,9 @@ struct BoundaryRow {
   double water_out = 0.0;
   double fines_in = 0.0;
   double fines_out = 0.0;
-  double liquid_in = 0.0;   ///< volume of liquid, as the flow moves it
-  double liquid_out = 0.0;  ///< likewise
-  double discharge = 0.0;   ///< liquid out minus in at this moment, m3/s
+  double liquid_in = 0.0;   ///< volume of liquid that flowed in
+  double liquid_out = 0.0;  ///< volume of liquid that flowed out
+  double discharge = 0.0;   ///< net outflow of liquid at this time, m3/s
   double level = 0.0;       ///< head outside, m; 0 where the scene gives none
 };
 
@@ -222,7 +220,7 @@ struct ProbeRow {
   double concentration = 0.0;
   double flux_x = 0.0;  ///< Darcy flux, m/s
   double flux_y = 0.0;
-  double z = 0.0;       ///< m; 0 in two dimensions, as the next
+  double z = 0.0;       ///< m; 0 in 2D, like `flux_z`
   double flux_z = 0.0;  ///< m/s
 };
 
@@ -242,8 +240,8 @@ inline constexpr std::array<Column<ProbeRow>, 13> probe_columns{{
     {"flux_z", &ProbeRow::flux_z, "m/s"},
 }};
 
-/// sections.csv: the liquid that crosses a line that the scene names, positive from its left side
-/// to its right side, looking from `from` to `to`.
+/// sections.csv: the liquid that crosses a line of the scene, positive from its left side to its
+/// right side, seen from `from` to `to`.
 struct SectionRow {
   double t = 0.0;
   double section = 0.0;    ///< its number in the scene, from zero

@@ -13,8 +13,8 @@ BoundaryAccounts<Dim>::BoundaryAccounts(const Case<Dim>& c, const Grid<Dim>& gri
   for (const FaceCondition& condition : face_conditions(c, grid)) {
     account_.push_back(condition.boundary);
   }
-  // Behind the boundaries come walls that let liquid through: it leaves by one of their faces and
-  // enters by another.
+  // Leaky walls follow the boundaries. Liquid leaves the model through one of their faces and
+  // enters through its partner.
   for (std::size_t k = c.document.scene.boundaries.size(); k < names_.size(); ++k) {
     for (const BoundarySet<Dim>& set : c.mesh.boundaries) {
       if (set.name != names_[k]) continue;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What crossed each boundary of the scene since the start: masses of water and fines, and the
-/// volume of liquid as the flow moves it. Rows of boundaries.csv are made here.
+/// Masses of water and fines, and the volume of liquid in the flow, that crossed each boundary of
+/// the scene since the start. Makes the rows of boundaries.csv.
 
 #include <vector>
 
@@ -12,7 +12,7 @@
 
 namespace suffuse {
 
-/// A sum of what left and one of what entered.
+/// Sums of outflow and inflow.
 struct BothWays {
   static constexpr bool has_no_gaps = true;  ///< see StateArchive
   CompensatedSum in, out;
@@ -29,14 +29,14 @@ class BoundaryAccounts {
   /// An account for each of `booked_boundaries`. Throws as `face_conditions` does.
   BoundaryAccounts(const Case<Dim>& c, const Grid<Dim>& grid);
 
-  /// Masses that left through an outer face, kg; negative: entered.
+  /// Books masses that left through an outer face, kg; negative: entered.
   void book(int face, double water, double fines);
   /// Books masses that crossed all faces along their normals, kg.
   void book(const std::vector<double>& water, const std::vector<double>& fines);
-  /// Volumes of liquid along the faces' normals, m3, in one interval of the flow.
+  /// Books volumes of liquid along the faces' normals, m3, in one interval of the flow.
   void book_liquid(const std::vector<double>& volumes);
 
-  /// `face_flux`: along the faces' normals, at this moment, m3/s.
+  /// `face_flux`: present flux along the faces' normals, m3/s.
   [[nodiscard]] std::vector<BoundaryRow> rows(double time,
                                               const std::vector<double>& face_flux) const;
 

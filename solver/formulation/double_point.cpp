@@ -13,14 +13,14 @@ template <int Dim>
 void DoublePoint<Dim>::advance(double latest) {
   const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
-  // Flow (momentum, Eq. 4) and motion of the solid, together, as far as erosion and transport can
-  // follow; points that carry the flow are part of its steps. Solid that finds no equilibrium
-  // fails: it gets inertia, or the run stops.
+  // Flow (momentum, Eq. 4) and motion of the solid, together, over an interval that erosion and
+  // transport allow. Points that carry the flow move with its steps. If the solid loses its
+  // equilibrium, it gets inertia, or the run stops.
   CoupledStep<Dim> step =
       this->coupled_->solve({start, latest, this->coupling_interval(), forecast});
   const FlowProgress flow = this->coupled_->commit(std::move(step));
   this->note_flow(start, flow);
-  // Erosion (Eqs. 1, 6, 7), the points that carry water and fines (Eq. 5), and what they leave.
+  // Erosion (Eqs. 1, 6, 7), transport by points (Eq. 5), and deposition.
   const RegionCrossings& crossed =
       liquid_->move(start, flow, this->flow_->pressure(), this->exchange_);
   this->time_ = flow.end;
@@ -48,7 +48,7 @@ void DoublePoint<Dim>::start_liquid() {
     this->coupled_->start();
     this->start_flux_history();
   };
-  // The explicit scheme is for triangles alone.
+  // The explicit scheme exists only for triangles.
   if constexpr (Dim == 2) {
     if (this->scene().flow.integration == PressureIntegration::material_point) {
       auto flow = std::make_unique<ExplicitFlow<Dim>>(c, this->grid_, *this->solid_, options);
@@ -134,7 +134,7 @@ template <int Dim>
 void DoublePoint<Dim>::update_flow(const PoreState& pores) {
   const PassTimer timer(coefficients_timing_);
   ++coefficients_timing_.calls;
-  // The density of what crosses a face plays no part: points carry it.
+  // Points carry the fines, so the concentration at faces is not used.
   this->flow_->update(this->time_, pores, std::vector<double>(this->grid_.face_count(), 0.0));
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
-/// The double-point formulation: solid points stay and erode, liquid points carry water and
-/// fluidised fines through the pores between them. How they move is a strategy of its own
-/// (`PointTransport`).
+/// The double-point formulation: solid points erode, and liquid points carry water and fluidised
+/// fines through the pores. A strategy, `PointTransport`, moves the liquid points.
 
 #include "formulation/two_phase_model.hpp"
 #include "points/point_transport.hpp"
@@ -30,16 +29,16 @@ class DoublePoint final : public TwoPhaseModel<Dim> {
   [[nodiscard]] const Transport<Dim>& transport() const override { return *liquid_; }
   [[nodiscard]] PoreState pores() const override;
   void find_liquid(PointFlows& flows) const override;
-  /// The fines are the linear fit of those at points.
+  /// The fines are a linear fit to those of the points.
   [[nodiscard]] FinesState<Dim> fines_state(const FlowState<Dim>& flow) const override;
   [[nodiscard]] std::vector<Stored> stored() const override;
-  /// The flow takes the pores as they are now.
+  /// Updates the flow with `pores`.
   void update_flow(const PoreState& pores);
   /// Pores full of clean water.
   [[nodiscard]] PoreState clean_pores() const;
-  /// Flow and liquid points as the scene wants them.
+  /// Creates flow and liquid points as the scene specifies.
   void start_liquid();
-  /// Concentration of fines at liquid points of these volumes.
+  /// Concentrations of liquid points with these volumes.
   [[nodiscard]] std::vector<double> concentrations(const LiquidPoints<Dim>& points,
                                                    const std::vector<double>& volume) const;
 

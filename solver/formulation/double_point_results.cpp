@@ -1,4 +1,4 @@
-/// What the results hold of a double-point model.
+/// Results of a double-point model.
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,7 @@ namespace {
 /// Codes of the field `saturation_state`.
 enum class Saturation { dry_soil, saturated_soil, free_liquid, empty };
 
-/// Fines that leave through the outer boundary, m3/s, where the field `concentration` has these
-/// values at field nodes.
+/// Flux of fines out of the outer boundary, m3/s, for the values `concentration` at field nodes.
 template <int Dim>
 double fines_outflow(const Grid<Dim>& grid, const std::vector<double>& face_flux,
                      const ElementField<Dim>& concentration) {
@@ -32,8 +31,8 @@ double fines_outflow(const Grid<Dim>& grid, const std::vector<double>& face_flux
   return result.value();
 }
 
-/// Volume of the points of each element against the pores there: the largest relative difference,
-/// and where it is.
+/// Writes the largest relative difference between the volume of an element's points and its pores,
+/// and its place.
 template <int Dim>
 void describe_volume_defect(const Grid<Dim>& grid, const LiquidPoints<Dim>& points,
                             const std::vector<double>& volume, const std::vector<double>& porosity,
@@ -156,7 +155,7 @@ Snapshot DoublePoint<Dim>::snapshot(const FlowState<Dim>& flow) const {
   }
 
   result.liquid.reserve(8);
-  // Moved, not copied: with many points this is most of the memory of a run.
+  // Values are moved, because copies of many points would take much memory.
   const auto add = [&](const char* name, const char* unit, std::vector<double> values) {
     result.liquid.push_back({name, unit, 1, std::move(values)});
   };

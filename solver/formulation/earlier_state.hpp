@@ -1,6 +1,6 @@
 #pragma once
 
-/// The last state of a run, from which another one starts on the same mesh and points.
+/// The last state of a run, from which another run starts on the same mesh and points.
 
 #include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"

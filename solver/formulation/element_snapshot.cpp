@@ -36,7 +36,7 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
   using Nodes = FieldNodes<Dim>;
   result.cell = pore_fields(1);
   result.element_vertex = pore_fields(Dim + 1);
-  // At vertices it follows from the others, and would take a quarter of their room.
+  // At vertices it follows from the other fields, so it is left out.
   Field water = scalar("water_fraction", "1");
   Field erodible = scalar("erodible_fraction", "1");
   for (int e = 0; e < grid.mesh.element_count(); ++e) {

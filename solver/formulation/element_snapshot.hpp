@@ -11,8 +11,8 @@
 namespace suffuse {
 
 /// `liquid`: pores and fines in them, per element and field node; `step`: number of flow steps so
-/// far; `acting_concentration`: per element, what laws of erosion act on where it is not the field
-/// of `liquid`. Heads at nodes come with gravity, saturations of elements where the flow has them.
+/// far; `acting_concentration`: that of erosion, per element, if it is not that of `liquid`.
+/// Includes heads at nodes with gravity, and saturations of elements if the flow has them.
 template <int Dim>
 Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                           const FinesState<Dim>& liquid, const FlowState<Dim>& flow,

@@ -15,7 +15,7 @@ std::unique_ptr<FlowSolver<Dim>> make_flow(const Case<Dim>& c, const Grid<Dim>& 
   if constexpr (Dim == 2) {
     return std::make_unique<ExplicitFlow<Dim>>(c, grid, solid, options);
   } else {
-    return nullptr;  // refused
+    return nullptr;  // check_scheme has thrown
   }
 }
 

@@ -10,13 +10,13 @@ void book_one(double outward, CompensatedSum& in, CompensatedSum& out) {
   if (outward < 0.0) in.add(-outward);
 }
 
-/// Relative to all that there was: at the start and what came in.
+/// Residual relative to the initial and the entered mass.
 double relative(double residual, double initial, double entered) {
   const double all = initial + entered;
   return all > 0.0 ? residual / all : residual;
 }
 
-/// Row of the ledger, from what is stored, what crossed and what was stored at the start.
+/// Row of the ledger, from present storage, crossings and initial storage.
 LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
                      const Stored& initial) {
   LedgerRow row;
@@ -70,7 +70,7 @@ MassAccounts<Dim>::MassAccounts(const Case<Dim>& c, const Grid<Dim>& grid)
     const int right = grid.mesh.element_region[grid.beyond(f)];
     if (left == right) continue;
     faces_[left + 1].push_back({f, 1.0});
-    // Across a wall the other region has a face of its own.
+    // At a wall the other region has its own face.
     if (!grid.is_outer(f)) faces_[right + 1].push_back({f, -1.0});
   }
 }

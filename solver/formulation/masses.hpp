@@ -1,8 +1,8 @@
 #pragma once
 
-/// The masses of water and fines: what is stored and what crossed which border, for the whole
-/// model (account 0) and for each region r (account r + 1), and what crossed each boundary of the
-/// scene. The ledger of the results is made here.
+/// Masses of water and fines: storage and crossings of borders, for the whole model (account 0),
+/// for each region r (account r + 1), and for each boundary of the scene. Makes the rows of the
+/// ledger.
 
 #include <array>
 #include <vector>
@@ -23,7 +23,7 @@ struct Crossed {
   double fines_out = 0.0;
   double points_in = 0.0;  ///< liquid points, numbers
   double points_out = 0.0;
-  double water_net = 0.0;  ///< out minus in, with more digits than their difference
+  double water_net = 0.0;  ///< out minus in, more accurate than the difference of both
   double fines_net = 0.0;
 };
 
@@ -36,8 +36,8 @@ struct Stored {
   double fines = 0.0;
   double eroded = 0.0;     ///< since the start
   double deposited = 0.0;  ///< since the start
-  double pending = 0.0;    ///< eroded, but not yet with any liquid
-  double carried = 0.0;    ///< solid that points have carried in, minus out, since the start
+  double pending = 0.0;    ///< eroded, but not yet in liquid points
+  double carried = 0.0;    ///< net solid that moving points carried in since the start
   double points = 0.0;     ///< liquid points, number
 };
 
@@ -75,17 +75,17 @@ class MassAccounts {
   MassAccounts(const Case<Dim>& c, const Grid<Dim>& grid);
 
   [[nodiscard]] std::size_t count() const { return faces_.size(); }
-  /// What is stored at the start, per account.
+  /// Sets the initial storage, per account.
   void open(std::vector<Stored> initial) { initial_ = std::move(initial); }
-  /// In the whole model.
+  /// Initial storage of the whole model.
   [[nodiscard]] const Stored& initial() const { return initial_[0]; }
 
-  /// Books what crossed each face along its normal, kg.
+  /// Books masses that crossed each face along its normal, kg.
   void book(const std::vector<double>& water, const std::vector<double>& fines);
-  /// Books points that changed their region, and fines that did.
+  /// Books points and fines that changed their region.
   void book(const RegionCrossings& crossings);
-  /// Books volumes of liquid that crossed each face along its normal, m3: of the flow, which points
-  /// follow with a delay.
+  /// Books volumes of liquid in the flow across each face along its normal, m3. Points follow the
+  /// flow with a delay.
   void book_liquid(const std::vector<double>& volumes) { boundaries_.book_liquid(volumes); }
 
   /// `stored` per account.
@@ -95,13 +95,13 @@ class MassAccounts {
                                                    double grain_density) const;
   [[nodiscard]] const BoundaryAccounts<Dim>& boundaries() const { return boundaries_; }
 
-  /// What was stored at the start too: a run that started from another one goes on without it.
+  /// Includes the initial storage: a resumed run does not read the run that it started from.
   void archive(auto& archive) { archive(crossed_, boundaries_, initial_); }
 
  private:
   struct OutwardFace {
     int face;
-    double sign;  ///< +1 where the face's normal points out of the account
+    double sign;  ///< +1 if the face's normal points out of the account
   };
   void book(const PointCrossing& point);
 

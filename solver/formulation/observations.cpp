@@ -31,10 +31,10 @@ InputProblem problem(const SceneDocument& document, const std::string& key,
   return {document.locate(key), key, found, expected, ""};
 }
 
-/// Pressure at a place `x` of an element, Pa: of the linear field of the element's face pressures,
-/// or of that of the node pressures where the flow has none at faces. The first may leave the range
-/// of the element's faces and nodes; it is that range's end then, where water of weight `weight` =
-/// rho g in Pa/m at rest has equal pressures.
+/// Pressure at a place `x` of an element, Pa: from the linear field of the element's face
+/// pressures, or from node pressures if the flow has no face pressures. The former is limited to
+/// the range of the pressures of the element's faces and nodes, each continued hydrostatically to
+/// `x` with `weight` = rho g, Pa/m.
 template <int Dim>
 double pressure_at(const Grid<Dim>& grid, const FlowState<Dim>& flow, const PointPlace<Dim>& place,
                    const Vector<Dim>& x, const Vector<Dim>& weight) {
@@ -101,7 +101,7 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
   for (std::size_t i = 0; i < probes_.size(); ++i) {
     const PointPlace<Dim>& place = probes_[i];
     const int e = place.element;
-    // Where the scene wants it, to the last digit.
+    // Exactly the place of the scene, without round-off.
     const auto x = vector_of<Dim>(scene_.output.probes[i].at);
     ElementValues<Dim> porosity;
     ElementValues<Dim> concentration;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the scene wants recorded at places within the model: the state at probes and the liquid
-/// that crosses sections. Rows of probes.csv and sections.csv are made here.
+/// Records of the scene's probes, the state at a place, and sections, the liquid that crosses a
+/// line. Makes the rows of probes.csv and sections.csv.
 
 #include <vector>
 
@@ -16,11 +16,11 @@ namespace suffuse {
 template <int Dim>
 class Observations {
  public:
-  /// Throws InputError where a probe is outside the mesh or a section misses it. Keeps references
-  /// to the case and the grid.
+  /// Throws InputError if a probe is outside the mesh or a section misses it. Keeps references to
+  /// the case and the grid.
   Observations(const Case<Dim>& c, const Grid<Dim>& grid);
 
-  /// Volumes of liquid along the faces' normals, m3, in one interval of the flow.
+  /// Books volumes of liquid along the faces' normals, m3, in one interval of the flow.
   void book_liquid(const std::vector<double>& volumes);
 
   [[nodiscard]] bool has_probes() const { return !probes_.empty(); }

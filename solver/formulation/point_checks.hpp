@@ -6,9 +6,9 @@
 
 namespace suffuse {
 
-/// The volume that a point erodes is distributed over the field nodes of its element, and those far
-/// from the point get a negative share. The sum is right as long as each node keeps a pore volume.
-/// Throws InputError.
+/// Throws InputError if the pore volume at a field node could become negative: the exchange of a
+/// point is distributed to the field nodes of its element, with negative shares for nodes far from
+/// the point.
 template <int Dim>
 void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
                                 const SoilMap<Dim>& soils);

@@ -7,8 +7,8 @@
 namespace suffuse {
 namespace {
 
-/// Share of the power that drives the flow, through boundaries and by gravity, that the weight of
-/// the fines in the liquid gives; negative where the flow lifts them. 0 of liquid at rest.
+/// Share of the weight of fluidised fines in the power that drives the flow (boundaries and
+/// gravity); negative if the flow lifts the fines, 0 for liquid at rest.
 template <int Dim>
 double fines_weight_share(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                           const FlowState<Dim>& state, const Scene& scene) {
@@ -30,14 +30,14 @@ double fines_weight_share(const Grid<Dim>& grid, const FlowCoefficients<Dim>& co
   return spent > 0.0 ? weight / spent : 0.0;
 }
 
-/// Pa/m
+/// Pressure gradient in an element, Pa/m.
 template <int Dim>
 Vector<Dim> pressure_gradient(const Grid<Dim>& grid, const FlowState<Dim>& flow, int element) {
   Vector<Dim> result = Vector<Dim>::Zero();
   for (int k = 0; k <= Dim; ++k) {
     const Vector<Dim>& shape = grid.shape_gradient[element][k];
-    // The linear function that is 1 at the middle of face k and 0 at those of the others falls by
-    // Dim times the gradient of the vertex opposite.
+    // The linear function that is 1 at the centre of face k and 0 at those of the others has the
+    // gradient -Dim times that of the opposite vertex.
     if (flow.face_pressure.empty()) {
       result += flow.node_pressure[grid.mesh.elements[element][k]] * shape;
     } else {
@@ -103,7 +103,7 @@ void describe_flow(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficie
   }
   row.flux_in = in.value();
   row.flux_out = out.value();
-  // At the nodes: pressures of single elements may have patterns that exert no force.
+  // Uses node pressures, because element pressures may contain patterns without force.
   const std::vector<double>& pressure = state.node_pressure;
   const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
   row.pressure_min = *low;

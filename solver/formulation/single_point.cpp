@@ -25,8 +25,8 @@ template <int Dim>
 void SinglePoint<Dim>::advance(double latest) {
   const double start = this->time_;
   const PoreForecast<Dim> forecast = this->pore_forecast();
-  // Flow (momentum, Eq. 2) and motion of the solid, together, as far as erosion and transport can
-  // follow. Solid that finds no equilibrium fails: it gets inertia, or the run stops.
+  // Flow (momentum, Eq. 2) and motion of the solid, together, over an interval that erosion and
+  // transport allow. If the solid loses its equilibrium, it gets inertia, or the run stops.
   CoupledStep<Dim> step =
       this->coupled_->solve({start, latest, this->coupling_interval(), forecast});
   const FlowProgress flow = this->coupled_->commit(std::move(step));
@@ -133,7 +133,7 @@ void SinglePoint<Dim>::find_liquid(PointFlows& flows) const {
       flows.concentration[p] = c;
       held += points.volume[p] * this->solid_->porosity()[p] * saturation * c;
     }
-    // Together the points hold the fines of the element, so that no more than these are caught.
+    // The points of an element hold exactly its fines, so that deposits cannot exceed them.
     const double scale = held > 0.0 ? element_sum<Dim>(state.fines_volume[e]) / held : 0.0;
     for (int p = this->soils_.points_begin(e); p < this->soils_.points_begin(e + 1); ++p) {
       flows.concentration[p] *= scale;
@@ -184,10 +184,10 @@ template <int Dim>
 void SinglePoint<Dim>::match_masses() {
   const PassTimer timer(water_timing_);
   if (this->scene().flow.porosity_gradient_term) {
-    // The masses are what is conserved; the pressure follows from them.
+    // Masses are conserved, and the pressure follows from them.
     this->flow_->match_masses(this->time_, water_mass_);
   } else {
-    // Without the third term of Eq. 2 strain alone is integrated, and the mass made to follow it.
+    // Without the third term of Eq. 2 only the strain is integrated, and the masses follow.
     follow_pressure();
   }
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The single-point formulation: every material point stands for soil and liquid at once. Fluidised
-/// fines are a field on the mesh, and each element's mass of water is state.
+/// The single-point formulation: every material point represents soil and liquid. Fluidised fines
+/// are a field on the mesh, and the mass of water of each element is a state variable.
 
 #include "field/field_transport.hpp"
 #include "formulation/two_phase_model.hpp"
@@ -19,7 +19,7 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
   void advance(double latest) override;
 
   [[nodiscard]] const FinesState<Dim>& liquid() const { return fines_->state(); }
-  /// Per element, kg.
+  /// Mass of water per element, kg.
   [[nodiscard]] const std::vector<double>& water_mass() const { return water_mass_; }
   [[nodiscard]] HistoryRow history_row(const FlowState<Dim>& flow) const override;
   [[nodiscard]] Snapshot snapshot(const FlowState<Dim>& flow) const override;
@@ -29,7 +29,7 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
  private:
   [[nodiscard]] const Transport<Dim>& transport() const override { return *fines_; }
   [[nodiscard]] PoreState pores() const override;
-  /// Pores with this air, m3 per element; empty where all soil is saturated.
+  /// Pores with this air, m3 per element (empty if all soil is saturated).
   [[nodiscard]] PoreState pores_with(std::vector<double> air_volume) const;
   /// Concentration of the liquid that crosses each face.
   [[nodiscard]] std::vector<double> face_concentration() const {
@@ -40,13 +40,13 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
     return fines_->state();
   }
   [[nodiscard]] std::vector<Stored> stored() const override;
-  /// Books the liquid and the fines in it, m3, that crossed faces in an interval of the flow.
+  /// Books liquid and fines, m3, that crossed faces in an interval of the flow.
   void book(const FaceVolumes& volumes, std::vector<double> fines);
-  /// The flow takes the pores as they are now.
+  /// Updates the flow with the present pores.
   void update_flow();
-  /// Sets the water masses that fit the pressures.
+  /// Sets the water masses from the pressures.
   void follow_pressure();
-  /// Water masses and pressures agree after this.
+  /// Makes water masses and pressures agree.
   void match_masses();
 
   std::unique_ptr<FieldTransport<Dim>> fines_;

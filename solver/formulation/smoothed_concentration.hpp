@@ -1,6 +1,6 @@
 #pragma once
 
-/// The concentration of fines from which the weight of the liquid is found in double-point models.
+/// The concentration of fines for the weight of the liquid in double-point models.
 
 #include <vector>
 
@@ -9,10 +9,10 @@
 
 namespace suffuse {
 
-/// From the concentrations of the elements and their liquid volumes, m3. A point that crosses a
-/// face would make the buoyancy jump, and free water, which resists flow very little, would turn in
-/// eddies. So concentrations in soil are smoothed over the elements around, and free water counts
-/// as well mixed.
+/// Smooths the concentrations of elements with their liquid volumes, m3. Without it a point that
+/// crosses a face would change the weight abruptly and cause eddies in free water, which has little
+/// drag. Concentrations in soil are smoothed over neighbouring elements; free water is taken as
+/// well mixed.
 template <int Dim>
 std::vector<double> smoothed_concentration(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                            std::vector<double> concentration,

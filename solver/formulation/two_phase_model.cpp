@@ -151,7 +151,7 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   HistoryRow row;
   row.t = time_;
   describe_flow(grid_, flow_->coefficients(), flow, scene(), row);
-  // Over soils that exchange fines, or over all of them where none does.
+  // Mean over soils that exchange fines, or over all soils if none does.
   const MaterialPoints<Dim>& points = soils_.points();
   const bool any_changes = soils_.erodes() || soils_.deposits();
   CompensatedSum pores;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The model of a run, stepped by the driver from one output to the next: what the single-point and
-/// the double-point formulation share. The step itself is `advance` of each.
+/// The model of a run, which the driver advances from output to output: common base of the
+/// single-point and double-point formulations. Each has its own `advance`.
 
 #include <limits>
 #include <memory>
@@ -20,12 +20,12 @@
 
 namespace suffuse {
 
-/// What a formulation runs and what it leaves out (decided by the plan of the run).
+/// Parts of a model that are run or skipped, decided by the plan of the run.
 struct ModelOptions {
   FlowOptions flow;
   bool erosion = true;
   bool transport = true;  ///< fines can be in the liquid
-  /// Times, s, within which the solid can change and after which the liquid can hold fines.
+  /// Times between which the solid can change, and after which the liquid can hold fines, s.
   TimeSpan erosion_span;
   double fines_from = -std::numeric_limits<double>::infinity();
 };
@@ -37,25 +37,24 @@ class TwoPhaseModel {
   TwoPhaseModel(const TwoPhaseModel&) = delete;
   TwoPhaseModel& operator=(const TwoPhaseModel&) = delete;
 
-  /// Takes the last state of another run in the place of its own at the start; the clock stays at 0
-  /// and the accounts start with these masses. Both runs have the same formulation, mesh and solid
-  /// points.
+  /// Replaces the initial state by the last state of another run with the same formulation, mesh
+  /// and solid points. Time stays 0, and the accounts start with these masses.
   virtual void start_from(const EarlierState<Dim>& earlier) = 0;
-  /// This state for another run.
+  /// The present state, for another run.
   [[nodiscard]] virtual EarlierState<Dim> last_state() const = 0;
 
-  /// One interval of flow, erosion and transport: to `latest` (s, the next output) or to an earlier
-  /// time. Throws NumericalError.
+  /// Advances flow, erosion and transport by one interval, to `latest` (s, the next output) or to
+  /// an earlier time. Throws NumericalError.
   virtual void advance(double latest) = 0;
 
-  /// The next step of the flow to try takes `dt` seconds. For estimates: runs choose freely.
+  /// Sets the next step of the flow to `dt`, s. Only estimates use this.
   void plan_step(double dt) { flow_->plan_step(dt); }
 
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] long steps() const { return steps_; }
   /// Length of the last step of the flow, s.
   [[nodiscard]] double last_step() const { return last_dt_; }
-  /// Longest interval that erosion and transport can follow, s.
+  /// Longest interval of the flow that erosion and transport allow, s.
   [[nodiscard]] double coupling_interval() const;
   /// Explicit steps of transport in `duration`, s, at the flow of the last interval.
   [[nodiscard]] double explicit_transport_steps(double duration) const {
@@ -69,7 +68,7 @@ class TwoPhaseModel {
   [[nodiscard]] const CoupledFlow<Dim>& coupled_flow() const { return *coupled_; }
   [[nodiscard]] FlowState<Dim> flow_state() const { return flow_->state(time_); }
 
-  // What the results hold, at this moment.
+  // Present values for the results.
   [[nodiscard]] virtual HistoryRow history_row(const FlowState<Dim>& flow) const = 0;
   [[nodiscard]] LedgerRow ledger() const;
   [[nodiscard]] std::vector<RegionRow> region_rows() const;
@@ -78,8 +77,8 @@ class TwoPhaseModel {
   [[nodiscard]] std::vector<SectionRow> section_rows(const FlowState<Dim>& flow) const;
   [[nodiscard]] virtual Snapshot snapshot(const FlowState<Dim>& flow) const = 0;
 
-  /// Everything that intervals to come depend on: what is restored goes on as if it had not been
-  /// interrupted, to the last bit.
+  /// Stores or restores the whole state: a restored run gives the same bits as one without
+  /// interruption.
   virtual void archive(StateArchive& archive);
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
   /// Warnings since the last call.
@@ -88,10 +87,10 @@ class TwoPhaseModel {
  protected:
   TwoPhaseModel(const Case<Dim>& c, const ModelOptions& options);
 
-  /// How liquid and fines are carried.
+  /// The transport of liquid and fines.
   [[nodiscard]] virtual const Transport<Dim>& transport() const = 0;
   [[nodiscard]] virtual PoreState pores() const = 0;
-  /// Pores and fines in them, as results have them.
+  /// Pores and fines in them, for the results.
   [[nodiscard]] virtual FinesState<Dim> fines_state(const FlowState<Dim>& flow) const = 0;
   /// Masses inside the model, then inside each region.
   [[nodiscard]] virtual std::vector<Stored> stored() const = 0;
@@ -99,13 +98,13 @@ class TwoPhaseModel {
   [[nodiscard]] const Scene& scene() const { return case_.document.scene; }
   [[nodiscard]] int threads() const { return options_.flow.threads; }
   [[nodiscard]] PoreForecast<Dim> pore_forecast();
-  /// Finds concentration and saturation of the liquid at the solid points, as it lies now.
+  /// Finds the present concentration and saturation of the liquid at the solid points.
   virtual void find_liquid(PointFlows& flows) const = 0;
-  /// The flow that this formulation steps, with the solid.
+  /// Sets the flow of this formulation and couples it with the solid.
   void set_flow(std::unique_ptr<FlowSolver<Dim>> flow);
-  /// Once the flow has started.
+  /// To be called when the flow has started.
   void start_flux_history();
-  /// What solid and flow take; the pores follow in between by `update`.
+  /// Starts solid and flow from another run; `update` sets the pores of the flow.
   template <class Update>
   void start_solid_and_flow(const EarlierState<Dim>& earlier, const Update& update) {
     solid_->start_from(earlier.solid);
@@ -114,20 +113,19 @@ class TwoPhaseModel {
     update();
     start_flux_history();
   }
-  /// Mean over the last interval, m3/s.
+  /// Mean flux through faces over the last interval, m3/s.
   [[nodiscard]] const std::vector<double>& mean_face_rate() const { return flux_history_.mean; }
   /// Records fluxes and steps of an interval of the flow that started at `start`, s.
   void note_flow(double start, const FlowProgress& flow);
-  /// Flux per element at its centroid, m/s, over the last interval; empty where no soil asks for
-  /// it.
+  /// Flux per element at its centroid over the last interval, m/s; empty if no soil uses it.
   [[nodiscard]] std::vector<double> element_flux_magnitude() const;
-  /// The row's entries that do not depend on how liquid is carried.
+  /// A row with the entries that do not depend on the transport.
   [[nodiscard]] HistoryRow common_history(const FlowState<Dim>& flow) const;
-  /// The row's entries on eroded mass and on what left.
+  /// Sets the row's entries on eroded and lost mass.
   void describe_losses(HistoryRow& row) const;
-  /// The row's entries on the fines in the liquid that leaves; `fines_out`: their volume, m3/s.
+  /// Sets the row's entries on fines in the outflow; `fines_out`: their flux, m3/s.
   void describe_outflow(double fines_out, HistoryRow& row) const;
-  /// The solid's masses, model first.
+  /// The solid's masses: of the model, then of each region.
   [[nodiscard]] std::vector<StoredSums> solid_masses() const;
 
   const Case<Dim>& case_;
@@ -135,7 +133,7 @@ class TwoPhaseModel {
   Grid<Dim> grid_;
   SoilMap<Dim> soils_;
   SolidPhase<Dim> solid_phase_;
-  Skeleton<Dim>* solid_;  ///< of the phase
+  Skeleton<Dim>* solid_;  ///< skeleton of `solid_phase_`
   // Made by each formulation.
   std::unique_ptr<FlowSolver<Dim>> flow_;
   std::unique_ptr<CoupledFlow<Dim>> coupled_;
@@ -151,7 +149,7 @@ class TwoPhaseModel {
   long steps_ = 0;
 };
 
-/// The formulation that the scene asks for. Keeps a reference to the case.
+/// Makes the formulation of the scene. Keeps a reference to the case.
 template <int Dim>
 std::unique_ptr<TwoPhaseModel<Dim>> make_model(const Case<Dim>& c, const ModelOptions& options);
 

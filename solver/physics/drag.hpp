@@ -8,7 +8,7 @@
 
 namespace suffuse {
 
-/// Acceleration of gravity that turns conductivity into drag, whatever gravity the scene has, m/s2.
+/// Acceleration of gravity that converts conductivity to drag; not that of the scene, m/s2.
 inline constexpr double conductivity_gravity = 9.81;
 
 /// Darcy drag on the liquid per mixture volume, divided by n_L: n_L rho_w g / k, in kg/(m3 s).
@@ -16,7 +16,7 @@ inline double darcy_drag(double porosity, double water_density, double conductiv
   return porosity * water_density * conductivity_gravity / conductivity;
 }
 
-/// Grain size at which Ergun's equation has the given conductivity at the initial porosity, m:
+/// Grain size for which Ergun's equation gives this conductivity at the initial porosity, m:
 /// kappa = d^2 n^3 / (A (1 - n)^2), A = 150.
 inline double ergun_grain_size(double conductivity, double initial_porosity, double water_density,
                                double viscosity) {

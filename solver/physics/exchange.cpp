@@ -8,7 +8,7 @@
 namespace suffuse {
 namespace {
 
-/// The state that the drive sees, at |q| = `flux`.
+/// The state for the drive at |q| = `flux`.
 LocalState drive_state(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double flux) {
   LocalState state{.porosity = place.porosity, .flux = flux};
@@ -35,13 +35,13 @@ double drive_at(const ExchangeModel& model, const SoilPlace& place, const PlaceF
   return drive.depends_on_flow() ? drive.value(drive_state(model, place, flow, flux)) : 1.0;
 }
 
-/// lambda_d |q| times a duration: a share of the liquid's fines that is caught where room is 1.
+/// lambda_d |q|, 1/s; zero if nothing is deposited or points book their deposits themselves.
 double catch_rate(const DepositionModel& deposition, const PlaceFlow& flow, double flux) {
   const bool catches = flow.motion != LiquidMotion::passes && deposition.deposits();
   return catches && flux < deposition.flux_max ? deposition.coefficient * flux : 0.0;
 }
 
-/// Exchange in a volume of soil, with x the net volume that has gone into the liquid.
+/// Exchange in a unit volume of soil; x is the net volume of fines given to the liquid.
 class SoilVolume {
  public:
   /// `scaled`: S of the step; `caught`: lambda_d |q| times its duration.
@@ -58,13 +58,13 @@ class SoilVolume {
                                               model.erosion.residual.at(flow.flux())
                                         : 0.0) {}
 
-  /// Rates at x, per step. With `erodes` the law goes on smoothly beyond what can erode, until the
-  /// step has been cut there.
+  /// Rates at x, per step. With `erodes` the law is continued smoothly beyond the erodible
+  /// fraction; the step is then cut at that point.
   [[nodiscard]] Exchange rate(double x, bool erodes) const {
     const double porosity = place_.porosity + x;
     const double concentration = stays_ ? (fines_ + x) / (liquid_ + x) : fines_ / liquid_;
     Exchange result;
-    // Below nothing and beyond all room it is negative, which lets a balance be found there.
+    // The rate is negative for negative concentration or room: `find_balance` needs this.
     if (caught_ != 0.0) {
       const double room = model_.deposition.room(place_.initial_porosity, porosity);
       result.deposited = caught_ * concentration * room;
@@ -79,7 +79,7 @@ class SoilVolume {
     return result;
   }
 
-  /// Rate of exchange at this moment. Nothing erodes where only round-off is left to erode.
+  /// Rate of exchange at this time. Nothing erodes if the erodible fraction is round-off.
   [[nodiscard]] Exchange rate_now() const { return rate(0.0, erodible_ > 0.0 && !is_bare(0.0)); }
   [[nodiscard]] Exchange integrated() const;
 
@@ -90,22 +90,21 @@ class SoilVolume {
     double error;
   };
   [[nodiscard]] Step step(double x, double h, bool erodes) const;
-  /// What can be caught: no more than is there.
+  /// Largest volume that can be deposited.
   [[nodiscard]] double available() const {
     return stays_ ? fines_ : std::numeric_limits<double>::infinity();
   }
-  /// x where deposits have taken all room; that is 0 in soil without room.
+  /// x at which deposits have filled all room; 0 in soil without room.
   [[nodiscard]] double least_change() const {
     if (!model_.deposition.has_room_limit()) return -std::numeric_limits<double>::infinity();
     return std::min(0.0, model_.deposition.porosity_min - place_.porosity);
   }
-  /// Nothing is left to erode, to the last digit.
+  /// Whether the erodible fraction is zero within round-off.
   [[nodiscard]] bool is_bare(double x) const {
     constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
     return std::abs(erodible_ - x) <= round_off;
   }
-  /// Whether erosion and deposition balance, and small deviations from the balance shrink: so it
-  /// stays. `x` becomes the place of the balance.
+  /// Whether a stable balance of erosion and deposition is near `x`. If so, sets `x` to it.
   [[nodiscard]] bool find_balance(double& x, bool erodes) const;
 
   const ExchangeModel& model_;
@@ -118,7 +117,7 @@ class SoilVolume {
   double erodible_;
 };
 
-/// One step of Dormand and Prince (J. Comput. Appl. Math. 6 (1980) 19) for x and what is deposited.
+/// One step of Dormand and Prince (J. Comput. Appl. Math. 6 (1980) 19) for x and the deposits.
 auto SoilVolume::step(double x, double h, bool erodes) const -> Step {
   static constexpr std::array<std::array<double, 6>, 6> weights{
       {{1.0 / 5},
@@ -148,7 +147,7 @@ auto SoilVolume::step(double x, double h, bool erodes) const -> Step {
 }
 
 bool SoilVolume::find_balance(double& x, bool erodes) const {
-  constexpr double little = 2e-11;  // steps are no better
+  constexpr double little = 2e-11;  // the accuracy of the steps
   const auto grows = [&](double at) { return rate(at, erodes).into_liquid() > 0.0; };
   double low = x - little;
   double high = x + little;
@@ -171,7 +170,7 @@ Exchange SoilVolume::integrated() const {
   bool erodes = erodible_ > 0.0;
   bool stuck = false;
   for (int count = 0; done < 1.0; ++count) {
-    // What is deposited on bare grains erodes at once where the law takes that much.
+    // Fines deposited on bare grains erode at once if the law can erode that much.
     const bool bare = is_bare(x);
     const bool stays = bare && (rate(x, true).into_liquid() >= 0.0 || stuck);
     if (stays) {
@@ -180,7 +179,7 @@ Exchange SoilVolume::integrated() const {
     }
     const double before = x;
     if (h < 0.01 && find_balance(x, erodes)) {
-      // Both rates are the same but for what the last digit of x makes of the faster one.
+      // Both rates are equal except for the round-off of x in the faster one.
       const Exchange even = rate(x, erodes);
       const double change = (1.0 - done) * std::min(even.eroded, even.deposited);
       deposited += std::max(0.0, change) + std::max(0.0, before - x);
@@ -189,17 +188,17 @@ Exchange SoilVolume::integrated() const {
     erodes = erodes || bare;
     h = std::min(h, 1.0 - done);
     Step next = step(x, h, erodes);
-    // Where nothing is caught nothing comes back, which the error of a step could be.
+    // Without deposition x must not decrease, which the error of a step could cause.
     if (caught_ == 0.0) next.x = std::max(next.x, x);
     const double shortest = count < many_steps ? 1e-15 : 1e-4;
     const double factor = 0.9 * std::pow(tolerance / std::max(next.error, 1e-300), 0.2);
-    // Beyond its bounds a law may have no value.
+    // The error is NaN if a stage leaves the range of the law.
     const bool fails = !(next.error <= tolerance);
     if (fails && h > shortest) {
       h = std::max(shortest, h * std::max(0.2, factor));
       continue;
     }
-    // From either side: nothing is left to erode, or deposits are more than what stays.
+    // The step crosses the end of the erodible fines, from either side.
     const bool crosses = erodes ? next.x > erodible_ && next.x > x : next.x < erodible_;
     const double share = crosses ? std::clamp((erodible_ - x) / (next.x - x), 0.0, 1.0) : 1.0;
     stuck = crosses && share == 0.0;
@@ -209,7 +208,7 @@ Exchange SoilVolume::integrated() const {
     done += fails ? h : share * h;
     h = std::max(shortest, h * std::min(5.0, factor));
   }
-  // Deposits take no more room than there is, which the error of a step could.
+  // Deposits must not exceed the room, which the error of a step could cause.
   const double beyond = least_change() - x;
   if (caught_ != 0.0 && beyond > 0.0) {
     x += beyond;
@@ -246,7 +245,7 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
     }
     const double caught = catch_rate(model.deposition, flow, flow.flux()) * (to - from);
     if (scaled == 0.0 && (caught == 0.0 || flow.concentration <= 0.0)) return {};
-    // Where the grains lock there is no drive.
+    // The drive is infinite if the grains lock.
     if (!std::isfinite(scaled)) return {scaled, unset};
     return SoilVolume(model, place, flow, scaled, caught).integrated();
   };

@@ -1,8 +1,8 @@
 #pragma once
 
 /// Exchange of fines between the solid and the liquid at one place, over a step: erosion by a law
-/// and its drive, and deposition, phi_d = lambda_d |q| c. It is signed: porosity grows by what
-/// erodes and shrinks by what is deposited, and deposits can erode again.
+/// and its drive, and deposition, phi_d = lambda_d |q| c. Erosion increases porosity, deposition
+/// reduces it, and deposits can erode again.
 
 #include <cmath>
 #include <cstdint>
@@ -14,41 +14,41 @@
 
 namespace suffuse {
 
-/// How a soil catches fines that pass (Iwasaki 1937; with room, Herzig and others 1970).
+/// Deposition of fines in a soil (Iwasaki 1937; with room, Herzig and others 1970).
 struct DepositionModel {
   double coefficient = 0.0;     ///< lambda_d, 1/m
-  double porosity_min = unset;  ///< n_min at which no room is left; unset: there is always room
+  double porosity_min = unset;  ///< n_min at which no room is left; unset: no limit
   double flux_max = std::numeric_limits<double>::infinity();  ///< deposits below this |q|, m/s
 
   [[nodiscard]] bool deposits() const { return coefficient > 0.0; }
   [[nodiscard]] bool has_room_limit() const { return !std::isnan(porosity_min); }
-  /// Whether more fits in at this porosity.
+  /// Whether fines can be deposited at this porosity.
   [[nodiscard]] bool has_room_at(double porosity) const {
     return !has_room_limit() || porosity > porosity_min;
   }
-  /// Share of `coefficient` that is left: (n - n_min) / (n_0 - n_min), or 1 without a limit.
+  /// Factor on `coefficient`: (n - n_min) / (n_0 - n_min), or 1 without a limit.
   [[nodiscard]] double room(double initial_porosity, double porosity) const {
     return has_room_limit() ? (porosity - porosity_min) / (initial_porosity - porosity_min) : 1.0;
   }
 };
 
-/// All that the exchange of one soil depends on.
+/// Laws and parameters of the exchange in one soil.
 struct ExchangeModel {
   ErosionModel erosion;
   DepositionModel deposition;
   ConductivityModel conductivity;
-  bool ergun = false;              ///< drag grows with the square of the flux too
+  bool ergun = false;              ///< drag has also a term in the square of the flux
   double water_density = unset;    ///< rho_w, kg/m3
   double water_viscosity = unset;  ///< mu_0, Pa s
   ViscosityModel viscosity;
 
-  /// Some exchange can happen.
+  /// Whether the soil can exchange fines.
   [[nodiscard]] bool exchanges() const { return erodes(erosion) || deposition.deposits(); }
-  /// How fast depends on the flow.
+  /// Whether the rate depends on the flow.
   [[nodiscard]] bool depends_on_flux() const {
     return suffuse::depends_on_flux(erosion) || deposition.deposits();
   }
-  /// How fast depends on the fines in the liquid.
+  /// Whether the rate depends on the fines in the liquid.
   [[nodiscard]] bool depends_on_concentration() const {
     return suffuse::depends_on_concentration(erosion) || deposition.deposits() ||
            (drive_depends_on_conductivity() && viscosity.depends_on_concentration());
@@ -64,18 +64,18 @@ struct SoilPlace {
   double porosity = unset;          ///< n_L
 };
 
-/// What becomes of the liquid at a place in a step.
+/// Motion of the liquid at a place during a step.
 enum class LiquidMotion : std::uint8_t {
-  stays,     ///< in its place: what is exchanged changes its concentration
-  flows_on,  ///< it is renewed at one concentration
-  passes     ///< as `flows_on`; what is caught is found along its path, elsewhere (double-point)
+  stays,     ///< at rest: exchange changes its concentration
+  flows_on,  ///< is renewed at constant concentration
+  passes     ///< as `flows_on`; points book deposition along their paths (double-point)
 };
 
-/// The liquid at a place over a step. What no law asks for may stay unset.
+/// The liquid at a place over a step. Values that no law uses may stay unset.
 struct PlaceFlow {
-  double flux_start = unset;  ///< |q| at the start, m/s; it goes linearly to that at the end
-  double flux_end = unset;    ///< m/s
-  double resistance = 1.0;    ///< gradient along the flow over |q|/k in saturated soil: of bedding
+  double flux_start = unset;     ///< |q| at the start, m/s; linear in time until the end
+  double flux_end = unset;       ///< m/s
+  double resistance = 1.0;       ///< gradient along the flow over |q|/k in saturated soil (bedding)
   double concentration = unset;  ///< c at the start
   double saturation = 1.0;       ///< liquid per pore volume
   LiquidMotion motion = LiquidMotion::stays;
@@ -95,10 +95,10 @@ struct Exchange {
 Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double time);
 
-/// What is exchanged between `from` and `to` (s). Exact, or to about 1e-13, where neither depends
-/// on the fines in the liquid; otherwise integrated to 1e-11. The drive goes linearly from its
-/// value at the start to the one at the end, with the porosity there. Fines in the liquid do not
-/// become negative, nor porosity more than what can erode leaves.
+/// Exchange between `from` and `to` (s). Exact, or to about 1e-13, if it does not depend on the
+/// fines in the liquid; otherwise integrated to 1e-11. The drive varies linearly from its value at
+/// the start to that at the end, found with the porosity there. The volume of fines stays positive,
+/// and porosity does not exceed that of fully eroded soil.
 Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double from, double to);
 

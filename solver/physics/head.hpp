@@ -1,6 +1,6 @@
 #pragma once
 
-/// Heads: pressures as heights of water, above a datum at the origin.
+/// Heads: pressures as heights of water above the origin.
 
 #include <array>
 #include <cmath>
@@ -18,14 +18,14 @@ inline double acceleration(const std::array<double, 3>& gravity) {
   return std::hypot(gravity[0], gravity[1], gravity[2]);
 }
 
-/// rho_w |g|, Pa/m; without gravity a head is an excess head, with the g of conductivities.
+/// rho_w |g|, Pa/m; without gravity heads are excess heads and |g| is `conductivity_gravity`.
 inline double unit_weight(double water_density, const std::array<double, 3>& gravity) {
   const double g = acceleration(gravity);
   return water_density * (g > 0.0 ? g : conductivity_gravity);
 }
 
-/// z = -x . g / |g|, m, to the last digit where gravity is along an axis; 0 without gravity. `x`: a
-/// position of 2 or 3 coordinates.
+/// z = -x . g / |g|, m, exact if gravity is along an axis; 0 without gravity. `x`: a position of 2
+/// or 3 coordinates.
 template <class Position>
 double height(const Position& x, const std::array<double, 3>& gravity) {
   const double g = acceleration(gravity);

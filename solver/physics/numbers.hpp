@@ -1,6 +1,6 @@
 #pragma once
 
-/// Properties of double precision that the whole solver needs.
+/// Constants of double precision.
 
 #include <limits>
 

@@ -8,14 +8,14 @@ namespace suffuse {
 namespace {
 
 constexpr int max_rounds = 4;
-/// Smallest over largest eigenvalue of the normal matrix, in lengths of the element, that still
-/// tells a slope: a few points spread over a tenth of the element.
+/// Smallest ratio of the eigenvalues of the normal matrix, with lengths relative to the element,
+/// for a fit of slopes: a few points spread over a tenth of the element.
 constexpr double min_spread = 1e-3;
 
 template <int Dim>
 using Row = Eigen::Matrix<double, Dim + 1, 1>;
 
-/// 1 and the place relative to the element's centroid and size.
+/// A row of the fit: 1 and the place relative to the element's centroid and size.
 template <int Dim>
 Row<Dim> row_at(const Vector<Dim>& x, const Vector<Dim>& centre, double size) {
   Row<Dim> row;
@@ -24,8 +24,7 @@ Row<Dim> row_at(const Vector<Dim>& x, const Vector<Dim>& centre, double size) {
   return row;
 }
 
-/// Adds to `patch` the neighbours across faces, of the same region, of its elements from `begin`
-/// on.
+/// Adds to `patch` the neighbours in the same region of its elements from `begin` on.
 template <int Dim>
 void add_neighbours(const Grid<Dim>& grid, std::vector<int>& patch, std::size_t begin) {
   const std::size_t end = patch.size();

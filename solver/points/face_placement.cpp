@@ -5,7 +5,7 @@
 namespace suffuse {
 namespace {
 
-/// The digits of `number` behind the point, in the opposite order.
+/// Number in [0, 1) with the digits of `number` behind the point, in reverse order.
 double radical_inverse(long number, int base) {
   double result = 0.0;
   double digit = 1.0 / base;
@@ -15,17 +15,16 @@ double radical_inverse(long number, int base) {
   return result;
 }
 
-/// Where along a segment the share `u` of a flux has passed that is linear from `at_begin` to
-/// `at_end`, both >= 0.
+/// Position on a segment before which the share `u` of a flux passes; its density is linear from
+/// `at_begin` to `at_end`, both >= 0.
 double share_along(double at_begin, double at_end, double u) {
   const double root = std::sqrt(at_begin * at_begin * (1.0 - u) + at_end * at_end * u);
   const double sum = at_begin + root;
   return sum > 0.0 ? u * (at_begin + at_end) / sum : u;
 }
 
-/// Where the share `u` of a flux has passed along a line from a corner of a triangle to the
-/// opposite side, on which the flux counts the more the further from the corner, as lines part
-/// there.
+/// Position on a line from a corner of a triangle to the opposite side before which the share `u`
+/// of a flux passes. Its linear density is weighted with the distance from the corner.
 double share_from_corner(double at_corner, double at_side, double u) {
   if (at_corner == at_side) return std::sqrt(u);
   const double passed = u * (at_corner + 2.0 * at_side);
@@ -63,7 +62,7 @@ std::array<double, 2> spread_on_face(const std::array<double, 2>& inflow,
 template <>
 std::array<double, 3> spread_on_face(const std::array<double, 3>& inflow,
                                      const std::array<double, 2>& u) {
-  // Which of the lines from the first node, by the flux over all of each; then where on it.
+  // Chooses a line from the first node by its total flux, then a place on it.
   const double s = share_along(inflow[0] + 2.0 * inflow[1], inflow[0] + 2.0 * inflow[2], u[0]);
   const double r = share_from_corner(inflow[0], (1.0 - s) * inflow[1] + s * inflow[2], u[1]);
   return {1.0 - r, r * (1.0 - s), r * s};

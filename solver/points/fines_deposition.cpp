@@ -24,7 +24,7 @@ void FinesDeposition<Dim>::start(double duration) {
   capacity_.assign(grid_.mesh.element_count(), std::numeric_limits<double>::infinity());
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const DepositionModel& deposition = soils.exchange_of_element(e).deposition;
-    const bool is_left = soils.points_begin(e) == soils.points_begin(e + 1);  // by soil that moves
+    const bool is_left = soils.points_begin(e) == soils.points_begin(e + 1);  // by moving soil
     if (is_left) room_[e] = 0.0;
     if (is_left || !deposition.deposits() || !deposition.has_room_limit()) continue;
     double room = 0.0;
@@ -34,7 +34,7 @@ void FinesDeposition<Dim>::start(double duration) {
       const double own = soils.points().volume[p];
       const double porosity = solid_.porosity()[p];
       volume += own;
-      if (!deposition.has_room_at(porosity)) continue;  // compressed below it
+      if (!deposition.has_room_at(porosity)) continue;  // compressed below n_min
       room += own * deposition.room(solid_.initial_porosity()[p], porosity);
       capacity_[e] += own * (porosity - deposition.porosity_min);
     }
@@ -58,7 +58,7 @@ double FinesDeposition<Dim>::exponent(const FacePassage<Dim>& passage) const {
 
 template <int Dim>
 std::vector<double> FinesDeposition<Dim>::room_shares(const std::vector<double>& demand) const {
-  // Room goes with exp(-a) when a is the demand over what fits in.
+  // Room decays as exp(-a), a being the demand over the capacity.
   std::vector<double> shares(demand.size(), 1.0);
   for (std::size_t e = 0; e < demand.size(); ++e) {
     const double a = demand[e] / capacity_[e];
@@ -84,7 +84,7 @@ void FinesDeposition<Dim>::leave_along_paths(const std::vector<double>& fines_be
       point = uptake.point;
       fines = fines_before[point];
     }
-    // Half before what the point takes up there, half after: of second order.
+    // Half of the deposition precedes the uptake there, half follows: second order.
     const double left = std::exp(-0.5 * uptake.exponent * shares[uptake.element]);
     const double after = (fines * left + uptake.mass) * left;
     const double mass = fines + uptake.mass - after;

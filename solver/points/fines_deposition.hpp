@@ -1,8 +1,8 @@
 #pragma once
 
-/// Fines that liquid points leave in the soil they pass. Along a path of length s the fines of a
-/// point per mass of its water go with exp(-lambda_d s), exactly, whatever the flow; where room is
-/// limited, with what room there is on the mean of the step.
+/// Deposition of fines from liquid points. Along a path of length s the fines of a point per mass
+/// of its water decay as exp(-lambda_d s), exactly and for any flow; a limited room is the mean
+/// over the step.
 
 #include <vector>
 
@@ -20,35 +20,35 @@ class FinesDeposition {
   /// Keeps references to the grid and the solid.
   FinesDeposition(const Grid<Dim>& grid, const Skeleton<Dim>& solid, double grain_density);
 
-  /// Some soil catches fines.
+  /// Whether fines are deposited in some soil.
   [[nodiscard]] bool active() const { return active_; }
   /// Finds the room in each element, for a step of `duration` seconds.
   void start(double duration);
-  /// lambda_d times the length of a passage, with the room at the start of the step.
+  /// lambda_d times the length of a passage and the room at the start of the step.
   [[nodiscard]] double exponent(const FacePassage<Dim>& passage) const;
 
-  /// Takes fines from points that moved. `fines_before`: kg per point, as they were before the
-  /// step; the masses of `uptakes`, kg, have been added since, and become net ones here.
+  /// Removes deposits from points that moved. `fines_before`: kg per point before the step. The
+  /// masses of `uptakes`, kg, are in the points already; they become net of deposits.
   void leave_along_paths(const std::vector<double>& fines_before,
                          std::vector<FinesUptake<Dim>>& uptakes, LiquidPoints<Dim>& points);
-  /// Takes fines from points whose paths are not known: they lie where their element's liquid has
-  /// moved by `passed` (m: volume per area since the start of the step) in pores of `porosity`.
+  /// Removes deposits from points with unknown paths. `passed`: volume of liquid per area that has
+  /// moved in each element since the start of the step, m; `porosity`: per element.
   void leave_in_elements(const std::vector<Vector<Dim>>& passed,
                          const std::vector<double>& porosity, PointBlocks<Dim>& points);
 
-  /// What the step left, per solid point, m3; empty: nothing.
+  /// Deposits of the step per solid point, m3; empty: none.
   [[nodiscard]] const std::vector<double>& deposited() const { return deposited_; }
-  /// Fines that the step left, by the region of the soil, kg.
+  /// Deposits of the step by the region of the soil, kg.
   [[nodiscard]] const std::vector<double>& by_region() const { return by_region_; }
-  /// Fines that the step left, by the region whose liquid lost them, kg.
+  /// Deposits of the step by the region whose liquid lost them, kg.
   [[nodiscard]] const std::vector<double>& lost_by_region() const { return lost_by_region_; }
 
  private:
-  /// lambda_d times the room, 1/m; zero where fines are not caught.
+  /// lambda_d times the room, 1/m; zero without deposition.
   [[nodiscard]] double catching(int element, double flux) const;
-  /// Share of `demand` (m3 per element, with the room at the start) that is caught as room goes.
+  /// Share of `demand` (m3 per element, for the room at the start) that the decreasing room allows.
   [[nodiscard]] std::vector<double> room_shares(const std::vector<double>& demand) const;
-  /// Hands the volumes, m3 per element, to the solid points there, as they have room.
+  /// Distributes the volumes, m3 per element, to the solid points in proportion to their room.
   void hand_out(const std::vector<double>& caught);
 
   const Grid<Dim>& grid_;
@@ -56,7 +56,7 @@ class FinesDeposition {
   double grain_density_;
   bool active_;
   double duration_ = 0.0;
-  std::vector<double> room_;      ///< per element: of its solid points on the mean
+  std::vector<double> room_;      ///< per element: mean of its solid points
   std::vector<double> capacity_;  ///< per element: volume that fits in, m3; may be infinite
   std::vector<double> deposited_;
   std::vector<double> by_region_;

@@ -5,12 +5,12 @@
 namespace suffuse {
 namespace {
 
-/// How often values at nodes are averaged over their elements before they are compared. Uptakes
-/// along paths are right by themselves, so a wider comparison is better.
+/// Rounds of averaging of values at nodes over elements before the comparison. Uptakes along paths
+/// are accurate, so a wider comparison is better for them.
 constexpr int rounds_at_places = 4;
 constexpr int rounds_along_paths = 8;
 
-/// Each node gives what it holds to its elements in equal parts, each element to its nodes.
+/// Distributes node values to the elements in equal parts, and back to the nodes; keeps their sum.
 template <int Dim>
 std::vector<double> smoothed(const Grid<Dim>& grid, std::vector<double> at_nodes, int rounds) {
   for (int round = 0; round < rounds; ++round) {
@@ -27,8 +27,8 @@ std::vector<double> smoothed(const Grid<Dim>& grid, std::vector<double> at_nodes
   return at_nodes;
 }
 
-/// phi_e / n_L times the step, at nodes: what the points of eroding elements would take up by
-/// themselves per volume of liquid. A mean over the elements around a node, by volume.
+/// phi_e / n_L times the step at nodes: the own uptake of points of eroding elements per volume of
+/// liquid. It is the volume-weighted mean over the eroding elements around a node.
 template <int Dim>
 std::vector<double> gain_at_nodes(const Grid<Dim>& grid, const std::vector<double>& eroded,
                                   const std::vector<double>& porosity) {
@@ -84,7 +84,7 @@ auto FinesTransfer<Dim>::compare(
     const std::function<void(std::vector<double>& volume)>& liquid_around,
     std::vector<double>& pending) const -> Handout {
   const Mesh<Dim>& mesh = grid_.mesh;
-  // Points are too few to fill every node's surroundings evenly: compared over a few elements.
+  // Points do not fill the surroundings of each node evenly, so the comparison is smoothed.
   const std::vector<double> offered_near = smoothed(grid_, at_node, rounds);
   const std::vector<double> uptake_near = smoothed(grid_, uptake, rounds);
   Handout handout{std::vector<double>(mesh.node_count(), 0.0), {}};
@@ -102,12 +102,12 @@ auto FinesTransfer<Dim>::compare(
       some_left = true;
     }
   }
-  // What the comparison over a few elements leaves out is little and is spread over all nodes.
+  // The smoothed comparison leaves a small difference, which is distributed over all nodes.
   if (handed_out > 0.0) {
     for (double& f : handout.factor) f *= offered / handed_out;
   }
   if (!some_left) return handout;
-  // No eroding element near has a point: to any point around the node, or to wait.
+  // No eroding element near has a point: fines go to any point around the node or stay pending.
   handout.per_volume.assign(mesh.node_count(), 0.0);
   std::vector<double> liquid(mesh.node_count(), 0.0);
   liquid_around(liquid);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Gives the fines that solid points lose to liquid points, so that none are lost or made.
+/// Transfers the fines that solid points lose to liquid points; conserves their mass.
 
 #include <functional>
 
@@ -11,14 +11,14 @@
 
 namespace suffuse {
 
-/// `element` (the paper's): what an element eroded is shared among its points by volume.
+/// `element` (the paper's): the fines of an element are distributed to its points by volume.
 ///
-/// `nodal`: each point of an eroding element would by itself take up phi_e V_p / n_L, exact along
-/// its path (Eq. 5). The sum of that misses the eroded volume by as much as points fill the pores
-/// unevenly; the two are compared at the nodes, smoothed over a few elements, and each point gets
-/// its own uptake times their ratio. A common factor near one closes the balance. What erodes in an
-/// element without points goes through the nodes in either case. Where no eroding element near a
-/// node has a point, fines go to any point around the node; where there is none they stay pending.
+/// `nodal`: the own uptake of a point in an eroding element is phi_e V_p / n_L, exact along its
+/// path (Eq. 5). The sum of own uptakes differs from the eroded volume, because points fill the
+/// pores unevenly. Both are compared at the nodes, smoothed over a few elements, and each point
+/// gets its own uptake times their ratio. A common factor near one closes the balance. Fines of an
+/// element without points go through the nodes in either case. If no eroding element near a node
+/// has a point, they go to any point around the node; without any they stay pending.
 template <int Dim>
 class FinesTransfer {
  public:
@@ -29,25 +29,24 @@ class FinesTransfer {
     std::vector<double> eroded;    ///< per region: fines its solid lost, kg
   };
 
-  /// `exchange`: what each solid point gave, m3, empty for nothing; `porosity`: of the elements
-  /// before. `pending` is the volume of fines per node that waits for liquid, m3; its content is
-  /// handed out first. The points' volumes are those at p = 0: uptakes are compared near by, where
-  /// all are packed alike.
+  /// `exchange`: fines from each solid point, m3, empty: none; `porosity`: of the elements before
+  /// the exchange. `pending`: volume of fines kept per node, m3; it is transferred too. The points'
+  /// volumes are those at p = 0, because only ratios of near volumes matter.
   Result transfer(const std::vector<double>& exchange, const std::vector<double>& porosity,
                   LiquidDensities densities, PointBlocks<Dim>& points,
                   std::vector<double>& pending) const;
 
-  /// Hands fines to points that moved while porosity grew: instead of phi_e V_p / n_L each point by
-  /// itself takes up `own_volume` of each of its `uptakes`, and the comparison gives each uptake
-  /// its mass. By `element`, what an element eroded is shared in proportion to the uptakes there.
-  /// `points`, in any order, are where they ended; `point_volume`: their liquid volumes, m3.
+  /// Transfers fines to points that moved while porosity grew: their own uptakes are `own_volume`
+  /// of `uptakes`, and the comparison sets the mass of each. With `element`, the fines of an
+  /// element are distributed in proportion to the uptakes there. `points`, in any order, are at
+  /// their final places; `point_volume`: their liquid volumes, m3.
   Result transfer_along_paths(const std::vector<double>& exchange,
                               const std::vector<double>& point_volume, LiquidPoints<Dim>& points,
                               std::vector<FinesUptake<Dim>>& uptakes,
                               std::vector<double>& pending) const;
 
  private:
-  /// Volume that eroded, m3: per element, and per node what goes by the nodes, with what waited.
+  /// Eroded volume, m3: per element, and per node the part that goes through nodes, with pending.
   struct Eroded {
     std::vector<double> in_element;
     std::vector<double> at_node;
@@ -55,14 +54,14 @@ class FinesTransfer {
   [[nodiscard]] Eroded collect(const std::vector<double>& exchange,
                                const std::function<bool(int)>& stays_in_element,
                                std::vector<double>& pending, Result& result) const;
-  /// What points get: `factor` of a node times what they would take up by themselves, and
-  /// `per_volume` times their own volume (empty when nothing is left to hand out so).
+  /// Fines for points: `factor` of a node times their own uptake, plus `per_volume` times their
+  /// volume (empty if no fines are left for it).
   struct Handout {
     std::vector<double> factor;
     std::vector<double> per_volume;
   };
-  /// `uptake`: what points near each node would take up by themselves, m3; compared after `rounds`
-  /// of smoothing. `liquid_around` adds to each node the volume of liquid around it, m3.
+  /// Compares the fines at nodes with `uptake`, the own uptakes of points near each node, m3, after
+  /// `rounds` of smoothing. `liquid_around` adds the volume of liquid around each node, m3.
   [[nodiscard]] Handout compare(
       const std::vector<double>& at_node, const std::vector<double>& uptake, int rounds,
       const std::function<void(std::vector<double>& volume)>& liquid_around,

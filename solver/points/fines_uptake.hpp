@@ -1,6 +1,6 @@
 #pragma once
 
-/// Fines that liquid points take up along their paths, or leave.
+/// Fines that liquid points take up or deposit along their paths.
 
 #include <array>
 
@@ -12,11 +12,11 @@ struct FinesUptake {
   int point;
   int element;
   std::array<double, Dim + 1> barycentric;  ///< half-way through the element
-  /// What keeps (1 - c) n_L of the point as it is, m3.
+  /// Uptake that keeps (1 - c) n_L of the point constant, m3.
   double own_volume;
   int region;             ///< the region whose liquid receives it
   double exponent = 0.0;  ///< see FinesDeposition
-  double mass = 0.0;      ///< what it came to, minus what was left there, kg
+  double mass = 0.0;      ///< uptake minus deposits, kg
 };
 
 }  // namespace suffuse

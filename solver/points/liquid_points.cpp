@@ -16,7 +16,7 @@ void reorder(Values& values, const std::vector<int>& order) {
   values = std::move(ordered);
 }
 
-/// Points become those at `order`, in that order.
+/// Replaces the points by those with the numbers `order`, in that order.
 template <int Dim>
 void rearrange(LiquidPoints<Dim>& points, const std::vector<int>& order) {
   reorder(points.element, order);

@@ -17,8 +17,8 @@ struct LiquidPoints {
   std::vector<std::array<double, Dim + 1>> barycentric;
   std::vector<double> water_mass;  ///< kg, constant
   std::vector<double> fines_mass;  ///< kg
-  std::vector<long> id;            ///< of this point for ever
-  /// Only where points carry the flow (material-point integration), otherwise empty.
+  std::vector<long> id;            ///< constant number of the point
+  /// Only if points carry the flow (material-point integration), otherwise empty.
   std::vector<double> pressure;       ///< Pa
   std::vector<Vector<Dim>> velocity;  ///< m/s
 
@@ -27,7 +27,7 @@ struct LiquidPoints {
   void archive(auto& archive) {
     archive(element, barycentric, water_mass, fines_mass, id, pressure, velocity);
   }
-  /// Room for so many points that carry the flow.
+  /// Reserves memory for points that carry the flow.
   void reserve(int count);
 };
 
@@ -55,8 +55,8 @@ inline double liquid_volume(double water_mass, double fines_mass, const LiquidDe
   return water_mass / (densities.water * ratio) + fines_mass / densities.grain;
 }
 
-/// Points in their places, sorted by element, filled with clean water that the pressure of their
-/// elements (Pa) has packed.
+/// Points at these places, sorted by element, of clean water with the density at the pressure of
+/// their elements, Pa.
 template <int Dim>
 LiquidPoints<Dim> clean_liquid(const MaterialPoints<Dim>& places,
                                const std::vector<double>& pressure,

@@ -5,8 +5,7 @@
 namespace suffuse {
 namespace {
 
-/// Room by which a full block grows: points come one by one, and doubled blocks would stand half
-/// empty.
+/// Growth of a full block. Points come one by one, so doubled blocks would be half empty.
 constexpr int room_to_grow = 4;
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace suffuse {
 
 template <int Dim>
 struct CarriedPoint {
-  std::array<double, Dim> at;  ///< barycentric coordinates but for the last: all add up to one
+  std::array<double, Dim> at;  ///< barycentric coordinates without the last; all add up to one
   Vector<Dim> velocity;        ///< m/s
   double pressure;             ///< Pa
   double water_mass;           ///< kg
@@ -22,7 +22,7 @@ struct CarriedPoint {
   void archive(auto& archive) { archive(at, velocity, pressure, water_mass, fines_mass, id); }
 };
 
-/// All barycentric coordinates from those that are kept.
+/// All barycentric coordinates from those that are stored.
 template <int Dim>
 std::array<double, Dim + 1> all_coordinates(const std::array<double, Dim>& at) {
   std::array<double, Dim + 1> result;
@@ -34,13 +34,13 @@ std::array<double, Dim + 1> all_coordinates(const std::array<double, Dim>& at) {
   return result;
 }
 
-/// Points of different elements may be changed, put in and taken out by different threads.
+/// Different threads may change, add and remove points of different elements.
 template <int Dim>
 class PointBlocks {
  public:
-  /// Takes the points, sorted by element, in their order. Those must carry the flow.
+  /// Takes points that carry the flow, sorted by element, in their order.
   void fill(const LiquidPoints<Dim>& points, int element_count);
-  /// Sorted by element.
+  /// All points, sorted by element.
   [[nodiscard]] LiquidPoints<Dim> points() const;
 
   [[nodiscard]] int size() const;
@@ -50,8 +50,8 @@ class PointBlocks {
   [[nodiscard]] const std::vector<CarriedPoint<Dim>>& of(int element) const {
     return blocks_[element];
   }
-  /// Brings the points of an element into the cache, if there is such an element: blocks that moved
-  /// are where no processor expects them.
+  /// Prefetches the points of an element, if it exists: a processor cannot predict the place of a
+  /// block that was moved in memory.
   void prefetch(int element) const {
     if (element >= element_count()) return;
     for (const CarriedPoint<Dim>& point : blocks_[element]) __builtin_prefetch(&point, 1);
@@ -68,9 +68,9 @@ class PointBlocks {
   }
   void add_fines(int element, int slot, double mass) { blocks_[element][slot].fines_mass += mass; }
 
-  /// Takes a point out; the element's last one takes its slot.
+  /// Removes a point; the element's last point takes its slot.
   CarriedPoint<Dim> remove(int element, int slot);
-  /// Puts a point behind the others.
+  /// Appends a point.
   void add(int element, const CarriedPoint<Dim>& point);
 
   void archive(auto& archive) { archive(blocks_); }

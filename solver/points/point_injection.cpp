@@ -13,15 +13,15 @@
 namespace suffuse {
 namespace {
 
-/// Points injected at one face in one step. A flow that asks for more has lost its numbers.
+/// Most points injected at one face in one step. More mean that the flow is wrong.
 constexpr double max_injected = 1e7;
 
 double fraction(double x) {
   return x - std::floor(x);
 }
 
-/// Uniform in [0, 1), from whole numbers alone (splitmix64): the same on every platform, and
-/// injected points do not depend on the order in which they are injected.
+/// Uniform number in [0, 1) from integers alone (splitmix64): the same on every platform, and
+/// independent of the order of injection.
 double hashed(std::uint64_t seed, std::uint64_t face, std::uint64_t number, std::uint64_t use) {
   std::uint64_t x = seed;
   for (const std::uint64_t word : {face, number, use}) {
@@ -86,10 +86,10 @@ InflowAccount PointInjection<Dim>::initial_account(long next_id) const {
 template <int Dim>
 PointPlace<Dim> PointInjection<Dim>::place_on_face(int face, long number,
                                                    const VectorField<Dim>& node_flux) const {
-  // As much of the face's inflow on either side of the point as its number says.
+  // Finds a place distributed like the inflow of the face.
   const auto& nodes = grid_.face_nodes[face];
   std::array<double, Dim> inflow;
-  inflow.fill(1.0);  // along face volumes: the same all over the face
+  inflow.fill(1.0);  // without `node_flux`: constant over the face
   for (int a = 0; a < Dim && !node_flux.empty(); ++a) {
     inflow[a] = std::max(0.0, -grid_.face_normal[face].dot(node_flux[nodes[a]]));
   }
@@ -112,7 +112,7 @@ double PointInjection<Dim>::volumes_at_injection(int face, long number) const {
   if (!settings_.random) return static_cast<double>(number) + 1.0;
   const long batch = settings_.points_per_element[face];
   const long first = number / batch * batch;
-  // Called at every open face in every step: no memory of its own each time.
+  // Kept, because an allocation at every open face in every step would be slow.
   thread_local std::vector<double> at;
   at.resize(batch);
   for (long k = 0; k < batch; ++k) {
@@ -144,7 +144,7 @@ void PointInjection<Dim>::inject(InflowAccount& account, const std::vector<doubl
     const long injected_before = account.injected[f];
     for (;;) {
       const long number = account.injected[f];
-      // In points' volumes, counted as `before` and `account.volume` are: without those injected.
+      // Inflow at which the point is due, in point volumes, minus the points injected before.
       const double due = volumes_at_injection(f, number) - static_cast<double>(injected_before);
       const double share = (due * point_volume - before) / inflow;
       if (share > 1.0) break;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Liquid points that enter the model: through a face where liquid flows in, a point is injected
-/// whenever as much liquid has come in as one point stands for.
+/// Liquid points that enter the model: at a face with inflow a point is injected whenever its
+/// volume has flowed in.
 
 #include <vector>
 
@@ -11,10 +11,10 @@
 
 namespace suffuse {
 
-/// Liquid at the outer boundary, between volumes that flow and points that are whole.
+/// Difference of flowed volumes and whole points at the outer boundary.
 struct InflowAccount {
-  /// Per face: what flowed in, minus the points injected, plus the points that left, m3. Once it is
-  /// a point's volume and the flow is inward, a point is injected.
+  /// Per face: inflow minus injected points plus points that left, m3. When it reaches the volume
+  /// of a point and the flow is inward, a point is injected.
   std::vector<double> volume;
   std::vector<long> injected;  ///< points so far, per face
   long next_id = 0;
@@ -28,21 +28,21 @@ struct InjectedPoint {
   PointPlace<Dim> place;
   int face;
   long number;   ///< among the points of its face
-  double share;  ///< of the step that had passed
+  double share;  ///< of the step before its entry
 };
 
-/// How large injected points are, and how they are spread over the liquid that flows in.
+/// Size of injected points, and their distribution in the inflow.
 struct InjectionSettings {
   std::vector<double> point_volume;  ///< per face: liquid volume of one point, m3
-  /// Per face: points that fill the element behind it.
+  /// Per face: number of points that fill the element behind it.
   std::vector<int> points_per_element;
-  /// Points of one element's volume of inflow come at random times in it; otherwise evenly.
+  /// Whether points come at random times in the inflow of an element's volume, or evenly.
   bool random = false;
   int seed = 1;
 };
 
-/// Points as large as those that fill the element behind each face at the start, spread as the
-/// scene's `points.seeding` says.
+/// Settings for points of the size of those in the element behind each face at the start,
+/// distributed as the scene's `points.seeding` says.
 template <int Dim>
 InjectionSettings injection_settings(const Case<Dim>& c, const Grid<Dim>& grid);
 
@@ -52,19 +52,18 @@ class PointInjection {
   PointInjection(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
                  InjectionSettings settings, LiquidDensities densities, double bulk_modulus);
 
-  /// The account at the start. Faces differ in what is missing to their first point, so that they
-  /// inject in turn.
+  /// The account at the start. Its volumes differ from face to face, so that faces inject in turn.
   [[nodiscard]] InflowAccount initial_account(long next_id) const;
 
-  /// Outer faces that are not impervious, ascending: where points come in and leave.
+  /// Outer faces that are not impervious, ascending; points cross them.
   [[nodiscard]] const std::vector<int>& open_faces() const { return open_faces_; }
-  /// Per face.
+  /// Whether each face is open.
   [[nodiscard]] const std::vector<unsigned char>& is_open() const { return is_open_; }
 
   /// Appends to `points` each point whose volume has flowed in completely during a step, in the
   /// order of completion. `volume`: of liquid per face in the step, along its normal, m3.
-  /// `node_flux`: m/s, spreads them along a face; empty: evenly. Throws NumericalError when a face
-  /// would take more points than any flow brings.
+  /// `node_flux`: their distribution along a face, m/s; empty: even. Throws NumericalError if a
+  /// face would take an unreasonable number of points.
   void inject(InflowAccount& account, const std::vector<double>& volume,
               const VectorField<Dim>& node_flux, std::vector<InjectedPoint<Dim>>& points) const;
 
@@ -77,7 +76,7 @@ class PointInjection {
   [[nodiscard]] Content content(const InjectedPoint<Dim>& point, double element_pressure) const;
 
  private:
-  /// How many points' volumes must have flowed in through a face for its point `number`.
+  /// Number of point volumes that must have flowed in through a face for its point `number`.
   [[nodiscard]] double volumes_at_injection(int face, long number) const;
   [[nodiscard]] PointPlace<Dim> place_on_face(int face, long number,
                                               const VectorField<Dim>& node_flux) const;

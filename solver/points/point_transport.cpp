@@ -110,7 +110,7 @@ void PointTransport<Dim>::book_deposition() {
 }
 
 double checked_step_count(double allowed, double start, double duration) {
-  // Liquid that needs more steps goes nowhere sensible.
+  // More steps mean that the flow has run away.
   constexpr double max_steps = 1e4;
   const double count = step_count(allowed);
   if (!(count <= max_steps)) {

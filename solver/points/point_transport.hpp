@@ -1,6 +1,6 @@
 #pragma once
 
-/// Liquid as material points (double-point formulation): what both strategies of moving them share.
+/// Liquid as material points (double-point formulation): common base of both strategies.
 
 #include <optional>
 
@@ -23,7 +23,7 @@ struct RegionCrossings {
   std::vector<double> fines_out;
 };
 
-/// The liquid that another run left.
+/// The last liquid of another run.
 template <int Dim>
 struct EarlierLiquid {
   LiquidPoints<Dim> points;
@@ -48,25 +48,24 @@ class PointTransport : public Transport<Dim> {
     return {.steps = 4.0, .pore_growth = 1e-3};
   }
 
-  /// Moves liquid and fines through an interval that the flow has crossed since `start`, s, in
-  /// steps, each after the exchange of fines with the solid. `pressure`: per element, Pa. `steps`:
-  /// their number; nothing for as many as points need. Returns what crossed borders; the reference
-  /// holds until the next interval. Throws NumericalError, also where far too many steps are
-  /// needed.
+  /// Moves liquid and fines through the interval of the flow from `start`, s, in steps, each after
+  /// the exchange of fines with the solid. `pressure`: per element, Pa. `steps`: their number;
+  /// nothing: as many as points need. Returns what crossed borders; the reference is valid until
+  /// the next interval. Throws NumericalError, also if far too many steps are needed.
   const RegionCrossings& move(double start, const FlowProgress& flow,
                               const std::vector<double>& pressure, SolidExchange<Dim>& exchange,
                               std::optional<double> steps = {});
 
-  /// Sorted by element. The reference holds until the next interval.
+  /// Sorted by element. The reference is valid until the next interval.
   [[nodiscard]] virtual const LiquidPoints<Dim>& points() const = 0;
   [[nodiscard]] virtual int size() const = 0;
   [[nodiscard]] virtual LiquidContent content() const = 0;
-  /// Mean concentration of the points in each element; 0 where there is none.
+  /// Mean concentration of the points in each element; 0 without points.
   [[nodiscard]] std::vector<double> element_concentration() const;
-  /// Mean concentration of each element at the middle of the step to come, as it went in the last
-  /// one (of second order), below `most`.
+  /// Mean concentration of each element at the middle of the next step, extrapolated from the last
+  /// step (second order), below `most`.
   [[nodiscard]] std::vector<double> concentration_ahead(double most) const;
-  /// Whether fines wait at nodes for liquid.
+  /// Whether fines are pending at nodes.
   [[nodiscard]] bool has_pending() const;
 
   /// Pressure at each point, Pa.
@@ -75,23 +74,23 @@ class PointTransport : public Transport<Dim> {
   /// Liquid volume of each point, m3; `pressure` per element, Pa.
   [[nodiscard]] virtual std::vector<double> point_volume(
       const LiquidPoints<Dim>& points, const std::vector<double>& pressure) const = 0;
-  /// Columns of the history that this strategy alone knows.
+  /// Sets the columns of the history that only this strategy has.
   virtual void describe(const FlowState<Dim>& /*flow*/, HistoryRow& /*row*/) const {}
 
-  /// Volume of fines per node that waits for liquid, m3.
+  /// Volume of fines pending at each node until liquid comes near, m3.
   [[nodiscard]] const std::vector<double>& pending() const { return pending_; }
   [[nodiscard]] const InflowAccount& inflow() const { return inflow_; }
-  /// Elements of soil without a liquid point: now, and added up over all movements of points.
+  /// Number of soil elements without a liquid point: now, and summed over all movements of points.
   [[nodiscard]] int empty_elements() const;
   [[nodiscard]] double empty_elements_total() const { return empty_total_; }
 
-  /// Starts with the liquid of another run, whose last flow was `flow`.
+  /// Starts from the liquid of another run, whose last flow was `flow`.
   void start_from(const EarlierLiquid<Dim>& earlier, const FlowState<Dim>& flow) {
     inflow_ = earlier.inflow;
     pending_ = earlier.pending;
     take_points(earlier.points, flow);
   }
-  /// This liquid for another run.
+  /// The present liquid, for another run.
   [[nodiscard]] EarlierLiquid<Dim> last_liquid() const { return {points(), inflow_, pending_}; }
 
   void archive(StateArchive& archive) override {
@@ -103,20 +102,20 @@ class PointTransport : public Transport<Dim> {
   virtual void start_interval(const FlowProgress& flow) = 0;
   /// Number of steps that points need for an interval.
   [[nodiscard]] virtual double steps_needed(double start, const FlowProgress& flow) const = 0;
-  /// One step. `eroded`: fines that each solid point gives to the liquid in it, m3; empty where
-  /// none can.
+  /// Moves the liquid by one step. `eroded`: fines from each solid point in it, m3; empty if there
+  /// is no exchange.
   virtual void advance(const TransportStep& step, const FaceVolumes& volumes,
                        const std::vector<double>& eroded, const std::vector<double>& pressure) = 0;
-  /// The soil has taken the deposits of a step: the next one starts with the pores that they leave.
+  /// Takes over the porosity after the soil has received the deposits of a step.
   virtual void follow_deposits() {}
-  /// Elements whose solid does not erode as they have no liquid, 1 for each; empty where none is.
+  /// 1 for each element that does not erode because it has no liquid; empty if there is none.
   [[nodiscard]] std::vector<char> dry_elements() const;
   /// Replaces all points by these, which need not carry the flow.
   virtual void take_points(LiquidPoints<Dim> points, const FlowState<Dim>& flow) = 0;
   [[nodiscard]] virtual bool has_points(int element) const = 0;
   void start_crossings();
   void book(const typename FinesTransfer<Dim>::Result& transferred);
-  /// Books what the last step left: the solid's gain against the liquid's loss, by region.
+  /// Books the deposits of the last step by region: gain of the solid and loss of the liquid.
   void book_deposition();
 
   const Grid<Dim>& grid_;
@@ -131,15 +130,15 @@ class PointTransport : public Transport<Dim> {
   std::vector<double> pending_;
   double empty_total_ = 0.0;
   RegionCrossings crossings_;
-  /// Concentration of the elements a step ago, where the exchange of fines depends on it; otherwise
-  /// empty.
+  /// Concentration of the elements one step before, if the exchange of fines depends on it;
+  /// otherwise empty.
   std::vector<double> concentration_before_;
   PassTiming fines_timing_{"transfer of fines", 0, 0.0};
   PassTiming movement_timing_{"movement of liquid points", 0, 0.0};
 };
 
-/// Steps of transport over an interval in which points may cross the share `allowed` of it at a
-/// time. Throws NumericalError where these would be far too many.
+/// Number of steps of transport over an interval if one step may be the share `allowed` of it.
+/// Throws NumericalError if it is far too large.
 double checked_step_count(double allowed, double start, double duration);
 
 }  // namespace suffuse

@@ -10,9 +10,9 @@
 namespace suffuse {
 namespace {
 
-/// Elements that a point may cross in one step. Fines are taken up along the path, and in steady
-/// flow the answer does not depend on the step; but where the flow changes, points follow its mean
-/// over the step.
+/// Elements that a point may cross in one step. In steady flow the result does not depend on the
+/// step, because fines are taken up along the path; in unsteady flow points follow the mean of the
+/// step.
 constexpr double max_elements = 1.0;
 /// Points that one thread moves at a time.
 constexpr int points_together = 1024;
@@ -153,8 +153,8 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
 
 template <int Dim>
 void PointsAlongFaces<Dim>::follow_deposits() {
-  // Otherwise the next step would take them for pores that close while points pass, and take fines
-  // back.
+  // Otherwise the next step would treat deposits as pores that close while points pass, and take
+  // their fines from the points again.
   std::vector<double> now = this->solid_.element_porosity();
   if (opening_.empty()) {
     porosity_ = std::move(now);
@@ -201,7 +201,7 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
                                  opening_.empty() ? nullptr : &exchanged_};
   const int count = points_.size();
   paths.left_by.assign(count, -1);
-  // One list for each block of points: their order does not depend on the threads.
+  // One list for each block of points, so that the order does not depend on threads.
   const int blocks = (count + points_together - 1) / points_together;
   std::vector<std::vector<FinesUptake<Dim>>> uptakes(blocks);
   std::exception_ptr failure;
@@ -225,7 +225,7 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
   paths.uptakes.reserve(all);
   for (auto& of_block : uptakes) {
     paths.uptakes.insert(paths.uptakes.end(), of_block.begin(), of_block.end());
-    of_block = {};  // or there would be twice as many
+    of_block = {};  // frees memory of what was copied
   }
   return paths;
 }

@@ -11,7 +11,7 @@ namespace suffuse {
 template <int Dim>
 class PointsAlongFaces final : public PointTransport<Dim> {
  public:
-  /// Points in their places, clean, packed by the pressure of their elements (Pa).
+  /// Starts with points of clean water at `places`, at the pressure of their elements, Pa.
   PointsAlongFaces(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                    const std::vector<FaceCondition>& conditions, InjectionSettings injection,
                    LiquidDensities densities, double bulk_modulus, int threads,
@@ -35,7 +35,7 @@ class PointsAlongFaces final : public PointTransport<Dim> {
  private:
   void start_interval(const FlowProgress& flow) override;
   [[nodiscard]] double steps_needed(double start, const FlowProgress& flow) const override {
-    // In shares of the interval, as these volumes are those of all of it.
+    // In shares of the interval, because these volumes are those of the whole interval.
     return checked_step_count(longest_step(flow.volumes.liquid), start, flow.end - start);
   }
   void advance(const TransportStep& step, const FaceVolumes& volumes,
@@ -47,8 +47,8 @@ class PointsAlongFaces final : public PointTransport<Dim> {
     points_ = std::move(points);
     begins_ = element_begins(points_, this->grid_.mesh.element_count());
   }
-  /// Where points went in a step. Those that left are still among them, in their last element; the
-  /// injected ones are at the end.
+  /// Paths of points in a step. Points that left are included, in their last element; injected
+  /// points are at the end.
   struct Paths {
     std::vector<int> from;        ///< region at the start of the step, -1: outside
     std::vector<int> entered_by;  ///< outer face, of the injected ones only
@@ -64,34 +64,32 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   [[nodiscard]] std::vector<double> porosity_after(double share, bool exchanges);
   void inject(const std::vector<double>& volume, const std::vector<double>& pressure, Paths& paths,
               std::vector<double>& start);
-  /// Moves every point: injected ones from the moment at which they come in, those that leave until
-  /// then.
+  /// Moves every point: injected points from their entry, and points that leave until their exit.
   [[nodiscard]] Paths follow(const std::vector<double>& volume,
                              const std::vector<double>& porosity_end,
                              const std::vector<double>& pressure);
-  /// Moves one point; appends what it takes up.
+  /// Moves one point; appends its uptakes.
   void follow_point(int p, double start, const FaceWalkField<Dim>& field, double pressure,
                     std::vector<FacePassage<Dim>>& passages, Paths& paths,
                     std::vector<FinesUptake<Dim>>& uptakes);
-  /// What a point takes up goes with its own fines where erosion goes with these: over the mean of
-  /// the points that were in the element.
+  /// Factor on the uptake of a point: its fines over the mean of the element's points if the
+  /// erosion law depends on the concentration, otherwise 1.
   [[nodiscard]] double weight(int element, int p) const;
-  /// Fines over water of the points in each element, by mass; empty where no exchange depends on
-  /// it.
+  /// Ratio of the masses of fines and water of the points in each element; empty if no exchange
+  /// depends on it.
   [[nodiscard]] std::vector<double> mean_fines() const;
-  /// Removes points that left, once all have their fines, and books changes of region. Fines taken
-  /// up in the first region cross its border with the point; the others are received in the last. A
-  /// point that leaves the model crosses into its last region first.
+  /// Removes points that left, after the transfer of fines, and books changes of region. Fines
+  /// taken up in the first region cross its border with the point; others are received in the last
+  /// region. A point that leaves the model crosses into its last region first.
   void settle(const Paths& paths);
 
   LiquidPoints<Dim> points_;
   std::vector<double> mean_fines_;  ///< at the start of the step
   std::vector<int> begins_;         ///< points of each element
   std::vector<double> porosity_;    ///< per element, at the start of the step
-  // Motion of the solid; empty where it does not move.
+  // Motion of the solid; empty if it is rigid.
   std::vector<double> opening_;         ///< change of porosity by motion in the interval
-  std::vector<double> solid_porosity_;  ///< that the solid has after its motion, without the last
-                                        ///< exchange
+  std::vector<double> solid_porosity_;  ///< after its motion, before the exchange of the step
   std::vector<double> exchanged_;       ///< change of porosity by exchange in the step
 };
 

@@ -18,17 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Longer lists are cut.
+/// Number of differences that a message lists.
 constexpr std::size_t most_differences = 10;
 
-/// Nothing where the folder holds no results.
+/// run.json of a folder; null if it holds no results.
 Json run_info_in(const std::string& folder) {
   std::ifstream in = open_regular_file(layout::in_folder(folder, layout::run_info));
   const Json json = Json::parse(in, nullptr, false);
   return json.is_object() && json.value("format", Json()) == layout::format ? json : Json();
 }
 
-/// A solver was stopped as soon as it had started, or none has started.
+/// Whether no solver has started there, or one was stopped immediately after its start.
 bool nothing_but_a_lock(const std::string& folder) {
   return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename().string();
@@ -36,7 +36,7 @@ bool nothing_but_a_lock(const std::string& folder) {
   });
 }
 
-/// Text, changes and files of the scene in run.json. Throws Json::exception.
+/// The scene's text, overrides and files in run.json. Throws Json::exception.
 SceneDocument scene_in(const Json& info) {
   const Json& scene = info.at("scene");
   SceneDocument document;
@@ -69,7 +69,7 @@ void check_results_folder(const std::string& folder, const std::string& scene, R
                       "not touched: choose another folder or empty it");
     }
     if (replace == Replace::any) return;
-    // A run that has just started has not written its scene yet.
+    // A run that has just started may not have written its scene.
     const Json about = info.value("scene", Json());
     const Json there = about.is_object() ? about.value("name", Json()) : about;
     if (!there.is_string() || there == scene) return;

@@ -7,14 +7,14 @@
 
 namespace suffuse {
 
-/// What one pass of the solver cost.
+/// Cost of one pass of the solver.
 struct PassTiming {
   std::string name;
   long calls = 0;
   double seconds = 0.0;
 };
 
-/// Adds the time it lives to a pass.
+/// Adds its lifetime to the time of a pass.
 class PassTimer {
  public:
   explicit PassTimer(PassTiming& pass) : pass_(pass), start_(std::chrono::steady_clock::now()) {}

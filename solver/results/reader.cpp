@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-constexpr auto replace = Json::error_handler_t::replace;  // of what is not UTF-8, in messages
+constexpr auto replace = Json::error_handler_t::replace;  // replaces what is not UTF-8 in messages
 
 std::ifstream open_file(const std::string& path) {
   std::ifstream in = open_regular_file(path);
@@ -58,7 +58,7 @@ Json read_run_info(const std::string& folder) {
   return json;
 }
 
-/// A run that was killed could not write how it ended.
+/// The status of a run. A run that was killed could not write its end.
 std::string status_in(const Json& info, const std::string& folder) {
   std::string status = info.at("status").get<std::string>();
   return status == "running" && !may_be_held(folder) ? "stopped without notice" : status;
@@ -69,7 +69,7 @@ struct Series {
   std::vector<double> times;
 };
 
-/// Snapshots lie in a folder of the results, as the writer puts them.
+/// Whether a name is that of a file in the folder of snapshots.
 bool is_snapshot_name(const std::string& name) {
   const fs::path path(name);
   return name.find('\0') == std::string::npos && path.parent_path() == layout::snapshots &&
@@ -126,7 +126,7 @@ std::vector<std::string> cells_of(const Table& table, std::size_t row) {
   return cells;
 }
 
-/// Joins `cells` with commas; `second`, unless it is empty, comes behind the first cell.
+/// Joins `cells` with commas; inserts `second` after the first cell unless it is empty.
 std::string joined(const std::vector<std::string>& cells, const std::string& second) {
   std::string line;
   for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -136,7 +136,7 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sec
   return line;
 }
 
-/// "s" of "t [s]", which becomes "t"; nothing where there is no unit.
+/// Cuts "t [s]" to "t" and returns "s"; returns an empty text without a unit.
 std::string cut_unit(std::string& name) {
   const auto start = name.find(" [");
   if (start == std::string::npos || !name.ends_with(']')) return "";
@@ -169,7 +169,7 @@ void write_whole(const std::string& path, const std::string& text) {
 
 constexpr const char* points_dataset = "/VTKHDF/Points";
 
-/// Rows of a table of so many columns.
+/// Number of rows of a table with this number of columns.
 std::size_t row_count(const Hdf5File& file, const std::string& dataset, std::size_t columns) {
   const std::vector<std::size_t> shape = file.shape(dataset);
   if (shape.size() != 2 || shape[1] != columns) {
@@ -179,7 +179,7 @@ std::size_t row_count(const Hdf5File& file, const std::string& dataset, std::siz
   return shape[0];
 }
 
-/// The group of a snapshot file that holds the fields of `where`.
+/// The group of a snapshot file with the fields of `where`.
 std::string field_group(const std::string& where) {
   if (where == "cell") return "/VTKHDF/CellData";
   if (where == "node" || where == "solid" || where == "liquid") return "/VTKHDF/PointData";
@@ -187,14 +187,14 @@ std::string field_group(const std::string& where) {
   throw std::logic_error("no fields on " + where);
 }
 
-/// VTK follows every link that it meets: only those to the grid beside the file are left to it.
+/// Refuses links that do not lead to `grid`, because VTK follows every link.
 void refuse_links(const Hdf5File& file, const std::string& grid) {
   for (const std::string group :
        {"/VTKHDF", "/VTKHDF/CellData", "/VTKHDF/PointData", layout::field_data_group}) {
     if (!file.exists(group)) continue;
     for (const std::string& name : file.children(group)) {
       const std::string object = std::string(group).append("/").append(name);
-      // To ask whether a link exists throws.
+      // `exists` throws if the object is a link.
       if (!file.is_in(object, grid)) static_cast<void>(file.exists(object));
     }
   }
@@ -240,7 +240,7 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
   std::vector<NamedTable> tables;
   if (by.empty()) tables.push_back({"", empty});
   for (int number = 2; std::getline(in, line); ++number) {
-    // A row being written at this moment has no end of line yet: it is not there.
+    // A row without an end of line is still being written: leave it out.
     if (in.eof()) break;
     auto cells = csv_cells(line);
     const std::string where = path + ":" + std::to_string(number) + ": ";
@@ -314,7 +314,7 @@ ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {
 
 void ResultsReader::take_series(const std::string& kind, std::vector<std::string>& files) {
   const Series series = read_series(folder_, kind);
-  // A run may be writing: the series can then differ by the newest snapshot.
+  // If a run is writing, the series may differ by the newest snapshot.
   const std::size_t count = std::min(mesh_files_.size(), series.files.size());
   for (std::size_t i = 0; i < count; ++i) {
     if (times_[i] != series.times[i]) {

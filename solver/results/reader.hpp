@@ -14,11 +14,11 @@
 
 namespace suffuse {
 
-/// A numeric table: columns by name, all of one length.
+/// A numeric table of named columns with equal lengths.
 struct Table {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;
-  std::vector<std::string> units{};  ///< of each column, "" where none is given; may be empty
+  std::vector<std::string> units{};  ///< of each column, "" if not given; may be empty
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   [[nodiscard]] bool has(const std::string& name) const;
@@ -30,18 +30,18 @@ struct Table {
 /// column t of unit s. Throws FileError with file and line.
 Table read_table(const std::string& path);
 
-/// The rows of a table that share a value of a column of text.
+/// The rows of a table with the same text in one column.
 struct NamedTable {
   std::string name;  ///< the value
   Table table;       ///< the other columns
 };
-/// Reads a CSV file of numbers but for the column `by`, whose values come in the order of their
-/// first rows. Throws FileError with file and line.
+/// Reads a CSV file of numbers with one column of text, `by`: a table for each text, in the order
+/// of their first rows. Throws FileError with file and line.
 std::vector<NamedTable> read_tables(const std::string& path, const std::string& by);
 
-/// Writes numbers so that they read back exactly. `-` is standard output.
+/// Writes numbers exactly. `-` is standard output.
 void write_table(const std::string& path, const Table& table);
-/// Writes tables of equal columns, row by row, with the column `by` in the second place.
+/// Writes tables with equal columns row by row, with `by` as the second column.
 void write_tables(const std::string& path, const std::string& by,
                   const std::vector<NamedTable>& tables);
 
@@ -54,9 +54,9 @@ class ResultsReader {
   [[nodiscard]] const std::string& folder() const { return folder_; }
   [[nodiscard]] const SceneDocument& scene() const { return scene_; }
   [[nodiscard]] const std::vector<std::string>& regions() const { return regions_; }
-  /// "running", "done", "failed", "interrupted", or "stopped without notice": nothing says how the
-  /// run ended and no solver holds the folder, so it was killed or its machine stopped. That of the
-  /// moment when this was made.
+  /// Status at construction: "running", "done", "failed", "interrupted", or "stopped without
+  /// notice": the run has no recorded end and no solver holds the folder, so it was killed or its
+  /// machine stopped.
   [[nodiscard]] std::string status() const { return status_; }
   [[nodiscard]] int dimension() const { return dimension_; }
 
@@ -65,7 +65,7 @@ class ResultsReader {
   [[nodiscard]] Table region_ledgers() const;
   /// One table for each boundary that has a condition.
   [[nodiscard]] std::vector<NamedTable> boundaries() const;
-  /// Throws FileError where the scene has no probes; likewise the next.
+  /// Throws FileError if the scene has no probes; `sections` likewise.
   [[nodiscard]] Table probes() const;
   [[nodiscard]] Table sections() const;
 
@@ -74,7 +74,7 @@ class ResultsReader {
   /// Path of snapshot `index` of "mesh", "solid" or "liquid".
   [[nodiscard]] std::string snapshot_path(const std::string& kind, std::size_t index) const;
   /// The mesh with its regions and boundaries. Throws InputError for results of another dimension,
-  /// likewise the next; `with_mesh` serves both.
+  /// as `point_positions` does; `with_mesh` accepts both dimensions.
   template <int Dim = 2>
   [[nodiscard]] Mesh<Dim> mesh() const;
   /// Positions of the "solid" or "liquid" points of a snapshot.
@@ -91,13 +91,13 @@ class ResultsReader {
  private:
   /// Throws InputError for results of another dimension.
   void require_dimension(int dimension) const;
-  /// Files of one kind; snapshots that it does not have yet are dropped.
+  /// Reads the files of one kind; drops snapshots that have no such file yet.
   void take_series(const std::string& kind, std::vector<std::string>& files);
-  /// The file that holds an object of a snapshot: that of the snapshot, or of the grid that it
-  /// shares with others. No other link is followed.
+  /// The file with an object of a snapshot: that of the snapshot, or that of the common grid. No
+  /// other link is followed.
   [[nodiscard]] Hdf5File file_of(std::size_t index, const std::string& where,
                                  const std::string& object) const;
-  /// How many there are to have values in a snapshot.
+  /// Number of elements, nodes or points with values in a snapshot.
   [[nodiscard]] std::size_t entity_count(std::size_t index, const std::string& where) const;
 
   std::string folder_;
@@ -111,7 +111,7 @@ class ResultsReader {
   std::vector<std::string> liquid_files_;  ///< none in single-point runs
 };
 
-/// What `use` makes of the mesh, a Mesh<2> or a Mesh<3>.
+/// Calls `use` with the mesh, a Mesh<2> or a Mesh<3>.
 template <class Use>
 auto with_mesh(const ResultsReader& results, const Use& use) {
   return results.dimension() == 3 ? use(results.mesh<3>()) : use(results.mesh<2>());

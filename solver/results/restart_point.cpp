@@ -20,11 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Version of the bytes of a state: to be raised whenever an `archive` changes what it lists.
+/// Version of the bytes of a state. Increase it whenever the list of an `archive` changes.
 constexpr std::int64_t state_layout = 19;
 
-/// FNV-1a (Fowler, Noll, Vo) on eight bytes at a time, with what that leaves out of the low bits
-/// mixed in.
+/// FNV-1a (Fowler, Noll, Vo) on eight bytes at a time, with the high bits mixed into the low ones.
 class Digest {
  public:
   void add(const void* data, std::size_t size) {
@@ -84,7 +83,7 @@ void add_model(Digest& digest, const Case<Dim>& c) {
   add(digest, c.liquid_points);
 }
 
-/// Keys that must not change while a run lasts. What is no scene is compared as a text.
+/// Keys that must not change during a run; the whole text if it is no valid scene.
 std::map<std::string, std::string> lasting_values(const SceneDocument& document) {
   try {
     std::map<std::string, std::string> values = written_values(document);
@@ -95,7 +94,7 @@ std::map<std::string, std::string> lasting_values(const SceneDocument& document)
   }
 }
 
-/// Whole lines behind the names.
+/// Number of complete lines after the line of names.
 long rows_in(const std::string& path) {
   std::ifstream in = open_regular_file(path);
   long lines = 0;
@@ -106,12 +105,12 @@ long rows_in(const std::string& path) {
   return lines - 1;
 }
 
-/// Output times of which every table has all its rows.
+/// Number of output times for which every table has all its rows.
 long output_times_in(const std::string& folder, const std::vector<TableFile>& tables) {
   long times = std::numeric_limits<long>::max();
   for (const TableFile& table : tables) {
     const long rows = rows_in(layout::in_folder(folder, table.name));
-    // A table may have no rows at all, but it has its names.
+    // A table may have no rows, but it must have its line of names.
     times = std::min(times, table.lines_per_time > 0 ? rows / table.lines_per_time
                             : rows < 0               ? rows
                                                      : times);
@@ -119,8 +118,7 @@ long output_times_in(const std::string& folder, const std::vector<TableFile>& ta
   return times;
 }
 
-/// How many of the first snapshots have all their files, whole. Says which the first is that has
-/// not.
+/// Number of leading snapshots with complete files. Reports the first damaged file.
 long whole_snapshots(const std::string& folder, bool has_liquid_files,
                      std::vector<std::string>& damage) {
   for (long index = 0;; ++index) {
@@ -219,7 +217,7 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
   FoundRestart found;
   const long whole = whole_snapshots(folder, has_liquid_files, found.damage);
   const long rows = output_times_in(folder, tables);
-  // The first snapshot without its state: the run was killed while it wrote the first files.
+  // A single snapshot without a state: the run was killed while it wrote its first files.
   found.holds_results = whole > 1 || rows > 1 || !found.damage.empty();
   const auto usable_point = [&](const std::string& path) -> std::optional<RestartPoint> {
     if (!fs::exists(path)) return std::nullopt;
@@ -242,7 +240,7 @@ FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_fil
       found.point = std::move(point);
       found.path = path;
     }
-    break;  // those before it are older
+    break;  // the others are older
   }
   return found;
 }

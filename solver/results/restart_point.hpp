@@ -1,6 +1,6 @@
 #pragma once
 
-/// The state from which a stopped run can go on, kept beside the newest snapshots and in the
+/// The state from which a stopped run can continue, stored with the newest snapshots and in the
 /// checkpoint of an interrupted run. Layout: docs/file-formats.md.
 
 #include <array>
@@ -16,23 +16,23 @@
 namespace suffuse {
 
 struct RestartPoint {
-  double time = 0.0;   ///< that the state is of, s; not before the snapshot's
-  long rows = 0;       ///< of history.csv by then; output times in every table
-  long snapshots = 0;  ///< by then, the one that this belongs to included
+  double time = 0.0;   ///< of the state, s; not before that of the snapshot
+  long rows = 0;       ///< of history.csv until then: the output times of every table
+  long snapshots = 0;  ///< until then, including that of this state
   bool no_skip = false;
   std::string case_digest;          ///< see `digest_of`
-  std::vector<std::uint8_t> state;  ///< the solver's business; empty: not kept
+  std::vector<std::uint8_t> state;  ///< written by the model; empty: not stored
 };
 
-/// Digest of a restart point: 16 hexadecimal digits that tell one from another.
+/// Digest of a restart point: 16 hexadecimal digits that identify it.
 std::string digest_of(const RestartPoint& point);
 
-/// Digest of everything in a case that must not change while a run lasts: mesh, points and all keys
-/// of the scene but those of `keys_that_may_change`.
+/// Digest of all that must not change during a run: mesh, points and all keys of the scene except
+/// `keys_that_may_change`.
 template <int Dim>
 std::string digest_of(const Case<Dim>& c);
 
-/// A run may go on with other values of these keys.
+/// Keys that may have other values when a run continues.
 inline constexpr std::array<const char*, 3> keys_that_may_change{"time.end", "output.restarts",
                                                                  "output.precision"};
 
@@ -40,24 +40,24 @@ inline constexpr std::array<const char*, 3> keys_that_may_change{"time.end", "ou
 template <int Dim>
 std::string digest_of_model(const Case<Dim>& c);
 
-/// Writes to `/Suffuse/restart`, which must not be there yet.
+/// Writes to `/Suffuse/restart`, which must not exist yet.
 void write_restart_point(Hdf5File& file, const RestartPoint& point);
 
-/// Reads the restart point of one file; nothing where the file keeps no state. Throws FileError
-/// where what it keeps is damaged or was written by a version whose state this one does not know.
+/// Reads the restart point of one file; nothing if the file has no state. Throws FileError if the
+/// state is damaged or has the layout of another version.
 std::optional<RestartPoint> read_restart_point(const std::string& path);
 
-/// What `newest_restart_point` found.
+/// Result of `newest_restart_point`.
 struct FoundRestart {
   std::optional<RestartPoint> point;
   std::string path;                 ///< of the file that holds it
-  std::vector<std::string> damage;  ///< newer ones that could not be read, with the reason
-  /// Whether the folder holds more than what a run has that was stopped before its first snapshot
-  /// and the state that belongs to it were complete: a run that begins anew would remove results.
+  std::vector<std::string> damage;  ///< newer states that could not be read, with the reason
+  /// Whether a new run would remove results. False after a run that was stopped before its first
+  /// snapshot and the state after it were complete.
   bool holds_results = false;
 };
 
-/// The last point of the run in `folder` whose snapshots and tables are all there.
+/// The last point of the run in `folder` whose snapshots and tables are complete.
 FoundRestart newest_restart_point(const std::string& folder, bool has_liquid_files,
                                   const std::vector<TableFile>& tables);
 

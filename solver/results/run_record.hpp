@@ -1,6 +1,6 @@
 #pragma once
 
-/// run.json read back: how a run went, and which programs made it.
+/// run.json as read: the course of a run and the versions of its programs.
 
 #include <map>
 #include <string>
@@ -10,12 +10,12 @@
 namespace suffuse {
 
 struct RunRecord {
-  RunInfo info;  ///< the status is that of the file: `ResultsReader::status` knows of killed runs
+  RunInfo info;  ///< with the status of the file; see `ResultsReader::status` for killed runs
   std::map<std::string, std::string> versions;  ///< by program: "suffuse", "git", "compiler" ...
   std::string model;                            ///< digest of mesh and points
 };
 
-/// Reads the record of a results folder. What the file does not have keeps its default. Throws
+/// Reads the record of a results folder. Values missing in the file keep their defaults. Throws
 /// FileError.
 RunRecord read_run_record(const std::string& folder);
 

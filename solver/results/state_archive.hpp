@@ -1,11 +1,11 @@
 #pragma once
 
-/// Writes the state of a run to bytes and reads it back, so that a later process can go on. Each
-/// class that has a history lists its members once, for both directions:
+/// Writes the state of a run to bytes and reads it, so that a later process can continue. Each
+/// class with a state lists its members once, for both directions:
 ///
 ///     void archive(StateArchive& archive) { archive(pressure_, velocity_, last_dt_); }
 ///
-/// Small structures of numbers without gaps between them may say `has_no_gaps` instead.
+/// Small structures of numbers without padding may declare `has_no_gaps` instead.
 
 #include <Eigen/Core>
 #include <array>
@@ -24,32 +24,32 @@ namespace suffuse {
 
 class StateArchive {
  public:
-  /// Collects what it is given.
+  /// Creates an archive that collects the members it is given.
   StateArchive() = default;
-  /// Gives back what another one collected, in the same order.
+  /// Creates an archive that restores what another one collected, in the same order.
   explicit StateArchive(std::vector<std::uint8_t> bytes)
       : bytes_(std::move(bytes)), restores_(true) {}
 
-  /// Makes room for so many bytes to be collected.
+  /// Reserves memory for the bytes to be collected.
   void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
 
-  /// Whether members are given their values; otherwise they are asked for them.
+  /// Whether it restores members; otherwise it collects them.
   [[nodiscard]] bool restores() const { return restores_; }
 
-  /// Throws FileError when what was collected does not fit what is asked for.
+  /// Collects or restores members. Throws FileError if the bytes do not fit the members.
   template <class... Members>
   void operator()(Members&... members) {
     (pass(members), ...);
   }
 
-  /// To be called in the end: the bytes where they were collected, an error when some are left over
-  /// where they were to be given back.
+  /// Call this at the end. Returns the collected bytes. Throws FileError if bytes are left after a
+  /// restoration.
   std::vector<std::uint8_t> finish() {
     if (restores_ && read_ != bytes_.size()) misfit();
     return std::move(bytes_);
   }
 
-  /// The bytes do not fit the members. Throws FileError.
+  /// Throws the FileError for bytes that do not fit the members.
   [[noreturn]] static void misfit() {
     throw FileError("the state of the run does not fit this program and case");
   }
@@ -70,7 +70,7 @@ class StateArchive {
     }
   }
 
-  /// Number of entries to come; each takes a byte at least.
+  /// Collects or restores a number of entries, each of at least one byte.
   std::size_t pass_size(std::size_t size) {
     std::uint64_t count = size;
     raw(&count, sizeof count);
@@ -131,7 +131,7 @@ class StateArchive {
     pass(*value);
   }
 
-  /// Seconds are those of a process: no two runs have the same.
+  /// The seconds are left out, because they differ from run to run.
   void pass(PassTiming& timing) { pass(timing.calls); }
 
   template <class Value>
@@ -144,7 +144,7 @@ class StateArchive {
     }
   }
 
-  /// Values without gaps between or inside them.
+  /// Whether an array of these values has no padding between or inside them.
   template <class Value>
   static constexpr bool is_contiguous() {
     if constexpr (is_plain<Value>) {

@@ -20,7 +20,7 @@ void append_position(std::vector<double>& points, const Vector<Dim>& x) {
   for (int d = 0; d < 3; ++d) points.push_back(d < Dim ? x[d] : 0.0);
 }
 
-/// `width` numbers per entity: the field's own, then zeros.
+/// The field's values, padded with zeros to `width` numbers per entity.
 std::vector<double> padded(const Field& field, int width) {
   std::vector<double> values;
   const std::size_t entities = field.values.size() / field.components;
@@ -75,7 +75,7 @@ void write_data(Hdf5File& file, const std::string& group, const std::vector<Fiel
 constexpr const char* cell_data = "/VTKHDF/CellData";
 constexpr const char* point_data = "/VTKHDF/PointData";
 
-/// What makes the group VTK's.
+/// Writes the group with the attributes that VTK requires.
 void write_type(Hdf5File& file) {
   constexpr std::array<std::int64_t, 2> version{1, 0};
   file.create_group("/VTKHDF");
@@ -141,7 +141,7 @@ void write_vtkhdf(Hdf5File& file, VtkGrid grid, const VtkFields& fields) {
   write_count(file, "NumberOfCells", cells);
   write_count(file, "NumberOfConnectivityIds", grid.connectivity.size());
 
-  // Each array goes when it is written: of millions of points they would add up.
+  // Frees each array when it is written: for millions of points all would take much memory.
   file.write_compressed("/VTKHDF/Points", std::span<const double>(grid.points), {points, 3});
   file.attribute("/VTKHDF/Points", "unit", std::string("m"));
   grid.points = {};

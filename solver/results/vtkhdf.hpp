@@ -34,25 +34,25 @@ VtkGrid vtk_grid(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points);
 /// One vertex cell per position of `points` (x, y, z of each).
 VtkGrid vtk_grid(std::vector<double> points);
 
-/// What the fields of a file belong to, and how they are stored.
+/// Fields of a file, on cells and points, and their precision.
 struct VtkFields {
   std::vector<Field> cell = {};
   std::vector<Field> point = {};
   FieldPrecision precision = FieldPrecision::float64;
 };
 
-/// Writes the group /VTKHDF. Fields that are vectors in the plane (2 components) get a zero third
-/// component, as VTK wants of a vector; their attribute `components` keeps what they had.
+/// Writes the group /VTKHDF. Vectors in the plane (2 components) get a zero third component, which
+/// VTK requires; their attribute `components` stays 2.
 void write_vtkhdf(Hdf5File& file, VtkGrid grid, const VtkFields& fields);
 
 /// Writes the group /VTKHDF with links to the grid of the file `grid_file`, in the same folder, and
-/// to its fields of cells, which are `linked`.
+/// to its cell fields `linked`.
 void write_vtkhdf_on(Hdf5File& file, const std::string& grid_file,
                      const std::vector<std::string>& linked, const VtkFields& fields);
 
-/// Names the numbers of the field `region`: for each region an array of the grid's field data with
-/// its number, called `region NUMBER: NAME`. VTK reads text of variable length alone, of which a
-/// damaged file makes HDF5 crash, so the text is in the names; `/` ends one in HDF5 and becomes
+/// Writes the names of the regions: for each an array `region NUMBER: NAME` in the grid's field
+/// data, which holds the number. VTK reads only text of variable length, on which HDF5 crashes in
+/// damaged files, so the text is in the names of the arrays. `/` ends a name in HDF5 and becomes
 /// `_`.
 void write_region_names(Hdf5File& file, const std::vector<std::string>& names);
 
@@ -60,13 +60,13 @@ void write_region_names(Hdf5File& file, const std::vector<std::string>& names);
 void link_region_names(Hdf5File& file, const std::string& grid_file,
                        const std::vector<std::string>& names);
 
-/// Writes `field` to GROUP/NAME with its unit and components as attributes; `shape` ends before the
-/// components.
+/// Writes `field` to GROUP/NAME with its unit and components as attributes; `shape` does not
+/// include the components.
 void write_field(Hdf5File& file, const std::string& group, const Field& field,
                  std::vector<std::size_t> shape, FieldPrecision precision);
 
-/// Reads what write_field or write_vtkhdf wrote, at least one component wide; padding is taken off
-/// again. Throws FileError.
+/// Reads a field written by write_field or write_vtkhdf, with at least one component; removes
+/// padding. Throws FileError.
 Field read_field(const Hdf5File& file, const std::string& group, const std::string& name);
 
 }  // namespace suffuse

@@ -42,7 +42,7 @@ void rename_over(const std::string& from, const std::string& to) {
   if (error) throw FileError(to + ": cannot be written: " + error.message());
 }
 
-/// The file is either as it was or whole and new, whatever happens in between.
+/// Replaces a file; on failure it stays as it was.
 void replace_file(const std::string& path, const std::string& text) {
   const std::string temporary = path + ".tmp";
   try {
@@ -59,10 +59,10 @@ std::string dump(const OrderedJson& json) {
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
-/// The field of the elements that no snapshot changes.
+/// The element field that is constant in time.
 constexpr const char* region_field = "region";
 
-/// Files that a run writes in addition to run.json and the lock.
+/// Whether a run writes a file of this name, other than run.json and the lock.
 bool is_own_file(const std::string& name) {
   static const std::regex own(
       R"((case\.h5|checkpoint\.hdf|(history|ledger|regions|boundaries|probes|sections)\.csv|(mesh|solid|liquid)\.hdf\.series)(\.tmp)?|\.case\.\d+\.part\.h5)");
@@ -79,12 +79,12 @@ bool is_own_grid(const std::string& name) {
   return std::regex_match(name, own);
 }
 
-/// Which snapshot a file belongs to.
+/// The number of the snapshot of a file.
 long snapshot_number(const std::string& name) {
   return std::stol(name.substr(name.find('_') + 1));
 }
 
-/// Those for which `doomed(name)`. Throws FileError.
+/// Removes the files with `doomed(name)`. Throws FileError.
 template <class Doomed>
 void remove_files(const fs::path& folder, const Doomed& doomed) {
   try {
@@ -100,7 +100,7 @@ void remove_files(const fs::path& folder, const Doomed& doomed) {
   }
 }
 
-/// run.json stays until it is replaced, so that the folder can be recognised at every moment.
+/// Removes an earlier run except run.json, which identifies the folder until it is replaced.
 void remove_earlier_run(const std::string& folder) {
   try {
     remove_files(folder, is_own_file);
@@ -116,12 +116,12 @@ void remove_earlier_run(const std::string& folder) {
   }
 }
 
-/// Files that a solver was writing when it was killed.
+/// Whether a file is the incomplete one of a solver that was killed.
 bool is_unfinished(const std::string& name) {
   return is_own_file(name) && (name.ends_with(".tmp") || name.ends_with(".part.h5"));
 }
 
-/// What a run that goes on behind its first `count` snapshots writes again.
+/// Removes the files that a run writes again if it continues after its first `count` snapshots.
 void remove_later_snapshots(const std::string& folder, long count) {
   const auto is_later = [count](const std::string& name) {
     if (is_own_grid(name)) return name.ends_with(".tmp");
@@ -147,7 +147,7 @@ void write_provenance(Hdf5File& file, const Case<Dim>& c, const Snapshot& snapsh
   }
 }
 
-/// Fields of the solver's own; those of element_vertex have one row of `vertices` per element.
+/// Writes fields outside of VTK's groups; element_vertex has one row of `vertices` per element.
 void write_own_fields(Hdf5File& file, const Snapshot& snapshot, std::size_t elements, int vertices,
                       FieldPrecision precision) {
   file.create_group(layout::element_vertex_group);
@@ -160,7 +160,7 @@ void write_own_fields(Hdf5File& file, const Snapshot& snapshot, std::size_t elem
   }
 }
 
-/// A run may go on under a scene with a later end.
+/// Whether the case file has this scene: a run may continue with a later end.
 bool holds_scene(const std::string& case_path, const SceneDocument& document) {
   try {
     const Hdf5File file(case_path, Hdf5File::Mode::read);
@@ -171,7 +171,7 @@ bool holds_scene(const std::string& case_path, const SceneDocument& document) {
   }
 }
 
-/// Calls `fill` on a new file that takes the name `path` only once it is whole.
+/// Calls `fill` on a temporary file, which gets the name `path` when it is complete.
 template <class Fill>
 void write_hdf5_whole(const std::string& path, const Fill& fill) {
   const std::string temporary = path + ".tmp";
@@ -217,7 +217,7 @@ void GrowingTable::append(const std::string& lines) {
     fail_writing(path_, reason);
   }
   size_ += lines.size();
-  // What is open may no longer be what has this name.
+  // The open file may have been removed or replaced.
   if (fs::file_size(path_, error) == size_ && !error) return;
   throw FileError(path_ + ": was removed or changed by another program while the run wrote to it");
 }
@@ -307,7 +307,7 @@ void ResultsWriter<Dim>::append_sections(std::span<const SectionRow> rows) {
 
 template <int Dim>
 void ResultsWriter<Dim>::extend(Series& series, const std::string& file, double time) {
-  // Written piece by piece: to make it of all entries again takes longer with each of them.
+  // Appends to the text, because the time to write all entries again grows with their number.
   if (series.count++ > 0) series.entries += ",";
   series.entries += "\n    {\n      \"name\": " + OrderedJson(file).dump() +
                     ",\n      \"time\": " + OrderedJson(time).dump() + "\n    }";
@@ -354,7 +354,7 @@ void ResultsWriter<Dim>::remove_old_states() const {
 
 template <int Dim>
 void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
-  // The state of the run comes last: where it is the others are.
+  // The state of the run is written last: if it exists, the other files do.
   const std::size_t index = mesh_series_.count;
   const double time = snapshot.time;
   const FieldPrecision precision = case_.document.scene.output.precision;
@@ -398,7 +398,7 @@ void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
   }
   extend(solid_series_, solid_name, time);
   write_series(solid_series_);
-  // Last: a snapshot that the mesh has is in every series, also after a kill.
+  // The mesh is last: its snapshots are in every series, even if the process is killed.
   extend(mesh_series_, mesh_name, time);
   write_series(mesh_series_);
   const long old = static_cast<long>(index) - case_.document.scene.output.restarts;

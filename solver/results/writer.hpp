@@ -25,13 +25,13 @@
 
 namespace suffuse {
 
-/// Values of one field at one moment, `components` per entity, entity by entity.
+/// Values of one field at one time, `components` per entity, entity by entity.
 struct Field {
   std::string name;  ///< as in the symbol table of docs/theory.md
   std::string unit;
   int components = 1;
   std::vector<double> values;
-  bool is_whole = false;  ///< numbers of things, which are never rounded to float32
+  bool is_whole = false;  ///< whole numbers, which are never rounded to float32
 };
 
 /// The model at one time.
@@ -41,18 +41,18 @@ struct Snapshot {
   std::vector<Field> cell;   ///< per element: means
   std::vector<Field> node;   ///< per mesh node
   std::vector<Field> solid;  ///< per solid point
-  /// x, y, z of every solid point; empty where they stay where the case has them.
+  /// x, y, z of every solid point; empty if they are at rest.
   std::vector<double> solid_positions = {};
   std::vector<double> liquid_positions;  ///< x, y, z of every liquid point; double-point only
   std::vector<Field> liquid;             ///< per liquid point
-  /// The element's own linear scalar at its vertices: Dim + 1 components per element, in the order
-  /// of its nodes. `sample` reads these.
+  /// Linear field of each element at its vertices: Dim + 1 components, in the order of its nodes.
+  /// `sample` reads these fields.
   std::vector<Field> element_vertex;
   /// The state from which a run can continue after this snapshot.
   std::optional<RestartPoint> restart;
 };
 
-/// run.json, but for the scene and the versions, which the writer adds.
+/// run.json without the scene and the versions, which the writer adds.
 struct RunInfo {
   std::string status = "running";  ///< "running", "done", "failed" or "interrupted"
   std::string message;             ///< why it failed, empty otherwise
@@ -61,8 +61,8 @@ struct RunInfo {
   long liquid_points = 0;
   long elements = 0;
   int threads = 1;
-  double wall_seconds = 0.0;  ///< of this process, as those of the passes
-  /// s; nothing in a run from the start
+  double wall_seconds = 0.0;  ///< of this process, like those of the passes
+  /// Time from which the run was continued, s; nothing in a run from the start.
   std::optional<double> resumed_at;
   double memory_bytes = 0.0;  ///< largest resident set so far
   std::vector<PassTiming> passes;
@@ -70,16 +70,16 @@ struct RunInfo {
   std::vector<std::string> warnings;  ///< as printed
 };
 
-/// A table that only grows. Rows are flushed as they come; one that does not fit on the disk leaves
-/// those before it as they are.
+/// A table that only grows. Rows are flushed immediately; if the disk is full, the earlier rows
+/// stay complete.
 class GrowingTable {
  public:
   GrowingTable() = default;
-  /// A new file with this line.
+  /// Creates a file with this line.
   GrowingTable(std::string path, const std::string& names);
-  /// Goes on behind the first `rows` lines after the names; drops the others.
+  /// Continues after the first `rows` lines below the names; removes the others.
   GrowingTable(std::string path, long rows);
-  /// Whole lines. Throws FileError, also where the file is no longer the one that was written to.
+  /// Appends complete lines. Throws FileError, also if the file was replaced.
   void append(const std::string& lines);
 
  private:
@@ -88,18 +88,17 @@ class GrowingTable {
   std::ofstream out_;
 };
 
-/// Owns the folder from construction on, and lets no other solver in. Rows are flushed as they
-/// come; a snapshot is written under a temporary name, renamed, and only then named in the .series
-/// files. Throws FileError.
+/// Owns the folder and keeps other solvers out. Rows are flushed immediately; a snapshot is written
+/// under a temporary name, renamed, and then listed in the .series files. Throws FileError.
 template <int Dim>
 class ResultsWriter {
  public:
-  /// Makes the folder, replacing a run of the same case that stood there before, and copies what a
-  /// reader needs of the case. Throws as `lock_for_results` does.
+  /// Makes the folder, replaces an earlier run of the same case, and copies what a reader needs of
+  /// the case. Throws as `lock_for_results` does.
   ResultsWriter(const std::string& folder, const Case<Dim>& c);
-  /// Makes the folder with the lock in hand, replacing any run.
+  /// Takes a folder whose lock is held; replaces any run.
   ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock);
-  /// Goes on with the run that stands there: drops what came after `point`.
+  /// Continues the run in the folder; removes results after `point`.
   ResultsWriter(const std::string& folder, const Case<Dim>& c, FolderLock lock,
                 const RestartPoint& point);
 
@@ -109,16 +108,16 @@ class ResultsWriter {
   void append_boundaries(std::span<const BoundaryRow> rows);
   void append_probes(std::span<const ProbeRow> rows);
   void append_sections(std::span<const SectionRow> rows);
-  /// Hand it over where there are many points.
+  /// Move the snapshot in if it has many points.
   void write_snapshot(Snapshot snapshot);
-  /// Where a run stops between snapshots, or would lose much if it were stopped.
+  /// Writes the state of a run that stops between snapshots or has long written none.
   void write_checkpoint(const RestartPoint& point);
-  /// When the run is about to be done.
+  /// Call this before the status becomes "done".
   void remove_checkpoint();
   void write_run_info(const RunInfo& info);
 
  private:
-  /// A .series file, whose entries only become more.
+  /// A .series file, which only grows.
   struct Series {
     std::string kind;
     std::size_t count = 0;
@@ -131,13 +130,13 @@ class ResultsWriter {
   void write_grids() const;
   /// Removes the states of snapshots that are no longer among the newest `output.restarts`.
   void remove_old_states() const;
-  /// Lines of the table of this name.
+  /// Appends lines to the table of this name.
   template <class Row>
   void append(const char* name, std::span<const Row> rows);
 
   std::string folder_;
   const Case<Dim>& case_;
-  std::string model_digest_;  ///< of the case as it was at construction: it may lose its points
+  std::string model_digest_;  ///< of the case at construction; the case may lose its points later
   FolderLock lock_;
   std::vector<TableFile> files_;
   std::vector<GrowingTable> tables_;  ///< one for each of `files_`

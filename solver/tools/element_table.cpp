@@ -14,7 +14,7 @@
 namespace suffuse {
 namespace {
 
-/// Larger ones are likelier a slip: per cent.
+/// Larger strains are probably given in per cent.
 constexpr double largest_strain = 2.0;
 
 const std::vector<std::string>& known_columns() {

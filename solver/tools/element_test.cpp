@@ -66,7 +66,7 @@ SoilElementTarget target_of(const ElementTableRow& row) {
                                 .suggestion = {}});
 }
 
-/// The part of the way to a row, `share` of it, as a target of its own.
+/// The target at the share `share` of the way to a row.
 SoilElementTarget part_of(const SoilElementTarget& whole, const SoilElementState& start,
                           double share) {
   SoilElementTarget part = whole;

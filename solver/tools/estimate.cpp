@@ -26,9 +26,9 @@
 namespace suffuse {
 namespace {
 
-/// A step that takes longer is expensive, s.
+/// Wall time above which a step is expensive, s.
 constexpr double expensive_step = 0.1;
-/// Fewer steps that keep a tolerance tell nothing of others.
+/// Fewest steps with a tolerance from which others can be estimated.
 constexpr long fewest_steps = 3;
 
 double size_of(const std::string& path) {
@@ -37,8 +37,8 @@ double size_of(const std::string& path) {
   return none ? 0.0 : static_cast<double>(size);
 }
 
-/// Writes some snapshots of a trial into a temporary folder: their size changes in the course of a
-/// run, as they are compressed.
+/// Writes some snapshots of a trial into a temporary folder, because the size of compressed
+/// snapshots changes during a run.
 template <int Dim>
 class WrittenSnapshots {
  public:
@@ -46,7 +46,7 @@ class WrittenSnapshots {
       : folder_("suffuse-estimate"), writer_(folder_.path().string(), c) {}
 
   [[nodiscard]] ResultsWriter<Dim>& writer() { return writer_; }
-  /// Size of what a run writes once, and of the tables, bytes.
+  /// Size of all files except snapshots, bytes.
   [[nodiscard]] double size_without_snapshots() const {
     double sum = 0.0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
@@ -60,7 +60,7 @@ class WrittenSnapshots {
   [[nodiscard]] double state_size() const { return state_size_; }
   [[nodiscard]] double seconds() const { return seconds_; }
 
-  /// Snapshot `index` of the run. Those of the run that lie between are left out.
+  /// Writes snapshot `index` of the run. Snapshots in between are left out.
   void write(long index, Snapshot snapshot) {
     const Stopwatch watch;
     writer_.write_snapshot(std::move(snapshot));
@@ -78,7 +78,7 @@ class WrittenSnapshots {
   /// Index of the last snapshot that was written; -1 before the first.
   [[nodiscard]] long last() const { return samples_.empty() ? -1 : samples_.back().first; }
 
-  /// All `count` snapshots, bytes: linear in between, and those to come like the last.
+  /// Size of all `count` snapshots, bytes: interpolated linearly, later ones like the last.
   [[nodiscard]] double bytes_of_all(long count) const {
     double sum = samples_.front().second;
     for (std::size_t k = 1; k < samples_.size(); ++k) {
@@ -117,11 +117,11 @@ class Trial final : public OutputSink<Dim> {
     try {
       files_.emplace(c);
     } catch (const FileError&) {
-      // The size of the files remains unknown.
+      // The size of the files stays unknown.
     }
   }
 
-  /// Throws DeadlinePassed where not even one step has ended.
+  /// Throws DeadlinePassed if no step has ended.
   Estimate run() {
     Estimate result;
     course_.marks = {{0.0, 0.0, seconds()}};
@@ -133,7 +133,7 @@ class Trial final : public OutputSink<Dim> {
     } catch (const DeadlinePassed&) {
       if (course_.marks.size() < 2) throw;
       result.too_short = is_adaptive() && course_.marks.size() <= fewest_steps;
-      complete = false;  // what the model and its outputs hold must not be used any more
+      complete = false;  // the state of the model must not be used any more
     }
     deadline_.reset();
     result.memory = peak_memory();
@@ -153,7 +153,7 @@ class Trial final : public OutputSink<Dim> {
     result.seconds = course_.last().seconds;
     if (!result.whole && result.failure.empty() && result.trial_steps > 0) extrapolate(result);
     result.steps = std::round(result.steps);
-    // Snapshots are written while the run goes on.
+    // Snapshots are written while the run continues.
     if (files_) {
       result.seconds =
           std::max(result.seconds, static_cast<double>(result.snapshots) * files_->seconds());
@@ -181,7 +181,7 @@ class Trial final : public OutputSink<Dim> {
   }
 
  private:
-  /// What is said of transport.
+  /// Adds the sentences about transport.
   void describe(Estimate& result) const {
     const Scene& scene = case_.document.scene;
     const bool has_a_choice = scene.formulation == Formulation::single_point &&
@@ -192,7 +192,7 @@ class Trial final : public OutputSink<Dim> {
     }
   }
 
-  /// Steps that keep a tolerance change their length in the course of the run.
+  /// Whether steps keep a tolerance, so that their length changes during the run.
   [[nodiscard]] bool is_adaptive() const {
     return case_.document.scene.time.scheme == FlowScheme::implicit_mixed && !plan_.flow.step_given;
   }
@@ -212,7 +212,7 @@ class Trial final : public OutputSink<Dim> {
     const Scene& scene = case_.document.scene;
     if (course_.last().time >= scene.time.end) return;
     const double longest = std::min(scene.output.every, scene.output.snapshot_every);
-    // What drives the flow changes at once at its breakpoints, and each has cost so many steps.
+    // The flow changes abruptly at breakpoints of its boundaries, each of which costs steps.
     const auto& kinks = loop_.model().flow().boundary_values().breakpoints();
     const auto passed = std::ranges::upper_bound(kinks, course_.last().time) - kinks.begin();
     const double of_each = course_.last().steps / static_cast<double>(passed + 1);
@@ -240,8 +240,8 @@ class Trial final : public OutputSink<Dim> {
     seconds_of_writing_ += watch.seconds();
   }
 
-  /// The files of the run. Rows are taken to be like that of the last state. Returns the seconds
-  /// that it takes to write the tables.
+  /// Adds the size of the run's files, with rows like that of the last state. Returns the time to
+  /// write the tables, s.
   double add_files(Estimate& result) {
     const OutputTimes& times = loop_.schedule().snapshots();
     result.snapshots = times.count();
@@ -260,7 +260,7 @@ class Trial final : public OutputSink<Dim> {
     return seconds;
   }
 
-  /// The files of the run where the last state is incomplete, as far as those written tell.
+  /// Adds the size of the run's files from those written, if the last state is incomplete.
   void add_written_files(Estimate& result) {
     result.snapshots = loop_.schedule().snapshots().count();
     if (!files_ || files_->last() < 0) return;
@@ -269,8 +269,8 @@ class Trial final : public OutputSink<Dim> {
                   static_cast<double>(kept) * files_->state_size();
   }
 
-  /// The tables and what is there once, bytes; `seconds` becomes the time to write them. Throws
-  /// FileError.
+  /// Size of all files except snapshots, with all rows, bytes. Sets `seconds` to the time to write
+  /// the rows. Throws FileError.
   double add_rows(double& seconds, const FlowState<Dim>& flow) {
     const auto rows = static_cast<double>(loop_.schedule().rows().count());
     const auto write = [&] {
@@ -278,7 +278,7 @@ class Trial final : public OutputSink<Dim> {
       append_tables(files_->writer(), loop_.model(), flow);
     };
     const double others = files_->size_without_snapshots();
-    write();  // not timed: the first one takes longer than the others
+    write();  // not timed, because the first row takes longer
     const double before = files_->size_without_snapshots();
     const Stopwatch watch;
     write();
@@ -290,11 +290,11 @@ class Trial final : public OutputSink<Dim> {
   const Plan& plan_;
   TrialBudget budget_;
   Stopwatch watch_;
-  std::optional<Deadline> deadline_;  ///< of the model's start and its steps
+  std::optional<Deadline> deadline_;  ///< for the model's start and its steps
   RunLoop<Dim> loop_;
   RowChecks checks_;
   TrialCourse course_;
-  std::optional<WrittenSnapshots<Dim>> files_;  ///< none where they cannot be written
+  std::optional<WrittenSnapshots<Dim>> files_;  ///< nothing if they cannot be written
   double seconds_of_writing_ = 0.0;
 };
 

@@ -14,32 +14,32 @@
 namespace suffuse {
 namespace {
 
-/// Errors may be so many times larger in the pilot's steps: they are about ten times longer.
+/// Factor on the tolerance for the pilot's steps, which are about ten times longer then.
 constexpr double looser = 100.0;
 constexpr double loosest = 0.1;
-/// Where the pilot cannot come to the end in such steps, it takes some of equal lengths, which
-/// errors of this size do not shorten.
+/// If the pilot cannot reach the end in such steps, it continues with equal steps and this
+/// tolerance, which does not shorten them.
 constexpr double no_tolerance = 100.0;
 constexpr double fewest_pilot_steps = 2.0;
 constexpr double most_steps = 24.0;
-/// Such a step takes as long as so many of the run's own.
+/// Cost of such a step over that of one of the run's own steps.
 constexpr double long_over_own = 8.0;
-/// They grow by a factor between these until they have that length; after half of them they should.
+/// Limits of their growth per step, which reaches the final length after half of the steps.
 constexpr double least_growth = 8.0;
 constexpr double most_growth = 1000.0;
-/// So many of them at least lie between two breakpoints of what drives the flow.
+/// Fewest of them between two breakpoints of the boundary values.
 constexpr double fewest_between_kinks = 3.0;
 constexpr double hardly_growing = 1.2;
-/// After a breakpoint the run's own steps start short, and so many are spent on growing.
+/// Additional own steps of the run after a breakpoint, where they start short and grow.
 constexpr double steps_after_kink = 4.0;
-/// The share of the time that is spent on the pilot, and that of it on the former kind of steps.
+/// Share of the time for the pilot, and share of that for its steps with a tolerance.
 constexpr double share_of_pilot = 0.7;
 constexpr double share_of_control = 0.45;
-/// If there is time for fewer of the run's own steps, steps of the former kind are left out.
+/// If time suffices for fewer of the run's own steps, steps with a tolerance are left out.
 constexpr double worth_control = 40.0;
-/// States that are kept at most.
+/// Most states that are kept.
 constexpr std::size_t most_places = 16;
-/// Steps that are tried at a place. The first, which follow a long one, are not counted.
+/// Steps tried at a place. The first are not counted, because they follow a long step.
 constexpr int uncounted = 2;
 constexpr int counted_steps = 3;
 
@@ -86,7 +86,7 @@ void Pilot<Dim>::look_ahead(double seconds, double each, TrialCourse& course) {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     while (place != places_.end() && place->index < i) ++place;
     if (place != places_.end() && place->seconds > 0.0) {
-      // After steps without a tolerance the state is rough, and steps take longer than in the run.
+      // Without a tolerance the state is inaccurate, and steps take longer than in the run.
       cost = i < smooth_steps_ ? place->seconds : std::sqrt(place->seconds * each);
     }
     const Mark& last = course.last();
@@ -100,7 +100,7 @@ void Pilot<Dim>::travel(double tolerance, std::optional<double> count, double se
   const Deadline deadline(seconds);
   Case<Dim> changed = case_;
   Scene& scene = changed.document.scene;
-  scene.initial_flow = InitialFlow::rest;  // it is replaced, and the fastest
+  scene.initial_flow = InitialFlow::rest;  // `restore` replaces it; rest is the fastest start
   scene.time.tolerance = tolerance;
   try {
     const auto model = make_model(changed, options_);
@@ -128,7 +128,7 @@ void Pilot<Dim>::travel(double tolerance, std::optional<double> count, double se
       try {
         model->advance(latest);
       } catch (const NumericalError&) {
-        // So long a step has no result. A shorter one may have.
+        // The step is too long; a shorter one may succeed.
         growth = std::sqrt(growth);
         if (!count || growth < hardly_growing) return;
         restore(*model, state_);
@@ -137,9 +137,9 @@ void Pilot<Dim>::travel(double tolerance, std::optional<double> count, double se
       note_step(*model, start);
     }
   } catch (const NumericalError&) {
-    // The pilot does not even start.
+    // The pilot cannot start.
   } catch (const DeadlinePassed&) {
-    // It has come as far as it could in the time.
+    // The time is over.
   }
 }
 
@@ -148,7 +148,7 @@ void Pilot<Dim>::note_step(TwoPhaseModel<Dim>& model, double start) {
   const Scene& scene = case_.document.scene;
   time_ = model.time();
   state_ = state_of(model);
-  // No step of the run is longer than that of the pilot, and outputs end steps.
+  // Steps of the run are not longer than those of the pilot and the times between outputs.
   const double own = std::min({model.flow().step_within(scene.time.tolerance), time_ - start,
                                scene.output.every, scene.output.snapshot_every});
   if (steps_.size() % stride_ == 0) places_.push_back({steps_.size(), state_, own});
@@ -167,7 +167,7 @@ void Pilot<Dim>::try_steps(double seconds) {
   std::size_t width = 2;
   while (width < places_.size()) width *= 2;
   try {
-    // What is extrapolated costs what the last place does.
+    // The last place gives the cost of extrapolated steps.
     if (!places_.empty()) try_steps_at(places_.back());
     for (; width >= 2; width /= 2) {
       for (std::size_t k = width / 2; k < places_.size(); k += width) {
@@ -175,7 +175,7 @@ void Pilot<Dim>::try_steps(double seconds) {
       }
     }
   } catch (const DeadlinePassed&) {
-    // The time is over: other places remain without.
+    // The time is over; other places have no measured cost.
   }
 }
 
@@ -192,7 +192,7 @@ void Pilot<Dim>::try_steps_at(Place& place) {
     const long taken = model_.steps() - before;
     if (taken > 0) place.seconds = watch.seconds() / static_cast<double>(taken);
   } catch (const NumericalError&) {
-    // Other places may say more.
+    // Other places may have a result.
   }
 }
 

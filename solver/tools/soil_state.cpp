@@ -10,13 +10,13 @@
 namespace suffuse {
 namespace {
 
-/// Values of a field; empty where the snapshot does not have it.
+/// Values of a field; empty if the snapshot does not have it.
 std::vector<double> values(const std::vector<Field>& fields, const std::string& name) {
   const auto found = std::ranges::find(fields, name, &Field::name);
   return found == fields.end() ? std::vector<double>() : found->values;
 }
 
-/// Values of a field, of which there must be `count`. Throws FileError otherwise.
+/// The `count` values of a field. Throws FileError if their number differs.
 std::vector<double> values(const std::vector<Field>& fields, const std::string& name,
                            std::size_t count) {
   std::vector<double> result = values(fields, name);
@@ -25,7 +25,7 @@ std::vector<double> values(const std::vector<Field>& fields, const std::string& 
                   "; expected " + std::to_string(count));
 }
 
-/// Whole numbers from 0 to below `end`.
+/// The values of a field as whole numbers in [0, `end`).
 std::vector<int> indices(const std::vector<Field>& fields, const std::string& name,
                          std::size_t count, int end) {
   std::vector<int> result;
@@ -64,8 +64,8 @@ void take_points(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& start, const 
   state.points = {mesh, places, values(snapshot.solid, "volume", count)};
 }
 
-/// Displacement of the nodes since the start, m: the mean of that of the points around each, which
-/// is 0 where there are none.
+/// Displacement of the nodes since the start, m: the weighted mean of that of the points around
+/// each node; 0 without points.
 template <int Dim>
 NodeVectors<Dim> node_displacement(const Grid<Dim>& grid, const MaterialPoints<Dim>& start,
                                    const SoilState<Dim>& state) {
@@ -87,7 +87,7 @@ NodeVectors<Dim> node_displacement(const Grid<Dim>& grid, const MaterialPoints<D
   return sum;
 }
 
-/// The boundaries of the scene, moved with the soil.
+/// Loads of the scene's boundaries, on surfaces moved with the soil.
 template <int Dim>
 BoundaryLoads<Dim> moved_loads(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                const SoilState<Dim>& state) {

@@ -1,43 +1,43 @@
 #pragma once
 
-/// The soil at one moment of a run, as a snapshot has it, and its factor of safety then.
+/// The soil at one time of a run, from a snapshot, and its factor of safety at that time.
 
 #include "solid/skeleton.hpp"
 #include "tools/strength_reduction.hpp"
 
 namespace suffuse {
 
-/// What the factor of safety depends on, in addition to the strength of the soils. Stresses are not
-/// among it: the factor does not depend on them.
+/// State on which the factor of safety depends, in addition to the strength of the soils. It does
+/// not depend on stresses.
 template <int Dim>
 struct SoilState {
-  double time = 0.0;                 ///< s: when loads act on the boundaries
-  SolidPoints<Dim> points;           ///< in their places, with their volumes; without stress
+  double time = 0.0;                 ///< s; for the loads on the boundaries
+  SolidPoints<Dim> points;           ///< with places and volumes; without stress
   std::vector<int> id;               ///< per point: its number among the points of the case
   std::vector<double> solid_volume;  ///< per point, m3
-  std::vector<double> fines_left;    ///< per point: share of the erodible fines of the start
-  std::vector<double> pressure;      ///< of the pores on the solid, per element, Pa
+  std::vector<double> fines_left;    ///< per point: remaining share of the erodible fines
+  std::vector<double> pressure;      ///< pore pressure on the solid, per element, Pa
   std::vector<double> liquid_mass;   ///< per volume of soil and element, kg/m3
 };
 
-/// Reads it from the fields of a snapshot (`soil_fields`). That of a rigid skeleton has the points
-/// where the case has them.
+/// Reads the state from the fields of a snapshot (`soil_fields`). Points of a rigid skeleton are at
+/// their places in the case.
 /// \param soils  with the points of the case
-/// Throws FileError where the snapshot has another number of points or elements.
+/// Throws FileError if the snapshot has another number of points or elements.
 template <int Dim>
 SoilState<Dim> soil_state(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                           const Snapshot& snapshot);
 
-/// Names of the fields that `soil_state` needs: of elements and solid points, and of those more
-/// where the skeleton moves. `saturation` of elements may be missing.
+/// Names of the fields of elements and solid points that `soil_state` needs; more of points if the
+/// skeleton moves. `saturation` of elements may be missing.
 struct SoilFields {
   std::vector<const char*> cell;
   std::vector<const char*> solid;
 };
 SoilFields soil_fields(bool moves);
 
-/// Largest divisor of the strength of the soils that leaves this state an equilibrium, under their
-/// weight and the loads of the scene at that time. Loaded surfaces have moved with the soil. Throws
+/// Largest divisor of the strength of the soils for which this state has an equilibrium, under the
+/// weight and the loads of the scene at that time. Loaded surfaces are moved with the soil. Throws
 /// NumericalError when nothing holds the soil.
 template <int Dim>
 SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils,

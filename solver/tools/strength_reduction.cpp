@@ -14,8 +14,8 @@ namespace {
 /// Largest displacement of the elastic body in trials, over the size of the smallest element.
 constexpr double elastic_displacement = 1e-5;
 
-/// In the place of `soft_share`: a trial takes all loads in one step, in which partial elements
-/// must not carry what the soil cannot.
+/// `soft_share` in trials: they apply all loads in one step, in which partially filled elements
+/// must not carry loads that the soil cannot.
 constexpr double soft_in_trials = 1e-6;
 
 template <int Dim>
@@ -73,7 +73,7 @@ class StrengthReduction {
 
  private:
   [[nodiscard]] double next_factor() const {
-    // Those between what holds and what fails.
+    // Undecided factors between the bounds.
     const auto first = undecided_.upper_bound(result_.holds);
     const auto last = undecided_.lower_bound(result_.fails);
     const double below = first == last ? result_.fails : *first;
@@ -131,7 +131,7 @@ class StrengthReduction {
     result_.trials.push_back(trial);
   }
 
-  /// Makes the soil so stiff that the elastic body keeps its shape.
+  /// Finds a stiffness for which the elastic body keeps its shape.
   void find_stiffness() {
     const SkeletonLaw* const elastic = skeleton_law("elastic");
     double young = 0.0;
@@ -141,7 +141,7 @@ class StrengthReduction {
     double force = 0.0;
     for (const Vector<Dim>& f : loads_) force += f.norm();
     for (PointSkeleton& point : skeleton_) point.law = elastic;
-    // First so much that the sum of all forces would hardly move one element.
+    // The first stiffness is such that the sum of all forces would hardly deform one element.
     const double size = element_size(body_.grid);
     stiffness_ = 1e6 * std::max(force / std::pow(size, Dim - 1), 1.0) / young;
     elastic_max_ = elastic_displacement * size;

@@ -24,7 +24,7 @@
 namespace suffuse {
 namespace {
 
-/// More suction in soil that has no retention law than this, Pa, is worth a warning.
+/// Suction in soil without a retention law above which there is a warning, Pa.
 constexpr double notable_suction = 1e3;
 
 bool has_strength(const Soil& soil) {
@@ -42,8 +42,8 @@ void refuse_without_strength(const SceneDocument& document) {
                    listed(laws) + " under [soil.NAME.skeleton]");
 }
 
-/// Water and solid at t = 0, before anything moves. The soil need not be able to carry its loads:
-/// it is rigid, or, where some regions are free water because soil moves, elastic.
+/// Snapshot of water and solid at t = 0, before any motion. The soil may be unable to carry its
+/// loads; it is therefore made rigid, or elastic if free water requires soil that moves.
 template <int Dim>
 Snapshot start_snapshot(const Case<Dim>& c, int threads) {
   Case<Dim> strong = c;
@@ -88,7 +88,7 @@ Snapshot read_snapshot(const ResultsReader& results, std::size_t index) {
   throw InputError(InputProblem{"", option, found, expected});
 }
 
-/// `0, 10, 20 s`; of many the first, the last, and how many there are.
+/// `0, 10, 20 s`; for many times their number, the first and the last.
 std::string shown_times(const std::vector<double>& times) {
   constexpr std::size_t most = 10;
   std::vector<std::string> texts;
@@ -99,7 +99,7 @@ std::string shown_times(const std::vector<double>& times) {
          " s: " + texts[0] + ", " + texts[1] + ", " + texts[2] + " ...";
 }
 
-/// The snapshots that are asked for.
+/// Numbers of the requested snapshots.
 std::vector<std::size_t> chosen_snapshots(const ResultsReader& results, const std::string& time) {
   const std::vector<double>& times = results.times();
   if (times.empty()) {
@@ -123,7 +123,7 @@ std::vector<std::size_t> chosen_snapshots(const ResultsReader& results, const st
   return chosen;
 }
 
-/// States are of the same points, and their porosities mean the same shares of fines.
+/// Checks that the states have the same points, and that porosities mean the same shares of fines.
 template <int Dim>
 void refuse_other_soil(const Case<Dim>& c, const ResultsReader& results) {
   const Case<Dim> other = read_case<Dim>(layout::in_folder(results.folder(), layout::case_copy));
@@ -154,8 +154,8 @@ class StrengthTable {
   StrengthTable(const Case<Dim>& c, const StrengthReductionOptions& options)
       : options_(options), grid_(c.mesh), soils_(c) {}
 
-  /// Adds a row, if there is a factor. Returns why there is none, or nothing.
-  /// \param where  for the sentences
+  /// Adds a row if there is a factor. Otherwise returns the reason.
+  /// \param where  name of the state in sentences
   std::string add(const Snapshot& snapshot, const std::string& where) {
     const SoilState<Dim> state = soil_state(grid_, soils_, snapshot);
     warn_of_suction(state, where);
@@ -172,7 +172,7 @@ class StrengthTable {
     if (!options_.quiet) std::fprintf(stderr, "%s\n", sentence(found, state, where).c_str());
     return {};
   }
-  /// That of the last row.
+  /// Writes the mechanism of the last row.
   void write_mechanism(const std::string& path) const {
     double largest = 0.0;
     for (int i = 0; i < grid_.mesh.node_count() && !mechanism_.empty(); ++i) {
@@ -221,7 +221,7 @@ class StrengthTable {
     return Eigen::Map<const Vector<Dim>>(&mechanism_[static_cast<std::size_t>(Dim) * node]);
   }
 
-  /// sqrt(2 e : e) of the deviator e of the strain: the shear gamma where the soil shears.
+  /// sqrt(2 e : e) with the deviator e of the strain: gamma in simple shear.
   [[nodiscard]] double shear_strain(int element) const {
     using Matrix = Eigen::Matrix3d;
     Matrix gradient = Matrix::Zero();
@@ -243,7 +243,7 @@ class StrengthTable {
            moving_body(state);
   }
 
-  /// Why the last trial decides nothing.
+  /// Describes why the last trial is undecided.
   [[nodiscard]] std::string undecided(const SafetyFactor& found,
                                       const SoilState<Dim>& state) const {
     const StrengthTrial& trial = found.trials.back();
@@ -265,7 +265,7 @@ class StrengthTable {
            "or a dilation nearer to the friction may give them";
   }
 
-  /// soil "fill" at (1.5, 2)
+  /// Text such as: soil "fill" at (1.5, 2)
   [[nodiscard]] std::string soil_at(const SoilState<Dim>& state, int point) const {
     std::string text =
         "soil " + shown_value(soils_.soil_of_point(state.id[point]).region) + " at (";
@@ -275,7 +275,7 @@ class StrengthTable {
     return text + ')';
   }
 
-  /// What moves as the soil fails: where most, and how much soil at half of that or more.
+  /// Describes the failing soil: where it moves most, and how much moves at least half as far.
   [[nodiscard]] std::string moving_body(const SoilState<Dim>& state) const {
     std::vector<double> moved;
     for (const int e : state.points.element) {
@@ -296,7 +296,7 @@ class StrengthTable {
            std::to_string(elements.size()) + (elements.size() == 1 ? " element)" : " elements)");
   }
 
-  /// Share of the erodible fines that is left in soils with a strength; 1 where there were none.
+  /// Remaining share of the erodible fines in soils with a strength; 1 if there were none.
   [[nodiscard]] double mean_fines_left(const SoilState<Dim>& state) const {
     double left = 0.0;
     double start = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The course of a trial run, and what it says of the steps that are still to come.
+/// The course of a trial run, and an estimate of the remaining steps.
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 
 namespace suffuse {
 
-/// How far a trial was at the end of an interval.
+/// Progress of a trial at the end of an interval.
 struct Mark {
   double time = 0.0;  ///< simulated, s
   double steps = 0.0;
-  double seconds = 0.0;  ///< of wall time
+  double seconds = 0.0;  ///< wall time
 };
 
 /// Steps per simulated second.
@@ -32,11 +32,11 @@ struct TrialCourse {
     return *std::prev(after);
   }
   [[nodiscard]] const Mark& last() const { return marks.back(); }
-  /// The start of the later half. What comes before is not like what is to come.
+  /// The start of the later half, which represents the rest of the run better than the first half.
   [[nodiscard]] const Mark& half() const { return at(0.5 * last().time); }
 
-  /// Steps from the last mark to `end`. They go on to grow by the power of time by which they have
-  /// grown in the last two decades, at most as time itself, until they are `longest`.
+  /// Number of steps from the last mark to `end`. The length of steps grows as a power of time, at
+  /// most the first, found from the last two decades of time, up to `longest`.
   [[nodiscard]] double steps_to_go(double longest, double end) const {
     const double rate = step_rate(half(), last());
     const double middle = 0.5 * (half().time + last().time);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Conductivity laws: how the hydraulic conductivity of a soil follows its porosity and its fines.
-/// Each law is one file of this folder; docs/contributing.md says how to add one.
+/// Conductivity laws: the dependence of the hydraulic conductivity on porosity and fines. Each law
+/// is one file of this folder; docs/contributing.md says how to add one.
 
 #include <limits>
 #include <span>
@@ -11,14 +11,13 @@ namespace suffuse {
 
 struct ConductivityLaw;
 
-/// Numbers that some conductivity laws ask for. A law declares those that it uses.
+/// Parameters of the conductivity laws. A law declares those that it uses.
 struct ConductivityParameters {
   double size_ratio = 1.0;  ///< mean size of the coarse grains over that of the fines
   double exponent = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A number that a law asks the scene for, under `[soil.NAME]`. Without a default the law's
-/// soils must have it.
+/// A parameter of a law, read from `[soil.NAME]`. It is required if it has no default.
 struct ConductivityParameter {
   std::string_view key;
   std::string_view symbol;
@@ -27,7 +26,7 @@ struct ConductivityParameter {
   double above = 0.0;  ///< the value is larger than this
 };
 
-/// One soil's law with its numbers.
+/// The law of a soil and its parameters.
 struct ConductivityModel {
   const ConductivityLaw* law = nullptr;  ///< null: constant
   double conductivity = 0.0;             ///< k_0 at the initial porosity, m/s
@@ -39,10 +38,10 @@ struct ConductivityModel {
   [[nodiscard]] double at(double initial_porosity, double porosity) const;
 };
 
-/// A law, as its file declares it.
+/// A conductivity law.
 struct ConductivityLaw {
-  std::string_view word;         ///< what `conductivity_law` is in a scene
-  std::string_view description;  ///< how conductivity follows porosity, for the scene reference
+  std::string_view word;         ///< value of `conductivity_law` in a scene
+  std::string_view description;  ///< the dependence on porosity, for the scene reference
   std::span<const ConductivityParameter> parameters = {};
   /// k / k_0. Null: always 1.
   double (*ratio)(const ConductivityModel& model, double initial_porosity,
@@ -51,10 +50,10 @@ struct ConductivityLaw {
   [[nodiscard]] bool depends_on_porosity() const { return ratio != nullptr; }
 };
 
-/// Every law there is, in the order of the scene reference: the order in physics/CMakeLists.txt.
-/// The first is what a scene has by default.
+/// All laws, in the order of physics/CMakeLists.txt and the scene reference. The first is the
+/// default.
 std::span<const ConductivityLaw* const> conductivity_laws();
-/// The law that a scene calls `word`. Throws std::invalid_argument where there is none.
+/// The law with the name `word`. Throws std::invalid_argument if there is none.
 const ConductivityLaw* conductivity_law(std::string_view word);
 
 inline bool ConductivityModel::depends_on_porosity() const {

@@ -1,4 +1,4 @@
-/// Conductivity does not follow porosity.
+/// Conductivity does not depend on porosity.
 
 #include "physics/conductivity/conductivity_law.hpp"
 

@@ -1,6 +1,6 @@
-/// Conductivity goes with n^3 over the square of the grains' surface (Carman, Trans. Inst. Chem.
-/// Eng. 15 (1937) 150): infinite where there is no solid. Fines have `size_ratio` times the surface
-/// of as much coarse grains.
+/// Conductivity is proportional to n^3 over the square of the surface of the grains (Carman, Trans.
+/// Inst. Chem. Eng. 15 (1937) 150); without solid it is infinite. Per volume, fines have
+/// `size_ratio` times the surface of coarse grains.
 
 #include "physics/conductivity/conductivity_law.hpp"
 
@@ -14,7 +14,7 @@ constexpr ConductivityParameter size_ratio{
     .value = &ConductivityParameters::size_ratio};
 
 double shape(const ConductivityModel& model, double porosity) {
-  // n_C + r n_e, with n_C + n_e = 1 - n: without cancellation at r = 1.
+  // The surface is n_C + r n_e. With n_C + n_e = 1 - n it has no cancellation at r = 1.
   const double solid = 1.0 - porosity;
   const double excess = model.parameters.size_ratio - 1.0;
   const double surface = excess == 0.0 ? solid : solid + excess * (solid - model.skeleton_fraction);

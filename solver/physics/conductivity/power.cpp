@@ -1,4 +1,4 @@
-/// Conductivity goes with a power of the porosity.
+/// Conductivity is proportional to a power of the porosity.
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
-/// Erosion goes with the volume of liquid that passes: D = |q| (Cividini and Gioda, Int. J.
-/// Geomech. 4 (2004) 191).
+/// The drive is the flux of the liquid: D = |q| (Cividini and Gioda, Int. J. Geomech. 4 (2004)
+/// 191).
 
 #include "physics/drive/drive_law.hpp"
 

@@ -1,4 +1,4 @@
-/// Erosion goes with the hydraulic gradient along the flow: D = k_r i, |q|/k where drag is Darcy's.
+/// The drive is the hydraulic gradient along the flow: D = k_r i, equal to |q|/k for Darcy's drag.
 
 #include "physics/drive/drive_law.hpp"
 

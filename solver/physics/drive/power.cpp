@@ -1,4 +1,4 @@
-/// Erosion goes with the power that the flow spends in a volume of soil: P = rho_w g k_r i |q|
+/// The drive is the power that the flow dissipates per volume of soil: P = rho_w g k_r i |q|
 /// (Sibille, Marot and Sail, Acta Geotech. 10 (2015) 489).
 
 #include "physics/drive/drive_law.hpp"

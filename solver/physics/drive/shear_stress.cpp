@@ -1,4 +1,4 @@
-/// Erosion goes with the shear stress on the walls of pores that are tubes of one radius:
+/// The drive is the shear stress on the walls of the pores, taken as tubes of equal radius:
 /// tau = rho_w g k_r i sqrt(2 kappa / n_L) (Khilar, Fogler and Gray, J. Geotech. Eng. 111 (1985)
 /// 833; Reddi, Lee and Bonala, Geotech. Test. J. 23 (2000) 62).
 

@@ -1,4 +1,4 @@
-/// Erosion goes on by itself, whatever the flow.
+/// Erosion does not depend on the flow.
 
 #include "physics/drive/drive_law.hpp"
 

@@ -1,4 +1,4 @@
-/// Fluidised grains set others free: phi_e goes with n_e c (Vardoulakis, Stavropoulou and
+/// Fluidised grains detach others: phi_e is proportional to n_e c (Vardoulakis, Stavropoulou and
 /// Papanastasiou, Transp. Porous Media 22 (1996) 225).
 
 #include "physics/erosion/erosion_law.hpp"

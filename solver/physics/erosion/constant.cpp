@@ -1,4 +1,4 @@
-/// Eq. 6 of the paper: phi_e = alpha until nothing is left.
+/// Eq. 6 of the paper: phi_e = alpha until all fines are eroded.
 
 #include "physics/erosion/erosion_law.hpp"
 

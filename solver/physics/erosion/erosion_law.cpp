@@ -13,19 +13,19 @@ LocalState local_state(const ErosionModel& model, double porosity, double flux) 
           .flux = flux};
 }
 
-/// D where it depends on |q| alone; not a number where it depends on more.
+/// D if it depends at most on |q|; otherwise NaN.
 double drive_at(const ErosionModel& model, double flux) {
   return model.drive->depends_on_flow() ? model.drive->value({.flux = flux}) : 1.0;
 }
 
-/// What a step leaves: not more than all eroded, and not less than before, to the last digit. Lets
-/// pass what is not a number.
+/// Limits the porosity after a step exactly to the range from its value before to that of fully
+/// eroded soil. NaN stays NaN.
 double bounded(double porosity, const ErosionModel& model, const LocalState& before) {
   const double most = model.porosity_max - model.residual.at(before.flux);
   return std::max(std::min(porosity, most), before.porosity);
 }
 
-/// A closed form where erosion depends on nothing but time and the state of the solid.
+/// Whether erosion depends only on time and the state of the solid, which gives a closed form.
 bool depends_on_time_alone(const ErosionModel& model) {
   return !depends_on_flux(model) && !depends_on_concentration(model);
 }
@@ -97,7 +97,7 @@ double scaled_time(const ErosionModel& model, double from, double to, double dri
   const double last = drive_rate(model, drive_to);
   double mean = 0.5 * (first + last);
   if (model.drive->depends_on_flow() && (first == 0.0) != (last == 0.0)) {
-    // A triangle, over the part of the time in which the drive is above its threshold.
+    // The rate is a triangle over the time in which the drive is above its threshold.
     const double above = std::max(late, drive_to) - model.threshold;
     mean *= above / std::abs(drive_to - late);
   }

@@ -1,4 +1,4 @@
-/// What is left decays exponentially.
+/// The erodible fines decay exponentially in scaled time.
 
 #include "physics/erosion/first_order.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The first-order law, which has two names.
+/// The first-order law, which a scene can name in two ways.
 
 #include "physics/local_state.hpp"
 
@@ -8,7 +8,7 @@ namespace suffuse::erosion {
 
 /// n_e - residual
 double first_order_state(const LocalState& state);
-/// What is left decays exponentially.
+/// The erodible fines decay exponentially in scaled time.
 double porosity_after_first_order(const LocalState& state, double scaled_time);
 
 }  // namespace suffuse::erosion

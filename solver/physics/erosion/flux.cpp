@@ -1,5 +1,5 @@
-/// The first-order law with the drive "flux", under a name of its own: what is left decays
-/// exponentially in the volume of liquid that has passed.
+/// The first-order law combined with the drive "flux": the erodible fines decay exponentially with
+/// the volume of liquid that has passed.
 
 #include "physics/erosion/erosion_law.hpp"
 #include "physics/erosion/first_order.hpp"

@@ -1,5 +1,5 @@
-/// Eq. 7 of the paper: phi_e = -beta ln(n_L / n_L,max), which nears n_L,max without end. A residual
-/// lowers what n_L nears.
+/// Eq. 7 of the paper: phi_e = -beta ln(n_L / n_L,max). n_L approaches n_L,max asymptotically. A
+/// residual lowers this limit.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace suffuse::erosion {
 namespace {
 
-/// n_L,max without the residual.
+/// n_L,max minus the residual.
 double porosity_max(const LocalState& state) {
   return state.porosity + state.erodible_fraction;
 }
@@ -19,9 +19,9 @@ double deficit(const LocalState& state) {
   return -std::log(state.porosity / porosity_max(state));
 }
 
-/// In w = ln(-ln(n / n_max)): dw/ds = -exp(exp(w)), s = S / n_max. The right-hand side tends
-/// to a constant as erosion runs out, so the approach to the cap is followed without end and
-/// without overshoot. Classical Runge-Kutta with steps short against the initial rate.
+/// Integrates dw/ds = -exp(exp(w)) with w = ln(-ln(n / n_max)) and s = S / n_max. The right-hand
+/// side tends to a constant at late times, so n approaches n_max without overshoot. Classical
+/// Runge-Kutta with steps that are short against the initial rate.
 double after(const LocalState& state, double scaled_time) {
   constexpr double longest_step = 0.01;
   const double start = deficit(state);
@@ -43,7 +43,7 @@ double after(const LocalState& state, double scaled_time) {
   return porosity_max(state) * std::exp(-std::exp(w));
 }
 
-/// -li(exp(-exp(w))) = E1(exp(w)), by its series where the fraction is one to rounding.
+/// -li(exp(-exp(w))) = E1(exp(w)), by its series if the fraction is 1 within rounding.
 double minus_li(double w) {
   return w < -40.0 ? -std::numbers::egamma - w : -std::expint(-std::exp(w));
 }

@@ -1,5 +1,5 @@
-/// S_e and k_r fall exponentially with suction (Gardner, Soil Sci. 85 (1958) 228): the flow
-/// equation becomes linear, so exact solutions exist.
+/// S_e and k_r fall exponentially with suction (Gardner, Soil Sci. 85 (1958) 228). The flow
+/// equation becomes linear and has exact solutions.
 
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ double capacity(const RetentionParameters& p, double psi) {
 }
 
 double steepest(const RetentionParameters& p) {
-  return -1e-6 / p.alpha;  // just below 0, where it ends
+  return -1e-6 / p.alpha;  // just below 0, where the capacity jumps to 0
 }
 
 constexpr std::array parameters{RetentionParameter{

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Retention laws: how much liquid the pores of a soil hold under suction, and how well the soil
-/// then conducts. Each law is one file of this folder; docs/contributing.md says how to add one.
+/// Retention laws: saturation and relative conductivity of a soil under suction. Each law is one
+/// file of this folder; docs/contributing.md says how to add one.
 
 #include <algorithm>
 #include <limits>
@@ -12,20 +12,20 @@ namespace suffuse {
 
 struct RetentionLaw;
 
-/// Numbers that some retention laws ask for. A law declares those that it uses.
+/// Parameters of the retention laws. A law declares those that it uses.
 struct RetentionParameters {
   double alpha = 0.0;  ///< reciprocal of the suction head at which pores empty, 1/m
-  double n = 0.0;      ///< how narrow the distribution of pore sizes is
+  double n = 0.0;      ///< exponent; larger for more uniform pore sizes
 };
 
-/// One soil's law with its numbers. The pressure head psi = p / (rho_w g), m, is negative under
-/// suction. S = S_r + (1 - S_r) S_e is the liquid per pore volume.
+/// The law of a soil and its parameters. The pressure head psi = p / (rho_w g), m, is negative
+/// under suction. S = S_r + (1 - S_r) S_e is the liquid per pore volume.
 struct RetentionModel {
   const RetentionLaw* law = nullptr;  ///< null: saturated at any pressure
   double residual_saturation = 0.0;   ///< S_r
   RetentionParameters parameters = {};
-  /// Suction head at which soil has lost half of what it retains, m: soil that moves can have less
-  /// than the residual saturation, as its pores open.
+  /// Suction head at which half of the residual saturation is lost, m. Soil that moves can fall
+  /// below the residual saturation when its pores open.
   double dries_at = std::numeric_limits<double>::infinity();
 
   /// S; 1 where psi >= 0.
@@ -34,13 +34,13 @@ struct RetentionModel {
   [[nodiscard]] double capacity(double psi) const;
   /// k_r, conductivity over that of the saturated soil; 1 where psi >= 0.
   [[nodiscard]] double relative_conductivity(double psi) const;
-  /// S_e = (S - S_r) / (1 - S_r), no less than 0.
+  /// S_e = (S - S_r) / (1 - S_r), at least 0.
   [[nodiscard]] double effective(double saturation) const {
     return std::max(0.0, (saturation - residual_saturation) / (1.0 - residual_saturation));
   }
 };
 
-/// A number that a law asks the scene for, under `[soil.NAME.retention]`. It has no default.
+/// A required parameter of a law, read from `[soil.NAME.retention]`.
 struct RetentionParameter {
   std::string_view key;
   std::string_view symbol;
@@ -50,9 +50,9 @@ struct RetentionParameter {
   double RetentionParameters::*value = nullptr;
 };
 
-/// A law, as its file declares it. Its functions are called with psi < 0.
+/// A retention law. Its functions are called with psi < 0.
 struct RetentionLaw {
-  std::string_view word;         ///< what `model` is in a scene
+  std::string_view word;         ///< value of `model` in a scene
   std::string_view description;  ///< S_e and k_r, for the scene reference
   std::span<const RetentionParameter> parameters;
   /// S_e
@@ -65,9 +65,9 @@ struct RetentionLaw {
   double (*relative_conductivity)(const RetentionParameters& parameters, double psi);
 };
 
-/// Every law there is, in the order of the scene reference: the order in physics/CMakeLists.txt.
+/// All laws, in the order of physics/CMakeLists.txt and the scene reference.
 std::span<const RetentionLaw* const> retention_laws();
-/// The law that a scene calls `word`. Throws std::invalid_argument where there is none.
+/// The law with the name `word`. Throws std::invalid_argument if there is none.
 const RetentionLaw* retention_law(std::string_view word);
 
 inline double RetentionModel::saturation(double psi) const {

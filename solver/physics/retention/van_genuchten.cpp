@@ -23,9 +23,9 @@ double steepest(const RetentionParameters& p) {
   return -std::pow(1.0 - 1.0 / p.n, 1.0 / p.n) / p.alpha;
 }
 
-/// Below n = 2 Mualem's k_r falls with infinite slope at psi = 0, by what pores hold that do not
-/// exist: down to this head it falls along a straight line (Vogel, van Genuchten and Cislerova,
-/// Adv. Water Resour. 24 (2001) 133, who have S_e follow too), m.
+/// For n < 2 Mualem's k_r has an infinite slope at psi = 0, due to unrealistically large pores. k_r
+/// is therefore linear up to this suction head, m (Vogel, van Genuchten and Cislerova, Adv. Water
+/// Resour. 24 (2001) 133, who also modify S_e).
 constexpr double smallest_suction = 0.02;
 
 double relative_conductivity(const RetentionParameters& p, double psi) {

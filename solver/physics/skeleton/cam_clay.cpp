@@ -1,6 +1,7 @@
-/// Modified Cam clay (Roscoe and Burland 1968) with Hencky's elasticity: yields at q^2/M^2 = p
-/// (p_c - p), flow associated; p_c = p_c0 exp(v / Lambda) with the plastic compaction v. The return
-/// is implicit (Borja and Tamagnini, Comput. Methods Appl. Mech. Eng. 155 (1998) 73).
+/// Modified Cam clay (Roscoe and Burland 1968) with Hencky's elasticity. It yields at
+/// q^2/M^2 = p (p_c - p) with associated flow; p_c = p_c0 exp(v / Lambda), v being plastic
+/// compaction. The return is implicit (Borja and Tamagnini, Comput. Methods Appl. Mech. Eng. 155
+/// (1998) 73).
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -18,12 +19,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int most_iterations = 200;
-/// Soil that has loosened until p_c is below this share of what it was, or of the trial's pressure,
-/// bears nothing.
+/// Soil loses all strength if p_c falls below this share of p_c before the increment plus the trial
+/// tension.
 constexpr double next_to_nothing = 1e-8;
 
-/// Pressure p and shear stress q, positive in compression, and what the law makes of those of a
-/// trial.
+/// Return mapping of a trial stress: pressure p, positive in compression, and shear stress q.
 struct Clay {
   Clay(const SkeletonParameters& s, double trial_pressure, double trial_shear, double compacted)
       : bulk(s.lame() + 2.0 / 3.0 * s.shear_modulus()),
@@ -39,13 +39,13 @@ struct Clay {
     return preconsolidation * std::exp(v / compression);
   }
   [[nodiscard]] double pressure(double v) const { return p_trial - bulk * v; }
-  /// Whether it would have to loosen for ever.
+  /// Whether p_c is next to nothing once loosening has removed the trial tension.
   [[nodiscard]] bool bears_nothing() const {
     return p_trial < 0.0 && limit(p_trial / bulk) < next_to_nothing * (preconsolidation - p_trial);
   }
-  /// The compaction of a multiplier g, 1/Pa: v = g (2 p - p_c), whose sides cross once.
+  /// The compaction for the multiplier g, 1/Pa: the only solution of v = g (2 p - p_c).
   [[nodiscard]] double compaction(double g) const {
-    // Both are too much: that of p_c = 0, and that of p_c = 2 p_trial.
+    // Two upper bounds of v: for p_c = 0, and for p_c grown by 2 p_trial.
     double v = 2.0 * g * p_trial / (1.0 + 2.0 * bulk * g);
     if (v > 0.0) v = std::min(v, compression * std::log1p(2.0 * p_trial / preconsolidation));
     for (int i = 0; i < most_iterations; ++i) {
@@ -56,7 +56,7 @@ struct Clay {
     }
     return v;
   }
-  /// Share of the shear stress that is left: q = q_trial - 3 G g 2 q/M^2.
+  /// q / q_trial, from q = q_trial - 3 G g 2 q/M^2.
   [[nodiscard]] double shear_left(double g) const {
     return 1.0 / (1.0 + 6.0 * shear * g / (slope * slope));
   }
@@ -76,8 +76,8 @@ struct Clay {
   double q_trial;           ///< Pa
 };
 
-/// The multiplier that takes the stress to the surface: halves, and secants in between (Illinois).
-/// The excess is that of the trial without flow, and falls to -p^2 at the critical state.
+/// The multiplier that returns the stress to the yield surface, by bisection and secants
+/// (Illinois). The excess is positive at g = 0 and tends to -p^2 at the critical state.
 double multiplier(const Clay& clay) {
   double low = 0.0;
   double high = 1.0 / clay.bulk;
@@ -117,7 +117,7 @@ PrincipalResponse respond(const SkeletonParameters& p, const Vector3d& trial, do
   const double q_of_length = std::sqrt(6.0) * p.shear_modulus();  // q of a deviator of 1
   const double bulk = p.lame() + 2.0 / 3.0 * p.shear_modulus();
   const Clay clay(p, -3.0 * bulk * mean, q_of_length * length, compaction);
-  // What lies on the surface to round-off does not yield.
+  // A stress on the surface within round-off does not yield.
   const double size = clay.preconsolidation + std::abs(clay.p_trial);
   if (clay.excess(0.0) <= (1e-12 * size + 1e-14 * p.young) * size) return response;
   if (clay.bears_nothing()) {
@@ -138,7 +138,7 @@ PrincipalResponse respond(const SkeletonParameters& p, const Vector3d& trial, do
   response.plastic_strain = std::sqrt(2.0 / 3.0) * (trial - response.elastic_strain).norm();
   response.shear_secant.setConstant(2.0 * clay.shear * left);
 
-  // Derivatives of g and v by the trial's p and q, of the two equations that they solve.
+  // Derivatives of g and v with respect to the trial's p and q, from their two equations.
   const double of_shear = 6.0 * clay.shear / (clay.slope * clay.slope);
   const double q = clay.q_trial * left;
   const double hardening = p_c / clay.compression;  // d p_c / d v

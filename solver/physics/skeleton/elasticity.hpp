@@ -1,8 +1,7 @@
 #pragma once
 
-/// Hencky's elasticity in principal values, and the keys that every law shares: Kirchhoff stress is
-/// linear in logarithmic strain (Hencky 1928; Charlton, Coombs and Augarde, Comput. Struct. 190
-/// (2017) 108).
+/// Hencky's elasticity in principal values, and the keys of all laws: Kirchhoff stress is linear in
+/// logarithmic strain (Hencky 1928; Charlton, Coombs and Augarde, Comput. Struct. 190 (2017) 108).
 
 #include <Eigen/Core>
 #include <limits>

@@ -1,6 +1,6 @@
-/// Perfectly plastic at Mohr and Coulomb's limit, with its edges and its apex: the return in
-/// principal stresses (de Souza Neto, Peric and Owen, Computational Methods for Plasticity (2008),
-/// 8.2; Clausen, Damkilde and Andersen, Comput. Struct. 85 (2007) 1795).
+/// Perfect plasticity with Mohr-Coulomb's yield surface, its edges and its apex. The return mapping
+/// is in principal stresses (de Souza Neto, Peric and Owen, Computational Methods for Plasticity
+/// (2008), 8.2; Clausen, Damkilde and Andersen, Comput. Struct. 85 (2007) 1795).
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// The stress returns to one plane, to an edge of two, or to the apex.
+/// Where the stress returns: to one plane, to the edge of two planes, or to the apex.
 enum class Place { plane, edge_of_largest, edge_of_smallest, apex };
 
-/// The law's numbers, for strains and stresses in descending order.
+/// Parameters of the law, for strains and stresses in descending order.
 struct Limit {
   explicit Limit(const SkeletonParameters& p)
       : sin_friction(std::sin(p.friction)),
@@ -26,8 +26,8 @@ struct Limit {
         strength(2.0 * p.cohesion * std::cos(p.friction)),
         elastic(elastic_matrix(p)) {}
 
-  /// Normal of the plane of a pair: (1 + s) tau_i - (1 - s) tau_j = strength for s = sin phi.
-  /// Plastic flow has the same form with s = sin psi.
+  /// Normal of the yield plane of two stresses: (1 + s) tau_i - (1 - s) tau_j = strength,
+  /// s = sin phi. With s = sin psi it is the direction of plastic flow.
   [[nodiscard]] static Vector3d normal(int i, int j, double s) {
     Vector3d result = Vector3d::Zero();
     result[i] = 1.0 + s;
@@ -41,7 +41,7 @@ struct Limit {
   Matrix3d elastic;
 };
 
-/// Takes the trial stress back along the flow of one or two planes.
+/// Returns the trial stress along the flow directions of one or two planes.
 template <int Planes>
 void return_to(const Limit& limit, const std::array<std::array<int, 2>, Planes>& pairs,
                PrincipalResponse& response) {
@@ -67,7 +67,7 @@ void return_to_apex(const SkeletonParameters& p, PrincipalResponse& response) {
   response.tangent.setZero();
 }
 
-/// Where a trial stress beyond the limit returns to, with the response there.
+/// Returns a trial stress beyond the limit; finds the place and the response there.
 Place return_stress(const SkeletonParameters& p, const Limit& limit, PrincipalResponse& response) {
   const PrincipalResponse trial = response;
   return_to<1>(limit, {{{0, 2}}}, response);
@@ -75,7 +75,7 @@ Place return_stress(const SkeletonParameters& p, const Limit& limit, PrincipalRe
   Vector3d stress = response.stress;
   if (stress[0] >= stress[1] - tolerance && stress[1] >= stress[2] - tolerance) return Place::plane;
 
-  // The return lies in this plane through the axis where it meets both edges at once, the apex.
+  // On this plane through the hydrostatic axis the return meets both edges at once, the apex.
   const double s = limit.sin_dilation;
   const bool largest = (1.0 - s) * stress[0] - 2.0 * stress[1] + (1.0 + s) * stress[2] < 0.0;
   response = trial;
@@ -97,7 +97,7 @@ Place return_stress(const SkeletonParameters& p, const Limit& limit, PrincipalRe
 double secant(const PrincipalResponse& response, const Vector3d& trial, double double_shear, int i,
               int j) {
   const double difference = trial[i] - trial[j];
-  if (difference <= 0.0) return double_shear;  // equal ones do not yield apart
+  if (difference <= 0.0) return double_shear;  // equal trial stresses stay equal
   return std::clamp((response.stress[i] - response.stress[j]) / difference, 0.0, double_shear);
 }
 
@@ -107,7 +107,7 @@ PrincipalResponse respond(const SkeletonParameters& p, const Vector3d& trial, do
   const double largest = response.stress.maxCoeff();
   const double smallest = response.stress.minCoeff();
   const double excess = largest - smallest + (largest + smallest) * limit.sin_friction;
-  // What lies on the limit to round-off does not yield.
+  // A stress on the limit within round-off does not yield.
   const double round_off =
       1e-12 * (std::abs(largest) + std::abs(smallest) + limit.strength) + 1e-14 * p.young;
   if (excess <= limit.strength + round_off) return response;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a scene says about the skeleton of a soil: its law, and numbers that may change as fines
-/// leave. The solver asks for the numbers at each point, `SkeletonModel::at`.
+/// The skeleton of a soil as the scene gives it: its law, and parameters that may depend on the
+/// remaining fines. `SkeletonModel::at` gives the parameters at a point.
 
 #include <string_view>
 #include <utility>
@@ -11,10 +11,10 @@ namespace suffuse {
 
 struct SkeletonLaw;
 
-/// A number that goes with the share of the erodible fines that is left, 1 at the start: linear
-/// between pairs, constant beyond the first and the last.
+/// A function of the remaining share of the erodible fines, 1 at the start: linear between pairs,
+/// constant beyond the first and the last.
 struct FinesFunction {
-  /// One value at all shares. Implicit: a plain number is the usual value.
+  /// A constant. Implicit, because most parameters are plain numbers.
   FinesFunction(double value = 0.0) : pairs{{1.0, value}} {}  // NOLINT(google-explicit-constructor)
   /// \param all  share and value, at least one pair; shares strictly ascend, or strictly descend
   explicit FinesFunction(std::vector<std::pair<double, double>> all);
@@ -27,7 +27,7 @@ struct FinesFunction {
   std::vector<std::pair<double, double>> pairs;  ///< shares strictly ascend
 };
 
-/// The numbers of a law at one point and time.
+/// The parameters of a law at one point and time.
 struct SkeletonParameters {
   double young = 0.0;             ///< E, Pa
   double poisson = 0.0;           ///< nu
@@ -43,11 +43,11 @@ struct SkeletonParameters {
   [[nodiscard]] double lame() const {
     return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
   }
-  /// Stress over strain without lateral strain, Pa
+  /// Oedometer modulus: stress over strain without lateral strain, Pa
   [[nodiscard]] double oedometer_modulus() const { return lame() + 2.0 * shear_modulus(); }
 };
 
-/// One soil's law with its numbers, as the scene gives them: angles in degrees.
+/// The law of a soil and its parameters as in the scene: angles in degrees.
 struct SkeletonModel {
   const SkeletonLaw* law = nullptr;     ///< null: rigid
   FinesFunction young = {};             ///< E, Pa
@@ -59,11 +59,11 @@ struct SkeletonModel {
   FinesFunction preconsolidation = {};  ///< p_c0, Pa
 
   [[nodiscard]] bool moves() const { return law != nullptr; }
-  /// The numbers where this share of the erodible fines is left.
+  /// The parameters for this remaining share of the erodible fines.
   [[nodiscard]] SkeletonParameters at(double fines_left) const;
 };
 
-/// A number that a law asks the scene for, under `[soil.NAME.skeleton]`.
+/// A parameter of a law, read from `[soil.NAME.skeleton]`.
 struct SkeletonParameter {
   std::string_view key;
   std::string_view symbol;

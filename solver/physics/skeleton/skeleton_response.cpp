@@ -33,7 +33,7 @@ Principal principal_strains<2>(const Matrix3d& b) {
   const double half_difference = 0.5 * (b(0, 0) - b(1, 1));
   const double radius = std::hypot(half_difference, b(0, 1));
   const double larger = 0.5 * (b(0, 0) + b(1, 1)) + radius;
-  // Not the mean minus the radius, which cancels where one is much smaller than the other.
+  // The mean minus the radius would cancel if one value is much smaller than the other.
   const double smaller = (b(0, 0) * b(1, 1) - b(0, 1) * b(0, 1)) / larger;
   const double angle = 0.5 * std::atan2(b(0, 1), half_difference);
   const double c = std::cos(angle);
@@ -55,9 +55,8 @@ double share_of_rotation(double x) {
 
 /// d P / d F of P = tau F^-T. With g = dF F^-1 in the principal directions of the trial state,
 /// d epsilon_a = g_aa and d tau_ab = (tau_a - tau_b)/(lambda_a - lambda_b) (lambda_b g_ab +
-/// lambda_a g_ba), where lambda = exp(2 epsilon). The secant, which the law gives, and quotients of
-/// lambda that are written with differences of strains, leave nothing to cancel where two are
-/// equal.
+/// lambda_a g_ba), where lambda = exp(2 epsilon). The secant of the law, and quotients of lambda
+/// written with differences of strains, avoid cancellation for equal values.
 template <int Dim>
 DeformationTangent<Dim> deformation_tangent(const Principal& trial,
                                             const PrincipalResponse& response,
@@ -68,7 +67,7 @@ DeformationTangent<Dim> deformation_tangent(const Principal& trial,
   const Plane inverse = increment.inverse();
   const Plane moved = inverse * directions;
   const Plane first_stress = stress.topLeftCorner<Dim, Dim>() * inverse.transpose();  // P
-  Plane weight;  // of g_ab in d tau_ab
+  Plane weight;  // coefficient of g_ab in d tau_ab
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b < Dim; ++b) {
       const double secant = a == b ? 0.0 : response.shear_secant[3 - a - b];

@@ -16,10 +16,10 @@ namespace suffuse {
 template <int Dim>
 using DeformationTangent = Eigen::Matrix<double, Dim * Dim, Dim * Dim>;
 
-/// What a point keeps of its skeleton.
+/// State of the skeleton at a point.
 struct SkeletonState {
-  /// Elastic left Cauchy-Green tensor, positive definite: the stress follows from it. In plane
-  /// strain xz and yz are 0. It stays where fines are lost.
+  /// Elastic left Cauchy-Green tensor, positive definite; the stress is a function of it. In plane
+  /// strain xz and yz are 0. Loss of fines does not change it.
   Eigen::Matrix3d elastic_b = Eigen::Matrix3d::Identity();
   double internal = 0.0;  ///< the law's internal variable
 
@@ -35,18 +35,18 @@ struct SkeletonResponse {
 };
 
 /// The response to an increment F of the deformation gradient, det F > 0.
-/// \param before     in plane strain (Dim 2) xz and yz are not looked at
-/// \param increment  F: places after over places before
-/// \param tangent    of P = tau F^-T (its upper left Dim x Dim part), exact, where not null; it
-///                   is symmetric where flow is associated
+/// \param before     in plane strain (Dim 2) xz and yz are not used
+/// \param increment  F: d(position after) / d(position before)
+/// \param tangent    of P = tau F^-T (its upper left Dim x Dim part), exact; may be null; symmetric
+///                   for associated flow
 template <int Dim>
 SkeletonResponse skeleton_response(const SkeletonLaw& law, const SkeletonParameters& parameters,
                                    const SkeletonState& before,
                                    const Eigen::Matrix<double, Dim, Dim>& increment,
                                    DeformationTangent<Dim>* tangent = nullptr);
 
-/// The elastic left Cauchy-Green tensor under a Kirchhoff stress, Pa: a stress to start from. The
-/// stress must be one that the law can carry, which is not checked.
+/// The elastic left Cauchy-Green tensor for an initial Kirchhoff stress, Pa. The stress must be
+/// admissible for the law, which is not checked.
 Eigen::Matrix3d elastic_b_under(const SkeletonParameters& parameters,
                                 const Eigen::Matrix3d& stress);
 

@@ -14,7 +14,7 @@ using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
 constexpr int most_iterations = 30;
-constexpr int most_halvings = 5;  ///< of one step of Newton's method
+constexpr int most_halvings = 5;  ///< per iteration of Newton's method
 /// Smallest step, as a share of the way to a target. Strength is found to this accuracy.
 constexpr double smallest_share = 1.0 / 16384.0;
 
@@ -43,7 +43,7 @@ class Stretch {
     return directions_ * stretches.asDiagonal() * directions_.transpose();
   }
 
-  /// dF that belongs to dH (Daleckii and Krein).
+  /// dF for a given dH (Daleckii and Krein).
   [[nodiscard]] Matrix3d change(const Matrix3d& strain_change) const {
     Matrix3d result = directions_.transpose() * strain_change * directions_;
     for (int a = 0; a < 3; ++a) {
@@ -130,7 +130,7 @@ double SoilElement::advance(const SoilElementTarget& target) {
   return share;
 }
 
-/// Newton's method on the strains whose stresses are given. The state changes where it converges.
+/// Newton's method for the strains of the prescribed stresses. Changes the state if it converges.
 bool SoilElement::try_step(const SoilElementTarget& target) {
   std::vector<int> unknown;
   PlaneComponents strain = state_.strain;
@@ -157,8 +157,8 @@ bool SoilElement::try_step(const SoilElementTarget& target) {
       state_ = state;
       return true;
     }
-    // Where strains are not unique, as those of soil that flows in a triaxial cell are not across
-    // the axis, the smallest change: it treats equal directions alike.
+    // Takes the smallest change of the strains if they are not unique, such as the lateral strains
+    // of soil that flows in a triaxial cell: directions with equal stress then strain equally.
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(1e-9);
     solver.compute(tangent(unknown, unknown));

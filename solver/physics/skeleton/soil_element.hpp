@@ -1,7 +1,7 @@
 #pragma once
 
-/// One point of soil under control, as in a laboratory's cell: each component follows a strain or a
-/// stress, while fines are lost. Nothing varies from place to place, and time has no part in it.
+/// A homogeneous soil element as in a laboratory test: a strain or a stress is prescribed for each
+/// component, while fines are lost. The response does not depend on time.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,13 +11,12 @@
 namespace suffuse {
 
 /// Components xx, yy, zz and xy of a symmetric tensor; tension and stretching are positive. The xy
-/// of a strain is half the change of the right angle.
+/// component of a strain is half of gamma_xy.
 using PlaneComponents = Eigen::Vector4d;
 
 struct SoilElementState {
-  PlaneComponents strain = PlaneComponents::Zero();  ///< logarithmic, since the start
-  PlaneComponents stress =
-      PlaneComponents::Zero();  ///< effective stress sigma', of today's area, Pa
+  PlaneComponents strain = PlaneComponents::Zero();  ///< logarithmic, from the start
+  PlaneComponents stress = PlaneComponents::Zero();  ///< effective stress sigma' (Cauchy), Pa
   SkeletonState skeleton;
   double plastic_strain = 0.0;  ///< equivalent, sum of its increments
   double fines_left = 1.0;      ///< share of the erodible fines
@@ -26,11 +25,11 @@ struct SoilElementState {
   [[nodiscard]] double mean_stress() const { return -stress.head<3>().sum() / 3.0; }
   /// q = sqrt(3 J_2), Pa.
   [[nodiscard]] double deviator_stress() const;
-  /// Logarithm of the volume over that at the start.
+  /// Logarithm of the volume ratio to the start.
   [[nodiscard]] double volumetric_strain() const { return strain.head<3>().sum(); }
 };
 
-/// Where a step leads: per component a strain or a stress.
+/// Target of a step: a strain or a stress per component.
 struct SoilElementTarget {
   PlaneComponents value = PlaneComponents::Zero();
   std::array<bool, 4> is_stress{};
@@ -39,19 +38,19 @@ struct SoilElementTarget {
 
 class SoilElement {
  public:
-  /// At the start, where strains are 0 and volumes count from.
+  /// Creates the element at the start, with zero strain.
   /// \param model   has a law; must outlive the element
   /// \param stress  sigma', Pa
   SoilElement(const SkeletonModel& model, const PlaneComponents& stress, double fines_left);
 
   [[nodiscard]] const SoilElementState& state() const { return state_; }
-  /// The law can carry the stress of the state. Always true after `advance`.
+  /// Whether the stress is admissible for the law. Always true after `advance`.
   [[nodiscard]] bool is_admissible() const;
 
-  /// Takes each component, and the fines, straight from where it is to the target: in one step, or
-  /// in as many as Newton's method needs.
-  /// \return the share of the way that was found, 1 but where the soil cannot carry the stresses:
-  ///         the state is then the last one that it carries.
+  /// Takes each component and the fines linearly to the target, in as many steps as Newton's method
+  /// needs.
+  /// \return share of the way that was reached: less than 1 if the soil cannot carry the stresses;
+  ///         the state is then the last one that it can carry.
   double advance(const SoilElementTarget& target);
 
  private:

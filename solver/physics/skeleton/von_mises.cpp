@@ -1,5 +1,5 @@
-/// Perfectly plastic at sqrt(J_2) = c, flow associated: the return to the cylinder is radial (Simo
-/// and Hughes, Computational Inelasticity (1998), 3.3).
+/// Perfect plasticity at sqrt(J_2) = c with associated flow. The return mapping to the cylinder is
+/// radial (Simo and Hughes, Computational Inelasticity (1998), 3.3).
 
 #include <array>
 #include <cmath>
@@ -16,11 +16,11 @@ PrincipalResponse respond(const SkeletonParameters& p, const Eigen::Vector3d& tr
   const Eigen::Vector3d deviator = trial.array() - mean;
   const double length = deviator.norm();
   const double double_shear = 2.0 * p.shear_modulus();
-  const double strength = std::sqrt(2.0) * p.cohesion;  // of the stress deviator's norm
-  // What lies on the surface to round-off does not yield.
+  const double strength = std::sqrt(2.0) * p.cohesion;  // limit of the norm of the stress deviator
+  // A stress on the surface within round-off does not yield.
   if (double_shear * length <= strength * (1.0 + 1e-12) + 1e-14 * p.young) return response;
 
-  const double left = strength / (double_shear * length);  // share of the deviator
+  const double left = strength / (double_shear * length);  // remaining share of the deviator
   const Eigen::Vector3d direction = deviator / length;
   const double bulk = p.lame() + double_shear / 3.0;
   response.elastic_strain = mean + left * deviator.array();

@@ -1,4 +1,4 @@
-/// The viscosity does not follow the fines.
+/// The viscosity does not depend on the fines.
 
 #include "physics/viscosity/viscosity_law.hpp"
 

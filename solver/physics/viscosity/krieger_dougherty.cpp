@@ -1,5 +1,5 @@
 /// A suspension of hard spheres: mu = mu_0 (1 - c/c_m)^(-2.5 c_m) (Krieger and Dougherty, Trans.
-/// Soc. Rheol. 3 (1959) 137), which is Einstein's 1 + 2.5 c where c is small.
+/// Soc. Rheol. 3 (1959) 137), which tends to Einstein's 1 + 2.5 c for small c.
 
 #include <cmath>
 
