@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
-#include <set>
 #include <sstream>
 
 #include "case/consistency.hpp"
-#include "common/errors.hpp"
-#include "common/hdf5_io.hpp"
+#include "case/mesh_io.hpp"
 #include "common/pending_file.hpp"
 #include "mesh/faces.hpp"
 
@@ -18,52 +15,25 @@ namespace suffuse {
 
 namespace {
 
-constexpr const char* format_name = "suffuse-case";
+constexpr FileKind case_file{"suffuse-case", "a case file", "suffuse-mesher", "suffuse-mesher", 2};
 constexpr const char* solid_group = "/solid_points";
 constexpr const char* liquid_group = "/liquid_points";
-constexpr std::int64_t schema_version = 2;
 /// Tolerance for barycentric coordinates, which are sums and products of a few doubles.
 constexpr double barycentric_tolerance = 1e-12;
 /// Relative tolerance for the sum of the volumes of an element's points, up to a thousand doubles.
 constexpr double volume_tolerance = 1e-9;
 
-void integer_attribute(Hdf5File& file, const std::string& object, const std::string& name,
-                       std::int64_t value) {
-  file.attribute(object, name, std::span<const std::int64_t>(&value, 1));
-}
-
 std::string boundary_group(std::size_t index) {
   return "/boundaries/" + std::to_string(index);
 }
 
-template <class Rows>
-std::vector<std::int32_t> flat_integers(const Rows& rows) {
-  std::vector<std::int32_t> flat;
-  for (const auto& row : rows) flat.insert(flat.end(), row.begin(), row.end());
-  return flat;
-}
-
-template <class Rows>
-std::vector<double> flat_doubles(const Rows& rows) {
-  std::vector<double> flat;
-  for (const auto& row : rows) flat.insert(flat.end(), row.begin(), row.end());
-  return flat;
-}
-
 template <int Dim>
-void write_mesh(Hdf5File& file, const Mesh<Dim>& mesh) {
-  file.write("/mesh/nodes", flat_doubles(mesh.nodes), {mesh.nodes.size(), std::size_t{Dim}});
-  file.attribute("/mesh/nodes", "unit", std::string("m"));
-  file.write("/mesh/elements", flat_integers(mesh.elements),
-             {mesh.elements.size(), std::size_t{Dim + 1}});
-  file.write("/mesh/element_region", std::span<const std::int32_t>(mesh.element_region),
-             {mesh.element_region.size()});
-  file.write_texts("/mesh/region_names", mesh.region_names);
+void write_boundaries(Hdf5File& file, const Mesh<Dim>& mesh) {
   file.create_group("/boundaries");
   for (std::size_t i = 0; i < mesh.boundaries.size(); ++i) {
     const std::string group = boundary_group(i);
     file.write_text(group + "/name", mesh.boundaries[i].name);
-    file.write(group + "/faces", flat_integers(mesh.boundaries[i].faces),
+    file.write(group + "/faces", flattened<std::int32_t>(mesh.boundaries[i].faces),
                {mesh.boundaries[i].faces.size(), std::size_t{Dim}});
   }
 }
@@ -72,7 +42,7 @@ template <int Dim>
 void write_points(Hdf5File& file, const std::string& group, const MaterialPoints<Dim>& points) {
   const std::size_t count = points.element.size();
   file.write(group + "/element", std::span<const std::int32_t>(points.element), {count});
-  file.write(group + "/barycentric", flat_doubles(points.barycentric),
+  file.write(group + "/barycentric", flattened<double>(points.barycentric),
              {count, std::size_t{Dim + 1}});
   file.attribute(group + "/barycentric", "unit", std::string("1"));
   file.write(group + "/volume", points.volume, {count});
@@ -96,19 +66,13 @@ void write_scene(Hdf5File& file, const SceneDocument& document) {
 
 /// Reads one case file. Every error names the file.
 template <int Dim>
-class CaseReader {
+class CaseReader : private ElementReader<Dim> {
  public:
-  explicit CaseReader(const Hdf5File& file) : file_(file) {}
+  explicit CaseReader(const Hdf5File& file)
+      : ElementReader<Dim>(file, "write the case file anew with suffuse-mesher") {}
 
   [[nodiscard]] Mesh<Dim> mesh() const {
-    Mesh<Dim> mesh;
-    read_nodes(mesh);
-    read_regions(mesh);
-    mesh.elements = read_rows<Dim + 1>("/mesh/elements", mesh.node_count());
-    if (mesh.element_region.size() != mesh.elements.size()) {
-      fail("/mesh/element_region", "expected one value per element");
-    }
-    check_elements(mesh);
+    Mesh<Dim> mesh = this->read_elements();
     read_boundaries(mesh);
     return mesh;
   }
@@ -161,10 +125,11 @@ class CaseReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& object, const std::string& what) const {
-    throw FileError(file_.path() + ": " + object + ": " + what +
-                    "; write the case file anew with suffuse-mesher");
-  }
+  using Base = ElementReader<Dim>;
+  using Base::check_names;
+  using Base::fail;
+  using Base::file_;
+  using Base::read_indices;
 
   /// Texts of the files that the scene names; without any the case has no such data sets.
   [[nodiscard]] std::map<std::string, std::string> scene_files() const {
@@ -177,84 +142,6 @@ class CaseReader {
     return files;
   }
 
-  template <std::size_t Columns, class Value>
-  [[nodiscard]] std::vector<std::array<Value, Columns>> unflatten(
-      const std::string& dataset, const std::vector<Value>& flat) const {
-    const std::vector<std::size_t> shape = file_.shape(dataset);
-    if (shape.size() != 2 || shape[1] != Columns) {
-      fail(dataset, "expected a table of " + std::to_string(Columns) + " columns");
-    }
-    std::vector<std::array<Value, Columns>> rows(shape[0]);
-    for (std::size_t i = 0; i < flat.size(); ++i) rows[i / Columns][i % Columns] = flat[i];
-    return rows;
-  }
-
-  /// Reads integers, each in [0, limit).
-  [[nodiscard]] std::vector<int> read_indices(const std::string& dataset, int limit) const {
-    const std::vector<std::int64_t> wide = file_.read_integers(dataset);
-    std::vector<int> indices(wide.size());
-    for (std::size_t i = 0; i < wide.size(); ++i) {
-      if (wide[i] < 0 || wide[i] >= limit) {
-        fail(dataset, "value " + std::to_string(i) + " is " + std::to_string(wide[i]) +
-                          "; expected 0 to " + std::to_string(limit - 1));
-      }
-      indices[i] = static_cast<int>(wide[i]);
-    }
-    return indices;
-  }
-
-  template <std::size_t Columns>
-  [[nodiscard]] std::vector<std::array<int, Columns>> read_rows(const std::string& dataset,
-                                                                int limit) const {
-    return unflatten<Columns>(dataset, read_indices(dataset, limit));
-  }
-
-  void read_nodes(Mesh<Dim>& mesh) const {
-    const auto rows = unflatten<Dim>("/mesh/nodes", file_.read_doubles("/mesh/nodes"));
-    if (rows.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-      fail("/mesh/nodes", "too many nodes");
-    }
-    for (std::size_t n = 0; n < rows.size(); ++n) {
-      if (!std::ranges::all_of(rows[n], [](double x) { return std::isfinite(x); })) {
-        fail("/mesh/nodes", "node " + std::to_string(n) + " is not finite");
-      }
-      mesh.nodes.push_back(Eigen::Map<const Vector<Dim>>(rows[n].data()));
-    }
-  }
-
-  void read_regions(Mesh<Dim>& mesh) const {
-    mesh.region_names = file_.read_texts("/mesh/region_names");
-    check_names("/mesh/region_names", mesh.region_names);
-    mesh.element_region =
-        read_indices("/mesh/element_region", static_cast<int>(mesh.region_names.size()));
-  }
-
-  void check_names(const std::string& object, const std::vector<std::string>& names) const {
-    const std::set<std::string> unique(names.begin(), names.end());
-    if (unique.size() != names.size() || unique.contains("")) {
-      fail(object, "expected names that differ and are not empty");
-    }
-  }
-
-  void check_elements(const Mesh<Dim>& mesh) const {
-    if (mesh.elements.empty()) fail("/mesh/elements", "expected at least one element");
-    std::vector<bool> node_used(mesh.nodes.size(), false);
-    std::vector<bool> region_used(mesh.region_names.size(), false);
-    for (int e = 0; e < mesh.element_count(); ++e) {
-      for (int node : mesh.elements[e]) node_used[node] = true;
-      region_used[mesh.element_region[e]] = true;
-      if (!(element_volume(mesh, e) > 0.0)) {
-        fail("/mesh/elements", "element " + std::to_string(e) + " has no positive volume");
-      }
-    }
-    if (!std::ranges::all_of(node_used, std::identity())) {
-      fail("/mesh/nodes", "a node belongs to no element");
-    }
-    if (!std::ranges::all_of(region_used, std::identity())) {
-      fail("/mesh/region_names", "a region has no element");
-    }
-  }
-
   void read_boundaries(Mesh<Dim>& mesh) const {
     const FaceTable<Dim> faces(mesh);
     const std::size_t count = file_.children("/boundaries").size();
@@ -262,7 +149,7 @@ class CaseReader {
     for (std::size_t i = 0; i < count; ++i) {
       const std::string group = boundary_group(i);
       BoundarySet<Dim> set{file_.read_text(group + "/name"),
-                           read_rows<Dim>(group + "/faces", mesh.node_count())};
+                           this->template read_rows<Dim>(group + "/faces", mesh.node_count())};
       for (const auto& face : set.faces) {
         if (faces.owners(face) != 1) {
           fail(group + "/faces", "a face of \"" + set.name + "\" is not an outer face of the mesh");
@@ -279,7 +166,8 @@ class CaseReader {
     const std::string barycentric = group + "/barycentric";
     MaterialPoints<Dim> points;
     points.element = read_indices(group + "/element", mesh.element_count());
-    points.barycentric = unflatten<Dim + 1>(barycentric, file_.read_doubles(barycentric));
+    points.barycentric =
+        this->template unflatten<Dim + 1>(barycentric, file_.read_doubles(barycentric));
     points.volume = file_.read_doubles(group + "/volume");
     const std::size_t count = points.element.size();
     if (points.barycentric.size() != count || points.volume.size() != count) {
@@ -328,29 +216,7 @@ class CaseReader {
       fail(group + "/volume", message.str());
     }
   }
-
-  const Hdf5File& file_;
 };
-
-/// Refuses files that are not case files of this version; returns the dimension.
-int check_header(const Hdf5File& file) {
-  if (!file.exists("/suffuse") || !file.has_attribute("/suffuse", "format") ||
-      file.text_attribute("/suffuse", "format") != format_name) {
-    throw FileError(file.path() + ": is not a case file; expected what suffuse-mesher writes");
-  }
-  const std::int64_t version = file.integer_attribute("/suffuse", "schema_version");
-  if (version != schema_version) {
-    throw FileError(file.path() + ": is a case file of schema version " + std::to_string(version) +
-                    "; this program reads version " + std::to_string(schema_version) +
-                    ": write it anew with the suffuse-mesher of this version");
-  }
-  const std::int64_t dimension = file.integer_attribute("/suffuse", "dimension");
-  if (dimension != 2 && dimension != 3) {
-    throw FileError(file.path() + ": its dimension is " + std::to_string(dimension) +
-                    "; expected 2 or 3: write the case file anew with suffuse-mesher");
-  }
-  return static_cast<int>(dimension);
-}
 
 }  // namespace
 
@@ -358,12 +224,9 @@ template <int Dim>
 void write_case(const std::string& path, const Case<Dim>& c) {
   PendingFile pending(path);
   Hdf5File file(pending.temporary_path(), Hdf5File::Mode::create);
-  file.create_group("/suffuse");
-  file.attribute("/suffuse", "format", std::string(format_name));
-  file.attribute("/suffuse", "generator", std::string("suffuse-mesher ") + SUFFUSE_VERSION);
-  integer_attribute(file, "/suffuse", "schema_version", schema_version);
-  integer_attribute(file, "/suffuse", "dimension", Dim);
-  write_mesh(file, c.mesh);
+  write_header(file, case_file, Dim);
+  write_elements(file, c.mesh);
+  write_boundaries(file, c.mesh);
   write_points(file, solid_group, c.solid_points);
   if (c.document.scene.formulation == Formulation::double_point) {
     write_points(file, liquid_group, c.liquid_points);
@@ -376,7 +239,7 @@ void write_case(const std::string& path, const Case<Dim>& c) {
 template <int Dim>
 Case<Dim> read_case(const std::string& path) {
   const Hdf5File file(path, Hdf5File::Mode::read);
-  const int dimension = check_header(file);
+  const int dimension = read_header(file, case_file);
   if (dimension != Dim) {
     throw FileError(path + ": is a case of dimension " + std::to_string(dimension) + "; expected " +
                     std::to_string(Dim));
@@ -390,7 +253,7 @@ Case<Dim> read_case(const std::string& path) {
 }
 
 int read_case_dimension(const std::string& path) {
-  return check_header(Hdf5File(path, Hdf5File::Mode::read));
+  return read_header(Hdf5File(path, Hdf5File::Mode::read), case_file);
 }
 
 template void write_case<2>(const std::string&, const Case<2>&);
