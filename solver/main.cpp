@@ -11,6 +11,7 @@
 #include "driver/source_run.hpp"
 #include "tools/element_test.hpp"
 #include "tools/estimate.hpp"
+#include "tools/mesh_again.hpp"
 #include "tools/strength_table.hpp"
 
 namespace {
@@ -22,6 +23,7 @@ struct Arguments {
   bool explain = false;
   suffuse::RunOptions run;
   suffuse::ElementTestOptions element;
+  std::string sizes;
   bool strength_reduction = false;
   suffuse::StrengthReductionOptions strength;
 };
@@ -143,6 +145,32 @@ void add_strength_reduction(CLI::App& app, Arguments& arguments) {
   }
 }
 
+/// Adds the option of meshing again.
+void add_sizes(CLI::App& app, std::string& sizes) {
+  CLI::Option* mode =
+      app.add_option(
+             "--sizes", sizes,
+             "Do not run the case: say between which values the discharge of its steady "
+             "flow lies, and write sizes of elements for suffuse-mesher --sizes, with which "
+             "it is known to mesh.error")
+          ->check(refuse_empty)
+          ->type_name("SIZES.h5");
+  for (const char* other : {"--explain", "--no-skip", "--resume", "--force", "--checkpoint-every",
+                            "--element-test", "--strength-reduction", "--output"}) {
+    mode->excludes(app.get_option(other));
+  }
+}
+
+int mesh_again(const Arguments& arguments) {
+  const suffuse::SizesOptions options{arguments.sizes, arguments.solver.threads};
+  if (suffuse::read_case_dimension(arguments.case_path) == 2) {
+    suffuse::write_sizes(suffuse::read_case<2>(arguments.case_path), options);
+  } else {
+    suffuse::write_sizes(suffuse::read_case<3>(arguments.case_path), options);
+  }
+  return static_cast<int>(suffuse::ExitCode::done);
+}
+
 int find_strength(Arguments& arguments) {
   if (!arguments.folder.empty()) arguments.strength.output = arguments.folder;
   arguments.strength.threads = arguments.solver.threads;
@@ -181,8 +209,10 @@ int run(int argc, char** argv) {
   app.add_flag("--quiet", arguments.run.quiet, "No progress, warnings only");
   add_element_test(app, arguments.element);
   add_strength_reduction(app, arguments);
+  add_sizes(app, arguments.sizes);
   if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
   if (arguments.strength_reduction) return find_strength(arguments);
+  if (!arguments.sizes.empty()) return mesh_again(arguments);
   if (arguments.element.table.empty()) return solve_case(arguments);
   arguments.element.scene = arguments.case_path;
   arguments.element.output = arguments.folder.empty() ? "-" : arguments.folder;

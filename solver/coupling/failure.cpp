@@ -36,6 +36,7 @@ template <int Dim>
 void Failure<Dim>::step_unsolved(double time, const Unsolved& why) {
   if (!watches()) refuse(time, why);
   start_inertia(time);
+  long_steps_ = false;
 }
 
 template <int Dim>

@@ -106,6 +106,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
       mixing = AndersonMixing(memory);
       continue;
     }
+    worst_node.reset();
     const std::vector<double> moved =
         !soils.air_moves() ? motion.face_volume : without_air(motion, air, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);

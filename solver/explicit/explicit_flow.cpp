@@ -42,7 +42,7 @@ ExplicitSettings scheme_settings(const Scene& scene, int threads) {
 template <int Dim>
 ExplicitFlow<Dim>::ExplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
                                 const Skeleton<Dim>& solid, const FlowOptions& options)
-    : FlowSolver<Dim>(c, grid, solid),
+    : FlowSolver<Dim>(c, grid, solid, options.threads),
       operator_(grid, this->conditions_, this->gravity(),
                 this->scene().flow.porosity_gradient_term),
       scheme_(operator_, scheme_settings(this->scene(), options.threads)),

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "boundary/face_conditions.hpp"
+#include "bounds/discharge_bounds.hpp"
 #include "files/tables.hpp"
 #include "flow/flow_step.hpp"
 #include "grid/element_field.hpp"
@@ -128,6 +129,11 @@ class FlowSolver {
 
   /// The flow at `time`, s, the end of the last step.
   [[nodiscard]] virtual FlowState<Dim> state(double time) const = 0;
+  /// How far the discharge can be off on this mesh; none where the scheme cannot tell. Throws
+  /// NumericalError.
+  [[nodiscard]] virtual std::optional<DischargeBounds> discharge_bounds() const {
+    return std::nullopt;
+  }
   /// The fluxes through faces of `state`, m3/s.
   [[nodiscard]] virtual std::vector<double> face_flux(double time) const {
     return state(time).face_flux;

@@ -425,6 +425,14 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
 }
 
 template <int Dim>
+std::optional<DischargeBounds> ImplicitFlow<Dim>::discharge_bounds() const {
+  return suffuse::discharge_bounds<Dim>(
+      {this->grid(), this->scene(), this->coefficients_, this->conditions_, scheme_.soils(),
+       scheme_.walls(), now_.state.face_pressure, now_.face_flux,
+       scheme_.relative_conductivity(now_.state.face_pressure), this->threads()});
+}
+
+template <int Dim>
 void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   FlowSolver<Dim>::archive(archive);
   scheme_.archive(archive, this->conditions_);

@@ -90,6 +90,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   void archive(StateArchive& archive) override;
 
   [[nodiscard]] FlowState<Dim> state(double time) const override;
+  [[nodiscard]] std::optional<DischargeBounds> discharge_bounds() const override;
   [[nodiscard]] std::vector<double> face_flux(double /*time*/) const override {
     return now_.face_flux;
   }

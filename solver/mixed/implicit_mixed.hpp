@@ -51,6 +51,7 @@ class ImplicitMixed {
                       const std::vector<const FlowForcing<Dim>*>& forcing);
 
   [[nodiscard]] const FlowSoils<Dim>& soils() const { return model_.soils; }
+  [[nodiscard]] const std::vector<LeakyFace>& walls() const { return model_.walls; }
   /// Takes the soils after they have moved.
   void follow(FlowSoils<Dim> soils) { model_.soils = std::move(soils); }
   /// Steady state, without inertia and storage: face_flux as rates; face_volume stays empty.

@@ -32,17 +32,22 @@ double mean_size(const Mesh<Dim>& mesh) {
   return std::pow(volume / mesh.element_count(), 1.0 / Dim);
 }
 
+/// Of all soils in their best direction, m/s.
+double largest_conductivity(const Scene& scene) {
+  double largest = 0.0;
+  for (const Soil& soil : scene.soils) {
+    largest = std::max(largest, soil.conductivity * std::max(1.0, soil.anisotropy()));
+  }
+  return largest;
+}
+
 Soil free_water(const Scene& scene, double element_size) {
   Soil water;
   water.porosity = 1.0;
   water.skeleton_fraction = 0.0;
-  water.conductivity = 0.0;
-  for (const Soil& soil : scene.soils) {
-    water.conductivity = std::max(water.conductivity, free_water_ratio * soil.conductivity *
-                                                          std::max(1.0, soil.anisotropy()));
-  }
-  if (std::ranges::any_of(scene.soils, &Soil::drains)) {
-    water.conductivity *= free_air_ratio / free_water_ratio;
+  const bool has_air = std::ranges::any_of(scene.soils, &Soil::drains);
+  water.conductivity = (has_air ? free_air_ratio : free_water_ratio) * largest_conductivity(scene);
+  if (has_air) {
     water.retention = {.law = retention_law("van-genuchten"),
                        .parameters = {.alpha = 1.0 / (fringe * element_size), .n = 3.0}};
   }
@@ -76,7 +81,7 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
       mesh_(c.mesh),
       points_(&c.solid_points),
       free_water_(std::make_shared<const Soil>(free_water(c.document.scene, mean_size(c.mesh)))) {
-  const double most_conductive = free_water_->conductivity / free_water_ratio;
+  const double most_conductive = largest_conductivity(scene_);
   for (const std::string& region : mesh_.region_names) {
     const Soil* soil = c.document.scene.find_soil(region);
     if (soil == nullptr && c.document.scene.is_free_water(region)) soil = free_water_.get();

@@ -1,0 +1,62 @@
+#pragma once
+
+/// How far the discharge of a steady flow can be off (docs/theory.md, "Bounds of the discharge").
+///
+/// The fluxes q of the mixed elements balance in every element; a continuous head h has the
+/// prescribed values. The gap between -K^-1 q and grad h in the energy norm is the square sum of
+/// both errors (Prager and Synge, Q. Appl. Math. 5 (1947) 241). With the gap of the dual problem, a
+/// unit head at one boundary, the discharge there is known to half the product of the two gaps.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mixed/implicit_mixed.hpp"
+#include "scene/scene.hpp"
+
+namespace suffuse {
+
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+
+  [[nodiscard]] double middle() const { return 0.5 * (low + high); }
+  [[nodiscard]] double half() const { return 0.5 * (high - low); }
+};
+
+struct DischargeBounds {
+  /// Why the intervals are estimates; empty where they are bounds.
+  std::string why_estimates;
+  /// Per entry of the scene's boundaries: liquid that leaves minus liquid that enters, m3/s. None
+  /// where the boundary shares a node with another one that holds a head.
+  std::vector<std::optional<Interval>> boundaries;
+  /// Sum over the boundaries through which more leaves than enters, m3/s.
+  Interval flux_out;
+  /// Some boundary lets liquid in and out: `flux_out` of the history is larger than the sum here.
+  bool both_ways = false;
+  /// Each element's part in the half-width of `flux_out`, m3/s.
+  std::vector<double> error;
+};
+
+/// A flow by mixed elements, as it is at one moment.
+template <int Dim>
+struct SeepageState {
+  const Grid<Dim>& grid;
+  const Scene& scene;
+  const FlowCoefficients<Dim>& coefficients;
+  const std::vector<FaceCondition>& conditions;
+  const FlowSoils<Dim>& soils;
+  const std::vector<LeakyFace>& walls;
+  const std::vector<double>& face_pressure;   ///< Pa
+  const std::vector<double>& face_flux;       ///< along the faces' normals, m3/s
+  std::vector<double> relative_conductivity;  ///< per element; empty where all is saturated
+  int threads = 1;
+};
+
+/// Intervals of the discharge. They are bounds for steady saturated flow by Darcy's law whose heads
+/// are continuous along the boundary; seepage faces are taken as they are now. Costs a steady
+/// solution for each boundary with a head beyond the second. Throws NumericalError.
+template <int Dim>
+DischargeBounds discharge_bounds(const SeepageState<Dim>& state);
+
+}  // namespace suffuse

@@ -1,0 +1,119 @@
+#include "bounds/seepage_fields.hpp"
+
+#include "grid/compensated_sum.hpp"
+#include "grid/face_flux.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Mean over a face of the product of two functions that are linear there, from their values at its
+/// nodes.
+template <std::size_t Nodes>
+double mean_product(const std::array<double, Nodes>& a, const std::array<double, Nodes>& b) {
+  double sum_a = 0.0;
+  double sum_b = 0.0;
+  double both = 0.0;
+  for (std::size_t i = 0; i < Nodes; ++i) {
+    sum_a += a[i];
+    sum_b += b[i];
+    both += a[i] * b[i];
+  }
+  return (both + sum_a * sum_b) / static_cast<double>(Nodes * (Nodes + 1));
+}
+
+template <int Dim>
+WallNodes<Dim> nodes_of(const Grid<Dim>& grid, const LeakyFace& wall, double pressure_per_head) {
+  const auto& x = grid.mesh.nodes;
+  WallNodes<Dim> result{wall.face,
+                        wall.partner,
+                        grid.face_nodes[wall.face],
+                        {},
+                        wall.conductance * pressure_per_head};
+  for (int i = 0; i < Dim; ++i) {
+    const auto distance = [&](int node) { return (x[node] - x[result.near[i]]).squaredNorm(); };
+    const auto& others = grid.face_nodes[wall.partner];
+    result.far[i] = *std::ranges::min_element(others, {}, distance);
+  }
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+SeepageEnergy<Dim>::SeepageEnergy(const Grid<Dim>& grid, std::vector<double> conductivity,
+                                  std::vector<DirectionalFactor<Dim>> bedding,
+                                  const std::vector<LeakyFace>& walls, double pressure_per_head)
+    : grid_(grid), conductivity_(std::move(conductivity)), bedding_(std::move(bedding)) {
+  for (const LeakyFace& wall : walls) walls_.push_back(nodes_of(grid, wall, pressure_per_head));
+}
+
+template <int Dim>
+Slopes<Dim> SeepageEnergy<Dim>::of_head(const std::vector<double>& node_head) const {
+  Slopes<Dim> result;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    const auto& nodes = grid_.mesh.elements[e];
+    Vector<Dim> gradient = Vector<Dim>::Zero();
+    for (int k = 1; k <= Dim; ++k) {
+      gradient += (node_head[nodes[k]] - node_head[nodes[0]]) * grid_.shape_gradient[e][k];
+    }
+    result.element.push_back(gradient);
+  }
+  for (const WallNodes<Dim>& wall : walls_) {
+    auto& jump = result.wall.emplace_back();
+    for (int i = 0; i < Dim; ++i) jump[i] = node_head[wall.far[i]] - node_head[wall.near[i]];
+  }
+  return result;
+}
+
+template <int Dim>
+Slopes<Dim> SeepageEnergy<Dim>::of_flux(const std::vector<double>& face_flux) const {
+  Slopes<Dim> result{element_flux(grid_, face_flux), {}};
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    Vector<Dim>& q = result.element[e];
+    if (!bedding_.empty()) q = bedding_[e].inverse_times(q);
+    q /= -conductivity_[e];
+  }
+  for (const WallNodes<Dim>& wall : walls_) {
+    result.wall.emplace_back().fill(-face_flux[wall.face] / wall.conductance);
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> SeepageEnergy<Dim>::per_element(const Slopes<Dim>& a,
+                                                    const Slopes<Dim>& b) const {
+  std::vector<double> result;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    result.push_back(grid_.volume[e] * a.element[e].dot(conduct(e, b.element[e])));
+  }
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const double whole = walls_[w].conductance * mean_product(a.wall[w], b.wall[w]);
+    result[grid_.face_left[walls_[w].face]] += 0.5 * whole;
+    result[grid_.face_left[walls_[w].partner]] += 0.5 * whole;
+  }
+  return result;
+}
+
+template <int Dim>
+double SeepageEnergy<Dim>::inner(const Slopes<Dim>& a, const Slopes<Dim>& b) const {
+  CompensatedSum total;
+  for (const double of_element : per_element(a, b)) total.add(of_element);
+  return total.value();
+}
+
+template <int Dim>
+Slopes<Dim> sum(const Slopes<Dim>& a, double factor, const Slopes<Dim>& b) {
+  Slopes<Dim> result = a;
+  for (std::size_t e = 0; e < a.element.size(); ++e) result.element[e] += factor * b.element[e];
+  for (std::size_t w = 0; w < a.wall.size(); ++w) {
+    for (int i = 0; i < Dim; ++i) result.wall[w][i] += factor * b.wall[w][i];
+  }
+  return result;
+}
+
+template class SeepageEnergy<2>;
+template class SeepageEnergy<3>;
+template Slopes<2> sum(const Slopes<2>&, double, const Slopes<2>&);
+template Slopes<3> sum(const Slopes<3>&, double, const Slopes<3>&);
+
+}  // namespace suffuse

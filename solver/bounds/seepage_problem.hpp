@@ -1,0 +1,101 @@
+#pragma once
+
+/// A flow by mixed elements as a linear problem in heads: which faces hold a head, which have a
+/// given flux, and pairs of fields near its solutions.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bounds/discharge_bounds.hpp"
+#include "bounds/seepage_fields.hpp"
+
+namespace suffuse {
+
+/// Two fields near one flow: a continuous head with the prescribed values, and fluxes that balance
+/// in each element.
+template <int Dim>
+struct FieldPair {
+  std::vector<double> node_head;  ///< m
+  std::vector<double> face_flux;  ///< along the faces' normals, m3/s
+  Slopes<Dim> of_head;
+  Slopes<Dim> of_flux;
+
+  [[nodiscard]] Slopes<Dim> gap() const { return sum(of_head, -1.0, of_flux); }
+};
+
+/// What crosses one entry of the scene's boundaries, m3/s.
+struct Crossing {
+  double held = 0.0;   ///< out minus in, through faces that hold a head
+  double given = 0.0;  ///< out minus in, through the others
+  double out = 0.0;    ///< through faces by which liquid leaves
+  double in = 0.0;     ///< through faces by which it enters
+};
+
+template <int Dim>
+class SeepageProblem {
+ public:
+  explicit SeepageProblem(const SeepageState<Dim>& state);
+
+  [[nodiscard]] const SeepageEnergy<Dim>& energy() const { return energy_; }
+  /// Per entry of the scene's boundaries.
+  [[nodiscard]] const std::vector<Crossing>& crossings() const { return crossings_; }
+  /// Sum over the outer faces, m3/s.
+  [[nodiscard]] double all_fluxes() const { return all_fluxes_; }
+  /// Boundaries that hold heads: those that share a node are one group, as a unit head at one of
+  /// them alone would jump there.
+  [[nodiscard]] const std::vector<std::vector<int>>& groups() const { return groups_; }
+
+  /// The fields of the flow itself.
+  [[nodiscard]] const FieldPair<Dim>& flow() const { return flow_; }
+  /// Those of a unit head at a group, and of no head and no flux elsewhere. Throws NumericalError.
+  [[nodiscard]] FieldPair<Dim> dual(int group);
+  /// Those of a unit head everywhere.
+  [[nodiscard]] FieldPair<Dim> unit() const;
+  /// The heads of both groups if there are two, each with one head, and no other flux.
+  [[nodiscard]] std::optional<std::array<double, 2>> two_heads() const;
+  /// a + factor b.
+  [[nodiscard]] FieldPair<Dim> combined(FieldPair<Dim> a, double factor,
+                                        const FieldPair<Dim>& b) const;
+
+  /// Of a dual: the integral of its head times the given outward flux, and of the flow's head times
+  /// the dual's outward flux where heads are held, m4/s.
+  struct Products {
+    double given = 0.0;
+    double held = 0.0;
+  };
+  [[nodiscard]] Products at_boundary(const FieldPair<Dim>& dual) const;
+
+  /// Why the fields bound nothing; empty where they do.
+  [[nodiscard]] std::string objection() const;
+
+ private:
+  [[nodiscard]] std::vector<double> conductivities() const;
+  [[nodiscard]] bool holds_head(int face) const;
+  [[nodiscard]] double height_of(const Vector<Dim>& x) const;
+  void prescribe();
+  void join_groups(const std::vector<std::vector<int>>& boundaries_of_node);
+  void sum_crossings();
+  [[nodiscard]] FieldPair<Dim> pair(const std::vector<double>& face_pressure,
+                                    const std::vector<double>& face_flux,
+                                    const std::vector<double>& inflow,
+                                    const std::vector<std::optional<double>>& prescribed) const;
+  ImplicitMixed<Dim>& dual_solver();
+
+  SeepageState<Dim> state_;
+  const Grid<Dim>& grid_;
+  double weight_;  ///< pressure per head, Pa/m
+  SeepageEnergy<Dim> energy_;
+  std::vector<std::optional<double>> prescribed_;  ///< per node, m
+  std::vector<double> inflow_;                     ///< per face, m3/s; 0 where a head is held
+  std::vector<int> group_of_face_;                 ///< -1 where no head is held
+  std::vector<std::vector<int>> groups_;
+  double largest_head_ = 0.0;
+  double largest_jump_ = 0.0;  ///< between the heads of two faces at one node, m
+  std::vector<Crossing> crossings_;
+  double all_fluxes_ = 0.0;
+  FieldPair<Dim> flow_;
+  std::unique_ptr<ImplicitMixed<Dim>> dual_solver_;
+};
+
+}  // namespace suffuse

@@ -1,0 +1,65 @@
+#include "tools/mesh_again.hpp"
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+#include "bounds/element_sizes.hpp"
+#include "case/mesh_sizes.hpp"
+#include "common/errors.hpp"
+#include "common/short_number.hpp"
+#include "driver/plan.hpp"
+
+namespace suffuse {
+namespace {
+
+constexpr double default_error = 0.01;
+/// Share of the error allowed at which the next mesh aims, as meshes are not quite what was asked.
+constexpr double aim = 0.7;
+
+std::string digits(double value, int count) {
+  std::ostringstream text;
+  text << std::setprecision(count) << value;
+  return text.str();
+}
+
+/// "Q = 1.408e-4 m3/s, between 1.407e-4 and 1.410e-4".
+std::string sentence(const DischargeBounds& bounds, int dimension) {
+  const Interval& q = bounds.flux_out;
+  const std::string unit = dimension == 2 ? " m3/s per m" : " m3/s";
+  const std::string verb = bounds.why_estimates.empty() ? "between " : "estimated between ";
+  return "Q = " + digits(q.middle(), 5) + unit + ", " + verb + digits(q.low, 5) + " and " +
+         digits(q.high, 5) + " (+- " + digits(100.0 * q.half() / std::abs(q.middle()), 2) + " %)";
+}
+
+}  // namespace
+
+template <int Dim>
+void write_sizes(Case<Dim> c, const SizesOptions& options) {
+  c.document.scene.initial_flow = InitialFlow::steady;
+  const Plan plan = make_plan(c, {.threads = options.threads});
+  const auto model = make_model(c, plan);
+  const std::optional<DischargeBounds> bounds = model->flow().discharge_bounds();
+  if (!bounds) {
+    throw InputError(InputProblem{c.document.locate("time.scheme"), "time.scheme", "\"explicit\"",
+                                  "\"implicit\": only its fluxes bound the discharge"});
+  }
+  const Grid<Dim>& grid = model->grid();
+  const double allowed = default_error;
+  const double whole = allowed * std::abs(bounds->flux_out.middle());
+  const std::vector<double> sizes =
+      next_sizes(grid, bounds->error, {.whole = aim * whole, .max_elements = 2e5});
+  write_mesh_sizes(options.output, c.mesh, sizes);
+  std::cout << sentence(*bounds, Dim) << ", " << grid.mesh.element_count() << " elements\n";
+  if (!bounds->why_estimates.empty()) {
+    std::cout << "an estimate, no bound: " << bounds->why_estimates << '\n';
+  }
+  const bool is_met = bounds->flux_out.half() <= whole;
+  std::cout << "mesh.error = " << short_number(allowed) << (is_met ? " is met\n" : " is not met\n");
+}
+
+template void write_sizes(Case<2>, const SizesOptions&);
+template void write_sizes(Case<3>, const SizesOptions&);
+
+}  // namespace suffuse
