@@ -22,7 +22,7 @@ double mean_product(const std::array<double, Nodes>& a, const std::array<double,
 }
 
 template <int Dim>
-WallNodes<Dim> nodes_of(const Grid<Dim>& grid, const LeakyFace& wall, double pressure_per_head) {
+WallNodes<Dim> wall_nodes(const Grid<Dim>& grid, const LeakyFace& wall, double pressure_per_head) {
   const auto& x = grid.mesh.nodes;
   WallNodes<Dim> result{wall.face,
                         wall.partner,
@@ -44,7 +44,7 @@ SeepageEnergy<Dim>::SeepageEnergy(const Grid<Dim>& grid, std::vector<double> con
                                   std::vector<DirectionalFactor<Dim>> bedding,
                                   const std::vector<LeakyFace>& walls, double pressure_per_head)
     : grid_(grid), conductivity_(std::move(conductivity)), bedding_(std::move(bedding)) {
-  for (const LeakyFace& wall : walls) walls_.push_back(nodes_of(grid, wall, pressure_per_head));
+  for (const LeakyFace& wall : walls) walls_.push_back(wall_nodes(grid, wall, pressure_per_head));
 }
 
 template <int Dim>

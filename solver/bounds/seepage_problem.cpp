@@ -12,6 +12,8 @@ namespace {
 
 /// Differences below this share of the largest head or flux are round-off.
 constexpr double round_off = 1e-9;
+/// Relative conductivity below which soil counts as this dry: no water to speak of flows there.
+constexpr double driest = 1e-9;
 
 }  // namespace
 
@@ -36,10 +38,15 @@ std::vector<double> SeepageProblem<Dim>::conductivities() const {
   std::vector<double> result;
   for (std::size_t e = 0; e < c.porosity.size(); ++e) {
     double conductivity = weight_ * c.porosity[e] / c.drag[e];
-    if (!state_.relative_conductivity.empty()) conductivity *= state_.relative_conductivity[e];
-    result.push_back(conductivity);
+    result.push_back(conductivity * relative_conductivity(e));
   }
   return result;
+}
+
+template <int Dim>
+double SeepageProblem<Dim>::relative_conductivity(std::size_t element) const {
+  if (state_.relative_conductivity.empty()) return 1.0;
+  return std::max(driest, state_.relative_conductivity[element]);
 }
 
 template <int Dim>
@@ -175,8 +182,12 @@ FieldPair<Dim> SeepageProblem<Dim>::dual(int group) {
     if (!is_held) continue;
     for (const int i : grid_.face_nodes[f]) prescribed[i] = head;
   }
-  const MixedStep<Dim> steady =
-      dual_solver().steady({state_.coefficients, std::move(conditions), {}});
+  FlowForcing<Dim> forcing{state_.coefficients, std::move(conditions), {}};
+  std::vector<double>& drag = forcing.coefficients.drag;
+  for (std::size_t e = 0; e < drag.size(); ++e) drag[e] /= relative_conductivity(e);
+  forcing.coefficients.mixture_density.assign(drag.size(), state_.scene.liquid.density);
+  forcing.coefficients.quadratic_drag.clear();
+  const MixedStep<Dim> steady = dual_solver().steady(forcing);
   const std::vector<double> none(grid_.face_count(), 0.0);
   return pair(steady.end.face_pressure, steady.face_flux, none, prescribed);
 }

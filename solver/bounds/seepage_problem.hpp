@@ -71,6 +71,7 @@ class SeepageProblem {
 
  private:
   [[nodiscard]] std::vector<double> conductivities() const;
+  [[nodiscard]] double relative_conductivity(std::size_t element) const;
   [[nodiscard]] bool holds_head(int face) const;
   [[nodiscard]] double height_of(const Vector<Dim>& x) const;
   void prescribe();

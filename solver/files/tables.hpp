@@ -66,6 +66,11 @@ struct HistoryRow {
   double newton_iterations = 0.0;  ///< of the solid's equilibrium, since the start
   double inertia = 0.0;  ///< forces of inertia over the loads, in the last step; 0 in equilibrium
   double failure_time = 0.0;  ///< last loss of equilibrium, s; 0: never, or at t = 0
+  // With mesh.error: between these bounds lies `flux_out`, or else, without them, half the interval
+  // of an estimate of the error of the mesh; 0 where there is none, m3/s.
+  double flux_out_low = 0.0;
+  double flux_out_high = 0.0;
+  double flux_out_estimate = 0.0;
 
   // Values that are no columns; the checks of the run use them.
   std::string concentration_max_at;  ///< the element of `concentration_max`
@@ -74,7 +79,7 @@ struct HistoryRow {
   double fines_weight_share = 0.0;
 };
 
-inline constexpr std::array<Column<HistoryRow>, 32> history_columns{{
+inline constexpr std::array<Column<HistoryRow>, 35> history_columns{{
     {"t", &HistoryRow::t, "s"},
     {"dt", &HistoryRow::dt, "s"},
     {"porosity_mean", &HistoryRow::porosity_mean, "1"},
@@ -107,6 +112,9 @@ inline constexpr std::array<Column<HistoryRow>, 32> history_columns{{
     {"newton_iterations", &HistoryRow::newton_iterations, "1"},
     {"inertia", &HistoryRow::inertia, "1"},
     {"failure_time", &HistoryRow::failure_time, "s"},
+    {"flux_out_low", &HistoryRow::flux_out_low, "m3/s"},
+    {"flux_out_high", &HistoryRow::flux_out_high, "m3/s"},
+    {"flux_out_estimate", &HistoryRow::flux_out_estimate, "m3/s"},
 }};
 
 /// Former and present names of columns of history.csv. `left` now means what remains (`fines_left`
@@ -193,9 +201,13 @@ struct BoundaryRow {
   double liquid_out = 0.0;  ///< volume of liquid that flowed out
   double discharge = 0.0;   ///< net outflow of liquid at this time, m3/s
   double level = 0.0;       ///< head outside, m; 0 where the scene gives none
+  // Those of `discharge`, as of `flux_out` in the history.
+  double discharge_low = 0.0;
+  double discharge_high = 0.0;
+  double discharge_estimate = 0.0;
 };
 
-inline constexpr std::array<Column<BoundaryRow>, 9> boundary_columns{{
+inline constexpr std::array<Column<BoundaryRow>, 12> boundary_columns{{
     {"t", &BoundaryRow::t, "s"},
     {"water_in", &BoundaryRow::water_in, "kg"},
     {"water_out", &BoundaryRow::water_out, "kg"},
@@ -205,6 +217,9 @@ inline constexpr std::array<Column<BoundaryRow>, 9> boundary_columns{{
     {"liquid_out", &BoundaryRow::liquid_out, "m3"},
     {"discharge", &BoundaryRow::discharge, "m3/s"},
     {"level", &BoundaryRow::level, "m"},
+    {"discharge_low", &BoundaryRow::discharge_low, "m3/s"},
+    {"discharge_high", &BoundaryRow::discharge_high, "m3/s"},
+    {"discharge_estimate", &BoundaryRow::discharge_estimate, "m3/s"},
 }};
 
 /// probes.csv: the state at a place that the scene names.

@@ -20,18 +20,6 @@ double steepest_shape(const Grid<Dim>& grid, int e) {
   return steepest;
 }
 
-template <int Dim>
-bool is_obtuse(const Grid<Dim>& grid, int e) {
-  double widest = 0.0;
-  for (int a = 0; a <= Dim; ++a) {
-    for (int b = 0; b < a; ++b) {
-      const auto& g = grid.shape_gradient[e];
-      widest = std::max(widest, g[a].dot(g[b]) / (g[a].norm() * g[b].norm()));
-    }
-  }
-  return widest > implicit_thresholds.obtuse_cosine;
-}
-
 }  // namespace
 
 void FlowScales::include(const std::vector<double>& face_pressure,
@@ -57,6 +45,17 @@ double FlowScales::overshoot(const std::vector<double>& face_pressure) const {
   if (!has_bounds || pressure == 0.0) return 0.0;
   const auto [low, high] = std::ranges::minmax(face_pressure);
   return std::max({0.0, high - max_pressure, min_pressure - low}) / pressure;
+}
+
+template <int Dim>
+double filling_time(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                    bool air_moves, const std::vector<double>& face_flux) {
+  double smallest = infinity;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double pores = coefficients.porosity[e] * grid.volume[e];
+    smallest = std::min(smallest, air_moves ? pores : coefficients.water_volume[e]);
+  }
+  return smallest / largest_magnitude(face_flux);
 }
 
 template <int Dim>
@@ -154,28 +153,21 @@ double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coeffici
   return fastest;
 }
 
-template <int Dim>
-int obtuse_elements(const Grid<Dim>& grid) {
-  int count = 0;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    if (is_obtuse(grid, e)) ++count;
-  }
-  return count;
-}
-
+template double filling_time(const Grid<2>&, const FlowCoefficients<2>&, bool,
+                             const std::vector<double>&);
 template FlowScales find_scales(ImplicitMixed<2>&, const FlowForcing<2>&, const BoundaryValues<2>&,
                                 double, bool);
 template void raise_over_round_off(FlowScales&, const Grid<2>&, const FlowCoefficients<2>&,
                                    const LiquidProperties&, double);
 template double fastest_rate(const Grid<2>&, const FlowCoefficients<2>&, double, bool,
                              const std::vector<double>&);
-template int obtuse_elements(const Grid<2>&);
+template double filling_time(const Grid<3>&, const FlowCoefficients<3>&, bool,
+                             const std::vector<double>&);
 template FlowScales find_scales(ImplicitMixed<3>&, const FlowForcing<3>&, const BoundaryValues<3>&,
                                 double, bool);
 template void raise_over_round_off(FlowScales&, const Grid<3>&, const FlowCoefficients<3>&,
                                    const LiquidProperties&, double);
 template double fastest_rate(const Grid<3>&, const FlowCoefficients<3>&, double, bool,
                              const std::vector<double>&);
-template int obtuse_elements(const Grid<3>&);
 
 }  // namespace suffuse

@@ -43,6 +43,12 @@ struct FlowScales {
   }
 };
 
+/// Time in which the largest flux fills the pores of the smallest element, s; infinite at rest.
+/// Elements of air, where air moves, hold next to no water and count by their pores.
+template <int Dim>
+double filling_time(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                    bool air_moves, const std::vector<double>& face_flux);
+
 /// The scales of the steady flows under the boundary conditions at the start, at each kink of their
 /// values and at the end. `at_start`: coefficients and conditions. If no steady flow exists, as
 /// with prescribed fluxes only, the scales are zero or smaller.
@@ -65,9 +71,5 @@ template <int Dim>
 double fastest_rate(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                     double bulk_modulus, bool inertia,
                     const std::vector<double>& soil_storage = {});
-
-/// Elements with an angle of more than 90 degrees (in three dimensions, between two sides).
-template <int Dim>
-int obtuse_elements(const Grid<Dim>& grid);
 
 }  // namespace suffuse

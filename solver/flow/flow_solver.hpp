@@ -38,10 +38,11 @@ struct FlowState {
   std::vector<double> saturation;  ///< S per element; empty where every soil is saturated
   /// k_r per element: conductivity over that of the saturated soil; empty as `saturation`.
   std::vector<double> relative_conductivity;
-  VectorField<Dim> velocity;        ///< per node, intrinsic, m/s
-  std::vector<double> face_flux;    ///< along each face's normal, m3/s
-  double eos_error = 0.0;           ///< see HistoryRow
-  double pressure_overshoot = 0.0;  ///< see HistoryRow
+  VectorField<Dim> velocity;              ///< per node, intrinsic, m/s
+  std::vector<double> face_flux;          ///< along each face's normal, m3/s
+  double eos_error = 0.0;                 ///< see HistoryRow
+  double pressure_overshoot = 0.0;        ///< see HistoryRow
+  std::optional<DischargeBounds> bounds;  ///< with mesh.error
 };
 
 /// The last flow of an earlier run.

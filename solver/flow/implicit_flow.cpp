@@ -196,7 +196,9 @@ std::optional<Unsolved> ImplicitFlow<Dim>::try_step(const FlowInterval<Dim>& int
   for (int tries = 0; tries < implicit_thresholds.max_reservoir_tries; ++tries) {
     set_forcing(interval, step);
     step.found = solved(step);
-    if (reservoirs.agree(step.reservoir_rates, rates_of_reservoirs(step))) return std::nullopt;
+    if (reservoirs.agree(step.reservoir_rates,
+                         this->boundary_values().reservoir_rates(step.found.face_volume, step.dt)))
+      return std::nullopt;
   }
   return Unsolved{"The levels of reservoirs and the flow from them were not found"};
 } catch (const NotConverged& error) {
@@ -240,7 +242,8 @@ FlowProgress ImplicitFlow<Dim>::commit(FlowStep<Dim> step) {
     blending_.record(forcing.coefficients);
     if (step.expected) blending_.expect(*std::move(step.expected));
   }
-  this->update_boundary_values(step.start, end, rates_of_reservoirs(step));
+  this->update_boundary_values(
+      step.start, end, this->boundary_values().reservoir_rates(step.found.face_volume, step.dt));
   remember(std::move(step.found), step.dt);
   if (is_breakpoint(end)) {
     pass_breakpoint(end, step.dt);
@@ -385,19 +388,6 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     if (!shown) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
-}
-
-template <int Dim>
-double ImplicitFlow<Dim>::filling_time() const {
-  double smallest = std::ranges::min(this->coefficients_.water_volume);
-  if (scheme_.soils().air_moves()) {
-    // Elements of air hold next to no water.
-    smallest = std::numeric_limits<double>::infinity();
-    for (int e = 0; e < this->grid().mesh.element_count(); ++e) {
-      smallest = std::min(smallest, this->coefficients_.porosity[e] * this->grid().volume[e]);
-    }
-  }
-  return smallest / largest_magnitude(now_.face_flux);
 }
 
 template <int Dim>

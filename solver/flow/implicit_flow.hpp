@@ -104,10 +104,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// reason if there is no solution.
   [[nodiscard]] std::optional<Unsolved> try_step(const FlowInterval<Dim>& interval,
                                                  FlowStep<Dim>& step);
-  /// How fast levels of reservoirs rise by what seeps in the step, m/s.
-  [[nodiscard]] std::vector<double> rates_of_reservoirs(const FlowStep<Dim>& step) const {
-    return this->boundary_values().reservoir_rates(step.found.face_volume, step.dt);
-  }
   [[nodiscard]] MixedStep<Dim> solved(const FlowStep<Dim>& step);
   /// Solves a long step again with sources that let out the expansion of water that moves to lower
   /// pressures, where its elements could not hold it.
@@ -149,8 +145,10 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<double> element_pressure_now() const {
     return element_pressure(this->grid(), now_.state.face_pressure, this->threads());
   }
-  /// Time in which the largest flux fills the pores of the smallest element, s; infinite at rest.
-  [[nodiscard]] double filling_time() const;
+  [[nodiscard]] double filling_time() const {
+    return suffuse::filling_time(this->grid(), this->coefficients_, scheme_.soils().air_moves(),
+                                 now_.face_flux);
+  }
   /// A time that is short compared with all time scales of the flow, s: a step of this length ends
   /// in the state right after the start. Infinite if nothing delays the flow. `soil_storage`: see
   /// `fastest_rate`.

@@ -113,8 +113,6 @@ struct ImplicitThresholds {
   double nothing_strain = 1e-8;
   /// Pressures below this share of the bulk modulus are round-off of the equation of state.
   double state_round_off = 1e-12;
-  /// Angles whose negative cosine exceeds this are obtuse.
-  double obtuse_cosine = 1e-9;
 };
 
 inline constexpr ImplicitThresholds implicit_thresholds;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "formulation/seepage_measures.hpp"
 #include "grid/face_flux.hpp"
@@ -71,6 +72,13 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
   result.cell.push_back(std::move(erodible));
 }
 
+/// Each value over the sum of all, or 0.
+std::vector<double> shares(std::vector<double> values) {
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  for (double& value : values) value = sum > 0.0 ? value / sum : 0.0;
+  return values;
+}
+
 template <int Dim>
 void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Scene& scene,
               Snapshot& result) {
@@ -85,6 +93,7 @@ void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Scene& sc
   result.node = {vectors("liquid_velocity", "m/s", flow.velocity),
                  {"pressure", "Pa", 1, flow.node_pressure}};
   if (!flow.saturation.empty()) result.cell.push_back({"saturation", "1", 1, flow.saturation});
+  if (flow.bounds) result.cell.push_back({"error", "1", 1, shares(flow.bounds->error)});
   if (!has_gravity(scene.gravity)) return;
   Field head = scalar("head", "m");
   const double weight = unit_weight(scene.liquid.density, scene.gravity);

@@ -123,14 +123,40 @@ std::vector<RegionRow> TwoPhaseModel<Dim>::region_rows() const {
   return masses_.region_rows(time_, stored(), soils_, grain_density_);
 }
 
+namespace {
+
+/// Enters an interval into a row: as bounds, or as what is estimated.
+void enter(const DischargeBounds& bounds, const Interval& interval, double& low, double& high,
+           double& estimate) {
+  if (!bounds.why_estimates.empty()) {
+    estimate = interval.half();
+    return;
+  }
+  low = interval.low;
+  high = interval.high;
+}
+
+}  // namespace
+
+template <int Dim>
+FlowState<Dim> TwoPhaseModel<Dim>::flow_state() const {
+  FlowState<Dim> flow = flow_->state(time_);
+  if (scene().mesh.error) flow.bounds = flow_->discharge_bounds();
+  return flow;
+}
+
 template <int Dim>
 std::vector<BoundaryRow> TwoPhaseModel<Dim>::boundary_rows(const FlowState<Dim>& flow) const {
   std::vector<BoundaryRow> rows = masses_.boundaries().rows(time_, flow.face_flux);
   const std::vector<BoundaryCondition>& boundaries = soils_.scene().boundaries;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    BoundaryRow& row = rows[b];
     if (boundaries[b].head) {
-      rows[b].level = flow_->boundary_values().level(static_cast<int>(b), time_);
+      row.level = flow_->boundary_values().level(static_cast<int>(b), time_);
     }
+    if (!flow.bounds || !flow.bounds->boundaries[b]) continue;
+    enter(*flow.bounds, *flow.bounds->boundaries[b], row.discharge_low, row.discharge_high,
+          row.discharge_estimate);
   }
   return rows;
 }
@@ -169,6 +195,10 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   row.conductivity_ratio = power.conductivity_ratio();
   solid_->describe(row);
   coupled_->describe(row);
+  if (flow.bounds && !flow.bounds->both_ways) {
+    enter(*flow.bounds, flow.bounds->flux_out, row.flux_out_low, row.flux_out_high,
+          row.flux_out_estimate);
+  }
   return row;
 }
 

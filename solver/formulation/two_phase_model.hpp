@@ -66,7 +66,7 @@ class TwoPhaseModel {
   [[nodiscard]] const Skeleton<Dim>& solid() const { return *solid_; }
   [[nodiscard]] const FlowSolver<Dim>& flow() const { return *flow_; }
   [[nodiscard]] const CoupledFlow<Dim>& coupled_flow() const { return *coupled_; }
-  [[nodiscard]] FlowState<Dim> flow_state() const { return flow_->state(time_); }
+  [[nodiscard]] FlowState<Dim> flow_state() const;
 
   // Present values for the results.
   [[nodiscard]] virtual HistoryRow history_row(const FlowState<Dim>& flow) const = 0;

@@ -126,6 +126,34 @@ Vector<Dim> Grid<Dim>::face_centre(int face) const {
   return sum / Dim;
 }
 
+namespace {
+
+/// Angles whose negative cosine exceeds this are obtuse.
+constexpr double obtuse_cosine = 1e-9;
+
+template <int Dim>
+bool is_obtuse(const Grid<Dim>& grid, int e) {
+  double widest = 0.0;
+  for (int a = 0; a <= Dim; ++a) {
+    for (int b = 0; b < a; ++b) {
+      const auto& g = grid.shape_gradient[e];
+      widest = std::max(widest, g[a].dot(g[b]) / (g[a].norm() * g[b].norm()));
+    }
+  }
+  return widest > obtuse_cosine;
+}
+
+}  // namespace
+
+template <int Dim>
+int obtuse_elements(const Grid<Dim>& grid) {
+  int count = 0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (is_obtuse(grid, e)) ++count;
+  }
+  return count;
+}
+
 template <int Dim>
 std::string element_text(const Grid<Dim>& grid, int element) {
   std::ostringstream text;
@@ -143,6 +171,8 @@ std::string node_text(const Grid<Dim>& grid, int node) {
 
 template struct Grid<2>;
 template struct Grid<3>;
+template int obtuse_elements(const Grid<2>&);
+template int obtuse_elements(const Grid<3>&);
 template std::string element_text(const Grid<2>&, int);
 template std::string element_text(const Grid<3>&, int);
 template std::string node_text(const Grid<2>&, int);

@@ -69,6 +69,10 @@ struct Grid {
   std::vector<int> node_element;
 };
 
+/// Elements with an angle of more than 90 degrees (in three dimensions, between two sides).
+template <int Dim>
+int obtuse_elements(const Grid<Dim>& grid);
+
 /// "element 5 at (0.1 0.2)", with the centroid, for messages.
 template <int Dim>
 std::string element_text(const Grid<Dim>& grid, int element);

@@ -15,6 +15,8 @@ namespace suffuse {
 namespace {
 
 constexpr double default_error = 0.01;
+/// Meshes have somewhat more or fewer elements than asked for.
+constexpr double as_large = 0.8;
 /// Share of the error allowed at which the next mesh aims, as meshes are not quite what was asked.
 constexpr double aim = 0.7;
 
@@ -46,17 +48,24 @@ void write_sizes(Case<Dim> c, const SizesOptions& options) {
                                   "\"implicit\": only its fluxes bound the discharge"});
   }
   const Grid<Dim>& grid = model->grid();
-  const double allowed = default_error;
+  const MeshSettings& mesh = c.document.scene.mesh;
+  const double allowed = mesh.error.value_or(default_error);
   const double whole = allowed * std::abs(bounds->flux_out.middle());
-  const std::vector<double> sizes =
-      next_sizes(grid, bounds->error, {.whole = aim * whole, .max_elements = 2e5});
+  const std::vector<double> sizes = next_sizes(
+      grid, bounds->error, {.whole = aim * whole, .max_elements = 1.0 * mesh.max_elements});
   write_mesh_sizes(options.output, c.mesh, sizes);
   std::cout << sentence(*bounds, Dim) << ", " << grid.mesh.element_count() << " elements\n";
   if (!bounds->why_estimates.empty()) {
     std::cout << "an estimate, no bound: " << bounds->why_estimates << '\n';
   }
-  const bool is_met = bounds->flux_out.half() <= whole;
-  std::cout << "mesh.error = " << short_number(allowed) << (is_met ? " is met\n" : " is not met\n");
+  std::cout << "mesh.error = " << short_number(allowed);
+  if (bounds->flux_out.half() <= whole) {
+    std::cout << " is met\n";
+  } else if (grid.mesh.element_count() < as_large * mesh.max_elements) {
+    std::cout << " is not met: mesh again with suffuse-mesher --sizes " << options.output << '\n';
+  } else {
+    std::cout << " is not met within mesh.max_elements = " << mesh.max_elements << '\n';
+  }
 }
 
 template void write_sizes(Case<2>, const SizesOptions&);

@@ -17,6 +17,7 @@
 # or could not use a file, and the next call goes on. PROGRESS=1 shows the messages of the programs
 # instead of keeping them in STEM.log.
 set -u
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 programs=$1 stem=$2 tolerance=$3
 name=${stem##*/}
 cd "${stem%/*}" || exit 4
@@ -53,10 +54,11 @@ end() {
 step() {
   local program=$1 word=$2 code=0
   shift 2
+  case $program in */*) ;; *) program=$programs/$program ;; esac
   if [ -n "${PROGRESS:-}" ]; then
-    "$programs/$program" "$@" 3>&- || code=$?
+    "$program" "$@" 3>&- || code=$?
   else
-    "$programs/$program" "$@" 3>&- 2> "$messages" || code=$?
+    "$program" "$@" 3>&- 2> "$messages" || code=$?
     show_messages
   fi
   case $code in
@@ -64,8 +66,8 @@ step() {
     2) end refused ;;
     3) end "$word" ;;
   esac
-  echo "stopped with exit code $code of $program" >> "$messages"
-  echo "$name stopped with exit code $code of $program" >&3
+  echo "stopped with exit code $code of ${program##*/}" >> "$messages"
+  echo "$name stopped with exit code $code of ${program##*/}" >&3
   exit "$code"
 }
 
@@ -77,7 +79,11 @@ if ! { [ -e "$name.case.h5" ] && [ -e "$started" ] && cmp -s "$name.inputs" "$st
       set\ *) changes+=(--set "${line#set }") ;;
     esac
   done < "$name.inputs"
-  step suffuse-mesher refused "$scene" "${changes[@]}" -o "$name.case.h5"
+  if grep -qE '\<(mesh\.)?error *=' "$scene" "$name.inputs"; then
+    step "$here/../adapt.sh" failed "$programs" "$scene" "$name" "${changes[@]}"
+  else
+    step suffuse-mesher refused "$scene" "${changes[@]}" -o "$name.case.h5"
+  fi
   [ ! -e "$name.results" ] || rm -rf "$name.results" "$name.ledger.csv"
   cp "$name.inputs" "$started"
 fi
