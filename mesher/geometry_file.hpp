@@ -2,8 +2,8 @@
 
 /// Reads and meshes a user's geometry file with Gmsh, in a process that may do nothing else.
 
+#include "geometry.hpp"
 #include "gmsh_reply.hpp"
-#include "scene/scene.hpp"
 
 namespace suffuse {
 
@@ -12,7 +12,6 @@ namespace suffuse {
 /// (`confined_child.hpp`), and this process gets numbers and names alone. What a confined process
 /// may not do, a crash and a limit that is passed come as an InputError, like Gmsh's own errors.
 /// Throws FileError where there is no such file, and where this system cannot confine a process.
-/// \param max_seconds  of processor time that Gmsh may take; infinite: no limit
-GmshReply read_geometry_file(const SceneDocument& document, double max_seconds);
+GmshReply read_geometry_file(const GeometryRequest& request);
 
 }  // namespace suffuse
