@@ -132,7 +132,6 @@ Mesh<3> regular_box(const ColumnShape& column, double depth, double size) {
 
 void mesh_free_box(const ColumnShape& column, double depth, double size) {
   gmsh::model::add("box");
-  gmsh::option::setNumber("Mesh.MeshSizeMax", size);
   const int floor = add_floor(column, depth, size);
   int below = floor;
   std::map<std::string, std::vector<int>> regions;

@@ -81,7 +81,6 @@ void mesh_column(const ColumnShape& column, const MeshSettings& settings) {
   const bool regular = settings.structure != MeshStructure::free;
   const int columns = element_rows(column.width, settings.size);
   gmsh::model::add("column");
-  gmsh::option::setNumber("Mesh.MeshSizeMax", settings.size);
 
   Level below = add_level(column.level(column.layers.front().bottom), column.width, settings.size,
                           columns, regular);

@@ -1,8 +1,11 @@
 #include "geometry.hpp"
 
+#include <gmsh.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "box.hpp"
 #include "case/consistency.hpp"
@@ -17,6 +20,7 @@
 #include "mesh_limits.hpp"
 #include "mesh_problems.hpp"
 #include "scene/geometry_checks.hpp"
+#include "scene/scene_defaults.hpp"
 #include "scene/scene_schema.hpp"
 
 namespace suffuse {
@@ -30,7 +34,13 @@ bool divides(double size, double length) {
   return std::abs(rows - std::round(rows)) <= 1e-9 * rows;
 }
 
-void note_rounding(const Scene& scene, std::vector<std::string>& notes) {
+void note_size(const GeometryRequest& request, std::vector<std::string>& notes) {
+  const Scene& scene = request.document.scene;
+  if (request.wanted) return;
+  if (!request.document.where.contains("mesh.size")) {
+    notes.push_back(default_size_note(scene.mesh.size));
+    return;
+  }
   if (scene.mesh.structure == MeshStructure::free) return;
   const double size = scene.mesh.size;
   std::vector<std::pair<std::string, double>> sides{{"width", scene.geometry.width},
@@ -49,23 +59,49 @@ int rows_beside_specimen(const LayerSettings& rows) {
   return rows.inflow + rows.free_above + rows.above + rows.below + rows.free_below + rows.outflow;
 }
 
-void build_column(const SceneDocument& document, std::vector<std::string>& notes) {
-  const Scene& scene = document.scene;
-  const double width = scene.geometry.width;
-  const int beside = rows_beside_specimen(scene.geometry.layers);
-  refuse_too_many_triangles(document, width * scene.geometry.height, width * beside);
-  const std::string complaint = gmsh_complaint([&] { mesh_column(column_of(scene), scene.mesh); });
-  if (!complaint.empty()) throw FileError("Gmsh could not mesh the column: " + complaint);
-  note_rounding(scene, notes);
+/// Gives Gmsh the wanted sizes for a shape, or the scene's as the largest. Throws InputError where
+/// they are those of a mesh of another shape.
+void set_sizes(const GeometryRequest& request, const ColumnShape& column,
+               std::optional<SizesInGmsh>& sizes) {
+  const Scene& scene = request.document.scene;
+  if (!request.wanted) {
+    gmsh::option::setNumber("Mesh.MeshSizeMax", scene.mesh.size);
+    return;
+  }
+  const GeometrySettings& geometry = scene.geometry;
+  const double bottom = column.level(column.layers.front().bottom);
+  const double top = column.level(column.layers.back().top);
+  const ModelBox box = geometry.is_box()
+                           ? ModelBox{3, {0.0, 0.0, bottom}, {column.width, geometry.depth, top}}
+                           : ModelBox{2, {0.0, bottom, 0.0}, {column.width, top, 0.0}};
+  refuse_sizes_of_another_model(*request.wanted, box);
+  sizes.emplace(*request.wanted, 1.0);
 }
 
-ExtractedMesh<3> build_box(const SceneDocument& document, std::vector<std::string>& notes) {
-  const Scene& scene = document.scene;
+void build_column(const GeometryRequest& request, std::vector<std::string>& notes) {
+  const Scene& scene = request.document.scene;
+  const double width = scene.geometry.width;
+  const int beside = rows_beside_specimen(scene.geometry.layers);
+  if (!request.wanted) {
+    refuse_too_many_triangles(request.document, width * scene.geometry.height, width * beside);
+  }
+  const ColumnShape column = column_of(scene);
+  std::optional<SizesInGmsh> sizes;
+  set_sizes(request, column, sizes);
+  const std::string complaint = gmsh_complaint([&] { mesh_column(column, scene.mesh); });
+  if (!complaint.empty()) throw FileError("Gmsh could not mesh the column: " + complaint);
+  note_size(request, notes);
+}
+
+ExtractedMesh<3> build_box(const GeometryRequest& request, std::vector<std::string>& notes) {
+  const Scene& scene = request.document.scene;
   const GeometrySettings& geometry = scene.geometry;
   const double floor = geometry.width * geometry.depth;
-  refuse_too_many_tetrahedra(document, floor * geometry.height,
-                             floor * rows_beside_specimen(geometry.layers));
-  note_rounding(scene, notes);
+  if (!request.wanted) {
+    refuse_too_many_tetrahedra(request.document, floor * geometry.height,
+                               floor * rows_beside_specimen(geometry.layers));
+  }
+  note_size(request, notes);
   const ColumnShape column = column_of(scene);
   if (scene.mesh.structure != MeshStructure::free) {
     ExtractedMesh<3> box;
@@ -74,6 +110,8 @@ ExtractedMesh<3> build_box(const SceneDocument& document, std::vector<std::strin
     return box;
   }
   const GmshSession session;
+  std::optional<SizesInGmsh> sizes;
+  set_sizes(request, column, sizes);
   const std::string complaint =
       gmsh_complaint([&] { mesh_free_box(column, geometry.depth, scene.mesh.size); });
   if (!complaint.empty()) throw FileError("Gmsh could not mesh the box: " + complaint);
@@ -131,8 +169,9 @@ void advise_on_step(const SceneDocument& document, std::vector<InputProblem>& pr
 
 /// Cuts walls and wells into the mesh and compares it with the scene.
 template <int Dim>
-Geometry<Dim> finished(const SceneDocument& document, ExtractedMesh<Dim> extracted,
+Geometry<Dim> finished(const GeometryRequest& request, ExtractedMesh<Dim> extracted,
                        std::vector<std::string> notes) {
+  const SceneDocument& document = request.document;
   place_problems(document, extracted.problems);
   for (Vector<Dim>& x : extracted.mesh.nodes) x *= document.scene.geometry.scale;
   if (extracted.comparable) {
@@ -150,6 +189,10 @@ Geometry<Dim> finished(const SceneDocument& document, ExtractedMesh<Dim> extract
     advise_on_step<Dim>(document, extracted.problems);
   }
   if (!extracted.problems.empty()) throw InputError(std::move(extracted.problems));
+  if (request.wanted) {
+    refuse_sizes_of_other_regions(*request.wanted, extracted.mesh.region_names);
+    notes.insert(notes.begin(), "sizes of elements are those of " + request.wanted->path);
+  }
   if (extracted.turned > 0) {
     notes.push_back(std::to_string(extracted.turned) +
                     (Dim == 2 ? " clockwise triangles were turned round"
@@ -166,32 +209,45 @@ std::vector<std::string> notes_on(const GmshReply& reply) {
   if (reply.wants_threads) {
     notes.emplace_back("Gmsh ran on one thread, whatever the file asks for");
   }
+  if (reply.default_size > 0.0) notes.push_back(default_size_note(reply.default_size));
+  const FileLimits& limits = reply.limits;
+  if (limits.smallest) {
+    notes.emplace_back(
+        "Mesh.MeshSizeMin of the file holds: elements are larger than the sizes ask");
+  }
+  if (limits.largest) {
+    notes.emplace_back("Mesh.MeshSizeMax of the file holds: elements are finer than the sizes ask");
+  }
+  if (limits.field) {
+    notes.emplace_back("the field of sizes of the file holds where it is finer than the sizes ask");
+  }
   return notes;
 }
 
 /// The mesh of the user's file, in its own dimension.
-AnyGeometry geometry_from_file(const SceneDocument& document, double max_seconds) {
-  const GmshReply reply = read_geometry_file(document, max_seconds);
+AnyGeometry geometry_from_file(const GeometryRequest& request) {
+  const SceneDocument& document = request.document;
+  const GmshReply reply = read_geometry_file(request);
   if (reply.model.dimension == 3) {
-    return finished(document, extract_mesh<3>(reply.model), notes_on(reply));
+    return finished(request, extract_mesh<3>(reply.model), notes_on(reply));
   }
   const bool users_own = reply.meshes_itself || is_mesh_file(document.scene.geometry.file);
   const bool crossed = document.scene.mesh.structure == MeshStructure::crossed && !users_own;
   const Quadrangles quadrangles = crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused;
-  return finished(document, extract_mesh<2>(reply.model, quadrangles), notes_on(reply));
+  return finished(request, extract_mesh<2>(reply.model, quadrangles), notes_on(reply));
 }
 
-Geometry<2> column_geometry(const SceneDocument& document) {
+Geometry<2> column_geometry(const GeometryRequest& request) {
   std::vector<std::string> notes;
   ExtractedMesh<2> extracted;
   {
     const GmshSession session;
-    build_column(document, notes);
-    const bool crossed = document.scene.mesh.structure == MeshStructure::crossed;
+    build_column(request, notes);
+    const bool crossed = request.document.scene.mesh.structure == MeshStructure::crossed;
     extracted = extract_mesh<2>(read_gmsh_model(),
                                 crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused);
   }
-  return finished(document, std::move(extracted), std::move(notes));
+  return finished(request, std::move(extracted), std::move(notes));
 }
 
 }  // namespace
@@ -200,13 +256,13 @@ std::string geometry_path(const SceneDocument& document) {
   return (fs::path(document.path).parent_path() / document.scene.geometry.file).string();
 }
 
-AnyGeometry build_geometry(const SceneDocument& document, double max_seconds) {
-  const GeometrySettings& geometry = document.scene.geometry;
-  if (!geometry.file.empty()) return geometry_from_file(document, max_seconds);
-  if (!geometry.is_box()) return column_geometry(document);
+AnyGeometry build_geometry(const GeometryRequest& request) {
+  const GeometrySettings& geometry = request.document.scene.geometry;
+  if (!geometry.file.empty()) return geometry_from_file(request);
+  if (!geometry.is_box()) return column_geometry(request);
   std::vector<std::string> notes;
-  ExtractedMesh<3> extracted = build_box(document, notes);
-  return finished(document, std::move(extracted), std::move(notes));
+  ExtractedMesh<3> extracted = build_box(request, notes);
+  return finished(request, std::move(extracted), std::move(notes));
 }
 
 }  // namespace suffuse

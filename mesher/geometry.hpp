@@ -8,6 +8,7 @@
 
 #include "mesh/mesh.hpp"
 #include "scene/scene.hpp"
+#include "wanted_sizes.hpp"
 
 namespace suffuse {
 
@@ -20,6 +21,16 @@ struct Geometry {
 /// Largest processor time of Gmsh for a file, s.
 inline constexpr double default_geometry_seconds = 600.0;
 
+/// What is meshed, and how.
+struct GeometryRequest {
+  const SceneDocument& document;
+  /// Processor time that Gmsh may take over a file, which can hold an endless loop, s.
+  double max_seconds = default_geometry_seconds;
+  /// Null: the sizes of the scene and of its geometry file hold. Otherwise `document` is that of
+  /// `scene_with_sizes`.
+  const WantedSizes* wanted = nullptr;
+};
+
 using AnyGeometry = std::variant<Geometry<2>, Geometry<3>>;
 
 /// Builds the mesh with Gmsh and compares it with the scene. Throws InputError with every problem
@@ -29,17 +40,15 @@ using AnyGeometry = std::variant<Geometry<2>, Geometry<3>>;
 ///
 /// A .geo or .step file is meshed here: sizes and fields of the file apply, and `mesh.size` is an
 /// upper bound and the size where the file gives none. A .geo that meshes itself and a .msh are
-/// used unchanged. Lengths in a .step file are converted from its own unit to metres; those in .geo
-/// and .msh files are in `geometry.scale` metres.
-/// \param max_seconds  of processor time that Gmsh may take for a file, which can contain an
-///   endless loop
-AnyGeometry build_geometry(const SceneDocument& document,
-                           double max_seconds = default_geometry_seconds);
+/// used unchanged, and refused where there are wanted sizes. Lengths in a .step file are
+/// converted from its own unit to metres; those in .geo and .msh files are in `geometry.scale`
+/// metres.
+AnyGeometry build_geometry(const GeometryRequest& request);
 
 /// `build_geometry` for a known dimension.
 template <int Dim>
 Geometry<Dim> build_geometry_of(const SceneDocument& document) {
-  return std::get<Geometry<Dim>>(build_geometry(document));
+  return std::get<Geometry<Dim>>(build_geometry({.document = document}));
 }
 
 /// The file that `geometry.file` names, relative to the scene's folder.

@@ -23,6 +23,7 @@
 #include "mesh_problems.hpp"
 #include "point_sizes.hpp"
 #include "scene/geometry_checks.hpp"
+#include "scene/scene_defaults.hpp"
 #include "scene/scene_schema.hpp"
 
 namespace suffuse {
@@ -116,7 +117,103 @@ bool has_mesh(int dimension) {
   return !types.empty();
 }
 
-void generate_mesh(const SceneDocument& document, const std::string& path, int dimension) {
+/// Area or volume of the mesh of the current model, in the file's unit.
+double meshed_volume(int dimension) {
+  double volume = 0.0;
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, dimension);
+  for (const int type : types) {
+    std::vector<double> places;
+    std::vector<double> weights;
+    gmsh::model::mesh::getIntegrationPoints(type, "Gauss2", places, weights);
+    std::vector<double> jacobians;
+    std::vector<double> determinants;
+    std::vector<double> coordinates;
+    gmsh::model::mesh::getJacobians(type, places, jacobians, determinants, coordinates);
+    for (std::size_t i = 0; i < determinants.size(); ++i) {
+      volume += std::abs(determinants[i]) * weights[i % weights.size()];
+    }
+  }
+  return volume;
+}
+
+/// The size of elements for a file without sizes in a scene without, m: by the area or volume of a
+/// mesh as coarse as Gmsh makes it.
+double default_size(const SceneDocument& document, int dimension) {
+  gmsh::model::mesh::generate(dimension);
+  const double volume =
+      meshed_volume(dimension) * std::pow(document.scene.geometry.scale, dimension);
+  gmsh::model::mesh::clear();
+  const MeshStructure structure =
+      dimension == 3 ? MeshStructure::free : document.scene.mesh.structure;
+  return default_element_size(volume, dimension, structure, true);
+}
+
+/// The box of the regions of the current model.
+ModelBox model_box(int dimension, double scale) {
+  gmsh::vectorpair regions;
+  gmsh::vectorpair parts;
+  gmsh::model::getEntities(regions, dimension);
+  gmsh::model::getBoundary(regions, parts, false, false, true);  // points
+  constexpr double far = std::numeric_limits<double>::max();
+  ModelBox box{dimension, {far, far, far}, {-far, -far, -far}};
+  const auto extend = [&](const std::array<double, 3>& x) {
+    for (int d = 0; d < 3; ++d) {
+      box.low[d] = std::min(box.low[d], x[d] * scale);
+      box.high[d] = std::max(box.high[d], x[d] * scale);
+    }
+  };
+  for (const auto& [ignored, point] : parts) {
+    std::vector<double> x;
+    gmsh::model::getValue(0, point, {}, x);
+    extend({x[0], x[1], x[2]});
+  }
+  gmsh::model::getEntities(parts, 1);
+  for (const auto& [ignored, curve] : parts) {
+    std::string type;
+    gmsh::model::getType(1, curve, type);
+    box.curved = box.curved || type != "Line";
+  }
+  if (!box.curved) return box;
+  for (const auto& [ignored, region] : regions) {
+    std::array<double, 3> low{};
+    std::array<double, 3> high{};
+    gmsh::model::getBoundingBox(dimension, region, low[0], low[1], low[2], high[0], high[1],
+                                high[2]);
+    extend(low);
+    extend(high);
+  }
+  return box;
+}
+
+/// What the file says of sizes in addition to those that are wanted.
+FileLimits limits_of_file(const WantedSizes& wanted, double scale) {
+  const auto& [least, most] =
+      std::visit([](const auto& sizes) { return std::ranges::minmax(sizes.size); }, wanted.sizes);
+  double smallest = 0.0;
+  double largest = 0.0;
+  gmsh::option::getNumber("Mesh.MeshSizeMin", smallest);
+  gmsh::option::getNumber("Mesh.MeshSizeMax", largest);
+  return {smallest * scale > least, largest * scale < most, own_sizes().field};
+}
+
+/// Sets the size that the scene gives, or a default where neither it nor the file gives any.
+void set_size_of_scene(const SceneDocument& document, int dimension, GmshReply& reply) {
+  const double scale = document.scene.geometry.scale;
+  double size = document.scene.mesh.size;
+  if (std::isnan(size) && !own_sizes().any) {
+    size = default_size(document, dimension);
+    if (std::isfinite(size)) reply.default_size = size;
+  }
+  if (!std::isfinite(size)) return;
+  size /= scale;  // in the file's unit
+  double largest = 0.0;
+  gmsh::option::getNumber("Mesh.MeshSizeMax", largest);
+  if (size < largest) gmsh::option::setNumber("Mesh.MeshSizeMax", size);
+  set_default_point_size(size);
+}
+
+void refuse_too_many_elements(const SceneDocument& document, int dimension) {
   std::array<double, 6> box{};
   gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
   const double scale = document.scene.geometry.scale;
@@ -126,18 +223,29 @@ void generate_mesh(const SceneDocument& document, const std::string& path, int d
   } else {
     refuse_too_many_tetrahedra(document, area * (box[5] - box[2]) * scale);
   }
-  const double size = document.scene.mesh.size / scale;  // in the file's unit
-  double largest = 0.0;
-  gmsh::option::getNumber("Mesh.MeshSizeMax", largest);
-  if (size < largest) gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-  if (dimension == 2 && document.scene.mesh.structure == MeshStructure::crossed) {
-    // Triangles twice as large, each then split into three quadrangles by Gmsh: its recombination
-    // of triangles into quadrangles crashes on small models (4.8).
-    gmsh::option::setNumber("Mesh.MeshSizeFactor", 2.0);
-    gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
+}
+
+void generate_mesh(const GeometryRequest& request, const std::string& path, int dimension,
+                   GmshReply& reply) {
+  const SceneDocument& document = request.document;
+  const double scale = document.scene.geometry.scale;
+  std::optional<SizesInGmsh> sizes;
+  if (request.wanted) {
+    refuse_sizes_of_another_model(*request.wanted, model_box(dimension, scale));
+    reply.limits = limits_of_file(*request.wanted, scale);
+    sizes.emplace(*request.wanted, scale);
+  } else {
+    refuse_too_many_elements(document, dimension);
   }
   run_gmsh(document, path, [&] {
-    if (std::isfinite(size)) set_default_point_size(size);
+    if (!request.wanted) set_size_of_scene(document, dimension, reply);
+    if (dimension == 2 && document.scene.mesh.structure == MeshStructure::crossed) {
+      // Triangles twice as large, each then split into three quadrangles by Gmsh: its recombination
+      // of triangles into quadrangles crashes on small models (4.8). Of wanted sizes the elements
+      // have the area, which takes triangles larger by the root of 3.
+      gmsh::option::setNumber("Mesh.MeshSizeFactor", request.wanted ? 2.0 * std::sqrt(3.0) : 2.0);
+      gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
+    }
     gmsh::model::mesh::generate(dimension);
   });
 }
@@ -162,7 +270,8 @@ bool wants_threads(const SceneDocument& document) {
 }
 
 /// Reads and meshes the file; runs in the confined child, within a session of Gmsh.
-GmshReply mesh_file(const SceneDocument& document, const std::string& path) {
+GmshReply mesh_file(const GeometryRequest& request, const std::string& path) {
+  const SceneDocument& document = request.document;
   GmshReply reply;
   run_gmsh(document, path, [&] { is_step_file(path) ? open_step(path) : gmsh::open(path); });
   reply.wants_threads = wants_threads(document);
@@ -174,16 +283,21 @@ GmshReply mesh_file(const SceneDocument& document, const std::string& path) {
                  "\"free\", or no such key: only triangles can be crossed");
     }
     reply.meshes_itself = has_mesh(dimension);
-    if (!reply.meshes_itself) generate_mesh(document, path, dimension);
+    if (reply.meshes_itself && request.wanted) {
+      refuse_key(document, "geometry.file",
+                 '"' + document.scene.geometry.file + "\" with --sizes, which meshes itself",
+                 "a file without a Mesh command");
+    }
+    if (!reply.meshes_itself) generate_mesh(request, path, dimension, reply);
   }
   run_gmsh(document, path, [&] { reply.model = read_gmsh_model(); });
   return reply;
 }
 
-std::string reply_of_child(const SceneDocument& document, const std::string& path) {
+std::string reply_of_child(const GeometryRequest& request, const std::string& path) {
   GmshReply reply;
   try {
-    reply = mesh_file(document, path);
+    reply = mesh_file(request, path);
   } catch (const InputError& error) {
     reply.problems = error.problems();
   }
@@ -253,7 +367,8 @@ ChildLimits limits_for(const std::string& path, double max_seconds) {
 
 }  // namespace
 
-GmshReply read_geometry_file(const SceneDocument& document, double max_seconds) {
+GmshReply read_geometry_file(const GeometryRequest& request) {
+  const SceneDocument& document = request.document;
   const std::string path = geometry_path(document);
   if (!is_step_file(path) && !is_mesh_file(path) && !is_geo_file(path)) {
     refuse_key(document, "geometry.file", '"' + document.scene.geometry.file + '"',
@@ -263,7 +378,7 @@ GmshReply read_geometry_file(const SceneDocument& document, double max_seconds) 
   if (!fs::is_regular_file(path, ignored)) {
     throw FileError(document.locate("geometry.file") + ": geometry.file: there is no file " + path);
   }
-  const ChildLimits limits = limits_for(path, max_seconds);
+  const ChildLimits limits = limits_for(path, request.max_seconds);
   // Gmsh writes files when it starts and ends. It starts before confinement, and never ends.
   std::optional<GmshSession> of_child;
   const auto start_gmsh = [&of_child] {
@@ -272,7 +387,7 @@ GmshReply read_geometry_file(const SceneDocument& document, double max_seconds) 
     of_child.emplace();
   };
   const ChildEnd end = run_confined(
-      start_gmsh, [&] { return reply_of_child(document, path); }, limits);
+      start_gmsh, [&] { return reply_of_child(request, path); }, limits);
   if (end.how != ChildEnd::How::replied) refuse_end(document, end, limits);
   GmshReply reply = reply_from(end.text);
   if (!reply.problems.empty()) throw InputError(std::move(reply.problems));

@@ -2,8 +2,8 @@
 
 /// Reads and meshes a user's geometry file with Gmsh, in a confined process.
 
+#include "geometry.hpp"
 #include "gmsh_reply.hpp"
-#include "scene/scene.hpp"
 
 namespace suffuse {
 
@@ -12,7 +12,6 @@ namespace suffuse {
 /// (`confined_child.hpp`), and this process receives only numbers and names. Throws InputError for
 /// forbidden actions, a crash, an exceeded limit, and Gmsh's own errors. Throws FileError if there
 /// is no such file, and if this system cannot confine a process.
-/// \param max_seconds  of processor time that Gmsh may take; infinite: no limit
-GmshReply read_geometry_file(const SceneDocument& document, double max_seconds);
+GmshReply read_geometry_file(const GeometryRequest& request);
 
 }  // namespace suffuse

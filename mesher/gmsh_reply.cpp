@@ -102,6 +102,10 @@ std::string bytes_of(const GmshReply& reply) {
   }
   to.number<std::uint8_t>(reply.meshes_itself ? 1 : 0);
   to.number<std::uint8_t>(reply.wants_threads ? 1 : 0);
+  to.number(reply.default_size);
+  for (const bool limit : {reply.limits.smallest, reply.limits.largest, reply.limits.field}) {
+    to.number<std::uint8_t>(limit ? 1 : 0);
+  }
   write(to, reply.model);
   return to.take();
 }
@@ -115,6 +119,10 @@ GmshReply reply_from(std::string_view bytes) {
     }
     reply.meshes_itself = from.number<std::uint8_t>() != 0;
     reply.wants_threads = from.number<std::uint8_t>() != 0;
+    reply.default_size = from.number<double>();
+    for (bool* limit : {&reply.limits.smallest, &reply.limits.largest, &reply.limits.field}) {
+      *limit = from.number<std::uint8_t>() != 0;
+    }
     reply.model = read_model(from);
     if (!from.is_at_end()) refuse_reply("more than a mesh");
   } catch (const std::out_of_range&) {

@@ -11,11 +11,20 @@
 
 namespace suffuse {
 
+/// What a geometry file says of sizes, where it forbids those that are asked for.
+struct FileLimits {
+  bool smallest = false;  ///< Mesh.MeshSizeMin is larger than the smallest of them
+  bool largest = false;   ///< Mesh.MeshSizeMax is smaller than the largest of them
+  bool field = false;     ///< it has a field of sizes, which holds where it is smaller
+};
+
 struct GmshReply {
   std::vector<InputProblem> problems;  ///< problems of the file; then there is no model
   GmshModel model;
-  bool meshes_itself = false;  ///< the file does so, and `mesh.size` does not apply
-  bool wants_threads = false;  ///< the file requests more than the one thread
+  bool meshes_itself = false;  ///< the file, so that `mesh.size` does not apply
+  bool wants_threads = false;  ///< the file, more than the one that there is
+  double default_size = 0.0;  ///< m, for a file without sizes in a scene without; 0: there are some
+  FileLimits limits;          ///< of the file, which hold in addition to sizes of `--sizes`
 };
 
 std::string bytes_of(const GmshReply& reply);

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -39,6 +40,7 @@ struct Arguments {
   std::string scene;
   std::string output;
   std::string msh;
+  std::string sizes;
   std::vector<std::string> overrides;
   double geometry_timeout = default_geometry_seconds;
   bool check = false;
@@ -48,8 +50,9 @@ struct Arguments {
 
 void refuse_unknown(const std::vector<std::string>& unknown) {
   if (unknown.empty()) return;
-  const std::vector<std::string> known{"--output", "--set",     "--msh",  "--geometry-timeout",
-                                       "--check",  "--version", "--help", "--scene-reference"};
+  const std::vector<std::string> known{"--output",           "--set",   "--msh",     "--sizes",
+                                       "--geometry-timeout", "--check", "--version", "--help",
+                                       "--scene-reference"};
   const std::string& first = unknown.front();
   const bool is_option = first.starts_with("-");
   const std::string name = first.substr(0, first.find('='));
@@ -86,6 +89,7 @@ bool same_file(const std::string& a, const std::string& b) {
 void check_outputs(const Arguments& arguments, const SceneDocument& document) {
   std::vector<std::string> inputs{arguments.scene};
   if (!document.scene.geometry.file.empty()) inputs.push_back(geometry_path(document));
+  if (!arguments.sizes.empty()) inputs.push_back(arguments.sizes);
   for (const auto& [name, text] : document.files) {
     inputs.push_back(file_beside_scene(document.path, name));
   }
@@ -154,6 +158,9 @@ void check_gradings(const Arguments& arguments) {
     throw InputError("--check with " + std::string(option) +
                      ": it writes no file; expected one of the two");
   }
+  if (!arguments.sizes.empty()) {
+    throw InputError("--check with --sizes: it makes no mesh; expected one of the two");
+  }
   const SceneDocument document = scene_of(arguments);
   std::cout << grading_report(document);
   warn(grading_warnings(document));
@@ -178,10 +185,15 @@ void make_case_of(const Arguments& arguments, const SceneDocument& document,
 }
 
 void make_case(const Arguments& arguments) {
-  const SceneDocument document = scene_of(arguments);
+  SceneDocument document = scene_of(arguments);
   check_outputs(arguments, document);
+  std::optional<WantedSizes> wanted;
+  if (!arguments.sizes.empty()) {
+    wanted = read_wanted_sizes(arguments.sizes);
+    document = scene_with_sizes(std::move(document), *wanted);
+  }
   std::visit([&](auto geometry) { make_case_of(arguments, document, std::move(geometry)); },
-             build_geometry(document, arguments.geometry_timeout));
+             build_geometry({document, arguments.geometry_timeout, wanted ? &*wanted : nullptr}));
 }
 
 std::string refuse_empty(const std::string& name) {
@@ -202,6 +214,10 @@ int run(int argc, char** argv) {
   app.add_option("--msh", arguments.msh, "also write the mesh for the Gmsh program")
       ->check(refuse_empty)
       ->type_name("FILE.msh");
+  app.add_option("--sizes", arguments.sizes,
+                 "sizes of elements, written by suffuse-solver --sizes, instead of mesh.size")
+      ->check(refuse_empty)
+      ->type_name("FILE.h5");
   app.add_option("--geometry-timeout", arguments.geometry_timeout,
                  "processor time after which Gmsh is stopped over geometry.file")
       ->check(CLI::Range(1e-3, 1e9))

@@ -8,6 +8,9 @@
 
 namespace suffuse {
 
+/// More are probably due to a misplaced decimal point.
+inline constexpr double max_element_count = 5e6;
+
 /// Throws an InputError about this key of the scene.
 [[noreturn]] void refuse_key(const SceneDocument& document, const std::string& key,
                              const std::string& found, const std::string& expected);

@@ -11,7 +11,8 @@
 namespace suffuse {
 
 /// Wanted sizes of elements at the nodes of a mesh, linear in its elements. An element of size h
-/// has the edges of a regular triangle or tetrahedron of edge length h.
+/// has the edges of a regular triangle or tetrahedron of edge length h; of a crossed mesh, its
+/// area.
 template <int Dim>
 struct MeshSizes {
   Mesh<Dim> mesh;            ///< without boundaries

@@ -17,6 +17,7 @@ class GeometryChecks : private SceneCheckBase {
   void run() const {
     check_geometry();
     if (given("geometry.shape") && !refused("geometry.shape")) check_shape();
+    if (given("mesh.error")) check_error();
   }
 
  private:
@@ -60,7 +61,7 @@ class GeometryChecks : private SceneCheckBase {
 
   /// Refuses keys that have no effect on a mesh from a file, which is used unchanged.
   void check_mesh_of_file() const {
-    for (const std::string key : {"mesh.size", "mesh.structure"}) {
+    for (const std::string key : {"mesh.size", "mesh.structure", "mesh.error"}) {
       if (!given(key)) continue;
       report(key, "a key beside a .msh file",
              "no such key: the elements of the file are used as they are", {"geometry.file"});
@@ -83,8 +84,7 @@ class GeometryChecks : private SceneCheckBase {
              "no such key: a column is two-dimensional, a box has a depth", {"geometry.shape"});
     }
     for (const std::string& key : sides) require_for_shape(key);
-    require_for_shape("mesh.size");
-    if (scene_.mesh.size > smallest) {
+    if (given("mesh.size") && scene_.mesh.size > smallest) {
       report("mesh.size", shown_value(scene_.mesh.size),
              "h <= " + shown_number(smallest) + " m, the smaller of width" +
                  (box ? ", depth" : "") + " and height",
@@ -92,6 +92,27 @@ class GeometryChecks : private SceneCheckBase {
     }
     box ? check_structure_of_box() : check_plane_vectors();
   }
+
+  /// Meshing again needs elements whose size varies, and the estimate a flow that becomes steady.
+  void check_error() const {
+    const std::string structure = "mesh.structure";
+    const bool pattern = scene_.mesh.structure == MeshStructure::regular ||
+                         (scene_.mesh.structure == MeshStructure::crossed && !from_file());
+    if (given(structure) && !refused(structure) && pattern) {
+      report(
+          "mesh.error",
+          "an error with structure = " +
+              shown_value(std::string(scene_.mesh.structure == MeshStructure::regular ? "regular"
+                                                                                      : "crossed")),
+          "structure = \"free\", or no such key: elements of a pattern have one size", {structure});
+    }
+    if (scene_.time.scheme == FlowScheme::explicit_nodal && !refused("time.scheme")) {
+      report("mesh.error", "an error with scheme = \"explicit\"",
+             "scheme = \"implicit\": the error is that of its flow", {"time.scheme"});
+    }
+  }
+
+  [[nodiscard]] bool from_file() const { return given("geometry.file"); }
 
   void require_for_shape(const std::string& key) const {
     require(key, key, "for shape = \"" + scene_.geometry.shape + '"', "geometry.shape");

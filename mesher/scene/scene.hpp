@@ -68,7 +68,7 @@ struct MeshSettings {
   double size = unset;  ///< element size, m; may stay unset with a `file`
   MeshStructure structure = MeshStructure::regular;
   std::optional<double> error = {};  ///< of the discharge, relative: mesh again until it is met
-  int max_elements = 200000;    ///< where meshing again stops
+  int max_elements = 200000;         ///< where meshing again stops
 };
 
 struct PointSettings {

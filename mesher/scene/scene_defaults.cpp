@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "common/short_number.hpp"
 #include "scene/soil_grading.hpp"
 
 namespace suffuse {
@@ -24,6 +25,35 @@ std::optional<double> common_head(const Scene& scene) {
   return common;
 }
 
+/// Number of elements of size h in an area of h^2 or a volume of h^3; free ones as Gmsh makes them.
+double elements_per_volume(int dimension, MeshStructure structure, bool from_file) {
+  const double triangles = 4.0 / std::sqrt(3.0);
+  constexpr double tetrahedra = 5.0;
+  if (dimension == 3) return structure == MeshStructure::free ? tetrahedra : 6.0;
+  switch (structure) {
+    case MeshStructure::regular:
+      return 2.0;
+    case MeshStructure::crossed:
+      // Twelve in a triangle of twice the size; four in a square.
+      return from_file ? 3.0 * triangles : 4.0;
+    case MeshStructure::free:
+      break;
+  }
+  return triangles;
+}
+
+/// The size of elements in a built-in geometry, never larger than its smallest side.
+double default_size_of_shape(const Scene& scene) {
+  const GeometrySettings& geometry = scene.geometry;
+  const double area = geometry.width * geometry.height;
+  const double smallest = std::min(geometry.width, geometry.height);
+  const MeshStructure structure = scene.mesh.structure;
+  if (!geometry.is_box())
+    return std::min(smallest, default_element_size(area, 2, structure, false));
+  return std::min(
+      {smallest, geometry.depth, default_element_size(area * geometry.depth, 3, structure, false)});
+}
+
 }  // namespace
 
 void complete_scene(Scene& scene, const std::string& path,
@@ -36,7 +66,23 @@ void complete_scene(Scene& scene, const std::string& path,
     scene.points.equal_volume = false;
   }
   if (!given("initial.water_level")) scene.water_level = common_head(scene);
+  if (!given("mesh.size") && given("geometry.shape")) {
+    scene.mesh.size = default_size_of_shape(scene);
+  }
   derive_skeletons(scene, given);
+}
+
+double default_element_size(double volume, int dimension, MeshStructure structure, bool from_file) {
+  constexpr double wanted = 20000.0;
+  const double size = std::pow(
+      volume * elements_per_volume(dimension, structure, from_file) / wanted, 1.0 / dimension);
+  if (!(size > 0.0) || !std::isfinite(size)) return unset;
+  const double digit = std::pow(10.0, std::floor(std::log10(size)) - 1.0);
+  return std::round(size / digit) * digit;  // two digits
+}
+
+std::string default_size_note(double size) {
+  return "mesh.size was not given: " + short_number(size) + " m, for about 20 000 elements";
 }
 
 void complete_for_mesh(SceneDocument& document, int dimension) {

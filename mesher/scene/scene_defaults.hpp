@@ -14,4 +14,12 @@ namespace suffuse {
 void complete_scene(Scene& scene, const std::string& path,
                     const std::function<bool(const std::string& key)>& given);
 
+/// The size of elements of a scene without `mesh.size`, m: it makes about 20 000 of them.
+/// \param volume  m3, in two dimensions m2
+/// \param from_file  of a geometry file, whose crossed mesh has other elements than a column's
+double default_element_size(double volume, int dimension, MeshStructure structure, bool from_file);
+
+/// What the summary says of such a size.
+std::string default_size_note(double size);
+
 }  // namespace suffuse

@@ -207,11 +207,13 @@ std::vector<SceneKey> declare_keys() {
 
       key("mesh.size", at(&Scene::mesh, &MeshSettings::size),
           "Size of the elements; with a .geo or .step file the largest size, and the one where the "
-          "file gives none. Not with a .msh file.")
+          "file gives none. Not with a .msh file. With `suffuse-mesher --sizes` the sizes of that "
+          "file hold instead.")
           .named("h")
           .in("m")
           .above(0.0)
-          .otherwise_as("required with `shape`"),
+          .otherwise_as("with `shape`, and with a file without sizes of its own, a size that makes "
+                        "about 20 000 elements, which the summary says"),
       choice("mesh.structure", at(&Scene::mesh, &MeshSettings::structure),
              {{"regular", MeshStructure::regular},
               {"crossed", MeshStructure::crossed},
@@ -221,6 +223,18 @@ std::vector<SceneKey> declare_keys() {
              "elements. The explicit scheme follows flows that turn on crossed meshes only. Not "
              "with a .msh file.")
           .otherwise_as("`\"regular\"`; with `file`, `\"crossed\"` or, of volumes, `\"free\"`"),
+      key("mesh.error", at(&Scene::mesh, &MeshSettings::error),
+          "Mesh again until the discharge of the steady flow is known to this share of it: `make "
+          "-C "
+          "workflows adapt`. Implicit scheme only; not with a regular mesh or a .msh file.")
+          .named("eps")
+          .above(0.0)
+          .below(1.0)
+          .otherwise_as("the mesh is made once"),
+      key("mesh.max_elements", at(&Scene::mesh, &MeshSettings::max_elements),
+          "Number of elements at which meshing again for `mesh.error` stops.")
+          .at_least(1)
+          .otherwise(200000),
 
       key("points.solid_per_element", at(&Scene::points, &Points::solid_per_element),
           "Solid material points in each element, at its Gauss points: 1, 3, 6 or 12 in a "

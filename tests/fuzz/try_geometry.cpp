@@ -61,7 +61,7 @@ void try_geometry(const std::string& input) {
         parse_scene(test::scene_text("[geometry]\nfile = \"" + name + "\"\n" +
                                      (is_mesh ? "" : "[mesh]\nsize = 0.5\n")),
                     (folder() / "scene.toml").string());
-    static_cast<void>(build_geometry(document, seconds));
+    static_cast<void>(build_geometry({document, seconds}));
   }));
   require(file_bytes((folder() / "canary").string()) == "alive", "a geometry wrote to the canary");
   require(listing(folder()) == before, "a geometry made or removed a file");

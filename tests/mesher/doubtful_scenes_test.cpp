@@ -42,7 +42,7 @@ std::string warnings_of(const SceneDocument& document) {
         add(plausibility_warnings(document, geometry.mesh));
         add(suction_warnings(document, geometry.mesh));
       },
-      build_geometry(document, default_geometry_seconds));
+      build_geometry({.document = document}));
   add(grading_warnings(document));
   return lines;
 }
@@ -120,7 +120,7 @@ TEST(DoubtfulScene, none_of_the_workflows_and_the_cases) {
                 EXPECT_EQ(found, std::vector<std::string>{}) << entry.path();
               }
             },
-            build_geometry(document, default_geometry_seconds));
+            build_geometry({.document = document}));
         ++scenes;
       } catch (const InputError&) {
         continue;

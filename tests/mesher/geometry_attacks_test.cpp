@@ -44,7 +44,7 @@ class Attacks : public testing::TestWithParam<Attack> {
       const SceneDocument document =
           parse_scene(test::scene_text("[geometry]\nfile = \"a.geo\"\n[mesh]\nsize = 0.5\n"),
                       folder_.file("scene.toml"));
-      build_geometry(document, 20.0);
+      build_geometry({document, 20.0});
     } catch (const InputError& error) {
       return error.what();
     }
