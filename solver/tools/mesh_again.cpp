@@ -1,5 +1,6 @@
 #include "tools/mesh_again.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -19,6 +20,9 @@ constexpr double default_error = 0.01;
 constexpr double as_large = 0.8;
 /// Share of the error allowed at which the next mesh aims, as meshes are not quite what was asked.
 constexpr double aim = 0.7;
+/// One mesh is to have at least this share of the error of the last: where it sits is known only
+/// once the elements beside it are small.
+constexpr double least_share = 1.0 / 3.0;
 
 std::string digits(double value, int count) {
   std::ostringstream text;
@@ -51,8 +55,9 @@ void write_sizes(Case<Dim> c, const SizesOptions& options) {
   const MeshSettings& mesh = c.document.scene.mesh;
   const double allowed = mesh.error.value_or(default_error);
   const double whole = allowed * std::abs(bounds->flux_out.middle());
-  const std::vector<double> sizes = next_sizes(
-      grid, bounds->error, {.whole = aim * whole, .max_elements = 1.0 * mesh.max_elements});
+  const WantedError wanted{.whole = std::max(aim * whole, least_share * bounds->flux_out.half()),
+                           .max_elements = 1.0 * mesh.max_elements};
+  const std::vector<double> sizes = next_sizes(grid, bounds->error, wanted);
   write_mesh_sizes(options.output, c.mesh, sizes);
   std::cout << sentence(*bounds, Dim) << ", " << grid.mesh.element_count() << " elements\n";
   if (!bounds->why_estimates.empty()) {
