@@ -231,9 +231,11 @@ void generate_mesh(const GeometryRequest& request, const std::string& path, int 
   const double scale = document.scene.geometry.scale;
   std::optional<SizesInGmsh> sizes;
   if (request.wanted) {
-    refuse_sizes_of_another_model(*request.wanted, model_box(dimension, scale));
-    reply.limits = limits_of_file(*request.wanted, scale);
-    sizes.emplace(*request.wanted, scale);
+    run_gmsh(document, path, [&] {
+      refuse_sizes_of_another_model(*request.wanted, model_box(dimension, scale));
+      reply.limits = limits_of_file(*request.wanted, scale);
+      sizes.emplace(*request.wanted, scale);
+    });
   } else {
     refuse_too_many_elements(document, dimension);
   }

@@ -38,7 +38,8 @@ Unrolled read_unrolled(std::istream& text) {
     } else if (line.starts_with(point_start)) {
       const std::size_t name = line.rfind(' ') + 1;
       const auto size = sizes.find(line.substr(name, line.find('}') - name));
-      if (size == sizes.end() || size->second < no_size) {
+      if (size == sizes.end()) continue;  // a place on a curve, which is no point of the model
+      if (size->second < no_size) {
         result.has_sizes = true;
       } else {
         result.points_without_size.emplace_back(0, std::stoi(line.substr(point_start.size())));

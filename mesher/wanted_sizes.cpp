@@ -50,7 +50,11 @@ std::string dimension_text(int dimension) {
 
 template <int Dim>
 std::string box_text(const Vector<Dim>& low, const Vector<Dim>& high) {
-  return place_text<Dim>(low) + " to " + place_text<Dim>(high);
+  // Boxes of curved models have margins of some 1e-7.
+  const auto without_margin = [&](const Vector<Dim>& x) -> Vector<Dim> {
+    return (x.array().abs() < 1e-6 * (high - low).norm()).select(0.0, x);
+  };
+  return place_text<Dim>(without_margin(low)) + " to " + place_text<Dim>(without_margin(high));
 }
 
 template <int Dim>

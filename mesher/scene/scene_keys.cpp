@@ -234,6 +234,7 @@ std::vector<SceneKey> declare_keys() {
       key("mesh.max_elements", at(&Scene::mesh, &MeshSettings::max_elements),
           "Number of elements at which meshing again for `mesh.error` stops.")
           .at_least(1)
+          .at_most(5e6)
           .otherwise(200000),
 
       key("points.solid_per_element", at(&Scene::points, &Points::solid_per_element),

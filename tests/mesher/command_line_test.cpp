@@ -2,9 +2,11 @@
 #include <sys/wait.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "case/case_file.hpp"
+#include "case/mesh_sizes.hpp"
 #include "temporary_folder.hpp"
 #include "test_paths.hpp"
 
@@ -207,6 +209,37 @@ TEST_F(CommandLine, OverridesAndOutputs) {
             (std::vector<std::string>{"points.solid_per_element=12", "mesh.size=0.5"}));
 }
 
+TEST_F(CommandLine, MeshesWithTheSizesOfAFile) {
+  ASSERT_EQ(run("column.toml").code, 0);
+  const Mesh<2> old = read_case<2>(folder_.file("column.case.h5")).mesh;
+  write_mesh_sizes(folder_.file("column.sizes.h5"), old,
+                   std::vector<double>(old.nodes.size(), 0.05));
+  const Outcome outcome = run("column.toml --sizes column.sizes.h5 -o fine.h5");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(outcome.text.find("mesh.size"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("  note: sizes of elements are those of column.sizes.h5\n"),
+            std::string::npos)
+      << outcome.text;
+  const Mesh<2> fine = read_case<2>(folder_.file("fine.h5")).mesh;
+  EXPECT_NEAR(fine.element_count(), 4.0 / std::sqrt(3.0) / (0.05 * 0.05), 100.0);
+  ASSERT_EQ(run("column.toml --sizes column.sizes.h5 -o again.h5").code, 0);
+  EXPECT_EQ(test::read_file(folder_.file("fine.h5")), test::read_file(folder_.file("again.h5")));
+}
+
+TEST_F(CommandLine, SaysTheSizeThatTheSceneDoesNotGive) {
+  std::string scene = test::read_file(folder_.file("column.toml"));
+  const std::string line = "size = 0.25\n";
+  scene.replace(scene.find(line), line.size(), "");
+  folder_.write("column.toml", scene);
+  const Outcome outcome = run("column.toml");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("  elements         20000\n"), std::string::npos) << outcome.text;
+  EXPECT_NE(
+      outcome.text.find("  note: mesh.size was not given: 0.01 m, for about 20 000 elements\n"),
+      std::string::npos)
+      << outcome.text;
+}
+
 TEST_F(CommandLine, EqualScenesGiveEqualFiles) {
   ASSERT_EQ(run("column.toml -o a.h5").code, 0);
   ASSERT_EQ(run("column.toml -o b.h5").code, 0);
@@ -303,6 +336,13 @@ INSTANTIATE_TEST_SUITE_P(
               "--check with -o: it writes no file; expected one of the two"},
         Wrong{"column.toml --check --msh a.msh", 2,
               "--check with --msh: it writes no file; expected one of the two"},
+        Wrong{"column.toml --check --sizes a.h5", 2,
+              "--check with --sizes: it makes no mesh; expected one of the two"},
+        Wrong{"column.toml --size a.h5", 2, "did you mean --sizes?"},
+        Wrong{"column.toml --sizes ''", 2, "--sizes: got an empty name; expected that of a file"},
+        Wrong{"column.toml --sizes a.h5", 4, "a.h5: there is no such file"},
+        Wrong{"column.toml --sizes column.toml", 4, "column.toml: is not an HDF5 file"},
+        Wrong{"column.toml --sizes a.h5 -o ./a.h5", 2, "-o ./a.h5 would overwrite an input"},
         Wrong{"--check", 2, "a scene file is missing; expected suffuse-mesher SCENE.toml"},
         Wrong{"column.toml --geometry-timeout 0", 2, "--geometry-timeout: Value 0 not in range"},
         Wrong{"column.toml --geometry-timout 9", 2, "did you mean --geometry-timeout?"},

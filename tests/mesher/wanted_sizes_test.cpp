@@ -360,6 +360,12 @@ TEST(DefaultSize, MakesAboutTwentyThousandElementsAndIsSaid) {
   expect(build<2>(scene_of_file("square.geo", {"mesh.structure=free"})), "0.011");
   expect(build<2>(scene_of_file("square.geo", {"geometry.scale=0.1"})), "0.0019");
   expect(build<3>(scene_of_file("cylinder.geo", {implicit})), "0.038");
+  const TemporaryFolder folder;
+  expect(build<3>(own_scene(folder,
+                            "SetFactory(\"OpenCASCADE\");\nCylinder(1) = {0, 0, 0, 0, 0, 1, 1};\n"
+                            "Physical Volume(\"specimen\") = {1};\n",
+                            {implicit})),
+         "0.092");
 }
 
 /// Sizes of a file stay as they are.
