@@ -7,6 +7,7 @@
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
 #include "tables/boundary_text.hpp"
+#include "tables/discharge_text.hpp"
 #include "tables/ledger_report.hpp"
 #include "tables/safety_check.hpp"
 #include "tables/table_output.hpp"
@@ -85,6 +86,9 @@ void check(const CheckOptions& o) {
   const ResultsReader results(o.results);
   const auto parts = safety_of(results);
   std::cout << safety_text(results, parts);
+  if (const std::string known = discharge_text(results); !known.empty()) {
+    std::cout << known << '\n';
+  }
   if (o.least) check_safety(parts, *o.least);
 }
 

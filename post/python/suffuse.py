@@ -39,7 +39,8 @@ PLACES = {
 # Units of the columns of the tables; "-" where there is none. A column that is not listed has the unit "".
 UNITS = {
     "s": "t dt failure_time", "m": "x y z head level settlement_max displacement_max", "Pa": "pressure pressure_min pressure_max pressure_scatter",
-    "m/s": "speed_max flux_x flux_y flux_z", "m3/s": "flux_in flux_out discharge", "m3": "liquid_in liquid_out volume",
+    "m/s": "speed_max flux_x flux_y flux_z", "m3/s": "flux_in flux_out flux_out_low flux_out_high flux_out_estimate discharge discharge_low discharge_high "
+            "discharge_estimate", "m3": "liquid_in liquid_out volume",
     "g/l": "turbidity_out", "W": "power", "J": "energy", "%": "fines_out_percent solid_out_percent",
     "kg": "solid erodible water fines pending eroded deposited carried water_in water_out fines_in fines_out",
     "-": "porosity porosity_mean concentration concentration_out concentration_min concentration_max saturation "

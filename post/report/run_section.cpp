@@ -7,6 +7,7 @@
 #include "files/number_text.hpp"
 #include "report/html.hpp"
 #include "report/report_pictures.hpp"
+#include "tables/discharge_text.hpp"
 #include "values/run_names.hpp"
 
 namespace suffuse {
@@ -67,22 +68,36 @@ std::string ledger_html(const ResultsReader& run, const RunNumbers& numbers) {
   return table.html();
 }
 
+/// Columns that most runs do not have.
+bool is_optional(std::string_view column) {
+  return column == "level" || column.starts_with("discharge_");
+}
+
+/// Whether a column is 0 at the end in every table.
+bool is_nothing(const std::vector<NamedTable>& tables, std::string_view column) {
+  return std::ranges::all_of(tables, [&](const NamedTable& part) {
+    return part.table.column(std::string(column)).back() == 0.0;
+  });
+}
+
 std::string boundaries_html(const ResultsReader& run) {
   const std::vector<NamedTable> boundaries = run.boundaries();
   if (boundaries.empty()) return html::element("p", "No boundary has rows yet.");
   html::Table table{"boundaries", {"boundary"}, {}};
-  for (const auto& [name, member, unit] : boundary_columns) {
-    if (name != "t") {
-      table.heads.push_back(with_unit(std::string(name), std::string(unit), run.dimension()));
-    }
-  }
   for (const NamedTable& boundary : boundaries) {
-    auto& row = table.rows.emplace_back(std::vector{html::cell(boundary.name)});
-    for (const auto& [name, member, unit] : boundary_columns) {
-      if (name != "t") row.push_back(html::cell(boundary.table.column(std::string(name)).back()));
+    table.rows.emplace_back(std::vector{html::cell(boundary.name)});
+  }
+  for (const auto& [name, member, unit] : boundary_columns) {
+    const bool is_told = name == "t" || (is_optional(name) && is_nothing(boundaries, name));
+    if (is_told) continue;
+    table.heads.push_back(with_unit(std::string(name), std::string(unit), run.dimension()));
+    for (std::size_t b = 0; b < boundaries.size(); ++b) {
+      table.rows[b].push_back(html::cell(boundaries[b].table.column(std::string(name)).back()));
     }
   }
-  return html::element("p", "Since the start; discharge: out minus in, at the end.") + table.html();
+  const std::string known = discharge_text(run);
+  return html::element("p", "Since the start; discharge: out minus in, at the end.") +
+         (known.empty() ? "" : html::element("p", known + ".")) + table.html();
 }
 
 std::string history_html(const ResultsReader& run) {

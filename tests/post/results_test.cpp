@@ -14,6 +14,7 @@
 #include "common/hdf5_io.hpp"
 #include "post/synthetic_results.hpp"
 #include "results/reader.hpp"
+#include "tables/discharge_text.hpp"
 
 namespace suffuse {
 namespace results_test {
@@ -99,6 +100,32 @@ TEST(Results, TablesReadBackExactly) {
   EXPECT_EQ(regions.column("residual_grains").front(), 1e-17);
 }
 
+TEST(Results, SayHowFarTheDischargeCanBeOff) {
+  const ScratchFolder scratch;
+  ResultsWriter<2> writer(scratch / "run.results", unit_square_case());
+  const auto text = [&] { return discharge_text(ResultsReader(scratch / "run.results")); };
+  HistoryRow row;
+  row.flux_out = 1.408e-4;
+  writer.append_history(row);
+  EXPECT_EQ(text(), "");
+  row.t = 10.0;
+  row.flux_out_low = 1.407e-4;
+  row.flux_out_high = 1.41e-4;
+  writer.append_history(row);
+  const std::string bounds = "Q = 0.0001408 m3/s per m at t = 10 s, between 0.0001407 and 0.000141";
+  EXPECT_EQ(text(), bounds);
+  HistoryRow unknown;
+  unknown.t = 15.0;
+  writer.append_history(unknown);
+  EXPECT_EQ(text(), bounds) << "the last time that has an interval";
+  unknown.t = 20.0;
+  unknown.flux_out = 2e-4;
+  unknown.flux_out_estimate = 1e-6;
+  writer.append_history(unknown);
+  EXPECT_EQ(text(),
+            "Q = 0.0002 m3/s per m at t = 20 s, by an estimate of the mesh's error to +- 1e-06");
+}
+
 TEST(Results, BoundariesReadBackByNameWhateverTheName) {
   const ScratchFolder scratch;
   Case<2> c = unit_square_case();
@@ -111,7 +138,8 @@ TEST(Results, BoundariesReadBackByNameWhateverTheName) {
   writer.append_boundaries(rows);
   EXPECT_TRUE(file_text(scratch / "run.results/boundaries.csv")
                   .starts_with("t,boundary,water_in,water_out,fines_in,fines_out,liquid_in,"
-                               "liquid_out,discharge,level\n0.1,top,1,2,3,4,5,6,7,0.5\n"
+                               "liquid_out,discharge,level,discharge_low,discharge_high,discharge_"
+                               "estimate\n0.1,top,1,2,3,4,5,6,7,0.5,0,0,0\n"
                                "0.1,\"toe, \"\"left\"\"\",8,9,"));
   const auto read = ResultsReader(scratch / "run.results").boundaries();
   ASSERT_EQ(read.size(), 2U);
