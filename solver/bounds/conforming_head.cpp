@@ -10,7 +10,7 @@ namespace {
 /// remove. Where conductivities differ by orders of magnitude it takes more of them.
 constexpr int iterations_at_once = 20;
 constexpr int most_iterations = 400;
-/// Iterations end when the last ones have gained less than this share of what all have gained.
+/// Iterations end when the last ones have gained less than this share of the squared gap.
 constexpr double least_gain = 0.02;
 
 template <int Dim>
@@ -62,21 +62,23 @@ void for_each_entry(const SeepageEnergy<Dim>& energy, const auto& add) {
   }
 }
 
-/// Conjugate gradients while they gain: the energy x . matrix x / 2 - rhs . x only falls.
-Eigen::VectorXd improved(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix,
-                         const Eigen::VectorXd& rhs, Eigen::VectorXd x) {
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>,
-                           Eigen::Lower | Eigen::Upper>
-      solver(matrix);
+/// Conjugate gradients while they gain: the energy x . matrix x / 2 - rhs . x only falls, and the
+/// squared gap by twice as much. They use one triangle of the matrix: products with both would take
+/// all cores, whatever the threads asked for.
+Eigen::VectorXd improved(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+                         Eigen::VectorXd x, double squared_gap) {
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
   solver.setMaxIterations(iterations_at_once);
-  const auto energy = [&] { return 0.5 * x.dot(matrix * x) - rhs.dot(x); };
-  const double first = energy();
-  double last = first;
+  const auto energy = [&] {
+    return 0.5 * x.dot(matrix.selfadjointView<Eigen::Lower>() * x) - rhs.dot(x);
+  };
+  double last = energy();
   for (int done = 0; done < most_iterations; done += iterations_at_once) {
     x = solver.solveWithGuess(rhs, x);
-    const double now = energy();
-    if (!(last - now > least_gain * (first - now))) break;
-    last = now;
+    const double gain = 2.0 * (last - energy());
+    squared_gap -= gain;
+    last -= 0.5 * gain;
+    if (!(gain > least_gain * squared_gap)) break;
   }
   return x;
 }
@@ -86,10 +88,12 @@ Eigen::VectorXd improved(const Eigen::SparseMatrix<double, Eigen::RowMajor>& mat
 template <int Dim>
 std::vector<double> conforming_head(const SeepageEnergy<Dim>& energy,
                                     const std::vector<double>& face_head,
-                                    const std::vector<double>& inflow,
+                                    const Slopes<Dim>& of_flux, const std::vector<double>& inflow,
                                     const std::vector<std::optional<double>>& prescribed) {
   const Grid<Dim>& grid = energy.grid();
   std::vector<double> head = node_means(energy, face_head, prescribed);
+  const Slopes<Dim> gap = sum(energy.of_head(head), -1.0, of_flux);
+  const double squared_gap = energy.inner(gap, gap);
   std::vector<int> unknown(head.size(), -1);
   int count = 0;
   for (std::size_t i = 0; i < head.size(); ++i) {
@@ -101,6 +105,7 @@ std::vector<double> conforming_head(const SeepageEnergy<Dim>& energy,
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero(count);
   for_each_entry<Dim>(energy, [&](int i, int j, double value) {
     if (unknown[i] < 0) return;
+    if (unknown[j] > unknown[i]) return;  // one triangle
     if (unknown[j] >= 0) {
       entries.emplace_back(unknown[i], unknown[j], value);
     } else {
@@ -113,13 +118,13 @@ std::vector<double> conforming_head(const SeepageEnergy<Dim>& energy,
       if (unknown[i] >= 0) rhs[unknown[i]] += inflow[f] / Dim;
     }
   }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(count, count);
+  Eigen::SparseMatrix<double> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::VectorXd guess(count);
   for (std::size_t i = 0; i < head.size(); ++i) {
     if (unknown[i] >= 0) guess[unknown[i]] = head[i];
   }
-  const Eigen::VectorXd better = improved(matrix, rhs, std::move(guess));
+  const Eigen::VectorXd better = improved(matrix, rhs, std::move(guess), squared_gap);
   for (std::size_t i = 0; i < head.size(); ++i) {
     if (unknown[i] >= 0) head[i] = better[unknown[i]];
   }
@@ -127,10 +132,10 @@ std::vector<double> conforming_head(const SeepageEnergy<Dim>& energy,
 }
 
 template std::vector<double> conforming_head(const SeepageEnergy<2>&, const std::vector<double>&,
-                                             const std::vector<double>&,
+                                             const Slopes<2>&, const std::vector<double>&,
                                              const std::vector<std::optional<double>>&);
 template std::vector<double> conforming_head(const SeepageEnergy<3>&, const std::vector<double>&,
-                                             const std::vector<double>&,
+                                             const Slopes<3>&, const std::vector<double>&,
                                              const std::vector<std::optional<double>>&);
 
 }  // namespace suffuse

@@ -5,28 +5,26 @@
 #include <limits>
 #include <numbers>
 
+#include "physics/numbers.hpp"
+
 namespace suffuse {
 namespace {
 
 constexpr double most_refined = 0.35;
 constexpr double most_coarsened = 1.5;
+constexpr int bisections = 60;  ///< of the logarithm of a factor: to more digits than matter
 
-/// Size of each element over the one before it, where each is to have the error `of_each`.
-template <int Dim>
-std::vector<double> changes(const std::vector<double>& error, double of_each) {
-  std::vector<double> result;
-  for (const double now : error) {
-    const double change = std::pow(of_each / now, 1.0 / (Dim + 2));
-    result.push_back(now > 0.0 ? std::clamp(change, most_refined, most_coarsened) : most_coarsened);
-  }
-  return result;
+/// Size of each element over the one before it, from its error to the power -1 / (Dim + 2); the
+/// factor is that power of the error that each is to have, inverted.
+double change(double factor, double of_error) {
+  return std::clamp(factor * of_error, most_refined, most_coarsened);
 }
 
 /// The largest number below which `is_small` holds.
 double last_with(const auto& is_small) {
-  double low = 1e-300;
-  double high = 1e300;
-  for (int i = 0; i < 200; ++i) {
+  double low = 1e-100;
+  double high = 1e100;
+  for (int i = 0; i < bisections; ++i) {
     const double middle = std::sqrt(low) * std::sqrt(high);
     (is_small(middle) ? low : high) = middle;
   }
@@ -48,24 +46,34 @@ std::vector<double> element_sizes(const Grid<Dim>& grid) {
 template <int Dim>
 std::vector<double> next_sizes(const Grid<Dim>& grid, const std::vector<double>& error,
                                const WantedError& wanted) {
-  const auto whole_error = [&](double of_each) {
-    const std::vector<double> change = changes<Dim>(error, of_each);
-    double sum = 0.0;
-    for (std::size_t e = 0; e < error.size(); ++e) sum += error[e] * change[e] * change[e];
-    return sum;
+  std::vector<double> of_error;
+  for (const double now : error) {
+    // Zero: as large as it may become, whatever the factor.
+    of_error.push_back(now > 0.0 ? std::pow(now, -1.0 / (Dim + 2)) : infinity);
+  }
+  const auto sum = [&](const auto& term) {
+    double result = 0.0;
+    for (std::size_t e = 0; e < error.size(); ++e) result += term(e);
+    return result;
   };
-  const auto elements = [&](double of_each) {
-    double sum = 0.0;
-    for (const double change : changes<Dim>(error, of_each)) sum += std::pow(change, -Dim);
-    return sum;
-  };
-  const double accurate = last_with([&](double t) { return whole_error(t) <= wanted.whole; });
-  const double affordable = last_with([&](double t) { return elements(t) > wanted.max_elements; });
-  const std::vector<double> change = changes<Dim>(error, std::max(accurate, affordable));
+  const double accurate = last_with([&](double factor) {
+    return sum([&](std::size_t e) {
+             const double c = change(factor, of_error[e]);
+             return error[e] * c * c;
+           }) <= wanted.whole;
+  });
+  const double affordable = last_with([&](double factor) {
+    return sum([&](std::size_t e) {
+             const double c = change(factor, of_error[e]);
+             return 1.0 / (Dim == 2 ? c * c : c * c * c);
+           }) > wanted.max_elements;
+  });
+  const double factor = std::max(accurate, affordable);
   std::vector<double> size(grid.mesh.node_count(), std::numeric_limits<double>::infinity());
   const std::vector<double> now = element_sizes(grid);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    for (const int i : grid.mesh.elements[e]) size[i] = std::min(size[i], change[e] * now[e]);
+    for (const int i : grid.mesh.elements[e])
+      size[i] = std::min(size[i], change(factor, of_error[e]) * now[e]);
   }
   return size;
 }

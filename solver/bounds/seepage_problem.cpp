@@ -141,10 +141,10 @@ FieldPair<Dim> SeepageProblem<Dim>::pair(
     face_head.push_back(face_pressure[f] / weight_ + height_of(grid_.face_centre(f)));
   }
   FieldPair<Dim> result;
-  result.node_head = conforming_head(energy_, face_head, inflow, prescribed);
   result.face_flux = face_flux;
-  result.of_head = energy_.of_head(result.node_head);
   result.of_flux = energy_.of_flux(face_flux);
+  result.node_head = conforming_head(energy_, face_head, result.of_flux, inflow, prescribed);
+  result.of_head = energy_.of_head(result.node_head);
   return result;
 }
 
