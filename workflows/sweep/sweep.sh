@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# A sweep from its table to its figures, in OUT_FOLDER/sweep/NAME/: sweep.sh CALLED_FROM. make calls
-# it, with its variables in the environment and itself as MAKE; its -j holds for the runs.
+# A sweep from its table to its figures, in OUT_FOLDER/sweep/NAME/, or in SWEEP_FOLDER where that is
+# set: sweep.sh CALLED_FROM. make calls it, with its variables in the environment and itself as MAKE;
+# its -j holds for the runs.
 set -eu -o pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . ./find_file.sh
@@ -8,7 +9,7 @@ if [ -z "$SCENE$SWEEP" ]; then SCENE=sweep/weir.toml SWEEP=sweep/weir.csv; fi
 scene=$(find_file SCENE "$1")
 table=$(find_file SWEEP "$1")
 name=$(basename -- "$table")
-folder=$OUT_FOLDER/sweep/${NAME:-${name%.*}}
+folder=${SWEEP_FOLDER:-$OUT_FOLDER/sweep/${NAME:-${name%.*}}}
 PROGRAMS=$(realpath -- "$PROGRAMS")
 export PROGRAMS RUN=$PWD/sweep/run.sh
 
