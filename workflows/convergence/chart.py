@@ -15,7 +15,7 @@ from sweep import csv_text
 
 COPIED = ("run.json", "mesh.hdf.series", "solid.hdf.series", "liquid.hdf.series", "ledger.csv")
 # Half a diamond, as a share of an axis.
-MARK_X, MARK_Y = 0.008, 0.012
+MARK_X, MARK_Y = 0.015, 0.02
 
 
 def scaled(low, high, logarithmic):
@@ -31,8 +31,9 @@ def with_diamonds(points, logarithmic_y):
     move_x, move_y = scaled(min(x), max(x), True), scaled(min(y), max(y), logarithmic_y)
     line = []
     for px, py in points:
-        line += [(px, py), (move_x(px, MARK_X), py), (px, move_y(py, MARK_Y)), (move_x(px, -MARK_X), py),
-                 (px, move_y(py, -MARK_Y)), (move_x(px, MARK_X), py), (px, py)]
+        right, left = move_x(px, MARK_X), move_x(px, -MARK_X)
+        above, below = move_y(py, MARK_Y), move_y(py, -MARK_Y)
+        line += [(px, py), (right, py), (px, above), (left, py), (px, below), (right, py), (px, py)]
     return line
 
 
@@ -43,8 +44,8 @@ def curves_of(series, values, found):
     if found.kind != "in range" or not min(distances) > 0.0:
         return {"runs": list(zip(sizes, values))}, False
     curves = {"runs": list(zip(sizes, distances))}
-    for order in (1, 2):
-        # Through the value of the finest size.
+    # Lines of whole orders near the observed one, through the value of the finest size.
+    for order in (order for order in (1, 2, 3) if abs(order - found.order) <= 0.75):
         curves[f"order {order}"] = [(size, distances[-1] * (size / sizes[-1]) ** order) for size in (sizes[0], sizes[-1])]
     return curves, True
 

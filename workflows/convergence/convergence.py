@@ -24,17 +24,21 @@ from chart import draw
 from inputs import write_changed
 from outputs import number_of, outputs_of, unit_of, words_of
 from problems import InputError, problem
-from richardson import ORDERS_OF_SIZE, ORDERS_OF_TOLERANCE, estimate
+from richardson import ORDERS_OF_SIZE, ORDERS_OF_TOLERANCE, Estimate, estimate
 from sweep import csv_text, read_csv
 
 DEFAULT_OUTPUTS = "fines_lost,flux_out"
 DEFAULT_TOLERANCE = 1e-3
 LARGEST_TOLERANCE = 0.1
-SIZE, TOLERANCE = "mesh.size", "time.tolerance"
+SIZE, TOLERANCE, INERTIA = "mesh.size", "time.tolerance", "time.inertia"
 # The ratio of sizes that the numbers of elements say may differ by this factor from that of mesh.size.
 FOLLOWS = 0.75
-# Share of the difference between the two finest sizes above which errors in time disturb the order in space.
+# Share of the difference between the two finest sizes above which irregular errors in time disturb the order in space.
 DISTURBING = 0.3
+
+
+class NotDone(InputError):
+    """Runs that have not reached their end."""
 
 
 # --- What is asked for ------------------------------------------------------------------------------------
@@ -138,7 +142,7 @@ def refuse_own_sizes(path, scene, programs, sizes):
                 f"elements that become finer by {sizes[0] / sizes[1]:.3g}, as {SIZE} does"),
         f"{file} gives sizes of its own, or has edges shorter than the size; {SIZE} is only the largest size of its elements.",
         f"Leave the fourth number of its points out (Point(1) = {{0, 0, 0}};), so that {SIZE} holds, and remove its size fields; or give",
-        "SIZES=A,B,C that are smaller than all sizes of the file.",
+        "SIZES=A,B,C that are smaller than all sizes and edges of the file.",
     ])
 
 
@@ -162,14 +166,28 @@ def tolerances_of(scene):
     return [own * factor for factor in factors], own
 
 
-def table_of(sizes, fixed_size, tolerances, fixed_tolerance):
-    """Rows of sizes at a fixed tolerance, then of tolerances at a fixed size."""
+def inertia_of(folder):
+    """Whether the coarsest run has the inertia of the liquid, as a value of time.inertia; empty if that is unknown."""
+    try:
+        plan = json.loads((folder / "runs/0001/0001.results/run.json").read_text(encoding="utf-8"))["plan"]
+    except (OSError, ValueError, KeyError):
+        return ""
+    made = [line.split(": ")[0] for line in plan if re.match("(run|skip): inertia of the liquid", line)]
+    return {"run": "true", "skip": "false"}[made[0]] if made else ""
+
+
+def table_of(sizes, fixed_size, tolerances, fixed_tolerance, inertia):
+    """Rows of sizes at a fixed tolerance, then of tolerances at a fixed size.
+
+    The solver decides by time.tolerance whether the liquid has inertia. All runs must solve the same equations, so
+    those of other tolerances get what the coarsest run has.
+    """
     text = "{:.10g}".format
     if not tolerances:
         return [[SIZE], *([text(size)] for size in sizes)]
-    rows = [[text(size), text(fixed_tolerance)] for size in sizes]
-    rows += [[text(fixed_size), text(tolerance)] for tolerance in tolerances if tolerance != fixed_tolerance]
-    return [[SIZE, TOLERANCE], *rows]
+    rows = [[text(size), text(fixed_tolerance), ""] for size in sizes]
+    rows += [[text(fixed_size), text(tolerance), inertia] for tolerance in tolerances if tolerance != fixed_tolerance]
+    return [[SIZE, TOLERANCE, INERTIA], *rows] if inertia else [[SIZE, TOLERANCE], *(row[:2] for row in rows)]
 
 
 def prepare(options):
@@ -181,11 +199,10 @@ def prepare(options):
     tolerances, fixed_tolerance = tolerances_of(scene)
     sizes, fixed_size = sizes_of(path, scene, programs)
     refuse_own_sizes(path, scene, programs, sizes)
-    rows = table_of(sizes, fixed_size, tolerances, fixed_tolerance)
+    inertia = "" if "inertia" in scene["time"] else inertia_of(folder)
+    rows = table_of(sizes, fixed_size, tolerances, fixed_tolerance, inertia)
     folder.mkdir(parents=True, exist_ok=True)
-    # The coarsest run shows which outputs there are before the others cost time.
-    first = options.first and not (folder / "runs" / "0001" / "0001.status").is_file()
-    write_changed(folder / "table.csv", csv_text(rows[:2] if first else rows))
+    write_changed(folder / "table.csv", csv_text(rows[:2] if options.first else rows))
     plan = {"sizes": sizes, "fixed_size": fixed_size, "tolerances": tolerances, "fixed_tolerance": fixed_tolerance,
             "shape": "shape" in scene["geometry"]}
     (folder / "plan.json").write_text(json.dumps(plan), encoding="utf-8")
@@ -194,22 +211,26 @@ def prepare(options):
 # --- Runs ----------------------------------------------------------------------------------------------------
 
 
+def sweep_rows(folder):
+    header, *rows = read_csv(folder / "runs" / "sweep.csv")
+    return [dict(zip(header, row)) for row in rows]
+
+
+def with_results(folder, row):
+    """A row of sweep.csv, with what is in the results of the run."""
+    results = folder / "runs" / row["run"] / f"{row['run']}.results"
+    info = json.loads((results / "run.json").read_text(encoding="utf-8"))
+    return row | {"outputs": outputs_of(results, row), "info": info, "results": results}
+
+
 def runs_of(folder):
-    """Rows of sweep.csv as dictionaries, with what is in their results."""
-    runs = folder / "runs"
-    header, *rows = read_csv(runs / "sweep.csv")
-    rows = [dict(zip(header, row)) for row in rows]
+    rows = sweep_rows(folder)
     bad = [row for row in rows if row["status"] != "done"]
     if bad:
-        raise InputError(["The study needs all its runs, and these are not done. Mend what their messages say, give other SIZES= or "
+        raise NotDone(["The study needs all its runs, and these are not done. Mend what their messages say, give other SIZES= or "
                           "TOLERANCES=, or call make again."]
                          + [f"{row['run']}: {SIZE} = {row[SIZE]}: {row['status']}: {row['message']}" for row in bad])
-    for row in rows:
-        results = runs / row["run"] / f"{row['run']}.results"
-        row["outputs"] = outputs_of(results, {key: value for key, value in row.items() if isinstance(value, str)})
-        row["info"] = json.loads((results / "run.json").read_text(encoding="utf-8"))
-        row["results"] = results
-    return rows
+    return [with_results(folder, row) for row in rows]
 
 
 def check_outputs(names, run):
@@ -235,7 +256,8 @@ class Series:
         return [number_of(run["outputs"].get(name)) for run in self.runs]
 
     def estimate(self, name):
-        return estimate(self.lengths, self.values(name), self.orders)
+        found = estimate(self.lengths, self.values(name), self.orders)
+        return Estimate("switch") if self.switches and found.kind != "constant" else found
 
 
 def switches(runs):
@@ -313,6 +335,10 @@ def why_not(found, series, values):
     if kind == "order":
         order = "infinite" if found.order == float("inf") else f"{found.order:.2g}"
         return f"its observed order is {order}, outside {series.orders[0]:g} to {series.orders[1]:g}"
+    if kind == "switch":
+        return "its runs do not solve the same equations"
+    if kind == "disturbed":
+        return f"its differences are as small as those between values of {TOLERANCE}, which are irregular"
     if kind == "index":
         return "its grid convergence index does not fall with its observed order"
     return "its finest value is 0, of which there is no share"
@@ -320,14 +346,16 @@ def why_not(found, series, values):
 
 def not_in_range(found, series, values):
     of = listed([f for f in series.numbers], series.unit)
+    largest = max(abs(value) for value in values)
     texts = ", ".join(f"{value:.{digits_of(values)}g}" for value in values)
     return (f"On the {series.word} {of} the values are {texts}: {why_not(found, series, values)}. This series is not in its range "
-            "of convergence, so there is no extrapolated value and no index.")
+            "of convergence, so there is no extrapolated value and no index. The values differ by up to "
+            f"{percent((max(values) - min(values)) / largest)}.")
 
 
 def switch_sentence(series):
-    return (f"The runs with these {series.word} do not solve the same equations: the solver includes "
-            f"{' and '.join(series.switches)} in some and leaves it out in others.")
+    return (f"The runs on the {series.word} {listed(series.numbers, series.unit)} do not solve the same equations: the solver "
+            f"includes {' and '.join(series.switches)} in some of them and not in others. Other {series.word.upper()}= avoid this.")
 
 
 def space_sentences(name, unit, series, values, found):
@@ -351,10 +379,10 @@ def time_sentences(plan, series, values, found):
             f"the tolerances {listed(series.numbers[-3:])}, with elements of {plan['fixed_size']:g} m)."]
 
 
-def disturbed(space_values, time_values):
-    """Whether errors in time are as large as the differences between sizes."""
-    difference = abs(space_values[-1] - space_values[-2])
-    return 0.0 < difference and max(time_values) - min(time_values) > DISTURBING * difference
+def disturbed(space_values, time_values, found_in_time):
+    """Whether irregular errors in time, which differ from run to run, are as large as the differences between sizes."""
+    scatter = max(time_values) - min(time_values)
+    return not found_in_time.in_range and scatter > DISTURBING * abs(space_values[-1] - space_values[-2])
 
 
 # --- Tables and report ---------------------------------------------------------------------------------------
@@ -382,9 +410,6 @@ def paragraph_of(plan, name, unit, space, time, found, found_in_time):
     sentences = space_sentences(name, unit, space, values, found)
     if time:
         sentences += time_sentences(plan, time, time.values(name), found_in_time)
-        if disturbed(values, time.values(name)):
-            sentences.append("The values differ as much between tolerances as between the two finest sizes, so the observed order of the "
-                             f"sizes is uncertain: take a smaller {TOLERANCE}.")
     return " ".join(sentences)
 
 
@@ -399,8 +424,10 @@ def conclude(options):
     rows, paragraphs = [], []
     for name in names:
         unit = unit_of(name, runs[0]["info"]["dimension"])
-        found = space.estimate(name)
         found_in_time = time.estimate(name) if time else None
+        found = space.estimate(name)
+        if time and disturbed(space.values(name), time.values(name), found_in_time) and found.kind == "in range":
+            found = Estimate("disturbed", found.order)
         rows.append(row_of(name, unit, space, time, found, found_in_time))
         paragraphs.append(paragraph_of(plan, name, unit, space, time, found, found_in_time))
         draw(folder, name, unit, space, found, programs)
@@ -414,7 +441,10 @@ def conclude(options):
 
 
 def outputs(options):
-    check_outputs(asked_outputs(), runs_of(pathlib.Path(options.folder))[0])
+    folder = pathlib.Path(options.folder)
+    first = sweep_rows(folder)[0]
+    if first["status"] == "done":
+        check_outputs(asked_outputs(), with_results(folder, first))
 
 
 def main():
@@ -434,7 +464,7 @@ def main():
         options.call(options)
     except InputError as error:
         print("\n".join(f"convergence.py: {line}" for line in str(error).splitlines()), file=sys.stderr)
-        sys.exit(2)
+        sys.exit(1 if isinstance(error, NotDone) else 2)
 
 
 if __name__ == "__main__":

@@ -5,17 +5,22 @@
 set -eu -o pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . ./find_file.sh
-scene=$(find_file SCENE "$1")
+called_from=$1
+scene=$(find_file SCENE "$called_from")
 file=$(basename -- "$scene")
 folder=$OUT_FOLDER/convergence/${NAME:-${file%.*}}
 PROGRAMS=$(realpath -- "$PROGRAMS")
 export PROGRAMS
 study() { "$PYTHON" convergence/convergence.py "$@"; }
 
-# The first call makes only the coarsest run, unless it is there, to see which outputs there are.
-for first in --first ''; do
-  study prepare "$scene" "$folder" --programs "$PROGRAMS" $first
-  SCENE=$scene SWEEP=$(realpath -- "$folder/table.csv") SWEEP_FOLDER=$folder/runs sweep/sweep.sh "$1"
-  study outputs "$folder"
-done
+# make_runs OPTION...: prepares the table of the sweep and makes its runs.
+make_runs() {
+  study prepare "$scene" "$folder" --programs "$PROGRAMS" "$@"
+  SCENE=$scene SWEEP=$(realpath -- "$folder/table.csv") SWEEP_FOLDER=$folder/runs sweep/sweep.sh "$called_from"
+}
+
+# The coarsest run shows which outputs there are, before the others cost time.
+if [ ! -e "$folder/runs/sweep.csv" ]; then make_runs --first; fi
+study outputs "$folder"
+make_runs
 study conclude "$folder" --programs "$PROGRAMS"

@@ -12,9 +12,6 @@ import math
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "post" / "python"))
-import suffuse
-
 # Columns of the table of runs, from this one on, are results at the end of the run.
 FIRST_RESULT = "eroded"
 # Settings and texts of the tables, and what is 0 but for round-off.
@@ -76,6 +73,9 @@ def number_of(text):
 
 
 def unit_of(name, dimension):
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "post" / "python"))
+    import suffuse  # here, as it takes a third of a second
+
     column = name.rpartition(".")[2]
     unit = UNITS.get(column) or suffuse.UNIT_OF_COLUMN.get(column, "")
     return f"{unit}/m" if dimension == 2 and unit in suffuse.PER_THICKNESS else unit
