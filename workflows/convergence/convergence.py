@@ -326,31 +326,26 @@ def digits_of(values):
     return next((digits for digits in range(4, 13) if spread >= 20.0 * largest * 10.0**-digits), 12)
 
 
-def why_not(found, series, values):
-    kind = found.kind
-    if kind == "oscillating":
-        return "its differences change their sign"
-    if kind == "diverging":
-        return "its differences do not fall"
-    if kind == "order":
+def why_not(found, series):
+    if found.kind == "order":
         order = "infinite" if found.order == float("inf") else f"{found.order:.2g}"
-        return f"its observed order is {order}, outside {series.orders[0]:g} to {series.orders[1]:g}"
-    if kind == "switch":
-        return "its runs do not solve the same equations"
-    if kind == "disturbed":
-        return f"its differences are as small as those between values of {TOLERANCE}, which are irregular"
-    if kind == "index":
-        return "its grid convergence index does not fall with its observed order"
-    return "its finest value is 0, of which there is no share"
+        return f"The observed order is {order}, outside {series.orders[0]:g} to {series.orders[1]:g}."
+    return {
+        "oscillating": "The differences between them change their sign.",
+        "diverging": f"The differences between them do not fall as the {series.word} do.",
+        "switch": "The runs do not solve the same equations.",
+        "disturbed": f"The differences between them are as small as those between values of {TOLERANCE}, which are irregular.",
+        "index": "The grid convergence index does not fall with the observed order.",
+        "zero": "The finest of them is 0, so there is no share of it.",
+    }[found.kind]
 
 
 def not_in_range(found, series, values):
-    of = listed([f for f in series.numbers], series.unit)
     largest = max(abs(value) for value in values)
-    texts = ", ".join(f"{value:.{digits_of(values)}g}" for value in values)
-    return (f"On the {series.word} {of} the values are {texts}: {why_not(found, series, values)}. This series is not in its range "
-            "of convergence, so there is no extrapolated value and no index. The values differ by up to "
-            f"{percent((max(values) - min(values)) / largest)}.")
+    texts = [f"{value:.{digits_of(values)}g}" for value in values]
+    return (f"On the {series.word} {listed(series.numbers, series.unit)} the values are {', '.join(texts[:-1])} and {texts[-1]}; they "
+            f"differ by up to {percent((max(values) - min(values)) / largest)}. {why_not(found, series)} This series is not in its range "
+            "of convergence, so there is no extrapolated value and no index.")
 
 
 def switch_sentence(series):

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A sweep from its table to its figures, in OUT_FOLDER/sweep/NAME/, or in SWEEP_FOLDER where that is
-# set: sweep.sh CALLED_FROM. make calls it, with its variables in the environment and itself as MAKE;
-# its -j holds for the runs.
+# A sweep from its table to its figures, in OUT_FOLDER/sweep/NAME/: sweep.sh CALLED_FROM. make calls
+# it, with its variables in the environment and itself as MAKE; its -j holds for the runs. With
+# SWEEP_FOLDER the sweep is in that folder and has no figures.
 set -eu -o pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . ./find_file.sh
@@ -16,4 +16,4 @@ export PROGRAMS RUN=$PWD/sweep/run.sh
 "$PYTHON" sweep/sweep.py prepare "$scene" "$table" "$folder" --programs "$PROGRAMS"
 # A run that was stopped or killed does not stop the others.
 $MAKE -k -C "$folder" -f "$PWD/sweep/rows.mk" || true
-"$PYTHON" sweep/sweep.py conclude "$folder" --programs "$PROGRAMS"
+"$PYTHON" sweep/sweep.py conclude "$folder" --programs "$PROGRAMS" ${SWEEP_FOLDER:+--no-figures}
