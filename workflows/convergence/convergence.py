@@ -24,7 +24,7 @@ from chart import draw
 from inputs import write_changed
 from outputs import number_of, outputs_of, unit_of, words_of
 from problems import InputError, problem
-from richardson import ORDERS_OF_SIZE, ORDERS_OF_TOLERANCE, Estimate, estimate
+from richardson import NEGLIGIBLE, ORDERS_OF_SIZE, ORDERS_OF_TOLERANCE, Estimate, estimate
 from sweep import csv_text, read_csv
 
 DEFAULT_OUTPUTS = "fines_lost,flux_out"
@@ -149,7 +149,7 @@ def refuse_own_sizes(path, scene, programs, sizes):
 # --- The table of the sweep ----------------------------------------------------------------------------------
 
 
-def tolerances_of(scene):
+def tolerances_of(path, scene):
     """The tolerances of the study, largest first, and that of the runs whose size varies; none if steps do not follow it."""
     time = scene["time"]
     asked = asked_numbers("TOLERANCES", LARGEST_TOLERANCE)
@@ -160,6 +160,8 @@ def tolerances_of(scene):
                                       "a scene whose steps follow time.tolerance")])
         return [], None
     own = time.get("tolerance", DEFAULT_TOLERANCE)
+    if not isinstance(own, float) or not 0.0 < own <= LARGEST_TOLERANCE:
+        raise InputError([problem(path, TOLERANCE, str(own), f"a number above 0 up to {LARGEST_TOLERANCE:g}")])
     if asked:
         return asked, own if own in asked else asked[1]
     factors = (4.0, 1.0, 0.25) if 4.0 * own <= LARGEST_TOLERANCE else (1.0, 0.25, 0.0625)
@@ -167,20 +169,22 @@ def tolerances_of(scene):
 
 
 def inertia_of(folder):
-    """Whether the coarsest run has the inertia of the liquid, as a value of time.inertia; empty if that is unknown."""
+    """The value "false" of time.inertia if the coarsest run leaves it out; otherwise empty.
+
+    Where the solver keeps the inertia by its own decision, it does not follow short waves, as it would with "true".
+    """
     try:
         plan = json.loads((folder / "runs/0001/0001.results/run.json").read_text(encoding="utf-8"))["plan"]
     except (OSError, ValueError, KeyError):
         return ""
-    made = [line.split(": ")[0] for line in plan if re.match("(run|skip): inertia of the liquid", line)]
-    return {"run": "true", "skip": "false"}[made[0]] if made else ""
+    return "false" if any(line.startswith("skip: inertia of the liquid") for line in plan) else ""
 
 
 def table_of(sizes, fixed_size, tolerances, fixed_tolerance, inertia):
     """Rows of sizes at a fixed tolerance, then of tolerances at a fixed size.
 
     The solver decides by time.tolerance whether the liquid has inertia. All runs must solve the same equations, so
-    those of other tolerances get what the coarsest run has.
+    those of other tolerances leave it out if the coarsest run does.
     """
     text = "{:.10g}".format
     if not tolerances:
@@ -196,7 +200,7 @@ def prepare(options):
     asked_outputs()
     scene = read_scene(path)
     refuse_fixed_meshes(path, scene)
-    tolerances, fixed_tolerance = tolerances_of(scene)
+    tolerances, fixed_tolerance = tolerances_of(path, scene)
     sizes, fixed_size = sizes_of(path, scene, programs)
     refuse_own_sizes(path, scene, programs, sizes)
     inertia = "" if "inertia" in scene["time"] else inertia_of(folder)
@@ -316,13 +320,15 @@ def percent(share):
     return f"{100.0 * share:.2g} %" if share >= 1e-10 else "less than 1e-8 %"
 
 
-def shown(value, unit, digits=5):
+def shown(value, unit, digits):
     return f"{value:.{digits}g}" + (f" {unit}" if unit not in ("", "-") else "")
 
 
 def digits_of(values):
     """Digits with which the values of a series differ."""
     spread, largest = max(values) - min(values), max(abs(value) for value in values)
+    if spread <= NEGLIGIBLE * largest:
+        return 4
     return next((digits for digits in range(4, 13) if spread >= 20.0 * largest * 10.0**-digits), 12)
 
 
@@ -354,15 +360,15 @@ def switch_sentence(series):
 
 
 def space_sentences(name, unit, series, values, found):
-    finest, size = values[-1], series.numbers[-1]
-    start = f"The {words_of(name)} is {shown(finest, unit)}"
+    size, digits = series.numbers[-1], max(5, digits_of(values))
+    start = f"The {words_of(name)} is {shown(values[-1], unit, digits)}"
     if found.kind == "constant":
         return [f"{start} with all sizes: {listed(series.numbers, series.unit)}."]
     if not found.in_range:
         return [f"{start} on elements of {size:g} m.", not_in_range(found, series, values)]
     return [f"{start} on elements of {size:g} m; its grid convergence index is {percent(found.index)} (observed order "
             f"{found.order:.2f} on the sizes {listed(series.numbers[-3:], series.unit)}), and its extrapolated value is "
-            f"{shown(found.extrapolated, unit)}."]
+            f"{shown(found.extrapolated, unit, digits)}."]
 
 
 def time_sentences(plan, series, values, found):
