@@ -2,7 +2,8 @@
 """Before and after the runs of a sweep; `make -C workflows sweep` calls it, and rows.mk makes the runs in between.
 
     sweep.py prepare SCENE SWEEP FOLDER --programs BIN     writes FOLDER/runs.csv and what each run is made of
-    sweep.py conclude FOLDER --programs BIN                writes FOLDER/sweep.csv, cost.csv and figures
+    sweep.py conclude FOLDER --programs BIN                writes FOLDER/sweep.csv, cost.csv and figures;
+                                                           without figures if --no-figures is given
 
 Exit codes: 2 for wrong input; 1 of `conclude` if a run did not end well.
 """
@@ -175,14 +176,14 @@ def conclude(options):
     folder = pathlib.Path(options.folder)
     programs = pathlib.Path(options.programs).absolute()
     keys, rows = write_tables(folder, programs)
-    messages = draw(folder, keys, rows, programs)
+    messages = draw(folder, keys, rows, programs) if options.figures else []
     bad = [row for row in rows if row["status"] != "done"]
     messages += [f"{row['run']} {row['status']}: {row['message'] or 'not made'}" for row in bad[:10]]
     if len(bad) > 10:
         messages.append(f"... and {len(bad) - 10} more: see the columns status and message")
     for message in messages:
         print(message, file=sys.stderr)
-    print(f"{len(rows) - len(bad)} of {len(rows)} runs are done; table and figures are in {folder.resolve()}")
+    print(f"{len(rows) - len(bad)} of {len(rows)} runs are done; {'table and figures are' if options.figures else 'their table is'} in {folder.resolve()}")
     return 1 if bad else 0
 
 
@@ -195,6 +196,7 @@ def main():
     for command in [command, commands.add_parser("conclude")]:
         command.add_argument("folder", metavar="FOLDER")
         command.add_argument("--programs", required=True, metavar="FOLDER")
+    commands.choices["conclude"].add_argument("--no-figures", dest="figures", action="store_false")
     options = parser.parse_args()
     try:
         sys.exit(prepare(options) if options.command == "prepare" else conclude(options))

@@ -1,0 +1,80 @@
+"""The chart of an output over mesh.size, drawn by `suffuse-post figure curves`, so it looks like all other charts.
+
+suffuse-post draws tables of results folders. So each curve is written as history.csv into a folder that has the rest from
+the coarsest run. A diamond around each value is part of its curve.
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from sweep import csv_text
+
+COPIED = ("run.json", "mesh.hdf.series", "solid.hdf.series", "liquid.hdf.series", "ledger.csv")
+# Half a diamond, as a share of an axis.
+MARK_X, MARK_Y = 0.015, 0.02
+
+
+def scaled(low, high, logarithmic):
+    """A function that moves a value by a share of the axis."""
+    if logarithmic:
+        return lambda value, share: value * (high / low) ** share
+    return lambda value, share: value + (high - low) * share
+
+
+def with_diamonds(points, logarithmic_y):
+    """A line through points of a logarithmic x with a diamond around each."""
+    x, y = [x for x, _ in points], [y for _, y in points]
+    move_x, move_y = scaled(min(x), max(x), True), scaled(min(y), max(y), logarithmic_y)
+    line = []
+    for px, py in points:
+        right, left = move_x(px, MARK_X), move_x(px, -MARK_X)
+        above, below = move_y(py, MARK_Y), move_y(py, -MARK_Y)
+        line += [(px, py), (right, py), (px, above), (left, py), (px, below), (right, py), (px, py)]
+    return line
+
+
+def curves_of(series, values, found):
+    """Curves by their labels; whether they are distances from the extrapolated value."""
+    sizes = series.numbers
+    distances = [abs(value - found.extrapolated) for value in values]
+    if found.kind != "in range" or not min(distances) > 0.0:
+        return {"runs": list(zip(sizes, values))}, False
+    curves = {"runs": list(zip(sizes, distances))}
+    # Lines of whole orders near the observed one, through the value of the finest size.
+    for order in (order for order in (1, 2, 3) if abs(order - found.order) <= 0.75):
+        curves[f"order {order}"] = [(size, distances[-1] * (size / sizes[-1]) ** order) for size in (sizes[0], sizes[-1])]
+    return curves, True
+
+
+def draw(folder, name, unit, series, found, programs):
+    """Writes NAME.png and NAME.svg. A failure is a message."""
+    values = series.values(name)
+    curves, logarithmic_y = curves_of(series, values, found)
+    shown_unit = f" ({unit})" if unit else ""
+    plain = re.sub(r"[.:]", " ", name)  # suffuse-post takes TABLE.COLUMN:PART apart
+    y_label = f"distance of {plain} from its extrapolated value{shown_unit}" if logarithmic_y else f"{plain}{shown_unit}"
+    x_label = "mesh.size (m)"
+    with tempfile.TemporaryDirectory() as scratch:
+        folders = []
+        for number, (label, points) in enumerate(curves.items()):
+            curve = pathlib.Path(scratch) / f"{label}.results"
+            curve.mkdir()
+            for file in COPIED:
+                if (series.runs[0]["results"] / file).is_file():
+                    shutil.copy(series.runs[0]["results"] / file, curve)
+            line = with_diamonds(points, logarithmic_y) if number == 0 and len(set(values)) > 1 else points
+            rows = [[row, x, y] for row, (x, y) in enumerate(line)]
+            (curve / "history.csv").write_text(csv_text([["t", x_label, y_label], *rows]), encoding="utf-8")
+            folders.append(curve)
+        stem = re.sub(r"[^\w.-]+", "-", name).strip("-")
+        for suffix in ("png", "svg"):
+            command = [programs / "suffuse-post", "figure", "curves", y_label, *folders, "--x", x_label, "--log-x",
+                       *(["--log-y"] if logarithmic_y else []), "-o", folder / f"{stem}.{suffix}"]
+            ended = subprocess.run(command, capture_output=True, text=True)
+            if ended.returncode:
+                print(f"convergence.py: no chart of {name}: {ended.stderr.strip()}", file=sys.stderr)
+                return
