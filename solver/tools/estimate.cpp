@@ -228,7 +228,8 @@ class Trial final : public OutputSink<Dim> {
   [[nodiscard]] double seconds() const { return watch_.seconds() - seconds_of_writing_; }
 
   void write_sample(long index, const FlowState<Dim>& flow) {
-    if (!files_) return;
+    // Outputs while soil fails come between those that are counted.
+    if (!files_ || index <= files_->last()) return;
     const Stopwatch watch;
     try {
       Snapshot snapshot = loop_.model().snapshot(flow);
