@@ -1,5 +1,5 @@
-// A quarter of a flooded disc with a radius of 1 m on a box: a polygon of 24 sides, six of which are here, so that every mesh has the
-// same geometry. h: size of the elements; g: the part of it at the edge of the disc.
+// A quarter of a flooded disc with a radius of 1 m on a box: a polygon of 24 sides, six of which are here, so that every
+// mesh has the same geometry. h: size of the elements; g: the part of it at the edge of the disc.
 h = 0.8;
 g = 1;
 SetFactory("OpenCASCADE");

@@ -1,5 +1,5 @@
 // A drain under a pond: a polygon of sixteen sides with a radius of 0.15 m, so that every mesh has the same geometry.
-// elements; g: the part of it at the drain.
+// h: size of the elements; g: the part of it at the drain.
 h = 0.9;
 g = 1;
 Point(1) = {-10, -4, 0, h}; Point(2) = {10, -4, 0, h}; Point(3) = {10, 2, 0, h}; Point(4) = {-10, 2, 0, h};
