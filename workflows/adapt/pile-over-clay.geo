@@ -1,5 +1,5 @@
-// A sheet pile above a lens of clay. h: size of the elements; g: the part of it at the foot of the pile, and the square
-// of the part at the corners of the lens.
+// A sheet pile above a lens of clay. h: size of the elements; g: the part of it at the foot of the pile; its square
+// root is the part at the corners of the lens.
 h = 0.8;
 g = 1;
 Point(1) = {0, 0, 0, h}; Point(2) = {12, 0, 0, h}; Point(3) = {12, 4, 0, h}; Point(4) = {6, 4, 0, h};
