@@ -77,7 +77,7 @@ class Mesh:
         self.section, self.kind, self.number = section, kind, number
         self.low, self.high = interval
         self.elements, self.seconds = elements, seconds
-        self.loop_seconds = None  # of the last mesh of a loop
+        self.loop_seconds = None  # of the last mesh of a loop; of other meshes of mesher and solver
 
     @property
     def middle(self):
@@ -178,9 +178,10 @@ class Study:
             (folder / f"{section.name}.geo").write_text(text, encoding="utf-8")
             (folder / f"{section.name}.toml").write_text(scene, encoding="utf-8")
             case = folder / f"{section.name}.case.h5"
-            run([self.programs / "suffuse-mesher", folder / f"{section.name}.toml", "--set", f"mesh.size={size!r}",
-                 "-o", case])
+            seconds, _ = run([self.programs / "suffuse-mesher", folder / f"{section.name}.toml",
+                              "--set", f"mesh.size={size!r}", "-o", case])
             self.meshes.append(Mesh(section, kind, number + 1, *self.solve(case)))
+            self.meshes[-1].loop_seconds = seconds + self.meshes[-1].seconds
             elements = self.meshes[-1].elements
             case.unlink()
         self.say(section, kind)
@@ -213,13 +214,22 @@ def slope(meshes):
     return (sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x))
 
 
-def elements_for(meshes, error):
-    """Elements with which a family of meshes has this error, by the order between two of them; and whether that
-    is beyond the finest."""
-    pairs = list(zip(meshes, meshes[1:]))
-    pair = next((p for p in pairs if p[1].error <= error), pairs[-1])
-    order = math.log(pair[0].error / pair[1].error) / math.log(pair[1].elements / pair[0].elements)
-    return pair[1].elements * (pair[1].error / error) ** (1.0 / order), pair[1].error > error
+class Family:
+    """A family of meshes at an error that may lie between two of them or beyond the finest: the number of elements,
+    and the wall time of mesher and solver."""
+
+    def __init__(self, meshes, error):
+        self.beyond = meshes[-1].error > error
+        pairs = list(zip(meshes, meshes[1:]))
+        coarse, fine = next((p for p in pairs if p[1].error <= error), pairs[-1])
+        share = math.log(fine.error / error) / math.log(coarse.error / fine.error)
+        share = max(share, -1.0)  # not below the coarsest mesh
+        self.elements = fine.elements * (fine.elements / coarse.elements) ** share
+        self.seconds = fine.loop_seconds * (fine.loop_seconds / coarse.loop_seconds) ** share
+
+    @property
+    def words(self):
+        return count(self.elements, self.beyond) + ("" if self.beyond else f", {seconds_text(self.seconds)} s")
 
 
 def count(number, about=False):
@@ -266,7 +276,7 @@ def check(study, section, verdicts):
         verdicts.check(fall is not None and fall <= LEAST_SLOPE, f"{name}: the gap falls with the power "
                        f"{'of one adapted mesh: none' if fall is None else f'{fall:.3g}'} of the elements")
     last = study.of(section, f"adapted to {ERRORS[-1]}")[-1]
-    uniform, _ = elements_for(study.of(section, "uniform"), ERRORS[-1])
+    uniform = Family(study.of(section, "uniform"), ERRORS[-1]).elements
     if last.error <= ERRORS[-1]:
         few = last.elements <= SHARE_OF_UNIFORM * uniform
         print(f"{'ok' if few else 'more than a tenth'}: {name}: {last.elements} elements, {last.elements / uniform:.2g} of the uniform ones")
@@ -283,16 +293,30 @@ def markdown(study, sections):
             met = last.error <= error
             # Where the loop stops before, the families are compared at the error that it reached.
             compared = error if met else last.error
-            uniform, beyond = elements_for(study.of(section, "uniform"), compared)
-            graded, beyond_graded = elements_for(study.of(section, "graded"), compared)
+            uniform, graded = (Family(study.of(section, kind), compared) for kind in ("uniform", "graded"))
             fall = slope(own[1:])
             title = section.words + (", 3D" if section.dimension == 3 else "") if error == ERRORS[0] else ""
             lines.append(
                 f"| {title} | {100 * error:g} % | {len(own)} | {count(last.elements)} | "
                 f"{100 * last.error:.2g} %{'' if met else ', **not met**'} | {seconds_text(last.loop_seconds)} | "
-                f"{seconds_text(last.seconds)} | {count(uniform, beyond)} | {count(graded, beyond_graded)} | "
-                f"{last.elements / uniform:.2g} | {'' if fall is None or error == ERRORS[0] else f'{fall:.2f}'.replace('-', '−')} |")
+                f"{seconds_text(last.seconds)} | {uniform.words} | {graded.words} | "
+                f"{last.elements / uniform.elements:.2g} | {'' if fall is None or error == ERRORS[0] else f'{fall:.2f}'.replace('-', '−')} |")
+    lines.append("")
+    for section in sections:
+        if section.exact is not None:
+            lines.append(exact_sentence(study, section))
     return "\n".join(lines) + "\n"
+
+
+def exact_sentence(study, section):
+    def off(mesh):
+        return f"{abs(mesh.middle / section.exact - 1.0):.1e} on {count(mesh.elements)} elements"
+
+    adapted = " and ".join(off(study.of(section, f"adapted to {error}")[-1]) for error in ERRORS)
+    largest = max(abs(m.middle - section.exact) / (0.5 * m.gap) for m in study.meshes if m.section is section)
+    return (f"{section.words[0].upper()}{section.words[1:]}: the middle of the interval is off by {adapted} on adapted meshes, by "
+            f"{off(study.of(section, 'uniform')[-1])} on the finest uniform mesh, and by at most {largest:.2f} of half of the interval "
+            "on any mesh.")
 
 
 def main():
