@@ -309,14 +309,16 @@ def markdown(study, sections):
 
 
 def exact_sentence(study, section):
-    def off(mesh):
-        return f"{abs(mesh.middle / section.exact - 1.0):.1e} on {count(mesh.elements)} elements"
+    adapted = [study.of(section, f"adapted to {error}")[-1] for error in ERRORS]
+    uniform = study.of(section, "uniform")[-1]
 
-    adapted = " and ".join(off(study.of(section, f"adapted to {error}")[-1]) for error in ERRORS)
+    def off(mesh):
+        return f"{abs(mesh.middle / section.exact - 1.0):.1e}"
+
     largest = max(abs(m.middle - section.exact) / (0.5 * m.gap) for m in study.meshes if m.section is section)
-    return (f"{section.words[0].upper()}{section.words[1:]}: the middle of the interval is off by {adapted} on adapted meshes, by "
-            f"{off(study.of(section, 'uniform')[-1])} on the finest uniform mesh, and by at most {largest:.2f} of half of the interval "
-            "on any mesh.")
+    return (f"- {section.words[0].upper()}{section.words[1:]}: the middle of the interval is off by {' and '.join(map(off, adapted))} on the last adapted "
+            f"meshes, by {off(uniform)} on the finest uniform mesh of {count(uniform.elements)} elements, and on no mesh by more than "
+            f"{100 * largest:.0f} % of half of the interval.")
 
 
 def main():
