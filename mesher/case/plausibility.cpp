@@ -173,6 +173,7 @@ class Plausibility : private PlausibilityBase<Dim> {
   }
 
   void check_resolution() {
+    if (scene_.mesh.error) return;  // that decides how fine the mesh becomes
     const std::vector<int> edges = edges_from_flow();
     std::vector<bool> resolved(mesh_.region_names.size(), false);
     for (int e = 0; e < mesh_.element_count(); ++e) {

@@ -9,9 +9,7 @@ namespace suffuse {
 namespace {
 
 /// Share of all fluxes by which intervals are wider, for the round-off in them.
-constexpr double margin = 1e-13;
-/// Flow in both directions below this share of all fluxes is round-off.
-constexpr double round_off = 1e-9;
+constexpr double interval_margin = 1e-13;
 
 template <int Dim>
 double norm(const SeepageEnergy<Dim>& energy, const Slopes<Dim>& slopes) {
@@ -55,9 +53,40 @@ Interval interval(const SeepageProblem<Dim>& problem, double discharge,
   const double by_heads = -energy.inner(flow.of_head, dual.of_head) - at_boundary.given;
   const double by_fluxes = discharge + at_boundary.held + energy.inner(flow.of_flux, dual.of_flux);
   const double middle = 0.5 * (by_heads + by_fluxes);
-  const double half =
-      0.5 * norm(energy, flow.gap()) * norm(energy, dual.gap()) + margin * problem.all_fluxes();
+  const double half = 0.5 * norm(energy, flow.gap()) * norm(energy, dual.gap()) +
+                      interval_margin * problem.all_fluxes();
   return {middle - half, middle + half};
+}
+
+/// A discharge through faces that hold heads, m3/s, with its dual.
+template <int Dim>
+struct HeldDischarge {
+  double value = 0.0;
+  FieldPair<Dim> dual;
+};
+
+/// Sum of what leaves through groups.
+template <int Dim>
+HeldDischarge<Dim> outflow_of(const SeepageProblem<Dim>& problem,
+                              const std::vector<FieldPair<Dim>>& duals,
+                              const std::vector<double>& discharges) {
+  HeldDischarge<Dim> sum{0.0, problem.combined(problem.unit(), -1.0, problem.unit())};
+  for (std::size_t g = 0; g < duals.size(); ++g) {
+    if (!(discharges[g] > 0.0)) continue;
+    sum.value += discharges[g];
+    sum.dual = problem.combined(std::move(sum.dual), 1.0, duals[g]);
+  }
+  return sum;
+}
+
+/// The group of which least is known.
+template <int Dim>
+HeldDischarge<Dim> least_known(const SeepageProblem<Dim>& problem,
+                               const std::vector<FieldPair<Dim>>& duals,
+                               const std::vector<double>& discharges) {
+  const auto gap = [&](const FieldPair<Dim>& dual) { return norm(problem.energy(), dual.gap()); };
+  const auto widest = std::ranges::max_element(duals, {}, gap);
+  return {discharges[widest - duals.begin()], *widest};
 }
 
 /// Each element's part in half the product of the gaps of flow and dual.
@@ -85,12 +114,11 @@ DischargeBounds discharge_bounds(const SeepageState<Dim>& state) {
   result.why_estimates = problem.objection();
   for (const Crossing& crossing : problem.crossings()) {
     result.boundaries.emplace_back(Interval{crossing.given, crossing.given});
-    result.both_ways =
-        result.both_ways || std::min(crossing.in, crossing.out) > round_off * problem.all_fluxes();
+    result.both_ways = result.both_ways || std::min(crossing.in, crossing.out) >
+                                               seepage_round_off * problem.all_fluxes();
   }
   const std::vector<FieldPair<Dim>> duals = duals_of(problem);
-  double outflow = 0.0;  // through held faces
-  FieldPair<Dim> of_outflow = problem.combined(problem.unit(), -1.0, problem.unit());
+  std::vector<double> discharges;  // of the groups, through faces that hold heads
   for (std::size_t g = 0; g < duals.size(); ++g) {
     const std::vector<int>& members = problem.groups()[g];
     double discharge = 0.0;
@@ -107,14 +135,17 @@ DischargeBounds discharge_bounds(const SeepageState<Dim>& state) {
       Interval& whole = *result.boundaries[members.front()];
       whole = {whole.low + of_group.low, whole.high + of_group.high};
     }
-    result.both_ways = result.both_ways || std::min(in, out) > round_off * problem.all_fluxes();
-    if (discharge > 0.0) {
-      outflow += discharge;
-      of_outflow = problem.combined(std::move(of_outflow), 1.0, duals[g]);
-    }
+    result.both_ways =
+        result.both_ways || std::min(in, out) > seepage_round_off * problem.all_fluxes();
+    discharges.push_back(discharge);
   }
-  result.flux_out = interval(problem, outflow, of_outflow);
-  result.error = parts_of_error(problem, of_outflow);
+  HeldDischarge<Dim> held = outflow_of(problem, duals, discharges);
+  result.flux_out = interval(problem, held.value, held.dual);
+  // Known by balance, where the rest is given.
+  const bool is_known = result.flux_out.half() <= seepage_round_off * problem.all_fluxes();
+  if (is_known && !duals.empty()) held = least_known(problem, duals, discharges);
+  result.least_known = interval(problem, held.value, held.dual);
+  result.error = parts_of_error(problem, held.dual);
   for (const Crossing& crossing : problem.crossings()) {
     result.flux_out.low += std::max(0.0, crossing.given);
     result.flux_out.high += std::max(0.0, crossing.given);

@@ -32,9 +32,12 @@ struct DischargeBounds {
   std::vector<std::optional<Interval>> boundaries;
   /// Sum over the boundaries through which more leaves than enters, m3/s.
   Interval flux_out;
+  /// What leaves through boundaries that hold heads. Where that is known by balance, as a well has
+  /// the rest: the discharge of the boundary with a head of which least is known, m3/s.
+  Interval least_known;
   /// Some boundary lets liquid in and out: `flux_out` of the history is larger than the sum here.
   bool both_ways = false;
-  /// Each element's part in the half-width of `flux_out`, m3/s.
+  /// Each element's part in the half-width of `least_known`, m3/s.
   std::vector<double> error;
 };
 

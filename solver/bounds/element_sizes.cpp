@@ -31,11 +31,27 @@ double last_with(const auto& is_small) {
   return low;
 }
 
+/// Enlarges sizes that would make more elements than allowed: those at nodes are the smallest of
+/// the elements around. `now`: sizes of the elements that are there, m.
+template <int Dim>
+void fit_number(const Grid<Dim>& grid, const std::vector<double>& now, double most,
+                std::vector<double>& size) {
+  double count = 0.0;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    double mean = 0.0;
+    for (const int i : grid.mesh.elements[e]) mean += size[i] / (Dim + 1);
+    count += std::pow(now[e] / mean, Dim);
+  }
+  const double factor = std::pow(std::max(1.0, count / most), 1.0 / Dim);
+  for (double& of_node : size) of_node *= factor;
+}
+
 }  // namespace
 
 template <int Dim>
 std::vector<double> element_sizes(const Grid<Dim>& grid) {
   std::vector<double> result;
+  result.reserve(grid.volume.size());
   for (const double volume : grid.volume) {
     result.push_back(Dim == 2 ? std::sqrt(4.0 * volume / std::numbers::sqrt3)
                               : std::cbrt(6.0 * std::numbers::sqrt2 * volume));
@@ -47,6 +63,7 @@ template <int Dim>
 std::vector<double> next_sizes(const Grid<Dim>& grid, const std::vector<double>& error,
                                const WantedError& wanted) {
   std::vector<double> of_error;
+  of_error.reserve(error.size());
   for (const double now : error) {
     // Zero: as large as it may become, whatever the factor.
     of_error.push_back(now > 0.0 ? std::pow(now, -1.0 / (Dim + 2)) : infinity);
@@ -75,6 +92,7 @@ std::vector<double> next_sizes(const Grid<Dim>& grid, const std::vector<double>&
     for (const int i : grid.mesh.elements[e])
       size[i] = std::min(size[i], change(factor, of_error[e]) * now[e]);
   }
+  fit_number(grid, now, wanted.max_elements, size);
   return size;
 }
 

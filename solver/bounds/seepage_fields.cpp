@@ -83,6 +83,7 @@ template <int Dim>
 std::vector<double> SeepageEnergy<Dim>::per_element(const Slopes<Dim>& a,
                                                     const Slopes<Dim>& b) const {
   std::vector<double> result;
+  result.reserve(grid_.volume.size());
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     result.push_back(grid_.volume[e] * a.element[e].dot(conduct(e, b.element[e])));
   }

@@ -10,10 +10,8 @@
 namespace suffuse {
 namespace {
 
-/// Differences below this share of the largest head or flux are round-off.
-constexpr double round_off = 1e-9;
 /// Relative conductivity below which soil counts as this dry: no water to speak of flows there.
-constexpr double driest = 1e-9;
+constexpr double driest_relative_conductivity = 1e-9;
 
 }  // namespace
 
@@ -46,7 +44,7 @@ std::vector<double> SeepageProblem<Dim>::conductivities() const {
 template <int Dim>
 double SeepageProblem<Dim>::relative_conductivity(std::size_t element) const {
   if (state_.relative_conductivity.empty()) return 1.0;
-  return std::max(driest, state_.relative_conductivity[element]);
+  return std::max(driest_relative_conductivity, state_.relative_conductivity[element]);
 }
 
 template <int Dim>
@@ -137,6 +135,7 @@ FieldPair<Dim> SeepageProblem<Dim>::pair(
     const std::vector<double>& face_pressure, const std::vector<double>& face_flux,
     const std::vector<double>& inflow, const std::vector<std::optional<double>>& prescribed) const {
   std::vector<double> face_head;
+  face_head.reserve(face_pressure.size());
   for (int f = 0; f < grid_.face_count(); ++f) {
     face_head.push_back(face_pressure[f] / weight_ + height_of(grid_.face_centre(f)));
   }
@@ -213,7 +212,7 @@ std::optional<std::array<double, 2>> SeepageProblem<Dim>::two_heads() const {
   std::array<double, 2> low{infinity, infinity};
   std::array<double, 2> high{-infinity, -infinity};
   for (int f = 0; f < grid_.face_count(); ++f) {
-    if (std::abs(inflow_[f]) > 1e-3 * round_off * all_fluxes_) return std::nullopt;
+    if (std::abs(inflow_[f]) > 1e-3 * seepage_round_off * all_fluxes_) return std::nullopt;
     if (group_of_face_[f] < 0) continue;
     for (const int i : grid_.face_nodes[f]) {
       const auto k = static_cast<std::size_t>(group_of_face_[f]);
@@ -222,8 +221,8 @@ std::optional<std::array<double, 2>> SeepageProblem<Dim>::two_heads() const {
     }
   }
   const double uncertain = std::max(high[0] - low[0], high[1] - low[1]);
-  if (uncertain > 1e-3 * round_off * std::abs(low[0] - low[1])) return std::nullopt;
-  if (std::abs(low[0] - low[1]) <= round_off * largest_head_) return std::nullopt;
+  if (uncertain > 1e-3 * seepage_round_off * std::abs(low[0] - low[1])) return std::nullopt;
+  if (std::abs(low[0] - low[1]) <= seepage_round_off * largest_head_) return std::nullopt;
   return low;
 }
 
@@ -251,13 +250,13 @@ std::string SeepageProblem<Dim>::objection() const {
   if (!state_.coefficients.quadratic_drag.empty()) return "the drag is Ergun's";
   const double density = state_.scene.liquid.density;
   const auto is_other = [&](double of_mixture) {
-    return std::abs(of_mixture - density) > round_off * density;
+    return std::abs(of_mixture - density) > seepage_round_off * density;
   };
   if (has_gravity(state_.scene.gravity) &&
       std::ranges::any_of(state_.coefficients.mixture_density, is_other)) {
     return "fines make the liquid heavier";
   }
-  if (largest_jump_ > round_off * largest_head_) {
+  if (largest_jump_ > seepage_round_off * largest_head_) {
     return "heads of two boundaries differ where these meet";
   }
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
@@ -265,7 +264,7 @@ std::string SeepageProblem<Dim>::objection() const {
     for (int k = 0; k <= Dim; ++k) {
       out += grid_.element_face_sign[e][k] * state_.face_flux[grid_.element_face[e][k]];
     }
-    if (std::abs(out) > round_off * all_fluxes_) return "the flow is not steady";
+    if (std::abs(out) > seepage_round_off * all_fluxes_) return "the flow is not steady";
   }
   return "";
 }

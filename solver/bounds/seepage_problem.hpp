@@ -12,6 +12,9 @@
 
 namespace suffuse {
 
+/// Differences below this share of the largest head, or of all fluxes, are round-off.
+inline constexpr double seepage_round_off = 1e-9;
+
 /// Two fields near one flow: a continuous head with the prescribed values, and fluxes that balance
 /// in each element.
 template <int Dim>

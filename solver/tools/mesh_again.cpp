@@ -32,7 +32,7 @@ std::string digits(double value, int count) {
 
 /// "Q = 1.408e-4 m3/s, between 1.407e-4 and 1.410e-4".
 std::string sentence(const DischargeBounds& bounds, int dimension) {
-  const Interval& q = bounds.flux_out;
+  const Interval& q = bounds.least_known;
   const std::string unit = dimension == 2 ? " m3/s per m" : " m3/s";
   const std::string verb = bounds.why_estimates.empty() ? "between " : "estimated between ";
   return "Q = " + digits(q.middle(), 5) + unit + ", " + verb + digits(q.low, 5) + " and " +
@@ -54,8 +54,8 @@ void write_sizes(Case<Dim> c, const SizesOptions& options) {
   const Grid<Dim>& grid = model->grid();
   const MeshSettings& mesh = c.document.scene.mesh;
   const double allowed = mesh.error.value_or(default_error);
-  const double whole = allowed * std::abs(bounds->flux_out.middle());
-  const WantedError wanted{.whole = std::max(aim * whole, least_share * bounds->flux_out.half()),
+  const double whole = allowed * std::abs(bounds->least_known.middle());
+  const WantedError wanted{.whole = std::max(aim * whole, least_share * bounds->least_known.half()),
                            .max_elements = 1.0 * mesh.max_elements};
   const std::vector<double> sizes = next_sizes(grid, bounds->error, wanted);
   write_mesh_sizes(options.output, c.mesh, sizes);
@@ -64,7 +64,7 @@ void write_sizes(Case<Dim> c, const SizesOptions& options) {
     std::cout << "an estimate, no bound: " << bounds->why_estimates << '\n';
   }
   std::cout << "mesh.error = " << short_number(allowed);
-  if (bounds->flux_out.half() <= whole) {
+  if (bounds->least_known.half() <= whole) {
     std::cout << " is met\n";
   } else if (grid.mesh.element_count() < as_large * mesh.max_elements) {
     std::cout << " is not met: mesh again with suffuse-mesher --sizes " << options.output << '\n';

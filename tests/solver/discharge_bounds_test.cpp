@@ -282,6 +282,23 @@ TEST(DischargeBounds, AreTheSameByTheDualProblem) {
   EXPECT_FALSE(found.bounds.boundaries[1]) << "touches the next one";
 }
 
+/// Where what leaves is given, what is not known is what enters under the head.
+TEST(DischargeBounds, AreOfTheFluxThatIsNotGiven) {
+  std::mt19937_64 random(7);
+  Ground<2> ground = random_square(random);
+  ground.gravity = {};
+  ground.boundaries = {head_on("middle", 2.0), head_on("right", 0.0),
+                       model::flux_on("left", -1e-3)};
+  const Found found = solve(ground);
+  const Interval& river = *found.bounds.boundaries[0];
+  ASSERT_LT(found.discharge[1], 0.0) << "liquid enters at both heads";
+  EXPECT_NEAR(found.bounds.flux_out.low, 1e-3, 1e-9);
+  EXPECT_NEAR(found.bounds.flux_out.high, 1e-3, 1e-9);
+  EXPECT_GT(river.half(), 0.0);
+  EXPECT_NEAR(found.bounds.least_known.half(), river.half(), 1e-6 * river.half())
+      << "that of both together is known by balance";
+}
+
 /// Uniform flow is exact: nothing is left between the bounds.
 TEST(DischargeBounds, OfAUniformFlowMeet) {
   Ground<2> ground;
@@ -323,7 +340,10 @@ TEST(NextSizes, ShareTheErrorEvenly) {
   // Less than a fifth of the elements: as large as they may be.
   const std::vector<double> few =
       next_sizes(grid, error, {.whole = 1e-9 * whole, .max_elements = 10});
-  for (const double size : few) EXPECT_NEAR(size, 1.5 * now[0], 1e-9);
+  double count = 0.0;
+  for (const double size : few) EXPECT_NEAR(size, few.front(), 1e-9);
+  for (const double of_element : now) count += std::pow(of_element / few.front(), 2.0);
+  EXPECT_NEAR(count, 10.0, 1e-6);
 }
 
 }  // namespace discharge_bounds_test

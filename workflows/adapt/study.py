@@ -1,0 +1,343 @@
+#!/usr/bin/env python3
+"""Meshes of ten sections of steady flow: adapted, uniform, graded by hand.
+
+    study.py PROGRAMS OUT [SECTION]...
+
+Writes OUT/meshes.csv, a row for each mesh, and OUT/table.md. Exits with 3 if intervals of one section
+do not meet, if mesh.error is not met, or if the gap falls too slowly.
+"""
+
+import csv
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ERRORS = (0.01, 0.001)
+HALVINGS = 4
+GRADING = 1 / 16  # size at corners, feet and ends over that elsewhere
+MOST_UNIFORM = {2: 3e5, 3: 2e5}
+ROUND_OFF = 1e-10
+LEAST_SLOPE = -0.85
+SHARE_OF_UNIFORM = 0.1
+
+
+def complete_integral(m):
+    """K(m), m the square of the modulus, by the arithmetic-geometric mean."""
+    a, b = 1.0, math.sqrt(1.0 - m)
+    while abs(a - b) > 1e-15 * a:
+        a, b = 0.5 * (a + b), math.sqrt(a * b)
+    return math.pi / (2.0 * a)
+
+
+def discharge_under_base(half_width, depth):
+    """q / (k h) under a flat base on a layer without ends (Harr 1962).
+
+    Under the middle of the base the head is the mean of both. The half of the layer beside it is mapped
+    to the half-plane by cosh(pi z / T): the four corners go to -1, 1, cosh(pi b / T) and infinity, whose
+    cross-ratio is m.
+    """
+    m = math.tanh(math.pi * half_width / (2.0 * depth)) ** 2
+    return complete_integral(1.0 - m) / (2.0 * complete_integral(m))
+
+
+class Section:
+    """One of the ten: exact is the discharge, m3/s per m, where it is known; reaches the least error that is
+    expected within mesh.max_elements."""
+
+    def __init__(self, name, words, dimension=2, exact=None, reaches=0.001):
+        self.name, self.words, self.dimension = name, words, dimension
+        self.exact, self.reaches = exact, reaches
+
+
+# Both layers end six times their depth from the pile or the dam, which changes the discharge by less than 1e-8.
+SECTIONS = (
+    Section("harr-dam", "dam with a flat base on a layer", exact=1e-4 * 2.0 * discharge_under_base(0.5, 1.0)),
+    Section("sheet-pile", "sheet pile of half the depth", exact=1e-4 * 2.0 * 0.5),
+    Section("pile-over-clay", "pile over a lens of clay"),
+    Section("levee", "levee on layers"),
+    Section("drain", "drain under a pond"),
+    Section("disc", "flooded disc", dimension=3, reaches=0.01),
+    Section("excavation", "excavation within walls", dimension=3, reaches=0.01),
+    Section("bedded-weir", "weir on bedded ground"),
+    Section("leaky-wall", "leaky wall"),
+    Section("well", "pumped trench beside a river"),
+)
+
+
+class Mesh:
+    """A mesh and what its flow says: the interval of the discharge, and wall times."""
+
+    def __init__(self, section, kind, number, interval, elements, seconds):
+        self.section, self.kind, self.number = section, kind, number
+        self.low, self.high = interval
+        self.elements, self.seconds = elements, seconds
+        self.loop_seconds = None  # of the last mesh of a loop; of other meshes of mesher and solver
+
+    @property
+    def middle(self):
+        return 0.5 * (self.low + self.high)
+
+    @property
+    def gap(self):
+        return self.high - self.low
+
+    @property
+    def error(self):
+        """Half of the gap over the middle: what mesh.error limits."""
+        return 0.5 * self.gap / abs(self.middle)
+
+
+def run(command):
+    """Wall time of a command and what it printed; stops the study if it fails."""
+    begin = time.perf_counter()
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    seconds = time.perf_counter() - begin
+    if done.returncode not in (0, 3) or "error:" in done.stderr:
+        sys.exit(f"study.py: {' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+    return seconds, done
+
+
+class Study:
+    def __init__(self, programs, out):
+        self.programs, self.out = Path(programs).resolve(), Path(out).resolve()
+        self.out.mkdir(parents=True, exist_ok=True)
+        self.meshes = []
+        self.make_keeping_programs()
+
+    def make_keeping_programs(self):
+        """Programs whose solver keeps each case: adapt.sh replaces it, and its table has five digits."""
+        self.keeping = self.out / "programs"
+        self.keeping.mkdir(exist_ok=True)
+        for name, text in (
+            ("suffuse-mesher", f'exec "{self.programs}/suffuse-mesher" "$@"'),
+            ("suffuse-solver", 'number=1\nwhile [ -e "$KEEP-$number.case.h5" ]; do number=$((number + 1)); done\n'
+             f'cp "$1" "$KEEP-$number.case.h5"\nexec "{self.programs}/suffuse-solver" "$@"'),
+        ):
+            program = self.keeping / name
+            program.write_text(f"#!/bin/bash\n{text}\n")
+            program.chmod(0o755)
+
+    def solve(self, case):
+        """Interval of the discharge, number of elements, wall time of the steady solution."""
+        results = case.with_name("run.results")
+        seconds, _ = run([self.programs / "suffuse-solver", case, "-o", results, "--force", "--quiet"])
+        with open(results / "history.csv", encoding="utf-8") as file:
+            row = list(csv.DictReader(file))[-1]
+        interval = float(row["flux_out_low"]), float(row["flux_out_high"])
+        if interval == (0.0, 0.0):
+            interval = self.sum_of_outflows(results)
+        elif float(row["flux_out_estimate"]) != 0.0:
+            sys.exit(f"study.py: {case}: an estimate, no bound")
+        elements = re.search(r'"elements": (\d+)', (results / "run.json").read_text(encoding="utf-8"))
+        return interval, int(elements.group(1)), seconds
+
+    @staticmethod
+    def sum_of_outflows(results):
+        """Where a boundary lets liquid in and out history.csv has no interval: the boundaries have."""
+        with open(results / "boundaries.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        rows = [r for r in rows if r["t"] == rows[-1]["t"] and float(r["discharge"]) > 0.0]
+        return sum(float(r["discharge_low"]) for r in rows), sum(float(r["discharge_high"]) for r in rows)
+
+    def adapt(self, section, error):
+        folder = self.out / section.name / f"adapted-{error}"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        stem = folder / section.name
+        seconds, done = run(["env", f"KEEP={folder}/mesh", HERE.parent / "adapt.sh", self.keeping,
+                             HERE / f"{section.name}.toml", stem, "--set", f"mesh.error={error}"])
+        (folder / "log").write_text(done.stdout + done.stderr, encoding="utf-8")
+        cases = sorted(folder.glob("mesh-*.case.h5"), key=lambda path: int(path.name[5:].split(".")[0]))
+        for number, case in enumerate(cases, 1):
+            self.meshes.append(Mesh(section, f"adapted to {error}", number, *self.solve(case)))
+            case.unlink()
+        self.meshes[-1].loop_seconds = seconds
+        self.say(section, f"adapted to {error}")
+
+    def halve(self, section, kind, grading):
+        """The mesh of the scene, and meshes of half the sizes, a quarter and so on."""
+        folder = self.out / section.name / kind
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        scene = (HERE / f"{section.name}.toml").read_text(encoding="utf-8")
+        geometry = (HERE / f"{section.name}.geo").read_text(encoding="utf-8")
+        start = float(re.search(r"^h = (.*);$", geometry, re.M).group(1))
+        elements = 0
+        for number in range(HALVINGS + 1):
+            if elements * 2**section.dimension > MOST_UNIFORM[section.dimension]:
+                break
+            size = start / 2**number
+            text = re.sub(r"^h = .*;$", f"h = {size!r};", geometry, flags=re.M)
+            text = re.sub(r"^g = .*;$", f"g = {grading!r};", text, flags=re.M)
+            (folder / f"{section.name}.geo").write_text(text, encoding="utf-8")
+            (folder / f"{section.name}.toml").write_text(scene, encoding="utf-8")
+            case = folder / f"{section.name}.case.h5"
+            seconds, _ = run([self.programs / "suffuse-mesher", folder / f"{section.name}.toml",
+                              "--set", f"mesh.size={size!r}", "-o", case])
+            self.meshes.append(Mesh(section, kind, number + 1, *self.solve(case)))
+            self.meshes[-1].loop_seconds = seconds + self.meshes[-1].seconds
+            elements = self.meshes[-1].elements
+            case.unlink()
+        self.say(section, kind)
+
+    def of(self, section, kind):
+        return [m for m in self.meshes if m.section is section and m.kind == kind]
+
+    def say(self, section, kind):
+        steps = ", ".join(f"{m.elements} {100 * m.error:.2g} %" for m in self.of(section, kind))
+        print(f"{section.name}, {kind}: {steps}", flush=True)
+
+    def write_meshes(self):
+        with open(self.out / "meshes.csv", "w", encoding="utf-8", newline="") as file:
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow(("section", "kind", "mesh", "elements", "flux_out_low", "flux_out_high", "error", "exact",
+                            "solver_seconds", "loop_seconds"))
+            for m in self.meshes:
+                table.writerow((m.section.name, m.kind, m.number, m.elements, repr(m.low), repr(m.high), f"{m.error:.6g}",
+                                "" if m.section.exact is None else repr(m.section.exact), f"{m.seconds:.3f}",
+                                "" if m.loop_seconds is None else f"{m.loop_seconds:.3f}"))
+
+
+def slope(meshes):
+    """Least squares of log(gap) over log(elements); None of fewer than two meshes."""
+    if len(meshes) < 2:
+        return None
+    x = [math.log(m.elements) for m in meshes]
+    y = [math.log(m.gap) for m in meshes]
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    return (sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x))
+
+
+class Family:
+    """A family of meshes at an error that may lie between two of them or beyond the finest: the number of elements,
+    and the wall time of mesher and solver."""
+
+    def __init__(self, meshes, error):
+        self.beyond = meshes[-1].error > error
+        pairs = list(zip(meshes, meshes[1:]))
+        coarse, fine = next((p for p in pairs if p[1].error <= error), pairs[-1])
+        share = math.log(fine.error / error) / math.log(coarse.error / fine.error)
+        share = max(share, -1.0)  # not below the coarsest mesh
+        self.elements = fine.elements * (fine.elements / coarse.elements) ** share
+        self.seconds = fine.loop_seconds * (fine.loop_seconds / coarse.loop_seconds) ** share
+
+    @property
+    def words(self):
+        return count(self.elements, self.beyond) + ("" if self.beyond else f", {seconds_text(self.seconds)} s")
+
+
+def count(number, about=False):
+    """A number of elements for people: 1 234, or about 1.2e7."""
+    if number >= 1e6:
+        power = int(math.log10(number))
+        return f"≈ {number / 10**power:.1f}·10<sup>{power}</sup>"
+    if about:
+        digits = max(0, int(math.log10(number)) - 1)
+        return "≈ " + f"{round(number / 10**digits) * 10**digits:,.0f}".replace(",", " ")
+    return f"{number:,.0f}".replace(",", " ")
+
+
+def seconds_text(seconds):
+    return f"{seconds:.0f}" if seconds >= 10 else f"{seconds:.1f}" if seconds >= 1 else f"{seconds:.2f}"
+
+
+class Verdicts:
+    def __init__(self):
+        self.wrong = False
+
+    def check(self, right, sentence):
+        print(("ok: " if right else "WRONG: ") + sentence)
+        self.wrong = self.wrong or not right
+
+
+def check(study, section, verdicts):
+    name = section.name
+    own = [m for m in study.meshes if m.section is section]
+    low, high = max(m.low for m in own), min(m.high for m in own)
+    verdicts.check(low - high <= ROUND_OFF * abs(high), f"{name}: the intervals of {len(own)} meshes meet: {low:.8g} to {high:.8g}")
+    if section.exact is not None:
+        verdicts.check(low <= section.exact * (1 + ROUND_OFF) and section.exact <= high * (1 + ROUND_OFF),
+                       f"{name}: they contain the exact value {section.exact:.8g}")
+    for error in ERRORS:
+        last = study.of(section, f"adapted to {error}")[-1]
+        sentence = f"{name}: mesh.error = {error}: {100 * last.error:.3g} % with {last.elements} elements"
+        if error >= section.reaches:
+            verdicts.check(last.error <= error, sentence)
+        else:
+            print(("ok: " if last.error <= error else "not met, as expected: ") + sentence)
+    fall = slope(study.of(section, f"adapted to {ERRORS[-1]}")[1:])
+    if section.dimension == 2:
+        verdicts.check(fall is not None and fall <= LEAST_SLOPE, f"{name}: the gap falls with the power "
+                       f"{'of one adapted mesh: none' if fall is None else f'{fall:.3g}'} of the elements")
+    last = study.of(section, f"adapted to {ERRORS[-1]}")[-1]
+    uniform = Family(study.of(section, "uniform"), ERRORS[-1]).elements
+    if last.error <= ERRORS[-1]:
+        few = last.elements <= SHARE_OF_UNIFORM * uniform
+        print(f"{'ok' if few else 'more than a tenth'}: {name}: {last.elements} elements, {last.elements / uniform:.2g} of the uniform ones")
+
+
+def markdown(study, sections):
+    lines = ["| section | error | meshes | elements | known to | s of the loop | s of the last solution | uniform | graded "
+             "| share of uniform | slope |",
+             "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"]
+    for section in sections:
+        for error in ERRORS:
+            own = study.of(section, f"adapted to {error}")
+            last = own[-1]
+            met = last.error <= error
+            # Where the loop stops before, the families are compared at the error that it reached.
+            compared = error if met else last.error
+            uniform, graded = (Family(study.of(section, kind), compared) for kind in ("uniform", "graded"))
+            fall = slope(own[1:])
+            title = section.words + (", 3D" if section.dimension == 3 else "") if error == ERRORS[0] else ""
+            lines.append(
+                f"| {title} | {100 * error:g} % | {len(own)} | {count(last.elements)} | "
+                f"{100 * last.error:.2g} %{'' if met else ', **not met**'} | {seconds_text(last.loop_seconds)} | "
+                f"{seconds_text(last.seconds)} | {uniform.words} | {graded.words} | "
+                f"{last.elements / uniform.elements:.2g} | {'' if fall is None or error == ERRORS[0] else f'{fall:.2f}'.replace('-', '−')} |")
+    lines.append("")
+    for section in sections:
+        if section.exact is not None:
+            lines.append(exact_sentence(study, section))
+    return "\n".join(lines) + "\n"
+
+
+def exact_sentence(study, section):
+    adapted = [study.of(section, f"adapted to {error}")[-1] for error in ERRORS]
+    uniform = study.of(section, "uniform")[-1]
+
+    def off(mesh):
+        return f"{abs(mesh.middle / section.exact - 1.0):.1e}"
+
+    largest = max(abs(m.middle - section.exact) / (0.5 * m.gap) for m in study.meshes if m.section is section)
+    return (f"- {section.words[0].upper()}{section.words[1:]}: the middle of the interval is off by {' and '.join(map(off, adapted))} on the last adapted "
+            f"meshes, by {off(uniform)} on the finest uniform mesh of {count(uniform.elements)} elements, and on no mesh by more than "
+            f"{100 * largest:.0f} % of half of the interval.")
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit("usage: study.py PROGRAMS OUT [SECTION]...")
+    study = Study(sys.argv[1], sys.argv[2])
+    sections = [s for s in SECTIONS if len(sys.argv) == 3 or s.name in sys.argv[3:]]
+    for section in sections:
+        for error in ERRORS:
+            study.adapt(section, error)
+        study.halve(section, "uniform", 1.0)
+        study.halve(section, "graded", GRADING)
+        study.write_meshes()
+    (study.out / "table.md").write_text(markdown(study, sections), encoding="utf-8")
+    verdicts = Verdicts()
+    for section in sections:
+        check(study, section, verdicts)
+    sys.exit(3 if verdicts.wrong else 0)
+
+
+if __name__ == "__main__":
+    main()
