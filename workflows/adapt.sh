@@ -25,7 +25,10 @@ for ((mesh = 1; mesh <= most_meshes; ++mesh)); do
       exit 0
       ;;
     *' is not met: mesh again'*) ;;
-    *) exit 3 ;;
+    *)
+      tail -1 <<< "$answer" >&2
+      exit 3
+      ;;
   esac
   said=$("$programs/suffuse-mesher" "$scene" "$@" --sizes "$sizes" -o "$stem.case.h5")
 done

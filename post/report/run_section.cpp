@@ -76,6 +76,7 @@ bool is_optional(std::string_view column) {
 /// Whether a column is 0 at the end in every table.
 bool is_nothing(const std::vector<NamedTable>& tables, std::string_view column) {
   return std::ranges::all_of(tables, [&](const NamedTable& part) {
+    if (!part.table.has(std::string(column))) return true;  // of an earlier version
     return part.table.column(std::string(column)).back() == 0.0;
   });
 }
@@ -88,8 +89,8 @@ std::string boundaries_html(const ResultsReader& run) {
     table.rows.emplace_back(std::vector{html::cell(boundary.name)});
   }
   for (const auto& [name, member, unit] : boundary_columns) {
-    const bool is_told = name == "t" || (is_optional(name) && is_nothing(boundaries, name));
-    if (is_told) continue;
+    const bool is_left_out = name == "t" || (is_optional(name) && is_nothing(boundaries, name));
+    if (is_left_out) continue;
     table.heads.push_back(with_unit(std::string(name), std::string(unit), run.dimension()));
     for (std::size_t b = 0; b < boundaries.size(); ++b) {
       table.rows[b].push_back(html::cell(boundaries[b].table.column(std::string(name)).back()));

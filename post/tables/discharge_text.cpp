@@ -7,10 +7,10 @@
 namespace suffuse {
 namespace {
 
-/// Five digits show an interval of 0.1 %.
+/// Six digits show an interval of 0.01 %.
 std::string digits(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.5g", value);
+  std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
 

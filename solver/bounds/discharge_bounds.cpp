@@ -8,8 +8,14 @@
 namespace suffuse {
 namespace {
 
-/// Share of all fluxes by which intervals are wider, for the round-off in them.
+/// Share of the fluxes that there are, and that there could be, by which intervals are wider: for
+/// the round-off in them.
 constexpr double interval_margin = 1e-13;
+
+template <int Dim>
+double margin_of(const SeepageProblem<Dim>& problem) {
+  return interval_margin * (problem.all_fluxes() + problem.largest_flux());
+}
 
 template <int Dim>
 double norm(const SeepageEnergy<Dim>& energy, const Slopes<Dim>& slopes) {
@@ -22,7 +28,7 @@ std::vector<FieldPair<Dim>> duals_of(SeepageProblem<Dim>& problem) {
   const int groups = static_cast<int>(problem.groups().size());
   std::vector<FieldPair<Dim>> duals;
   if (groups == 0) return duals;
-  FieldPair<Dim> rest = problem.unit();
+  FieldPair<Dim> rest = problem.uniform(1.0);
   const auto add = [&](FieldPair<Dim> dual) {
     rest = problem.combined(std::move(rest), -1.0, dual);
     duals.push_back(std::move(dual));
@@ -31,9 +37,9 @@ std::vector<FieldPair<Dim>> duals_of(SeepageProblem<Dim>& problem) {
     // The flow itself is the dual, but for its scale.
     const auto [first, second] = *heads;
     const double scale = 1.0 / (first - second);
-    FieldPair<Dim> dual = problem.combined(problem.unit(), -1.0, problem.unit());
+    FieldPair<Dim> dual = problem.uniform(0.0);
     dual = problem.combined(std::move(dual), scale, problem.flow());
-    add(problem.combined(std::move(dual), -second * scale, problem.unit()));
+    add(problem.combined(std::move(dual), -second * scale, problem.uniform(1.0)));
   } else {
     for (int g = 0; g + 1 < groups; ++g) add(problem.dual(g));
   }
@@ -53,8 +59,8 @@ Interval interval(const SeepageProblem<Dim>& problem, double discharge,
   const double by_heads = -energy.inner(flow.of_head, dual.of_head) - at_boundary.given;
   const double by_fluxes = discharge + at_boundary.held + energy.inner(flow.of_flux, dual.of_flux);
   const double middle = 0.5 * (by_heads + by_fluxes);
-  const double half = 0.5 * norm(energy, flow.gap()) * norm(energy, dual.gap()) +
-                      interval_margin * problem.all_fluxes();
+  const double half =
+      0.5 * norm(energy, flow.gap()) * norm(energy, dual.gap()) + margin_of(problem);
   return {middle - half, middle + half};
 }
 
@@ -70,7 +76,7 @@ template <int Dim>
 HeldDischarge<Dim> outflow_of(const SeepageProblem<Dim>& problem,
                               const std::vector<FieldPair<Dim>>& duals,
                               const std::vector<double>& discharges) {
-  HeldDischarge<Dim> sum{0.0, problem.combined(problem.unit(), -1.0, problem.unit())};
+  HeldDischarge<Dim> sum{0.0, problem.uniform(0.0)};
   for (std::size_t g = 0; g < duals.size(); ++g) {
     if (!(discharges[g] > 0.0)) continue;
     sum.value += discharges[g];
@@ -112,8 +118,10 @@ DischargeBounds discharge_bounds(const SeepageState<Dim>& state) {
   SeepageProblem<Dim> problem(state);
   DischargeBounds result;
   result.why_estimates = problem.objection();
+  result.largest_flux = problem.largest_flux();
+  const double margin = margin_of(problem);
   for (const Crossing& crossing : problem.crossings()) {
-    result.boundaries.emplace_back(Interval{crossing.given, crossing.given});
+    result.boundaries.emplace_back(Interval{crossing.given - margin, crossing.given + margin});
     result.both_ways = result.both_ways || std::min(crossing.in, crossing.out) >
                                                seepage_round_off * problem.all_fluxes();
   }

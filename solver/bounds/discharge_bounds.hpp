@@ -35,6 +35,9 @@ struct DischargeBounds {
   /// What leaves through boundaries that hold heads. Where that is known by balance, as a well has
   /// the rest: the discharge of the boundary with a head of which least is known, m3/s.
   Interval least_known;
+  /// The mean conductivity times the largest head and the size of the model: no discharge is larger
+  /// by orders of magnitude, m3/s.
+  double largest_flux = 0.0;
   /// Some boundary lets liquid in and out: `flux_out` of the history is larger than the sum here.
   bool both_ways = false;
   /// Each element's part in the half-width of `least_known`, m3/s.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "bounds/conforming_head.hpp"
@@ -10,6 +11,8 @@
 namespace suffuse {
 namespace {
 
+/// Fluxes that differ from Darcy's law by less than this share of all are those of it.
+constexpr double darcy_tolerance = 1e-7;
 /// Relative conductivity below which soil counts as this dry: no water to speak of flows there.
 constexpr double driest_relative_conductivity = 1e-9;
 
@@ -24,6 +27,7 @@ SeepageProblem<Dim>::SeepageProblem(const SeepageState<Dim>& state)
       prescribed_(grid_.mesh.node_count()),
       inflow_(grid_.face_count(), 0.0),
       group_of_face_(grid_.face_count(), -1),
+      holds_in_part_(state.scene.boundaries.size(), false),
       crossings_(state.scene.boundaries.size()) {
   prescribe();
   sum_crossings();
@@ -111,8 +115,12 @@ void SeepageProblem<Dim>::join_groups(const std::vector<std::vector<int>>& bound
     groups_[group[b]].push_back(b);
   }
   for (int f = 0; f < grid_.face_count(); ++f) {
-    if (grid_.is_border(f) && holds_head(f)) {
-      group_of_face_[f] = group[state_.conditions[f].boundary];
+    const int b = state_.conditions[f].boundary;
+    if (!grid_.is_border(f) || b < 0) continue;
+    if (holds_head(f)) {
+      group_of_face_[f] = group[b];
+    } else if (holds[b]) {
+      holds_in_part_[b] = true;
     }
   }
 }
@@ -131,18 +139,24 @@ void SeepageProblem<Dim>::sum_crossings() {
 }
 
 template <int Dim>
+std::vector<double> SeepageProblem<Dim>::heads(const std::vector<double>& face_pressure) const {
+  std::vector<double> result;
+  result.reserve(face_pressure.size());
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    result.push_back(face_pressure[f] / weight_ + height_of(grid_.face_centre(f)));
+  }
+  return result;
+}
+
+template <int Dim>
 FieldPair<Dim> SeepageProblem<Dim>::pair(
     const std::vector<double>& face_pressure, const std::vector<double>& face_flux,
     const std::vector<double>& inflow, const std::vector<std::optional<double>>& prescribed) const {
-  std::vector<double> face_head;
-  face_head.reserve(face_pressure.size());
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    face_head.push_back(face_pressure[f] / weight_ + height_of(grid_.face_centre(f)));
-  }
   FieldPair<Dim> result;
   result.face_flux = face_flux;
   result.of_flux = energy_.of_flux(face_flux);
-  result.node_head = conforming_head(energy_, face_head, result.of_flux, inflow, prescribed);
+  result.node_head =
+      conforming_head(energy_, heads(face_pressure), result.of_flux, inflow, prescribed);
   result.of_head = energy_.of_head(result.node_head);
   return result;
 }
@@ -158,9 +172,9 @@ FieldPair<Dim> SeepageProblem<Dim>::combined(FieldPair<Dim> a, double factor,
 }
 
 template <int Dim>
-FieldPair<Dim> SeepageProblem<Dim>::unit() const {
+FieldPair<Dim> SeepageProblem<Dim>::uniform(double head) const {
   FieldPair<Dim> result;
-  result.node_head.assign(grid_.mesh.node_count(), 1.0);
+  result.node_head.assign(grid_.mesh.node_count(), head);
   result.face_flux.assign(grid_.face_count(), 0.0);
   result.of_head = energy_.of_head(result.node_head);
   result.of_flux = energy_.of_flux(result.face_flux);
@@ -248,25 +262,64 @@ template <int Dim>
 std::string SeepageProblem<Dim>::objection() const {
   if (!state_.relative_conductivity.empty()) return "the soil is unsaturated";
   if (!state_.coefficients.quadratic_drag.empty()) return "the drag is Ergun's";
-  const double density = state_.scene.liquid.density;
-  const auto is_other = [&](double of_mixture) {
-    return std::abs(of_mixture - density) > seepage_round_off * density;
-  };
-  if (has_gravity(state_.scene.gravity) &&
-      std::ranges::any_of(state_.coefficients.mixture_density, is_other)) {
-    return "fines make the liquid heavier";
+  const auto switches = [](const FaceCondition& c) { return c.kind == FaceKind::seepage; };
+  if (std::ranges::any_of(state_.conditions, switches)) {
+    return "which seepage faces are open depends on the mesh";
+  }
+  if (std::ranges::any_of(holds_in_part_, std::identity())) {
+    return "a water level ends within a boundary, at a face of the mesh";
   }
   if (largest_jump_ > seepage_round_off * largest_head_) {
     return "heads of two boundaries differ where these meet";
   }
+  if (!balances()) {
+    return "water is stored, as the flow is not steady or liquid.bulk_modulus is not inf";
+  }
+  if (!follows_conductivity()) {
+    return "the flow has inertia, or fines have changed the conductivity or the density";
+  }
+  return "";
+}
+
+template <int Dim>
+double SeepageProblem<Dim>::largest_flux() const {
+  double volume = 0.0;
+  double conductivity = 0.0;
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    volume += grid_.volume[e];
+    conductivity = std::max(conductivity, energy_.mean_conductivity(e));
+  }
+  return conductivity * largest_head_ * std::pow(volume, (Dim - 2.0) / Dim);
+}
+
+template <int Dim>
+bool SeepageProblem<Dim>::balances() const {
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     double out = 0.0;
     for (int k = 0; k <= Dim; ++k) {
       out += grid_.element_face_sign[e][k] * state_.face_flux[grid_.element_face[e][k]];
     }
-    if (std::abs(out) > seepage_round_off * all_fluxes_) return "the flow is not steady";
+    if (std::abs(out) > seepage_round_off * all_fluxes_) return false;
   }
-  return "";
+  return true;
+}
+
+template <int Dim>
+bool SeepageProblem<Dim>::follows_conductivity() const {
+  const std::vector<double> head = heads(state_.face_pressure);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    Vector<Dim> slope = Vector<Dim>::Zero();
+    for (int k = 1; k <= Dim; ++k) {
+      slope += (head[grid_.element_face[e][k]] - head[grid_.element_face[e][0]]) *
+               grid_.outward_normal(e, k) / grid_.volume[e];
+    }
+    const Vector<Dim> by_heads = energy_.conduct(e, slope);
+    const Vector<Dim> by_fluxes = energy_.conduct(e, flow_.of_flux.element[e]);
+    // An element's fluxes add up to all of them at most.
+    const double area = std::pow(grid_.volume[e], (Dim - 1.0) / Dim);
+    if ((by_heads - by_fluxes).norm() * area > darcy_tolerance * all_fluxes_) return false;
+  }
+  return true;
 }
 
 template class SeepageProblem<2>;

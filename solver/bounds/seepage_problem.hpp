@@ -43,6 +43,8 @@ class SeepageProblem {
   [[nodiscard]] const SeepageEnergy<Dim>& energy() const { return energy_; }
   /// Per entry of the scene's boundaries.
   [[nodiscard]] const std::vector<Crossing>& crossings() const { return crossings_; }
+  /// Largest conductivity times the largest head and the size of the model, m3/s.
+  [[nodiscard]] double largest_flux() const;
   /// Sum over the outer faces, m3/s.
   [[nodiscard]] double all_fluxes() const { return all_fluxes_; }
   /// Boundaries that hold heads: those that share a node are one group, as a unit head at one of
@@ -53,8 +55,8 @@ class SeepageProblem {
   [[nodiscard]] const FieldPair<Dim>& flow() const { return flow_; }
   /// Those of a unit head at a group, and of no head and no flux elsewhere. Throws NumericalError.
   [[nodiscard]] FieldPair<Dim> dual(int group);
-  /// Those of a unit head everywhere.
-  [[nodiscard]] FieldPair<Dim> unit() const;
+  /// Those of one head everywhere, m.
+  [[nodiscard]] FieldPair<Dim> uniform(double head) const;
   /// The heads of both groups if there are two, each with one head, and no other flux.
   [[nodiscard]] std::optional<std::array<double, 2>> two_heads() const;
   /// a + factor b.
@@ -74,6 +76,12 @@ class SeepageProblem {
 
  private:
   [[nodiscard]] std::vector<double> conductivities() const;
+  /// Whether the fluxes add up to nothing in each element.
+  [[nodiscard]] bool balances() const;
+  /// Whether the fluxes are those that the heads drive through the conductivities of now.
+  [[nodiscard]] bool follows_conductivity() const;
+  /// At the centres of faces, m.
+  [[nodiscard]] std::vector<double> heads(const std::vector<double>& face_pressure) const;
   [[nodiscard]] double relative_conductivity(std::size_t element) const;
   [[nodiscard]] bool holds_head(int face) const;
   [[nodiscard]] double height_of(const Vector<Dim>& x) const;
@@ -94,6 +102,7 @@ class SeepageProblem {
   std::vector<double> inflow_;                     ///< per face, m3/s; 0 where a head is held
   std::vector<int> group_of_face_;                 ///< -1 where no head is held
   std::vector<std::vector<int>> groups_;
+  std::vector<char> holds_in_part_;  ///< per boundary: some of its faces hold a head, others do not
   double largest_head_ = 0.0;
   double largest_jump_ = 0.0;  ///< between the heads of two faces at one node, m
   std::vector<Crossing> crossings_;

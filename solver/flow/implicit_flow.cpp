@@ -200,7 +200,9 @@ std::optional<Unsolved> ImplicitFlow<Dim>::try_step(const FlowInterval<Dim>& int
                          this->boundary_values().reservoir_rates(step.found.face_volume, step.dt)))
       return std::nullopt;
   }
-  return Unsolved{"The levels of reservoirs and the flow from them were not found"};
+  return Unsolved{
+      "the levels of reservoirs and the flow from them do not agree; a larger reservoir_area or a "
+      "smaller time.tolerance can help"};
 } catch (const NotConverged& error) {
   return Unsolved{error.what()};
 }

@@ -141,7 +141,12 @@ void enter(const DischargeBounds& bounds, const Interval& interval, double& low,
 template <int Dim>
 FlowState<Dim> TwoPhaseModel<Dim>::flow_state() const {
   FlowState<Dim> flow = flow_->state(time_);
-  if (scene().mesh.error) flow.bounds = flow_->discharge_bounds();
+  if (!scene().mesh.error) return flow;
+  try {
+    flow.bounds = flow_->discharge_bounds();
+  } catch (const NumericalError&) {
+    // A dual flow without a solution bounds nothing, and is no reason to end the run.
+  }
   return flow;
 }
 

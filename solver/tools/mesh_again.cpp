@@ -24,6 +24,9 @@ constexpr double aim = 0.7;
 /// once the elements beside it are small.
 constexpr double least_share = 1.0 / 3.0;
 
+/// Discharges below this share of what the heads could drive are round-off.
+constexpr double no_flow = 1e-12;
+
 std::string digits(double value, int count) {
   std::ostringstream text;
   text << std::setprecision(count) << value;
@@ -35,8 +38,8 @@ std::string sentence(const DischargeBounds& bounds, int dimension) {
   const Interval& q = bounds.least_known;
   const std::string unit = dimension == 2 ? " m3/s per m" : " m3/s";
   const std::string verb = bounds.why_estimates.empty() ? "between " : "estimated between ";
-  return "Q = " + digits(q.middle(), 5) + unit + ", " + verb + digits(q.low, 5) + " and " +
-         digits(q.high, 5) + " (+- " + digits(100.0 * q.half() / std::abs(q.middle()), 2) + " %)";
+  return "Q = " + digits(q.middle(), 6) + unit + ", " + verb + digits(q.low, 6) + " and " +
+         digits(q.high, 6) + " (+- " + digits(100.0 * q.half() / std::abs(q.middle()), 2) + " %)";
 }
 
 }  // namespace
@@ -50,6 +53,12 @@ void write_sizes(Case<Dim> c, const SizesOptions& options) {
   if (!bounds) {
     throw InputError(InputProblem{c.document.locate("time.scheme"), "time.scheme", "\"explicit\"",
                                   "\"implicit\": only its fluxes bound the discharge"});
+  }
+  if (!(std::abs(bounds->least_known.middle()) > no_flow * bounds->largest_flux)) {
+    throw InputError(
+        c.document.locate("boundary") +
+        ": got no flow that heads drive, at t = 0; expected boundaries with heads that "
+        "differ at the start, for a discharge that is not given");
   }
   const Grid<Dim>& grid = model->grid();
   const MeshSettings& mesh = c.document.scene.mesh;
@@ -69,7 +78,8 @@ void write_sizes(Case<Dim> c, const SizesOptions& options) {
   } else if (grid.mesh.element_count() < as_large * mesh.max_elements) {
     std::cout << " is not met: mesh again with suffuse-mesher --sizes " << options.output << '\n';
   } else {
-    std::cout << " is not met within mesh.max_elements = " << mesh.max_elements << '\n';
+    std::cout << " is not met within mesh.max_elements = " << mesh.max_elements
+              << "; raise one of the two\n";
   }
 }
 

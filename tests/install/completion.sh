@@ -32,7 +32,7 @@ expect() {
 }
 
 expect 'a scene' 'folder|my run.results|my scene.toml|weir.results|weir.toml' suffuse-mesher ''
-expect 'options by their start' '--scene-reference|--set' suffuse-mesher weir.toml --s
+expect 'options by their start' '--scene-reference|--set|--sizes' suffuse-mesher weir.toml --s
 expect 'any file to write' 'weir.case.h5|weir.geo|weir.results|weir.toml' suffuse-mesher weir.toml -o we
 expect 'nothing where nothing is known' '' suffuse-mesher weir.toml --set ''
 expect 'a case' 'folder|my run.results|weir.case.h5|weir.results' suffuse-solver ''

@@ -65,6 +65,22 @@ TEST(DischargeRows, HaveAnEstimateWhileSoilFills) {
   EXPECT_GT(row.flux_out_estimate, 0.0);
 }
 
+/// Fluxes are those of the middle of a step, conductivities those of its end.
+TEST(DischargeRows, HaveAnEstimateOnceErosionChangesTheConductivity) {
+  Scene scene = model::paper_scene();
+  scene.initial_flow = InitialFlow::steady;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.soils[0].erosion.law = erosion_law("first-order");
+  scene.soils[0].erosion.rate = 1e-3;
+  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+  Case<2> c = pond(scene);
+  model::ModelRun run(std::move(c));
+  EXPECT_GT(run.state().history.flux_out_high, 0.0) << "at the start";
+  const HistoryRow row = run.run({100.0}).states[0].history;
+  EXPECT_EQ(row.flux_out_high, 0.0);
+  EXPECT_GT(row.flux_out_estimate, 0.0);
+}
+
 TEST(DischargeRows, HaveAnEstimateInUnsaturatedSoil) {
   Scene scene = model::paper_scene();
   scene.initial_flow = InitialFlow::steady;

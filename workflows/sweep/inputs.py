@@ -13,6 +13,7 @@ import hashlib
 import pathlib
 import re
 import sys
+import tomllib
 
 from problems import InputError
 
@@ -45,10 +46,23 @@ def common_lines(scene, programs):
     return [content(file) for file in files]
 
 
+def asks_for_an_error(scene, changes):
+    """Whether the scene, or a change of it, has mesh.error. What is no TOML the mesher refuses."""
+    keys = [change.split("=", 1) for change in changes]
+    if any(key == "mesh.error" or (key == "mesh" and "error" in value) for key, value in keys):
+        return True
+    try:
+        return "error" in tomllib.loads(scene.read_text(encoding="utf-8")).get("mesh", {})
+    except (ValueError, AttributeError, TypeError):
+        return False
+
+
 def inputs_of(scene, programs, changes):
     """The text of the file. `changes`: KEY=VALUE. Throws InputError where scene or programs cannot be read."""
     try:
         lines = [f"scene {scene}", *(f"set {change}" for change in changes), *common_lines(scene, programs)]
+        if asks_for_an_error(scene, changes):
+            lines.append("adapt")
         for change in changes:
             value = change.split("=", 1)[1]
             lines += [content(file) for file in named_files(f'{value}\n"{value}"', scene.parent)]
