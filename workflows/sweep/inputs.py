@@ -4,6 +4,7 @@
     scene /path/weir.toml                     the scene
     set soil.foundation.porosity=0.3          a change of it, as for the mesher's --set
     sha256 0123... /path/weir.geo             the content of every file that has a part in it
+    adapt                                     the scene is meshed again until mesh.error is met
 
     inputs.py SCENE PROGRAMS STEM [KEY=VALUE...]     writes STEM.inputs, if its text changes
 """
