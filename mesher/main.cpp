@@ -11,6 +11,7 @@
 #include "case/case_file.hpp"
 #include "case/plausibility.hpp"
 #include "common/closest_name.hpp"
+#include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "geometry.hpp"
 #include "gmsh_export.hpp"
@@ -77,12 +78,6 @@ std::vector<std::string> place_notes(const Arguments& arguments) {
   if (!arguments.output.empty() || fs::equivalent(output, beside, ignored)) return {};
   return {"the case is in the current folder, " + fs::absolute(output).string() + "; -o " + beside +
           " puts it beside the scene"};
-}
-
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return fs::equivalent(a, b, ignored) ||
-         fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
 /// Refuses outputs that would overwrite an input.

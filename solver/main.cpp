@@ -162,6 +162,10 @@ void add_sizes(CLI::App& app, std::string& sizes) {
 }
 
 int mesh_again(const Arguments& arguments) {
+  if (suffuse::same_file(arguments.sizes, arguments.case_path)) {
+    throw suffuse::InputError("--sizes " + arguments.sizes +
+                              " would overwrite the case; name another file");
+  }
   const suffuse::SizesOptions options{arguments.sizes, arguments.solver.threads};
   if (suffuse::read_case_dimension(arguments.case_path) == 2) {
     suffuse::write_sizes(suffuse::read_case<2>(arguments.case_path), options);

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,14 @@ inline void refuse_unknown_command(const CLI::App& app, const std::string& first
   if (known.empty() || first.starts_with("-") || std::ranges::count(known, first) > 0) return;
   throw InputError(std::vector{
       InputProblem{"", "", '"' + first + '"', quoted_list(known), closest_name(first, known)}});
+}
+
+/// Whether two paths name one file, which need not exist.
+inline bool same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored) ||
+         fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
 /// Reads the arguments. Returns an exit code if the program is done, after --help or --version.

@@ -175,6 +175,8 @@ TEST_F(OddArguments, AreToldOfAlikeByAllPrograms) {
             "suffuse-post: error: got \"--tolerence\"; expected an option of suffuse-post ledger "
             "(see --help); did you mean --tolerance?\n");
   EXPECT_EQ(error(post, {"legder", "text"}).substr(0, 35), "suffuse-post: error: got \"legder\"; ");
+  EXPECT_EQ(error(solver, {"text", "--sizes", "./text"}),
+            "suffuse-solver: error: --sizes ./text would overwrite the case; name another file\n");
   EXPECT_EQ(error(solver, {"text", "second"}),
             "suffuse-solver: error: got \"second\"; expected no more arguments of suffuse-solver "
             "(see --help)\n");
