@@ -7,17 +7,7 @@ workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 make_arguments=("$@")
-failures=0
-
-# expect WHAT EXPECTED FOUND
-expect() {
-  if [ "$2" == "$3" ]; then
-    echo "ok: $1"
-  else
-    echo "FAILED: $1: expected '$2', found '$3'"
-    failures=$((failures + 1))
-  fi
-}
+. "$workflows/tests/expect.sh"
 
 # largest LAW RATE TIMES TABLE CONDITION COLUMN OPTION...: compares the reference concentrations of
 # the study with a table of exact ones, at the depths of the table, in rows where an awk CONDITION

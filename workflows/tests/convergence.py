@@ -6,21 +6,8 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "convergence"))
+from expectations import expect, expect_near, finish
 from richardson import ORDERS_OF_TOLERANCE, estimate
-
-failures = 0
-
-
-def expect(what, expected, found):
-    global failures
-    if expected != found:
-        print(f"FAILED: {what}: expected {expected!r}, found {found!r}")
-        failures += 1
-
-
-def expect_near(what, expected, found, tolerance):
-    if not abs(found - expected) <= tolerance:
-        expect(what, f"{expected} +- {tolerance}", found)
 
 
 def refined(*ratios):
@@ -96,6 +83,4 @@ if __name__ == "__main__":
     check_manufactured()
     check_published()
     check_refused()
-    if not failures:
-        print("ok: orders, extrapolated values and indices of a study of convergence")
-    sys.exit(failures > 0)
+    finish("orders, extrapolated values and indices of a study of convergence")

@@ -10,20 +10,9 @@ trap 'rm -rf "$(dirname "$work")"' EXIT
 make_arguments=("$@")
 programs=$workflows/../build/release/bin
 for argument in "$@"; do [[ $argument != BIN=* ]] || programs=${argument#BIN=}; done
-failures=0
+. "$workflows/tests/expect.sh"
 mkdir -p "$work/my scenes"
 cd "$work/my scenes"
-
-# expect WHAT EXPECTED FOUND
-expect() {
-  if [ "$2" == "$3" ]; then
-    echo "ok: $1"
-  else
-    echo "FAILED: $1"
-    diff <(echo "$2") <(echo "$3") | sed 's/^</  expected/; s/^>/  found/; /^[0-9-]/d' || true
-    failures=$((failures + 1))
-  fi
-}
 
 # study NAME VARIABLE...: sets `code` to the exit code and `out` to the folder, and writes the output
 # to make.log.

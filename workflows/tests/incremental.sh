@@ -7,7 +7,7 @@ workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 make_arguments=("$@")
-failures=0
+. "$workflows/tests/expect.sh"
 
 run_make() {
   make -C "$workflows" "${make_arguments[@]}" OUT="$work/out" PAPER="$work/paper" "$@" \
@@ -20,17 +20,6 @@ inventory() { find "$work/out" -type f -not -name '.*' -printf '%P %T@ %s\n' | s
 
 # redone BEFORE: the files whose line is not in BEFORE, one per line, by path below out/.
 redone() { comm -13 "$1" <(inventory) | cut -d' ' -f1; }
-
-# expect WHAT EXPECTED FOUND
-expect() {
-  if [ "$2" == "$3" ]; then
-    echo "ok: $1"
-  else
-    echo "FAILED: $1"
-    diff <(echo "$2") <(echo "$3") | sed 's/^</  expected/; s/^>/  found/; /^[0-9-]/d' || true
-    failures=$((failures + 1))
-  fi
-}
 
 # Everything made from one run, and from one scene, except the insides of its results folder.
 made_by_run() { printf '%s\n' "$1".case.h5 "$1".{history,ledger}.csv "$1".results/run.json; }

@@ -6,20 +6,10 @@ set -euo pipefail
 workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-failures=0
+. "$workflows/tests/expect.sh"
 programs=../build/release/bin
 for argument in "$@"; do [[ $argument != BIN=* ]] || programs=${argument#BIN=}; done
 cd "$workflows"
-
-# expect WHAT EXPECTED FOUND
-expect() {
-  if [ "$2" == "$3" ]; then
-    echo "ok: $1"
-  else
-    echo "FAILED: $1: expected '$2', found '$3'"
-    failures=$((failures + 1))
-  fi
-}
 
 # fit MEASURED GRADIENTS OPTION...: exit code and the last line of what it says.
 fit() {

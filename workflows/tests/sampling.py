@@ -8,23 +8,10 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "sweep"))
+from expectations import expect, expect_near, finish
 from problems import InputError
 from runs import read_runs
 from sampling import Distribution
-
-failures = 0
-
-
-def expect(what, expected, found):
-    global failures
-    if expected != found:
-        print(f"FAILED: {what}: expected {expected!r}, found {found!r}")
-        failures += 1
-
-
-def expect_near(what, expected, found, tolerance):
-    if not abs(found - expected) <= tolerance:
-        expect(what, f"{expected} +- {tolerance}", found)
 
 
 def integral(density, low, high, count=20000):
@@ -160,6 +147,4 @@ if __name__ == "__main__":
         check_distribution(*case)
     check_seeds()
     check_tables()
-    if not failures:
-        print("ok: distributions, seeds and tables of a sweep")
-    sys.exit(failures > 0)
+    finish("distributions, seeds and tables of a sweep")

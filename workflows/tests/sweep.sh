@@ -7,20 +7,9 @@ workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)/"with spaces"
 trap 'rm -rf "$(dirname "$work")"' EXIT
 make_arguments=("$@")
-failures=0
+. "$workflows/tests/expect.sh"
 mkdir -p "$work/my scenes"
 cd "$work/my scenes"
-
-# expect WHAT EXPECTED FOUND
-expect() {
-  if [ "$2" == "$3" ]; then
-    echo "ok: $1"
-  else
-    echo "FAILED: $1"
-    diff <(echo "$2") <(echo "$3") | sed 's/^</  expected/; s/^>/  found/; /^[0-9-]/d' || true
-    failures=$((failures + 1))
-  fi
-}
 
 # run_make TARGET VARIABLE...: sets `code` to the exit code and writes the output to make.log.
 run_make() {
