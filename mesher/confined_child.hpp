@@ -30,8 +30,9 @@ struct ChildEnd {
 
 /// Runs `prepare` in a child process, which is then confined (`system_call_filter.hpp`), runs
 /// `body` and returns its reply. `limits` apply to both. The child has no other descriptor than
-/// that of its reply; what it prints is dropped. It ends with this process in any case. The author
-/// of the file that the child read may have made the reply: only its length is certain.
+/// that of its reply; what it prints is dropped. It ends with this process in any case. Do not
+/// trust the content of the reply, because a hostile file can have written it: only its length is
+/// checked.
 ///
 /// There must be one thread only. Throws FileError if no confined child can be started.
 ChildEnd run_confined(const std::function<void()>& prepare,

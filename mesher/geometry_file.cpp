@@ -186,7 +186,7 @@ ModelBox model_box(int dimension, double scale) {
   return box;
 }
 
-/// What the file says of sizes in addition to those that are wanted.
+/// Limits that the file sets and that are narrower than the wanted sizes.
 FileLimits limits_of_file(const WantedSizes& wanted, double scale) {
   const auto& [least, most] =
       std::visit([](const auto& sizes) { return std::ranges::minmax(sizes.size); }, wanted.sizes);

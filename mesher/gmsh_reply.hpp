@@ -11,11 +11,11 @@
 
 namespace suffuse {
 
-/// What a geometry file says of sizes, where it forbids those that are asked for.
+/// Limits of a geometry file that forbid some of the wanted sizes.
 struct FileLimits {
-  bool smallest = false;  ///< Mesh.MeshSizeMin is larger than the smallest of them
-  bool largest = false;   ///< Mesh.MeshSizeMax is smaller than the largest of them
-  bool field = false;     ///< it has a field of sizes, which holds where it is smaller
+  bool smallest = false;  ///< Mesh.MeshSizeMin is larger than the smallest wanted size
+  bool largest = false;   ///< Mesh.MeshSizeMax is smaller than the largest wanted size
+  bool field = false;     ///< the file has a field of sizes, which applies where it is smaller
 };
 
 struct GmshReply {

@@ -1,21 +1,9 @@
 #include "tables/discharge_text.hpp"
 
-#include <cstdio>
-
+#include "common/short_number.hpp"
 #include "files/number_text.hpp"
 
 namespace suffuse {
-namespace {
-
-/// Six digits show an interval of 0.01 %.
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-}  // namespace
-
 std::string discharge_text(const ResultsReader& results) {
   const Table history = results.history();
   if (!history.has("flux_out_low")) return "";  // of an earlier version
@@ -25,11 +13,12 @@ std::string discharge_text(const ResultsReader& results) {
   for (std::size_t row = history.rows(); row-- > 0;) {
     const bool is_bound = high[row] > 0.0;
     if (!is_bound && !(estimate[row] > 0.0)) continue;
-    const std::string start = "Q = " + digits(history.column("flux_out")[row]) +
+    const std::string start = "Q = " + short_number(history.column("flux_out")[row]) +
                               (results.dimension() == 2 ? " m3/s per m" : " m3/s") +
                               " at t = " + number_text(history.column("t")[row]) + " s, ";
-    if (is_bound) return start + "between " + digits(low[row]) + " and " + digits(high[row]);
-    return start + "by an estimate of the mesh's error to +- " + digits(estimate[row]);
+    if (is_bound)
+      return start + "between " + short_number(low[row]) + " and " + short_number(high[row]);
+    return start + "by an estimate of the mesh's error to +- " + short_number(estimate[row]);
   }
   return "";
 }

@@ -37,9 +37,7 @@ std::vector<FieldPair<Dim>> duals_of(SeepageProblem<Dim>& problem) {
     // The flow itself is the dual, but for its scale.
     const auto [first, second] = *heads;
     const double scale = 1.0 / (first - second);
-    FieldPair<Dim> dual = problem.uniform(0.0);
-    dual = problem.combined(std::move(dual), scale, problem.flow());
-    add(problem.combined(std::move(dual), -second * scale, problem.uniform(1.0)));
+    add(problem.combined(problem.uniform(-second * scale), scale, problem.flow()));
   } else {
     for (int g = 0; g + 1 < groups; ++g) add(problem.dual(g));
   }
@@ -151,8 +149,11 @@ DischargeBounds discharge_bounds(const SeepageState<Dim>& state) {
   result.flux_out = interval(problem, held.value, held.dual);
   // Known by balance, where the rest is given.
   const bool is_known = result.flux_out.half() <= seepage_round_off * problem.all_fluxes();
-  if (is_known && !duals.empty()) held = least_known(problem, duals, discharges);
-  result.least_known = interval(problem, held.value, held.dual);
+  result.least_known = result.flux_out;
+  if (is_known && !duals.empty()) {
+    held = least_known(problem, duals, discharges);
+    result.least_known = interval(problem, held.value, held.dual);
+  }
   result.error = parts_of_error(problem, held.dual);
   for (const Crossing& crossing : problem.crossings()) {
     result.flux_out.low += std::max(0.0, crossing.given);

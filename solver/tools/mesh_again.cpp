@@ -27,19 +27,15 @@ constexpr double least_share = 1.0 / 3.0;
 /// Discharges below this share of what the heads could drive are round-off.
 constexpr double no_flow = 1e-12;
 
-std::string digits(double value, int count) {
-  std::ostringstream text;
-  text << std::setprecision(count) << value;
-  return text.str();
-}
-
 /// "Q = 1.408e-4 m3/s, between 1.407e-4 and 1.410e-4".
 std::string sentence(const DischargeBounds& bounds, int dimension) {
   const Interval& q = bounds.least_known;
-  const std::string unit = dimension == 2 ? " m3/s per m" : " m3/s";
-  const std::string verb = bounds.why_estimates.empty() ? "between " : "estimated between ";
-  return "Q = " + digits(q.middle(), 6) + unit + ", " + verb + digits(q.low, 6) + " and " +
-         digits(q.high, 6) + " (+- " + digits(100.0 * q.half() / std::abs(q.middle()), 2) + " %)";
+  std::ostringstream text;
+  text << "Q = " << q.middle() << (dimension == 2 ? " m3/s per m" : " m3/s")
+       << (bounds.why_estimates.empty() ? ", between " : ", estimated between ") << q.low << " and "
+       << q.high << " (+- " << std::setprecision(2) << 100.0 * q.half() / std::abs(q.middle())
+       << " %)";
+  return text.str();
 }
 
 }  // namespace
