@@ -201,7 +201,8 @@ struct OutputSection {
 };
 
 struct OutputProbe {
-  std::array<double, 3> at{};  ///< m
+  std::array<double, 3> at{};       ///< m
+  std::optional<double> disc = {};  ///< radius of the disc over which means are formed, m
 };
 
 struct TimeSettings {

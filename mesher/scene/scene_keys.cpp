@@ -694,6 +694,12 @@ std::vector<SceneKey> declare_keys() {
           "Where pressure and flux are recorded, inside the mesh.")
           .in("m")
           .mandatory(),
+      key("output.probe[].disc", in_output(&OutputSettings::probes, &OutputProbe::disc),
+          "With `mesh.error`: radius of the disc around the probe (in 3D a ball) over which head "
+          "and gradient are averaged for the columns that say how far they can be off.")
+          .in("m")
+          .above(0.0)
+          .otherwise_as("a fiftieth of the size of the model, the root of its area"),
       key("output.section[].from", in_output(&OutputSettings::sections, &OutputSection::from),
           "Where a line begins through which the discharge is recorded, positive from its left to "
           "its right as one looks along it.")

@@ -62,6 +62,28 @@ void for_each_entry(const SeepageEnergy<Dim>& energy, const auto& add) {
   }
 }
 
+/// Gives `add(i, value)` the integral of slopes . K . gradient of each node's shape function.
+template <int Dim>
+void for_each_load(const SeepageEnergy<Dim>& energy, const Slopes<Dim>& slopes, const auto& add) {
+  const Grid<Dim>& grid = energy.grid();
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const Vector<Dim> conducted = grid.volume[e] * energy.conduct(e, slopes.element[e]);
+    for (int a = 0; a <= Dim; ++a) {
+      add(grid.mesh.elements[e][a], conducted.dot(grid.shape_gradient[e][a]));
+    }
+  }
+  for (std::size_t w = 0; w < energy.walls().size(); ++w) {
+    const WallNodes<Dim>& wall = energy.walls()[w];
+    for (int a = 0; a < Dim; ++a) {
+      std::array<double, Dim> shape{};
+      shape[a] = 1.0;
+      const double value = wall.conductance * mean_product(slopes.wall[w], shape);
+      add(wall.near[a], -value);
+      add(wall.far[a], value);
+    }
+  }
+}
+
 /// Conjugate gradients while they gain: the energy x . matrix x / 2 - rhs . x only falls, and the
 /// squared gap by twice as much. They use one triangle of the matrix: products with both would take
 /// all cores, whatever the threads asked for.
@@ -90,7 +112,7 @@ Eigen::VectorXd improved(const Eigen::SparseMatrix<double>& matrix, const Eigen:
 template <int Dim>
 std::vector<double> conforming_head(const SeepageEnergy<Dim>& energy,
                                     const std::vector<double>& face_head,
-                                    const Slopes<Dim>& of_flux, const std::vector<double>& inflow,
+                                    const Slopes<Dim>& of_flux,
                                     const std::vector<std::optional<double>>& prescribed) {
   const Grid<Dim>& grid = energy.grid();
   std::vector<double> head = node_means(energy, face_head, prescribed);
@@ -114,12 +136,9 @@ std::vector<double> conforming_head(const SeepageEnergy<Dim>& energy,
       rhs[unknown[i]] -= value * head[j];
     }
   });
-  for (int f = 0; f < grid.face_count(); ++f) {
-    if (inflow[f] == 0.0) continue;
-    for (const int i : grid.face_nodes[f]) {
-      if (unknown[i] >= 0) rhs[unknown[i]] += inflow[f] / Dim;
-    }
-  }
+  for_each_load(energy, of_flux, [&](int i, double value) {
+    if (unknown[i] >= 0) rhs[unknown[i]] += value;
+  });
   Eigen::SparseMatrix<double> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::VectorXd guess(count);
@@ -134,10 +153,10 @@ std::vector<double> conforming_head(const SeepageEnergy<Dim>& energy,
 }
 
 template std::vector<double> conforming_head(const SeepageEnergy<2>&, const std::vector<double>&,
-                                             const Slopes<2>&, const std::vector<double>&,
+                                             const Slopes<2>&,
                                              const std::vector<std::optional<double>>&);
 template std::vector<double> conforming_head(const SeepageEnergy<3>&, const std::vector<double>&,
-                                             const Slopes<3>&, const std::vector<double>&,
+                                             const Slopes<3>&,
                                              const std::vector<std::optional<double>>&);
 
 }  // namespace suffuse

@@ -13,12 +13,11 @@ namespace suffuse {
 /// Per node, m. `face_head`: of the mixed elements, at the centres of faces, m. `prescribed`: per
 /// node, m. Starts with the mean of what the elements around a node have there, weighted with their
 /// conductivity, and comes nearer to the best such head by conjugate gradients, until they hardly
-/// narrow the gap to `of_flux`, the slopes of the fluxes. Prescribed fluxes count by `inflow` per
-/// face, m3/s.
+/// narrow the gap to `of_flux`, the slopes of fluxes that balance.
 template <int Dim>
 std::vector<double> conforming_head(const SeepageEnergy<Dim>& energy,
                                     const std::vector<double>& face_head,
-                                    const Slopes<Dim>& of_flux, const std::vector<double>& inflow,
+                                    const Slopes<Dim>& of_flux,
                                     const std::vector<std::optional<double>>& prescribed);
 
 }  // namespace suffuse

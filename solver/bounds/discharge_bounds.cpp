@@ -3,24 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bounds/goal.hpp"
+#include "bounds/probe_means.hpp"
 #include "bounds/seepage_problem.hpp"
 
 namespace suffuse {
 namespace {
-
-/// Share of the fluxes that there are, and that there could be, by which intervals are wider: for
-/// the round-off in them.
-constexpr double interval_margin = 1e-13;
-
-template <int Dim>
-double margin_of(const SeepageProblem<Dim>& problem) {
-  return interval_margin * (problem.all_fluxes() + problem.largest_flux());
-}
-
-template <int Dim>
-double norm(const SeepageEnergy<Dim>& energy, const Slopes<Dim>& slopes) {
-  return std::sqrt(energy.inner(slopes, slopes));
-}
 
 /// The flow of a unit head at each group of boundaries and no head at the others.
 template <int Dim>
@@ -39,46 +27,56 @@ std::vector<FieldPair<Dim>> duals_of(SeepageProblem<Dim>& problem) {
     const double scale = 1.0 / (first - second);
     add(problem.combined(problem.uniform(-second * scale), scale, problem.flow()));
   } else {
-    for (int g = 0; g + 1 < groups; ++g) add(problem.dual(g));
+    for (int g = 0; g + 1 < groups; ++g) add(problem.dual({.group = g, .source = {}, .slope = {}}));
   }
   // All of them together are a unit head everywhere.
   duals.push_back(std::move(rest));
   return duals;
 }
 
-/// Discharge through held faces, m3/s, of which the mixed elements say `discharge`: between the two
-/// ways to compute it from the dual, and off by at most half the product of the gaps.
-template <int Dim>
-Interval interval(const SeepageProblem<Dim>& problem, double discharge,
-                  const FieldPair<Dim>& dual) {
-  const SeepageEnergy<Dim>& energy = problem.energy();
-  const FieldPair<Dim>& flow = problem.flow();
-  const auto at_boundary = problem.at_boundary(dual);
-  const double by_heads = -energy.inner(flow.of_head, dual.of_head) - at_boundary.given;
-  const double by_fluxes = discharge + at_boundary.held + energy.inner(flow.of_flux, dual.of_flux);
-  const double middle = 0.5 * (by_heads + by_fluxes);
-  const double half =
-      0.5 * norm(energy, flow.gap()) * norm(energy, dual.gap()) + margin_of(problem);
-  return {middle - half, middle + half};
-}
-
 /// A discharge through faces that hold heads, m3/s, with its dual.
 template <int Dim>
 struct HeldDischarge {
-  double value = 0.0;
+  Goal goal;
   FieldPair<Dim> dual;
 };
+
+template <int Dim>
+Interval bound(const SeepageProblem<Dim>& problem, const HeldDischarge<Dim>& discharge) {
+  return bound(problem, discharge.goal, discharge.dual);
+}
+
+template <int Dim>
+StepEstimates step_estimates(const SeepageProblem<Dim>& problem,
+                             const HeldDischarge<Dim>& discharge) {
+  return step_estimates(problem, discharge.goal, discharge.dual);
+}
+
+/// Per group of boundaries.
+template <int Dim>
+std::vector<HeldDischarge<Dim>> held_discharges(SeepageProblem<Dim>& problem) {
+  std::vector<HeldDischarge<Dim>> result;
+  for (FieldPair<Dim>& dual : duals_of(problem)) {
+    HeldDischarge<Dim> of_group{{}, std::move(dual)};
+    for (const int b : problem.groups()[result.size()]) {
+      of_group.goal.of_fluxes += problem.crossings()[b].held;
+      of_group.goal.in_time += problem.crossings()[b].in_time;
+    }
+    result.push_back(std::move(of_group));
+  }
+  return result;
+}
 
 /// Sum of what leaves through groups.
 template <int Dim>
 HeldDischarge<Dim> outflow_of(const SeepageProblem<Dim>& problem,
-                              const std::vector<FieldPair<Dim>>& duals,
-                              const std::vector<double>& discharges) {
-  HeldDischarge<Dim> sum{0.0, problem.uniform(0.0)};
-  for (std::size_t g = 0; g < duals.size(); ++g) {
-    if (!(discharges[g] > 0.0)) continue;
-    sum.value += discharges[g];
-    sum.dual = problem.combined(std::move(sum.dual), 1.0, duals[g]);
+                              const std::vector<HeldDischarge<Dim>>& groups) {
+  HeldDischarge<Dim> sum{{}, problem.uniform(0.0)};
+  for (const HeldDischarge<Dim>& group : groups) {
+    if (!(group.goal.of_fluxes > 0.0)) continue;
+    sum.goal.of_fluxes += group.goal.of_fluxes;
+    sum.goal.in_time += group.goal.in_time;
+    sum.dual = problem.combined(std::move(sum.dual), 1.0, group.dual);
   }
   return sum;
 }
@@ -86,22 +84,21 @@ HeldDischarge<Dim> outflow_of(const SeepageProblem<Dim>& problem,
 /// The group of which least is known.
 template <int Dim>
 HeldDischarge<Dim> least_known(const SeepageProblem<Dim>& problem,
-                               const std::vector<FieldPair<Dim>>& duals,
-                               const std::vector<double>& discharges) {
-  const auto gap = [&](const FieldPair<Dim>& dual) { return norm(problem.energy(), dual.gap()); };
-  const auto widest = std::ranges::max_element(duals, {}, gap);
-  return {discharges[widest - duals.begin()], *widest};
+                               const std::vector<HeldDischarge<Dim>>& groups) {
+  const auto gap = [&](const HeldDischarge<Dim>& group) {
+    return norm(problem.energy(), group.dual.gap());
+  };
+  return *std::ranges::max_element(groups, {}, gap);
 }
 
 /// Each element's part in half the product of the gaps of flow and dual.
 template <int Dim>
 std::vector<double> parts_of_error(const SeepageProblem<Dim>& problem, const FieldPair<Dim>& dual) {
   const SeepageEnergy<Dim>& energy = problem.energy();
-  const Slopes<Dim> gap = problem.flow().gap();
   const Slopes<Dim> dual_gap = dual.gap();
-  std::vector<double> parts = energy.per_element(gap, gap);
+  std::vector<double> parts = energy.per_element(problem.gap(), problem.gap());
   const std::vector<double> of_dual = energy.per_element(dual_gap, dual_gap);
-  const double ratio = norm(energy, gap) / norm(energy, dual_gap);
+  const double ratio = problem.gap_norm() / norm(energy, dual_gap);
   const bool has_ratio = std::isfinite(ratio) && ratio > 0.0;
   for (std::size_t e = 0; e < parts.size(); ++e) {
     parts[e] = has_ratio ? 0.25 * (parts[e] / ratio + ratio * of_dual[e]) : 0.0;
@@ -120,45 +117,45 @@ DischargeBounds discharge_bounds(const SeepageState<Dim>& state) {
   const double margin = margin_of(problem);
   for (const Crossing& crossing : problem.crossings()) {
     result.boundaries.emplace_back(Interval{crossing.given - margin, crossing.given + margin});
+    result.boundary_steps.push_back({std::abs(crossing.in_time), 0.0});
     result.both_ways = result.both_ways || std::min(crossing.in, crossing.out) >
                                                seepage_round_off * problem.all_fluxes();
   }
-  const std::vector<FieldPair<Dim>> duals = duals_of(problem);
-  std::vector<double> discharges;  // of the groups, through faces that hold heads
-  for (std::size_t g = 0; g < duals.size(); ++g) {
+  const std::vector<HeldDischarge<Dim>> groups = held_discharges(problem);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
     const std::vector<int>& members = problem.groups()[g];
-    double discharge = 0.0;
     double out = 0.0;
     double in = 0.0;
     for (const int b : members) {
       const double held = problem.crossings()[b].held;
-      discharge += held;
       (held > 0.0 ? out : in) += std::abs(held);
       if (members.size() > 1) result.boundaries[b].reset();
     }
-    if (members.size() == 1) {
-      const Interval of_group = interval(problem, discharge, duals[g]);
-      Interval& whole = *result.boundaries[members.front()];
-      whole = {whole.low + of_group.low, whole.high + of_group.high};
-    }
     result.both_ways =
         result.both_ways || std::min(in, out) > seepage_round_off * problem.all_fluxes();
-    discharges.push_back(discharge);
+    if (members.size() > 1) continue;
+    const int b = members.front();
+    const Interval of_group = bound(problem, groups[g]);
+    Interval& whole = *result.boundaries[b];
+    whole = {whole.low + of_group.low, whole.high + of_group.high};
+    result.boundary_steps[b] = step_estimates(problem, groups[g]);
   }
-  HeldDischarge<Dim> held = outflow_of(problem, duals, discharges);
-  result.flux_out = interval(problem, held.value, held.dual);
+  HeldDischarge<Dim> held = outflow_of(problem, groups);
+  result.flux_out = bound(problem, held);
+  result.flux_out_step = step_estimates(problem, held);
   // Known by balance, where the rest is given.
   const bool is_known = result.flux_out.half() <= seepage_round_off * problem.all_fluxes();
   result.least_known = result.flux_out;
-  if (is_known && !duals.empty()) {
-    held = least_known(problem, duals, discharges);
-    result.least_known = interval(problem, held.value, held.dual);
+  if (is_known && !groups.empty()) {
+    held = least_known(problem, groups);
+    result.least_known = bound(problem, held);
   }
   result.error = parts_of_error(problem, held.dual);
   for (const Crossing& crossing : problem.crossings()) {
     result.flux_out.low += std::max(0.0, crossing.given);
     result.flux_out.high += std::max(0.0, crossing.given);
   }
+  result.probes = probe_means(problem);
   return result;
 }
 

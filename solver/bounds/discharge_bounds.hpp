@@ -11,17 +11,20 @@
 #include <string>
 #include <vector>
 
-#include "mixed/implicit_mixed.hpp"
-#include "scene/scene.hpp"
+#include "bounds/interval.hpp"
+#include "bounds/seepage_state.hpp"
 
 namespace suffuse {
 
-struct Interval {
-  double low = 0.0;
-  double high = 0.0;
-
-  [[nodiscard]] double middle() const { return 0.5 * (low + high); }
-  [[nodiscard]] double half() const { return 0.5 * (high - low); }
+/// Means over a disc (in three dimensions a ball) around a probe of the scene, or over its part in
+/// the soil that the probe lies in, and how far they can be off on this mesh.
+struct ProbeMeans {
+  double radius = 0.0;  ///< m
+  Interval head;        ///< m
+  StepEstimates head_step;
+  /// Slope of the head in the direction of its mean slope, 1.
+  Interval gradient;
+  StepEstimates gradient_step;
 };
 
 struct DischargeBounds {
@@ -30,8 +33,10 @@ struct DischargeBounds {
   /// Per entry of the scene's boundaries: liquid that leaves minus liquid that enters, m3/s. None
   /// where the boundary shares a node with another one that holds a head.
   std::vector<std::optional<Interval>> boundaries;
+  std::vector<StepEstimates> boundary_steps;  ///< of the same, m3/s
   /// Sum over the boundaries through which more leaves than enters, m3/s.
   Interval flux_out;
+  StepEstimates flux_out_step;  ///< of the same, m3/s
   /// What leaves through boundaries that hold heads. Where that is known by balance, as a well has
   /// the rest: the discharge of the boundary with a head of which least is known, m3/s.
   Interval least_known;
@@ -42,26 +47,15 @@ struct DischargeBounds {
   bool both_ways = false;
   /// Each element's part in the half-width of `least_known`, m3/s.
   std::vector<double> error;
-};
-
-/// A flow by mixed elements, as it is at one moment.
-template <int Dim>
-struct SeepageState {
-  const Grid<Dim>& grid;
-  const Scene& scene;
-  const FlowCoefficients<Dim>& coefficients;
-  const std::vector<FaceCondition>& conditions;
-  const FlowSoils<Dim>& soils;
-  const std::vector<LeakyFace>& walls;
-  const std::vector<double>& face_pressure;   ///< Pa
-  const std::vector<double>& face_flux;       ///< along the faces' normals, m3/s
-  std::vector<double> relative_conductivity;  ///< per element; empty where all is saturated
-  int threads = 1;
+  /// Per probe of the scene; none where no head determines the heads there. These are estimates, as
+  /// the rim of a disc cuts elements.
+  std::vector<std::optional<ProbeMeans>> probes;
 };
 
 /// Intervals of the discharge. They are bounds for steady saturated flow by Darcy's law whose heads
 /// are continuous along the boundary; seepage faces are taken as they are now. Costs a steady
-/// solution for each boundary with a head beyond the second. Throws NumericalError.
+/// solution for each boundary with a head beyond the second, and two for each probe. Throws
+/// NumericalError.
 template <int Dim>
 DischargeBounds discharge_bounds(const SeepageState<Dim>& state);
 

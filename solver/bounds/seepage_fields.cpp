@@ -6,21 +6,6 @@
 namespace suffuse {
 namespace {
 
-/// Mean over a face of the product of two functions that are linear there, from their values at its
-/// nodes.
-template <std::size_t Nodes>
-double mean_product(const std::array<double, Nodes>& a, const std::array<double, Nodes>& b) {
-  double sum_a = 0.0;
-  double sum_b = 0.0;
-  double both = 0.0;
-  for (std::size_t i = 0; i < Nodes; ++i) {
-    sum_a += a[i];
-    sum_b += b[i];
-    both += a[i] * b[i];
-  }
-  return (both + sum_a * sum_b) / static_cast<double>(Nodes * (Nodes + 1));
-}
-
 template <int Dim>
 WallNodes<Dim> wall_nodes(const Grid<Dim>& grid, const LeakyFace& wall, double pressure_per_head) {
   const auto& x = grid.mesh.nodes;
@@ -69,9 +54,7 @@ template <int Dim>
 Slopes<Dim> SeepageEnergy<Dim>::of_flux(const std::vector<double>& face_flux) const {
   Slopes<Dim> result{element_flux(grid_, face_flux), {}};
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    Vector<Dim>& q = result.element[e];
-    if (!bedding_.empty()) q = bedding_[e].inverse_times(q);
-    q /= -conductivity_[e];
+    result.element[e] = -resist(e, result.element[e]);
   }
   for (const WallNodes<Dim>& wall : walls_) {
     result.wall.emplace_back().fill(-face_flux[wall.face] / wall.conductance);
@@ -103,6 +86,19 @@ double SeepageEnergy<Dim>::inner(const Slopes<Dim>& a, const Slopes<Dim>& b) con
 }
 
 template <int Dim>
+std::vector<Vector<Dim>> face_slopes(const Grid<Dim>& grid, const std::vector<double>& at_faces) {
+  std::vector<Vector<Dim>> result(grid.volume.size(), Vector<Dim>::Zero());
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const auto& faces = grid.element_face[e];
+    for (int k = 1; k <= Dim; ++k) {
+      result[e] +=
+          (at_faces[faces[k]] - at_faces[faces[0]]) * grid.outward_normal(e, k) / grid.volume[e];
+    }
+  }
+  return result;
+}
+
+template <int Dim>
 Slopes<Dim> sum(const Slopes<Dim>& a, double factor, const Slopes<Dim>& b) {
   Slopes<Dim> result = a;
   for (std::size_t e = 0; e < a.element.size(); ++e) result.element[e] += factor * b.element[e];
@@ -114,6 +110,8 @@ Slopes<Dim> sum(const Slopes<Dim>& a, double factor, const Slopes<Dim>& b) {
 
 template class SeepageEnergy<2>;
 template class SeepageEnergy<3>;
+template std::vector<Vector<2>> face_slopes(const Grid<2>&, const std::vector<double>&);
+template std::vector<Vector<3>> face_slopes(const Grid<3>&, const std::vector<double>&);
 template Slopes<2> sum(const Slopes<2>&, double, const Slopes<2>&);
 template Slopes<3> sum(const Slopes<3>&, double, const Slopes<3>&);
 

@@ -13,6 +13,21 @@
 
 namespace suffuse {
 
+/// Mean over a face of the product of two functions that are linear there, from their values at its
+/// nodes.
+template <std::size_t Nodes>
+double mean_product(const std::array<double, Nodes>& a, const std::array<double, Nodes>& b) {
+  double sum_a = 0.0;
+  double sum_b = 0.0;
+  double both = 0.0;
+  for (std::size_t i = 0; i < Nodes; ++i) {
+    sum_a += a[i];
+    sum_b += b[i];
+    both += a[i] * b[i];
+  }
+  return (both + sum_a * sum_b) / static_cast<double>(Nodes * (Nodes + 1));
+}
+
 /// A wall face with its nodes on both sides, at the same places.
 template <int Dim>
 struct WallNodes {
@@ -45,6 +60,10 @@ class SeepageEnergy {
   [[nodiscard]] Vector<Dim> conduct(int e, const Vector<Dim>& v) const {
     return conductivity_[e] * (bedding_.empty() ? v : bedding_[e].times(v));
   }
+  /// K^-1 times a vector.
+  [[nodiscard]] Vector<Dim> resist(int e, const Vector<Dim>& v) const {
+    return (bedding_.empty() ? v : bedding_[e].inverse_times(v)) / conductivity_[e];
+  }
   /// Mean conductivity of an element over the directions, m/s.
   [[nodiscard]] double mean_conductivity(int e) const {
     return conductivity_[e] * (bedding_.empty() ? 1.0 : bedding_[e].trace() / Dim);
@@ -66,6 +85,10 @@ class SeepageEnergy {
   std::vector<DirectionalFactor<Dim>> bedding_;
   std::vector<WallNodes<Dim>> walls_;
 };
+
+/// Slope in each element of values at the centres of its faces.
+template <int Dim>
+std::vector<Vector<Dim>> face_slopes(const Grid<Dim>& grid, const std::vector<double>& at_faces);
 
 /// a + factor b.
 template <int Dim>

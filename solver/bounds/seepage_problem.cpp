@@ -31,7 +31,9 @@ SeepageProblem<Dim>::SeepageProblem(const SeepageState<Dim>& state)
       crossings_(state.scene.boundaries.size()) {
   prescribe();
   sum_crossings();
-  flow_ = pair(state_.face_pressure, state_.face_flux, inflow_, prescribed_);
+  flow_ = pair(state_.face_pressure, state_.face_flux, {}, prescribed_);
+  gap_ = flow_.gap();
+  gap_norm_ = std::sqrt(energy_.inner(gap_, gap_));
 }
 
 template <int Dim>
@@ -135,6 +137,7 @@ void SeepageProblem<Dim>::sum_crossings() {
     if (b < 0) continue;
     (group_of_face_[f] >= 0 ? crossings_[b].held : crossings_[b].given) += flux;
     (flux > 0.0 ? crossings_[b].out : crossings_[b].in) += std::abs(flux);
+    if (!state_.step.face_flux.empty()) crossings_[b].in_time += state_.step.face_flux[f];
   }
 }
 
@@ -149,14 +152,21 @@ std::vector<double> SeepageProblem<Dim>::heads(const std::vector<double>& face_p
 }
 
 template <int Dim>
+std::vector<double> SeepageProblem<Dim>::head_errors() const {
+  std::vector<double> result = state_.step.face_pressure;
+  for (double& error : result) error /= weight_;
+  return result;
+}
+
+template <int Dim>
 FieldPair<Dim> SeepageProblem<Dim>::pair(
     const std::vector<double>& face_pressure, const std::vector<double>& face_flux,
-    const std::vector<double>& inflow, const std::vector<std::optional<double>>& prescribed) const {
+    const VectorField<Dim>& slope, const std::vector<std::optional<double>>& prescribed) const {
   FieldPair<Dim> result;
   result.face_flux = face_flux;
   result.of_flux = energy_.of_flux(face_flux);
-  result.node_head =
-      conforming_head(energy_, heads(face_pressure), result.of_flux, inflow, prescribed);
+  for (std::size_t e = 0; e < slope.size(); ++e) result.of_flux.element[e] += slope[e];
+  result.node_head = conforming_head(energy_, heads(face_pressure), result.of_flux, prescribed);
   result.of_head = energy_.of_head(result.node_head);
   return result;
 }
@@ -182,27 +192,27 @@ FieldPair<Dim> SeepageProblem<Dim>::uniform(double head) const {
 }
 
 template <int Dim>
-FieldPair<Dim> SeepageProblem<Dim>::dual(int group) {
+FieldPair<Dim> SeepageProblem<Dim>::dual(const DualLoad<Dim>& load) {
   std::vector<FaceCondition> conditions = state_.conditions;
   std::vector<std::optional<double>> prescribed(prescribed_.size());
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (!grid_.is_outer(f)) continue;
     const bool is_held = group_of_face_[f] >= 0;
-    const double head = group_of_face_[f] == group ? 1.0 : 0.0;
+    const double head = group_of_face_[f] == load.group ? 1.0 : 0.0;
     conditions[f].switches = false;
     conditions[f].kind = is_held ? FaceKind::pressure : FaceKind::wall;
     conditions[f].value = is_held ? weight_ * (head - height_of(grid_.face_centre(f))) : 0.0;
     if (!is_held) continue;
     for (const int i : grid_.face_nodes[f]) prescribed[i] = head;
   }
-  FlowForcing<Dim> forcing{state_.coefficients, std::move(conditions), {}};
+  FlowForcing<Dim> forcing{state_.coefficients, std::move(conditions), load.source};
+  for (const Vector<Dim>& slope : load.slope) forcing.force.push_back(weight_ * slope);
   std::vector<double>& drag = forcing.coefficients.drag;
   for (std::size_t e = 0; e < drag.size(); ++e) drag[e] /= relative_conductivity(e);
   forcing.coefficients.mixture_density.assign(drag.size(), state_.scene.liquid.density);
   forcing.coefficients.quadratic_drag.clear();
   const MixedStep<Dim> steady = dual_solver().steady(forcing);
-  const std::vector<double> none(grid_.face_count(), 0.0);
-  return pair(steady.end.face_pressure, steady.face_flux, none, prescribed);
+  return pair(steady.end.face_pressure, steady.face_flux, load.slope, prescribed);
 }
 
 template <int Dim>
@@ -306,14 +316,9 @@ bool SeepageProblem<Dim>::balances() const {
 
 template <int Dim>
 bool SeepageProblem<Dim>::follows_conductivity() const {
-  const std::vector<double> head = heads(state_.face_pressure);
+  const VectorField<Dim> slope = face_slopes(grid_, heads(state_.face_pressure));
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    Vector<Dim> slope = Vector<Dim>::Zero();
-    for (int k = 1; k <= Dim; ++k) {
-      slope += (head[grid_.element_face[e][k]] - head[grid_.element_face[e][0]]) *
-               grid_.outward_normal(e, k) / grid_.volume[e];
-    }
-    const Vector<Dim> by_heads = energy_.conduct(e, slope);
+    const Vector<Dim> by_heads = energy_.conduct(e, slope[e]);
     const Vector<Dim> by_fluxes = energy_.conduct(e, flow_.of_flux.element[e]);
     // An element's fluxes add up to all of them at most.
     const double area = std::pow(grid_.volume[e], (Dim - 1.0) / Dim);

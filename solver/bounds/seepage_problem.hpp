@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "bounds/discharge_bounds.hpp"
 #include "bounds/seepage_fields.hpp"
+#include "bounds/seepage_state.hpp"
 
 namespace suffuse {
 
@@ -27,12 +27,22 @@ struct FieldPair {
   [[nodiscard]] Slopes<Dim> gap() const { return sum(of_head, -1.0, of_flux); }
 };
 
+/// What drives the dual of a number.
+template <int Dim>
+struct DualLoad {
+  int group = -1;              ///< boundaries with a unit head; -1: none
+  std::vector<double> source;  ///< that leaves each element, m3/s; empty: none
+  /// Slope of the head, 1, that drives liquid through each element in addition; empty: none.
+  VectorField<Dim> slope;
+};
+
 /// What crosses one entry of the scene's boundaries, m3/s.
 struct Crossing {
-  double held = 0.0;   ///< out minus in, through faces that hold a head
-  double given = 0.0;  ///< out minus in, through the others
-  double out = 0.0;    ///< through faces by which liquid leaves
-  double in = 0.0;     ///< through faces by which it enters
+  double held = 0.0;     ///< out minus in, through faces that hold a head
+  double given = 0.0;    ///< out minus in, through the others
+  double out = 0.0;      ///< through faces by which liquid leaves
+  double in = 0.0;       ///< through faces by which it enters
+  double in_time = 0.0;  ///< error of out minus in, by the last step in time
 };
 
 template <int Dim>
@@ -40,7 +50,10 @@ class SeepageProblem {
  public:
   explicit SeepageProblem(const SeepageState<Dim>& state);
 
+  [[nodiscard]] const SeepageState<Dim>& state() const { return state_; }
   [[nodiscard]] const SeepageEnergy<Dim>& energy() const { return energy_; }
+  /// Errors of heads at faces by the last step in time, m; empty where they are not known.
+  [[nodiscard]] std::vector<double> head_errors() const;
   /// Per entry of the scene's boundaries.
   [[nodiscard]] const std::vector<Crossing>& crossings() const { return crossings_; }
   /// Largest conductivity times the largest head and the size of the model, m3/s.
@@ -53,8 +66,12 @@ class SeepageProblem {
 
   /// The fields of the flow itself.
   [[nodiscard]] const FieldPair<Dim>& flow() const { return flow_; }
-  /// Those of a unit head at a group, and of no head and no flux elsewhere. Throws NumericalError.
-  [[nodiscard]] FieldPair<Dim> dual(int group);
+  /// The gap between them, and its norm.
+  [[nodiscard]] const Slopes<Dim>& gap() const { return gap_; }
+  [[nodiscard]] double gap_norm() const { return gap_norm_; }
+  /// Those of a load, and of no head and no flux at the boundaries otherwise. Throws
+  /// NumericalError.
+  [[nodiscard]] FieldPair<Dim> dual(const DualLoad<Dim>& load);
   /// Those of one head everywhere, m.
   [[nodiscard]] FieldPair<Dim> uniform(double head) const;
   /// The heads of both groups if there are two, each with one head, and no other flux.
@@ -90,7 +107,7 @@ class SeepageProblem {
   void sum_crossings();
   [[nodiscard]] FieldPair<Dim> pair(const std::vector<double>& face_pressure,
                                     const std::vector<double>& face_flux,
-                                    const std::vector<double>& inflow,
+                                    const VectorField<Dim>& slope,
                                     const std::vector<std::optional<double>>& prescribed) const;
   ImplicitMixed<Dim>& dual_solver();
 
@@ -108,6 +125,8 @@ class SeepageProblem {
   std::vector<Crossing> crossings_;
   double all_fluxes_ = 0.0;
   FieldPair<Dim> flow_;
+  Slopes<Dim> gap_;
+  double gap_norm_ = 0.0;
   std::unique_ptr<ImplicitMixed<Dim>> dual_solver_;
 };
 

@@ -71,6 +71,9 @@ struct HistoryRow {
   double flux_out_low = 0.0;
   double flux_out_high = 0.0;
   double flux_out_estimate = 0.0;
+  // With mesh.error: estimates of the errors of the last step, m3/s.
+  double flux_out_time_estimate = 0.0;
+  double flux_out_transport_estimate = 0.0;
 
   // Values that are no columns; the checks of the run use them.
   std::string concentration_max_at;  ///< the element of `concentration_max`
@@ -79,7 +82,7 @@ struct HistoryRow {
   double fines_weight_share = 0.0;
 };
 
-inline constexpr std::array<Column<HistoryRow>, 35> history_columns{{
+inline constexpr std::array<Column<HistoryRow>, 37> history_columns{{
     {"t", &HistoryRow::t, "s"},
     {"dt", &HistoryRow::dt, "s"},
     {"porosity_mean", &HistoryRow::porosity_mean, "1"},
@@ -115,6 +118,8 @@ inline constexpr std::array<Column<HistoryRow>, 35> history_columns{{
     {"flux_out_low", &HistoryRow::flux_out_low, "m3/s"},
     {"flux_out_high", &HistoryRow::flux_out_high, "m3/s"},
     {"flux_out_estimate", &HistoryRow::flux_out_estimate, "m3/s"},
+    {"flux_out_time_estimate", &HistoryRow::flux_out_time_estimate, "m3/s"},
+    {"flux_out_transport_estimate", &HistoryRow::flux_out_transport_estimate, "m3/s"},
 }};
 
 /// Former and present names of columns of history.csv. `left` now means what remains (`fines_left`
@@ -205,9 +210,11 @@ struct BoundaryRow {
   double discharge_low = 0.0;
   double discharge_high = 0.0;
   double discharge_estimate = 0.0;
+  double discharge_time_estimate = 0.0;
+  double discharge_transport_estimate = 0.0;
 };
 
-inline constexpr std::array<Column<BoundaryRow>, 12> boundary_columns{{
+inline constexpr std::array<Column<BoundaryRow>, 14> boundary_columns{{
     {"t", &BoundaryRow::t, "s"},
     {"water_in", &BoundaryRow::water_in, "kg"},
     {"water_out", &BoundaryRow::water_out, "kg"},
@@ -220,6 +227,8 @@ inline constexpr std::array<Column<BoundaryRow>, 12> boundary_columns{{
     {"discharge_low", &BoundaryRow::discharge_low, "m3/s"},
     {"discharge_high", &BoundaryRow::discharge_high, "m3/s"},
     {"discharge_estimate", &BoundaryRow::discharge_estimate, "m3/s"},
+    {"discharge_time_estimate", &BoundaryRow::discharge_time_estimate, "m3/s"},
+    {"discharge_transport_estimate", &BoundaryRow::discharge_transport_estimate, "m3/s"},
 }};
 
 /// probes.csv: the state at a place that the scene names.
@@ -237,9 +246,20 @@ struct ProbeRow {
   double flux_y = 0.0;
   double z = 0.0;       ///< m; 0 in 2D, like `flux_z`
   double flux_z = 0.0;  ///< m/s
+  // With mesh.error: means over a disc of radius `disc`, m, around the probe, and how far they can
+  // be off by the mesh, by the last step in time, and by what transport changed in it; else 0.
+  double disc = 0.0;
+  double head_mean = 0.0;  ///< m
+  double head_mean_estimate = 0.0;
+  double head_mean_time_estimate = 0.0;
+  double head_mean_transport_estimate = 0.0;
+  double gradient = 0.0;  ///< magnitude of the mean slope of the head, 1
+  double gradient_estimate = 0.0;
+  double gradient_time_estimate = 0.0;
+  double gradient_transport_estimate = 0.0;
 };
 
-inline constexpr std::array<Column<ProbeRow>, 13> probe_columns{{
+inline constexpr std::array<Column<ProbeRow>, 22> probe_columns{{
     {"t", &ProbeRow::t, "s"},
     {"probe", &ProbeRow::probe, "1"},
     {"x", &ProbeRow::x, "m"},
@@ -253,6 +273,15 @@ inline constexpr std::array<Column<ProbeRow>, 13> probe_columns{{
     {"flux_y", &ProbeRow::flux_y, "m/s"},
     {"z", &ProbeRow::z, "m"},
     {"flux_z", &ProbeRow::flux_z, "m/s"},
+    {"disc", &ProbeRow::disc, "m"},
+    {"head_mean", &ProbeRow::head_mean, "m"},
+    {"head_mean_estimate", &ProbeRow::head_mean_estimate, "m"},
+    {"head_mean_time_estimate", &ProbeRow::head_mean_time_estimate, "m"},
+    {"head_mean_transport_estimate", &ProbeRow::head_mean_transport_estimate, "m"},
+    {"gradient", &ProbeRow::gradient, "1"},
+    {"gradient_estimate", &ProbeRow::gradient_estimate, "1"},
+    {"gradient_time_estimate", &ProbeRow::gradient_time_estimate, "1"},
+    {"gradient_transport_estimate", &ProbeRow::gradient_transport_estimate, "1"},
 }};
 
 /// sections.csv: the liquid that crosses a line of the scene, positive from its left side to its

@@ -48,6 +48,8 @@ class CoefficientBlending {
   /// in less time.
   void shorten(double dt);
 
+  /// The coefficients at the end of the last step that was solved; without elements before one was.
+  [[nodiscard]] const FlowCoefficients<Dim>& used() const { return used_; }
   [[nodiscard]] bool expects() const { return expected_.has_value(); }
 
   void archive(auto& archive) { archive(used_, expected_, density_drift_, blend_time_); }

@@ -246,6 +246,7 @@ FlowProgress ImplicitFlow<Dim>::commit(FlowStep<Dim> step) {
   }
   this->update_boundary_values(
       step.start, end, this->boundary_values().reservoir_rates(step.found.face_volume, step.dt));
+  if (this->scene().mesh.error) last_errors_ = errors_in_time(step);
   remember(std::move(step.found), step.dt);
   if (is_breakpoint(end)) {
     pass_breakpoint(end, step.dt);
@@ -317,6 +318,34 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
   const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
   return control_.error(
       start, dt, {{before(flux), now_.flux_through, step.flux_through, flux_scale}, of_pressure});
+}
+
+template <int Dim>
+LastStepErrors ImplicitFlow<Dim>::errors_in_time(const FlowStep<Dim>& step) const {
+  if (step.is_kept) return {};
+  const auto errors = [&](const auto& field) {
+    std::span<const double> before;
+    if (previous_) before = field(previous_->state, previous_->flux_through);
+    return control_.errors(step.start, step.dt,
+                           {before, field(now_.state, now_.flux_through),
+                            field(step.found.end, step.found.flux_through), 0.0});
+  };
+  return {.face_pressure = errors(
+              [](const auto& state, const auto&) -> const auto& { return state.face_pressure; }),
+          .face_flux = errors([](const auto&, const auto& flux) -> const auto& { return flux; }),
+          .conductivity = {}};
+}
+
+template <int Dim>
+LastStepErrors ImplicitFlow<Dim>::last_errors() const {
+  LastStepErrors result = last_errors_;
+  const FlowCoefficients<Dim>& used = blending_.used();
+  for (std::size_t e = 0; e < used.drag.size(); ++e) {
+    const FlowCoefficients<Dim>& now = this->coefficients_;
+    result.conductivity.push_back(now.porosity[e] / now.drag[e] * used.drag[e] / used.porosity[e] -
+                                  1.0);
+  }
+  return result;
 }
 
 template <int Dim>
@@ -418,10 +447,10 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
 
 template <int Dim>
 std::optional<DischargeBounds> ImplicitFlow<Dim>::discharge_bounds() const {
-  return suffuse::discharge_bounds<Dim>(
-      {this->grid(), this->scene(), this->coefficients_, this->conditions_, scheme_.soils(),
-       scheme_.walls(), now_.state.face_pressure, now_.face_flux,
-       scheme_.relative_conductivity(now_.state.face_pressure), this->threads()});
+  return bounds_.find({this->grid(), this->scene(), this->coefficients_, this->conditions_,
+                       scheme_.soils(), scheme_.walls(), now_.state.face_pressure, now_.face_flux,
+                       scheme_.relative_conductivity(now_.state.face_pressure), this->threads(),
+                       last_errors()});
 }
 
 template <int Dim>
@@ -429,7 +458,7 @@ void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   FlowSolver<Dim>::archive(archive);
   scheme_.archive(archive, this->conditions_);
   archive(control_, blending_, relaxation_, reuse_, scales_);
-  archive(now_, previous_, pressure_, eos_error_, solving_, reusing_);
+  archive(now_, previous_, pressure_, eos_error_, last_errors_, solving_, reusing_);
   if (archive.restores()) follow_soils();
 }
 

@@ -54,6 +54,18 @@ double pressure_at(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Poin
   return std::clamp(result, low, high);
 }
 
+void enter(const ProbeMeans& means, ProbeRow& row) {
+  row.disc = means.radius;
+  row.head_mean = means.head.middle();
+  row.head_mean_estimate = means.head.half();
+  row.head_mean_time_estimate = means.head_step.time;
+  row.head_mean_transport_estimate = means.head_step.transport;
+  row.gradient = means.gradient.middle();
+  row.gradient_estimate = means.gradient.half();
+  row.gradient_time_estimate = means.gradient_step.time;
+  row.gradient_transport_estimate = means.gradient_step.transport;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -126,6 +138,7 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
       row.z = x[2];
       row.flux_z = flux[2];
     }
+    if (flow.bounds && flow.bounds->probes[i]) enter(*flow.bounds->probes[i], row);
     rows.push_back(row);
   }
   return rows;

@@ -159,7 +159,10 @@ std::vector<BoundaryRow> TwoPhaseModel<Dim>::boundary_rows(const FlowState<Dim>&
     if (boundaries[b].head) {
       row.level = flow_->boundary_values().level(static_cast<int>(b), time_);
     }
-    if (!flow.bounds || !flow.bounds->boundaries[b]) continue;
+    if (!flow.bounds) continue;
+    row.discharge_time_estimate = flow.bounds->boundary_steps[b].time;
+    row.discharge_transport_estimate = flow.bounds->boundary_steps[b].transport;
+    if (!flow.bounds->boundaries[b]) continue;
     enter(*flow.bounds, *flow.bounds->boundaries[b], row.discharge_low, row.discharge_high,
           row.discharge_estimate);
   }
@@ -201,6 +204,8 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   solid_->describe(row);
   coupled_->describe(row);
   if (flow.bounds && !flow.bounds->both_ways) {
+    row.flux_out_time_estimate = flow.bounds->flux_out_step.time;
+    row.flux_out_transport_estimate = flow.bounds->flux_out_step.transport;
     enter(*flow.bounds, flow.bounds->flux_out, row.flux_out_low, row.flux_out_high,
           row.flux_out_estimate);
   }

@@ -47,6 +47,8 @@ struct FlowForcing {
   /// the start of the step, and the actual one. Empty: none; not with quadratic drag.
   std::vector<double> mean_mobility = {};
   std::vector<double> expected_rise = {};
+  /// Force on the liquid in addition to its weight, per element, N/m3. Empty: none.
+  VectorField<Dim> force = {};
 };
 
 /// The nonlinear iteration of a step did not converge; that of a shorter step may.

@@ -191,6 +191,7 @@ struct MixedStage {
       const double inertia = model.settings.inertia ? c.mixture_density[e] / duration : 0.0;
       resistance[e] = (inertia + c.drag[e]) / c.porosity[e];
       drive[e] = c.mixture_density[e] * model.gravity;
+      if (!forcing.force.empty()) drive[e] += forcing.force[e];
       if (inertia > 0.0) drive[e] += inertia * base.velocity[e];
       storage[e] = c.water_volume[e] / (model.settings.bulk_modulus * (Dim + 1) * duration);
       if (expected_gradient.empty()) return;

@@ -92,6 +92,81 @@ TEST(DischargeRows, HaveAnEstimateInUnsaturatedSoil) {
   EXPECT_LT(row.flux_out_estimate, row.flux_out);
 }
 
+/// The pond with a probe in the middle.
+Case<2> observed_pond(Scene scene, double tolerance) {
+  scene.time.tolerance = tolerance;
+  scene.time.end = 3e4;
+  scene.output.probes = {{.at = {0.5, 0.6, 0.0}, .disc = 0.2}};
+  return pond(std::move(scene));
+}
+
+struct Seen {
+  HistoryRow history;
+  ProbeRow probe;
+};
+
+Seen seen_at(Case<2> c, double time) {
+  model::ModelRun run(std::move(c));
+  Seen seen{run.run({time}).states[0].history, {}};
+  seen.probe = run.model().probe_rows(run.model().flow_state())[0];
+  return seen;
+}
+
+TEST(DischargeRows, HaveMeansAndEstimatesAtProbes) {
+  Scene scene = model::paper_scene();
+  scene.initial_flow = InitialFlow::steady;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  const ProbeRow probe = seen_at(observed_pond(scene, 1e-3), 1.0).probe;
+  EXPECT_EQ(probe.disc, 0.2);
+  EXPECT_NEAR(probe.head_mean, probe.head, probe.head_mean_estimate + 0.01);
+  EXPECT_GT(probe.head_mean_estimate, 0.0);
+  EXPECT_GT(probe.gradient, 0.3);
+  EXPECT_LT(probe.gradient_estimate, 0.2 * probe.gradient);
+  EXPECT_LT(probe.head_mean_time_estimate, 1e-15) << "a steady flow";
+  EXPECT_EQ(probe.gradient_transport_estimate, 0.0) << "nothing is transported";
+}
+
+/// The level of the pond rises. Against steps a thousand times more accurate, numbers are off by
+/// what several steps add up to.
+TEST(DischargeRows, HaveEstimatesOfTheLastStepInTime) {
+  constexpr double steps_that_add_up = 10.0;
+  Scene scene = model::paper_scene();
+  scene.initial_flow = InitialFlow::steady;
+  scene.liquid.bulk_modulus = 1e5;
+  const auto rising = [&](double tolerance) {
+    Case<2> c = observed_pond(scene, tolerance);
+    c.document.scene.boundaries[0].head = TimeFunction({{0.0, 1.2}, {3e4, 1.6}});
+    return seen_at(std::move(c), 2e4);
+  };
+  const Seen exact = rising(1e-6);
+  for (const double tolerance : {1e-2, 1e-3}) {
+    const Seen found = rising(tolerance);
+    const auto check = [&](double value, double of_exact, double estimate) {
+      EXPECT_GT(estimate, 0.0);
+      EXPECT_LT(estimate, tolerance * std::abs(value));
+      EXPECT_LT(std::abs(value - of_exact), steps_that_add_up * estimate) << tolerance;
+    };
+    check(found.probe.head_mean, exact.probe.head_mean, found.probe.head_mean_time_estimate);
+    check(found.probe.gradient, exact.probe.gradient, found.probe.gradient_time_estimate);
+    check(found.history.flux_out, exact.history.flux_out, found.history.flux_out_time_estimate);
+  }
+}
+
+/// A step changes conductivities by no more than the tolerance of its forecast.
+TEST(DischargeRows, HaveEstimatesOfWhatTransportChanged) {
+  Scene scene = model::paper_scene();
+  scene.initial_flow = InitialFlow::steady;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.soils[0].erosion.law = erosion_law("first-order");
+  scene.soils[0].erosion.rate = 1e-3;
+  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+  for (const double tolerance : {1e-2, 1e-3}) {
+    const HistoryRow row = seen_at(observed_pond(scene, tolerance), 100.0).history;
+    EXPECT_GT(row.flux_out_transport_estimate, 0.0);
+    EXPECT_LT(row.flux_out_transport_estimate, tolerance * row.flux_out);
+  }
+}
+
 TEST(DischargeRows, HaveNothingUnlessAskedFor) {
   Scene scene = model::paper_scene();
   scene.initial_flow = InitialFlow::steady;

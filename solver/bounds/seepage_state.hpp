@@ -1,0 +1,40 @@
+#pragma once
+
+/// What bounds and estimates start from: the flow of a scene at one moment.
+
+#include <vector>
+
+#include "mixed/implicit_mixed.hpp"
+#include "scene/scene.hpp"
+
+namespace suffuse {
+
+/// By how much the last step may be off.
+struct LastStepErrors {
+  // Of the steps in time, at the end of the last one; empty where it is not known.
+  std::vector<double> face_pressure = {};  ///< Pa
+  std::vector<double> face_flux = {};      ///< along the faces' normals, m3/s
+  /// Of erosion and transport: conductivity that they gave each element, over the one that the flow
+  /// was solved with, minus one; empty where it is not known.
+  std::vector<double> conductivity = {};
+
+  void archive(auto& archive) { archive(face_pressure, face_flux, conductivity); }
+};
+
+/// A flow by mixed elements, as it is at one moment.
+template <int Dim>
+struct SeepageState {
+  const Grid<Dim>& grid;
+  const Scene& scene;
+  const FlowCoefficients<Dim>& coefficients;
+  const std::vector<FaceCondition>& conditions;
+  const FlowSoils<Dim>& soils;
+  const std::vector<LeakyFace>& walls;
+  const std::vector<double>& face_pressure;   ///< Pa
+  const std::vector<double>& face_flux;       ///< along the faces' normals, m3/s
+  std::vector<double> relative_conductivity;  ///< per element; empty where all is saturated
+  int threads = 1;
+  LastStepErrors step = {};
+};
+
+}  // namespace suffuse
