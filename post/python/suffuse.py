@@ -38,15 +38,17 @@ PLACES = {
 }
 # Units of the columns of the tables; "-" where there is none. A column that is not listed has the unit "".
 UNITS = {
-    "s": "t dt failure_time", "m": "x y z head level settlement_max displacement_max", "Pa": "pressure pressure_min pressure_max pressure_scatter",
-    "m/s": "speed_max flux_x flux_y flux_z", "m3/s": "flux_in flux_out flux_out_low flux_out_high flux_out_estimate discharge discharge_low discharge_high "
-            "discharge_estimate", "m3": "liquid_in liquid_out volume",
+    "s": "t dt failure_time", "m": "x y z head level disc head_mean head_mean_estimate head_mean_time_estimate head_mean_transport_estimate settlement_max displacement_max", "Pa": "pressure pressure_min pressure_max pressure_scatter",
+    "m/s": "speed_max flux_x flux_y flux_z", "m3/s": "flux_in flux_out flux_out_low flux_out_high flux_out_estimate flux_out_time_estimate "
+            "flux_out_transport_estimate discharge discharge_low discharge_high "
+            "discharge_estimate discharge_time_estimate discharge_transport_estimate", "m3": "liquid_in liquid_out volume",
     "g/l": "turbidity_out", "W": "power", "J": "energy", "%": "fines_out_percent solid_out_percent",
     "kg": "solid erodible water fines pending eroded deposited carried water_in water_out fines_in fines_out",
     "-": "porosity porosity_mean concentration concentration_out concentration_min concentration_max saturation "
          "volume_defect eos_error pressure_overshoot residual_water residual_grains conductivity_ratio "
          "liquid_points empty_elements empty_elements_total points points_in points_out "
-         "solid_correction newton_iterations inertia",
+         "solid_correction newton_iterations inertia "
+         "gradient gradient_estimate gradient_time_estimate gradient_transport_estimate",
 }
 UNIT_OF_COLUMN = {column: unit for unit, columns in UNITS.items() for column in columns.split()}
 # Columns of history.csv of earlier versions, by their names of today.
