@@ -1,7 +1,7 @@
 #include "bounds/seepage_fields.hpp"
 
-#include "grid/compensated_sum.hpp"
 #include "grid/face_flux.hpp"
+#include "ranks/exact_sum.hpp"
 
 namespace suffuse {
 namespace {
@@ -80,7 +80,7 @@ std::vector<double> SeepageEnergy<Dim>::per_element(const Slopes<Dim>& a,
 
 template <int Dim>
 double SeepageEnergy<Dim>::inner(const Slopes<Dim>& a, const Slopes<Dim>& b) const {
-  CompensatedSum total;
+  ExactSum total;
   for (const double of_element : per_element(a, b)) total.add(of_element);
   return total.value();
 }

@@ -246,7 +246,8 @@ FlowProgress ImplicitFlow<Dim>::commit(FlowStep<Dim> step) {
   }
   this->update_boundary_values(
       step.start, end, this->boundary_values().reservoir_rates(step.found.face_volume, step.dt));
-  if (this->scene().mesh.error) last_errors_ = errors_in_time(step);
+  const double share = this->scene().mesh.error ? control_.error_share(step.start, step.dt) : 0.0;
+  errors_.record(previous_, now_, step.found, step.dt / control_.last_step(), share);
   remember(std::move(step.found), step.dt);
   if (is_breakpoint(end)) {
     pass_breakpoint(end, step.dt);
@@ -318,34 +319,6 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
   const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
   return control_.error(
       start, dt, {{before(flux), now_.flux_through, step.flux_through, flux_scale}, of_pressure});
-}
-
-template <int Dim>
-LastStepErrors ImplicitFlow<Dim>::errors_in_time(const FlowStep<Dim>& step) const {
-  if (step.is_kept) return {};
-  const auto errors = [&](const auto& field) {
-    std::span<const double> before;
-    if (previous_) before = field(previous_->state, previous_->flux_through);
-    return control_.errors(step.start, step.dt,
-                           {before, field(now_.state, now_.flux_through),
-                            field(step.found.end, step.found.flux_through), 0.0});
-  };
-  return {.face_pressure = errors(
-              [](const auto& state, const auto&) -> const auto& { return state.face_pressure; }),
-          .face_flux = errors([](const auto&, const auto& flux) -> const auto& { return flux; }),
-          .conductivity = {}};
-}
-
-template <int Dim>
-LastStepErrors ImplicitFlow<Dim>::last_errors() const {
-  LastStepErrors result = last_errors_;
-  const FlowCoefficients<Dim>& used = blending_.used();
-  for (std::size_t e = 0; e < used.drag.size(); ++e) {
-    const FlowCoefficients<Dim>& now = this->coefficients_;
-    result.conductivity.push_back(now.porosity[e] / now.drag[e] * used.drag[e] / used.porosity[e] -
-                                  1.0);
-  }
-  return result;
 }
 
 template <int Dim>
@@ -447,10 +420,10 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
 
 template <int Dim>
 std::optional<DischargeBounds> ImplicitFlow<Dim>::discharge_bounds() const {
-  return bounds_.find({this->grid(), this->scene(), this->coefficients_, this->conditions_,
+  return errors_.find({this->grid(), this->scene(), this->coefficients_, this->conditions_,
                        scheme_.soils(), scheme_.walls(), now_.state.face_pressure, now_.face_flux,
-                       scheme_.relative_conductivity(now_.state.face_pressure), this->threads(),
-                       last_errors()});
+                       scheme_.relative_conductivity(now_.state.face_pressure), this->threads()},
+                      blending_.used());
 }
 
 template <int Dim>
@@ -458,7 +431,7 @@ void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   FlowSolver<Dim>::archive(archive);
   scheme_.archive(archive, this->conditions_);
   archive(control_, blending_, relaxation_, reuse_, scales_);
-  archive(now_, previous_, pressure_, eos_error_, last_errors_, solving_, reusing_);
+  archive(now_, previous_, pressure_, eos_error_, errors_, solving_, reusing_);
   if (archive.restores()) follow_soils();
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "bounds/kept_bounds.hpp"
+#include "bounds/flow_errors.hpp"
 #include "flow/coefficient_blending.hpp"
 #include "flow/flow_scales.hpp"
 #include "flow/flow_solver.hpp"
@@ -123,9 +123,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Coefficients at a time within the interval, changed by erosion alone.
   [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
                                                       double time) const;
-  [[nodiscard]] LastStepErrors errors_in_time(const FlowStep<Dim>& step) const;
-  /// Those, and what has changed since the flow was found.
-  [[nodiscard]] LastStepErrors last_errors() const;
   [[nodiscard]] double error_of(const MixedStep<Dim>& step, double start, double dt) const;
   /// The steady flow over `dt` more seconds, with sources for the expansion of water in that time.
   /// If these change the flow too much, ends the reuse and returns nothing.
@@ -175,8 +172,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   std::optional<MixedFlow<Dim>> previous_;
   std::vector<double> pressure_;  ///< per element, Pa
   double eos_error_ = 0.0;
-  LastStepErrors last_errors_;  ///< with mesh.error
-  mutable KeptBounds<Dim> bounds_;
+  mutable FlowErrors<Dim> errors_;
 
   PassTiming solving_{"flow", 0, 0.0};
   PassTiming reusing_{"flow, steady and kept", 0, 0.0};

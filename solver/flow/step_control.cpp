@@ -59,40 +59,36 @@ double StepControl::up_to(double dt, double left) {
   return dt * (1.0 + implicit_thresholds.end_margin) >= left ? left : dt;
 }
 
-double StepControl::distance(const ControlledField& field, double dt, int i) const {
-  const double now = field.start[i];
-  const bool predicts = !field.previous.empty();
-  const double predicted = predicts ? now + dt / last_ * (now - field.previous[i]) : now;
-  return field.end[i] - predicted;
-}
-
 double StepControl::error(double start, double dt,
                           const std::vector<ControlledField>& fields) const {
-  if (!smooth_ || is_jump(start, dt)) return 0.0;
+  const double share = error_share(start, dt);
+  if (share == 0.0) return 0.0;
   double error = 0.0;
   for (const ControlledField& field : fields) {
     if (!(field.scale > 0.0)) continue;
-    const auto magnitude = [&](int i) { return std::abs(distance(field, dt, i)); };
+    const bool predicts = !field.previous.empty();
+    const double ahead = predicts ? dt / last_ : 0.0;
+    const auto distance_at = [&](int i) {
+      const double now = field.start[i];
+      const double predicted = predicts ? now + ahead * (now - field.previous[i]) : now;
+      return std::abs(field.end[i] - predicted);
+    };
     const auto count = static_cast<int>(field.start.size());
-    double whole = 0.0;
+    double distance = 0.0;
     if (field.summed) {
-      for (int i = 0; i < count; ++i) whole += magnitude(i);
+      for (int i = 0; i < count; ++i) distance += distance_at(i);
     } else {
-      whole = largest_of(count, settings_.threads, 0.0, magnitude);
+      distance = largest_of(count, settings_.threads, 0.0, distance_at);
     }
-    error = std::max(error, whole / field.scale);
+    error = std::max(error, distance / field.scale);
   }
-  return error_share(dt) * error / settings_.tolerance;
+  return share * error / settings_.tolerance;
 }
 
-std::vector<double> StepControl::errors(double start, double dt,
-                                        const ControlledField& field) const {
-  if (!smooth_ || is_jump(start, dt)) return {};
-  std::vector<double> result(field.start.size());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = error_share(dt) * distance(field, dt, static_cast<int>(i));
-  }
-  return result;
+double StepControl::error_share(double start, double dt) const {
+  if (!smooth_ || is_jump(start, dt)) return 0.0;
+  // Waves shorter than `unnoticed` displace next to nothing.
+  return 0.5 * dt / (dt + settings_.unnoticed);
 }
 
 bool StepControl::accept(double start, double error, bool predicted, double& dt) {

@@ -66,11 +66,9 @@ class StepControl {
   /// start that is not smooth prevents an estimate.
   [[nodiscard]] double error(double start, double dt,
                              const std::vector<ControlledField>& fields) const;
-  /// Estimated local errors of a step's values, signed, in their unit; empty under the conditions
-  /// under which `error` is zero. `error` is their largest magnitude, or their sum, over scale and
-  /// tolerance.
-  [[nodiscard]] std::vector<double> errors(double start, double dt,
-                                           const ControlledField& field) const;
+  /// Share of the distance from that straight line which is the error; zero under the conditions
+  /// under which `error` is.
+  [[nodiscard]] double error_share(double start, double dt) const;
   /// Whether a step of this error is accurate enough. If so, chooses the length of the next one; if
   /// not, shortens `dt`. `predicted`: a state before the start was part of the estimate. Throws
   /// NumericalError when the step would become too short to change the time, except after a kink,
@@ -110,13 +108,6 @@ class StepControl {
   }
 
  private:
-  /// Value `i` at the end of a step of `dt` minus that which a straight line predicts.
-  [[nodiscard]] double distance(const ControlledField& field, double dt, int i) const;
-  /// Share of a distance that is the error of a step of `dt`.
-  [[nodiscard]] double error_share(double dt) const {
-    // Waves shorter than `unnoticed` displace next to nothing.
-    return 0.5 * dt / (dt + settings_.unnoticed);
-  }
   [[nodiscard]] bool is_jump(double start, double dt) const;
   /// Largest number of steps after a kink that may be accepted for being the shortest.
   [[nodiscard]] double max_unresolved() const;
