@@ -9,7 +9,7 @@ namespace suffuse {
 
 template <int Dim>
 BoundaryAccounts<Dim>::BoundaryAccounts(const Case<Dim>& c, const Grid<Dim>& grid)
-    : names_(booked_boundaries(c.document.scene)), sums_(names_.size()) {
+    : grid_(grid), names_(booked_boundaries(c.document.scene)), sums_(names_.size()) {
   for (const FaceCondition& condition : face_conditions(c, grid)) {
     account_.push_back(condition.boundary);
   }
@@ -22,7 +22,7 @@ BoundaryAccounts<Dim>::BoundaryAccounts(const Case<Dim>& c, const Grid<Dim>& gri
     }
   }
   for (int f = 0; f < grid.face_count(); ++f) {
-    if (!grid.is_outer(f)) account_[f] = -1;
+    if (!grid.is_outer(f) || !grid.owns_face(f)) account_[f] = -1;
     if (account_[f] >= 0) faces_.push_back({f, account_[f]});
   }
 }
@@ -49,11 +49,21 @@ void BoundaryAccounts<Dim>::book_liquid(const std::vector<double>& volumes) {
 template <int Dim>
 std::vector<BoundaryRow> BoundaryAccounts<Dim>::rows(double time,
                                                      const std::vector<double>& face_flux) const {
-  std::vector<CompensatedSum> discharge(sums_.size());
+  std::vector<ExactSum> discharge(sums_.size());
   for (const auto& [face, account] : faces_) discharge[account].add(face_flux[face]);
+  std::vector<Sums> all = sums_;
+  std::vector<ExactSum*> each;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    for (BothWays* sum : {&all[k].water, &all[k].fines, &all[k].liquid}) {
+      each.push_back(&sum->in);
+      each.push_back(&sum->out);
+    }
+    each.push_back(&discharge[k]);
+  }
+  grid_.ranks().sum(each);
   std::vector<BoundaryRow> rows;
-  for (std::size_t k = 0; k < sums_.size(); ++k) {
-    const Sums& sums = sums_[k];
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Sums& sums = all[k];
     rows.push_back({time, names_[k], sums.water.in.value(), sums.water.out.value(),
                     sums.fines.in.value(), sums.fines.out.value(), sums.liquid.in.value(),
                     sums.liquid.out.value(), discharge[k].value()});

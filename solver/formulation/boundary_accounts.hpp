@@ -7,20 +7,20 @@
 
 #include "case/case_file.hpp"
 #include "files/tables.hpp"
-#include "grid/compensated_sum.hpp"
 #include "grid/grid.hpp"
+#include "ranks/exact_sum.hpp"
 
 namespace suffuse {
 
 /// Sums of outflow and inflow.
 struct BothWays {
-  static constexpr bool has_no_gaps = true;  ///< see StateArchive
-  CompensatedSum in, out;
+  ExactSum in, out;
 
   void add(double outward) {
     if (outward > 0.0) out.add(outward);
     if (outward < 0.0) in.add(-outward);
   }
+  void archive(auto& archive) { archive(in, out); }
 };
 
 template <int Dim>
@@ -44,14 +44,16 @@ class BoundaryAccounts {
 
  private:
   struct Sums {
-    static constexpr bool has_no_gaps = true;
     BothWays water, fines, liquid;
+
+    void archive(auto& archive) { archive(water, fines, liquid); }
   };
   struct AccountFace {
     int face;
     int account;
   };
 
+  const Grid<Dim>& grid_;
   std::vector<std::string> names_;
   std::vector<AccountFace> faces_;  ///< outer faces that have an account, ascending
   std::vector<int> account_;        ///< per face, -1: none

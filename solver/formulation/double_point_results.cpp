@@ -18,8 +18,8 @@ enum class Saturation { dry_soil, saturated_soil, free_liquid, empty };
 template <int Dim>
 double fines_outflow(const Grid<Dim>& grid, const std::vector<double>& face_flux,
                      const ElementField<Dim>& concentration) {
-  CompensatedSum result;
-  for (int f = 0; f < grid.face_count(); ++f) {
+  ExactSum result;
+  for (const int f : grid.own_faces()) {
     const double flux = face_flux[f];
     if (!grid.is_outer(f) || flux <= 0.0) continue;
     const int e = grid.face_left[f];
@@ -28,6 +28,7 @@ double fines_outflow(const Grid<Dim>& grid, const std::vector<double>& face_flux
       if (grid.element_face[e][a] != f) result.add(flux * at_vertices[a] / Dim);
     }
   }
+  grid.ranks().sum({&result});
   return result.value();
 }
 
@@ -96,11 +97,11 @@ std::vector<Stored> DoublePoint<Dim>::stored() const {
     for (StoredSums* sum : {&sums[0], &sums[region + 1]}) {
       sum->water.add(points.water_mass[p]);
       sum->fines.add(points.fines_mass[p]);
-      ++sum->points;
+      sum->points.add(1.0);
     }
   }
   for (const double volume : liquid_->pending()) sums[0].pending.add(densities_.grain * volume);
-  return totals(sums);
+  return totals(this->grid_.ranks(), std::move(sums));
 }
 
 template <int Dim>

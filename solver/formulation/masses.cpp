@@ -5,7 +5,7 @@
 namespace suffuse {
 namespace {
 
-void book_one(double outward, CompensatedSum& in, CompensatedSum& out) {
+void book_one(double outward, ExactSum& in, ExactSum& out) {
   if (outward > 0.0) out.add(outward);
   if (outward < 0.0) in.add(-outward);
 }
@@ -47,11 +47,33 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
 
 }  // namespace
 
-std::vector<Stored> totals(const std::vector<StoredSums>& sums) {
+std::vector<Stored> totals(const Ranks& ranks, std::vector<StoredSums> sums) {
+  std::vector<ExactSum*> all;
+  for (StoredSums& s : sums) {
+    for (ExactSum* sum : {&s.solid, &s.erodible, &s.water, &s.fines, &s.eroded, &s.deposited,
+                          &s.pending, &s.carried, &s.points}) {
+      all.push_back(sum);
+    }
+  }
+  ranks.sum(all);
   std::vector<Stored> result;
   result.reserve(sums.size());
   for (const StoredSums& s : sums) result.push_back(s.totals());
   return result;
+}
+
+Crossed CrossedSums::totals(const Ranks& ranks) const {
+  CrossedSums all = *this;
+  ranks.sum({&all.water_in, &all.fines_in, &all.water_out, &all.fines_out, &all.points_in,
+             &all.points_out});
+  return {all.water_in.value(),
+          all.fines_in.value(),
+          all.water_out.value(),
+          all.fines_out.value(),
+          all.points_in.value(),
+          all.points_out.value(),
+          all.water_out.minus(all.water_in),
+          all.fines_out.minus(all.fines_in)};
 }
 
 template <int Dim>
@@ -60,7 +82,7 @@ MassAccounts<Dim>::MassAccounts(const Case<Dim>& c, const Grid<Dim>& grid)
       faces_(grid.mesh.region_names.size() + 1),
       crossed_(faces_.size()),
       boundaries_(c, grid) {
-  for (int f = 0; f < grid.face_count(); ++f) {
+  for (const int f : grid.own_faces()) {
     const int left = grid.mesh.element_region[grid.face_left[f]];
     if (grid.is_border(f)) {
       faces_[0].push_back({f, 1.0});
@@ -102,12 +124,12 @@ void MassAccounts<Dim>::book(const PointCrossing& point) {
   const auto leave = [&](CrossedSums& account) {
     account.water_out.add(point.water_mass);
     account.fines_out.add(point.fines_mass);
-    ++account.points_out;
+    account.points_out.add(1.0);
   };
   const auto enter = [&](CrossedSums& account) {
     account.water_in.add(point.water_mass);
     account.fines_in.add(point.fines_mass);
-    ++account.points_in;
+    account.points_in.add(1.0);
   };
   CrossedSums& from = crossed_[point.from + 1];
   CrossedSums& to = crossed_[point.to + 1];
@@ -121,7 +143,7 @@ void MassAccounts<Dim>::book(const PointCrossing& point) {
 
 template <int Dim>
 LedgerRow MassAccounts<Dim>::ledger(double time, const std::vector<Stored>& stored) const {
-  return ledger_row(time, stored[0], crossed_[0].totals(), initial_[0]);
+  return ledger_row(time, stored[0], crossed_[0].totals(grid_.ranks()), initial_[0]);
 }
 
 template <int Dim>
@@ -130,17 +152,19 @@ std::vector<RegionRow> MassAccounts<Dim>::region_rows(double time,
                                                       const SoilMap<Dim>& soils,
                                                       double grain_density) const {
   const MaterialPoints<Dim>& points = soils.points();
-  std::vector<double> volume(grid_.mesh.region_names.size(), 0.0);
+  std::vector<ExactSum> sums(grid_.mesh.region_names.size());
   for (int p = 0; p < points.size(); ++p) {
-    volume[grid_.mesh.element_region[points.element[p]]] += points.volume[p];
+    sums[grid_.mesh.element_region[points.element[p]]].add(points.volume[p]);
   }
+  const std::vector<double> volume = values_of_all(grid_.ranks(), std::move(sums));
   std::vector<RegionRow> rows;
   for (std::size_t r = 0; r < volume.size(); ++r) {
     RegionRow row;
     row.region = static_cast<int>(r);
     row.porosity_mean =
         volume[r] > 0.0 ? 1.0 - stored[r + 1].solid / (grain_density * volume[r]) : 1.0;
-    row.ledger = ledger_row(time, stored[r + 1], crossed_[r + 1].totals(), initial_[r + 1]);
+    row.ledger =
+        ledger_row(time, stored[r + 1], crossed_[r + 1].totals(grid_.ranks()), initial_[r + 1]);
     rows.push_back(row);
   }
   return rows;

@@ -9,9 +9,9 @@
 
 #include "files/tables.hpp"
 #include "formulation/boundary_accounts.hpp"
-#include "grid/compensated_sum.hpp"
 #include "grid/grid.hpp"
 #include "points/point_transport.hpp"
+#include "ranks/exact_sum.hpp"
 
 namespace suffuse {
 
@@ -43,28 +43,25 @@ struct Stored {
 
 /// Running sums behind one `Stored`.
 struct StoredSums {
-  CompensatedSum solid, erodible, water, fines, eroded, deposited, pending, carried;
-  double points = 0.0;
+  ExactSum solid, erodible, water, fines, eroded, deposited, pending, carried, points;
 
   [[nodiscard]] Stored totals() const {
     return {solid.value(),     erodible.value(), water.value(),   fines.value(), eroded.value(),
-            deposited.value(), pending.value(),  carried.value(), points};
+            deposited.value(), pending.value(),  carried.value(), points.value()};
   }
 };
 
-std::vector<Stored> totals(const std::vector<StoredSums>& sums);
+/// Over all ranks, of the sums of this one.
+std::vector<Stored> totals(const Ranks& ranks, std::vector<StoredSums> sums);
 
 /// Running sums behind one `Crossed`.
 struct CrossedSums {
-  static constexpr bool has_no_gaps = true;  ///< see StateArchive
-  CompensatedSum water_in, fines_in, water_out, fines_out;
-  double points_in = 0.0;
-  double points_out = 0.0;
+  ExactSum water_in, fines_in, water_out, fines_out, points_in, points_out;
 
-  [[nodiscard]] Crossed totals() const {
-    return {
-        water_in.value(), fines_in.value(), water_out.value(),         fines_out.value(),
-        points_in,        points_out,       water_out.minus(water_in), fines_out.minus(fines_in)};
+  /// Over all ranks.
+  [[nodiscard]] Crossed totals(const Ranks& ranks) const;
+  void archive(auto& archive) {
+    archive(water_in, fines_in, water_out, fines_out, points_in, points_out);
   }
 };
 

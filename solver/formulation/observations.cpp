@@ -54,7 +54,7 @@ double pressure_at(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Poin
   return std::clamp(result, low, high);
 }
 
-void enter(const ProbeMeans& means, ProbeRow& row) {
+void enter_means(const ProbeMeans& means, ProbeRow& row) {
   row.disc = means.radius;
   row.head_mean = means.head.middle();
   row.head_mean_estimate = means.head.half();
@@ -138,7 +138,7 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
       row.z = x[2];
       row.flux_z = flux[2];
     }
-    if (flow.bounds && flow.bounds->probes[i]) enter(*flow.bounds->probes[i], row);
+    if (flow.bounds && flow.bounds->probes[i]) enter_means(*flow.bounds->probes[i], row);
     rows.push_back(row);
   }
   return rows;

@@ -8,8 +8,8 @@
 #include "case/case_file.hpp"
 #include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"
-#include "grid/compensated_sum.hpp"
 #include "grid/section_line.hpp"
+#include "ranks/exact_sum.hpp"
 
 namespace suffuse {
 
@@ -35,8 +35,8 @@ class Observations {
   const Scene& scene_;
   const Grid<Dim>& grid_;
   std::vector<PointPlace<Dim>> probes_;
-  std::vector<SectionLine> sections_;    ///< in two dimensions
-  std::vector<CompensatedSum> volumes_;  ///< since the start, per section, m3
+  std::vector<SectionLine> sections_;  ///< in two dimensions
+  std::vector<ExactSum> volumes_;      ///< since the start, per section, m3
 };
 
 }  // namespace suffuse

@@ -1,8 +1,8 @@
 #include "formulation/seepage_measures.hpp"
 
-#include "grid/compensated_sum.hpp"
 #include "grid/face_flux.hpp"
 #include "physics/head.hpp"
+#include "ranks/exact_sum.hpp"
 
 namespace suffuse {
 namespace {
@@ -16,18 +16,19 @@ double fines_weight_share(const Grid<Dim>& grid, const FlowCoefficients<Dim>& co
   Vector<Dim> gravity;
   for (int d = 0; d < Dim; ++d) gravity[d] = scene.gravity[d];
   const std::vector<Vector<Dim>> flux = element_flux(grid, state.face_flux);
-  double weight = 0.0;  // W
-  double spent = 0.0;   // W, by drag
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+  ExactSum weight;  // W
+  ExactSum spent;   // W, by drag
+  for (const int e : grid.own_elements()) {
     const double excess = coefficients.mixture_density[e] - scene.liquid.density;
     double resistance = coefficients.drag[e] / coefficients.porosity[e];
     if (!state.relative_conductivity.empty()) resistance /= state.relative_conductivity[e];
     if (!coefficients.quadratic_drag.empty())
       resistance += coefficients.quadratic_drag[e] * flux[e].norm();
-    weight += grid.volume[e] * excess * gravity.dot(flux[e]);
-    spent += grid.volume[e] * resistance * flux[e].squaredNorm();
+    weight.add(grid.volume[e] * excess * gravity.dot(flux[e]));
+    spent.add(grid.volume[e] * resistance * flux[e].squaredNorm());
   }
-  return spent > 0.0 ? weight / spent : 0.0;
+  grid.ranks().sum({&weight, &spent});
+  return spent.value() > 0.0 ? weight.value() / spent.value() : 0.0;
 }
 
 /// Pressure gradient in an element, Pa/m.
@@ -71,9 +72,9 @@ SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                            const FlowState<Dim>& flow, const Scene& scene) {
   const double weight = unit_weight(scene.liquid.density, scene.gravity);
   const VectorField<Dim> gradient = hydraulic_gradient(grid, flow, scene);
-  CompensatedSum now;
-  CompensatedSum initial;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+  ExactSum now;
+  ExactSum initial;
+  for (const int e : grid.own_elements()) {
     if (!soils.is_soil(e)) continue;
     const Vector<Dim> flux = flux_at(grid, flow.face_flux, e, element_centroid(grid.mesh, e));
     const double relative =
@@ -83,6 +84,7 @@ SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
     initial.add(weight * grid.volume[e] * flux.squaredNorm() * soils.resistance_along(e, flux) /
                 conductivity);
   }
+  grid.ranks().sum({&now, &initial});
   return {now.value(), initial.value()};
 }
 
@@ -93,32 +95,36 @@ void describe_flow(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficie
   row.eos_error = state.eos_error;
   row.pressure_overshoot = state.pressure_overshoot;
   row.fines_weight_share = fines_weight_share(grid, coefficients, state, scene);
-  CompensatedSum in;
-  CompensatedSum out;
-  for (int f = 0; f < grid.face_count(); ++f) {
+  ExactSum in;
+  ExactSum out;
+  for (const int f : grid.own_faces()) {
     if (!grid.is_border(f)) continue;
     const double flux = state.face_flux[f];
     if (flux < 0.0) in.add(-flux);
     if (flux > 0.0) out.add(flux);
   }
-  row.flux_in = in.value();
-  row.flux_out = out.value();
   // Uses node pressures, because element pressures may contain patterns without force.
   const std::vector<double>& pressure = state.node_pressure;
-  const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
-  row.pressure_min = *low;
-  row.pressure_max = *high;
-  double square = 0.0;
-  double volume = 0.0;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+  ExactSum square;
+  ExactSum volume;
+  for (const int e : grid.own_elements()) {
     double smooth = 0.0;
     for (const int i : grid.mesh.elements[e]) smooth += pressure[i] / (Dim + 1);
     const double off = state.pressure[e] - smooth;
-    square += grid.volume[e] * off * off;
-    volume += grid.volume[e];
+    square.add(grid.volume[e] * off * off);
+    volume.add(grid.volume[e]);
   }
-  row.pressure_scatter = std::sqrt(square / volume);
-  for (const Vector<Dim>& v : state.velocity) row.speed_max = std::max(row.speed_max, v.norm());
+  grid.ranks().sum({&in, &out, &square, &volume});
+  row.flux_in = in.value();
+  row.flux_out = out.value();
+  row.pressure_scatter = std::sqrt(square.value() / volume.value());
+  const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
+  std::array<double, 3> largest{-*low, *high, 0.0};
+  for (const Vector<Dim>& v : state.velocity) largest[2] = std::max(largest[2], v.norm());
+  grid.ranks().largest(largest);
+  row.pressure_min = -largest[0];
+  row.pressure_max = largest[1];
+  row.speed_max = largest[2];
 }
 
 template VectorField<2> hydraulic_gradient(const Grid<2>&, const FlowState<2>&, const Scene&);

@@ -197,11 +197,12 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
   HistoryRow row = this->common_history(flow);
   const std::vector<double> concentration =
       fines_->face_concentration(std::numeric_limits<double>::infinity(), flow.face_flux);
-  CompensatedSum fines_out;
-  for (int f = 0; f < this->grid_.face_count(); ++f) {
+  ExactSum fines_out;
+  for (const int f : this->grid_.own_faces()) {
     const double flux = flow.face_flux[f];
     if (this->grid_.is_border(f) && flux > 0.0) fines_out.add(flux * concentration[f]);
   }
+  this->grid_.ranks().sum({&fines_out});
   this->describe_outflow(fines_out.value(), row);
 
   row.concentration_min = std::numeric_limits<double>::infinity();
@@ -225,7 +226,7 @@ template <int Dim>
 std::vector<Stored> SinglePoint<Dim>::stored() const {
   std::vector<StoredSums> sums = this->solid_masses();
   const FinesState<Dim>& state = fines_->state();
-  for (std::size_t e = 0; e < water_mass_.size(); ++e) {
+  for (const int e : this->grid_.own_elements()) {
     for (StoredSums* sum : {&sums[0], &sums[this->grid_.mesh.element_region[e] + 1]}) {
       sum->water.add(water_mass_[e]);
       for (const double volume : state.fines_volume[e]) {
@@ -233,7 +234,7 @@ std::vector<Stored> SinglePoint<Dim>::stored() const {
       }
     }
   }
-  return totals(sums);
+  return totals(this->grid_.ranks(), std::move(sums));
 }
 
 template <int Dim>

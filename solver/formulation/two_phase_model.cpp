@@ -188,14 +188,15 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   // Mean over soils that exchange fines, or over all soils if none does.
   const MaterialPoints<Dim>& points = soils_.points();
   const bool any_changes = soils_.erodes() || soils_.deposits();
-  CompensatedSum pores;
-  CompensatedSum volume;
+  ExactSum pores;
+  ExactSum volume;
   for (int p = 0; p < points.size(); ++p) {
     const bool changes = soils_.exchange_of_point(p).exchanges();
     if (any_changes && !changes) continue;
     pores.add(points.volume[p] * solid_->porosity()[p]);
     volume.add(points.volume[p]);
   }
+  grid_.ranks().sum({&pores, &volume});
   row.porosity_mean = pores.value() / volume.value();
   describe_losses(row);
   const SeepagePower power = seepage_power(grid_, soils_, flow, scene());

@@ -54,7 +54,11 @@ class OpenFaces {
 }  // namespace
 
 template <int Dim>
-Grid<Dim>::Grid(const Mesh<Dim>& mesh_in) : mesh(mesh_in) {
+Grid<Dim>::Grid(const Mesh<Dim>& mesh_in)
+    : mesh(mesh_in),
+      ranks_(std::make_shared<Ranks>()),
+      elements_(mesh_in.element_count()),
+      faces_(0) {
   const int elements = mesh.element_count();
   volume.resize(elements);
   shape_gradient.resize(elements);
@@ -97,6 +101,7 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in) : mesh(mesh_in) {
       element_face_sign[e][k] = is_new ? 1.0 : -1.0;
     }
   }
+  faces_ = OwnRows(face_count());
   face_partner.assign(face_left.size(), -1);
   invert(face_nodes, mesh.node_count(), node_face_begin, node_face);
   invert(mesh.elements, mesh.node_count(), node_element_begin, node_element);

@@ -5,16 +5,27 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "ranks/ranks.hpp"
+#include "ranks/own_rows.hpp"
 
 namespace suffuse {
 
 template <int Dim>
 struct Grid {
+  /// Of a program that is alone, which owns all of the mesh.
   explicit Grid(const Mesh<Dim>& mesh);
+
+  [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
+  /// Elements and faces of this rank, ascending: a sum over the model is a sum over these and then
+  /// over the ranks.
+  [[nodiscard]] auto own_elements() const { return elements_.own(); }
+  [[nodiscard]] auto own_faces() const { return faces_.own(); }
+  [[nodiscard]] bool owns_face(int face) const { return faces_.owns(face); }
 
   /// Face of the grid with exactly these nodes, in any order; -1 if there is none.
   [[nodiscard]] int find_face(std::array<int, Dim> nodes) const;
@@ -67,6 +78,11 @@ struct Grid {
   /// Elements of node i, in the same form.
   std::vector<int> node_element_begin;
   std::vector<int> node_element;
+
+ private:
+  std::shared_ptr<const Ranks> ranks_;
+  OwnRows elements_;
+  OwnRows faces_;
 };
 
 /// Elements with an angle of more than 90 degrees (in three dimensions, between two sides).

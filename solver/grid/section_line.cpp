@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "grid/compensated_sum.hpp"
+#include "ranks/exact_sum.hpp"
 
 namespace suffuse {
 namespace {
@@ -109,7 +109,7 @@ SectionLine::SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vecto
 }
 
 double SectionLine::across(const std::vector<double>& face_values) const {
-  CompensatedSum sum;
+  ExactSum sum;
   for (const auto& [face, weight] : weights_) sum.add(weight * face_values[face]);
   return sum.value();
 }

@@ -367,7 +367,7 @@ void MovingSkeleton<Dim>::book_regions(const std::vector<int>& element) {
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::region_gain() const {
   std::vector<double> result;
-  for (const CompensatedSum& sum : region_gain_) result.push_back(sum.value());
+  for (const ExactSum& sum : region_gain_) result.push_back(sum.value());
   return result;
 }
 

@@ -10,10 +10,10 @@
 #include "boundary/boundary_loads.hpp"
 #include "equilibrium/crossing_forces.hpp"
 #include "equilibrium/start_stress.hpp"
-#include "grid/compensated_sum.hpp"
 #include "motion/motion_step.hpp"
 #include "motion/soil_inertia.hpp"
 #include "motion/solid_flux.hpp"
+#include "ranks/exact_sum.hpp"
 #include "solid/eroding_skeleton.hpp"
 
 namespace suffuse {
@@ -161,10 +161,10 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   BoundaryLoads<Dim> boundary_loads_;
   CrossingForces<Dim> crossing_forces_;  ///< without inertia
   SoilInertia<Dim> inertia_;
-  std::vector<double> solid_;                ///< per element, m3
-  std::vector<CompensatedSum> region_gain_;  ///< per region of the mesh, m3
-  std::vector<double> pressure_;      ///< of the pores at the last equilibrium, per element, Pa
-  std::vector<SoilFilling> filling_;  ///< after the last motion
+  std::vector<double> solid_;          ///< per element, m3
+  std::vector<ExactSum> region_gain_;  ///< per region of the mesh, m3
+  std::vector<double> pressure_;       ///< of the pores at the last equilibrium, per element, Pa
+  std::vector<SoilFilling> filling_;   ///< after the last motion
   SolidFlux<Dim> solid_flux_;
   double correction_ = 0.0;  ///< see HistoryRow::solid_correction
   long newton_iterations_ = 0;

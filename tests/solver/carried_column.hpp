@@ -8,8 +8,8 @@
 #include "driver/plan.hpp"
 #include "explicit/carried_points.hpp"
 #include "explicit/explicit_flow.hpp"
-#include "grid/compensated_sum.hpp"
 #include "points/point_injection.hpp"
+#include "ranks/exact_sum.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/double_point_case.hpp"
 
@@ -152,7 +152,7 @@ class Column {
   static constexpr LiquidDensities densities_{1000.0, 2700.0};
   double dt = 0.0;                                ///< s
   std::map<std::pair<int, int>, double> crossed;  ///< water mass, by pairs of regions
-  CompensatedSum fines_in;                        ///< net mass of fines that entered, kg
+  ExactSum fines_in;                              ///< net mass of fines that entered, kg
   long count = 0;
 
  private:

@@ -212,7 +212,7 @@ TEST(CarriedPoints, NothingIsLostAndNothingComesFromNowhere) {
   const Case<2> c = fast_column(6);
   Column column(c);
   const auto sum = [](const std::vector<double>& values) {
-    CompensatedSum total;
+    ExactSum total;
     for (const double v : values) total.add(v);
     return total.value();
   };

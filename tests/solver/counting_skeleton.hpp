@@ -2,7 +2,7 @@
 
 /// A solid that counts the volume that it gives to the liquid.
 
-#include "grid/compensated_sum.hpp"
+#include "ranks/exact_sum.hpp"
 #include "solid/rigid_skeleton.hpp"
 
 namespace suffuse {
@@ -20,7 +20,7 @@ class CountingSkeleton final : public RigidSkeleton<Dim> {
   [[nodiscard]] double given() const { return given_.value(); }
 
  private:
-  CompensatedSum given_;
+  ExactSum given_;
 };
 
 }  // namespace suffuse

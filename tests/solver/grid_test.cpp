@@ -4,7 +4,6 @@
 
 #include <numeric>
 
-#include "grid/compensated_sum.hpp"
 #include "grid/element_field.hpp"
 #include "grid/extrapolated_flux.hpp"
 #include "solver/model_case.hpp"
@@ -73,14 +72,6 @@ TEST(FluxHistory, GoesOnAsItDid) {
   EXPECT_EQ(flux.extrapolated(0.0), flux.end);
   // Extrapolation is limited in time.
   EXPECT_EQ(flux.extrapolated(1e9), flux.extrapolated(16.0));
-}
-
-TEST(CompensatedSum, KeepsWhatAPlainSumLoses) {
-  CompensatedSum sum;
-  sum.add(1e16);
-  for (int i = 0; i < 1000; ++i) sum.add(0.3);
-  sum.add(-1e16);
-  EXPECT_NEAR(sum.value(), 300.0, 1e-10);  // a plain sum gives 0
 }
 
 }  // namespace grid_test

@@ -65,7 +65,7 @@ expect 'and one that is just short enough' 0 ''
 
 rooms=(common mesh scene case physics files results grid linear solid equilibrium boundary motion mixed flow coupling field points explicit)
 for ((i = 5; i < 19; ++i)); do file "solver/${rooms[i]}/all.hpp" "${rooms[@]:0:i}"; done
-expect 'too many arrows' 1 'solver/: has 107 arrows between rooms; expected at most 94'
+expect 'too many arrows' 1 'solver/: has 107 arrows between rooms; expected at most 98'
 
 # Does check_sizes.py? The listed rooms are small here, and it reports that. A class counts with the
 # bodies of its members; braces in comments and texts do not count.
