@@ -3,7 +3,6 @@
 /// Fields of a snapshot at elements, nodes and solid points: the part of a snapshot that both
 /// formulations share.
 
-#include "bounds/discharge_bounds.hpp"
 #include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"
 #include "results/writer.hpp"
