@@ -9,7 +9,8 @@
 # cannot be bounded or met stays as it is.
 #
 # Makes STEM.case.h5, and STEM.adapt.csv with a row for each mesh. Exit codes are those of the
-# programs; 3 also if mesh.max_elements is not enough.
+# programs; 3 also if mesh.max_elements is not enough, or more elements hardly help: an estimate may
+# hold more than the error of the mesh.
 set -eu -o pipefail
 mode=
 case $1 in --*) mode=$1 && shift ;; esac
@@ -46,6 +47,13 @@ end() {
   exit "$code"
 }
 
+# hardly_helped: twice as many elements as the last mesh has left 85 % of the interval or more.
+hardly_helped() {
+  tail -n +2 "$stem.adapt.csv" | awk -F, '
+    { before = elements; wide = width; elements = $1; width = $4 - $3 }
+    END { exit !(NR > 1 && elements > 2 * before && width > 0.85 * wide) }'
+}
+
 mesh
 if [ "$mode" = --by-default ] && [[ $said != *'mesh again until'* ]]; then end 0; fi
 echo "elements,flux_out,flux_out_low,flux_out_high" > "$stem.adapt.csv"
@@ -64,7 +72,10 @@ for ((count = 1; count <= most_meshes; ++count)); do
       if [ "$mode" = --by-default ] && [ "$count" = 1 ]; then mesh; fi
       end 0
       ;;
-    *' is not met: mesh again'*) mesh --sizes "$sizes" ;;
+    *' is not met: mesh again'*)
+      if hardly_helped; then end 3 "mesh.error is not met, and more elements hardly help: the case has the last mesh"; fi
+      mesh --sizes "$sizes"
+      ;;
     *) end 3 "$(tail -1 <<< "$answer")" ;;
   esac
 done

@@ -67,6 +67,23 @@ run_make adapt SCENE=second-weir.toml OVER=night
 expect 'what is over something else is refused' "2 OVER: got 'night'; expected run" \
   "$code $(grep -o "OVER: got.*run" "$work/make.log")"
 
+# --- An estimate that does not fall, from programs that only say so -----------------------------
+mkdir stub
+printf '#!/bin/sh\necho stub.case.h5\n' > stub/suffuse-mesher
+cat > stub/suffuse-solver <<'END'
+#!/bin/sh
+echo x >> meshes
+count=$(wc -l < meshes)
+echo "Q = 2.0 m3/s per m, estimated between 1.0 and 3.0 (+- 50 %), $((100 * count * count)) elements"
+echo 'mesh.error = 0.01 is not met: mesh again with suffuse-mesher --sizes stub.sizes.h5'
+END
+chmod +x stub/*
+code=0
+"$workflows/adapt.sh" stub stub.toml stub > stub.log 2>&1 || code=$?
+expect 'the loop ends where more elements hardly help' \
+  '3 2 mesh.error is not met, and more elements hardly help: the case has the last mesh' \
+  "$code $(wc -l < meshes) $(tail -1 stub.log)"
+
 # --- Scenes without mesh.size ---------------------------------------------------------------------
 sed '/^\[mesh\]/,/^$/d' second-weir.toml > plain.toml
 again='; make study and make sweep mesh again until the discharge is known to 1 %'
