@@ -38,7 +38,7 @@ void note_size(const GeometryRequest& request, std::vector<std::string>& notes) 
   const Scene& scene = request.document.scene;
   if (request.wanted) return;
   if (!request.document.where.contains("mesh.size")) {
-    notes.push_back(default_size_note(scene.mesh.size));
+    notes.push_back(default_size_note(request.document, scene.mesh.size));
     return;
   }
   if (scene.mesh.structure == MeshStructure::free) return;
@@ -201,7 +201,7 @@ Geometry<Dim> finished(const GeometryRequest& request, ExtractedMesh<Dim> extrac
   return {in_hilbert_order(extracted.mesh), std::move(notes)};
 }
 
-std::vector<std::string> notes_on(const GmshReply& reply) {
+std::vector<std::string> notes_on(const SceneDocument& document, const GmshReply& reply) {
   std::vector<std::string> notes;
   if (reply.meshes_itself) {
     notes.emplace_back("the .geo file meshes itself, mesh.size does not apply");
@@ -209,7 +209,9 @@ std::vector<std::string> notes_on(const GmshReply& reply) {
   if (reply.wants_threads) {
     notes.emplace_back("Gmsh ran on one thread, whatever the file asks for");
   }
-  if (reply.default_size > 0.0) notes.push_back(default_size_note(reply.default_size));
+  if (reply.default_size > 0.0) {
+    notes.push_back(default_size_note(document, reply.default_size));
+  }
   const FileLimits& limits = reply.limits;
   if (limits.smallest) {
     notes.emplace_back(
@@ -229,12 +231,12 @@ AnyGeometry geometry_from_file(const GeometryRequest& request) {
   const SceneDocument& document = request.document;
   const GmshReply reply = read_geometry_file(request);
   if (reply.model.dimension == 3) {
-    return finished(request, extract_mesh<3>(reply.model), notes_on(reply));
+    return finished(request, extract_mesh<3>(reply.model), notes_on(document, reply));
   }
   const bool users_own = reply.meshes_itself || is_mesh_file(document.scene.geometry.file);
   const bool crossed = document.scene.mesh.structure == MeshStructure::crossed && !users_own;
   const Quadrangles quadrangles = crossed ? Quadrangles::cut_along_diagonals : Quadrangles::refused;
-  return finished(request, extract_mesh<2>(reply.model, quadrangles), notes_on(reply));
+  return finished(request, extract_mesh<2>(reply.model, quadrangles), notes_on(document, reply));
 }
 
 Geometry<2> column_geometry(const GeometryRequest& request) {

@@ -23,7 +23,7 @@ struct Arguments {
   bool explain = false;
   suffuse::RunOptions run;
   suffuse::ElementTestOptions element;
-  std::string sizes;
+  suffuse::SizesOptions sizes;
   bool strength_reduction = false;
   suffuse::StrengthReductionOptions strength;
 };
@@ -146,15 +146,21 @@ void add_strength_reduction(CLI::App& app, Arguments& arguments) {
 }
 
 /// Adds the option of meshing again.
-void add_sizes(CLI::App& app, std::string& sizes) {
+void add_sizes(CLI::App& app, suffuse::SizesOptions& sizes) {
   CLI::Option* mode =
       app.add_option(
-             "--sizes", sizes,
+             "--sizes", sizes.output,
              "Do not run the case: say between which values the discharge of its steady "
              "flow lies, and write sizes of elements for suffuse-mesher --sizes, with which "
              "it is known to mesh.error")
           ->check(refuse_empty)
           ->type_name("SIZES.h5");
+  app.add_option("--from", sizes.run,
+                 "Look at a run of the case with mesh.error, not at the steady flow of its start: "
+                 "each element gets its largest error of all snapshots")
+      ->check(refuse_empty)
+      ->type_name("FOLDER")
+      ->needs(mode);
   for (const char* other : {"--explain", "--no-skip", "--resume", "--force", "--checkpoint-every",
                             "--element-test", "--strength-reduction", "--output"}) {
     mode->excludes(app.get_option(other));
@@ -162,11 +168,12 @@ void add_sizes(CLI::App& app, std::string& sizes) {
 }
 
 int mesh_again(const Arguments& arguments) {
-  if (suffuse::same_file(arguments.sizes, arguments.case_path)) {
-    throw suffuse::InputError("--sizes " + arguments.sizes +
+  suffuse::SizesOptions options = arguments.sizes;
+  options.threads = arguments.solver.threads;
+  if (suffuse::same_file(options.output, arguments.case_path)) {
+    throw suffuse::InputError("--sizes " + options.output +
                               " would overwrite the case; name another file");
   }
-  const suffuse::SizesOptions options{arguments.sizes, arguments.solver.threads};
   if (suffuse::read_case_dimension(arguments.case_path) == 2) {
     suffuse::write_sizes(suffuse::read_case<2>(arguments.case_path), options);
   } else {
@@ -216,7 +223,7 @@ int run(int argc, char** argv) {
   add_sizes(app, arguments.sizes);
   if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
   if (arguments.strength_reduction) return find_strength(arguments);
-  if (!arguments.sizes.empty()) return mesh_again(arguments);
+  if (!arguments.sizes.output.empty()) return mesh_again(arguments);
   if (arguments.element.table.empty()) return solve_case(arguments);
   arguments.element.scene = arguments.case_path;
   arguments.element.output = arguments.folder.empty() ? "-" : arguments.folder;

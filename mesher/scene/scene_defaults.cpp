@@ -54,6 +54,18 @@ double default_size_of_shape(const Scene& scene) {
       {smallest, geometry.depth, default_element_size(area * geometry.depth, 3, structure, false)});
 }
 
+/// Whether studies take mesh.error = 0.01 for the scene, which gives neither that nor mesh.size. A
+/// run that starts from another one needs its mesh.
+bool counts_with_an_error(const SceneDocument& document) {
+  const auto given = [&](const std::string& key) { return document.where.contains(key); };
+  const Scene& scene = document.scene;
+  const bool is_pattern =
+      given("mesh.structure") && scene.mesh.structure != MeshStructure::free &&
+      !(given("geometry.file") && scene.mesh.structure == MeshStructure::crossed);
+  return !given("mesh.error") && !given("initial.from") && !is_pattern &&
+         scene.time.scheme == FlowScheme::implicit_mixed;
+}
+
 }  // namespace
 
 void complete_scene(Scene& scene, const std::string& path,
@@ -81,8 +93,11 @@ double default_element_size(double volume, int dimension, MeshStructure structur
   return std::round(size / digit) * digit;  // two digits
 }
 
-std::string default_size_note(double size) {
-  return "mesh.size was not given: " + short_number(size) + " m, for about 20 000 elements";
+std::string default_size_note(const SceneDocument& document, double size) {
+  return "mesh.size was not given: " + short_number(size) + " m, for about 20 000 elements" +
+         (counts_with_an_error(document)
+              ? "; make study and make sweep mesh again until the discharge is known to 1 %"
+              : "");
 }
 
 void complete_for_mesh(SceneDocument& document, int dimension) {

@@ -19,7 +19,8 @@ void complete_scene(Scene& scene, const std::string& path,
 /// \param from_file  of a geometry file, whose crossed mesh has other elements than a column's
 double default_element_size(double volume, int dimension, MeshStructure structure, bool from_file);
 
-/// What the summary says of such a size.
-std::string default_size_note(double size);
+/// What the summary says of such a size, and whether it is where meshing again begins: scripts look
+/// for these words.
+std::string default_size_note(const SceneDocument& document, double size);
 
 }  // namespace suffuse

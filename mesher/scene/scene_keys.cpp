@@ -225,12 +225,13 @@ std::vector<SceneKey> declare_keys() {
           .otherwise_as("`\"regular\"`; with `file`, `\"crossed\"` or, of volumes, `\"free\"`"),
       key("mesh.error", at(&Scene::mesh, &MeshSettings::error),
           "Mesh again until the discharge of the steady flow is known to this share of it: `make "
-          "-C "
-          "workflows adapt`. Implicit scheme only; not with a regular mesh or a .msh file.")
+          "-C workflows adapt`; with `OVER=run` to this share of the largest discharge of the run. "
+          "Implicit scheme only; not with a regular mesh or a .msh file.")
           .named("eps")
           .above(0.0)
           .below(1.0)
-          .otherwise_as("the mesh is made once"),
+          .otherwise_as("the mesh is made once; without `mesh.size` too, `make study` and `make "
+                        "sweep` take 0.01"),
       key("mesh.max_elements", at(&Scene::mesh, &MeshSettings::max_elements),
           "Number of elements at which meshing again for `mesh.error` stops.")
           .at_least(1)

@@ -16,17 +16,6 @@ std::string changeable_keys() {
   return listed({keys_that_may_change.begin(), keys_that_may_change.end()}, "and");
 }
 
-/// Differences from the run in `folder` that are not allowed.
-template <int Dim>
-std::vector<std::string> lasting_differences(const std::string& folder, const Case<Dim>& c) {
-  std::vector<std::string> result = differences_from_run(folder, c);
-  for (const char* key : keys_that_may_change) {
-    std::erase_if(
-        result, [&](const std::string& line) { return line.starts_with(std::string(key) + ":"); });
-  }
-  return result;
-}
-
 /// Finds the state to resume the run in `folder`. Throws InputError if it is another case.
 template <int Dim>
 FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
@@ -70,6 +59,16 @@ bool is_complete(const Case<Dim>& c, const std::string& folder, const SolverOpti
 }  // namespace
 
 template <int Dim>
+std::vector<std::string> lasting_differences(const std::string& folder, const Case<Dim>& c) {
+  std::vector<std::string> result = differences_from_run(folder, c);
+  for (const char* key : keys_that_may_change) {
+    std::erase_if(
+        result, [&](const std::string& line) { return line.starts_with(std::string(key) + ":"); });
+  }
+  return result;
+}
+
+template <int Dim>
 std::optional<StartingPoint> find_starting_point(const Case<Dim>& c, const std::string& folder,
                                                  const SolverOptions& options) {
   check_results_folder(folder, c.document.scene.name);
@@ -88,6 +87,8 @@ std::optional<StartingPoint> find_starting_point(const Case<Dim>& c, const std::
   return result;
 }
 
+template std::vector<std::string> lasting_differences(const std::string&, const Case<2>&);
+template std::vector<std::string> lasting_differences(const std::string&, const Case<3>&);
 template std::optional<StartingPoint> find_starting_point(const Case<2>&, const std::string&,
                                                           const SolverOptions&);
 template std::optional<StartingPoint> find_starting_point(const Case<3>&, const std::string&,

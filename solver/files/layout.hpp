@@ -63,6 +63,8 @@ inline constexpr const char* own_group = "/Suffuse";
 inline constexpr const char* region_names = "/Suffuse/region_names";
 inline constexpr const char* field_data_group = "/VTKHDF/FieldData";
 inline constexpr const char* element_vertex_group = "/Suffuse/element_vertex";
+/// How far the discharge can be off at the time of a snapshot, as attributes.
+inline constexpr const char* discharge_group = "/Suffuse/discharge";
 inline constexpr const char* restart_group = "/Suffuse/restart";
 inline constexpr const char* restart_state = "/Suffuse/restart/state";
 

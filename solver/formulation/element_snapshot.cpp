@@ -93,7 +93,10 @@ void add_flow(const Grid<Dim>& grid, const FlowState<Dim>& flow, const Scene& sc
   result.node = {vectors("liquid_velocity", "m/s", flow.velocity),
                  {"pressure", "Pa", 1, flow.node_pressure}};
   if (!flow.saturation.empty()) result.cell.push_back({"saturation", "1", 1, flow.saturation});
-  if (flow.bounds) result.cell.push_back({"error", "1", 1, shares(flow.bounds->error)});
+  if (flow.bounds) {
+    result.cell.push_back({"error", "1", 1, shares(flow.bounds->error)});
+    result.discharge = discharge_record(*flow.bounds);
+  }
   if (!has_gravity(scene.gravity)) return;
   Field head = scalar("head", "m");
   const double weight = unit_weight(scene.liquid.density, scene.gravity);
@@ -146,6 +149,11 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
 }
 
 }  // namespace
+
+DischargeRecord discharge_record(const DischargeBounds& bounds) {
+  return {bounds.least_known.low, bounds.least_known.high, bounds.largest_flux,
+          bounds.why_estimates};
+}
 
 template <int Dim>
 Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,

@@ -10,6 +10,9 @@
 
 namespace suffuse {
 
+/// What a snapshot holds of the bounds.
+DischargeRecord discharge_record(const DischargeBounds& bounds);
+
 /// `liquid`: pores and fines in them, per element and field node; `step`: number of flow steps so
 /// far; `acting_concentration`: that of erosion, per element, if it is not that of `liquid`.
 /// Includes heads at nodes with gravity, and saturations of elements if the flow has them.

@@ -428,6 +428,15 @@ std::vector<std::string> ResultsReader::field_names(std::size_t index,
   return file.children(field_group(where));
 }
 
+std::optional<DischargeRecord> ResultsReader::discharge(std::size_t index) const {
+  const Hdf5File file(snapshot_path("mesh", index), Hdf5File::Mode::read);
+  const std::string group = layout::discharge_group;
+  if (!file.exists(group)) return std::nullopt;
+  return DischargeRecord{file.double_attribute(group, "low"), file.double_attribute(group, "high"),
+                         file.double_attribute(group, "largest_flux"),
+                         file.text_attribute(group, "why_estimate")};
+}
+
 template Mesh<2> ResultsReader::mesh() const;
 template Mesh<3> ResultsReader::mesh() const;
 template std::vector<Vector<2>> ResultsReader::point_positions(std::size_t,

@@ -3,6 +3,7 @@
 /// Reads a results folder.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,8 @@ class ResultsReader {
                             const std::string& name) const;
   [[nodiscard]] std::vector<std::string> field_names(std::size_t index,
                                                      const std::string& where) const;
+  /// What is known of the discharge at a snapshot; nothing without mesh.error.
+  [[nodiscard]] std::optional<DischargeRecord> discharge(std::size_t index) const;
 
  private:
   /// Throws InputError for results of another dimension.

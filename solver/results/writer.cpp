@@ -160,6 +160,16 @@ void write_own_fields(Hdf5File& file, const Snapshot& snapshot, std::size_t elem
   }
 }
 
+void write_discharge(Hdf5File& file, const DischargeRecord& discharge) {
+  const std::string group = layout::discharge_group;
+  file.create_group(group);
+  file.attribute(group, "unit", std::string("m3/s"));
+  file.attribute(group, "low", discharge.low);
+  file.attribute(group, "high", discharge.high);
+  file.attribute(group, "largest_flux", discharge.largest_flux);
+  file.attribute(group, "why_estimate", discharge.why_estimate);
+}
+
 /// Whether the case file has this scene: a run may continue with a later end.
 bool holds_scene(const std::string& case_path, const SceneDocument& document) {
   try {
@@ -387,6 +397,7 @@ void ResultsWriter<Dim>::write_snapshot(Snapshot snapshot) {
                     {std::move(snapshot.cell), std::move(snapshot.node), precision});
     link_region_names(file, layout::grid_name("mesh"), case_.mesh.region_names);
     write_own_fields(file, snapshot, case_.mesh.elements.size(), Dim + 1, precision);
+    if (snapshot.discharge) write_discharge(file, *snapshot.discharge);
   });
   if (snapshot.restart) {
     write_hdf5_whole(layout::in_folder(folder_, layout::state(index)),

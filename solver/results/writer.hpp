@@ -34,6 +34,15 @@ struct Field {
   bool is_whole = false;  ///< whole numbers, which are never rounded to float32
 };
 
+/// The discharge of which least is known at one time.
+struct DischargeRecord {
+  double low = 0.0;   ///< m3/s
+  double high = 0.0;  ///< m3/s
+  /// No discharge of the model is larger by orders of magnitude, m3/s.
+  double largest_flux = 0.0;
+  std::string why_estimate;  ///< why the interval is no bound; empty where it is one
+};
+
 /// The model at one time.
 struct Snapshot {
   double time = 0.0;
@@ -48,6 +57,8 @@ struct Snapshot {
   /// Linear field of each element at its vertices: Dim + 1 components, in the order of its nodes.
   /// `sample` reads these fields.
   std::vector<Field> element_vertex;
+  /// With mesh.error; the field `error` has the part of each element in half the interval.
+  std::optional<DischargeRecord> discharge = {};
   /// The state from which a run can continue after this snapshot.
   std::optional<RestartPoint> restart;
 };

@@ -4,13 +4,22 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <numeric>
+#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "bounds/element_sizes.hpp"
 #include "case/mesh_sizes.hpp"
 #include "common/errors.hpp"
 #include "common/short_number.hpp"
 #include "driver/plan.hpp"
+#include "driver/starting_point.hpp"
+#include "formulation/element_snapshot.hpp"
+#include "results/earlier_run.hpp"
+#include "results/reader.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 namespace {
@@ -26,15 +35,113 @@ constexpr double least_share = 1.0 / 3.0;
 
 /// Discharges below this share of what the heads could drive are round-off.
 constexpr double no_flow = 1e-12;
+/// Half an interval is this many times the discharge only where both are round-off.
+constexpr double round_off_alone = 1e6;
 
-/// "Q = 1.408e-4 m3/s, between 1.407e-4 and 1.410e-4".
-std::string sentence(const DischargeBounds& bounds, int dimension) {
-  const Interval& q = bounds.least_known;
+/// What is known of the discharge of a flow, or of a run.
+struct KnownDischarge {
+  DischargeRecord record;      ///< at the moment at which least is known
+  std::optional<double> time;  ///< that moment, where it is one of a run, s
+  double largest = 0.0;        ///< discharge, m3/s
+  double largest_flux = 0.0;   ///< that of the record, the largest of a run
+  std::vector<double> error;   ///< of each element, the largest of a run, m3/s
+
+  [[nodiscard]] Interval interval() const { return {record.low, record.high}; }
+};
+
+/// That of the steady flow at the start.
+template <int Dim>
+KnownDischarge known_at_start(Case<Dim> c, int threads) {
+  c.document.scene.initial_flow = InitialFlow::steady;
+  const Plan plan = make_plan(c, {.threads = threads});
+  DischargeBounds bounds = make_model(c, plan)->flow().discharge_bounds().value();
+  KnownDischarge known;
+  known.record = discharge_record(bounds);
+  known.error = std::move(bounds.error);
+  known.largest = std::abs(known.interval().middle());
+  known.largest_flux = known.record.largest_flux;
+  return known;
+}
+
+[[noreturn]] void refuse_run(const std::string& folder, const std::string& found,
+                             const std::string& expected) {
+  throw InputError(InputProblem{"", "--from", shown_value(folder) + found, expected});
+}
+
+/// Throws InputError unless the folder has results of a run of the case that is done.
+template <int Dim>
+void refuse_other_run(const Case<Dim>& c, const ResultsReader& results) {
+  const std::vector<std::string> differences = lasting_differences(results.folder(), c);
+  if (!differences.empty()) {
+    refuse_run(results.folder(), ", the results of another case",
+               "those of a run of this case. " + listed_differences(differences));
+  }
+  if (results.status() != "done") {
+    refuse_run(results.folder(), ", whose run is " + shown_value(results.status()),
+               "a run that is done: let it go on with --resume");
+  }
+}
+
+/// That of a run, from its snapshots.
+template <int Dim>
+KnownDischarge known_from_run(const Case<Dim>& c, const std::string& folder) {
+  const ResultsReader results(folder);
+  refuse_other_run(c, results);
+  if (!c.document.scene.mesh.error) {
+    refuse_run(folder, ", whose snapshots have no field error", "a run of a scene with mesh.error");
+  }
+  KnownDischarge known;
+  known.error.assign(c.mesh.elements.size(), 0.0);
+  for (std::size_t k = 0; k < results.times().size(); ++k) {
+    const std::optional<DischargeRecord> record = results.discharge(k);
+    if (!record) continue;  // no dual flow was found
+    const Interval interval{record->low, record->high};
+    const std::vector<double> shares = results.field(k, "cell", "error").values;
+    for (std::size_t e = 0; e < known.error.size(); ++e) {
+      known.error[e] = std::max(known.error[e], shares[e] * interval.half());
+    }
+    known.largest = std::max(known.largest, std::abs(interval.middle()));
+    known.largest_flux = std::max(known.largest_flux, record->largest_flux);
+    // The first of moments that differ by round-off.
+    if (known.time && interval.half() <= (1.0 + 1e-9) * known.interval().half()) continue;
+    known.record = *record;
+    known.time = results.times()[k];
+  }
+  return known;
+}
+
+void refuse_explicit(const SceneDocument& document) {
+  if (document.scene.time.scheme != FlowScheme::explicit_nodal) return;
+  throw InputError(InputProblem{document.locate("time.scheme"), "time.scheme", "\"explicit\"",
+                                "\"implicit\": only its fluxes bound the discharge"});
+}
+
+void refuse_without_flow(const SceneDocument& document, const KnownDischarge& known, bool of_run) {
+  if (known.largest > no_flow * known.largest_flux &&
+      known.interval().half() < round_off_alone * known.largest) {
+    return;
+  }
+  throw InputError(
+      document.locate("boundary") + ": got no flow that heads drive, " +
+      (of_run
+           ? "at any snapshot of the run; expected boundaries with heads that differ at some time"
+           : "at t = 0; expected boundaries with heads that differ at the start") +
+      ", for a discharge that is not given");
+}
+
+/// "Q = 1.408e-4 m3/s, between 1.407e-4 and 1.410e-4 (+- 0.11 %)".
+std::string sentence(const KnownDischarge& known, int dimension) {
+  const Interval q = known.interval();
   std::ostringstream text;
-  text << "Q = " << q.middle() << (dimension == 2 ? " m3/s per m" : " m3/s")
-       << (bounds.why_estimates.empty() ? ", between " : ", estimated between ") << q.low << " and "
-       << q.high << " (+- " << std::setprecision(2) << 100.0 * q.half() / std::abs(q.middle())
-       << " %)";
+  text << "Q = " << q.middle() << (dimension == 2 ? " m3/s per m" : " m3/s");
+  if (known.time) text << " at t = " << *known.time << " s, when least is known of it";
+  text << (known.record.why_estimate.empty() ? ", between " : ", estimated between ") << q.low
+       << " and " << q.high << " (+- ";
+  std::ostringstream percent;
+  percent << std::setprecision(2) << 100.0 * q.half() / known.largest << " %";
+  text << percent.str();
+  if (known.time) text << " of the largest of the run, " << known.largest;
+  text << ')';
   return text.str();
 }
 
@@ -42,36 +149,30 @@ std::string sentence(const DischargeBounds& bounds, int dimension) {
 
 template <int Dim>
 void write_sizes(Case<Dim> c, const SizesOptions& options) {
-  c.document.scene.initial_flow = InitialFlow::steady;
-  const Plan plan = make_plan(c, {.threads = options.threads});
-  const auto model = make_model(c, plan);
-  const std::optional<DischargeBounds> bounds = model->flow().discharge_bounds();
-  if (!bounds) {
-    throw InputError(InputProblem{c.document.locate("time.scheme"), "time.scheme", "\"explicit\"",
-                                  "\"implicit\": only its fluxes bound the discharge"});
-  }
-  if (!(std::abs(bounds->least_known.middle()) > no_flow * bounds->largest_flux)) {
-    throw InputError(
-        c.document.locate("boundary") +
-        ": got no flow that heads drive, at t = 0; expected boundaries with heads that "
-        "differ at the start, for a discharge that is not given");
-  }
-  const Grid<Dim>& grid = model->grid();
-  const MeshSettings& mesh = c.document.scene.mesh;
+  const SceneDocument& document = c.document;
+  const bool of_run = !options.run.empty();
+  refuse_explicit(document);
+  const KnownDischarge known =
+      of_run ? known_from_run(c, options.run) : known_at_start(c, options.threads);
+  refuse_without_flow(document, known, of_run);
+  const MeshSettings& mesh = document.scene.mesh;
   const double allowed = mesh.error.value_or(default_error);
-  const double whole = allowed * std::abs(bounds->least_known.middle());
-  const WantedError wanted{.whole = std::max(aim * whole, least_share * bounds->least_known.half()),
+  const double whole = allowed * known.largest;
+  const double now = known.interval().half();
+  // Elements may have their largest errors at different times: these add up to more than `now`.
+  const double sum = std::accumulate(known.error.begin(), known.error.end(), 0.0);
+  const WantedError wanted{.whole = sum * std::max(aim * whole / now, least_share),
                            .max_elements = 1.0 * mesh.max_elements};
-  const std::vector<double> sizes = next_sizes(grid, bounds->error, wanted);
-  write_mesh_sizes(options.output, c.mesh, sizes);
-  std::cout << sentence(*bounds, Dim) << ", " << grid.mesh.element_count() << " elements\n";
-  if (!bounds->why_estimates.empty()) {
-    std::cout << "an estimate, no bound: " << bounds->why_estimates << '\n';
+  write_mesh_sizes(options.output, c.mesh, next_sizes(Grid<Dim>(c.mesh), known.error, wanted));
+  const int count = c.mesh.element_count();
+  std::cout << sentence(known, Dim) << ", " << count << " elements\n";
+  if (!known.record.why_estimate.empty()) {
+    std::cout << "an estimate, no bound: " << known.record.why_estimate << '\n';
   }
   std::cout << "mesh.error = " << short_number(allowed);
-  if (bounds->least_known.half() <= whole) {
+  if (now <= whole) {
     std::cout << " is met\n";
-  } else if (grid.mesh.element_count() < as_large * mesh.max_elements) {
+  } else if (count < as_large * mesh.max_elements) {
     std::cout << " is not met: mesh again with suffuse-mesher --sizes " << options.output << '\n';
   } else {
     std::cout << " is not met within mesh.max_elements = " << mesh.max_elements

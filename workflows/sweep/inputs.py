@@ -5,6 +5,7 @@
     set soil.foundation.porosity=0.3          a change of it, as for the mesher's --set
     sha256 0123... /path/weir.geo             the content of every file that has a part in it
     adapt                                     the scene is meshed again until mesh.error is met
+    adapt by default                          likewise, with 0.01 for mesh.error, if the mesher chooses mesh.size
 
     inputs.py SCENE PROGRAMS STEM [KEY=VALUE...]     writes STEM.inputs, if its text changes
 """
@@ -47,23 +48,27 @@ def common_lines(scene, programs):
     return [content(file) for file in files]
 
 
-def asks_for_an_error(scene, changes):
-    """Whether the scene, or a change of it, has mesh.error. What is no TOML the mesher refuses."""
-    keys = [change.split("=", 1) for change in changes]
-    if any(key == "mesh.error" or (key == "mesh" and "error" in value) for key, value in keys):
-        return True
+def mesh_keys(text):
+    """The keys of [mesh] in a text. What is no TOML the mesher refuses."""
     try:
-        return "error" in tomllib.loads(scene.read_text(encoding="utf-8")).get("mesh", {})
+        return set(tomllib.loads(text).get("mesh", {}))
     except (ValueError, AttributeError, TypeError):
-        return False
+        return set()
+
+
+def adaptation(scene, changes):
+    """The line that says whether the scene, with its changes, is meshed again: one or none."""
+    given = mesh_keys(scene.read_text(encoding="utf-8", errors="replace")).union(*map(mesh_keys, changes))
+    if "error" in given:
+        return ["adapt"]
+    return [] if "size" in given else ["adapt by default"]
 
 
 def inputs_of(scene, programs, changes):
     """The text of the file. `changes`: KEY=VALUE. Throws InputError where scene or programs cannot be read."""
     try:
         lines = [f"scene {scene}", *(f"set {change}" for change in changes), *common_lines(scene, programs)]
-        if asks_for_an_error(scene, changes):
-            lines.append("adapt")
+        lines += adaptation(scene, changes)
         for change in changes:
             value = change.split("=", 1)[1]
             lines += [content(file) for file in named_files(f'{value}\n"{value}"', scene.parent)]

@@ -81,11 +81,11 @@ if ! { [ -e "$name.case.h5" ] && [ -e "$started" ] && cmp -s "$name.inputs" "$st
   done < "$name.inputs"
   # Until the case is whole, an earlier one fits no inputs.
   rm -f "$started"
-  if grep -qx adapt "$name.inputs"; then
-    step "$here/../adapt.sh" failed "$programs" "$scene" "$name" "${changes[@]}"
-  else
-    step suffuse-mesher refused "$scene" "${changes[@]}" -o "$name.case.h5"
-  fi
+  case $(grep '^adapt' "$name.inputs") in
+    adapt) step "$here/../adapt.sh" failed "$programs" "$scene" "$name" "${changes[@]}" ;;
+    adapt*) step "$here/../adapt.sh" failed --by-default "$programs" "$scene" "$name" "${changes[@]}" ;;
+    *) step suffuse-mesher refused "$scene" "${changes[@]}" -o "$name.case.h5" ;;
+  esac
   [ ! -e "$name.results" ] || rm -rf "$name.results" "$name.ledger.csv"
   cp "$name.inputs" "$started"
 fi
