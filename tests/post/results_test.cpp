@@ -139,7 +139,8 @@ TEST(Results, BoundariesReadBackByNameWhateverTheName) {
   EXPECT_TRUE(file_text(scratch / "run.results/boundaries.csv")
                   .starts_with("t,boundary,water_in,water_out,fines_in,fines_out,liquid_in,"
                                "liquid_out,discharge,level,discharge_low,discharge_high,discharge_"
-                               "estimate\n0.1,top,1,2,3,4,5,6,7,0.5,0,0,0\n"
+                               "estimate,discharge_time_estimate,discharge_transport_estimate\n"
+                               "0.1,top,1,2,3,4,5,6,7,0.5,0,0,0,0,0\n"
                                "0.1,\"toe, \"\"left\"\"\",8,9,"));
   const auto read = ResultsReader(scratch / "run.results").boundaries();
   ASSERT_EQ(read.size(), 2U);
