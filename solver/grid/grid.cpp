@@ -58,7 +58,7 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in)
     : mesh(mesh_in),
       ranks_(std::make_shared<Ranks>()),
       elements_(mesh_in.element_count()),
-      faces_(0) {
+      nodes_(mesh_in.node_count()) {
   const int elements = mesh.element_count();
   volume.resize(elements);
   shape_gradient.resize(elements);
@@ -102,9 +102,67 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in)
     }
   }
   faces_ = OwnRows(face_count());
-  face_partner.assign(face_left.size(), -1);
+  face_partner.assign(face_left.size(), no_partner);
   invert(face_nodes, mesh.node_count(), node_face_begin, node_face);
   invert(mesh.elements, mesh.node_count(), node_element_begin, node_element);
+}
+
+template <int Dim>
+Grid<Dim>::Grid(const LocalPart<Dim>& part, std::shared_ptr<const Ranks> ranks) : Grid(part.mesh) {
+  ranks_ = std::move(ranks);
+  elements_ = ranks_->rows(part.element, part.first_element, part.last_element);
+  nodes_ = ranks_->rows(part.node, part.first_node, part.last_node);
+  // Faces are numbered as elements come to them, so own elements find own faces one by one.
+  const auto place = [&](int element) {
+    return static_cast<int>(std::ranges::lower_bound(face_left, element) - face_left.begin());
+  };
+  const int first = place(part.first_element);
+  const int last = place(part.last_element);
+  faces_ = ranks_->rows(global_faces(first, last), first, last);
+  settle_fringe();
+  nodes_.exchange(node_volume);
+}
+
+template <int Dim>
+std::vector<long> Grid<Dim>::global_faces(int first, int last) const {
+  constexpr long unknown = -1;
+  const long offset = ranks_->before(last - first);
+  std::vector<std::array<long, Dim + 1>> of_element(element_face.size());
+  for (auto& numbers : of_element) numbers.fill(unknown);
+  for (const int e : elements_.own()) {
+    for (int k = 0; k <= Dim; ++k) {
+      const int f = element_face[e][k];
+      if (f >= first && f < last) of_element[e][k] = offset + f - first;
+    }
+  }
+  // Elements of a lower rank have found the other faces of own elements. Once these are known here,
+  // all faces of all elements are known to those who own them.
+  std::vector<long> result(face_count(), unknown);
+  for (int round = 0; round < 2; ++round) {
+    elements_.exchange(of_element);
+    for (std::size_t e = 0; e < of_element.size(); ++e) {
+      for (int k = 0; k <= Dim; ++k) {
+        if (of_element[e][k] != unknown) result[element_face[e][k]] = of_element[e][k];
+      }
+    }
+    for (const int e : elements_.own()) {
+      for (int k = 0; k <= Dim; ++k) of_element[e][k] = result[element_face[e][k]];
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+void Grid<Dim>::settle_fringe() {
+  std::vector<char> ends(face_count());
+  for (int f = 0; f < face_count(); ++f) ends[f] = is_outer(f) ? 1 : 0;
+  faces_.exchange(ends);
+  for (int f = 0; f < face_count(); ++f) {
+    if (is_outer(f) && ends[f] == 0) face_partner[f] = on_other_rank;
+  }
+  // The element that gives a face its normal may not be here.
+  faces_.exchange(face_normal);
+  elements_.exchange(element_face_sign);
 }
 
 template <int Dim>

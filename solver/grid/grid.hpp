@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "ranks/ranks.hpp"
+#include "ranks/local_part.hpp"
 #include "ranks/own_rows.hpp"
+#include "ranks/ranks.hpp"
 
 namespace suffuse {
 
@@ -19,6 +20,8 @@ template <int Dim>
 struct Grid {
   /// Of a program that is alone, which owns all of the mesh.
   explicit Grid(const Mesh<Dim>& mesh);
+  /// Of a rank. All ranks have to call it.
+  Grid(const LocalPart<Dim>& part, std::shared_ptr<const Ranks> ranks);
 
   [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
   /// Elements and faces of this rank, ascending: a sum over the model is a sum over these and then
@@ -26,6 +29,10 @@ struct Grid {
   [[nodiscard]] auto own_elements() const { return elements_.own(); }
   [[nodiscard]] auto own_faces() const { return faces_.own(); }
   [[nodiscard]] bool owns_face(int face) const { return faces_.owns(face); }
+  // The rows themselves, to fetch values from other ranks.
+  [[nodiscard]] const OwnRows& element_rows() const { return elements_; }
+  [[nodiscard]] const OwnRows& face_rows() const { return faces_; }
+  [[nodiscard]] const OwnRows& node_rows() const { return nodes_; }
 
   /// Face of the grid with exactly these nodes, in any order; -1 if there is none.
   [[nodiscard]] int find_face(std::array<int, Dim> nodes) const;
@@ -33,7 +40,9 @@ struct Grid {
   /// Whether a face has one element only, as the sides of a wall have.
   [[nodiscard]] bool is_outer(int face) const { return face_right[face] < 0; }
   /// Whether the model ends at a face: an outer face without a partner.
-  [[nodiscard]] bool is_border(int face) const { return is_outer(face) && face_partner[face] < 0; }
+  [[nodiscard]] bool is_border(int face) const {
+    return is_outer(face) && face_partner[face] == no_partner;
+  }
   /// Element beyond a face as seen from its left one, through a wall too; -1 at the border.
   [[nodiscard]] int beyond(int face) const {
     return face_partner[face] < 0 ? face_right[face] : face_left[face_partner[face]];
@@ -67,7 +76,11 @@ struct Grid {
   std::vector<int> face_left;   ///< element the normal points out of
   std::vector<int> face_right;  ///< element the normal points into, -1 at the outer boundary
   std::vector<Vector<Dim>> face_normal;  ///< times the face's area
-  std::vector<int> face_partner;  ///< the other side of a wall that lets liquid through, or -1
+  static constexpr int no_partner = -1;
+  static constexpr int on_other_rank = -2;
+  /// The other side of a wall that lets liquid through, or one of the numbers above: beyond a face
+  /// at the fringe of a rank's part, the mesh goes on.
+  std::vector<int> face_partner;
 
   std::vector<std::array<int, Dim + 1>> element_face;
   std::vector<std::array<double, Dim + 1>> element_face_sign;  ///< +1 where the normal points out
@@ -80,9 +93,15 @@ struct Grid {
   std::vector<int> node_element;
 
  private:
+  /// Number of each face in the whole mesh: ranks number their own faces one after the other.
+  [[nodiscard]] std::vector<long> global_faces(int first, int last) const;
+  /// Makes faces at the fringe equal to those of the rank that owns them.
+  void settle_fringe();
+
   std::shared_ptr<const Ranks> ranks_;
   OwnRows elements_;
   OwnRows faces_;
+  OwnRows nodes_;
 };
 
 /// Elements with an angle of more than 90 degrees (in three dimensions, between two sides).

@@ -1,25 +1,57 @@
 #pragma once
 
-/// What of the elements, faces or nodes of a mesh this rank owns.
+/// What of the elements, faces or nodes of a mesh this rank owns, and the copies that it holds of
+/// those of other ranks.
 
+#include <cstddef>
+#include <memory>
 #include <ranges>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace suffuse {
 
-/// A rank owns a contiguous range of rows. Those of other ranks that it holds too, next to its own,
-/// lie before and behind them.
+/// Fetches what this rank holds copies of from the ranks that own it.
+class Halo {
+ public:
+  Halo() = default;
+  virtual ~Halo() = default;
+  Halo(const Halo&) = delete;
+  Halo& operator=(const Halo&) = delete;
+
+  /// Overwrites the copies among `values`, of `bytes` each, one for each row that this rank holds.
+  /// All ranks have to call it.
+  virtual void exchange(void* values, std::size_t bytes) const = 0;
+};
+
+/// A rank owns a contiguous range of rows. Copies of other ranks' rows, those next to its own, lie
+/// before and behind them, all in the order of the whole mesh.
 class OwnRows {
  public:
   /// All of `count` rows: of a program that is alone.
-  explicit OwnRows(int count) : last_(count) {}
+  explicit OwnRows(int count = 0) : last_(count) {}
+  OwnRows(int first, int last, std::shared_ptr<const Halo> halo)
+      : first_(first), last_(last), halo_(std::move(halo)) {}
 
   /// The numbers of own rows, ascending.
   [[nodiscard]] auto own() const { return std::views::iota(first_, last_); }
   [[nodiscard]] bool owns(int row) const { return row >= first_ && row < last_; }
+  [[nodiscard]] int first() const { return first_; }
+  [[nodiscard]] int last() const { return last_; }
+
+  /// Overwrites the copies with the values of their owners. Alone: does nothing.
+  template <class Value>
+  void exchange(std::vector<Value>& values) const {
+    // Not is_trivially_copyable: vectors of Eigen are not, though their bytes are all they have.
+    static_assert(std::is_standard_layout_v<Value> && std::is_trivially_destructible_v<Value>);
+    if (halo_) halo_->exchange(values.data(), sizeof(Value));
+  }
 
  private:
   int first_ = 0;
-  int last_;
+  int last_ = 0;
+  std::shared_ptr<const Halo> halo_;  ///< null: alone
 };
 
 }  // namespace suffuse

@@ -2,12 +2,13 @@
 
 /// The ranks that share a run: processes that hold a part of the mesh each, and send each other
 /// what they do not have. A program of one process is alone: nothing is sent, and every call gives
-/// back what it got.
+/// back what it got. All ranks have to make the same calls in the same order.
 
 #include <span>
 #include <vector>
 
 #include "ranks/exact_sum.hpp"
+#include "ranks/own_rows.hpp"
 
 namespace suffuse {
 
@@ -24,6 +25,14 @@ class Ranks {
   virtual void sum(const std::vector<ExactSum*>& /*sums*/) const {}
   /// Replaces each value by the largest of all ranks.
   virtual void largest(std::span<double> /*values*/) const {}
+  /// Sum of the counts of lower ranks.
+  [[nodiscard]] virtual long before(long /*count*/) const { return 0; }
+  /// Rows of which this rank holds those with the numbers `global` in the whole mesh, ascending,
+  /// and owns those from `first` to `last`.
+  [[nodiscard]] virtual OwnRows rows(const std::vector<long>& /*global*/, int first,
+                                     int last) const {
+    return {first, last, nullptr};
+  }
 };
 
 /// The sums over all ranks, of those of this one.
