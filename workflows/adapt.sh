@@ -47,11 +47,15 @@ end() {
   exit "$code"
 }
 
-# hardly_helped: twice as many elements as the last mesh has left 85 % of the interval or more.
+# hardly_helped: this mesh has at least twice as many elements as an earlier one, and leaves 85 % of
+# the interval or more.
 hardly_helped() {
   tail -n +2 "$stem.adapt.csv" | awk -F, '
-    { before = elements; wide = width; elements = $1; width = $4 - $3 }
-    END { exit !(NR > 1 && elements > 2 * before && width > 0.85 * wide) }'
+    { elements[NR] = $1; width[NR] = $4 - $3 }
+    END {
+      for (mesh = NR - 1; mesh > 0 && 2 * elements[mesh] > elements[NR]; --mesh) {}
+      exit !(mesh > 0 && width[NR] > 0.85 * width[mesh])
+    }'
 }
 
 mesh

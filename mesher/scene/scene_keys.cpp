@@ -697,7 +697,8 @@ std::vector<SceneKey> declare_keys() {
           .mandatory(),
       key("output.probe[].disc", in_output(&OutputSettings::probes, &OutputProbe::disc),
           "With `mesh.error`: radius of the disc around the probe (in 3D a ball) over which head "
-          "and gradient are averaged for the columns that say how far they can be off.")
+          "and gradient are averaged for the columns that say how far they can be off. The disc is "
+          "larger where its element is.")
           .in("m")
           .above(0.0)
           .otherwise_as("a fiftieth of the size of the model, the root of its area"),

@@ -79,6 +79,10 @@ DiscMean<Dim> disc_mean(const Grid<Dim>& grid, const PointPlace<Dim>& place, dou
       if (other >= 0 && seen.insert(other).second) found.push_back(other);
     }
   }
+  if (mean.shares.empty()) {  // a sliver, of which no sample lies in the disc
+    mean.shares.push_back({place.element, 1.0, Vector<Dim>::Zero()});
+    whole = 1.0;
+  }
   for (typename DiscMean<Dim>::Share& part : mean.shares) part.share /= whole;
   return mean;
 }

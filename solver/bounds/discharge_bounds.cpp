@@ -114,12 +114,16 @@ DischargeBounds discharge_bounds(const SeepageState<Dim>& state) {
   DischargeBounds result;
   result.why_estimates = problem.objection();
   result.largest_flux = problem.largest_flux();
+  result.error.assign(state.grid.volume.size(), 0.0);
   const double margin = margin_of(problem);
+  const double round_off = seepage_round_off * problem.all_fluxes();
+  // An interval next to nothing wide is one by balance. It leaves out the errors of stored water.
+  const auto is_known = [&](const Interval& q) { return q.half() <= round_off; };
+  bool both_ways = false;
   for (const Crossing& crossing : problem.crossings()) {
     result.boundaries.emplace_back(Interval{crossing.given - margin, crossing.given + margin});
     result.boundary_steps.push_back({std::abs(crossing.in_time), 0.0});
-    result.both_ways = result.both_ways || std::min(crossing.in, crossing.out) >
-                                               seepage_round_off * problem.all_fluxes();
+    both_ways = both_ways || std::min(crossing.in, crossing.out) > round_off;
   }
   const std::vector<HeldDischarge<Dim>> groups = held_discharges(problem);
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -131,29 +135,33 @@ DischargeBounds discharge_bounds(const SeepageState<Dim>& state) {
       (held > 0.0 ? out : in) += std::abs(held);
       if (members.size() > 1) result.boundaries[b].reset();
     }
-    result.both_ways =
-        result.both_ways || std::min(in, out) > seepage_round_off * problem.all_fluxes();
+    both_ways = both_ways || std::min(in, out) > round_off;
     if (members.size() > 1) continue;
     const int b = members.front();
     const Interval of_group = bound(problem, groups[g]);
-    Interval& whole = *result.boundaries[b];
-    whole = {whole.low + of_group.low, whole.high + of_group.high};
+    std::optional<Interval>& whole = result.boundaries[b];
+    whole = {whole->low + of_group.low, whole->high + of_group.high};
+    if (is_known(of_group) && !problem.balances()) whole.reset();
     result.boundary_steps[b] = step_estimates(problem, groups[g]);
   }
   HeldDischarge<Dim> held = outflow_of(problem, groups);
-  result.flux_out = bound(problem, held);
-  result.flux_out_step = step_estimates(problem, held);
-  // Known by balance, where the rest is given.
-  const bool is_known = result.flux_out.half() <= seepage_round_off * problem.all_fluxes();
-  result.least_known = result.flux_out;
-  if (is_known && !groups.empty()) {
-    held = least_known(problem, groups);
-    result.least_known = bound(problem, held);
+  Interval outflow = bound(problem, held);
+  const bool is_by_balance = is_known(outflow);
+  if (!both_ways && (!is_by_balance || problem.balances())) {
+    result.flux_out = outflow;
+    for (const Crossing& crossing : problem.crossings()) {
+      result.flux_out->low += std::max(0.0, crossing.given);
+      result.flux_out->high += std::max(0.0, crossing.given);
+    }
   }
-  result.error = parts_of_error(problem, held.dual);
-  for (const Crossing& crossing : problem.crossings()) {
-    result.flux_out.low += std::max(0.0, crossing.given);
-    result.flux_out.high += std::max(0.0, crossing.given);
+  if (!both_ways) result.flux_out_step = step_estimates(problem, held);
+  if (groups.size() > 1) {
+    if (is_by_balance) {
+      held = least_known(problem, groups);
+      outflow = bound(problem, held);
+    }
+    result.least_known = outflow;
+    result.error = parts_of_error(problem, held.dual);
   }
   result.probes = probe_means(problem);
   return result;

@@ -34,21 +34,22 @@ struct DischargeBounds {
   /// where the boundary shares a node with another one that holds a head.
   std::vector<std::optional<Interval>> boundaries;
   std::vector<StepEstimates> boundary_steps;  ///< of the same, m3/s
-  /// Sum over the boundaries through which more leaves than enters, m3/s.
-  Interval flux_out;
-  StepEstimates flux_out_step;  ///< of the same, m3/s
+  /// Sum over the boundaries through which more leaves than enters, m3/s. None where liquid enters
+  /// and leaves by one boundary, as `flux_out` of the history is larger than this sum then; and
+  /// where it is known by balance alone while the flow changes, as errors of stored water remain
+  /// unseen.
+  std::optional<Interval> flux_out;
+  StepEstimates flux_out_step;  ///< errors of the last step in it, m3/s
   /// What leaves through boundaries that hold heads. Where that is known by balance, as a well has
-  /// the rest: the discharge of the boundary with a head of which least is known, m3/s.
-  Interval least_known;
-  /// The mean conductivity times the largest head and the size of the model: no discharge is larger
-  /// by orders of magnitude, m3/s.
+  /// the rest: the discharge of the boundary with a head of which least is known, m3/s. None if
+  /// nothing flows from one head to another.
+  std::optional<Interval> least_known;
+  /// The largest conductivity times the largest head, or the size of the model if that is larger,
+  /// and the size of the model: no discharge is larger by orders of magnitude, m3/s.
   double largest_flux = 0.0;
-  /// Some boundary lets liquid in and out: `flux_out` of the history is larger than the sum here.
-  bool both_ways = false;
-  /// Each element's part in the half-width of `least_known`, m3/s.
+  /// Each element's part in the half-width of `least_known`, m3/s; zero where there is none.
   std::vector<double> error;
-  /// Per probe of the scene; none where no head determines the heads there. These are estimates, as
-  /// the rim of a disc cuts elements.
+  /// Estimates, per probe of the scene; none where no head determines the heads there.
   std::vector<std::optional<ProbeMeans>> probes;
 };
 

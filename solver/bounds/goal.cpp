@@ -28,11 +28,9 @@ template <int Dim>
 double corrected(const SeepageProblem<Dim>& problem, const Goal& goal, const FieldPair<Dim>& dual) {
   const SeepageEnergy<Dim>& energy = problem.energy();
   const FieldPair<Dim>& flow = problem.flow();
-  const auto at_boundary = problem.at_boundary(dual);
-  const double by_heads =
-      goal.of_heads - energy.inner(flow.of_head, dual.of_head) - at_boundary.given;
-  const double by_fluxes =
-      goal.of_fluxes + at_boundary.held + energy.inner(flow.of_flux, dual.of_flux);
+  const auto [given, held] = problem.products(dual);
+  const double by_heads = goal.of_heads - energy.inner(flow.of_head, dual.of_head) - given;
+  const double by_fluxes = goal.of_fluxes + held + energy.inner(flow.of_flux, dual.of_flux);
   return 0.5 * (by_heads + by_fluxes);
 }
 
@@ -65,8 +63,11 @@ StepEstimates step_estimates(const SeepageProblem<Dim>& problem, const Goal& goa
   const std::vector<double>& change = problem.state().step.conductivity;
   double by_conductivity = 0.0;
   if (!change.empty()) {
+    // Walls do not erode.
+    Slopes<Dim> dual_slopes = dual.of_head;
+    for (auto& across_wall : dual_slopes.wall) across_wall.fill(0.0);
     const std::vector<double> parts =
-        problem.energy().per_element(problem.flow().of_flux, dual.of_head);
+        problem.energy().per_element(problem.flow().of_flux, dual_slopes);
     for (std::size_t e = 0; e < change.size(); ++e) by_conductivity += change[e] * parts[e];
   }
   return {std::abs(goal.in_time), std::abs(by_conductivity)};

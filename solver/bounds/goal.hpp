@@ -33,11 +33,11 @@ template <int Dim>
 StepEstimates step_estimates(const SeepageProblem<Dim>& problem, const Goal& goal,
                              const FieldPair<Dim>& dual);
 
-/// Of an interval, for round-off, in m3/s.
+/// By which an interval of a discharge is wider, for round-off, m3/s.
 template <int Dim>
 double margin_of(const SeepageProblem<Dim>& problem);
 
-/// In the norm of the energy.
+/// Norm of slopes that belongs to the energy.
 template <int Dim>
 double norm(const SeepageEnergy<Dim>& energy, const Slopes<Dim>& slopes);
 

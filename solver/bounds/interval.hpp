@@ -14,9 +14,8 @@ struct Interval {
 
 /// Estimates of the errors of the last step, in the unit of the number; 0 where there are none.
 struct StepEstimates {
-  double time = 0.0;  ///< of the length of the step
-  double transport =
-      0.0;  ///< of pores and liquid, which transport changed after the flow was found
+  double time = 0.0;       ///< because the step has a length
+  double transport = 0.0;  ///< because transport changed the soil after the flow was solved
 };
 
 }  // namespace suffuse

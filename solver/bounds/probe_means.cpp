@@ -91,7 +91,7 @@ std::vector<std::optional<ProbeMeans>> probe_means(SeepageProblem<Dim>& problem)
     Vector<Dim> at;
     for (int d = 0; d < Dim; ++d) at[d] = probe.at[d];
     const auto place = find_place(grid, at);
-    if (!place || problem.groups().empty()) continue;
+    if (!place || problem.groups().empty() || problem.jumps()) continue;
     const DiscMean<Dim> disc = disc_mean(grid, *place, probe.disc.value_or(default_radius(grid)));
     ProbeMeans means;
     means.radius = disc.radius;

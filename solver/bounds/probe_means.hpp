@@ -11,7 +11,8 @@
 
 namespace suffuse {
 
-/// Per probe of the scene; none where no head determines the heads there.
+/// Per probe of the scene; none where no head determines the heads there, and where heads of two
+/// boundaries differ where these meet.
 template <int Dim>
 std::vector<std::optional<ProbeMeans>> probe_means(SeepageProblem<Dim>& problem);
 

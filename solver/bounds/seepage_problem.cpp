@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bounds/conforming_head.hpp"
+#include "mixed/flow_values.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {
@@ -31,6 +32,8 @@ SeepageProblem<Dim>::SeepageProblem(const SeepageState<Dim>& state)
       crossings_(state.scene.boundaries.size()) {
   prescribe();
   sum_crossings();
+  outflow_ = outflows();
+  balances_ = largest_magnitude(outflow_) <= seepage_round_off * all_fluxes_;
   flow_ = pair(state_.face_pressure, state_.face_flux, {}, prescribed_);
   gap_ = flow_.gap();
   gap_norm_ = std::sqrt(energy_.inner(gap_, gap_));
@@ -89,6 +92,9 @@ void SeepageProblem<Dim>::prescribe() {
       boundaries_of_node[i].push_back(condition.boundary);
     }
   }
+  // Heads may all be zero.
+  const double volume = std::accumulate(grid_.volume.begin(), grid_.volume.end(), 0.0);
+  largest_head_ = std::max(largest_head_, std::pow(volume, 1.0 / Dim));
   join_groups(boundaries_of_node);
 }
 
@@ -232,7 +238,7 @@ ImplicitMixed<Dim>& SeepageProblem<Dim>::dual_solver() {
 
 template <int Dim>
 std::optional<std::array<double, 2>> SeepageProblem<Dim>::two_heads() const {
-  if (groups_.size() != 2) return std::nullopt;
+  if (groups_.size() != 2 || !balances_) return std::nullopt;
   std::array<double, 2> low{infinity, infinity};
   std::array<double, 2> high{-infinity, -infinity};
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -251,7 +257,7 @@ std::optional<std::array<double, 2>> SeepageProblem<Dim>::two_heads() const {
 }
 
 template <int Dim>
-typename SeepageProblem<Dim>::Products SeepageProblem<Dim>::at_boundary(
+typename SeepageProblem<Dim>::Products SeepageProblem<Dim>::products(
     const FieldPair<Dim>& dual) const {
   Products result;
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -264,6 +270,11 @@ typename SeepageProblem<Dim>::Products SeepageProblem<Dim>::at_boundary(
     }
     result.given -= inflow_[f] * dual_head;
     if (group_of_face_[f] >= 0) result.held += head * dual.face_flux[f];
+  }
+  for (std::size_t e = 0; e < outflow_.size(); ++e) {
+    for (const int i : grid_.mesh.elements[e]) {
+      result.given -= outflow_[e] * dual.node_head[i] / (Dim + 1);
+    }
   }
   return result;
 }
@@ -279,10 +290,10 @@ std::string SeepageProblem<Dim>::objection() const {
   if (std::ranges::any_of(holds_in_part_, std::identity())) {
     return "a water level ends within a boundary, at a face of the mesh";
   }
-  if (largest_jump_ > seepage_round_off * largest_head_) {
+  if (jumps()) {
     return "heads of two boundaries differ where these meet";
   }
-  if (!balances()) {
+  if (!balances_) {
     return "water is stored, as the flow is not steady or liquid.bulk_modulus is not inf";
   }
   if (!follows_conductivity()) {
@@ -303,15 +314,19 @@ double SeepageProblem<Dim>::largest_flux() const {
 }
 
 template <int Dim>
-bool SeepageProblem<Dim>::balances() const {
+bool SeepageProblem<Dim>::jumps() const {
+  return largest_jump_ > seepage_round_off * largest_head_;
+}
+
+template <int Dim>
+std::vector<double> SeepageProblem<Dim>::outflows() const {
+  std::vector<double> result(grid_.volume.size(), 0.0);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    double out = 0.0;
     for (int k = 0; k <= Dim; ++k) {
-      out += grid_.element_face_sign[e][k] * state_.face_flux[grid_.element_face[e][k]];
+      result[e] += grid_.element_face_sign[e][k] * state_.face_flux[grid_.element_face[e][k]];
     }
-    if (std::abs(out) > seepage_round_off * all_fluxes_) return false;
   }
-  return true;
+  return result;
 }
 
 template <int Dim>

@@ -66,13 +66,13 @@ class SeepageProblem {
 
   /// The fields of the flow itself.
   [[nodiscard]] const FieldPair<Dim>& flow() const { return flow_; }
-  /// The gap between them, and its norm.
+  /// The gap between the two fields of the flow, and its norm.
   [[nodiscard]] const Slopes<Dim>& gap() const { return gap_; }
   [[nodiscard]] double gap_norm() const { return gap_norm_; }
-  /// Those of a load, and of no head and no flux at the boundaries otherwise. Throws
-  /// NumericalError.
+  /// The fields of the flow that a load drives, without head and flux at the boundaries otherwise.
+  /// Throws NumericalError.
   [[nodiscard]] FieldPair<Dim> dual(const DualLoad<Dim>& load);
-  /// Those of one head everywhere, m.
+  /// The fields of one head everywhere, m.
   [[nodiscard]] FieldPair<Dim> uniform(double head) const;
   /// The heads of both groups if there are two, each with one head, and no other flux.
   [[nodiscard]] std::optional<std::array<double, 2>> two_heads() const;
@@ -80,21 +80,25 @@ class SeepageProblem {
   [[nodiscard]] FieldPair<Dim> combined(FieldPair<Dim> a, double factor,
                                         const FieldPair<Dim>& b) const;
 
-  /// Of a dual: the integral of its head times the given outward flux, and of the flow's head times
-  /// the dual's outward flux where heads are held, m4/s.
+  /// Integrals of a dual, m4/s: its head times the outward flux that is given, at boundaries and as
+  /// stored water; and its outward flux times the flow's head at boundaries that hold heads.
   struct Products {
     double given = 0.0;
     double held = 0.0;
   };
-  [[nodiscard]] Products at_boundary(const FieldPair<Dim>& dual) const;
+  [[nodiscard]] Products products(const FieldPair<Dim>& dual) const;
 
   /// Why the fields bound nothing; empty where they do.
   [[nodiscard]] std::string objection() const;
+  /// Whether no element stores water or gives it off.
+  [[nodiscard]] bool balances() const { return balances_; }
+  /// Whether heads differ where two boundaries meet.
+  [[nodiscard]] bool jumps() const;
 
  private:
   [[nodiscard]] std::vector<double> conductivities() const;
-  /// Whether the fluxes add up to nothing in each element.
-  [[nodiscard]] bool balances() const;
+  /// What flows out of each element minus what flows in, m3/s.
+  [[nodiscard]] std::vector<double> outflows() const;
   /// Whether the fluxes are those that the heads drive through the conductivities of now.
   [[nodiscard]] bool follows_conductivity() const;
   /// At the centres of faces, m.
@@ -124,6 +128,8 @@ class SeepageProblem {
   double largest_jump_ = 0.0;  ///< between the heads of two faces at one node, m
   std::vector<Crossing> crossings_;
   double all_fluxes_ = 0.0;
+  std::vector<double> outflow_;  ///< of each element: water that it gives off, m3/s
+  bool balances_ = false;
   FieldPair<Dim> flow_;
   Slopes<Dim> gap_;
   double gap_norm_ = 0.0;

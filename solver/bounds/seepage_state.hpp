@@ -11,11 +11,11 @@ namespace suffuse {
 
 /// By how much the last step may be off.
 struct LastStepErrors {
-  // Of the steps in time, at the end of the last one; empty where it is not known.
+  // Errors of the step in time, at its end; empty where they are not known.
   std::vector<double> face_pressure = {};  ///< Pa
   std::vector<double> face_flux = {};      ///< along the faces' normals, m3/s
-  /// Of erosion and transport: conductivity that they gave each element, over the one that the flow
-  /// was solved with, minus one; empty where it is not known.
+  /// Relative change of each element's conductivity by erosion and transport, after the flow was
+  /// solved; empty where it is not known.
   std::vector<double> conductivity = {};
 
   void archive(auto& archive) { archive(face_pressure, face_flux, conductivity); }

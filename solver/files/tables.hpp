@@ -66,8 +66,8 @@ struct HistoryRow {
   double newton_iterations = 0.0;  ///< of the solid's equilibrium, since the start
   double inertia = 0.0;  ///< forces of inertia over the loads, in the last step; 0 in equilibrium
   double failure_time = 0.0;  ///< last loss of equilibrium, s; 0: never, or at t = 0
-  // With mesh.error: between these bounds lies `flux_out`, or else, without them, half the interval
-  // of an estimate of the error of the mesh; 0 where there is none, m3/s.
+  // With mesh.error, m3/s: bounds of `flux_out`. Where there are none: half the interval that the
+  // mesh is estimated to leave, or 0 without an estimate.
   double flux_out_low = 0.0;
   double flux_out_high = 0.0;
   double flux_out_estimate = 0.0;
@@ -206,7 +206,7 @@ struct BoundaryRow {
   double liquid_out = 0.0;  ///< volume of liquid that flowed out
   double discharge = 0.0;   ///< net outflow of liquid at this time, m3/s
   double level = 0.0;       ///< head outside, m; 0 where the scene gives none
-  // Those of `discharge`, as of `flux_out` in the history.
+  // Bounds and estimates of `discharge`, as those of `flux_out` in the history.
   double discharge_low = 0.0;
   double discharge_high = 0.0;
   double discharge_estimate = 0.0;
@@ -246,8 +246,8 @@ struct ProbeRow {
   double flux_y = 0.0;
   double z = 0.0;       ///< m; 0 in 2D, like `flux_z`
   double flux_z = 0.0;  ///< m/s
-  // With mesh.error: means over a disc of radius `disc`, m, around the probe, and how far they can
-  // be off by the mesh, by the last step in time, and by what transport changed in it; else 0.
+  // With mesh.error: means over a disc of radius `disc`, m, around the probe, and what the mesh,
+  // the last step in time and what transport changed in it add to their errors. Otherwise 0.
   double disc = 0.0;
   double head_mean = 0.0;  ///< m
   double head_mean_estimate = 0.0;

@@ -150,9 +150,10 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
 
 }  // namespace
 
-DischargeRecord discharge_record(const DischargeBounds& bounds) {
-  return {bounds.least_known.low, bounds.least_known.high, bounds.largest_flux,
-          bounds.why_estimates};
+std::optional<DischargeRecord> discharge_record(const DischargeBounds& bounds) {
+  if (!bounds.least_known) return std::nullopt;
+  return DischargeRecord{bounds.least_known->low, bounds.least_known->high, bounds.largest_flux,
+                         bounds.why_estimates};
 }
 
 template <int Dim>

@@ -3,6 +3,8 @@
 /// Fields of a snapshot at elements, nodes and solid points: the part of a snapshot that both
 /// formulations share.
 
+#include <optional>
+
 #include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"
 #include "results/writer.hpp"
@@ -10,8 +12,8 @@
 
 namespace suffuse {
 
-/// What a snapshot holds of the bounds.
-DischargeRecord discharge_record(const DischargeBounds& bounds);
+/// What a snapshot holds of the bounds; none if nothing flows from one head to another.
+std::optional<DischargeRecord> discharge_record(const DischargeBounds& bounds);
 
 /// `liquid`: pores and fines in them, per element and field node; `step`: number of flow steps so
 /// far; `acting_concentration`: that of erosion, per element, if it is not that of `liquid`.

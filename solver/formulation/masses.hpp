@@ -51,14 +51,14 @@ struct StoredSums {
   }
 };
 
-/// Over all ranks, of the sums of this one.
+/// The masses in all ranks, from the sums of this one.
 std::vector<Stored> totals(const Ranks& ranks, std::vector<StoredSums> sums);
 
 /// Running sums behind one `Crossed`.
 struct CrossedSums {
   ExactSum water_in, fines_in, water_out, fines_out, points_in, points_out;
 
-  /// Over all ranks.
+  /// The masses that crossed in all ranks.
   [[nodiscard]] Crossed totals(const Ranks& ranks) const;
   void archive(auto& archive) {
     archive(water_in, fines_in, water_out, fines_out, points_in, points_out);

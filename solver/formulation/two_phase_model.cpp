@@ -204,11 +204,13 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   row.conductivity_ratio = power.conductivity_ratio();
   solid_->describe(row);
   coupled_->describe(row);
-  if (flow.bounds && !flow.bounds->both_ways) {
+  if (flow.bounds) {
     row.flux_out_time_estimate = flow.bounds->flux_out_step.time;
     row.flux_out_transport_estimate = flow.bounds->flux_out_step.transport;
-    enter(*flow.bounds, flow.bounds->flux_out, row.flux_out_low, row.flux_out_high,
-          row.flux_out_estimate);
+    if (flow.bounds->flux_out) {
+      enter(*flow.bounds, *flow.bounds->flux_out, row.flux_out_low, row.flux_out_high,
+            row.flux_out_estimate);
+    }
   }
   return row;
 }

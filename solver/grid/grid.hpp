@@ -18,9 +18,9 @@ namespace suffuse {
 
 template <int Dim>
 struct Grid {
-  /// Of a program that is alone, which owns all of the mesh.
+  /// The grid of a program that is alone and owns all of the mesh.
   explicit Grid(const Mesh<Dim>& mesh);
-  /// Of a rank. All ranks have to call it.
+  /// The grid of a rank. All ranks have to call it.
   Grid(const LocalPart<Dim>& part, std::shared_ptr<const Ranks> ranks);
 
   [[nodiscard]] const Ranks& ranks() const { return *ranks_; }

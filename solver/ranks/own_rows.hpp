@@ -29,7 +29,7 @@ class Halo {
 /// before and behind them, all in the order of the whole mesh.
 class OwnRows {
  public:
-  /// All of `count` rows: of a program that is alone.
+  /// A program that is alone owns all of `count` rows.
   explicit OwnRows(int count = 0) : last_(count) {}
   OwnRows(int first, int last, std::shared_ptr<const Halo> halo)
       : first_(first), last_(last), halo_(std::move(halo)) {}

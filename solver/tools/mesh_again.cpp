@@ -49,15 +49,18 @@ struct KnownDischarge {
   [[nodiscard]] Interval interval() const { return {record.low, record.high}; }
 };
 
-/// That of the steady flow at the start.
+/// What is known of the steady flow at the start.
 template <int Dim>
 KnownDischarge known_at_start(Case<Dim> c, int threads) {
   c.document.scene.initial_flow = InitialFlow::steady;
+  c.document.scene.output.probes.clear();  // nobody asks what is known there
   const Plan plan = make_plan(c, {.threads = threads});
   DischargeBounds bounds = make_model(c, plan)->flow().discharge_bounds().value();
   KnownDischarge known;
-  known.record = discharge_record(bounds);
   known.error = std::move(bounds.error);
+  const std::optional<DischargeRecord> record = discharge_record(bounds);
+  if (!record) return known;
+  known.record = *record;
   known.largest = std::abs(known.interval().middle());
   known.largest_flux = known.record.largest_flux;
   return known;
@@ -82,7 +85,7 @@ void refuse_other_run(const Case<Dim>& c, const ResultsReader& results) {
   }
 }
 
-/// That of a run, from its snapshots.
+/// What is known of a run, from its snapshots.
 template <int Dim>
 KnownDischarge known_from_run(const Case<Dim>& c, const std::string& folder) {
   const ResultsReader results(folder);
@@ -94,7 +97,7 @@ KnownDischarge known_from_run(const Case<Dim>& c, const std::string& folder) {
   known.error.assign(c.mesh.elements.size(), 0.0);
   for (std::size_t k = 0; k < results.times().size(); ++k) {
     const std::optional<DischargeRecord> record = results.discharge(k);
-    if (!record) continue;  // no dual flow was found
+    if (!record) continue;  // nothing flowed from one head to another
     const Interval interval{record->low, record->high};
     const std::vector<double> shares = results.field(k, "cell", "error").values;
     for (std::size_t e = 0; e < known.error.size(); ++e) {

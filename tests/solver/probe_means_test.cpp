@@ -184,8 +184,8 @@ TEST(StepEstimates, AreWhatAChangeOfConductivitiesDoes) {
       EXPECT_EQ(estimate.time, 0.0);
       off[i] = std::max(off[i], std::abs(estimate.transport - changed) / std::abs(a.middle()));
     };
-    EXPECT_GT(now.flux_out_step.transport, 0.05 * size * now.flux_out.middle());
-    compare(now.flux_out, then.flux_out, now.flux_out_step);
+    EXPECT_GT(now.flux_out_step.transport, 0.05 * size * now.flux_out->middle());
+    compare(*now.flux_out, *then.flux_out, now.flux_out_step);
     compare(*now.boundaries[1], *then.boundaries[1], now.boundary_steps[1]);
     compare(now.probes[0]->head, then.probes[0]->head, now.probes[0]->head_step);
     compare(now.probes[0]->gradient, then.probes[0]->gradient, now.probes[0]->gradient_step);
