@@ -83,7 +83,6 @@ TEST_F(MeshAgain, FollowsAFlowThatComesLater) {
   ASSERT_EQ(ask("weirs", "start.h5").code, 0);
   const Answer answer = ask("weirs", "run.h5", "--from weirs.results");
   ASSERT_EQ(answer.code, 0) << answer.error;
-  // Least is known while the right head is highest.
   // While the river is highest, which is not at the end.
   EXPECT_NE(answer.text.find(" m3/s per m at t = 2000 s, when least is known of it, between "),
             std::string::npos)
@@ -93,6 +92,15 @@ TEST_F(MeshAgain, FollowsAFlowThatComesLater) {
   for (const double x : {18.0, 22.0}) {
     EXPECT_LT(size_at("run.h5", x, 6.0), 0.6 * size_at("start.h5", x, 6.0)) << "at x = " << x;
   }
+}
+
+/// How well the discharge is to be known, and what is written, changes no run.
+TEST_F(MeshAgain, TakesARunThatAskedForAnotherError) {
+  run(two_weirs());
+  run(test::with(two_weirs(), "looser", {"mesh.error=0.5", "output.every=1000.0"}));
+  const Answer answer = ask("looser", "looser.h5", "--from weirs.results");
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  EXPECT_NE(answer.text.find("mesh.error = 0.5 is met"), std::string::npos) << answer.text;
 }
 
 TEST_F(MeshAgain, TakesTheStartWhereTheFlowStays) {
