@@ -26,8 +26,8 @@ struct Grid {
   [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
   /// Elements and faces of this rank, ascending: a sum over the model is a sum over these and then
   /// over the ranks.
-  [[nodiscard]] auto own_elements() const { return elements_.own(); }
-  [[nodiscard]] auto own_faces() const { return faces_.own(); }
+  [[nodiscard]] NumberRange own_elements() const { return elements_.own(); }
+  [[nodiscard]] NumberRange own_faces() const { return faces_.own(); }
   [[nodiscard]] bool owns_face(int face) const { return faces_.owns(face); }
   // The rows themselves, to fetch values from other ranks.
   [[nodiscard]] const OwnRows& element_rows() const { return elements_; }

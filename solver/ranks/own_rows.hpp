@@ -5,12 +5,38 @@
 
 #include <cstddef>
 #include <memory>
-#include <ranges>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace suffuse {
+
+/// The numbers from `first` on, up to but without `last`. (Clang 14 does not know the ranges of the
+/// standard library that it is installed with.)
+class NumberRange {
+ public:
+  class Iterator {
+   public:
+    explicit Iterator(int number) : number_(number) {}
+    int operator*() const { return number_; }
+    Iterator& operator++() {
+      ++number_;
+      return *this;
+    }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    int number_;
+  };
+
+  NumberRange(int first, int last) : first_(first), last_(last) {}
+  [[nodiscard]] Iterator begin() const { return Iterator(first_); }
+  [[nodiscard]] Iterator end() const { return Iterator(last_); }
+
+ private:
+  int first_;
+  int last_;
+};
 
 /// Fetches what this rank holds copies of from the ranks that own it.
 class Halo {
@@ -35,10 +61,8 @@ class OwnRows {
       : first_(first), last_(last), halo_(std::move(halo)) {}
 
   /// The numbers of own rows, ascending.
-  [[nodiscard]] auto own() const { return std::views::iota(first_, last_); }
+  [[nodiscard]] NumberRange own() const { return {first_, last_}; }
   [[nodiscard]] bool owns(int row) const { return row >= first_ && row < last_; }
-  [[nodiscard]] int first() const { return first_; }
-  [[nodiscard]] int last() const { return last_; }
 
   /// Overwrites the copies with the values of their owners. Alone: does nothing.
   template <class Value>

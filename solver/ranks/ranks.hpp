@@ -38,6 +38,7 @@ class Ranks {
 /// The sums over all ranks, of those of this one.
 inline std::vector<double> values_of_all(const Ranks& ranks, std::vector<ExactSum> sums) {
   std::vector<ExactSum*> all;
+  all.reserve(sums.size());
   for (ExactSum& sum : sums) all.push_back(&sum);
   ranks.sum(all);
   std::vector<double> result;
