@@ -94,11 +94,9 @@ std::vector<Stored> DoublePoint<Dim>::stored() const {
   const LiquidPoints<Dim>& points = liquid_->points();
   for (int p = 0; p < points.size(); ++p) {
     const int region = this->grid_.mesh.element_region[points.element[p]];
-    for (StoredSums* sum : {&sums[0], &sums[region + 1]}) {
-      sum->water.add(points.water_mass[p]);
-      sum->fines.add(points.fines_mass[p]);
-      sum->points.add(1.0);
-    }
+    sums[region + 1].water.add(points.water_mass[p]);
+    sums[region + 1].fines.add(points.fines_mass[p]);
+    sums[region + 1].points.add(1.0);
   }
   for (const double volume : liquid_->pending()) sums[0].pending.add(densities_.grain * volume);
   return totals(this->grid_.ranks(), std::move(sums));

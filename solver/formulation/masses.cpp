@@ -48,6 +48,16 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
 }  // namespace
 
 std::vector<Stored> totals(const Ranks& ranks, std::vector<StoredSums> sums) {
+  StoredSums& model = sums.front();
+  for (auto region = sums.begin() + 1; region != sums.end(); ++region) {
+    model.solid.add(region->solid);
+    model.erodible.add(region->erodible);
+    model.water.add(region->water);
+    model.fines.add(region->fines);
+    model.eroded.add(region->eroded);
+    model.deposited.add(region->deposited);
+    model.points.add(region->points);
+  }
   std::vector<ExactSum*> all;
   for (StoredSums& s : sums) {
     for (ExactSum* sum : {&s.solid, &s.erodible, &s.water, &s.fines, &s.eroded, &s.deposited,

@@ -51,7 +51,8 @@ struct StoredSums {
   }
 };
 
-/// The masses in all ranks, from the sums of this one.
+/// The masses in all ranks, from the sums of this one. The sums of the model have what no region
+/// has, and get those of the regions in addition.
 std::vector<Stored> totals(const Ranks& ranks, std::vector<StoredSums> sums);
 
 /// Running sums behind one `Crossed`.

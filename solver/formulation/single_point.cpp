@@ -227,12 +227,9 @@ std::vector<Stored> SinglePoint<Dim>::stored() const {
   std::vector<StoredSums> sums = this->solid_masses();
   const FinesState<Dim>& state = fines_->state();
   for (const int e : this->grid_.own_elements()) {
-    for (StoredSums* sum : {&sums[0], &sums[this->grid_.mesh.element_region[e] + 1]}) {
-      sum->water.add(water_mass_[e]);
-      for (const double volume : state.fines_volume[e]) {
-        sum->fines.add(this->grain_density_ * volume);
-      }
-    }
+    StoredSums& sum = sums[this->grid_.mesh.element_region[e] + 1];
+    sum.water.add(water_mass_[e]);
+    sum.fines.add(this->grain_density_ * element_sum<Dim>(state.fines_volume[e]));
   }
   return totals(this->grid_.ranks(), std::move(sums));
 }

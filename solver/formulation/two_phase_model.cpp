@@ -237,20 +237,22 @@ std::vector<StoredSums> TwoPhaseModel<Dim>::solid_masses() const {
   std::vector<StoredSums> sums(masses_.count());
   const MaterialPoints<Dim>& points = soils_.points();
   const SolidState& solid = solid_->state();
-  for (int p = 0; p < points.size(); ++p) {
-    const double mass = grain_density_ * points.volume[p];
-    for (StoredSums* sum : {&sums[0], &sums[grid_.mesh.element_region[points.element[p]] + 1]}) {
-      sum->solid.add(grain_density_ * solid.solid_volume(p));
-      sum->erodible.add(grain_density_ * solid.erodible_volume[p]);
-      if (!solid.deposited_volume.empty()) {
-        sum->deposited.add(grain_density_ * solid.deposited_volume[p]);
-      }
+  for (const int e : grid_.own_elements()) {
+    // Exact sums cost several times as much as plain ones, which do within an element.
+    Stored here;
+    for (int p = soils_.points_begin(e); p < soils_.points_begin(e + 1); ++p) {
+      here.solid += solid.solid_volume(p);
+      here.erodible += solid.erodible_volume[p];
+      const double deposited = solid.deposited_volume.empty() ? 0.0 : solid.deposited_volume[p];
+      here.deposited += deposited;
       if (!erodes(soils_.exchange_of_point(p).erosion)) continue;
-      sum->eroded.add(mass * solid_->eroded_share(p));
-      if (!solid.deposited_volume.empty()) {
-        sum->eroded.add(grain_density_ * solid.deposited_volume[p]);
-      }
+      here.eroded += points.volume[p] * solid_->eroded_share(p) + deposited;
     }
+    StoredSums& sum = sums[grid_.mesh.element_region[e] + 1];
+    sum.solid.add(grain_density_ * here.solid);
+    sum.erodible.add(grain_density_ * here.erodible);
+    sum.deposited.add(grain_density_ * here.deposited);
+    sum.eroded.add(grain_density_ * here.eroded);
   }
   const std::vector<double> carried = solid_->region_gain();
   for (std::size_t r = 0; r < carried.size(); ++r) {
