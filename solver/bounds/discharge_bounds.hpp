@@ -34,10 +34,9 @@ struct DischargeBounds {
   /// where the boundary shares a node with another one that holds a head.
   std::vector<std::optional<Interval>> boundaries;
   std::vector<StepEstimates> boundary_steps;  ///< of the same, m3/s
-  /// Sum over the boundaries through which more leaves than enters, m3/s. None where liquid enters
-  /// and leaves by one boundary, as `flux_out` of the history is larger than this sum then; and
-  /// where it is known by balance alone while the flow changes, as errors of stored water remain
-  /// unseen.
+  /// Sum over the boundaries through which more leaves than enters, m3/s. There is none in two
+  /// cases. Liquid enters and leaves by one boundary: then `flux_out` of the history is larger than
+  /// this sum. Or elements store water and the sum follows from that alone: its errors are unknown.
   std::optional<Interval> flux_out;
   StepEstimates flux_out_step;  ///< errors of the last step in it, m3/s
   /// What leaves through boundaries that hold heads. Where that is known by balance, as a well has

@@ -9,20 +9,6 @@ namespace {
 /// the round-off in them.
 constexpr double interval_margin = 1e-13;
 
-}  // namespace
-
-template <int Dim>
-double margin_of(const SeepageProblem<Dim>& problem) {
-  return interval_margin * (problem.all_fluxes() + problem.largest_flux());
-}
-
-template <int Dim>
-double norm(const SeepageEnergy<Dim>& energy, const Slopes<Dim>& slopes) {
-  return std::sqrt(energy.inner(slopes, slopes));
-}
-
-namespace {
-
 /// Mean of the two ways to correct the number by its dual.
 template <int Dim>
 double corrected(const SeepageProblem<Dim>& problem, const Goal& goal, const FieldPair<Dim>& dual) {
@@ -35,6 +21,16 @@ double corrected(const SeepageProblem<Dim>& problem, const Goal& goal, const Fie
 }
 
 }  // namespace
+
+template <int Dim>
+double margin_of(const SeepageProblem<Dim>& problem) {
+  return interval_margin * (problem.all_fluxes() + problem.largest_flux());
+}
+
+template <int Dim>
+double norm(const SeepageEnergy<Dim>& energy, const Slopes<Dim>& slopes) {
+  return std::sqrt(energy.inner(slopes, slopes));
+}
 
 template <int Dim>
 Interval bound(const SeepageProblem<Dim>& problem, const Goal& goal, const FieldPair<Dim>& dual) {

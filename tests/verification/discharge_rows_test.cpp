@@ -36,6 +36,17 @@ Case<2> pond(Scene scene) {
   return model::make_case(std::move(mesh), std::move(scene));
 }
 
+/// Steady flow through soil that erodes and then conducts better.
+Scene eroding_scene() {
+  Scene scene = model::paper_scene();
+  scene.initial_flow = InitialFlow::steady;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.soils[0].erosion.law = erosion_law("first-order");
+  scene.soils[0].erosion.rate = 1e-3;
+  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+  return scene;
+}
+
 TEST(DischargeRows, HaveBoundsOfASteadyFlow) {
   Scene scene = model::paper_scene();
   scene.initial_flow = InitialFlow::steady;
@@ -85,14 +96,7 @@ TEST(DischargeRows, HaveNoEstimateByBalanceWhileWaterIsStored) {
 
 /// Fluxes are those of the middle of a step, conductivities those of its end.
 TEST(DischargeRows, HaveAnEstimateOnceErosionChangesTheConductivity) {
-  Scene scene = model::paper_scene();
-  scene.initial_flow = InitialFlow::steady;
-  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
-  scene.soils[0].erosion.law = erosion_law("first-order");
-  scene.soils[0].erosion.rate = 1e-3;
-  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
-  Case<2> c = pond(scene);
-  model::ModelRun run(std::move(c));
+  model::ModelRun run(pond(eroding_scene()));
   EXPECT_GT(run.state().history.flux_out_high, 0.0) << "at the start";
   const HistoryRow row = run.run({100.0}).states[0].history;
   EXPECT_EQ(row.flux_out_high, 0.0);
@@ -188,12 +192,7 @@ TEST(DischargeRows, HaveEstimatesOfTheLastStepInTime) {
 
 /// A step changes conductivities by no more than the tolerance of its forecast.
 TEST(DischargeRows, HaveEstimatesOfWhatTransportChanged) {
-  Scene scene = model::paper_scene();
-  scene.initial_flow = InitialFlow::steady;
-  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
-  scene.soils[0].erosion.law = erosion_law("first-order");
-  scene.soils[0].erosion.rate = 1e-3;
-  scene.soils[0].conductivity_law = conductivity_law("kozeny-carman");
+  Scene scene = eroding_scene();
   for (const double tolerance : {1e-2, 1e-3}) {
     const HistoryRow row = seen_at(observed_pond(scene, tolerance), 100.0).history;
     EXPECT_GT(row.flux_out_transport_estimate, 0.0);
