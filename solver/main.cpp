@@ -1,7 +1,9 @@
-/// suffuse-solver: runs a case file.
+/// suffuse-solver: runs a case file. suffuse-solver-mpi is the same for several ranks.
 
 #include <cstdio>
 #include <iostream>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "common/command_line.hpp"
@@ -9,12 +11,17 @@
 #include "driver/memory.hpp"
 #include "driver/run.hpp"
 #include "driver/source_run.hpp"
+#include "ranks/start_ranks.hpp"
 #include "tools/element_test.hpp"
 #include "tools/estimate.hpp"
 #include "tools/mesh_again.hpp"
 #include "tools/strength_table.hpp"
 
 namespace {
+
+using suffuse::Ranks;
+
+const std::string program = SUFFUSE_PROGRAM;
 
 struct Arguments {
   std::string case_path;
@@ -76,7 +83,8 @@ int solve(const Arguments& arguments) {
       arguments.folder.empty() ? default_folder(arguments.case_path) : arguments.folder;
   const int code =
       run_case(std::move(c), plan, arguments.solver, folder, arguments.run, arguments.case_path);
-  if (!arguments.run.quiet && code == 0) std::fprintf(stderr, "results in %s\n", folder.c_str());
+  const bool speaks = !arguments.run.quiet && arguments.solver.ranks->rank() == 0;
+  if (speaks && code == 0) std::fprintf(stderr, "results in %s\n", folder.c_str());
   return code;
 }
 
@@ -190,9 +198,19 @@ int find_strength(Arguments& arguments) {
   return static_cast<int>(suffuse::ExitCode::done);
 }
 
-int run(int argc, char** argv) {
+/// Runs are shared by ranks, other modes are not.
+void refuse_modes_on_ranks(const CLI::App& app, int ranks) {
+  if (ranks == 1) return;
+  for (const char* mode : {"--element-test", "--strength-reduction", "--sizes", "--explain"}) {
+    if (app.count(mode) == 0) continue;
+    throw suffuse::InputError(suffuse::InputProblem{"", mode, std::to_string(ranks) + " ranks",
+                                                    "one process: suffuse-solver", ""});
+  }
+}
+
+int run(int argc, char** argv, std::shared_ptr<const Ranks> ranks) {
   Arguments arguments;
-  CLI::App app{"suffuse-solver: suffusion by the material point method", "suffuse-solver"};
+  CLI::App app{program + ": suffusion by the material point method", program};
   app.footer(suffuse::exit_codes_help);
   app.set_version_flag("--version", SUFFUSE_VERSION);
   app.add_option("case", arguments.case_path, "Case file that suffuse-mesher wrote")
@@ -222,6 +240,8 @@ int run(int argc, char** argv) {
   add_strength_reduction(app, arguments);
   add_sizes(app, arguments.sizes);
   if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
+  refuse_modes_on_ranks(app, ranks->count());
+  arguments.solver.ranks = std::move(ranks);
   if (arguments.strength_reduction) return find_strength(arguments);
   if (!arguments.sizes.output.empty()) return mesh_again(arguments);
   if (arguments.element.table.empty()) return solve_case(arguments);
@@ -234,5 +254,21 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return suffuse::run_program("suffuse-solver", [&] { return run(argc, argv); });
+  std::shared_ptr<const Ranks> ranks;
+  try {
+    suffuse::prepare_process();
+    ranks = suffuse::start_ranks();
+    return run(argc, argv, ranks);
+  } catch (...) {
+    if (!ranks) return suffuse::report_current_exception(program);
+    // An error that all ranks have is told once. One that a rank has alone ends the others, which
+    // may wait for it.
+    const bool is_shared = ranks->all_come();
+    const int code = suffuse::report_current_exception(program, is_shared && ranks->rank() > 0);
+    if (!is_shared) ranks->end_all(code);
+    // Where one process has ended with an error, mpirun ends the others, perhaps before rank 0 has
+    // told it.
+    static_cast<void>(ranks->all_come());
+    return code;
+  }
 }

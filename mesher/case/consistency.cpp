@@ -246,7 +246,7 @@ class SceneCheck {
       if (set == mesh_.boundaries.end()) continue;
       double top = -std::numeric_limits<double>::infinity();
       const double lowest = condition.head->range(0.0, scene.time.end).first;
-      const WaterLine<Dim> water_line(mesh_, scene.gravity);
+      const WaterLine<Dim> water_line(mesh_, scene.gravity, largest_coordinate(mesh_));
       bool is_covered = true;
       for (const auto& face : set->faces) {
         top = std::max(top, water_line.centre_height(face));

@@ -20,11 +20,6 @@ std::string join_messages(const std::vector<InputProblem>& problems) {
   return lines;
 }
 
-int report(const std::string& program, const std::string& message, ExitCode code) {
-  std::cerr << program << ": error: " << message << '\n';
-  return static_cast<int>(code);
-}
-
 }  // namespace
 
 std::string InputProblem::message() const {
@@ -62,30 +57,31 @@ void prepare_process() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-int report_current_exception(const std::string& program) {
+int report_current_exception(const std::string& program, bool silent) {
+  const auto report = [&](const std::string& message, ExitCode code) {
+    if (!silent) std::cerr << program << ": error: " << message << '\n';
+    return static_cast<int>(code);
+  };
   try {
     throw;
   } catch (const InputError& error) {
     const bool has_place = !error.problems().empty() && !error.problems().front().where.empty();
-    if (!has_place) return report(program, error.what(), ExitCode::wrong_input);
-    std::cerr << error.what() << '\n';
+    if (!has_place) return report(error.what(), ExitCode::wrong_input);
+    if (!silent) std::cerr << error.what() << '\n';
     return static_cast<int>(ExitCode::wrong_input);
   } catch (const NumericalError& error) {
-    return report(program, error.what(), ExitCode::numerical_failure);
+    return report(error.what(), ExitCode::numerical_failure);
   } catch (const FileError& error) {
-    return report(program, error.what(), ExitCode::file_failure);
+    return report(error.what(), ExitCode::file_failure);
   } catch (const std::filesystem::filesystem_error& error) {
-    return report(program, error.path1().string() + ": " + error.code().message(),
-                  ExitCode::file_failure);
+    return report(error.path1().string() + ": " + error.code().message(), ExitCode::file_failure);
   } catch (const std::bad_alloc&) {
-    return report(program, "out of memory; use a coarser mesh or fewer points",
-                  ExitCode::numerical_failure);
+    return report("out of memory; use a coarser mesh or fewer points", ExitCode::numerical_failure);
   } catch (const std::exception& error) {
-    return report(program,
-                  std::string("this is a bug in Suffuse, please report it: ") + error.what(),
+    return report(std::string("this is a bug in Suffuse, please report it: ") + error.what(),
                   ExitCode::numerical_failure);
   } catch (...) {
-    return report(program, "this is a bug in Suffuse, please report it: an unknown exception",
+    return report("this is a bug in Suffuse, please report it: an unknown exception",
                   ExitCode::numerical_failure);
   }
 }

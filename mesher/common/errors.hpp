@@ -64,8 +64,8 @@ void prepare_process();
 /// one per line, as they are) and returns the exit code.
 int run_program(const std::string& program, const auto& body);
 
-/// Prints the exception now being handled and returns its exit code.
-int report_current_exception(const std::string& program);
+/// Prints the exception now being handled, unless `silent`, and returns its exit code.
+int report_current_exception(const std::string& program, bool silent = false);
 
 int run_program(const std::string& program, const auto& body) {
   try {

@@ -50,6 +50,13 @@ std::array<double, Dim + 1> barycentric(const Mesh<Dim>& mesh, int element, cons
 }
 
 template <int Dim>
+double largest_coordinate(const Mesh<Dim>& mesh) {
+  double largest = 0.0;
+  for (const Vector<Dim>& x : mesh.nodes) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+template <int Dim>
 Vector<Dim> extent(const Mesh<Dim>& mesh) {
   Vector<Dim> low = mesh.nodes.front();
   Vector<Dim> high = low;
@@ -104,6 +111,8 @@ template Vector<2> element_centroid<2>(const Mesh<2>&, int);
 template Vector<3> element_centroid<3>(const Mesh<3>&, int);
 template std::array<double, 3> barycentric<2>(const Mesh<2>&, int, const Vector<2>&);
 template std::array<double, 4> barycentric<3>(const Mesh<3>&, int, const Vector<3>&);
+template double largest_coordinate(const Mesh<2>&);
+template double largest_coordinate(const Mesh<3>&);
 template Vector<2> extent<2>(const Mesh<2>&);
 template Vector<3> extent<3>(const Mesh<3>&);
 

@@ -48,6 +48,10 @@ std::array<double, Dim + 1> barycentric(const Mesh<Dim>& mesh, int element, cons
 template <int Dim>
 Vector<Dim> extent(const Mesh<Dim>& mesh);
 
+/// Largest magnitude of a coordinate of a node, m.
+template <int Dim>
+double largest_coordinate(const Mesh<Dim>& mesh);
+
 /// Smallest interior angle of all elements, between edges of a triangle or faces of a tetrahedron,
 /// degrees.
 template <int Dim>

@@ -15,12 +15,9 @@ constexpr double coordinate_error = 1e-12;
 }  // namespace
 
 template <int Dim>
-WaterLine<Dim>::WaterLine(const Mesh<Dim>& mesh, const std::array<double, 3>& gravity)
-    : mesh_(mesh), gravity_(gravity) {
-  double largest = 0.0;
-  for (const Vector<Dim>& x : mesh.nodes) largest = std::max(largest, x.cwiseAbs().maxCoeff());
-  round_off_ = coordinate_error * largest;
-}
+WaterLine<Dim>::WaterLine(const Mesh<Dim>& mesh, const std::array<double, 3>& gravity,
+                          double largest_coordinate)
+    : mesh_(mesh), gravity_(gravity), round_off_(coordinate_error * largest_coordinate) {}
 
 template <int Dim>
 double WaterLine<Dim>::centre_height(const std::array<int, Dim>& face) const {

@@ -13,8 +13,9 @@ namespace suffuse {
 template <int Dim>
 class WaterLine {
  public:
-  /// `gravity` in m/s2, not zero.
-  WaterLine(const Mesh<Dim>& mesh, const std::array<double, 3>& gravity);
+  /// `gravity` in m/s2, not zero; `largest_coordinate` of the whole mesh, of which `mesh` may be a
+  /// part, m.
+  WaterLine(const Mesh<Dim>& mesh, const std::array<double, 3>& gravity, double largest_coordinate);
   /// Height of the centre of a face, m.
   [[nodiscard]] double centre_height(const std::array<int, Dim>& face) const;
   /// A face is under water if the head exceeds this value, m: the height of its centre; for a level

@@ -87,7 +87,8 @@ class Outside {
   Outside(const Scene& scene, const Grid<Dim>& grid)
       : grid_(grid),
         gravity_(scene.gravity),
-        water_line_(grid.mesh, scene.gravity),
+        water_line_(grid.mesh, scene.gravity,
+                    largest_of_all(grid.ranks(), largest_coordinate(grid.mesh))),
         unit_weight_(unit_weight(scene.liquid.density, scene.gravity)) {}
   [[nodiscard]] FaceSurroundings of(int face, double boundary_area) const {
     return {.unit_weight = unit_weight_,
@@ -97,9 +98,12 @@ class Outside {
             .area = boundary_area};
   }
   [[nodiscard]] double area_of(const std::vector<int>& faces) const {
-    double sum = 0.0;
-    for (const int f : faces) sum += grid_.face_normal[f].norm();
-    return sum;
+    ExactSum sum;
+    for (const int f : faces) {
+      if (grid_.owns_face(f)) sum.add(grid_.face_normal[f].norm());
+    }
+    grid_.ranks().sum({&sum});
+    return sum.value();
   }
 
  private:
@@ -169,7 +173,7 @@ std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& 
 
 template <int Dim>
 BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
-    : scene_(c.document.scene), initial_(face_conditions(c, grid)) {
+    : scene_(c.document.scene), grid_(grid), initial_(face_conditions(c, grid)) {
   const Scene& scene = scene_;
   const Outside<Dim> outside(scene, grid);
   for (int b = 0; b < static_cast<int>(scene.boundaries.size()); ++b) {
@@ -248,9 +252,12 @@ std::vector<double> BoundaryValues<Dim>::reservoir_rates(const std::vector<doubl
   std::vector<double> rates(reservoirs_.size(), 0.0);
   for (const Varying& varying : varying_) {
     if (varying.reservoir < 0) continue;
-    double out_of_soil = 0.0;  // normals of outer faces point outwards
-    for (const int f : varying.faces) out_of_soil += face_volume[f];
-    rates[varying.reservoir] = out_of_soil / (varying.boundary.reservoir_area * dt);
+    ExactSum out_of_soil;  // normals of outer faces point outwards
+    for (const int f : varying.faces) {
+      if (grid_.owns_face(f)) out_of_soil.add(face_volume[f]);
+    }
+    grid_.ranks().sum({&out_of_soil});
+    rates[varying.reservoir] = out_of_soil.value() / (varying.boundary.reservoir_area * dt);
   }
   return rates;
 }

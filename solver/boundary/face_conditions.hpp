@@ -109,6 +109,7 @@ class BoundaryValues {
   };
 
   const Scene& scene_;
+  const Grid<Dim>& grid_;
   std::vector<FaceCondition> initial_;
   std::vector<Varying> varying_;
   std::vector<ReservoirLevel> reservoirs_;

@@ -29,7 +29,8 @@ std::vector<LeakyFace> leaky_faces(const Case<Dim>& c, const Grid<Dim>& grid) {
 }
 
 template <int Dim>
-Grid<Dim> grid_with_walls(const Case<Dim>& c) {
+Grid<Dim> grid_with_walls(const Case<Dim>& c, const RankPart* part) {
+  if (part != nullptr) return Grid<Dim>(c.mesh, *part);
   Grid<Dim> grid(c.mesh);
   std::vector<std::array<int, 2>> pairs;
   for (const LeakyFace& leaky : leaky_faces(c, grid)) pairs.push_back({leaky.face, leaky.partner});
@@ -39,7 +40,7 @@ Grid<Dim> grid_with_walls(const Case<Dim>& c) {
 
 template std::vector<LeakyFace> leaky_faces(const Case<2>&, const Grid<2>&);
 template std::vector<LeakyFace> leaky_faces(const Case<3>&, const Grid<3>&);
-template Grid<2> grid_with_walls(const Case<2>&);
-template Grid<3> grid_with_walls(const Case<3>&);
+template Grid<2> grid_with_walls(const Case<2>&, const RankPart*);
+template Grid<3> grid_with_walls(const Case<3>&, const RankPart*);
 
 }  // namespace suffuse

@@ -4,6 +4,7 @@
 /// scene, before the run.
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ namespace suffuse {
 struct SolverOptions {
   int threads = 1;
   bool no_skip = false;
+  /// That share the run; all have to make the same calls.
+  std::shared_ptr<const Ranks> ranks = std::make_shared<Ranks>();
 };
 
 struct Plan : ModelOptions {

@@ -14,6 +14,7 @@
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/progress.hpp"
+#include "driver/rank_refusals.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/run_notes.hpp"
 #include "driver/source_run.hpp"
@@ -42,7 +43,15 @@ std::string quoted(const std::string& word) {
   return result + "'";
 }
 
-/// A run that checks every output and writes it to a results folder.
+/// The plan on this rank.
+ModelOptions options_of(const Plan& plan, const std::shared_ptr<const RankPart>& part) {
+  ModelOptions options = plan;
+  options.part = part;
+  return options;
+}
+
+/// A run that checks every output and writes it to a results folder. On several ranks each has its
+/// part of the model, and rank 0 the folder.
 template <int Dim>
 class Run final : public OutputSink<Dim> {
  public:
@@ -53,29 +62,36 @@ class Run final : public OutputSink<Dim> {
         plan_(plan),
         options_(options),
         run_(run),
+        ranks_(*options.ranks),
+        is_first_(ranks_.rank() == 0),
         resume_command_(std::move(resume_command)),
         case_digest_(digest_of(case_)),
         folder_(starting_point.folder),
-        loop_(case_, plan, source ? &source->state : nullptr),
+        part_(take_part()),
+        loop_(local_case_ ? *local_case_ : case_, options_of(plan, part_),
+              source ? &source->state : nullptr),
         notes_{.checks = {case_.document.scene, plan.speed_that_drag_follows, plan.obtuse_elements},
                .origin = source ? source->sentences : std::vector<std::string>()},
         progress_(starting_point.from ? starting_point.from->time : 0.0,
-                  case_.document.scene.time.end, starts_from_rest(starting_point), run.quiet),
-        writer_(open_results(std::move(starting_point))) {
+                  case_.document.scene.time.end, starts_from_rest(starting_point),
+                  run.quiet || !is_first_) {
+    together(ranks_, [&] { open_results(std::move(starting_point)); });
     // The model has its own points now.
     case_.liquid_points = {};
   }
 
   ExitCode run() {
     try {
-      write_info("running", "");
+      together(ranks_, [&] { write_info("running", ""); });
       loop_.run(*this);
-      finish_writing();
+      together(ranks_, [&] { finish_writing(); });
       progress_.finish();
       if (!loop_.finished()) return stop();
-      // This precedes the status "done", after which nothing would remove the file.
-      writer_.remove_checkpoint();
-      write_info("done", "");
+      together(ranks_, [&] {
+        // This precedes the status "done", after which nothing would remove the file.
+        if (writer_) writer_->remove_checkpoint();
+        write_info("done", "");
+      });
       return ExitCode::done;
     } catch (const EquilibriumLost& error) {
       progress_.finish();
@@ -96,52 +112,76 @@ class Run final : public OutputSink<Dim> {
 
   void warn(const std::string& text) override {
     notes_.warnings.push_back(text);
-    progress_.say("suffuse-solver: warning: " + text);
+    if (is_first_) progress_.say("suffuse-solver: warning: " + text);
   }
 
   void write_row(const FlowState<Dim>& flow) override {
-    HistoryRow row = loop_.model().history_row(flow);
-    row.energy = notes_.energy.at(row);
-    for (const std::string& warning : notes_.checks.check(row)) warn(warning);
-    writer_.append_history(row);
-    append_tables(writer_, loop_.model(), flow);
+    OutputRows rows(loop_.model(), flow);
+    rows.history.energy = notes_.energy.at(rows.history);
+    for (const std::string& warning : notes_.checks.check(rows.history)) warn(warning);
+    together(ranks_, [&] {
+      if (writer_) rows.append_to(*writer_);
+    });
   }
 
   /// Writes the files while the run continues.
   void write_snapshot(const FlowState<Dim>& flow) override {
     // Only one snapshot at a time is kept in memory.
-    finish_writing();
+    together(ranks_, [&] { finish_writing(); });
     Snapshot snapshot = loop_.model().snapshot(flow);
-    snapshot.restart = restart_point();
-    // If no thread can be started, the snapshot is written in `finish_writing`.
-    writing_ = std::async(std::launch::async | std::launch::deferred,
-                          [this, snapshot = std::move(snapshot)]() mutable {
-                            writer_.write_snapshot(std::move(snapshot));
-                          });
+    if (ranks_.count() == 1) snapshot.restart = restart_point();
+    if (writer_) {
+      // If no thread can be started, the snapshot is written in `finish_writing`.
+      writing_ = std::async(std::launch::async | std::launch::deferred,
+                            [this, snapshot = std::move(snapshot)]() mutable {
+                              writer_->write_snapshot(std::move(snapshot));
+                            });
+    }
     // No run could continue from rows without a snapshot.
-    if (loop_.schedule().past_snapshots().count == 1) finish_writing();
+    if (loop_.schedule().past_snapshots().count == 1) together(ranks_, [&] { finish_writing(); });
     since_saved_ = Stopwatch();
   }
 
   bool continue_after_interval() override {
     progress_.report(loop_.model().time(), loop_.model().last_step(),
                      loop_.model().solid().has_inertia());
-    if (run_.checkpoint_every > 0.0 && since_saved_.seconds() >= run_.checkpoint_every) {
-      write_checkpoint();
-    }
+    // The clock of rank 0 decides.
+    const bool is_due =
+        is_first_ && run_.checkpoint_every > 0.0 && since_saved_.seconds() >= run_.checkpoint_every;
+    if (largest_of_all(ranks_, is_due ? 1.0 : 0.0) > 0.0) write_checkpoint();
     return true;
   }
 
  private:
+  /// Takes the part of this rank out of the case, if there are several.
+  std::shared_ptr<const RankPart> take_part() {
+    if (ranks_.count() == 1) return nullptr;
+    LocalMesh<Dim> local = local_mesh(case_.mesh, ranks_.rank(), ranks_.count());
+    auto part = std::make_shared<RankPart>(RankPart{options_.ranks, local.numbers});
+    local_case_ = local_case(case_, std::move(local));
+    if (!is_first_) {
+      case_.mesh = {};
+      case_.solid_points = {};
+    }
+    case_.liquid_points = {};
+    return part;
+  }
+
   /// Replaces the results of an earlier run, after everything that can fail because of the case.
-  ResultsWriter<Dim> open_results(StartingPoint starting_point) {
+  void open_results(StartingPoint starting_point) {
     for (const std::string& warning : plan_.warnings) warn(warning);
-    if (!starting_point.from) return {starting_point.folder, case_, std::move(starting_point.lock)};
-    StateArchive state(std::move(starting_point.from->state));
-    state(loop_, notes_);
-    state.finish();
-    resumed_at_ = starting_point.from->time;
-    return {starting_point.folder, case_, std::move(starting_point.lock), *starting_point.from};
+    if (starting_point.from) {
+      StateArchive state(std::move(starting_point.from->state));
+      state(loop_, notes_);
+      state.finish();
+      resumed_at_ = starting_point.from->time;
+    }
+    if (!is_first_) return;
+    if (starting_point.from) {
+      writer_.emplace(folder_, case_, std::move(starting_point.lock), *starting_point.from);
+    } else {
+      writer_.emplace(folder_, case_, std::move(starting_point.lock));
+    }
   }
 
   [[nodiscard]] bool starts_from_rest(const StartingPoint& starting_point) const {
@@ -152,11 +192,11 @@ class Run final : public OutputSink<Dim> {
 
   ExitCode stop() {
     write_checkpoint();
-    write_info("interrupted", "");
+    together(ranks_, [&] { write_info("interrupted", ""); });
     std::ostringstream line;
     line << "interrupted at t = " << loop_.model().time()
          << " s; what is written is complete. To go on:\n  " << resume_command_;
-    progress_.say(line.str());
+    if (is_first_) progress_.say(line.str());
     return ExitCode::interrupted;
   }
 
@@ -166,10 +206,13 @@ class Run final : public OutputSink<Dim> {
     const double now = loop_.model().time();
     const OutputSchedule& schedule = loop_.schedule();
     const FlowState<Dim> flow = loop_.model().flow_state();
-    finish_writing();
+    together(ranks_, [&] { finish_writing(); });
     if (schedule.past_rows().last < now) write_row(flow);
     if (schedule.past_snapshots().last < now) {
-      writer_.write_snapshot(loop_.model().snapshot(flow));
+      Snapshot snapshot = loop_.model().snapshot(flow);
+      together(ranks_, [&] {
+        if (writer_) writer_->write_snapshot(std::move(snapshot));
+      });
     }
     write_checkpoint();
   }
@@ -185,11 +228,12 @@ class Run final : public OutputSink<Dim> {
     note_failure(message);
   }
 
-  /// Waits for the snapshot that is being written. Throws its exception.
+  /// Waits for the snapshot that is being written, on rank 0. Throws its exception.
   void finish_writing() {
     if (writing_.valid()) writing_.get();
   }
 
+  /// Does not wait for other ranks, which may not have failed.
   void note_failure(const std::string& message) {
     try {
       write_info("failed", message);
@@ -209,8 +253,12 @@ class Run final : public OutputSink<Dim> {
   }
 
   void write_checkpoint() {
-    finish_writing();
-    writer_.write_checkpoint(restart_point());
+    if (ranks_.count() > 1) return;
+    const RestartPoint point = restart_point();
+    together(ranks_, [&] {
+      finish_writing();
+      if (writer_) writer_->write_checkpoint(point);
+    });
     since_saved_ = Stopwatch();
   }
 
@@ -222,6 +270,7 @@ class Run final : public OutputSink<Dim> {
   }
 
   void write_info(const std::string& status, const std::string& message) {
+    if (!writer_) return;
     RunInfo info;
     info.status = status;
     info.message = message;
@@ -230,6 +279,7 @@ class Run final : public OutputSink<Dim> {
     info.liquid_points = loop_.model().liquid_points();
     info.elements = case_.mesh.element_count();
     info.threads = options_.threads;
+    info.ranks = ranks_.count();
     info.wall_seconds = since_start_.seconds();
     info.resumed_at = resumed_at_;
     info.memory_bytes = peak_memory();
@@ -237,23 +287,27 @@ class Run final : public OutputSink<Dim> {
     info.plan = notes_.origin;
     info.plan.insert(info.plan.end(), plan_.sentences.begin(), plan_.sentences.end());
     info.warnings = notes_.warnings;
-    writer_.write_run_info(info);
+    writer_->write_run_info(info);
   }
 
-  Case<Dim> case_;
+  Case<Dim> case_;  ///< without mesh and points on ranks that have no folder
   const Plan& plan_;
   const SolverOptions& options_;
   const RunOptions& run_;
+  const Ranks& ranks_;
+  bool is_first_;  ///< this is rank 0, which has the folder
   std::string resume_command_;
   std::string case_digest_;
   std::string folder_;
+  std::optional<Case<Dim>> local_case_;  ///< nothing if this program is alone
+  std::shared_ptr<const RankPart> part_;
   Stopwatch since_start_;
   Stopwatch since_saved_;  ///< since the last snapshot or checkpoint
   RunLoop<Dim> loop_;
   RunNotes notes_;
   Progress progress_;
   std::optional<double> resumed_at_;  ///< s
-  ResultsWriter<Dim> writer_;
+  std::optional<ResultsWriter<Dim>> writer_;
   /// The writing of a snapshot, during which no other thread uses HDF5; tables still grow.
   std::future<void> writing_;
 };
@@ -274,14 +328,20 @@ void refuse_own_source(const SceneDocument& document, const SourceRun<Dim>& sour
 template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path) {
+  const Ranks& ranks = *options.ranks;
+  if (ranks.count() > 1) refuse_on_ranks(c, run);
   catch_interrupts();
   std::optional<StartingPoint> starting_point;
-  if (run.resume) {
-    starting_point = find_starting_point(c, folder, options);
-  } else {
-    const Replace replace = run.force ? Replace::any : Replace::same_case;
-    starting_point = StartingPoint{folder, std::nullopt, lock_for_results(folder, c, replace)};
-  }
+  together(ranks, [&] {
+    if (ranks.rank() > 0) {
+      starting_point.emplace().folder = folder;
+    } else if (run.resume) {
+      starting_point = find_starting_point(c, folder, options);
+    } else {
+      const Replace replace = run.force ? Replace::any : Replace::same_case;
+      starting_point = StartingPoint{folder, std::nullopt, lock_for_results(folder, c, replace)};
+    }
+  });
   if (!starting_point) {
     if (!run.quiet) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());
     return static_cast<int>(ExitCode::done);

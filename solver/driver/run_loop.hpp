@@ -29,16 +29,34 @@ class OutputSink {
   virtual bool continue_after_interval() = 0;
 };
 
-/// Appends a row to every table except the history.
-template <int Dim>
-void append_tables(ResultsWriter<Dim>& writer, const TwoPhaseModel<Dim>& model,
-                   const FlowState<Dim>& flow) {
-  writer.append_ledger(model.ledger());
-  writer.append_regions(model.region_rows());
-  writer.append_boundaries(model.boundary_rows(flow));
-  writer.append_probes(model.probe_rows(flow));
-  writer.append_sections(model.section_rows(flow));
-}
+/// The rows of every table at one time. All ranks have to make them; rank 0 has them all.
+struct OutputRows {
+  template <int Dim>
+  OutputRows(const TwoPhaseModel<Dim>& model, const FlowState<Dim>& flow)
+      : history(model.history_row(flow)),
+        ledger(model.ledger()),
+        regions(model.region_rows()),
+        boundaries(model.boundary_rows(flow)),
+        probes(model.probe_rows(flow)),
+        sections(model.section_rows(flow)) {}
+
+  template <int Dim>
+  void append_to(ResultsWriter<Dim>& writer) const {
+    writer.append_history(history);
+    writer.append_ledger(ledger);
+    writer.append_regions(regions);
+    writer.append_boundaries(boundaries);
+    writer.append_probes(probes);
+    writer.append_sections(sections);
+  }
+
+  HistoryRow history;
+  LedgerRow ledger;
+  std::vector<RegionRow> regions;
+  std::vector<BoundaryRow> boundaries;
+  std::vector<ProbeRow> probes;
+  std::vector<SectionRow> sections;
+};
 
 template <int Dim>
 class RunLoop {

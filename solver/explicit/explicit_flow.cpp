@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "explicit/locking.hpp"
@@ -20,6 +21,8 @@ constexpr int max_elements_checked = 100000;
 
 /// Largest number of steps between two couplings.
 constexpr long max_steps = 1000;
+/// A step that falls below this share of the run goes on falling: the liquid locks.
+constexpr double shortest_step = 1e-12;
 /// Round-off of sums of steps, as a share of a step.
 constexpr double round_off = 1e-12;
 
@@ -72,7 +75,9 @@ void ExplicitFlow<Dim>::archive(StateArchive& archive) {
 template <int Dim>
 void ExplicitFlow<Dim>::start() {
   if (this->scene().initial_flow == InitialFlow::rest) {
-    if (this->grid().mesh.element_count() <= max_elements_checked) {
+    // On several ranks the steady flow of the check is not solved.
+    if (this->grid().ranks().count() == 1 &&
+        this->grid().mesh.element_count() <= max_elements_checked) {
       warn_of_locking(steady_flow(operator_).velocity);
     }
     scheme_.set_velocity(VectorField<Dim>(this->grid().mesh.node_count(), Vector<Dim>::Zero()));
@@ -122,12 +127,15 @@ StabilityLimit ExplicitFlow<Dim>::current_limit(double step) const {
   if (this->has_ergun()) {
     for (const Vector<Dim>& v : scheme_.velocity()) speed.push_back(v.norm());
   }
+  const Ranks& ranks = this->grid().ranks();
   constexpr double moved = 1.0 - sure_of_assembled;
   const LiquidProperties& liquid = this->scene().liquid;
   const TimeSettings& time = this->scene().time;
   StabilityLimit limit =
       stability_limit(this->grid(), this->coefficients_, operator_.node_porosity(),
                       liquid.bulk_modulus, time.mass_scaling, time.drag, speed);
+  const double least = smallest_of_all(ranks, limit.step);
+  if (least != limit.step) limit = {least, -1};
   // If points carry the flow, the bound by elements does not hold.
   const PressureIntegration integration = this->scene().flow.integration;
   const bool carried = integration == PressureIntegration::material_point;
@@ -148,13 +156,18 @@ void ExplicitFlow<Dim>::check_step(double time) {
   const StabilityLimit limit = current_limit(step_);
   if (step_ <= limit.step) return;
   std::ostringstream message;
+  const std::string place = limit.element >= 0 ? element_text(this->grid(), limit.element) : "";
   message << "the stability limit fell to " << limit.step << " s at t = " << time << " s ("
-          << element_text(this->grid(), limit.element) << ")";
+          << this->grid().ranks().first_text(place) << ")";
   if (step_given_) {
     message << ", below time.step = " << step_ << " s; take a shorter step or leave it out";
     throw NumericalError(message.str());
   }
   step_ = 0.9 * limit.step;
+  if (step_ < shortest_step * this->scene().time.end) {
+    message << ": with such steps the run would not end";
+    throw NumericalError(message.str());
+  }
   message << "; the step is now " << step_ << " s";
   this->warn(message.str());
 }
@@ -192,6 +205,7 @@ FlowProgress ExplicitFlow<Dim>::commit(FlowStep<Dim> steps) {
     const PassTimer timer(timing_);
     for (long s = 0; s < steps.count; ++s) step(steps.start_of(s), steps.dt);
   }
+  scheme_.exchange();
   timing_.calls += steps.count;
   this->update_boundary_values(steps.start, steps.until);
   return {steps.count, steps.dt, steps.until, scheme_.volumes()};
@@ -241,6 +255,7 @@ FlowState<Dim> ExplicitFlow<Dim>::state(double time) const {
   for (int f = 0; f < this->grid().face_count(); ++f) {
     result.face_flux[f] = operator_.face_flux(f, result.velocity);
   }
+  this->grid().face_rows().exchange(result.face_flux);
   return result;
 }
 
@@ -248,11 +263,13 @@ template <int Dim>
 void ExplicitFlow<Dim>::match_masses(double time, const std::vector<double>& water_mass) {
   const LiquidProperties& liquid = this->scene().liquid;
   std::vector<double> pressure(water_mass.size());
-  for (std::size_t e = 0; e < pressure.size(); ++e) {
-    const double ratio = water_mass[e] / (liquid.density * this->coefficients_.water_volume[e]);
-    if (!(ratio > 0.0)) this->refuse_dry(static_cast<int>(e), time);
-    pressure[e] = pressure_from_density_ratio(ratio, liquid.bulk_modulus);
-  }
+  together(this->grid().ranks(), [&] {
+    for (std::size_t e = 0; e < pressure.size(); ++e) {
+      const double ratio = water_mass[e] / (liquid.density * this->coefficients_.water_volume[e]);
+      if (!(ratio > 0.0)) this->refuse_dry(static_cast<int>(e), time);
+      pressure[e] = pressure_from_density_ratio(ratio, liquid.bulk_modulus);
+    }
+  });
   scheme_.set_pressure(std::move(pressure));
 }
 

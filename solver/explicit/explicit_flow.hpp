@@ -58,8 +58,9 @@ class ExplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] FlowState<Dim> state(double time) const override;
   [[nodiscard]] std::vector<PassTiming> passes() const override { return {timing_}; }
 
-  /// Stability limit with the present coefficients and speeds: that by elements, or in double-point
-  /// scenes, if `step` exceeds it, that of the assembled scheme.
+  /// Stability limit with the present coefficients and speeds, with no element on a rank that does
+  /// not have the worst one: that by elements, or in double-point scenes, if `step` exceeds it,
+  /// that of the assembled scheme.
   [[nodiscard]] StabilityLimit current_limit(double step) const;
 
  private:

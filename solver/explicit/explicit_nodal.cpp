@@ -60,6 +60,14 @@ void ExplicitNodal<Dim>::step(double dt) {
   last_dt_ = dt;
 }
 
+template <int Dim>
+void ExplicitNodal<Dim>::exchange() {
+  const Grid<Dim>& grid = operator_.grid();
+  grid.node_rows().exchange(velocity_);
+  grid.face_rows().exchange(volumes_.liquid);
+  if (!settings_.pressure_moves_with_liquid) grid.face_rows().exchange(volumes_.density_excess);
+}
+
 /// S m_i dv_i/dt = force_i - drag_i v_i. Reads pressures, writes velocities.
 template <int Dim>
 void ExplicitNodal<Dim>::accelerate(double spacing) {
@@ -132,6 +140,7 @@ void ExplicitNodal<Dim>::compress(double dt) {
         pressure_[e] = p - settings_.bulk_modulus * lost * (1.0 + 0.5 * lost);
       },
       worth_threads_of_flow);
+  grid.element_rows().exchange(pressure_);
 }
 
 template <int Dim>

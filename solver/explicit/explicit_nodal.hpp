@@ -41,13 +41,18 @@ class ExplicitNodal {
   /// Takes new coefficients, after the operator's update. Resets volumes.
   void update(const FlowCoefficients<Dim>& coefficients);
 
-  /// One step of `dt` seconds.
+  /// One step of `dt` seconds. Velocities, and volumes through faces, are those of this rank's own
+  /// until `exchange`.
   void step(double dt);
+  /// Fetches velocities and volumes from other ranks, after the steps of an interval.
+  void exchange();
 
   void set_pressure(std::vector<double> pressure) { pressure_ = std::move(pressure); }
   void set_velocity(VectorField<Dim> velocity) {
     velocity_ = std::move(velocity);
     operator_.constrain(velocity_);
+    // At the fringe of a rank's part the constraints are not those of the model.
+    operator_.grid().node_rows().exchange(velocity_);
   }
   /// Replaces velocity and pressure in place, between steps, if points carry the flow:
   /// `write(velocity, pressure)`.

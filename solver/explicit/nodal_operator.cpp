@@ -166,6 +166,11 @@ void NodalOperator<Dim>::update(const FlowCoefficients<Dim>& coefficients) {
       if (quadratic) node_quadratic_drag_[i] += share * coefficients.quadratic_drag[e];
     }
   }
+  // Elements of nodes at the fringe are not all here.
+  for (std::vector<double>* values :
+       {&node_porosity_, &node_mass_, &node_drag_, &node_quadratic_drag_}) {
+    if (!values->empty()) grid_.node_rows().exchange(*values);
+  }
   external_force_ = boundary_force_;
   for (int i = 0; i < nodes; ++i) {
     node_porosity_[i] = grid_.node_volume[i] / node_porosity_[i];

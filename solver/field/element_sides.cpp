@@ -41,7 +41,7 @@ ElementSides<Dim>::ElementSides(const Grid<Dim>& grid)
       const int f = grid.element_face[e][k];
       const bool is_left = grid.face_left[f] == e;
       const int next = is_left ? grid.beyond(f) : grid.face_left[f];
-      sides.neighbour[k] = next >= 0 ? next : -1 - outer[f];
+      sides.neighbour[k] = next >= 0 ? next : outer[f] >= 0 ? -1 - outer[f] : e;
       sides.theirs[k] = {};
       if (next < 0) continue;
       for (int a = 0; a < Dim; ++a) {
@@ -72,6 +72,7 @@ void ElementSides<Dim>::at_faces(const ElementField<Dim>& outflow, int threads,
       result[grid_.element_face[e][k]] = outflow[e][k];
     }
   });
+  grid_.face_rows().exchange(result);
 }
 
 template class ElementSides<2>;

@@ -31,7 +31,8 @@ class ElementSides {
   explicit ElementSides(const Grid<Dim>& grid);
 
   struct Sides {
-    /// Element across the side; at the outer boundary -1 minus the index of the outer face.
+    /// Element across the side; at the outer boundary -1 minus the index of the outer face; at the
+    /// fringe of a rank's part, whose values come from other ranks, the element itself.
     std::array<int, Dim + 1> neighbour;
     /// Indices of the side's nodes among the neighbour's vertices.
     std::array<std::array<std::uint8_t, Dim>, Dim + 1> theirs;

@@ -93,7 +93,7 @@ double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
                                              const std::vector<double>& face_volume) const {
   // An element's mean is a weighted sum of its face means. The outflow through a face must not
   // exceed its weight, or the mean could become negative (Zhang & Shu 2010).
-  return smallest_of(grid_.mesh.element_count(), threads_, infinity, [&](int e) {
+  const double here = smallest_of(grid_.mesh.element_count(), threads_, infinity, [&](int e) {
     const ElementValues<Dim>& pores = state.liquid_volume[e];
     const double total = element_sum<Dim>(pores);
     const double smallest = *std::min_element(pores.begin(), pores.end());
@@ -112,6 +112,7 @@ double EulerianTransport<Dim>::steps_allowed(const FinesState<Dim>& state,
     }
     return allowed;
   });
+  return smallest_of_all(grid_.ranks(), here);
 }
 
 template <int Dim>
@@ -161,6 +162,7 @@ std::vector<double> EulerianTransport<Dim>::face_concentration(
     }
   });
   agree_at_walls(result);
+  grid_.face_rows().exchange(result);
   return result;
 }
 
@@ -225,6 +227,7 @@ void EulerianTransport<Dim>::find_allowed(TransportScratch<Dim>& scratch) const 
 template <int Dim>
 void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& liquid, ElementField<Dim>& fines,
                                          TransportScratch<Dim>& scratch) const {
+  grid_.element_rows().exchange(scratch.mean);
   refuse_impossible_concentrations(
       grid_, [&](int e) { return scratch.mean[e]; }, threads_);
   find_allowed(scratch);
@@ -239,6 +242,8 @@ void EulerianTransport<Dim>::limit_stage(const ElementField<Dim>& liquid, Elemen
       at_vertices[j] = mean + kept * (at_vertices[j] - mean);
     }
   });
+  grid_.element_rows().exchange(fines);
+  grid_.element_rows().template exchange_blocks<Dim + 1>(scratch.next_at_vertices);
   scratch.at_vertices.swap(scratch.next_at_vertices);
 }
 
@@ -295,7 +300,8 @@ void EulerianTransport<Dim>::receive(FinesState<Dim>& state, const ElementField<
         element_sum<Dim>(state.fines_volume[e]) / element_sum<Dim>(state.liquid_volume[e]);
   });
   const auto least = [&](int e) { return *std::ranges::min_element(state.liquid_volume[e]); };
-  if (!(smallest_of(grid_.mesh.element_count(), threads_, infinity, least) > 0.0)) {
+  const double here = smallest_of(grid_.mesh.element_count(), threads_, infinity, least);
+  if (!(smallest_of_all(grid_.ranks(), here) > 0.0)) {
     throw NumericalError(
         "deposits have filled a part of an element: give the soil a "
         "deposition.porosity_min, or place solid points nearer to Gauss points");

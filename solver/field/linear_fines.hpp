@@ -78,23 +78,26 @@ template <int Dim>
   return result;
 }
 
-/// Throws NumericalError if the mean concentration `mean(e)` of an element e leaves [0, 1).
+/// Throws NumericalError if the mean concentration `mean(e)` of an element e leaves [0, 1). All
+/// ranks have to call it.
 template <int Dim, class Mean>
 void refuse_impossible_concentrations(const Grid<Dim>& grid, const Mean& mean, int threads) {
   // Allows for round-off in an element without fines.
   constexpr double round_off = 1e-13;
   const auto possible = [](double c) { return c >= -round_off && c < 1.0; };
   const int elements = grid.mesh.element_count();
-  const double wrong =
-      largest_of(elements, threads, 0.0, [&](int e) { return possible(mean(e)) ? 0.0 : 1.0; });
-  if (wrong == 0.0) return;
-  for (int e = 0; e < elements; ++e) {
-    if (possible(mean(e))) continue;
-    std::ostringstream message;
-    message << "concentration of fluidised grains left [0, 1): " << mean(e) << " in "
-            << element_text(grid, e);
-    throw NumericalError(message.str());
-  }
+  together(grid.ranks(), [&] {
+    const double wrong =
+        largest_of(elements, threads, 0.0, [&](int e) { return possible(mean(e)) ? 0.0 : 1.0; });
+    if (wrong == 0.0) return;
+    for (int e = 0; e < elements; ++e) {
+      if (possible(mean(e))) continue;
+      std::ostringstream message;
+      message << "concentration of fluidised grains left [0, 1): " << mean(e) << " in "
+              << element_text(grid, e);
+      throw NumericalError(message.str());
+    }
+  });
 }
 
 }  // namespace suffuse

@@ -29,7 +29,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
     initial_porosity_.push_back(
         soils_.soil_of_element(e).initial_porosity(element_centroid(grid.mesh, e)));
   }
-  breakpoints_ = soils_.erosion_breakpoints();
+  breakpoints_ = soils_.erosion_breakpoints(grid.ranks());
   kinks_ = boundary_values_.breakpoints();
   const std::vector<double> of_loads = solid.load_breakpoints();
   kinks_.insert(kinks_.end(), of_loads.begin(), of_loads.end());
@@ -72,13 +72,15 @@ void FlowSolver<Dim>::refuse_dry(int element, double time) const {
 template <int Dim>
 void FlowSolver<Dim>::refuse_locked(double time, const std::vector<double>& concentration) const {
   const double most = scene_.liquid.viscosity_model.maximum_concentration;
-  const auto richest = std::ranges::max_element(concentration);
-  if (*richest < most) return;
-  std::ostringstream message;
-  message << "fluidised grains lock: concentration " << *richest << " in "
-          << element_text(grid_, static_cast<int>(richest - concentration.begin()))
-          << " at t = " << time << " s, where the liquid flows below c_m = " << most << " only";
-  throw NumericalError(message.str());
+  together(grid_.ranks(), [&] {
+    const auto richest = std::ranges::max_element(concentration);
+    if (*richest < most) return;
+    std::ostringstream message;
+    message << "fluidised grains lock: concentration " << *richest << " in "
+            << element_text(grid_, static_cast<int>(richest - concentration.begin()))
+            << " at t = " << time << " s, where the liquid flows below c_m = " << most << " only";
+    throw NumericalError(message.str());
+  });
 }
 
 template <int Dim>
@@ -179,6 +181,7 @@ std::vector<double> FlowSolver<Dim>::node_means(const std::vector<double>& press
     }
   }
   prescribe_at_nodes(result);
+  grid_.node_rows().exchange(result);
   return result;
 }
 
@@ -212,15 +215,23 @@ void FlowSolver<Dim>::warn_of_suction(double time) {
     if (p[e] >= noticed || !soils_.is_soil(e) || soils_.soil_of_element(e).drains()) continue;
     if (lowest < 0 || p[e] < p[lowest]) lowest = e;
   }
-  if (lowest < 0) return;
+  const double here = lowest < 0 ? 0.0 : p[lowest];
+  const double least = smallest_of_all(grid_.ranks(), here);
+  if (least == 0.0) return;
   suction_warned_ = true;
+  std::string text = here == least ? suction_text(lowest, time) : "";
+  warn(grid_.ranks().first_text(std::move(text)));
+}
+
+template <int Dim>
+std::string FlowSolver<Dim>::suction_text(int element, double time) const {
   std::ostringstream message;
   message.precision(3);
-  message << "soil \"" << soils_.soil_of_element(lowest).region << "\" is full of water under "
-          << "suction: " << p[lowest] << " Pa in " << element_text(grid_, lowest)
+  message << "soil \"" << soils_.soil_of_element(element).region << "\" is full of water under "
+          << "suction: " << pressure()[element] << " Pa in " << element_text(grid_, element)
           << " at t = " << time << " s; real soil drains and conducts less: give it a [soil."
-          << soils_.soil_of_element(lowest).region << ".retention]";
-  warn(message.str());
+          << soils_.soil_of_element(element).region << ".retention]";
+  return message.str();
 }
 
 template <int Dim>

@@ -146,7 +146,7 @@ class FlowSolver {
   virtual void archive(StateArchive& archive);
 
   /// Adds a warning, once, where soil without retention is under suction; `time` in s. Not without
-  /// gravity, where pressures may be negative.
+  /// gravity, where pressures may be negative. All ranks have to call it.
   void warn_of_suction(double time);
   /// The warnings since the last call.
   [[nodiscard]] std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
@@ -205,6 +205,8 @@ class FlowSolver {
   /// n_0 of the soil that an element holds now.
   [[nodiscard]] double start_porosity(int element) const;
   [[nodiscard]] SurfaceSoil surface_soil(int element, double porosity) const;
+  /// The warning of suction in an element.
+  [[nodiscard]] std::string suction_text(int element, double time) const;
 
   std::vector<double> breakpoints_;
   std::vector<double> kinks_;

@@ -148,6 +148,24 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                   std::move(pressure)};
 }
 
+/// On rank 0 the values of the whole model, on the others none.
+template <int Dim>
+void gather(const Grid<Dim>& grid, const SoilMap<Dim>& soils, Snapshot& snapshot) {
+  const Ranks& ranks = grid.ranks();
+  if (ranks.count() == 1) return;
+  const auto gather_own = [&](std::vector<Field>& fields, const NumberRange& own) {
+    for (Field& field : fields) {
+      const auto begin = field.values.begin();
+      field.values = gather_values(ranks, std::vector(begin + field.components * *own.begin(),
+                                                      begin + field.components * *own.end()));
+    }
+  };
+  gather_own(snapshot.cell, grid.own_elements());
+  gather_own(snapshot.element_vertex, grid.own_elements());
+  gather_own(snapshot.node, grid.node_rows().own());
+  gather_own(snapshot.solid, soils.points_of(grid.own_elements()));
+}
+
 }  // namespace
 
 std::optional<DischargeRecord> discharge_record(const DischargeBounds& bounds) {
@@ -168,6 +186,7 @@ Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   add_flow(grid, flow, scene, result);
   add_solid_points(grid, solid, liquid, flow, acting_concentration, result);
   solid.describe(result);
+  gather(grid, solid.soils(), result);
   return result;
 }
 

@@ -163,7 +163,7 @@ std::vector<RegionRow> MassAccounts<Dim>::region_rows(double time,
                                                       double grain_density) const {
   const MaterialPoints<Dim>& points = soils.points();
   std::vector<ExactSum> sums(grid_.mesh.region_names.size());
-  for (int p = 0; p < points.size(); ++p) {
+  for (const int p : soils.points_of(grid_.own_elements())) {
     sums[grid_.mesh.element_region[points.element[p]]].add(points.volume[p]);
   }
   const std::vector<double> volume = values_of_all(grid_.ranks(), std::move(sums));

@@ -75,9 +75,15 @@ Observations<Dim>::Observations(const Case<Dim>& c, const Grid<Dim>& grid)
   const OutputSettings& output = scene_.output;
   for (std::size_t i = 0; i < output.probes.size(); ++i) {
     const Vector<Dim> at = vector_of<Dim>(output.probes[i].at);
-    if (const auto place = find_place(grid, at)) {
-      probes_.push_back(*place);
+    const std::optional<PointPlace<Dim>> place = find_place(grid, at);
+    const double depth = place ? std::ranges::min(place->barycentric) : -infinity;
+    const double deepest = largest_of_all(grid.ranks(), depth);
+    if (is_first(grid.ranks(), depth == deepest)) {
+      probes_.push_back(place);
     } else {
+      probes_.emplace_back();
+    }
+    if (deepest == -infinity) {
       problems.push_back(problem(c.document, "output.probe[" + std::to_string(i) + "].at",
                                  text_of<Dim>(at), "a place in the mesh"));
     }
@@ -111,7 +117,8 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
   const Vector<Dim> density_times_gravity = scene_.liquid.density * vector_of<Dim>(scene_.gravity);
   std::vector<ProbeRow> rows;
   for (std::size_t i = 0; i < probes_.size(); ++i) {
-    const PointPlace<Dim>& place = probes_[i];
+    if (!probes_[i]) continue;
+    const PointPlace<Dim>& place = *probes_[i];
     const int e = place.element;
     // Exactly the place of the scene, without round-off.
     const auto x = vector_of<Dim>(scene_.output.probes[i].at);
@@ -141,6 +148,8 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
     if (flow.bounds && flow.bounds->probes[i]) enter_means(*flow.bounds->probes[i], row);
     rows.push_back(row);
   }
+  rows = gather_values(grid_.ranks(), rows);
+  std::ranges::sort(rows, {}, &ProbeRow::probe);
   return rows;
 }
 

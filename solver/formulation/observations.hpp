@@ -34,9 +34,9 @@ class Observations {
  private:
   const Scene& scene_;
   const Grid<Dim>& grid_;
-  std::vector<PointPlace<Dim>> probes_;
-  std::vector<SectionLine> sections_;  ///< in two dimensions
-  std::vector<ExactSum> volumes_;      ///< since the start, per section, m3
+  std::vector<std::optional<PointPlace<Dim>>> probes_;  ///< in own elements of this rank
+  std::vector<SectionLine> sections_;                   ///< in two dimensions
+  std::vector<ExactSum> volumes_;                       ///< since the start, per section, m3
 };
 
 }  // namespace suffuse

@@ -205,20 +205,24 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
   this->grid_.ranks().sum({&fines_out});
   this->describe_outflow(fines_out.value(), row);
 
-  row.concentration_min = std::numeric_limits<double>::infinity();
-  row.concentration_max = -row.concentration_min;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
   int at = 0;
   const FinesState<Dim>& state = fines_->state();
-  for (std::size_t e = 0; e < state.fines_volume.size(); ++e) {
+  for (const int e : this->grid_.own_elements()) {
     for (int j = 0; j <= Dim; ++j) {
       const double c = state.fines_volume[e][j] / state.liquid_volume[e][j];
-      row.concentration_min = std::min(row.concentration_min, c);
-      if (!(c > row.concentration_max)) continue;
-      row.concentration_max = c;
-      at = static_cast<int>(e);
+      least = std::min(least, c);
+      if (!(c > most)) continue;
+      most = c;
+      at = e;
     }
   }
-  row.concentration_max_at = element_text(this->grid_, at);
+  const Ranks& ranks = this->grid_.ranks();
+  row.concentration_min = smallest_of_all(ranks, least);
+  row.concentration_max = largest_of_all(ranks, most);
+  const bool is_here = row.concentration_max == most;
+  row.concentration_max_at = ranks.first_text(is_here ? element_text(this->grid_, at) : "");
   return row;
 }
 

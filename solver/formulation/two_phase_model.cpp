@@ -12,7 +12,7 @@ template <int Dim>
 TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& options)
     : case_(c),
       options_(options),
-      grid_(grid_with_walls(c)),
+      grid_(grid_with_walls(c, options.part.get())),
       soils_(c),
       solid_phase_(make_skeleton(grid_, soils_,
                                  options.erosion ? options.erosion_span : TimeSpan::never(),
@@ -60,7 +60,7 @@ double TwoPhaseModel<Dim>::coupling_interval() const {
     const double fastest = std::max(rate.eroded, rate.deposited);
     if (fastest > 0.0) longest = std::min(longest, growth * porosity[e] / fastest);
   }
-  return longest;
+  return smallest_of_all(grid_.ranks(), longest);
 }
 
 template <int Dim>
@@ -190,7 +190,7 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   const bool any_changes = soils_.erodes() || soils_.deposits();
   ExactSum pores;
   ExactSum volume;
-  for (int p = 0; p < points.size(); ++p) {
+  for (const int p : soils_.points_of(grid_.own_elements())) {
     const bool changes = soils_.exchange_of_point(p).exchanges();
     if (any_changes && !changes) continue;
     pores.add(points.volume[p] * solid_->porosity()[p]);

@@ -28,6 +28,8 @@ struct ModelOptions {
   /// Times between which the solid can change, and after which the liquid can hold fines, s.
   TimeSpan erosion_span;
   double fines_from = -std::numeric_limits<double>::infinity();
+  /// The part of this rank, to which the case belongs; null: this program is alone.
+  std::shared_ptr<const RankPart> part;
 };
 
 template <int Dim>
@@ -50,6 +52,8 @@ class TwoPhaseModel {
   /// Sets the next step of the flow to `dt`, s. Only estimates use this.
   void plan_step(double dt) { flow_->plan_step(dt); }
 
+  /// The ranks that share the run: all have to make the same calls of the model.
+  [[nodiscard]] const Ranks& ranks() const { return grid_.ranks(); }
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] long steps() const { return steps_; }
   /// Length of the last step of the flow, s.

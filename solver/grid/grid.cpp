@@ -108,16 +108,18 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in)
 }
 
 template <int Dim>
-Grid<Dim>::Grid(const LocalPart<Dim>& part, std::shared_ptr<const Ranks> ranks) : Grid(part.mesh) {
-  ranks_ = std::move(ranks);
-  elements_ = ranks_->rows(part.element, part.first_element, part.last_element);
-  nodes_ = ranks_->rows(part.node, part.first_node, part.last_node);
+Grid<Dim>::Grid(const Mesh<Dim>& mesh_in, const RankPart& part) : Grid(mesh_in) {
+  const PartNumbers& numbers = part.numbers;
+  ranks_ = part.ranks;
+  element_number_ = numbers.element;
+  elements_ = ranks_->rows(numbers.element, numbers.first_element, numbers.last_element);
+  nodes_ = ranks_->rows(numbers.node, numbers.first_node, numbers.last_node);
   // Faces are numbered as elements come to them, so own elements find own faces one by one.
   const auto place = [&](int element) {
     return static_cast<int>(std::ranges::lower_bound(face_left, element) - face_left.begin());
   };
-  const int first = place(part.first_element);
-  const int last = place(part.last_element);
+  const int first = place(numbers.first_element);
+  const int last = place(numbers.last_element);
   faces_ = ranks_->rows(global_faces(first, last), first, last);
   settle_fringe();
   nodes_.exchange(node_volume);
@@ -220,8 +222,8 @@ int obtuse_elements(const Grid<Dim>& grid) {
 template <int Dim>
 std::string element_text(const Grid<Dim>& grid, int element) {
   std::ostringstream text;
-  text << "element " << element << " at (" << element_centroid(grid.mesh, element).transpose()
-       << ")";
+  text << "element " << grid.element_number(element) << " at ("
+       << element_centroid(grid.mesh, element).transpose() << ")";
   return text.str();
 }
 

@@ -21,7 +21,7 @@ struct Grid {
   /// The grid of a program that is alone and owns all of the mesh.
   explicit Grid(const Mesh<Dim>& mesh);
   /// The grid of a rank. All ranks have to call it.
-  Grid(const LocalPart<Dim>& part, std::shared_ptr<const Ranks> ranks);
+  Grid(const Mesh<Dim>& mesh, const RankPart& part);
 
   [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
   /// Elements and faces of this rank, ascending: a sum over the model is a sum over these and then
@@ -29,6 +29,10 @@ struct Grid {
   [[nodiscard]] NumberRange own_elements() const { return elements_.own(); }
   [[nodiscard]] NumberRange own_faces() const { return faces_.own(); }
   [[nodiscard]] bool owns_face(int face) const { return faces_.owns(face); }
+  /// Number of an element in the whole mesh.
+  [[nodiscard]] long element_number(int element) const {
+    return element_number_.empty() ? element : element_number_[static_cast<std::size_t>(element)];
+  }
   // The rows themselves, to fetch values from other ranks.
   [[nodiscard]] const OwnRows& element_rows() const { return elements_; }
   [[nodiscard]] const OwnRows& face_rows() const { return faces_; }
@@ -99,6 +103,7 @@ struct Grid {
   void settle_fringe();
 
   std::shared_ptr<const Ranks> ranks_;
+  std::vector<long> element_number_;  ///< empty if the mesh is whole
   OwnRows elements_;
   OwnRows faces_;
   OwnRows nodes_;

@@ -68,7 +68,7 @@ template <int Dim>
 std::optional<PointPlace<Dim>> find_place(const Grid<Dim>& grid, const Vector<Dim>& x) {
   std::optional<PointPlace<Dim>> found;
   double deepest = -on_boundary;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+  for (const int e : grid.own_elements()) {
     const std::array<double, Dim + 1> at = barycentric(grid.mesh, e, x);
     const double depth = std::ranges::min(at);
     if (found ? depth <= deepest : depth < deepest) continue;

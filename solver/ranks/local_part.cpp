@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "common/errors.hpp"
 
@@ -62,7 +63,7 @@ class FacesOfElements {
 }  // namespace
 
 template <int Dim>
-LocalPart<Dim> local_part(const Mesh<Dim>& whole, int rank, int count) {
+LocalMesh<Dim> local_mesh(const Mesh<Dim>& whole, int rank, int count) {
   const int elements = whole.element_count();
   if (elements < count) {
     throw InputError("got " + std::to_string(count) + " ranks for a mesh of " +
@@ -75,22 +76,23 @@ LocalPart<Dim> local_part(const Mesh<Dim>& whole, int rank, int count) {
   for (int e = first; e < last; ++e) {
     for (const int i : whole.elements[e]) touched[i] = 1;
   }
-  LocalPart<Dim> part;
+  LocalMesh<Dim> part;
+  PartNumbers& numbers = part.numbers;
   std::vector<int> local(whole.nodes.size(), -1);
   for (int e = 0; e < elements; ++e) {
     const auto& nodes = whole.elements[e];
     if (std::ranges::none_of(nodes, [&](int i) { return touched[i] != 0; })) continue;
-    part.element.push_back(e);
+    numbers.element.push_back(e);
     for (const int i : nodes) local[i] = 0;
   }
   for (int i = 0; i < whole.node_count(); ++i) {
     if (local[i] < 0) continue;
-    local[i] = static_cast<int>(part.node.size());
-    part.node.push_back(i);
+    local[i] = static_cast<int>(numbers.node.size());
+    numbers.node.push_back(i);
     part.mesh.nodes.push_back(whole.nodes[i]);
   }
   part.mesh.region_names = whole.region_names;
-  for (const long e : part.element) {
+  for (const long e : numbers.element) {
     auto nodes = whole.elements[e];
     for (int& i : nodes) i = local[i];
     part.mesh.elements.push_back(nodes);
@@ -106,17 +108,53 @@ LocalPart<Dim> local_part(const Mesh<Dim>& whole, int rank, int count) {
     }
     part.mesh.boundaries.push_back(std::move(here));
   }
-  const auto place = [](const std::vector<long>& numbers, long number) {
-    return static_cast<int>(std::ranges::lower_bound(numbers, number) - numbers.begin());
+  const auto place = [](const std::vector<long>& list, long number) {
+    return static_cast<int>(std::ranges::lower_bound(list, number) - list.begin());
   };
-  part.first_element = place(part.element, first);
-  part.last_element = place(part.element, last);
-  part.first_node = place(part.node, nodes_before(whole, first));
-  part.last_node = place(part.node, nodes_before(whole, last));
+  numbers.first_element = place(numbers.element, first);
+  numbers.last_element = place(numbers.element, last);
+  numbers.first_node = place(numbers.node, nodes_before(whole, first));
+  numbers.last_node = place(numbers.node, nodes_before(whole, last));
   return part;
 }
 
-template LocalPart<2> local_part(const Mesh<2>&, int, int);
-template LocalPart<3> local_part(const Mesh<3>&, int, int);
+namespace {
+
+/// The points whose element is from `first` to `last`, both numbers of the part.
+template <int Dim>
+MaterialPoints<Dim> points_of(const MaterialPoints<Dim>& whole, const PartNumbers& numbers,
+                              int first, int last) {
+  MaterialPoints<Dim> here;
+  int p = 0;
+  for (int e = first; e < last; ++e) {
+    const auto global = numbers.element[static_cast<std::size_t>(e)];
+    while (p < whole.size() && whole.element[p] < global) ++p;
+    for (; p < whole.size() && whole.element[p] == global; ++p) {
+      here.element.push_back(e);
+      here.barycentric.push_back(whole.barycentric[p]);
+      here.volume.push_back(whole.volume[p]);
+    }
+  }
+  return here;
+}
+
+}  // namespace
+
+template <int Dim>
+Case<Dim> local_case(const Case<Dim>& whole, LocalMesh<Dim> local) {
+  const PartNumbers& numbers = local.numbers;
+  Case<Dim> here;
+  here.document = whole.document;
+  here.mesh = std::move(local.mesh);
+  here.solid_points = points_of(whole.solid_points, numbers, 0, here.mesh.element_count());
+  here.liquid_points =
+      points_of(whole.liquid_points, numbers, numbers.first_element, numbers.last_element);
+  return here;
+}
+
+template LocalMesh<2> local_mesh(const Mesh<2>&, int, int);
+template LocalMesh<3> local_mesh(const Mesh<3>&, int, int);
+template Case<2> local_case(const Case<2>&, LocalMesh<2>);
+template Case<3> local_case(const Case<3>&, LocalMesh<3>);
 
 }  // namespace suffuse

@@ -1,19 +1,21 @@
 #pragma once
 
-/// The part of a mesh that one rank holds.
+/// The part of a mesh, and of a case, that one rank holds.
 
+#include <memory>
 #include <vector>
 
+#include "case/case_file.hpp"
 #include "mesh/mesh.hpp"
+#include "ranks/ranks.hpp"
 
 namespace suffuse {
 
-/// The elements of a rank are a range of those of the whole mesh, which follow a curve through
-/// space. The rank also holds all elements that share a node with them. Elements and nodes have the
-/// order of the whole mesh, so that sums over the elements of a node have its order too.
-template <int Dim>
-struct LocalPart {
-  Mesh<Dim> mesh;             ///< its boundaries have those faces whose element is here
+/// Which elements and nodes of the whole mesh a rank holds, ascending. Its own elements are a range
+/// of those of the whole mesh, which follow a curve through space; it also holds all elements that
+/// share a node with them. As they keep the order of the whole mesh, so do sums over the elements
+/// of a node.
+struct PartNumbers {
   std::vector<long> element;  ///< number of each element in the whole mesh
   std::vector<long> node;     ///< number of each node in the whole mesh
   // Range of own elements, and of nodes that no element of a lower rank uses.
@@ -23,9 +25,26 @@ struct LocalPart {
   int last_node = 0;
 };
 
+/// The part of a rank among those that share a run.
+struct RankPart {
+  std::shared_ptr<const Ranks> ranks;
+  PartNumbers numbers;
+};
+
+template <int Dim>
+struct LocalMesh {
+  Mesh<Dim> mesh;  ///< its boundaries have those faces whose element is here
+  PartNumbers numbers;
+};
+
 /// Throws InputError if nodes are not numbered in the order in which elements use them, as
 /// suffuse-mesher does, or if a rank would have no element.
 template <int Dim>
-LocalPart<Dim> local_part(const Mesh<Dim>& whole, int rank, int count);
+LocalMesh<Dim> local_mesh(const Mesh<Dim>& whole, int rank, int count);
+
+/// The part of a case that belongs to such a part of its mesh: solid points of all its elements,
+/// liquid points of own elements.
+template <int Dim>
+Case<Dim> local_case(const Case<Dim>& whole, LocalMesh<Dim> local);
 
 }  // namespace suffuse

@@ -3,9 +3,13 @@
 #include <petscsf.h>
 
 #include <algorithm>
-#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace suffuse {
 namespace {
@@ -74,7 +78,11 @@ class MpiRanks final : public Ranks {
   MpiRanks() {
     check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank_), "MPI_Comm_rank");
     check(MPI_Comm_size(PETSC_COMM_WORLD, &count_), "MPI_Comm_size");
+    check(MPI_Comm_dup(PETSC_COMM_WORLD, &endings_), "MPI_Comm_dup");
   }
+  ~MpiRanks() override { MPI_Comm_free(&endings_); }
+  MpiRanks(const MpiRanks&) = delete;
+  MpiRanks& operator=(const MpiRanks&) = delete;
 
   [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int count() const override { return count_; }
@@ -105,6 +113,60 @@ class MpiRanks final : public Ranks {
     return rank_ == 0 ? 0 : sum;
   }
 
+  [[nodiscard]] std::string first_text(std::string own) const override {
+    int first = own.empty() ? count_ : rank_;
+    check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD),
+          "MPI_Allreduce");
+    if (first == count_) return "";
+    std::uint64_t size = own.size();
+    check(MPI_Bcast(&size, 1, MPI_UINT64_T, first, PETSC_COMM_WORLD), "MPI_Bcast");
+    own.resize(size);
+    check(MPI_Bcast(own.data(), static_cast<int>(size), MPI_CHAR, first, PETSC_COMM_WORLD),
+          "MPI_Bcast");
+    return own;
+  }
+
+  [[nodiscard]] std::vector<std::uint8_t> gather(std::vector<std::uint8_t> own) const override {
+    const std::uint64_t size = own.size();
+    std::vector<std::uint64_t> sizes(static_cast<std::size_t>(count_));
+    check(MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, PETSC_COMM_WORLD),
+          "MPI_Gather");
+    if (rank_ > 0) {
+      for_pieces(size, [&](std::uint64_t at, int bytes) {
+        check(MPI_Send(own.data() + at, bytes, MPI_BYTE, 0, 0, PETSC_COMM_WORLD), "MPI_Send");
+      });
+      return {};
+    }
+    // One rank after the other: rank 0 needs no memory but for what it gets.
+    own.reserve(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0}));
+    for (int rank = 1; rank < count_; ++rank) {
+      const std::uint64_t begin = own.size();
+      const std::uint64_t coming = sizes[static_cast<std::size_t>(rank)];
+      own.resize(begin + coming);
+      for_pieces(coming, [&](std::uint64_t at, int bytes) {
+        check(MPI_Recv(own.data() + begin + at, bytes, MPI_BYTE, rank, 0, PETSC_COMM_WORLD,
+                       MPI_STATUS_IGNORE),
+              "MPI_Recv");
+      });
+    }
+    return own;
+  }
+
+  [[nodiscard]] bool all_come() const override {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::seconds patience{5};
+    MPI_Request request = MPI_REQUEST_NULL;
+    check(MPI_Ibarrier(endings_, &request), "MPI_Ibarrier");
+    int have_come = 0;
+    for (const auto start = Clock::now(); have_come == 0 && Clock::now() - start < patience;) {
+      check(MPI_Test(&request, &have_come, MPI_STATUS_IGNORE), "MPI_Test");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return have_come != 0;
+  }
+
+  void end_all(int code) const override { MPI_Abort(PETSC_COMM_WORLD, code); }
+
   [[nodiscard]] OwnRows rows(const std::vector<long>& global, int first, int last) const override {
     // The first own row of each rank in the whole mesh. Ranks without own rows begin where the next
     // one does.
@@ -129,13 +191,31 @@ class MpiRanks final : public Ranks {
   }
 
  private:
+  /// Calls `pass(at, bytes)` for pieces of so many bytes that MPI can count them.
+  template <class Pass>
+  static void for_pieces(std::uint64_t size, const Pass& pass) {
+    constexpr std::uint64_t most = 1U << 30U;
+    for (std::uint64_t at = 0; at < size; at += most) {
+      pass(at, static_cast<int>(std::min(most, size - at)));
+    }
+  }
+
   int rank_ = 0;
   int count_ = 1;
+  MPI_Comm endings_ = MPI_COMM_NULL;  ///< for `all_come`, while other ranks talk of other things
 };
 
 }  // namespace
 
 MpiProcess::MpiProcess() {
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {
+    // Open MPI without mpirun would start a daemon and look for networks, for one process.
+    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    ::setenv("OMPI_MCA_pml", "ob1", 0);
+    ::setenv("OMPI_MCA_btl", "self", 0);
+  }
+  // One thread of each rank calls MPI, while another may write files.
+  PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_FUNNELED;
   check(PetscInitializeNoArguments(), "PetscInitialize");
   // Signals are the program's own.
   check(PetscPopSignalHandler(), "PetscPopSignalHandler");

@@ -71,6 +71,11 @@ class OwnRows {
     static_assert(std::is_standard_layout_v<Value> && std::is_trivially_destructible_v<Value>);
     if (halo_) halo_->exchange(values.data(), sizeof(Value));
   }
+  /// Likewise for `size` values of each row, one after the other; `values` may have more behind.
+  template <int size>
+  void exchange_blocks(std::vector<double>& values) const {
+    if (halo_) halo_->exchange(values.data(), size * sizeof(double));
+  }
 
  private:
   int first_ = 0;

@@ -4,7 +4,13 @@
 /// what they do not have. A program of one process is alone: nothing is sent, and every call gives
 /// back what it got. All ranks have to make the same calls in the same order.
 
+#include <cstdint>
+#include <cstring>
+#include <exception>
 #include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "ranks/exact_sum.hpp"
@@ -27,6 +33,17 @@ class Ranks {
   virtual void largest(std::span<double> /*values*/) const {}
   /// Sum of the counts of lower ranks.
   [[nodiscard]] virtual long before(long /*count*/) const { return 0; }
+  /// The text of the lowest rank that has one; empty if none has.
+  [[nodiscard]] virtual std::string first_text(std::string own) const { return own; }
+  /// The bytes of all ranks, in their order, on rank 0; nothing on the others.
+  [[nodiscard]] virtual std::vector<std::uint8_t> gather(std::vector<std::uint8_t> own) const {
+    return own;
+  }
+  /// Whether all other ranks call this too, within some seconds. A rank that fails alone gets
+  /// false.
+  [[nodiscard]] virtual bool all_come() const { return true; }
+  /// Ends the processes of all ranks with this exit code.
+  virtual void end_all(int /*code*/) const {}
   /// Rows of which this rank holds those with the numbers `global` in the whole mesh, ascending,
   /// and owns those from `first` to `last`.
   [[nodiscard]] virtual OwnRows rows(const std::vector<long>& /*global*/, int first,
@@ -34,6 +51,55 @@ class Ranks {
     return {first, last, nullptr};
   }
 };
+
+/// The largest value of all ranks.
+inline double largest_of_all(const Ranks& ranks, double value) {
+  ranks.largest(std::span(&value, 1));
+  return value;
+}
+
+/// The smallest value of all ranks.
+inline double smallest_of_all(const Ranks& ranks, double value) {
+  return -largest_of_all(ranks, -value);
+}
+
+/// Whether this is the lowest rank of those for which `has` is true.
+inline bool is_first(const Ranks& ranks, bool has) {
+  const std::string own = std::to_string(ranks.rank());
+  return ranks.first_text(has ? own : "") == own;
+}
+
+/// The values of all ranks, in their order, on rank 0; none on the others.
+template <class Value>
+std::vector<Value> gather_values(const Ranks& ranks, const std::vector<Value>& own) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(own.data());
+  const std::vector<std::uint8_t> bytes = ranks.gather({begin, begin + own.size() * sizeof(Value)});
+  std::vector<Value> all(bytes.size() / sizeof(Value));
+  if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+  return all;
+}
+
+/// Throws on all ranks the error of the lowest rank that has one; `own` is null on those that have
+/// none.
+void throw_together(const Ranks& ranks, std::exception_ptr own);
+
+/// Does work that may throw on some ranks alone, and then throws on all of them: a rank that left
+/// alone would have the others wait for ever.
+template <class Work>
+void together(const Ranks& ranks, const Work& work) {
+  if (ranks.count() == 1) {
+    work();
+    return;
+  }
+  std::exception_ptr error;
+  try {
+    work();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  throw_together(ranks, error);
+}
 
 /// The sums over all ranks, of those of this one.
 inline std::vector<double> values_of_all(const Ranks& ranks, std::vector<ExactSum> sums) {

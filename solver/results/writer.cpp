@@ -447,6 +447,7 @@ void ResultsWriter<Dim>::write_run_info(const RunInfo& info) {
       {"liquid_points", info.liquid_points},
       {"elements", info.elements},
       {"threads", info.threads},
+      {"ranks", info.ranks},
       {"wall_seconds", info.wall_seconds},
       {"resumed_at", info.resumed_at ? OrderedJson(*info.resumed_at) : OrderedJson()},
       {"memory_bytes", static_cast<std::int64_t>(info.memory_bytes)},

@@ -71,7 +71,8 @@ struct RunInfo {
   long solid_points = 0;
   long liquid_points = 0;
   long elements = 0;
-  int threads = 1;
+  int threads = 1;  ///< of each rank
+  int ranks = 1;
   double wall_seconds = 0.0;  ///< of this process, like those of the passes
   /// Time from which the run was continued, s; nothing in a run from the start.
   std::optional<double> resumed_at;

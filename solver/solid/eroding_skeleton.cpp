@@ -175,12 +175,14 @@ template <int Dim>
 void ErodingSkeleton<Dim>::refuse_full() const {
   if (!soils_.deposits()) return;
   constexpr double full = 1e-3;
-  const auto least = std::ranges::min_element(porosity_);
-  if (least == porosity_.end() || *least > full) return;
-  const auto p = static_cast<int>(least - porosity_.begin());
-  throw NumericalError("deposits have filled the pores of " +
-                       element_text(grid_, soils_.points().element[p]) + ": give soil \"" +
-                       soils_.soil_of_point(p).region + "\" a deposition.porosity_min");
+  together(grid_.ranks(), [&] {
+    const auto least = std::ranges::min_element(porosity_);
+    if (least == porosity_.end() || *least > full) return;
+    const auto p = static_cast<int>(least - porosity_.begin());
+    throw NumericalError("deposits have filled the pores of " +
+                         element_text(grid_, soils_.points().element[p]) + ": give soil \"" +
+                         soils_.soil_of_point(p).region + "\" a deposition.porosity_min");
+  });
 }
 
 template <int Dim>

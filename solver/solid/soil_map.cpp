@@ -152,7 +152,7 @@ bool SoilMap<Dim>::deposits() const {
 }
 
 template <int Dim>
-std::vector<double> SoilMap<Dim>::erosion_breakpoints() const {
+std::vector<double> SoilMap<Dim>::erosion_breakpoints(const Ranks& ranks) const {
   std::vector<double> times;
   for (std::size_t r = 0; r < exchange_of_region_.size(); ++r) {
     double lowest = 1.0;
@@ -162,6 +162,8 @@ std::vector<double> SoilMap<Dim>::erosion_breakpoints() const {
       lowest = std::min(lowest, initial_porosity(p));
       highest = std::max(highest, initial_porosity(p));
     }
+    lowest = smallest_of_all(ranks, lowest);
+    highest = largest_of_all(ranks, highest);
     if (lowest > highest) continue;  // no points
     for (const double porosity : {lowest, highest}) {
       const std::vector<double> own = breakpoints(exchange_of_region_[r].erosion, porosity);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "grid/grid.hpp"
 #include "physics/exchange.hpp"
 
 namespace suffuse {
@@ -47,6 +48,10 @@ class SoilMap {
   [[nodiscard]] const MaterialPoints<Dim>& points() const { return *points_; }
   /// Points of element e: from points_begin(e) to points_begin(e + 1).
   [[nodiscard]] int points_begin(int element) const { return points_begin_[element]; }
+  /// Points of a range of elements.
+  [[nodiscard]] NumberRange points_of(const NumberRange& elements) const {
+    return {points_begin_[*elements.begin()], points_begin_[*elements.end()]};
+  }
 
   /// The region that most points of an element come from; its own region without points.
   [[nodiscard]] int region_of_element(int element) const {
@@ -108,7 +113,7 @@ class SoilMap {
   [[nodiscard]] const Dependence& exchange_depends_on() const { return dependence_; }
   /// Times at which erosion starts or, if the law tells, ends (at the first and the last point of a
   /// region), ascending, s.
-  [[nodiscard]] std::vector<double> erosion_breakpoints() const;
+  [[nodiscard]] std::vector<double> erosion_breakpoints(const Ranks& ranks) const;
   /// Time in which porosity can change: from the first start until nothing is left to erode, if
   /// only constant rates act; infinite if that is unknown. Fines that enter (`fines_enter`) can be
   /// caught from the start on.

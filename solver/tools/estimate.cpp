@@ -274,10 +274,7 @@ class Trial final : public OutputSink<Dim> {
   /// the rows. Throws FileError.
   double add_rows(double& seconds, const FlowState<Dim>& flow) {
     const auto rows = static_cast<double>(loop_.schedule().rows().count());
-    const auto write = [&] {
-      files_->writer().append_history(loop_.model().history_row(flow));
-      append_tables(files_->writer(), loop_.model(), flow);
-    };
+    const auto write = [&] { OutputRows(loop_.model(), flow).append_to(files_->writer()); };
     const double others = files_->size_without_snapshots();
     write();  // not timed, because the first row takes longer
     const double before = files_->size_without_snapshots();

@@ -41,9 +41,12 @@ Mesh<Dim> in_order(const Mesh<Dim>& mesh) {
 template <int Dim>
 struct Part {
   explicit Part(const Mesh<Dim>& whole, const std::shared_ptr<const Ranks>& ranks)
-      : part(local_part(whole, ranks->rank(), ranks->count())), grid(part, ranks) {}
+      : local(local_mesh(whole, ranks->rank(), ranks->count())),
+        part(local.numbers),
+        grid(local.mesh, {ranks, part}) {}
 
-  LocalPart<Dim> part;
+  LocalMesh<Dim> local;
+  const PartNumbers& part;
   Grid<Dim> grid;
 };
 
@@ -133,7 +136,7 @@ void expect_boundaries_of(const Mesh<Dim>& mesh) {
   const Part<Dim> p(mesh, ranks);
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
     ExactSum own;
-    for (const auto& face : p.part.mesh.boundaries[b].faces) {
+    for (const auto& face : p.local.mesh.boundaries[b].faces) {
       const int f = p.grid.find_face(face);
       ASSERT_GE(f, 0);
       if (p.grid.owns_face(f)) own.add(1.0);
@@ -172,8 +175,8 @@ TEST(GridOnRanks, RefusesNodesInAnotherOrder) {
   for (auto& nodes : mesh.elements) {
     for (int& i : nodes) i = i == 0 ? 20 : i == 20 ? 0 : i;
   }
-  EXPECT_THROW(local_part(mesh, ranks->rank(), ranks->count()), InputError);
-  EXPECT_THROW(local_part(square(), 0, 1000), InputError);
+  EXPECT_THROW(local_mesh(mesh, ranks->rank(), ranks->count()), InputError);
+  EXPECT_THROW(local_mesh(square(), 0, 1000), InputError);
 }
 
 }  // namespace grid_on_ranks_test

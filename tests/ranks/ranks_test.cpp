@@ -7,6 +7,11 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "common/errors.hpp"
 
 namespace suffuse {
 namespace ranks_test {
@@ -41,6 +46,49 @@ TEST(Ranks, FindTheLargest) {
 TEST(Ranks, CountThoseBefore) {
   const auto ranks = mpi_ranks();
   EXPECT_EQ(ranks->before(10), 10L * ranks->rank());
+}
+
+/// What one rank throws, all throw.
+TEST(Ranks, FailTogether) {
+  const auto ranks = mpi_ranks();
+  const int last = ranks->count() - 1;
+  const auto fail = [&](const auto& error) {
+    together(*ranks, [&] {
+      if (ranks->rank() == last) throw error;
+    });
+  };
+  const auto expect = [&](const auto& error) {
+    using Error = std::decay_t<decltype(error)>;
+    try {
+      fail(error);
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const Error& caught) {
+      EXPECT_STREQ(caught.what(), error.what());
+    }
+  };
+  expect(NumericalError("no step was found"));
+  expect(FileError("history.csv: cannot be written"));
+  expect(InputError(InputProblem{"scene.toml:3", "time.end", "nothing", "a time", ""}));
+  EXPECT_NO_THROW(together(*ranks, [] {}));
+}
+
+TEST(Ranks, TellTheFirstText) {
+  const auto ranks = mpi_ranks();
+  const int last = ranks->count() - 1;
+  EXPECT_EQ(ranks->first_text("rank " + std::to_string(ranks->rank())), "rank 0");
+  EXPECT_EQ(ranks->first_text(ranks->rank() == last ? "the last" : ""), "the last");
+  EXPECT_EQ(ranks->first_text(""), "");
+  EXPECT_EQ(is_first(*ranks, ranks->rank() == last), ranks->rank() == last);
+  EXPECT_EQ(is_first(*ranks, true), ranks->rank() == 0);
+}
+
+TEST(Ranks, GatherInTheirOrder) {
+  const auto ranks = mpi_ranks();
+  // Rank r has r values.
+  const std::vector<int> own(static_cast<std::size_t>(ranks->rank()), ranks->rank());
+  std::vector<int> all;
+  for (int r = 0; r < ranks->count(); ++r) all.insert(all.end(), static_cast<std::size_t>(r), r);
+  EXPECT_EQ(gather_values(*ranks, own), ranks->rank() == 0 ? all : std::vector<int>());
 }
 
 }  // namespace ranks_test

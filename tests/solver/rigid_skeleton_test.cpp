@@ -72,8 +72,8 @@ TEST(RigidSkeleton, ExchangeIsWhatTheStateLost) {
 
 TEST(RigidSkeleton, ExhaustionLeavesTheCoarseGrains) {
   SolidCase c(5e-3, 2.0);
-  EXPECT_EQ(c.soils.erosion_breakpoints().front(), 2.0);
-  EXPECT_NEAR(c.soils.erosion_breakpoints().back(), 22.0, 1e-12);
+  EXPECT_EQ(c.soils.erosion_breakpoints({}).front(), 2.0);
+  EXPECT_NEAR(c.soils.erosion_breakpoints({}).back(), 22.0, 1e-12);
   std::vector<double> exchange;
   for (double t = 0.0; t < 30.0; t += 0.7) c.solid.exchange(t, t + 0.7, {}, {}, exchange);
   for (int p = 0; p < c.soils.points().size(); ++p) {

@@ -136,7 +136,7 @@ TEST(GroundOfTwoLevels, flows_from_the_upper_to_the_lower) {
 TEST(SlopeAtTheWater, is_wet_below_the_level_alone) {
   Mesh<2> mesh;
   mesh.nodes = {{0.0, 0.0}, {3.0, 0.0}, {0.0, 3.0}};
-  const WaterLine<2> line(mesh, {0.0, -9.81, 0.0});
+  const WaterLine<2> line(mesh, {0.0, -9.81, 0.0}, largest_coordinate(mesh));
   EXPECT_EQ(line.wet_above({1, 2}), 1.5);
   EXPECT_LT(line.wet_above({0, 1}), 0.0);
   EXPECT_GT(line.wet_above({0, 1}), -1e-11);

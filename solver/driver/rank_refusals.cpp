@@ -1,0 +1,42 @@
+#include "driver/rank_refusals.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "common/errors.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+void refuse_on_ranks(const Case<Dim>& c, const RunOptions& run) {
+  const Scene& scene = c.document.scene;
+  std::vector<InputProblem> problems;
+  const auto refuse = [&](bool found, const std::string& key, const std::string& what,
+                          const std::string& instead) {
+    if (!found) return;
+    problems.push_back({c.document.locate(key), key, what + " on several ranks",
+                        instead + ", or one process: suffuse-solver", ""});
+  };
+  refuse(scene.time.scheme != FlowScheme::explicit_nodal, "time.scheme", "\"implicit\"",
+         "\"explicit\"");
+  refuse(scene.formulation == Formulation::double_point, "formulation", "\"double-point\"",
+         "\"single-point\"");
+  refuse(scene.initial_flow == InitialFlow::steady, "initial.flow", "\"steady\"", "\"rest\"");
+  refuse(!scene.initial_from.empty(), "initial.from", "a run", "no run");
+  refuse(!scene.output.sections.empty(), "output.section", "sections", "no sections");
+  const bool leaks =
+      std::ranges::any_of(scene.walls, [](const Wall& w) { return w.conductance > 0.0; });
+  refuse(leaks, "wall", "walls that let liquid through", "walls without a conductance");
+  refuse(scene.moves(), "soil", "soil that moves", "soil at rest");
+  if (run.resume) {
+    problems.push_back(
+        {"", "--resume", "several ranks", "one process: suffuse-solver --resume", ""});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+template void refuse_on_ranks(const Case<2>&, const RunOptions&);
+template void refuse_on_ranks(const Case<3>&, const RunOptions&);
+
+}  // namespace suffuse
