@@ -9,7 +9,7 @@
 namespace suffuse {
 
 template <int Dim>
-void refuse_on_ranks(const Case<Dim>& c, const RunOptions& run) {
+void refuse_on_ranks(const Case<Dim>& c) {
   const Scene& scene = c.document.scene;
   std::vector<InputProblem> problems;
   const auto refuse = [&](bool found, const std::string& key, const std::string& what,
@@ -29,14 +29,10 @@ void refuse_on_ranks(const Case<Dim>& c, const RunOptions& run) {
       std::ranges::any_of(scene.walls, [](const Wall& w) { return w.conductance > 0.0; });
   refuse(leaks, "wall", "walls that let liquid through", "walls without a conductance");
   refuse(scene.moves(), "soil", "soil that moves", "soil at rest");
-  if (run.resume) {
-    problems.push_back(
-        {"", "--resume", "several ranks", "one process: suffuse-solver --resume", ""});
-  }
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-template void refuse_on_ranks(const Case<2>&, const RunOptions&);
-template void refuse_on_ranks(const Case<3>&, const RunOptions&);
+template void refuse_on_ranks(const Case<2>&);
+template void refuse_on_ranks(const Case<3>&);
 
 }  // namespace suffuse

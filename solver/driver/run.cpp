@@ -129,7 +129,7 @@ class Run final : public OutputSink<Dim> {
     // Only one snapshot at a time is kept in memory.
     together(ranks_, [&] { finish_writing(); });
     Snapshot snapshot = loop_.model().snapshot(flow);
-    if (ranks_.count() == 1) snapshot.restart = restart_point();
+    snapshot.restart = restart_point();
     if (writer_) {
       // If no thread can be started, the snapshot is written in `finish_writing`.
       writing_ = std::async(std::launch::async | std::launch::deferred,
@@ -171,7 +171,7 @@ class Run final : public OutputSink<Dim> {
   void open_results(StartingPoint starting_point) {
     for (const std::string& warning : plan_.warnings) warn(warning);
     if (starting_point.from) {
-      StateArchive state(std::move(starting_point.from->state));
+      StateArchive state(std::move(starting_point.from->state), loop_.model().shared_state());
       state(loop_, notes_);
       state.finish();
       resumed_at_ = starting_point.from->time;
@@ -253,7 +253,6 @@ class Run final : public OutputSink<Dim> {
   }
 
   void write_checkpoint() {
-    if (ranks_.count() > 1) return;
     const RestartPoint point = restart_point();
     together(ranks_, [&] {
       finish_writing();
@@ -323,30 +322,50 @@ void refuse_own_source(const SceneDocument& document, const SourceRun<Dim>& sour
                    "-o");
 }
 
+/// Gives the starting point that rank 0 has found to the other ranks, which have no folder.
+void share(const Ranks& ranks, const std::string& folder, std::optional<StartingPoint>& found) {
+  bool exists = found.has_value();
+  bool is_state = exists && found->from;
+  RestartPoint none;
+  RestartPoint& point = is_state ? *found->from : none;
+  const auto pass = [&](StateArchive& archive) {
+    archive(exists, is_state, point.time, point.rows, point.snapshots, point.state);
+  };
+  StateArchive sent;
+  if (ranks.rank() == 0) pass(sent);
+  StateArchive received(ranks.of_first(sent.finish()));
+  if (ranks.rank() == 0) return;
+  pass(received);
+  if (!exists) return;
+  found.emplace().folder = folder;
+  if (is_state) found->from = std::move(point);
+}
+
 }  // namespace
 
 template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path) {
   const Ranks& ranks = *options.ranks;
-  if (ranks.count() > 1) refuse_on_ranks(c, run);
+  if (ranks.count() > 1) refuse_on_ranks(c);
   catch_interrupts();
   std::optional<StartingPoint> starting_point;
   together(ranks, [&] {
-    if (ranks.rank() > 0) {
-      starting_point.emplace().folder = folder;
-    } else if (run.resume) {
+    if (ranks.rank() > 0) return;
+    if (run.resume) {
       starting_point = find_starting_point(c, folder, options);
     } else {
       const Replace replace = run.force ? Replace::any : Replace::same_case;
       starting_point = StartingPoint{folder, std::nullopt, lock_for_results(folder, c, replace)};
     }
   });
+  if (ranks.count() > 1) share(ranks, folder, starting_point);
+  const bool speaks = !run.quiet && ranks.rank() == 0;
   if (!starting_point) {
-    if (!run.quiet) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());
+    if (speaks) std::fprintf(stderr, "%s is complete: nothing to resume\n", folder.c_str());
     return static_cast<int>(ExitCode::done);
   }
-  if (run.resume && !run.quiet) {
+  if (run.resume && speaks) {
     if (starting_point->from) {
       std::fprintf(stderr, "going on from t = %g s\n", starting_point->from->time);
     } else {
@@ -357,9 +376,11 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
   std::optional<SourceRun<Dim>> source;
   if (!starting_point->from) source = read_source_run(c, options.threads);
   if (source) refuse_own_source(c.document, *source, folder);
-  const std::string resume_command = "suffuse-solver " + quoted(case_path) + " -o " +
-                                     quoted(folder) + (options.no_skip ? " --no-skip" : "") +
-                                     " --resume";
+  const std::string program =
+      ranks.count() == 1 ? "suffuse-solver "
+                         : "mpirun -n " + std::to_string(ranks.count()) + " suffuse-solver-mpi ";
+  const std::string resume_command = program + quoted(case_path) + " -o " + quoted(folder) +
+                                     (options.no_skip ? " --no-skip" : "") + " --resume";
   Run<Dim> started(std::move(c), plan, options, std::move(*starting_point), run, resume_command,
                    source);
   source.reset();

@@ -83,14 +83,15 @@ class RunLoop {
   void archive(StateArchive& archive) {
     archive(*model_, schedule_, warned_of_points_, warned_of_outputs_);
   }
-  /// The state from which a run can continue: that of the loop and of `more`, in this order.
+  /// The state from which a run can continue: that of the loop and of `more`, in this order. On
+  /// several ranks all have to call it, and rank 0 gets the state of all.
   template <class... More>
   RestartPoint restart_point(More&... more) {
     RestartPoint point;
     point.time = model_->time();
     point.rows = schedule_.past_rows().count;
     point.snapshots = schedule_.past_snapshots().count;
-    StateArchive state;
+    StateArchive state(model_->shared_state());
     state.reserve(state_size_ + state_size_ / 8);  // the number of points may have grown
     state(*this, more...);
     point.state = state.finish();

@@ -49,7 +49,7 @@ void ExplicitNodal<Dim>::update(const FlowCoefficients<Dim>& coefficients) {
 
 template <int Dim>
 void ExplicitNodal<Dim>::archive(StateArchive& archive) {
-  archive(pressure_, velocity_, last_dt_);
+  archive(on_elements(pressure_), on_nodes(velocity_), last_dt_);
 }
 
 template <int Dim>

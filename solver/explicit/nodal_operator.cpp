@@ -60,7 +60,7 @@ void NodalOperator<Dim>::set_boundary_values(const BoundaryValues<Dim>& values,
 
 template <int Dim>
 void NodalOperator<Dim>::archive(StateArchive& archive) {
-  archive(conditions_, boundary_force_);
+  archive(on_faces(conditions_), on_nodes(boundary_force_));
   if (archive.restores()) set_held_values();
 }
 

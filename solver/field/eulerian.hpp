@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "field/element_sides.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -17,7 +18,7 @@ struct FinesState {
   ElementField<Dim> liquid_volume;
   ElementField<Dim> fines_volume;
 
-  void archive(auto& archive) { archive(liquid_volume, fines_volume); }
+  void archive(auto& archive) { archive(on_elements(liquid_volume), on_elements(fines_volume)); }
 };
 
 /// Adds a volume of liquid to an element, distributed like its liquid.

@@ -51,7 +51,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
 
 template <int Dim>
 void FlowSolver<Dim>::archive(StateArchive& archive) {
-  archive(conditions_, boundary_values_, coefficients_, suction_warned_, warnings_);
+  archive(on_faces(conditions_), boundary_values_, coefficients_, suction_warned_, warnings_);
 }
 
 template <int Dim>

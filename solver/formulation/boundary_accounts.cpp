@@ -52,14 +52,8 @@ std::vector<BoundaryRow> BoundaryAccounts<Dim>::rows(double time,
   std::vector<ExactSum> discharge(sums_.size());
   for (const auto& [face, account] : faces_) discharge[account].add(face_flux[face]);
   std::vector<Sums> all = sums_;
-  std::vector<ExactSum*> each;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    for (BothWays* sum : {&all[k].water, &all[k].fines, &all[k].liquid}) {
-      each.push_back(&sum->in);
-      each.push_back(&sum->out);
-    }
-    each.push_back(&discharge[k]);
-  }
+  std::vector<ExactSum*> each = each_of(all);
+  for (ExactSum& sum : discharge) each.push_back(&sum);
   grid_.ranks().sum(each);
   std::vector<BoundaryRow> rows;
   for (std::size_t k = 0; k < all.size(); ++k) {

@@ -8,7 +8,7 @@
 #include "case/case_file.hpp"
 #include "files/tables.hpp"
 #include "grid/grid.hpp"
-#include "ranks/exact_sum.hpp"
+#include "ranks/ranks.hpp"
 
 namespace suffuse {
 
@@ -20,7 +20,6 @@ struct BothWays {
     if (outward > 0.0) out.add(outward);
     if (outward < 0.0) in.add(-outward);
   }
-  void archive(auto& archive) { archive(in, out); }
 };
 
 template <int Dim>
@@ -40,14 +39,23 @@ class BoundaryAccounts {
   [[nodiscard]] std::vector<BoundaryRow> rows(double time,
                                               const std::vector<double>& face_flux) const;
 
-  void archive(auto& archive) { archive(sums_); }
+  void archive(auto& archive) { archive_sums(archive, grid_.ranks(), each_of(sums_)); }
 
  private:
   struct Sums {
     BothWays water, fines, liquid;
-
-    void archive(auto& archive) { archive(water, fines, liquid); }
   };
+  /// All sums of the accounts.
+  static std::vector<ExactSum*> each_of(std::vector<Sums>& accounts) {
+    std::vector<ExactSum*> each;
+    for (Sums& sums : accounts) {
+      for (BothWays* both : {&sums.water, &sums.fines, &sums.liquid}) {
+        each.push_back(&both->in);
+        each.push_back(&both->out);
+      }
+    }
+    return each;
+  }
   struct AccountFace {
     int face;
     int account;

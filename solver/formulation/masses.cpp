@@ -74,8 +74,8 @@ std::vector<Stored> totals(const Ranks& ranks, std::vector<StoredSums> sums) {
 
 Crossed CrossedSums::totals(const Ranks& ranks) const {
   CrossedSums all = *this;
-  ranks.sum({&all.water_in, &all.fines_in, &all.water_out, &all.fines_out, &all.points_in,
-             &all.points_out});
+  const std::array<ExactSum*, 6> each = all.all();
+  ranks.sum({each.begin(), each.end()});
   return {all.water_in.value(),
           all.fines_in.value(),
           all.water_out.value(),

@@ -11,7 +11,7 @@
 #include "formulation/boundary_accounts.hpp"
 #include "grid/grid.hpp"
 #include "points/point_transport.hpp"
-#include "ranks/exact_sum.hpp"
+#include "ranks/ranks.hpp"
 
 namespace suffuse {
 
@@ -61,8 +61,8 @@ struct CrossedSums {
 
   /// The masses that crossed in all ranks.
   [[nodiscard]] Crossed totals(const Ranks& ranks) const;
-  void archive(auto& archive) {
-    archive(water_in, fines_in, water_out, fines_out, points_in, points_out);
+  [[nodiscard]] std::array<ExactSum*, 6> all() {
+    return {&water_in, &fines_in, &water_out, &fines_out, &points_in, &points_out};
   }
 };
 
@@ -94,7 +94,14 @@ class MassAccounts {
   [[nodiscard]] const BoundaryAccounts<Dim>& boundaries() const { return boundaries_; }
 
   /// Includes the initial storage: a resumed run does not read the run that it started from.
-  void archive(auto& archive) { archive(crossed_, boundaries_, initial_); }
+  void archive(auto& archive) {
+    std::vector<ExactSum*> sums;
+    for (CrossedSums& crossed : crossed_) {
+      for (ExactSum* sum : crossed.all()) sums.push_back(sum);
+    }
+    archive_sums(archive, grid_.ranks(), sums);
+    archive(boundaries_, initial_);
+  }
 
  private:
   struct OutwardFace {

@@ -9,7 +9,7 @@
 #include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"
 #include "grid/section_line.hpp"
-#include "ranks/exact_sum.hpp"
+#include "ranks/ranks.hpp"
 
 namespace suffuse {
 
@@ -29,7 +29,11 @@ class Observations {
                                                  const FinesState<Dim>& liquid) const;
   [[nodiscard]] std::vector<SectionRow> section_rows(const FlowState<Dim>& flow) const;
 
-  void archive(auto& archive) { archive(volumes_); }
+  void archive(auto& archive) {
+    std::vector<ExactSum*> sums;
+    for (ExactSum& volume : volumes_) sums.push_back(&volume);
+    archive_sums(archive, grid_.ranks(), sums);
+  }
 
  private:
   const Scene& scene_;

@@ -81,7 +81,7 @@ EarlierState<Dim> SinglePoint<Dim>::last_state() const {
 template <int Dim>
 void SinglePoint<Dim>::archive(StateArchive& archive) {
   TwoPhaseModel<Dim>::archive(archive);
-  archive(*fines_, water_mass_, water_timing_);
+  archive(*fines_, on_elements(water_mass_), water_timing_);
 }
 
 template <int Dim>

@@ -14,6 +14,7 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
       options_(options),
       grid_(grid_with_walls(c, options.part.get())),
       soils_(c),
+      shared_state_(options.part ? std::make_unique<const RankState>(grid_, soils_) : nullptr),
       solid_phase_(make_skeleton(grid_, soils_,
                                  options.erosion ? options.erosion_span : TimeSpan::never(),
                                  options.flow.threads)),
@@ -28,8 +29,8 @@ TwoPhaseModel<Dim>::TwoPhaseModel(const Case<Dim>& c, const ModelOptions& option
 
 template <int Dim>
 void TwoPhaseModel<Dim>::archive(StateArchive& archive) {
-  archive(*solid_, *flow_, *coupled_, masses_, observations_, time_, flux_history_, last_dt_,
-          steps_, exchange_);
+  archive(*solid_, *flow_, *coupled_, masses_, observations_, time_, on_faces(flux_history_.mean),
+          on_faces(flux_history_.end), flux_history_.duration, last_dt_, steps_, exchange_);
 }
 
 template <int Dim>

@@ -14,6 +14,7 @@
 #include "formulation/earlier_state.hpp"
 #include "formulation/masses.hpp"
 #include "formulation/observations.hpp"
+#include "formulation/rank_state.hpp"
 #include "motion/make_skeleton.hpp"
 #include "results/writer.hpp"
 #include "solid/pores.hpp"
@@ -84,6 +85,8 @@ class TwoPhaseModel {
   /// Stores or restores the whole state: a restored run gives the same bits as one without
   /// interruption.
   virtual void archive(StateArchive& archive);
+  /// How ranks share the state; null: this program is alone.
+  [[nodiscard]] const SharedState* shared_state() const { return shared_state_.get(); }
   [[nodiscard]] virtual std::vector<PassTiming> passes() const = 0;
   /// Warnings since the last call.
   [[nodiscard]] std::vector<std::string> take_warnings() { return flow_->take_warnings(); }
@@ -136,6 +139,7 @@ class TwoPhaseModel {
   ModelOptions options_;
   Grid<Dim> grid_;
   SoilMap<Dim> soils_;
+  std::unique_ptr<const RankState> shared_state_;  ///< null: this program is alone
   SolidPhase<Dim> solid_phase_;
   Skeleton<Dim>* solid_;  ///< skeleton of `solid_phase_`
   // Made by each formulation.

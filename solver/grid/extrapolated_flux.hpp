@@ -15,8 +15,6 @@ struct FluxHistory {
   std::vector<double> end;
   double duration = 1.0;  ///< of the interval, s
 
-  void archive(auto& archive) { archive(mean, end, duration); }
-
   /// Mean rates over the next `ahead` seconds: linear through the interval's mean and end, but for
   /// at most a few times its duration.
   [[nodiscard]] std::vector<double> extrapolated(double ahead) const {

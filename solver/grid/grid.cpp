@@ -112,6 +112,7 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in, const RankPart& part) : Grid(mesh_in) 
   const PartNumbers& numbers = part.numbers;
   ranks_ = part.ranks;
   element_number_ = numbers.element;
+  node_number_ = numbers.node;
   elements_ = ranks_->rows(numbers.element, numbers.first_element, numbers.last_element);
   nodes_ = ranks_->rows(numbers.node, numbers.first_node, numbers.last_node);
   // Faces are numbered as elements come to them, so own elements find own faces one by one.
@@ -120,7 +121,8 @@ Grid<Dim>::Grid(const Mesh<Dim>& mesh_in, const RankPart& part) : Grid(mesh_in) 
   };
   const int first = place(numbers.first_element);
   const int last = place(numbers.last_element);
-  faces_ = ranks_->rows(global_faces(first, last), first, last);
+  face_number_ = global_faces(first, last);
+  faces_ = ranks_->rows(face_number_, first, last);
   settle_fringe();
   nodes_.exchange(node_volume);
 }

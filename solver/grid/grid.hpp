@@ -29,6 +29,11 @@ struct Grid {
   [[nodiscard]] NumberRange own_elements() const { return elements_.own(); }
   [[nodiscard]] NumberRange own_faces() const { return faces_.own(); }
   [[nodiscard]] bool owns_face(int face) const { return faces_.owns(face); }
+  /// Numbers in the whole mesh of the elements, faces and nodes that are here; none if this program
+  /// is alone. Ascending but for faces at the fringe.
+  [[nodiscard]] const std::vector<long>& element_numbers() const { return element_number_; }
+  [[nodiscard]] const std::vector<long>& face_numbers() const { return face_number_; }
+  [[nodiscard]] const std::vector<long>& node_numbers() const { return node_number_; }
   /// Number of an element in the whole mesh.
   [[nodiscard]] long element_number(int element) const {
     return element_number_.empty() ? element : element_number_[static_cast<std::size_t>(element)];
@@ -103,7 +108,10 @@ struct Grid {
   void settle_fringe();
 
   std::shared_ptr<const Ranks> ranks_;
-  std::vector<long> element_number_;  ///< empty if the mesh is whole
+  // Empty if the mesh is whole.
+  std::vector<long> element_number_;
+  std::vector<long> face_number_;
+  std::vector<long> node_number_;
   OwnRows elements_;
   OwnRows faces_;
   OwnRows nodes_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "grid/element_field.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -24,7 +25,8 @@ struct FlowCoefficients {
   std::vector<double> face_concentration;  ///< per face: c of the liquid that crosses it
 
   void archive(auto& archive) {
-    archive(porosity, water_volume, mixture_density, drag, quadratic_drag, face_concentration);
+    archive(on_elements(porosity), on_elements(water_volume), on_elements(mixture_density),
+            on_elements(drag), on_elements(quadratic_drag), on_faces(face_concentration));
   }
 };
 

@@ -118,11 +118,12 @@ class MpiRanks final : public Ranks {
     check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD),
           "MPI_Allreduce");
     if (first == count_) return "";
-    std::uint64_t size = own.size();
-    check(MPI_Bcast(&size, 1, MPI_UINT64_T, first, PETSC_COMM_WORLD), "MPI_Bcast");
-    own.resize(size);
-    check(MPI_Bcast(own.data(), static_cast<int>(size), MPI_CHAR, first, PETSC_COMM_WORLD),
-          "MPI_Bcast");
+    broadcast(first, own);
+    return own;
+  }
+
+  [[nodiscard]] std::vector<std::uint8_t> of_first(std::vector<std::uint8_t> own) const override {
+    broadcast(0, own);
     return own;
   }
 
@@ -198,6 +199,17 @@ class MpiRanks final : public Ranks {
     for (std::uint64_t at = 0; at < size; at += most) {
       pass(at, static_cast<int>(std::min(most, size - at)));
     }
+  }
+
+  /// Replaces bytes, text or numbers, by those of a rank.
+  template <class Bytes>
+  static void broadcast(int from, Bytes& bytes) {
+    std::uint64_t size = bytes.size();
+    check(MPI_Bcast(&size, 1, MPI_UINT64_T, from, PETSC_COMM_WORLD), "MPI_Bcast");
+    bytes.resize(size);
+    for_pieces(size, [&](std::uint64_t at, int count) {
+      check(MPI_Bcast(bytes.data() + at, count, MPI_BYTE, from, PETSC_COMM_WORLD), "MPI_Bcast");
+    });
   }
 
   int rank_ = 0;

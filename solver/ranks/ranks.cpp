@@ -9,7 +9,7 @@ namespace suffuse {
 namespace {
 
 /// A letter for the kind of an error, and its message.
-std::string text_of(const std::exception_ptr& error) {
+std::string message_of(const std::exception_ptr& error) {
   if (!error) return "";
   try {
     std::rethrow_exception(error);
@@ -35,7 +35,7 @@ std::string text_of(const std::exception_ptr& error) {
 }  // namespace
 
 void throw_together(const Ranks& ranks, std::exception_ptr own) {
-  const std::string first = ranks.first_text(text_of(own));
+  const std::string first = ranks.first_text(message_of(own));
   if (first.empty()) return;
   const std::string message = first.substr(1);
   switch (first.front()) {

@@ -33,6 +33,10 @@ class Ranks {
   virtual void largest(std::span<double> /*values*/) const {}
   /// Sum of the counts of lower ranks.
   [[nodiscard]] virtual long before(long /*count*/) const { return 0; }
+  /// The bytes of rank 0.
+  [[nodiscard]] virtual std::vector<std::uint8_t> of_first(std::vector<std::uint8_t> own) const {
+    return own;
+  }
   /// The text of the lowest rank that has one; empty if none has.
   [[nodiscard]] virtual std::string first_text(std::string own) const { return own; }
   /// The bytes of all ranks, in their order, on rank 0; nothing on the others.
@@ -44,7 +48,7 @@ class Ranks {
   [[nodiscard]] virtual bool all_come() const { return true; }
   /// Ends the processes of all ranks with this exit code.
   virtual void end_all(int /*code*/) const {}
-  /// Rows of which this rank holds those with the numbers `global` in the whole mesh, ascending,
+  /// Rows of which this rank holds those with the numbers `global` in the whole mesh,
   /// and owns those from `first` to `last`.
   [[nodiscard]] virtual OwnRows rows(const std::vector<long>& /*global*/, int first,
                                      int last) const {
@@ -99,6 +103,20 @@ void together(const Ranks& ranks, const Work& work) {
     error = std::current_exception();
   }
   throw_together(ranks, error);
+}
+
+/// Collects in an archive the sums over all ranks, of those of this one, or restores them: rank 0
+/// gets them then, the others zero.
+inline void archive_sums(auto& archive, const Ranks& ranks, const std::vector<ExactSum*>& sums) {
+  std::vector<ExactSum> all;
+  all.reserve(sums.size());
+  std::vector<ExactSum*> each;
+  for (const ExactSum* sum : sums) each.push_back(&all.emplace_back(*sum));
+  if (!archive.restores()) ranks.sum(each);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    archive(all[i]);
+    *sums[i] = !archive.restores() ? *sums[i] : ranks.rank() == 0 ? all[i] : ExactSum();
+  }
 }
 
 /// The sums over all ranks, of those of this one.

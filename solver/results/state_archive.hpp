@@ -6,12 +6,20 @@
 ///     void archive(StateArchive& archive) { archive(pressure_, velocity_, last_dt_); }
 ///
 /// Small structures of numbers without padding may declare `has_no_gaps` instead.
+///
+/// A vector that has an entry for each element, face, node or solid point of the model is tagged,
+///
+///     archive(on_elements(pressure_), on_nodes(velocity_), last_dt_);
+///
+/// as a rank has a part of it only. The bytes are the same on any number of ranks. What has no tag
+/// has to be the same on all ranks, which is checked.
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -22,13 +30,73 @@
 
 namespace suffuse {
 
+/// What the entries of a vector belong to.
+enum class RowKind : std::uint8_t { elements, faces, nodes, points };
+
+/// A vector with an entry for each row of the model, of which this rank holds a part.
+template <class Values>
+struct TaggedRows {
+  RowKind kind;
+  Values& values;  ///< may be empty on all ranks
+};
+
+template <class Values>
+TaggedRows<Values> on_elements(Values& values) {
+  return {RowKind::elements, values};
+}
+template <class Values>
+TaggedRows<Values> on_faces(Values& values) {
+  return {RowKind::faces, values};
+}
+template <class Values>
+TaggedRows<Values> on_nodes(Values& values) {
+  return {RowKind::nodes, values};
+}
+template <class Values>
+TaggedRows<Values> on_points(Values& values) {
+  return {RowKind::points, values};
+}
+
+/// How ranks share the state of a run. All ranks have to make the same calls.
+class SharedState {
+ public:
+  /// The rows that a rank holds.
+  struct Rows {
+    /// A row that a rank holds: its number in the whole model, and its place here.
+    struct Held {
+      long number;
+      int place;
+    };
+    std::vector<Held> held;  ///< ascending in number
+    long whole = 0;          ///< rows of the whole model
+    // Range of the places of those that it owns.
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+
+  SharedState() = default;
+  virtual ~SharedState() = default;
+  SharedState(const SharedState&) = delete;
+  SharedState& operator=(const SharedState&) = delete;
+
+  [[nodiscard]] virtual const Rows& rows(RowKind kind) const = 0;
+  /// The bytes of all ranks, in their order, on rank 0; none on the others.
+  [[nodiscard]] virtual std::vector<std::uint8_t> gather(std::vector<std::uint8_t> own) const = 0;
+  /// Whether this is rank 0, which keeps the state.
+  [[nodiscard]] virtual bool keeps() const = 0;
+  /// Whether all ranks give this number.
+  [[nodiscard]] virtual bool all_equal(std::uint64_t number) const = 0;
+};
+
 class StateArchive {
  public:
-  /// Creates an archive that collects the members it is given.
-  StateArchive() = default;
-  /// Creates an archive that restores what another one collected, in the same order.
-  explicit StateArchive(std::vector<std::uint8_t> bytes)
-      : bytes_(std::move(bytes)), restores_(true) {}
+  /// Creates an archive that collects the members it is given. `shared` outlives it; null: this
+  /// program is alone.
+  explicit StateArchive(const SharedState* shared = nullptr) : shared_(shared) {}
+  /// Creates an archive that restores what another one collected, in the same order. All ranks give
+  /// it all bytes.
+  explicit StateArchive(std::vector<std::uint8_t> bytes, const SharedState* shared = nullptr)
+      : shared_(shared), bytes_(std::move(bytes)), restores_(true) {}
 
   /// Reserves memory for the bytes to be collected.
   void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
@@ -38,15 +106,19 @@ class StateArchive {
 
   /// Collects or restores members. Throws FileError if the bytes do not fit the members.
   template <class... Members>
-  void operator()(Members&... members) {
+  void operator()(Members&&... members) {
     (pass(members), ...);
   }
 
-  /// Call this at the end. Returns the collected bytes. Throws FileError if bytes are left after a
-  /// restoration.
+  /// Call this at the end. Returns the collected bytes, on several ranks those of all on rank 0 and
+  /// none on the others. Throws FileError if bytes are left after a restoration.
   std::vector<std::uint8_t> finish() {
     if (restores_ && read_ != bytes_.size()) misfit();
-    return std::move(bytes_);
+    if (restores_ || shared_ == nullptr) return std::move(bytes_);
+    if (!shared_->all_equal(untagged_)) {
+      throw std::logic_error("ranks differ in a part of the state that all have to share");
+    }
+    return shared_->keeps() ? std::move(bytes_) : std::vector<std::uint8_t>();
   }
 
   /// Throws the FileError for bytes that do not fit the members.
@@ -67,6 +139,11 @@ class StateArchive {
     } else {
       const auto* begin = static_cast<const std::uint8_t*>(data);
       bytes_.insert(bytes_.end(), begin, begin + size);
+      if (shared_ == nullptr || in_rows_) return;
+      // FNV-1a (Fowler, Noll, Vo).
+      for (std::size_t i = 0; i < size; ++i) {
+        untagged_ = (untagged_ ^ begin[i]) * 1099511628211ULL;
+      }
     }
   }
 
@@ -131,6 +208,46 @@ class StateArchive {
     pass(*value);
   }
 
+  template <class Values>
+  void pass(TaggedRows<Values>& rows) {
+    if (shared_ == nullptr) {
+      pass(rows.values);
+    } else if (restores_) {
+      take_rows(rows.values, shared_->rows(rows.kind));
+    } else {
+      collect_rows(rows.values, shared_->rows(rows.kind));
+    }
+  }
+
+  /// Collects the rows of all ranks on rank 0.
+  template <class Value>
+  void collect_rows(std::vector<Value>& values, const SharedState::Rows& rows) {
+    const std::size_t begin = bytes_.size();
+    in_rows_ = true;
+    if (!values.empty()) pass_all(values.data() + rows.first, rows.last - rows.first);
+    const auto at = bytes_.begin() + static_cast<std::ptrdiff_t>(begin);
+    const std::vector<std::uint8_t> all = shared_->gather({at, bytes_.end()});
+    bytes_.resize(begin);
+    pass_size(all.empty() ? 0 : static_cast<std::size_t>(rows.whole));
+    bytes_.insert(bytes_.end(), all.begin(), all.end());
+    in_rows_ = false;
+  }
+
+  /// Restores the rows that this rank holds, of those of the whole model.
+  template <class Value>
+  void take_rows(std::vector<Value>& values, const SharedState::Rows& rows) {
+    const std::size_t count = pass_size(0);
+    if (count != 0 && count != static_cast<std::size_t>(rows.whole)) misfit();
+    // A value may have members that are not stored: those that are here stay.
+    values.resize(count == 0 ? 0 : rows.held.size());
+    Value of_others{};
+    auto next = rows.held.begin();
+    for (long row = 0; row < static_cast<long>(count); ++row) {
+      const bool is_here = next != rows.held.end() && next->number == row;
+      pass(is_here ? values[static_cast<std::size_t>((next++)->place)] : of_others);
+    }
+  }
+
   /// The seconds are left out, because they differ from run to run.
   void pass(PassTiming& timing) { pass(timing.calls); }
 
@@ -169,6 +286,9 @@ class StateArchive {
     }
   }
 
+  const SharedState* shared_;
+  std::uint64_t untagged_ = 14695981039346656037ULL;  ///< digest of what has no tag
+  bool in_rows_ = false;                              ///< while tagged rows are collected
   std::vector<std::uint8_t> bytes_;
   std::size_t read_ = 0;
   bool restores_ = false;

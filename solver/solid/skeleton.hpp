@@ -22,7 +22,9 @@ struct SolidState {
   [[nodiscard]] double solid_volume(int point) const {
     return skeleton_volume[point] + erodible_volume[point];
   }
-  void archive(auto& archive) { archive(skeleton_volume, erodible_volume, deposited_volume); }
+  void archive(auto& archive) {
+    archive(on_points(skeleton_volume), on_points(erodible_volume), on_points(deposited_volume));
+  }
 };
 
 /// The soil cannot carry its loads any longer, or is about to fail. Thrown before a step changes

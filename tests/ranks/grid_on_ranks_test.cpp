@@ -4,39 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 
 #include "box_mesh.hpp"
 #include "common/errors.hpp"
 #include "grid/grid.hpp"
+#include "ordered_mesh.hpp"
 #include "ranks/local_part.hpp"
 #include "ranks/mpi_ranks.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {
 namespace grid_on_ranks_test {
-
-/// The mesh with its nodes in the order in which elements use them. Elements come in stripes, so
-/// that parts are not compact and own elements touch several ranks.
-template <int Dim>
-Mesh<Dim> in_order(const Mesh<Dim>& mesh) {
-  Mesh<Dim> ordered = mesh;
-  ordered.nodes.clear();
-  std::map<int, int> number;
-  for (auto& nodes : ordered.elements) {
-    for (int& i : nodes) {
-      const auto [at, is_new] = number.emplace(i, ordered.node_count());
-      if (is_new) ordered.nodes.push_back(mesh.nodes[i]);
-      i = at->second;
-    }
-  }
-  for (BoundarySet<Dim>& set : ordered.boundaries) {
-    for (auto& face : set.faces) {
-      for (int& i : face) i = number.at(i);
-    }
-  }
-  return ordered;
-}
 
 template <int Dim>
 struct Part {
