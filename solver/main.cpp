@@ -1,16 +1,19 @@
 /// suffuse-solver: runs a case file. suffuse-solver-mpi is the same for several ranks.
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/command_line.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/run.hpp"
 #include "driver/source_run.hpp"
+#include "ranks/launch_ranks.hpp"
 #include "ranks/start_ranks.hpp"
 #include "tools/element_test.hpp"
 #include "tools/estimate.hpp"
@@ -27,6 +30,7 @@ struct Arguments {
   std::string case_path;
   std::string folder;
   suffuse::SolverOptions solver;
+  int ranks = 1;
   bool explain = false;
   suffuse::RunOptions run;
   suffuse::ElementTestOptions element;
@@ -208,6 +212,20 @@ void refuse_modes_on_ranks(const CLI::App& app, int ranks) {
   }
 }
 
+/// The arguments but for an option and its value.
+std::vector<std::string> without_option(const std::string& option, int argc, char** argv) {
+  std::vector<std::string> others;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == option) {
+      ++i;
+    } else if (!word.starts_with(option + "=")) {
+      others.push_back(word);
+    }
+  }
+  return others;
+}
+
 int run(int argc, char** argv, std::shared_ptr<const Ranks> ranks) {
   Arguments arguments;
   CLI::App app{program + ": suffusion by the material point method", program};
@@ -221,6 +239,12 @@ int run(int argc, char** argv, std::shared_ptr<const Ranks> ranks) {
       ->type_name("FOLDER");
   app.add_option("--threads", arguments.solver.threads, "Threads; results do not depend on them")
       ->check(CLI::Range(1, 1024));
+  if (ranks->count() == 1) {
+    app.add_option("--ranks", arguments.ranks,
+                   "Share the run among this many processes, with mpirun and suffuse-solver-mpi")
+        ->check(CLI::Range(1, 100000))
+        ->type_name("N");
+  }
   app.add_flag("--explain", arguments.explain,
                "Print what would run, what is skipped and what it would take, and stop");
   app.add_flag("--no-skip", arguments.solver.no_skip, "Run every pass, needed or not");
@@ -240,7 +264,10 @@ int run(int argc, char** argv, std::shared_ptr<const Ranks> ranks) {
   add_strength_reduction(app, arguments);
   add_sizes(app, arguments.sizes);
   if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
-  refuse_modes_on_ranks(app, ranks->count());
+  refuse_modes_on_ranks(app, std::max(ranks->count(), arguments.ranks));
+  if (arguments.ranks > 1) {
+    return suffuse::launch_ranks(arguments.ranks, without_option("--ranks", argc, argv));
+  }
   arguments.solver.ranks = std::move(ranks);
   if (arguments.strength_reduction) return find_strength(arguments);
   if (!arguments.sizes.output.empty()) return mesh_again(arguments);

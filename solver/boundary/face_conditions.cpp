@@ -172,6 +172,17 @@ std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& 
 }
 
 template <int Dim>
+std::vector<double> pressure_at_rest(const Scene& scene, const Grid<Dim>& grid) {
+  std::vector<double> result(grid.face_count(), 0.0);
+  if (!scene.water_level) return result;
+  const double weight = unit_weight(scene.liquid.density, scene.gravity);
+  for (int f = 0; f < grid.face_count(); ++f) {
+    result[f] = weight * (*scene.water_level - height(grid.face_centre(f), scene.gravity));
+  }
+  return result;
+}
+
+template <int Dim>
 BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
     : scene_(c.document.scene), grid_(grid), initial_(face_conditions(c, grid)) {
   const Scene& scene = scene_;
@@ -283,6 +294,8 @@ double BoundaryValues<Dim>::level(int boundary, double time) const {
 
 template std::vector<FaceCondition> face_conditions(const Case<2>&, const Grid<2>&);
 template std::vector<FaceCondition> face_conditions(const Case<3>&, const Grid<3>&);
+template std::vector<double> pressure_at_rest(const Scene&, const Grid<2>&);
+template std::vector<double> pressure_at_rest(const Scene&, const Grid<3>&);
 template class BoundaryValues<2>;
 template class BoundaryValues<3>;
 

@@ -52,6 +52,10 @@ struct FaceSurroundings {
 template <int Dim>
 std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& grid);
 
+/// Pressure of the liquid at rest at each face's center, Pa.
+template <int Dim>
+std::vector<double> pressure_at_rest(const Scene& scene, const Grid<Dim>& grid);
+
 /// The level of a reservoir, which is linear in time within a step of the flow.
 struct ReservoirLevel {
   static constexpr bool has_no_gaps = true;  ///< see StateArchive

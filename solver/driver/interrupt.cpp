@@ -16,6 +16,7 @@ void catch_interrupts() {
   requested = 0;
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);
+  std::signal(SIGUSR1, request);
   // A program started by nohup must continue to ignore SIGHUP.
   if (std::signal(SIGHUP, request) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   // The run continues if the program that reads its messages ends.

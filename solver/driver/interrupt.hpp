@@ -1,6 +1,7 @@
 #pragma once
 
-/// Signals that end a run in an orderly way: SIGINT, SIGTERM and SIGHUP (the terminal was closed).
+/// Signals that end a run in an orderly way: SIGINT, SIGTERM, SIGHUP (the terminal was closed)
+/// and SIGUSR1 (mpirun and job schedulers pass it on).
 
 namespace suffuse {
 

@@ -91,17 +91,6 @@ Vector<Dim> FlowSolver<Dim>::gravity() const {
 }
 
 template <int Dim>
-std::vector<double> FlowSolver<Dim>::pressure_at_rest() const {
-  std::vector<double> result(grid_.face_count(), 0.0);
-  if (!scene_.water_level) return result;
-  const double weight = unit_weight(scene_.liquid.density, scene_.gravity);
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    result[f] = weight * (*scene_.water_level - height(grid_.face_centre(f), scene_.gravity));
-  }
-  return result;
-}
-
-template <int Dim>
 void FlowSolver<Dim>::update(double time, const PoreState& pores,
                              const std::vector<double>& face_concentration) {
   if (scene_.liquid.viscosity_model.depends_on_concentration()) {
@@ -219,8 +208,7 @@ void FlowSolver<Dim>::warn_of_suction(double time) {
   const double least = smallest_of_all(grid_.ranks(), here);
   if (least == 0.0) return;
   suction_warned_ = true;
-  std::string text = here == least ? suction_text(lowest, time) : "";
-  warn(grid_.ranks().first_text(std::move(text)));
+  warn(grid_.ranks().first_text(here == least ? suction_text(lowest, time) : ""));
 }
 
 template <int Dim>

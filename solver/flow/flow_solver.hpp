@@ -162,8 +162,9 @@ class FlowSolver {
   [[nodiscard]] double next_breakpoint(double start, double latest) const;
   /// Mean of the elements around each node, Pa; at a prescribed pressure, that pressure.
   [[nodiscard]] std::vector<double> node_means(const std::vector<double>& pressure) const;
-  /// Pressure of the liquid at rest at each face's center, Pa.
-  [[nodiscard]] std::vector<double> pressure_at_rest() const;
+  [[nodiscard]] std::vector<double> pressure_at_rest() const {
+    return suffuse::pressure_at_rest(scene_, grid_);
+  }
   /// Throws NumericalError: the element has no water left.
   [[noreturn]] void refuse_dry(int element, double time) const;
   /// Throws NumericalError where the grains in the liquid lock.

@@ -14,10 +14,10 @@
 #include "formulation/earlier_state.hpp"
 #include "formulation/masses.hpp"
 #include "formulation/observations.hpp"
-#include "formulation/rank_state.hpp"
 #include "motion/make_skeleton.hpp"
 #include "results/writer.hpp"
 #include "solid/pores.hpp"
+#include "solid/rank_state.hpp"
 
 namespace suffuse {
 

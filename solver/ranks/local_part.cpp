@@ -122,7 +122,7 @@ namespace {
 
 /// The points whose element is from `first` to `last`, both numbers of the part.
 template <int Dim>
-MaterialPoints<Dim> points_of(const MaterialPoints<Dim>& whole, const PartNumbers& numbers,
+MaterialPoints<Dim> points_in(const MaterialPoints<Dim>& whole, const PartNumbers& numbers,
                               int first, int last) {
   MaterialPoints<Dim> here;
   int p = 0;
@@ -146,9 +146,9 @@ Case<Dim> local_case(const Case<Dim>& whole, LocalMesh<Dim> local) {
   Case<Dim> here;
   here.document = whole.document;
   here.mesh = std::move(local.mesh);
-  here.solid_points = points_of(whole.solid_points, numbers, 0, here.mesh.element_count());
+  here.solid_points = points_in(whole.solid_points, numbers, 0, here.mesh.element_count());
   here.liquid_points =
-      points_of(whole.liquid_points, numbers, numbers.first_element, numbers.last_element);
+      points_in(whole.liquid_points, numbers, numbers.first_element, numbers.last_element);
   return here;
 }
 

@@ -1,9 +1,11 @@
 #include "ranks/mpi_ranks.hpp"
 
 #include <petscsf.h>
+#include <sys/prctl.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <numeric>
@@ -226,6 +228,8 @@ MpiProcess::MpiProcess() {
     ::setenv("OMPI_MCA_pml", "ob1", 0);
     ::setenv("OMPI_MCA_btl", "self", 0);
   }
+  // A rank does not outlive mpirun.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // One thread of each rank calls MPI, while another may write files.
   PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_FUNNELED;
   check(PetscInitializeNoArguments(), "PetscInitialize");

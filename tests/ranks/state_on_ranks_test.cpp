@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
-#include "formulation/rank_state.hpp"
 #include "ordered_mesh.hpp"
 #include "ranks/mpi_ranks.hpp"
+#include "solid/rank_state.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {

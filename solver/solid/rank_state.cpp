@@ -1,4 +1,4 @@
-#include "formulation/rank_state.hpp"
+#include "solid/rank_state.hpp"
 
 #include <algorithm>
 

@@ -1,0 +1,98 @@
+#include "ranks/launch_ranks.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+#include "common/errors.hpp"
+
+namespace suffuse {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int signalled = 128;    ///< exit code of mpirun, less the signal that ended a process
+constexpr int not_started = 127;  ///< exit code of the child where mpirun is not there
+
+volatile std::sig_atomic_t asked_to_stop = 0;
+void ask_to_stop(int) {
+  asked_to_stop = 1;
+}
+
+fs::path shared_solver() {
+  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / "suffuse-solver-mpi";
+  if (fs::exists(beside)) return beside;
+  throw FileError(
+      "--ranks: suffuse-solver-mpi is not beside suffuse-solver: this installation has no runs on "
+      "several processes (docs/ranks.md)");
+}
+
+/// Becomes mpirun; does not return.
+[[noreturn]] void become(std::vector<std::string> words) {
+  // A terminal's Ctrl-C goes to all of its group: mpirun would kill its processes.
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGUSR1);
+  std::signal(SIGUSR1, SIG_IGN);  // until mpirun listens
+  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  if (nothing >= 0) ::dup2(nothing, STDIN_FILENO);
+  // Whoever starts a run as root means it.
+  if (::geteuid() == 0) {
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  }
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  ::execvp(pointers.front(), pointers.data());
+  ::_exit(not_started);
+}
+
+/// Exit status of mpirun. It passes SIGUSR1 on to its processes, which may not listen yet: they get
+/// it until they end.
+int status_of(pid_t process) {
+  constexpr std::chrono::milliseconds pause{50};
+  int status = 0;
+  for (;;) {
+    const pid_t ended = ::waitpid(process, &status, WNOHANG);
+    if (ended == process) break;
+    if (ended < 0) throw FileError(std::string("mpirun: ") + std::strerror(errno));
+    if (asked_to_stop != 0) ::kill(process, SIGUSR1);
+    std::this_thread::sleep_for(pause);
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : signalled + WTERMSIG(status);
+}
+
+}  // namespace
+
+int launch_ranks(int ranks, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"mpirun", "-q", "-n", std::to_string(ranks)};
+  if (ranks > static_cast<int>(std::thread::hardware_concurrency())) {
+    words.emplace_back("--oversubscribe");
+  }
+  // A process that a signal ends while it starts may leave mpirun waiting for ever.
+  words.insert(words.end(), {"sh", "-c", "trap '' USR1; exec \"$0\" \"$@\"", shared_solver()});
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, ask_to_stop);
+  const pid_t process = ::fork();
+  if (process < 0) throw FileError(std::string("mpirun: ") + std::strerror(errno));
+  if (process == 0) become(std::move(words));
+  const int code = status_of(process);
+  if (code == not_started) {
+    throw FileError("--ranks: mpirun cannot be started; install Open MPI (openmpi-bin)");
+  }
+  if (code <= signalled || code == static_cast<int>(ExitCode::interrupted)) return code;
+  throw NumericalError("a process of the run was ended by signal " +
+                       std::to_string(code - signalled) +
+                       "; go on from its last snapshot or checkpoint with --resume");
+}
+
+}  // namespace suffuse
